@@ -1,0 +1,18 @@
+# Installs the build, then configures, builds and runs a small program outside the tree against it.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(failed)
+    message(FATAL_ERROR "${ARGN}\n${output}")
+  endif()
+  message("${output}")
+endfunction()
+set(work ${BINARY_DIR}/install_test)
+file(REMOVE_RECURSE ${work})
+run(${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${work}/prefix)
+run(${CMAKE_COMMAND} -S ${OUTSIDE} -B ${work}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${work}/prefix
+  -DCMAKE_CXX_COMPILER=${CXX})
+run(${CMAKE_COMMAND} --build ${work}/build)
+run(${work}/build/outside)
+if(EXISTS ${work}/prefix/bin/palpate)
+  run(${work}/prefix/bin/palpate --help)
+endif()

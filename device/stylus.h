@@ -1,0 +1,55 @@
+#pragma once
+
+/// A haptic stylus, in its own frame: x to the user's right, y up, z towards the user; metres, newtons, seconds.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace palpate::device {
+
+using Vec3 = glm::dvec3;
+
+/// What a stylus can do; constant while it is open.
+struct Specification {
+  std::string name;
+  int position_axes = 3;           ///< degrees of freedom sensed
+  int force_axes = 3;              ///< degrees of freedom actuated; 0 for a pointing device
+  Vec3 workspace_half_extent{0};   ///< m, about the origin
+  double position_resolution = 0;  ///< m: one step of the position
+  double maximum_force = 0;        ///< N, peak
+  double continuous_force = 0;     ///< N, sustained
+  double stiffness_limit = 0;      ///< N/m that it renders stably
+  double rate = 1000;              ///< Hz
+};
+
+enum class State : std::uint8_t { disconnected, idle, homing, ramping, active, fault };
+const char* name_of(State state);
+
+struct Reading {
+  double time = 0;          ///< s since the stylus was opened, on the device's own clock
+  Vec3 position{0};         ///< m
+  std::uint32_t buttons = 0;
+  bool fresh = false;       ///< whether the position is new since the previous read
+};
+
+class Stylus {
+ public:
+  Stylus() = default;
+  Stylus(const Stylus&) = delete;
+  Stylus& operator=(const Stylus&) = delete;
+  virtual ~Stylus() = default;
+
+  virtual Specification specification() const = 0;
+  /// Throws std::runtime_error naming the device and what to do.
+  virtual void open() = 0;
+  /// Zero force, then closed. Never throws; may be called twice.
+  virtual void close() noexcept = 0;
+  /// The newest pose. In the tick: does not throw or allocate; a lost device reads as state() fault.
+  virtual Reading read() noexcept = 0;
+  /// N. Only the safety filter's output may be written.
+  virtual void write_force(const Vec3& force) noexcept = 0;
+  virtual State state() const noexcept = 0;
+};
+
+}  // namespace palpate::device

@@ -1,0 +1,56 @@
+#pragma once
+
+/// What haptic modes read: fields sampled at one point of patient space (LPS, mm). A scan is one source (VolumeFields); an
+/// analytic phantom or a flow is another.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace palpate::io {
+
+using Vec3 = glm::dvec3;
+
+/// The fields a source may offer and a scene may ask for: a set of flags.
+enum class FieldSet : std::uint8_t {
+  none = 0,
+  value = 1,     ///< the scan's value: HU for CT, the stored unit for others
+  gradient = 2,  ///< of the value, per mm
+  vector = 4,    ///< a vector field, such as a velocity
+  tube = 8,      ///< the eigenvector of least curvature of the value's Hessian
+  low_high = 16  ///< the values on both sides of the nearest boundary
+};
+constexpr FieldSet operator|(FieldSet a, FieldSet b) {
+  return static_cast<FieldSet>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr FieldSet operator&(FieldSet a, FieldSet b) {
+  return static_cast<FieldSet>(static_cast<unsigned>(a) & static_cast<unsigned>(b));
+}
+constexpr bool contains(FieldSet set, FieldSet wanted) { return (set & wanted) == wanted; }
+
+/// Fields at a point. Outside the data (beyond the volume, in padding) `inside` is false and all else is zero: nothing is felt there.
+struct Sample {
+  bool inside = false;
+  double value = 0;
+  Vec3 gradient{0};  ///< per mm, along patient axes
+  Vec3 vector{0};    ///< along patient axes, in the source's unit
+  Vec3 tube{0};      ///< unit vector along the tube, or zero
+  double low = 0;    ///< value on the thinner side of the boundary
+  double high = 0;   ///< value on the denser side
+};
+
+class FieldSource {
+ public:
+  FieldSource() = default;
+  FieldSource(const FieldSource&) = delete;
+  FieldSource& operator=(const FieldSource&) = delete;
+  virtual ~FieldSource() = default;
+
+  /// Fields that sample() can give.
+  virtual FieldSet available() const noexcept = 0;
+  /// The wanted fields at a point (mm). Called in the servo tick: no lock, exception or system call. What is not wanted is
+  /// neither computed nor read.
+  virtual Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept = 0;
+};
+
+}  // namespace palpate::io

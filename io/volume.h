@@ -1,0 +1,43 @@
+#pragma once
+
+/// The voxels of one series (one frame of it, where positions repeat), in patient space.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "palpate/io/geometry.h"
+
+namespace palpate::io {
+
+/// value = slope * stored + intercept, in `unit`.
+///
+/// Voxels are stored as they came (16 bit) wherever one rescale holds for the whole series, and as rescaled floats with
+/// slope 1 and intercept 0 where it differs by slice.
+struct Volume {
+  using Voxels = std::variant<std::vector<std::int16_t>, std::vector<std::uint16_t>, std::vector<float>>;
+
+  Geometry geometry;
+  Voxels voxels;  ///< dimensions.x * dimensions.y * dimensions.z, i fastest, then j, then k
+  double slope = 1;
+  double intercept = 0;
+  std::string unit;      ///< "HU", or empty where the modality has none
+  std::string modality;  ///< DICOM Modality: "CT", "MR", ...
+  /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).
+  std::optional<std::pair<double, double>> padding;
+
+  std::size_t offset(int i, int j, int k) const noexcept {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(geometry.dimensions.y) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(geometry.dimensions.x) +
+           static_cast<std::size_t>(i);
+  }
+  /// The rescaled value of a voxel; the index has to be inside.
+  double value_at(int i, int j, int k) const noexcept;
+  bool is_padding(int i, int j, int k) const noexcept;
+};
+
+}  // namespace palpate::io
