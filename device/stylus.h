@@ -27,10 +27,10 @@ enum class State : std::uint8_t { disconnected, idle, homing, ramping, active, f
 const char* name_of(State state);
 
 struct Reading {
-  double time = 0;          ///< s since the stylus was opened, on the device's own clock
-  Vec3 position{0};         ///< m
+  double time = 0;   ///< s since the stylus was opened, on the device's own clock
+  Vec3 position{0};  ///< m
   std::uint32_t buttons = 0;
-  bool fresh = false;       ///< whether the position is new since the previous read
+  bool fresh = false;  ///< whether the position is new since the previous read
 };
 
 class Stylus {
