@@ -15,9 +15,9 @@ using Vec3 = glm::dvec3;
 /// By default the patient faces the user: right is the patient's left (+x), up is the head (+z), towards the user is
 /// anterior (-y), and 1 mm of hand is 1 mm of patient.
 struct Workspace {
-  Vec3 center_mm{0};                                     ///< patient point at the device's origin
-  glm::dmat3 rotation{1, 0, 0, 0, 0, 1, 0, -1, 0};       ///< columns: the device's x, y and z axes in patient space
-  double mm_per_m = 1000;                                ///< mm of patient per m of hand
+  Vec3 center_mm{0};                                ///< patient point at the device's origin
+  glm::dmat3 rotation{1, 0, 0, 0, 0, 1, 0, -1, 0};  ///< columns: the device's x, y and z axes in patient space
+  double mm_per_m = 1000;                           ///< mm of patient per m of hand
 
   Vec3 to_patient(const Vec3& device_m) const noexcept { return center_mm + mm_per_m * (rotation * device_m); }
   Vec3 to_device(const Vec3& patient_mm) const noexcept {

@@ -1,0 +1,64 @@
+#pragma once
+
+/// Every default that a hand may feel, in one place, with its unit and its reason.
+
+#include <algorithm>
+
+namespace palpate::modes::defaults {
+
+/// k of the coupling, N/m: the safe value of Palmerius (2007), section 5; raised where the device allows.
+inline constexpr double stiffness_n_per_m = 400.0;
+
+// Strengths, N: felt, and below every device's continuous force.
+inline constexpr double skin_strength_n = 1.0;
+inline constexpr double bone_strength_n = 2.5;
+inline constexpr double friction_strength_n = 0.1;
+
+// Limits of the safety filter. The slew limit has to stay above k * speed limit, or contact becomes unstable.
+inline constexpr double force_limit_n = 3.0;
+inline constexpr double slew_limit_n_per_ms = 1.0;
+inline constexpr double ramp_s = 0.5;
+inline constexpr double speed_limit_m_per_s = 1.0;
+
+/// Millimetres of patient for one millimetre of hand.
+inline constexpr double workspace_scale = 1.0;
+
+/// Largest correction of the anchor towards the held iso-surface in one frame, mm of patient (anchor.h).
+inline constexpr double anchor_step_mm = 0.1;
+/// Largest correction as a part of the proxy's travel since the last one: enough for every wall whose radius is above
+/// that travel.
+inline constexpr double anchor_slope = 0.5;
+
+// Subdivision of a frame (haptic_step.h): probe travel of one sub-step, mm of patient, and the most sub-steps of a
+// frame.
+inline constexpr double sub_step_mm = 0.1;
+inline constexpr int most_sub_steps = 8;
+
+/// Scale of the gradient (sigma of the derivative of Gaussian), mm. At 1 mm voxels 2 voxels give at most 0.25 degrees
+/// of direction error on a sphere of 20 mm, 1 voxel 1.8 degrees. in_plane_voxel_mm: the larger of the two spacings
+/// within a slice; slice_spacing_mm: between slice centres.
+constexpr double gradient_scale_mm(double in_plane_voxel_mm, double slice_spacing_mm) {
+  return std::max({1.5, 2.0 * in_plane_voxel_mm, 0.6 * slice_spacing_mm});
+}
+
+/// The simulated device: like a Desktop PHANTOM. One definition that every study shares.
+struct SimulatedDevice {
+  double mass_kg = 0.045;
+  double coulomb_friction_n = 0.06;
+  double viscous_friction_n_s_per_m = 0.3;
+  double position_step_m = 0.02e-3;
+  double rate_hz = 1000.0;  ///< with a zero-order hold
+  double delay_s = 0.5e-3;
+};
+
+/// The simulated hand that holds it.
+struct SimulatedHand {
+  double mass_kg = 0.050;
+  double stiffness_n_per_m = 500.0;
+  double damping_n_s_per_m = 4.0;
+  double tremor_low_hz = 8.0;
+  double tremor_high_hz = 12.0;
+  double tremor_rms_m = 0.05e-3;
+};
+
+}  // namespace palpate::modes::defaults

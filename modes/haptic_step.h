@@ -1,0 +1,80 @@
+#pragma once
+
+/// One headless haptic frame: probe position in; proxy, coupling force and everything a recording keeps out. The
+/// session calls exactly this every tick; so do the command line, the studies and the tests.
+///
+/// A frame (Palmerius 2007, section 2.2): sample the fields once at the proxy of the previous frame; let every mode of
+/// the plan place its primitives there; solve the force balance; what results is the new proxy. If the probe has
+/// travelled more than Subdivision::step_mm, the frame is cut into sub-steps at evenly spaced probe positions, each
+/// sampled, placed and solved in full; their number comes from the travel alone, never from the clock, so that a
+/// session can be replayed.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "palpate/io/field_source.h"
+#include "palpate/modes/mode_type.h"
+#include "palpate/modes/scene.h"
+#include "palpate/solver/primitive.h"
+#include "palpate/solver/solution.h"
+
+namespace palpate::solver {
+class Chain;
+}
+
+namespace palpate::modes {
+
+struct Plan;
+
+/// The most primitives of a frame: every mode of a scene on both sides, and once more while a change of scene is ramped
+/// in.
+inline constexpr std::size_t most_primitives = 2 * Scene::most_modes * PrimitiveList::most_of_a_mode;
+
+/// What one frame hands to the next. Value-initialised: nothing has been touched, and the next frame starts in free
+/// space.
+struct Touch {
+  bool started = false;
+  Vec3 probe_m{0};  ///< device's frame, of the last good frame
+  Vec3 proxy_m{0};
+  Vec3 force_n{0};
+  bool held = false;      ///< whether a surface holds the proxy
+  double held_value = 0;  ///< V_c: the iso-value that it is held at
+  Vec3 anchor_m{0};       ///< where the primitives of the last frame stood
+};
+
+/// Room for one frame. Large: allocate it with the session, not in the tick.
+struct StepScratch {
+  std::array<solver::Primitive, most_primitives> primitives;
+  std::array<std::uint8_t, most_primitives> mode_of;
+  std::array<Vec3, most_primitives> shares;
+};
+
+/// Of the last sub-step, but for sub_steps, worst and capped, which are over all of them. Vectors in the device's
+/// frame. Spans view the scratch: good until the next step.
+struct StepResult {
+  Vec3 proxy_m{0};
+  Vec3 force_n{0};   ///< f = -k (probe - proxy), equation (1), before any safety filter; always finite
+  Vec3 anchor_m{0};  ///< where all co-located primitives stood
+  std::span<const solver::Primitive> primitives;
+  std::span<const Vec3> shares;           ///< N: each primitive's force on the proxy
+  std::span<const std::uint8_t> mode_of;  ///< for each primitive, its index in the scene's modes
+  io::Sample sample;                      ///< what was sampled, at the old proxy: only the plan's fields
+  bool held = false;                      ///< whether a surface holds the proxy (neither yielding nor lifted off)
+  /// solved; capped: the best answer, with its true bound; refused or unsuitable: a fault, whose proxy and force are
+  /// those of the last good frame, for the safety filter to bring to zero.
+  solver::Outcome outcome = solver::Outcome::solved;
+  solver::SolverKind solver = solver::SolverKind::none;
+  int iterations = 0;      ///< of the solver
+  double error_bound = 0;  ///< m
+  int sub_steps = 1;
+  int capped = 0;  ///< sub-steps that hit a solver's cap
+};
+
+/// In the tick: does not allocate, lock, log or throw. A probe that is not finite is refused (outcome), and touch stays
+/// as it was.
+StepResult step(const Plan& plan, const io::FieldSource& source, const Vec3& probe_m, Touch& touch,
+                solver::Chain& chain, StepScratch& scratch) noexcept;
+
+}  // namespace palpate::modes

@@ -1,0 +1,39 @@
+#pragma once
+
+/// A plan: exactly what a scene needs on a scan, and in words what it left out. Made outside the tick; the tick runs
+/// it.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "palpate/io/field_source.h"
+#include "palpate/modes/mode_type.h"
+#include "palpate/modes/scene.h"
+
+namespace palpate::modes {
+
+/// Something that was left out of a plan: never computed, kept in memory or called.
+struct LeftOut {
+  std::string what;   ///< "friction", "Hessian", "exact solver", ...
+  std::string why;    ///< "strength is zero everywhere"
+  std::string saves;  ///< "one gradient a tick", ...
+};
+
+/// Immutable once made: sessions share it between threads by pointer.
+struct Plan {
+  io::FieldSet fields = io::FieldSet::none;  ///< sampled once a sub-step
+  std::vector<ActiveMode> modes;             ///< in the scene's order
+  SolverSwitches solvers;                    ///< those that some frame of this scene can need
+  double stiffness_n_per_m = 0;
+  Workspace workspace;
+  Subdivision subdivision;
+  bool holds_iso_surface = false;  ///< whether a surface mode needs the anchor (anchor.h)
+  std::vector<LeftOut> left_out;
+};
+
+/// Throws std::invalid_argument, naming the key, where the scene is not valid. A mode whose field the scan does not
+/// have is left out, with that reason.
+Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& workspace);
+
+}  // namespace palpate::modes
