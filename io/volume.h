@@ -29,9 +29,12 @@ struct Volume {
   std::string modality;  ///< DICOM Modality: "CT", "MR", ...
   /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).
   std::optional<std::pair<double, double>> padding;
+  /// What load() had to leave out, in words for the user.
+  std::vector<std::string> warnings;
 
   std::size_t offset(int i, int j, int k) const noexcept {
-    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(geometry.dimensions.y) + static_cast<std::size_t>(j)) *
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(geometry.dimensions.y) +
+            static_cast<std::size_t>(j)) *
                static_cast<std::size_t>(geometry.dimensions.x) +
            static_cast<std::size_t>(i);
   }
@@ -39,5 +42,18 @@ struct Volume {
   double value_at(int i, int j, int k) const noexcept;
   bool is_padding(int i, int j, int k) const noexcept;
 };
+
+/// Of rescaled values, over all voxels, padding included.
+struct Statistics {
+  double minimum = 0;
+  double maximum = 0;
+  double mean = 0;
+  std::uint64_t count = 0;  ///< voxels
+};
+
+/// Exact sums for 16-bit voxels. All zero for a volume without voxels.
+Statistics statistics(const Volume& volume) noexcept;
+/// Of two sets of voxels together.
+Statistics merge(const Statistics& a, const Statistics& b) noexcept;
 
 }  // namespace palpate::io

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace palpate::io {
+
+/// A file, folder or series that cannot be read. The message names it and says what to do.
+class DicomError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Work that its progress callback stopped. Nothing half-done is left.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled") {}
+};
+
+}  // namespace palpate::io

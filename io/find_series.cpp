@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "palpate/io/errors.h"
+#include "palpate/io/internal/dcmtk_start.h"
+#include "palpate/io/internal/file_header.h"
+#include "palpate/io/internal/grouping.h"
+#include "palpate/io/internal/parallel.h"
+#include "palpate/io/series.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Links to folders are not followed: they may lead in a circle.
+std::vector<fs::path> files_below(std::span<const fs::path> paths) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    const auto status = fs::status(path, error);
+    if (!fs::exists(status)) throw DicomError("no such file or folder: " + path.string());
+    if (fs::is_regular_file(status)) files.push_back(path);
+    if (!fs::is_directory(status)) continue;
+    auto entry = fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+      std::error_code ignored;
+      if (entry->is_regular_file(ignored)) files.push_back(entry->path());
+    }
+    if (error) throw DicomError("cannot list " + path.string() + ": " + error.message());
+  }
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+}  // namespace
+
+Catalogue find_series(std::span<const fs::path> paths, const Progress& progress) {
+  internal::start_dcmtk();
+  const std::vector<fs::path> files = files_below(paths);
+
+  std::vector<std::optional<internal::FileHeader>> headers(files.size());
+  std::vector<std::string> reasons(files.size());
+  internal::parallel_for(
+      files.size(),
+      [&](std::size_t i) {
+        try {
+          headers[i] = internal::read_file_header(files[i]);
+        } catch (const std::exception& error) {
+          reasons[i] = error.what();
+        }
+      },
+      progress, 0);
+
+  Catalogue catalogue;
+  std::vector<internal::FileHeader> images;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (headers[i]) {
+      images.push_back(std::move(*headers[i]));
+    } else {
+      catalogue.skipped.push_back({files[i], reasons[i]});
+    }
+  }
+  catalogue.series = internal::group_into_series(std::move(images), catalogue.skipped);
+  std::stable_partition(catalogue.series.begin(), catalogue.series.end(), [](const Series& s) { return s.usable; });
+  std::sort(catalogue.skipped.begin(), catalogue.skipped.end(),
+            [](const SkippedFile& a, const SkippedFile& b) { return a.path < b.path; });
+  return catalogue;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,40 @@
+#include "palpate/io/internal/dcmtk_start.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdict.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmjpeg/djdecode.h>
+#include <dcmtk/dcmjpls/djdecode.h>
+#include <dcmtk/oflog/oflog.h>
+
+#include <mutex>
+
+#include "palpate/io/errors.h"
+
+namespace palpate::io::internal {
+
+void check_dictionary(const DcmDataDictionary& dictionary, bool loaded) {
+  if (!loaded || dictionary.numberOfNormalTagEntries() == 0) {
+    throw DicomError(
+        "DCMTK's data dictionary is missing: reinstall the package libdcmtk17, or let the environment variable "
+        "DCMDICTPATH "
+        "name its dicom.dic");
+  }
+}
+
+void start_dcmtk() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+    // The global dictionary is loaded here, before any of our threads could race for it.
+    const DcmDataDictionary& dictionary = dcmDataDict.rdlock();
+    const bool filled = dictionary.isDictionaryLoaded();
+    dcmDataDict.rdunlock();
+    check_dictionary(dictionary, filled);
+    DJDecoderRegistration::registerCodecs(EDC_never);  // the caller asks for stored values, never for RGB
+    DJLSDecoderRegistration::registerCodecs();
+    DcmRLEDecoderRegistration::registerCodecs();
+  });
+}
+
+}  // namespace palpate::io::internal

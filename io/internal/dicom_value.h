@@ -1,0 +1,31 @@
+#pragma once
+
+/// Attribute values out of a DCMTK item, with nothing made up: DCMTK's own findAndGetFloat64 writes 0 when it fails,
+/// and its text-to-number conversion is not correctly rounded.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+class DcmItem;
+class DcmTagKey;
+
+namespace palpate::io::internal {
+
+/// All of a text attribute (components separated by backslashes), without trailing padding; empty where absent.
+std::string text_of(DcmItem& item, const DcmTagKey& tag);
+
+/// The values of a numeric attribute (DS, IS or binary). Empty where absent or where one of them is no finite number.
+std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag);
+
+/// The first value of it.
+std::optional<double> number_of(DcmItem& item, const DcmTagKey& tag);
+
+/// The first item of a sequence; null where absent or empty.
+DcmItem* first_item(DcmItem& item, const DcmTagKey& sequence);
+
+/// Text in the item's character set (SpecificCharacterSet, given) as UTF-8. What cannot be converted is taken for
+/// Latin-1.
+std::string utf8_of(const std::string& text, const std::string& character_set);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "palpate/io/internal/file_header.h"
+
+namespace palpate::io {
+
+struct SeriesSource {
+  struct Slice {
+    std::uint32_t file = 0;   ///< index into files
+    std::uint32_t plane = 0;  ///< index into that file's planes
+  };
+  /// One volume of the series: a time point, an echo, a b-value.
+  struct Frame {
+    std::vector<Slice> slices;  ///< ascending along direction_i x direction_j
+    std::vector<Vec3> lost;     ///< positions (mm) of slices known to exist that cannot be read
+  };
+
+  std::vector<internal::FileHeader> files;
+  std::vector<Frame> frames;
+
+  const internal::FileHeader& file_of(const Slice& slice) const { return files[slice.file]; }
+  const internal::Plane& plane_of(const Slice& slice) const { return files[slice.file].planes[slice.plane]; }
+};
+
+}  // namespace palpate::io

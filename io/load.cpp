@@ -1,0 +1,174 @@
+#include "palpate/io/load.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <span>
+
+#include "palpate/io/errors.h"
+#include "palpate/io/internal/parallel.h"
+#include "palpate/io/internal/pixels.h"
+#include "palpate/io/internal/series_source.h"
+#include "palpate/io/internal/stacking.h"
+
+namespace palpate::io {
+namespace {
+
+using Slices = std::vector<SeriesSource::Slice>;
+
+std::string name_of(const Series& series) {
+  return "series " + series.uid + (series.description.empty() ? "" : " (" + series.description + ")");
+}
+
+bool one_rescale(const SeriesSource& source, const Slices& slices) {
+  const internal::Plane& first = source.plane_of(slices.front());
+  return std::all_of(slices.begin(), slices.end(), [&](const SeriesSource::Slice& slice) {
+    const internal::Plane& plane = source.plane_of(slice);
+    return plane.slope == first.slope && plane.intercept == first.intercept &&
+           source.file_of(slice).padding == source.file_of(slices.front()).padding;
+  });
+}
+
+enum class Storage { as_signed, as_unsigned, as_float };
+
+Storage storage_for(const SeriesSource& source, const Slices& slices) {
+  if (!one_rescale(source, slices)) return Storage::as_float;
+  bool any_signed = false;
+  bool any_large = false;
+  for (const auto& slice : slices) {
+    const internal::PixelFormat& format = source.file_of(slice).format;
+    any_signed |= format.is_signed;
+    any_large |= !format.is_signed && format.bits_stored == 16;
+  }
+  if (!any_signed) return Storage::as_unsigned;
+  return any_large ? Storage::as_float : Storage::as_signed;
+}
+
+Volume::Voxels allocate(Storage storage, std::size_t count) {
+  switch (storage) {
+    case Storage::as_signed:
+      return std::vector<std::int16_t>(count);
+    case Storage::as_unsigned:
+      return std::vector<std::uint16_t>(count);
+    default:
+      return std::vector<float>(count);
+  }
+}
+
+// Padding of a volume of floats: far below any value, so that one range holds for slices of any rescale.
+constexpr float float_padding = std::numeric_limits<float>::lowest();
+
+void rescale(const SeriesSource& source, const SeriesSource::Slice& slice, std::span<const std::uint16_t> stored,
+             std::span<float> values) {
+  const internal::FileHeader& file = source.file_of(slice);
+  const internal::Plane& plane = source.plane_of(slice);
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    const double v = file.format.is_signed ? static_cast<std::int16_t>(stored[i]) : stored[i];
+    const bool padded = file.padding && v >= file.padding->first && v <= file.padding->second;
+    values[i] = padded ? float_padding : static_cast<float>(plane.slope * v + plane.intercept);
+  }
+}
+
+void read_slice(const SeriesSource& source, const SeriesSource::Slice& slice, std::size_t size, std::size_t at,
+                Volume::Voxels& voxels) {
+  const internal::FileHeader& file = source.file_of(slice);
+  const std::uint32_t frame = source.plane_of(slice).frame;
+  if (auto* floats = std::get_if<std::vector<float>>(&voxels)) {
+    std::vector<std::uint16_t> stored(size);
+    internal::read_stored_values(file, frame, stored);
+    rescale(source, slice, stored, std::span(*floats).subspan(at, size));
+    return;
+  }
+  std::visit(
+      [&](auto& v) {
+        if constexpr (sizeof(v[0]) == 2) {  // signed and unsigned shorts may alias
+          internal::read_stored_values(file, frame, {reinterpret_cast<std::uint16_t*>(v.data() + at), size});
+        }
+      },
+      voxels);
+}
+
+// A slice that turned out to be unreadable: the later ones move down.
+void drop_slices(const std::vector<std::size_t>& failed, std::size_t size, Volume::Voxels& voxels) {
+  std::visit(
+      [&](auto& v) {
+        for (auto k = failed.rbegin(); k != failed.rend(); ++k) {
+          const auto first = v.begin() + static_cast<std::ptrdiff_t>(*k * size);
+          v.erase(first, first + static_cast<std::ptrdiff_t>(size));
+        }
+      },
+      voxels);
+}
+
+}  // namespace
+
+Volume load(const Series& series, const LoadOptions& options) {
+  if (!series.source || series.source->frames.empty()) {
+    const std::string why = series.warnings.empty() ? "it has no readable images" : series.warnings.front();
+    throw DicomError(name_of(series) + " cannot be loaded: " + why);
+  }
+  const SeriesSource& source = *series.source;
+  if (options.frame < 0 || static_cast<std::size_t>(options.frame) >= source.frames.size()) {
+    throw DicomError(name_of(series) + " has frames 0 to " + std::to_string(source.frames.size() - 1) + ", not " +
+                     std::to_string(options.frame));
+  }
+  const SeriesSource::Frame& frame = source.frames[static_cast<std::size_t>(options.frame)];
+  const Slices& slices = frame.slices;
+  const internal::FileHeader& first = source.file_of(slices.front());
+  const std::size_t size = static_cast<std::size_t>(first.format.columns) * static_cast<std::size_t>(first.format.rows);
+
+  Volume volume;
+  volume.unit = series.unit;
+  volume.modality = series.modality;
+  const Storage storage = storage_for(source, slices);
+  try {
+    volume.voxels = allocate(storage, size * slices.size());
+  } catch (const std::bad_alloc&) {
+    throw DicomError(name_of(series) +
+                     " needs more memory than there is: " + std::to_string(size * slices.size() >> 19) + " MiB");
+  }
+  if (storage == Storage::as_float) {
+    const bool any_padding =
+        std::any_of(slices.begin(), slices.end(), [&](const auto& slice) { return source.file_of(slice).padding; });
+    if (any_padding) volume.padding = {float_padding, float_padding};
+  } else {
+    volume.slope = source.plane_of(slices.front()).slope;
+    volume.intercept = source.plane_of(slices.front()).intercept;
+    volume.padding = first.padding;
+  }
+
+  std::vector<std::size_t> failed;
+  std::mutex failed_mutex;
+  internal::parallel_for(
+      slices.size(),
+      [&](std::size_t k) {
+        try {
+          read_slice(source, slices[k], size, k * size, volume.voxels);
+        } catch (const std::exception& error) {
+          const std::lock_guard lock(failed_mutex);
+          failed.push_back(k);
+          volume.warnings.push_back(source.file_of(slices[k]).path.string() + ": " + error.what() +
+                                    "; its slice is left out");
+        }
+      },
+      options.progress, options.threads);
+  if (failed.size() == slices.size()) throw DicomError(name_of(series) + " cannot be read: " + volume.warnings.front());
+
+  std::sort(failed.begin(), failed.end());
+  std::sort(volume.warnings.begin(), volume.warnings.end());
+  drop_slices(failed, size, volume.voxels);
+
+  std::vector<Vec3> positions;
+  std::vector<Vec3> lost = frame.lost;
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    const bool is_lost = std::binary_search(failed.begin(), failed.end(), k);
+    (is_lost ? lost : positions).push_back(source.plane_of(slices[k]).placement->position);
+  }
+  volume.geometry =
+      internal::stack_geometry(first.format.columns, first.format.rows, *source.plane_of(slices.front()).placement,
+                               std::move(positions), lost, first.thickness);
+  return volume;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "palpate/io/progress.h"
+#include "palpate/io/series.h"
+#include "palpate/io/volume.h"
+
+namespace palpate::io {
+
+struct LoadOptions {
+  int frame = 0;      ///< which of frames_per_position
+  Progress progress;  ///< may be empty
+  int threads = 0;    ///< 0: all cores
+};
+
+/// The voxels of one frame of a series, rescaled as Volume says. Decodes files in parallel; needs little more memory
+/// than the volume. A slice that cannot be decoded is left out as a gap and named in Volume::warnings. Throws
+/// DicomError where nothing can be read or the series holds no scalar, placed images; Cancelled.
+Volume load(const Series& series, const LoadOptions& options = {});
+
+}  // namespace palpate::io

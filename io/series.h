@@ -1,0 +1,66 @@
+#pragma once
+
+/// From folders to series: every file is judged by its content, images are grouped into series that can become a
+/// volume, and what is set apart is named with a reason. Only headers are read here; load() reads the voxels.
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "palpate/io/geometry.h"
+#include "palpate/io/progress.h"
+
+namespace palpate::io {
+
+struct SeriesSource;  ///< where each slice of a series is on disk; used by load() alone
+
+/// Images that share a series UID, an orientation and a size. All text is UTF-8.
+struct Series {
+  std::string uid;          ///< SeriesInstanceUID
+  std::string study_uid;    ///< StudyInstanceUID
+  std::string modality;     ///< Modality: "CT", "MR", ...
+  std::string description;  ///< SeriesDescription
+  std::string unit;         ///< of the rescaled values: "HU", or empty where the modality has none
+
+  std::vector<std::filesystem::path> files;    ///< that hold its slices, in the order of the slices
+  std::vector<std::string> transfer_syntaxes;  ///< UIDs, sorted, each once
+  Geometry geometry;                           ///< of its first frame
+  /// How many images lie at a position (time, b-value, echo, phase): each is a frame, a volume of its own.
+  int frames_per_position = 1;
+  std::vector<std::string>
+      frame_names;  ///< what each frame is, such as "b = 1000 s/mm2"; one a frame, empty where unknown
+
+  /// Whether it is a volume: placed in the patient, scalar, at least two slices, no localizer. load() may still read
+  /// what is not usable (one slice, a localizer), and says what it cannot.
+  bool usable = false;
+  std::vector<std::string> warnings;  ///< what a user should know: missing slices, files left out, why it is not usable
+
+  /// Who was scanned and when, to be shown on a screen on request so that the right scan can be verified. Never written
+  /// to a log, recording, picture or report.
+  struct Identity {
+    std::string patient_name;
+    std::string patient_id;
+    std::string study_date;  ///< YYYYMMDD
+  } identity;
+
+  std::shared_ptr<const SeriesSource> source;
+};
+
+struct SkippedFile {
+  std::filesystem::path path;
+  std::string reason;
+};
+
+struct Catalogue {
+  std::vector<Series> series;        ///< usable ones first, then by the path of their first file
+  std::vector<SkippedFile> skipped;  ///< by path
+};
+
+/// The series in these files and folders (searched to the bottom, names and extensions ignored, DICOMDIR not trusted).
+/// A damaged file costs that file. Throws DicomError where a path does not exist or cannot be listed, or DICOM's data
+/// dictionary is missing; Cancelled.
+Catalogue find_series(std::span<const std::filesystem::path> paths, const Progress& progress = {});
+
+}  // namespace palpate::io
