@@ -1,8 +1,8 @@
 #pragma once
 
-/// The force balance of one frame, equations (1) and (7): find the proxy where the coupling's pull equals the sum of the
-/// primitives' forces. It is the minimum of a strongly convex energy, so it exists and is unique for every combination of
-/// primitives (infinite strength included, as long as the hard constraints have a common point).
+/// The force balance of one frame, equations (1) and (7): find the proxy where the coupling's pull equals the sum of
+/// the primitives' forces. It is the minimum of a strongly convex energy, so it exists and is unique for every
+/// combination of primitives (infinite strength included, as long as the hard constraints have a common point).
 
 #include <cstddef>
 #include <cstdint>
@@ -16,9 +16,9 @@ namespace palpate::solver {
 
 /// The equation to solve. Holds the primitives by reference: they have to outlive it.
 struct Balance {
-  double stiffness = 0;      ///< k, N/m, > 0: of the coupling between probe and proxy
-  Vec3 probe{0};             ///< m: where the hand is
-  Vec3 previous_proxy{0};    ///< m: the proxy of the previous frame, where descent starts
+  double stiffness = 0;    ///< k, N/m, > 0: of the coupling between probe and proxy
+  Vec3 probe{0};           ///< m: where the hand is
+  Vec3 previous_proxy{0};  ///< m: the proxy of the previous frame, where descent starts
   std::span<const Primitive> primitives;
 };
 
@@ -30,12 +30,18 @@ Vec3 residual(const Balance& balance, const Vec3& proxy);
 
 /// What can be wrong with the numbers of a balance.
 enum class Flaw : std::uint8_t {
-  not_finite,        ///< NaN, or infinite where only a constraint's strength may be
-  negative,          ///< a strength below zero
-  not_positive,      ///< a stiffness that is zero or less
-  zero_direction,    ///< a direction of zero (or not normalisable) length
-  incompatible       ///< hard constraints without a common point
+  not_finite,      ///< NaN, or infinite where only a constraint's strength may be
+  negative,        ///< a strength below zero
+  not_positive,    ///< a stiffness that is zero or less
+  zero_direction,  ///< a direction of zero (or not normalisable) length
+  incompatible,    ///< hard constraints without a common point
+  out_of_range     ///< larger than largest_quantity, or a stiffness below smallest_stiffness
 };
+
+/// Quantities (m, N, N/m) up to this are computed with; beyond it their products would leave the range of a double.
+inline constexpr double largest_quantity = 1e50;
+/// N/m.
+inline constexpr double smallest_stiffness = 1e-50;
 
 enum class Field : std::uint8_t { stiffness, probe, previous_proxy, strength, position, direction };
 
@@ -45,7 +51,7 @@ struct Rejection {
   std::size_t primitive = whole_balance;  ///< index into Balance::primitives, or whole_balance
   Field field = Field::stiffness;
   Flaw flaw = Flaw::not_finite;
-  double value = 0;
+  double value = 0;  ///< the number at fault; of incompatible constraints how far the primitive stays away, m
 };
 
 /// The first flaw, in the order stiffness, probe, previous proxy, primitives; nothing where the numbers are usable.

@@ -1,0 +1,156 @@
+#include "palpate/solver/analytical.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "palpate/solver/certify.h"
+#include "palpate/solver/internal/answer.h"
+
+namespace palpate::solver {
+
+namespace {
+
+using internal::FineVec3;
+using internal::length_of;
+using internal::Placed;
+using internal::PlacedPrimitives;
+
+// Primitives that act as one.
+struct Group {
+  PrimitiveType type = PrimitiveType::plane;
+  double strength = 0;
+  int hard_members = 0;
+  Vec3 offset{0};
+  Vec3 direction{0};
+  Vec3 force{0};
+};
+
+struct Groups {
+  std::array<Group, 16> group;
+  std::size_t count = 0;
+
+  std::span<Group> all() { return std::span(group).first(count); }
+};
+
+// What merges is what rounding of the data may have set apart. The certificate judges the result, so this decides only
+// how the force is shared.
+bool coincide(const Placed& primitive, const Group& group) {
+  if (primitive.type != group.type) {
+    return false;
+  }
+  constexpr double rounding = 0x1p-50;
+  const Vec3 apart = primitive.offset.hi - group.offset;
+  const double near = rounding * (length_of(primitive.offset.hi) + length_of(group.offset));
+  const Vec3& q = group.direction;
+  const bool parallel = length_of(glm::cross(primitive.direction.hi, q)) <= rounding;
+  switch (primitive.type) {
+    case PrimitiveType::plane:
+      return parallel && glm::dot(primitive.direction.hi, q) > 0 && std::abs(glm::dot(apart, q)) <= near;
+    case PrimitiveType::line:
+      return parallel && length_of(apart - q * glm::dot(q, apart)) <= near;
+    case PrimitiveType::point:
+      return length_of(apart) <= near;
+    case PrimitiveType::directed_force:
+      break;
+  }
+  return false;
+}
+
+bool add_to_groups(const Placed& primitive, Groups& groups) {
+  const int hard = std::isinf(primitive.strength) ? 1 : 0;
+  for (Group& group : groups.all()) {
+    if (coincide(primitive, group)) {
+      group.strength += primitive.strength;
+      group.hard_members += hard;
+      return true;
+    }
+  }
+  if (groups.count == groups.group.size()) {
+    return false;
+  }
+  groups.group[groups.count++] = {primitive.type,      primitive.strength,     hard,
+                                  primitive.offset.hi, primitive.direction.hi, Vec3{0}};
+  return true;
+}
+
+// Moves z towards the group's constraint, but never past it, equations (13) to (16).
+void move(Group& group, double stiffness, Vec3& z) {
+  Vec3 way = group.offset - z;
+  const Vec3& q = group.direction;
+  if (group.type == PrimitiveType::plane) {
+    way = q * std::max(0.0, glm::dot(way, q));
+  } else if (group.type == PrimitiveType::line) {
+    way -= q * glm::dot(way, q);
+  }
+  const double distance = length_of(way);
+  const double reach = group.strength / stiffness;
+  const Vec3 step = distance > reach ? way * (reach / distance) : way;
+  group.force = step * stiffness;
+  z += step;
+}
+
+// The member's part of the group's force, along its own direction: members agree in it but for rounding.
+Vec3 part_of(const Placed& member, const Group& group) {
+  double fraction = 0;
+  if (group.hard_members > 0) {
+    fraction = std::isinf(member.strength) ? 1.0 / group.hard_members : 0;
+  } else if (group.strength > 0) {
+    fraction = member.strength / group.strength;
+  }
+  return group.force * fraction;
+}
+
+}  // namespace
+
+Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexcept {
+  Solution solution;
+  solution.solver = SolverKind::analytical;
+  const std::size_t n = balance.primitives.size();
+  std::array<Placed, 8> few;
+  const bool stored = n > 0 && n <= few.size();
+  for (std::size_t i = 0; stored && i < n; ++i) {
+    few[i] = internal::place(balance.primitives[i], balance.probe);
+  }
+  const PlacedPrimitives primitives =
+      stored ? PlacedPrimitives(std::span(few).first(n)) : PlacedPrimitives(balance.primitives, balance.probe);
+
+  Vec3 z{0};
+  Groups groups;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Placed& primitive = primitives[i];
+    forces[i] = Vec3{0};
+    if (primitive.type == PrimitiveType::directed_force) {
+      forces[i] = primitive.direction.hi * primitive.strength;
+      z += forces[i] / balance.stiffness;
+    } else if (primitive.strength > 0 && !add_to_groups(primitive, groups)) {
+      return solution;
+    }
+  }
+  for (const PrimitiveType type : {PrimitiveType::plane, PrimitiveType::line, PrimitiveType::point}) {
+    for (Group& group : groups.all()) {
+      if (group.type == type) {
+        move(group, balance.stiffness, z);
+        ++solution.iterations;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Placed& primitive = primitives[i];
+    if (primitive.type != PrimitiveType::directed_force && primitive.strength > 0) {
+      forces[i] = part_of(primitive, *std::find_if(groups.all().begin(), groups.all().end(),
+                                                   [&](const Group& group) { return coincide(primitive, group); }));
+    }
+  }
+
+  const internal::Settled settled =
+      internal::settle_and_bound(primitives, balance.stiffness, FineVec3{z, Vec3{0}}, forces);
+  internal::write_answer(balance, settled, solution);
+  if (settled.bound.backward_error <= promised_accuracy(balance, solution.proxy, forces)) {
+    solution.outcome = Outcome::solved;
+  }
+  return solution;
+}
+
+}  // namespace palpate::solver

@@ -1,0 +1,41 @@
+#pragma once
+
+/// An answer's own proof. Needs no solver and no reference: anybody who has a balance, a proxy and the primitives'
+/// forces can check how far the proxy can be from the exact one.
+
+#include <span>
+
+#include "palpate/solver/balance.h"
+
+namespace palpate::solver {
+
+/// For any forces F_i inside the primitives' force bodies, with r = |k (x - probe) - sum F_i| and
+/// eps = sum of phi_i(x) - F_i . (x_i - x), phi_i the primitive's term of the energy, strong convexity gives
+/// |x - x*| <= (r + sqrt(r^2 + 4 k eps)) / (2 k).
+struct Certificate {
+  double error_bound = 0;  ///< m: |proxy - exact proxy| is at most this; rounded outwards
+  /// m: the same for the most favourable balance within 4 ulp of the data. Where constraints are redundant but for
+  /// rounding, error_bound is honest and loose; this one says whether the answer is as exact as the data allow.
+  double backward_bound = 0;
+  double residual = 0;  ///< N: r, where the bound was evaluated
+  double slack = 0;     ///< J: eps, where the bound was evaluated
+};
+
+/// The law above, evaluated in double-double at the point nearest to the proxy of the flat that holds it (a rounded
+/// proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, where that is less.
+///
+/// forces: as many as primitives, N. Where one lies outside its primitive's force body the nearest force inside is
+/// taken, so any forces give a true bound, good ones a tight one. The balance has to be one that validate() accepts.
+/// Infinity where a hard constraint is not met. O(n), no allocation, noexcept.
+Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
+
+/// What a solver of this library promises of a well-conditioned balance, m: 1e-14 m + 4 ulp of the coordinates (of the
+/// probe and of the primitives that act) and of the distance |sum of the forces| / k. The measure for "this answer is
+/// exact".
+double promised_accuracy(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
+
+/// A hard constraint (infinite strength) counts as met by a point that is nearer to it than this fraction of the
+/// largest distance between the probe and a hard constraint's position or the proxy.
+inline constexpr double hard_tolerance = 1e-12;
+
+}  // namespace palpate::solver

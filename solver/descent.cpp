@@ -1,0 +1,51 @@
+#include "palpate/solver/descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "palpate/solver/certify.h"
+#include "palpate/solver/internal/placed.h"
+
+namespace palpate::solver {
+
+Solution solve_descent(const Balance& balance, const DescentOptions& options, std::span<Vec3> forces) noexcept {
+  Solution solution;
+  solution.solver = SolverKind::descent;
+  for (const Primitive& primitive : balance.primitives) {
+    if (std::isinf(primitive.strength)) {
+      return solution;
+    }
+  }
+
+  Vec3 x = balance.previous_proxy;
+  Vec3 last_residual{0};
+  double step = options.first_step;
+  solution.outcome = Outcome::solved;
+  while (step >= options.smallest_step) {
+    const Vec3 epsilon = residual(balance, x);
+    const double size = internal::length_of(epsilon);
+    if (size == 0) {
+      break;
+    }
+    if (solution.iterations > 0 && glm::dot(epsilon, last_residual) < options.turn) {
+      step *= options.reduction;
+    }
+    if (solution.iterations == options.max_iterations) {
+      solution.outcome = Outcome::capped;
+      break;
+    }
+    x += epsilon * (step / size);
+    last_residual = epsilon;
+    ++solution.iterations;
+  }
+
+  solution.proxy = x;
+  for (std::size_t i = 0; i < balance.primitives.size(); ++i) {
+    forces[i] = force_on(balance.primitives[i], x);
+  }
+  solution.error_bound = certify(balance, x, forces).error_bound;
+  return solution;
+}
+
+}  // namespace palpate::solver

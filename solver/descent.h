@@ -1,0 +1,28 @@
+#pragma once
+
+/// The paper's numerical solver, section 4: steepest descent from the previous proxy, kept as the reference that the
+/// other solvers are measured against. As printed it can cycle forever and can freeze millimetres away from the proxy;
+/// nothing of that is mended here.
+
+#include <limits>
+#include <span>
+
+#include "palpate/solver/solution.h"
+
+namespace palpate::solver {
+
+struct DescentOptions {
+  double first_step = 1e-3;                                       ///< m: l of equation (22) at the start
+  double reduction = 0.7;                                         ///< of l, when equation (23) holds
+  double turn = std::numeric_limits<double>::epsilon();           ///< N^2: the right side of equation (23)
+  double smallest_step = std::numeric_limits<double>::epsilon();  ///< m: the loop ends when l is below it
+  int max_iterations = 10000;                                     ///< then Outcome::capped
+};
+
+/// forces: as many as primitives; the force functions' values at the proxy found, N. They vanish on a constraint, so
+/// that the (true) error bound of a proxy held by one is loose: about the force that is missing / k.
+///
+/// Outcome::unsuitable where a strength is infinite. The balance has to be one that validate() accepts. No allocation.
+Solution solve_descent(const Balance& balance, const DescentOptions& options, std::span<Vec3> forces) noexcept;
+
+}  // namespace palpate::solver

@@ -1,0 +1,20 @@
+#pragma once
+
+/// From an answer relative to the probe to a Solution.
+
+#include "palpate/solver/internal/bound.h"
+#include "palpate/solver/solution.h"
+
+namespace palpate::solver::internal {
+
+/// Rounds the proxy to doubles and adds what that costs to the bound.
+inline void write_answer(const Balance& balance, const Settled& settled, Solution& solution) {
+  for (int i = 0; i < 3; ++i) {
+    const DoubleDouble sum = two_sum(balance.probe[i], settled.z.hi[i]);
+    solution.proxy[i] = sum.hi + (sum.lo + settled.z.lo[i]);
+  }
+  const FineVec3 rounding = exact_difference(solution.proxy, balance.probe) - settled.z;
+  solution.error_bound = (settled.bound.error + length_of(rounding.hi)) * (1 + 0x1p-48);
+}
+
+}  // namespace palpate::solver::internal

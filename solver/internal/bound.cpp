@@ -1,0 +1,143 @@
+#include "palpate/solver/internal/bound.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace palpate::solver::internal {
+
+namespace {
+
+constexpr double unit_roundoff = 0x1p-53;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Keeps bounds above zero where products of tiny numbers underflow.
+constexpr double underflow_margin = 1e-290;
+
+// How far 4 ulp of a primitive's position and direction may move it near z.
+double rounding_of_data(const Placed& primitive, const FineVec3& z) {
+  return 8 * unit_roundoff * (size_of(primitive.offset) + size_of(z));
+}
+
+Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, double stiffness, double doubt) {
+  const double s = plane.strength;
+  Depth depth = depth_of(plane, z);
+  depth.error += doubt;
+  const double given = std::max(0.0, std::min(s, glm::dot(force, plane.direction.hi)));
+  const auto slack_within = [&](double tolerance) {
+    const double behind = std::max(0.0, depth.value + depth.error - tolerance);
+    const double before = std::max(0.0, depth.error - depth.value - tolerance);
+    const bool met = depth.value <= depth.error + tolerance;
+    return (std::isinf(s) ? (met ? 0 : infinity) : (s - given) * behind) + given * before;
+  };
+  const double slack = slack_within(0);
+  const double full = depth.value > 0 ? s : 0;
+  if (std::abs(depth.value) > depth.error && std::isfinite(full)) {
+    const double change = full - given;
+    if (change * change <= stiffness * slack) {
+      return {plane.direction.hi * full, 4 * unit_roundoff * full, 0, 0, false};
+    }
+  }
+  const double backward = slack > 0 ? slack_within(rounding_of_data(plane, z)) : 0;
+  return {plane.direction.hi * given, 4 * unit_roundoff * given, slack, backward, slack > 0};
+}
+
+Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3& force, double stiffness,
+                         double doubt) {
+  const double s = attractor.strength;
+  const bool hard = std::isinf(s);
+  Miss miss = miss_of(attractor, z);
+  miss.error += doubt;
+  const Vec3& q = attractor.direction.hi;
+  Vec3 given = attractor.type == PrimitiveType::line ? force - q * glm::dot(q, force) : force;
+  double size = length_of(given);
+  if (size > s) {
+    given = s > 0 ? given * (s / size) : Vec3{0};
+    size = s;
+  }
+  const double reach = hard ? size : s + size;
+  const double rounding = 8 * unit_roundoff * reach * miss.length + 2 * reach * miss.error;
+  const double off = hard ? (miss.length <= 4 * miss.error ? 0 : infinity) : s * miss.length;
+  const double slack = std::max(0.0, off - glm::dot(given, miss.vector.hi)) + rounding;
+  if (miss.length > 4 * miss.error && !hard) {
+    const Vec3 full = miss.vector.hi * (s / miss.length);
+    const double turn = 2 * s * miss.error / miss.length;
+    const double change = length_of(full - given) + turn;
+    if (change * change <= stiffness * slack) {
+      return {full, 8 * unit_roundoff * s + turn, 0, 0, false};
+    }
+  }
+  const double near = rounding_of_data(attractor, z);
+  const double backward = miss.length <= near ? 0 : slack;
+  return {given, 8 * unit_roundoff * size, slack, backward, slack > 0};
+}
+
+}  // namespace
+
+Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt) {
+  switch (primitive.type) {
+    case PrimitiveType::directed_force:
+      return {primitive.direction.hi * primitive.strength, 4 * unit_roundoff * primitive.strength, 0, 0, false};
+    case PrimitiveType::plane:
+      return share_of_plane(primitive, z, force, stiffness, doubt);
+    case PrimitiveType::line:
+    case PrimitiveType::point:
+      return share_of_attractor(primitive, z, force, stiffness, doubt);
+  }
+  return {};
+}
+
+Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
+               std::span<const Vec3> forces) {
+  FineVec3 sum = z * stiffness;
+  Bound bound;
+  double rounding = stiffness * flat.doubt;
+  double backward_slack = 0;
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    Share share;
+    if (flat.has_chosen(i)) {
+      // On the exact flat its own primitives have no slack: only their force bodies are asked.
+      Placed met = primitives[i];
+      met.offset = z;
+      share = share_of(met, z, forces[i], stiffness);
+    } else {
+      share = share_of(primitives[i], z, forces[i], stiffness, flat.doubt);
+    }
+    sum = sum + -share.force;
+    rounding += share.force_error;
+    bound.slack += share.slack;
+    backward_slack += share.backward_slack;
+  }
+  const double outwards = 1 + 16 * unit_roundoff + 2 * unit_roundoff * static_cast<double>(primitives.size());
+  bound.residual = (length_of(sum.hi) + rounding) * outwards;
+  const auto law = [&](double slack) {
+    const double r = bound.residual / stiffness;
+    const double error = (r + std::hypot(r, 2 * std::sqrt(slack * outwards / stiffness))) / 2 + flat.doubt;
+    return error < infinity ? error * outwards + underflow_margin : infinity;
+  };
+  bound.error = law(bound.slack);
+  bound.backward_error = bound.slack > 0 ? law(backward_slack) : bound.error;
+  return bound;
+}
+
+Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z,
+                         std::span<const Vec3> forces) {
+  std::array<std::uint32_t, 32> held;  // more of them add no more than tightness
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < primitives.size() && count < held.size(); ++i) {
+    if (share_of(primitives[i], z, forces[i], stiffness).held) {
+      held[count++] = static_cast<std::uint32_t>(i);
+    }
+  }
+  Settled settled{z, {}};
+  Flat flat;
+  if (count > 0) {
+    flat = settle(primitives, std::span(held).first(count), settled.z);
+  }
+  settled.bound = bound_at(primitives, stiffness, settled.z, flat, forces);
+  return settled;
+}
+
+}  // namespace palpate::solver::internal

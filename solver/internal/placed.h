@@ -1,0 +1,60 @@
+#pragma once
+
+/// A primitive as the solvers see it: relative to the probe, its direction normalised, both in double-double.
+/// "Direction" is the direction of the doubles given, taken as exact, so a direction of length 1 + 1e-15 means what it
+/// says.
+
+#include <cstddef>
+#include <span>
+
+#include "palpate/solver/internal/double_double.h"
+#include "palpate/solver/primitive.h"
+
+namespace palpate::solver::internal {
+
+struct Placed {
+  PrimitiveType type = PrimitiveType::directed_force;
+  double strength = 0;  ///< N
+  FineVec3 offset;      ///< position - probe, m, exact
+  FineVec3 direction;   ///< length 1 within 2^-98
+};
+
+Placed place(const Primitive& primitive, const Vec3& probe);
+
+/// The primitives of a balance: placed once into an array by who has one, else each time that they are looked at.
+class PlacedPrimitives {
+ public:
+  PlacedPrimitives(std::span<const Primitive> primitives, const Vec3& probe) : primitives_(primitives), probe_(probe) {}
+  explicit PlacedPrimitives(std::span<const Placed> stored) : stored_(stored) {}
+
+  std::size_t size() const { return stored_.empty() ? primitives_.size() : stored_.size(); }
+  Placed operator[](std::size_t i) const { return stored_.empty() ? place(primitives_[i], probe_) : stored_[i]; }
+
+ private:
+  std::span<const Primitive> primitives_;
+  Vec3 probe_{0};
+  std::span<const Placed> stored_;
+};
+
+/// From z (relative to the probe, m) to the nearest point of a line or point, and how far rounding may have moved it.
+struct Miss {
+  FineVec3 vector;
+  double length = 0;
+  double error = 0;
+};
+Miss miss_of(const Placed& line_or_point, const FineVec3& z);
+
+/// (position - z) . direction of a plane, positive behind it.
+struct Depth {
+  double value = 0;
+  double error = 0;
+};
+Depth depth_of(const Placed& plane, const FineVec3& z);
+
+/// Sum of the components' magnitudes.
+double size_of(const FineVec3& v);
+
+/// Length without under- or overflow.
+double length_of(const Vec3& v);
+
+}  // namespace palpate::solver::internal
