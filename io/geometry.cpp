@@ -68,6 +68,10 @@ bool Geometry::contains(const Vec3& index) const noexcept {
          index.z <= dimensions.z - 1;
 }
 
+double Geometry::slice_spacing() const noexcept {
+  return glm::dot(step, glm::normalize(glm::cross(direction_i, direction_j)));
+}
+
 glm::dmat3 Geometry::index_gradient_to_patient(double k) const noexcept {
   const glm::dmat3 jacobian(spacing_i * direction_i, spacing_j * direction_j,
                             step_of_interval(*this, interval_at(*this, k)));

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Where the voxels of a series are in the patient. DICOM patient space: LPS (x to the patient's left, y to the back, z to
-/// the head), millimetres. Source: ImagePositionPatient and ImageOrientationPatient of every slice, PixelSpacing; never the
-/// gantry-tilt attribute.
+/// Where the voxels of a series are in the patient. DICOM patient space: LPS (x to the patient's left, y to the back, z
+/// to the head), millimetres. Source: ImagePositionPatient and ImageOrientationPatient of every slice, PixelSpacing;
+/// never the gantry-tilt attribute.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -24,7 +24,8 @@ struct Geometry {
   double spacing_j = 1;               ///< mm between rows (first value of PixelSpacing)
   std::vector<Vec3> slice_positions;  ///< mm: centre of each slice's first voxel
 
-  /// Mean vector from a slice to the next, mm; the unit normal times the slice's own thickness where there is one slice.
+  /// Mean vector from a slice to the next, mm; the unit normal times the slice's own thickness where there is one
+  /// slice.
   Vec3 step{0, 0, 1};
   /// Whether every step is the mean one (to the tolerance that the reader states).
   bool uniform = true;
@@ -38,7 +39,11 @@ struct Geometry {
   Vec3 to_index(const Vec3& position_mm) const noexcept;
   /// Whether an index lies within the hull of the voxel centres.
   bool contains(const Vec3& index) const noexcept;
-  /// Gradient per index step -> gradient per mm in patient space, at slice interval k (the transposed inverse Jacobian).
+  /// Mean distance between neighbouring slices along their normal, mm; under gantry tilt less than the length of
+  /// `step`.
+  double slice_spacing() const noexcept;
+  /// Gradient per index step -> gradient per mm in patient space, at slice interval k (the transposed inverse
+  /// Jacobian).
   glm::dmat3 index_gradient_to_patient(double k) const noexcept;
 };
 
