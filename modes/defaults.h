@@ -23,11 +23,13 @@ inline constexpr double speed_limit_m_per_s = 1.0;
 /// Millimetres of patient for one millimetre of hand.
 inline constexpr double workspace_scale = 1.0;
 
-/// Largest correction of the anchor towards the held iso-surface in one frame, mm of patient (anchor.h).
+// The anchor that keeps a held proxy on its iso-surface (anchor.h), mm of patient.
+/// Largest correction in a sub-step.
 inline constexpr double anchor_step_mm = 0.1;
-/// Largest correction as a part of the proxy's travel since the last one: enough for every wall whose radius is above
-/// that travel.
-inline constexpr double anchor_slope = 0.5;
+/// Travel over which the iso-value has its say: long beside a voxel, whose interpolation it shall not feel.
+inline constexpr double anchor_length_mm = 5.0;
+/// Farthest iso-surface that it is drawn to.
+inline constexpr double anchor_reach_mm = 1.0;
 
 // Subdivision of a frame (haptic_step.h): probe travel of one sub-step, mm of patient, and the most sub-steps of a
 // frame.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "palpate/modes/anchor.h"
 #include "palpate/modes/plan.h"
 #include "palpate/solver/chain.h"
 
@@ -37,26 +36,14 @@ bool is_held(std::span<const solver::Primitive> primitives, std::span<const std:
   return false;
 }
 
-/// Where the co-located primitives go, device's frame; renews the held value where nothing holds the proxy yet.
-Vec3 place_anchor(const Plan& plan, const io::Sample& sample, Touch& touch) {
-  if (!plan.holds_iso_surface || !sample.inside) {
-    return touch.proxy_m;
-  }
-  if (!touch.held) {
-    touch.held_value = sample.value;
-    return touch.proxy_m;
-  }
-  const double travel_mm = glm::length(touch.proxy_m - touch.anchor_m) * plan.workspace.mm_per_m;
-  const Vec3 step_mm = anchor_correction_mm(sample, touch.held_value, most_correction_mm(travel_mm));
-  return touch.proxy_m + plan.workspace.direction_to_device(step_mm) / plan.workspace.mm_per_m;
-}
-
 /// One sample, placement and solution at a probe position.
 StepResult sub_step(const Plan& plan, const io::FieldSource& source, const Vec3& probe_m, Touch& touch,
                     solver::Chain& chain, StepScratch& scratch) {
   StepResult result;
   result.sample = source.sample(plan.workspace.to_patient(touch.proxy_m), plan.fields);
-  result.anchor_m = place_anchor(plan, result.sample, touch);
+  result.anchor_m = plan.holds_iso_surface && result.sample.inside
+                        ? place_anchor(result.sample, plan.workspace, touch.proxy_m, touch.contact)
+                        : touch.proxy_m;
 
   PrimitiveList list(scratch.primitives, scratch.mode_of);
   const Place place{result.sample, plan.workspace, result.anchor_m};
@@ -90,8 +77,7 @@ StepResult sub_step(const Plan& plan, const io::FieldSource& source, const Vec3&
     return result;
   }
   result.held = is_held(result.primitives, result.mode_of, plan, solution.proxy);
-  touch.held = result.held;
-  touch.anchor_m = result.anchor_m;
+  touch.contact.held = result.held;
   touch.proxy_m = solution.proxy;
   touch.probe_m = probe_m;
   touch.force_n = solver::coupling_force(balance, solution.proxy);
@@ -117,7 +103,7 @@ StepResult step(const Plan& plan, const io::FieldSource& source, const Vec3& pro
     return result;
   }
   if (!touch.started) {
-    touch = Touch{.started = true, .probe_m = probe_m, .proxy_m = probe_m};
+    touch = Touch{.started = true, .probe_m = probe_m, .proxy_m = probe_m, .contact = {}};
   }
   const Vec3 from = touch.probe_m;
   const int sub_steps = count_sub_steps(plan, glm::length(probe_m - from) * plan.workspace.mm_per_m);

@@ -15,6 +15,7 @@
 #include <span>
 
 #include "palpate/io/field_source.h"
+#include "palpate/modes/anchor.h"
 #include "palpate/modes/mode_type.h"
 #include "palpate/modes/scene.h"
 #include "palpate/solver/primitive.h"
@@ -39,9 +40,7 @@ struct Touch {
   Vec3 probe_m{0};  ///< device's frame, of the last good frame
   Vec3 proxy_m{0};
   Vec3 force_n{0};
-  bool held = false;      ///< whether a surface holds the proxy
-  double held_value = 0;  ///< V_c: the iso-value that it is held at
-  Vec3 anchor_m{0};       ///< where the primitives of the last frame stood
+  Contact contact;  ///< with the surface that holds the proxy
 };
 
 /// Room for one frame. Large: allocate it with the session, not in the tick.

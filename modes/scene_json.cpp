@@ -211,11 +211,27 @@ Scene read_scene(const nlohmann::json& json) {
   return scene;
 }
 
+/// The text as JSON; of a key that is given twice the library would silently keep the last.
+nlohmann::json parse(std::string_view text) {
+  std::vector<std::set<std::string>> open;
+  const auto check = [&open](int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    if (event == nlohmann::json::parse_event_t::object_start) {
+      open.emplace_back();
+    } else if (event == nlohmann::json::parse_event_t::object_end) {
+      open.pop_back();
+    } else if (event == nlohmann::json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second) {
+      refuse(parsed.get<std::string>(), "is given twice");
+    }
+    return true;
+  };
+  return nlohmann::json::parse(text, check);
+}
+
 }  // namespace
 
 Scene scene_from_json(std::string_view text, const std::string& source) {
   try {
-    Scene scene = read_scene(nlohmann::json::parse(text));
+    Scene scene = read_scene(parse(text));
     validate(scene);
     return scene;
   } catch (const nlohmann::json::exception& error) {
