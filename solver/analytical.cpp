@@ -19,12 +19,12 @@ using internal::PlacedPrimitives;
 
 // Primitives that act as one.
 struct Group {
-  PrimitiveType type = PrimitiveType::plane;
-  double strength = 0;
-  int hard_members = 0;
-  Vec3 offset{0};
-  Vec3 direction{0};
-  Vec3 force{0};
+  PrimitiveType type;
+  double strength;
+  int hard_members;
+  Vec3 offset;
+  Vec3 direction;
+  Vec3 force;
 };
 
 struct Groups {
@@ -41,15 +41,15 @@ bool coincide(const Placed& primitive, const Group& group) {
     return false;
   }
   constexpr double rounding = 0x1p-50;
-  const Vec3 apart = primitive.offset.hi - group.offset;
-  const double near = rounding * (length_of(primitive.offset.hi) + length_of(group.offset));
+  const Vec3 apart = primitive.offset.hi() - group.offset;
+  const double near = rounding * (length_of(primitive.offset.hi()) + length_of(group.offset));
   const Vec3& q = group.direction;
-  const bool parallel = length_of(glm::cross(primitive.direction.hi, q)) <= rounding;
+  const auto parallel = [&] { return length_of(glm::cross(primitive.direction, q)) <= rounding; };
   switch (primitive.type) {
     case PrimitiveType::plane:
-      return parallel && glm::dot(primitive.direction.hi, q) > 0 && std::abs(glm::dot(apart, q)) <= near;
+      return parallel() && glm::dot(primitive.direction, q) > 0 && std::abs(glm::dot(apart, q)) <= near;
     case PrimitiveType::line:
-      return parallel && length_of(apart - q * glm::dot(q, apart)) <= near;
+      return parallel() && length_of(apart - q * glm::dot(q, apart)) <= near;
     case PrimitiveType::point:
       return length_of(apart) <= near;
     case PrimitiveType::directed_force:
@@ -70,8 +70,8 @@ bool add_to_groups(const Placed& primitive, Groups& groups) {
   if (groups.count == groups.group.size()) {
     return false;
   }
-  groups.group[groups.count++] = {primitive.type,      primitive.strength,     hard,
-                                  primitive.offset.hi, primitive.direction.hi, Vec3{0}};
+  groups.group[groups.count++] = {primitive.type,        primitive.strength,  hard,
+                                  primitive.offset.hi(), primitive.direction, Vec3{0}};
   return true;
 }
 
@@ -122,7 +122,7 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
     const Placed& primitive = primitives[i];
     forces[i] = Vec3{0};
     if (primitive.type == PrimitiveType::directed_force) {
-      forces[i] = primitive.direction.hi * primitive.strength;
+      forces[i] = primitive.direction * primitive.strength;
       z += forces[i] / balance.stiffness;
     } else if (primitive.strength > 0 && !add_to_groups(primitive, groups)) {
       return solution;
@@ -145,7 +145,7 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
   }
 
   const internal::Settled settled =
-      internal::settle_and_bound(primitives, balance.stiffness, FineVec3{z, Vec3{0}}, forces);
+      internal::settle_and_bound(primitives, balance.stiffness, internal::fine(z), forces);
   internal::write_answer(balance, settled, solution);
   if (settled.bound.backward_error <= promised_accuracy(balance, solution.proxy, forces)) {
     solution.outcome = Outcome::solved;

@@ -15,7 +15,7 @@ Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const V
   const internal::PlacedPrimitives primitives(balance.primitives, balance.probe);
   const FineVec3 z = internal::exact_difference(proxy, balance.probe);
   const internal::Settled settled = internal::settle_and_bound(primitives, balance.stiffness, z, forces);
-  const double moved = length_of((settled.z - z).hi) * (1 + 0x1p-48);
+  const double moved = length_of((settled.z - z).hi()) * (1 + 0x1p-48);
   const Certificate there{settled.bound.error + moved, settled.bound.backward_error + moved, settled.bound.residual,
                           settled.bound.slack};
   if (moved == 0 || there.error_bound <= promised_accuracy(balance, proxy, forces)) {
@@ -37,7 +37,7 @@ double promised_accuracy(const Balance& balance, const Vec3& proxy, std::span<co
     }
   }
   constexpr double ulp = std::numeric_limits<double>::epsilon();
-  return 1e-14 + 4 * ulp * (size + force / balance.stiffness);
+  return 1e-14 + 16 * ulp * (size + force / balance.stiffness);
 }
 
 }  // namespace palpate::solver

@@ -29,7 +29,7 @@ struct Certificate {
 /// Infinity where a hard constraint is not met. O(n), no allocation, noexcept.
 Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
-/// What a solver of this library promises of a well-conditioned balance, m: 1e-14 m + 4 ulp of the coordinates (of the
+/// What a solver of this library promises of a well-conditioned balance, m: 1e-14 m + 16 ulp of the coordinates (of the
 /// probe and of the primitives that act) and of the distance |sum of the forces| / k. The measure for "this answer is
 /// exact".
 double promised_accuracy(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;

@@ -14,7 +14,7 @@ constexpr double unit_roundoff = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Keeps bounds above zero where products of tiny numbers underflow.
-constexpr double underflow_margin = 1e-290;
+constexpr double underflow_margin = 1e-150;
 
 // How far 4 ulp of a primitive's position and direction may move it near z.
 double rounding_of_data(const Placed& primitive, const FineVec3& z) {
@@ -25,7 +25,7 @@ Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, 
   const double s = plane.strength;
   Depth depth = depth_of(plane, z);
   depth.error += doubt;
-  const double given = std::max(0.0, std::min(s, glm::dot(force, plane.direction.hi)));
+  const double given = std::max(0.0, std::min(s, glm::dot(force, plane.direction)));
   const auto slack_within = [&](double tolerance) {
     const double behind = std::max(0.0, depth.value + depth.error - tolerance);
     const double before = std::max(0.0, depth.error - depth.value - tolerance);
@@ -37,11 +37,11 @@ Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, 
   if (std::abs(depth.value) > depth.error && std::isfinite(full)) {
     const double change = full - given;
     if (change * change <= stiffness * slack) {
-      return {plane.direction.hi * full, 4 * unit_roundoff * full, 0, 0, false};
+      return {plane.direction * full, 4 * unit_roundoff * full, 0, 0, false};
     }
   }
   const double backward = slack > 0 ? slack_within(rounding_of_data(plane, z)) : 0;
-  return {plane.direction.hi * given, 4 * unit_roundoff * given, slack, backward, slack > 0};
+  return {plane.direction * given, 4 * unit_roundoff * given, slack, backward, slack > 0};
 }
 
 Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3& force, double stiffness,
@@ -50,7 +50,7 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
   const bool hard = std::isinf(s);
   Miss miss = miss_of(attractor, z);
   miss.error += doubt;
-  const Vec3& q = attractor.direction.hi;
+  const Vec3& q = attractor.direction;
   Vec3 given = attractor.type == PrimitiveType::line ? force - q * glm::dot(q, force) : force;
   double size = length_of(given);
   if (size > s) {
@@ -60,9 +60,9 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
   const double reach = hard ? size : s + size;
   const double rounding = 8 * unit_roundoff * reach * miss.length + 2 * reach * miss.error;
   const double off = hard ? (miss.length <= 4 * miss.error ? 0 : infinity) : s * miss.length;
-  const double slack = std::max(0.0, off - glm::dot(given, miss.vector.hi)) + rounding;
+  const double slack = std::max(0.0, off - glm::dot(given, miss.vector.hi())) + rounding;
   if (miss.length > 4 * miss.error && !hard) {
-    const Vec3 full = miss.vector.hi * (s / miss.length);
+    const Vec3 full = miss.vector.hi() * (s / miss.length);
     const double turn = 2 * s * miss.error / miss.length;
     const double change = length_of(full - given) + turn;
     if (change * change <= stiffness * slack) {
@@ -79,7 +79,7 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
 Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt) {
   switch (primitive.type) {
     case PrimitiveType::directed_force:
-      return {primitive.direction.hi * primitive.strength, 4 * unit_roundoff * primitive.strength, 0, 0, false};
+      return {primitive.direction * primitive.strength, 4 * unit_roundoff * primitive.strength, 0, 0, false};
     case PrimitiveType::plane:
       return share_of_plane(primitive, z, force, stiffness, doubt);
     case PrimitiveType::line:
@@ -111,10 +111,10 @@ Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineV
     backward_slack += share.backward_slack;
   }
   const double outwards = 1 + 16 * unit_roundoff + 2 * unit_roundoff * static_cast<double>(primitives.size());
-  bound.residual = (length_of(sum.hi) + rounding) * outwards;
+  bound.residual = (length_of(sum.hi()) + rounding) * outwards;
   const auto law = [&](double slack) {
     const double r = bound.residual / stiffness;
-    const double error = (r + std::hypot(r, 2 * std::sqrt(slack * outwards / stiffness))) / 2 + flat.doubt;
+    const double error = (r + std::sqrt(r * r + 4 * slack * outwards / stiffness)) / 2 + flat.doubt;
     return error < infinity ? error * outwards + underflow_margin : infinity;
   };
   bound.error = law(bound.slack);

@@ -11,8 +11,8 @@ namespace palpate::solver::internal {
 using Vec3 = glm::dvec3;
 
 struct DoubleDouble {
-  double hi = 0;
-  double lo = 0;
+  double hi;
+  double lo;
 };
 
 /// a + b = hi + lo exactly.
@@ -70,70 +70,49 @@ inline DoubleDouble operator*(const DoubleDouble& a, double b) {
   return quick_two_sum(product.hi, product.lo + a.lo * b);
 }
 
-/// 1 / sqrt(a), a > 0: one step of Newton's method from the double result.
-inline DoubleDouble inverse_sqrt(const DoubleDouble& a) {
-  const double start = 1 / std::sqrt(a.hi);
-  const DoubleDouble miss = DoubleDouble{1, 0} - a * two_product(start, start);
-  return quick_two_sum(start, 0.5 * start * miss.hi);
+/// a / b.
+inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
+  const double first = a.hi / b.hi;
+  const DoubleDouble rest = a - b * first;
+  return quick_two_sum(first, rest.hi / b.hi);
 }
 
 /// A vector of double-doubles.
 struct FineVec3 {
-  Vec3 hi{0};
-  Vec3 lo{0};
+  DoubleDouble x;
+  DoubleDouble y;
+  DoubleDouble z;
 
-  DoubleDouble operator[](int i) const { return {hi[i], lo[i]}; }
-  void set(int i, const DoubleDouble& value) {
-    hi[i] = value.hi;
-    lo[i] = value.lo;
-  }
+  Vec3 hi() const { return {x.hi, y.hi, z.hi}; }
 };
+
+inline FineVec3 fine(const Vec3& v) {
+  return {{v.x, 0}, {v.y, 0}, {v.z, 0}};
+}
 
 /// a - b exactly.
 inline FineVec3 exact_difference(const Vec3& a, const Vec3& b) {
-  FineVec3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.set(i, two_sum(a[i], -b[i]));
-  }
-  return result;
+  return {two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)};
 }
 inline FineVec3 operator+(const FineVec3& a, const FineVec3& b) {
-  FineVec3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.set(i, a[i] + b[i]);
-  }
-  return result;
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 inline FineVec3 operator+(const FineVec3& a, const Vec3& b) {
-  FineVec3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.set(i, a[i] + b[i]);
-  }
-  return result;
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 inline FineVec3 operator-(const FineVec3& a, const FineVec3& b) {
-  FineVec3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.set(i, a[i] - b[i]);
-  }
-  return result;
-}
-inline FineVec3 operator*(const FineVec3& a, const DoubleDouble& b) {
-  FineVec3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.set(i, a[i] * b);
-  }
-  return result;
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 inline FineVec3 operator*(const FineVec3& a, double b) {
-  FineVec3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.set(i, a[i] * b);
-  }
-  return result;
+  return {a.x * b, a.y * b, a.z * b};
 }
-inline DoubleDouble dot(const FineVec3& a, const FineVec3& b) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+
+/// a b with an exact vector of doubles.
+inline FineVec3 operator*(const Vec3& a, const DoubleDouble& b) {
+  return {b * a.x, b * a.y, b * a.z};
+}
+inline DoubleDouble dot(const FineVec3& a, const Vec3& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
 }  // namespace palpate::solver::internal

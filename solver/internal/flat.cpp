@@ -22,7 +22,7 @@ Vec3 without_normals(const Flat& flat, Vec3 v) {
 
 // In what direction, as yet free, a primitive fixes a point: of length zero (nothing new) to one (independent).
 Vec3 new_normal(const Placed& primitive, const Flat& flat) {
-  const Vec3& q = primitive.direction.hi;
+  const Vec3& q = primitive.direction;
   if (primitive.type == PrimitiveType::plane) {
     return without_normals(flat, q);
   }
@@ -35,9 +35,9 @@ double needed_move(const Placed& primitive, const FineVec3& z, const Vec3& norma
   if (primitive.type == PrimitiveType::plane) {
     return depth_of(primitive, z).value / size;
   }
-  const Vec3& q = primitive.direction.hi;
+  const Vec3& q = primitive.direction;
   const Vec3 across = normal - q * glm::dot(q, normal);
-  return glm::dot(miss_of(primitive, z).vector.hi, across) / (size * size);
+  return glm::dot(miss_of(primitive, z).vector.hi(), across) / (size * size);
 }
 
 double distance_to(const Placed& primitive, const FineVec3& z) {
@@ -47,10 +47,6 @@ double distance_to(const Placed& primitive, const FineVec3& z) {
   }
   const Miss miss = miss_of(primitive, z);
   return miss.length + miss.error;
-}
-
-bool same(const FineVec3& a, const FineVec3& b) {
-  return a.hi == b.hi && a.lo == b.lo;
 }
 
 // Fixes what the first point or line in the list fixes.
@@ -70,7 +66,7 @@ bool fix_first(PrimitiveType type, const PlacedPrimitives& primitives, std::span
       flat.rank = 3;
     } else {
       z = z + miss_of(primitive, z).vector;
-      const Vec3& q = primitive.direction.hi;
+      const Vec3& q = primitive.direction;
       const Vec3 away = std::abs(q.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
       flat.normal[0] = glm::normalize(glm::cross(q, away));
       flat.normal[1] = glm::cross(q, flat.normal[0]);

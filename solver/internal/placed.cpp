@@ -8,28 +8,32 @@ namespace palpate::solver::internal {
 
 namespace {
 
-// Of a double-double dot product of three terms, with an ample margin over 2^-102 for each operation.
+// Of a scalar product of three terms in double-double and in double, with a margin.
 constexpr double fine_rounding = 0x1p-98;
+constexpr double rounding = 0x1p-50;
 
 // A difference of equal numbers is exact.
-double error_of(const FineVec3& offset, const FineVec3& z) {
-  return offset.hi == z.hi && offset.lo == z.lo ? 0 : fine_rounding * (size_of(offset) + size_of(z));
+double fine_error(const FineVec3& offset, const FineVec3& z) {
+  return same(offset, z) ? 0 : fine_rounding * (size_of(offset) + size_of(z));
 }
 
 }  // namespace
 
-double size_of(const FineVec3& v) {
-  return std::abs(v.hi.x) + std::abs(v.hi.y) + std::abs(v.hi.z);
+bool same(const FineVec3& a, const FineVec3& b) {
+  return a.hi() == b.hi() && a.x.lo == b.x.lo && a.y.lo == b.y.lo && a.z.lo == b.z.lo;
 }
 
 Placed place(const Primitive& primitive, const Vec3& probe) {
-  Placed placed{primitive.type, primitive.strength, {}, {}};
+  Placed placed;
+  placed.type = primitive.type;
+  placed.strength = primitive.strength;
   if (primitive.type != PrimitiveType::directed_force) {
     placed.offset = exact_difference(primitive.position, probe);
   }
   if (primitive.type != PrimitiveType::point) {
-    const FineVec3 direction{primitive.direction, Vec3{0}};
-    placed.direction = direction * inverse_sqrt(dot(direction, direction));
+    placed.given_direction = primitive.direction;
+    placed.given_length = std::sqrt(glm::dot(primitive.direction, primitive.direction));
+    placed.direction = primitive.direction / placed.given_length;
   }
   return placed;
 }
@@ -43,16 +47,36 @@ double length_of(const Vec3& v) {
   return largest > 0 ? largest * glm::length(v / largest) : 0;
 }
 
+double size_of(const FineVec3& v) {
+  return std::abs(v.x.hi) + std::abs(v.y.hi) + std::abs(v.z.hi);
+}
+
 Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
-  FineVec3 m = line_or_point.offset - z;
-  if (line_or_point.type == PrimitiveType::line) {
-    m = m - line_or_point.direction * dot(line_or_point.direction, m);
+  const FineVec3 e = line_or_point.offset - z;
+  if (line_or_point.type == PrimitiveType::point) {
+    return {e, length_of(e.hi()), fine_error(line_or_point.offset, z)};
   }
-  return {m, length_of(m.hi), error_of(line_or_point.offset, z)};
+  const Vec3 rough_e = e.hi();
+  const Vec3 rough = rough_e - line_or_point.direction * glm::dot(line_or_point.direction, rough_e);
+  const double rough_length = length_of(rough);
+  const double size = size_of(e);
+  if (4 * rough_length > size) {
+    return {fine(rough), rough_length, 0x1p-51 * size};
+  }
+  const Vec3& q = line_or_point.given_direction;
+  const DoubleDouble along = dot(e, q) / dot(fine(q), q);
+  const FineVec3 m = e - q * along;
+  return {m, length_of(m.hi()), fine_error(line_or_point.offset, z)};
 }
 
 Depth depth_of(const Placed& plane, const FineVec3& z) {
-  return {dot(plane.offset - z, plane.direction).hi, error_of(plane.offset, z)};
+  const FineVec3 e = plane.offset - z;
+  const double rough = glm::dot(e.hi(), plane.direction);
+  const double rough_error = rounding * size_of(e);
+  if (std::abs(rough) > 0x1p20 * rough_error) {
+    return {rough, rough_error};
+  }
+  return {dot(e, plane.given_direction).hi / plane.given_length, fine_error(plane.offset, z)};
 }
 
 }  // namespace palpate::solver::internal

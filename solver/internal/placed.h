@@ -1,8 +1,7 @@
 #pragma once
 
-/// A primitive as the solvers see it: relative to the probe, its direction normalised, both in double-double.
-/// "Direction" is the direction of the doubles given, taken as exact, so a direction of length 1 + 1e-15 means what it
-/// says.
+/// A primitive as the solvers see it: relative to the probe. "Direction" is the direction of the doubles given, taken
+/// as exact, so a direction of length 1 + 1e-15 means what it says.
 
 #include <cstddef>
 #include <span>
@@ -12,11 +11,14 @@
 
 namespace palpate::solver::internal {
 
+/// Not initialised by default: solvers keep short arrays of these on the stack.
 struct Placed {
-  PrimitiveType type = PrimitiveType::directed_force;
-  double strength = 0;  ///< N
-  FineVec3 offset;      ///< position - probe, m, exact
-  FineVec3 direction;   ///< length 1 within 2^-98
+  PrimitiveType type;
+  double strength;       ///< N
+  FineVec3 offset;       ///< position - probe, m, exact; not set of a directed force
+  Vec3 given_direction;  ///< of any length; this and the following not set of a point
+  Vec3 direction;        ///< of length 1, but for rounding
+  double given_length;   ///< of given_direction, but for rounding
 };
 
 Placed place(const Primitive& primitive, const Vec3& probe);
@@ -36,7 +38,9 @@ class PlacedPrimitives {
   std::span<const Placed> stored_;
 };
 
-/// From z (relative to the probe, m) to the nearest point of a line or point, and how far rounding may have moved it.
+// The following are in double-double where a cancellation asks for it.
+
+/// From z (relative to the probe, m) to the nearest point of a line or point, and how wrong it may be.
 struct Miss {
   FineVec3 vector;
   double length = 0;
@@ -51,10 +55,12 @@ struct Depth {
 };
 Depth depth_of(const Placed& plane, const FineVec3& z);
 
-/// Sum of the components' magnitudes.
-double size_of(const FineVec3& v);
+bool same(const FineVec3& a, const FineVec3& b);
 
 /// Length without under- or overflow.
 double length_of(const Vec3& v);
+
+/// Sum of the components' magnitudes.
+double size_of(const FineVec3& v);
 
 }  // namespace palpate::solver::internal
