@@ -1,0 +1,61 @@
+#pragma once
+
+/// The gradient of a scan at a scale: derivative of Gaussian, in patient space (LPS), per mm.
+///
+/// At a voxel it is the slope of the plane that fits the voxels around best, each weighted by a Gaussian of its
+/// distance in mm (cut off at 3.2 sigma along each axis). On a complete neighbourhood that is the derivative of
+/// Gaussian; at the edge of the volume, beside padding and between uneven or tilted slices it stays exact on linear
+/// fields, and what lies outside has no say: there is no boundary where the data ends. Source: Knutsson and Westin,
+/// "Normalized and differential convolution", CVPR 1993.
+///
+/// One kernel serves the whole volume, a brick and a single sample, and gives the same bits in all three: every sum is
+/// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
+/// they round differently in their vectorised part, in a row's tail and from one processor to the next.
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "palpate/io/progress.h"
+#include "palpate/io/volume.h"
+
+namespace palpate::io {
+
+/// max(1.5 mm, 2 in-plane voxels, 0.6 slice spacing): mm.
+double default_gradient_scale_mm(const Geometry& geometry) noexcept;
+
+/// A box of voxels.
+struct Block {
+  glm::ivec3 first{0};
+  glm::ivec3 size{0};
+};
+
+/// Reads the volume; keeps little more than the weights of its own. Immutable, so any number of threads may use it.
+class GradientKernel {
+ public:
+  /// Throws std::invalid_argument for no volume, and for a scale that is not above 0 or reaches over more than 64
+  /// voxels.
+  GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm);
+  ~GradientKernel();
+  GradientKernel(const GradientKernel&) = delete;
+  GradientKernel& operator=(const GradientKernel&) = delete;
+
+  double scale_mm() const noexcept;
+  /// Voxels that the kernel reaches over on each side of the one it is centred on.
+  glm::ivec3 radius() const noexcept;
+
+  /// The eight voxels of a cell or fewer: writes size.x * size.y * size.z gradients, i fastest. May be called in the
+  /// tick. At most 2 voxels along each axis, all of them within the volume.
+  void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
+  /// Any block within the volume; allocates.
+  void at_block(const Block& block, std::span<glm::vec3> gradients) const;
+  /// The whole volume on `threads` threads (0: all cores): 12 bytes a voxel. Throws Cancelled.
+  std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
+
+ private:
+  struct Weights;
+  std::unique_ptr<const Weights> weights_;
+};
+
+}  // namespace palpate::io

@@ -1,0 +1,39 @@
+#pragma once
+
+/// The fields of a scan: value and gradient at any point of the patient.
+
+#include <cstddef>
+#include <memory>
+
+#include "palpate/io/field_source.h"
+#include "palpate/io/gradient.h"
+#include "palpate/io/volume.h"
+
+namespace palpate::io {
+
+/// Value: trilinear between voxel centres, exact at them, in `Volume::unit`. Gradient: trilinear between the voxels'
+/// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
+/// lies.
+///
+/// Outside: beyond the hull of the voxel centres, between slices where some are missing, and wherever a voxel that the
+/// interpolation needs is padding.
+class VolumeFields : public FieldSource {
+ public:
+  /// Prepares what the wanted fields need and no more; `scale_mm` is that of the gradient and is not read without one.
+  /// Throws std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
+  VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm);
+  ~VolumeFields() override;
+
+  FieldSet available() const noexcept override { return available_; }
+  Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept override;
+
+  /// Memory beyond the volume's own, bytes.
+  std::size_t memory_bytes() const noexcept;
+
+ private:
+  std::shared_ptr<const Volume> volume_;
+  FieldSet available_;
+  std::unique_ptr<const GradientKernel> kernel_;
+};
+
+}  // namespace palpate::io

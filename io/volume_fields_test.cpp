@@ -1,0 +1,170 @@
+#include "palpate/io/volume_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/testdata/scan.h"
+
+namespace palpate::io {
+namespace {
+
+using testdata::Grid;
+constexpr FieldSet both = FieldSet::value | FieldSet::gradient;
+
+std::shared_ptr<Volume> share(Volume volume) {
+  return std::make_shared<Volume>(std::move(volume));
+}
+
+/// value = 7 + 3 x - 2 y + 5 z at every voxel's centre.
+std::shared_ptr<Volume> linear_volume(const Grid& grid) {
+  Volume v;
+  v.geometry = testdata::make_geometry(grid);
+  std::vector<float> voxels;
+  for (int k = 0; k < v.geometry.dimensions.z; ++k) {
+    for (int j = 0; j < v.geometry.dimensions.y; ++j) {
+      for (int i = 0; i < v.geometry.dimensions.x; ++i) {
+        voxels.push_back(static_cast<float>(7 + glm::dot(Vec3(3, -2, 5), v.geometry.to_patient({i, j, k}))));
+      }
+    }
+  }
+  v.voxels = voxels;
+  return share(std::move(v));
+}
+
+Grid small() {
+  Grid grid;
+  grid.size = {17, 15, 13};
+  return grid;
+}
+
+TEST(VolumeFields, ValueIsExactAtEveryVoxelOfATiltedObliqueUnevenScan) {
+  Grid grid = small();
+  grid.spacing = {0.7, 0.9, 2.3};
+  grid.tilt_degrees = 17;
+  grid.uneven_mm = 0.5;
+  grid.missing = {5};
+  const auto volume = share(
+      testdata::scan(testdata::make_sphere(5), testdata::make_geometry(rotated(grid, {3, 1, 2}, 40)), {.noise = 50}));
+  const VolumeFields fields(volume, FieldSet::value, 0);
+  const glm::ivec3 size = volume->geometry.dimensions;
+  for (int k = 0; k < size.z; ++k) {
+    for (int j = 0; j < size.y; ++j) {
+      for (int i = 0; i < size.x; ++i) {
+        const Sample s = fields.sample(volume->geometry.to_patient({i, j, k}), FieldSet::value);
+        ASSERT_TRUE(s.inside);
+        ASSERT_EQ(s.value, volume->value_at(i, j, k));
+      }
+    }
+  }
+}
+
+TEST(VolumeFields, LinearFieldIsExactUpToTheEdgeWhateverTheGrid) {
+  Grid plain = small();
+  Grid tilted = rotated(small(), {1, 2, 3}, 50);
+  tilted.tilt_degrees = 20;
+  Grid uneven = tilted;
+  uneven.uneven_mm = 0.4;
+  uneven.missing = {4, 5};
+  Grid thick = small();
+  thick.spacing = {0.6, 0.8, 5};
+  for (const Grid& grid : {plain, tilted, uneven, thick}) {
+    const auto volume = linear_volume(grid);
+    const VolumeFields fields(volume, both, default_gradient_scale_mm(volume->geometry));
+    const Vec3 last(volume->geometry.dimensions - 1);
+    for (const Vec3& at : {Vec3(0), Vec3(1), Vec3(0.5, 0.5, 0.5), Vec3(1, 0, 0.3), Vec3(0.25, 1, 0)}) {
+      const Vec3 position = volume->geometry.to_patient(at * last);
+      const Sample s = fields.sample(position, both);
+      ASSERT_TRUE(s.inside);
+      EXPECT_NEAR(s.value, 7 + glm::dot(Vec3(3, -2, 5), position), 1e-4);
+      EXPECT_LT(glm::length(s.gradient - Vec3(3, -2, 5)), 2e-4);
+    }
+  }
+}
+
+TEST(VolumeFields, HomogeneousTissueHasNoGradientNotEvenARoundingError) {
+  const auto volume = share(testdata::scan(testdata::Phantom{1234, {}}, testdata::make_geometry(small())));
+  const VolumeFields fields(volume, both, 1.5);
+  const Sample s = fields.sample({0.3, -0.2, 0.1}, both);
+  EXPECT_EQ(s.value, 1234);
+  EXPECT_EQ(s.gradient, Vec3(0));
+  // Where the neighbourhood ends at the edge, one of single precision remains: 1e-7 of the value.
+  EXPECT_LT(glm::length(fields.sample({7, 6, 5.5}, both).gradient), 2e-4);
+}
+
+TEST(VolumeFields, NeitherTheEdgeNorPaddingNorAGapIsABoundary) {
+  Grid grid = small();
+  grid.size = {31, 31, 21};
+  grid.missing = {10, 11, 12};
+  const auto volume =
+      share(testdata::scan(testdata::Phantom{1234, {}}, testdata::make_geometry(grid), {.circle_radius = 14}));
+  const VolumeFields fields(volume, both, 2);
+  int inside = 0;
+  int outside = 0;
+  for (double x = -16; x <= 16; x += 0.87) {
+    for (double y = -16; y <= 16; y += 1.13) {
+      for (double z = -11; z <= 11; z += 0.93) {
+        const Sample s = fields.sample({x, y, z}, both);
+        if (s.inside) {
+          ++inside;
+          ASSERT_NEAR(s.value, 1234, 1e-9);
+          ASSERT_LT(glm::length(s.gradient), 0.01) << x << ' ' << y << ' ' << z;
+          ASSERT_LE(std::hypot(x, y), 14 + 1e-9);
+        } else {
+          ++outside;
+          ASSERT_EQ(s.value, 0);
+          ASSERT_EQ(s.gradient, Vec3(0));
+          // Cells that hold no voxel of padding are inside, unless slices are missing there.
+          ASSERT_TRUE(std::hypot(x, y) > 14 - 1.5 || (z > -1 && z < 3) || std::abs(z) > 10)
+              << x << ' ' << y << ' ' << z;
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 3000);
+  EXPECT_GT(outside, 3000);
+}
+
+TEST(VolumeFields, NotANumberIsPadding) {
+  auto volume = linear_volume(small());
+  std::get<std::vector<float>>(volume->voxels)[volume->offset(8, 7, 6)] = std::numeric_limits<float>::quiet_NaN();
+  const VolumeFields fields(volume, both, 1.5);
+  EXPECT_FALSE(fields.sample(volume->geometry.to_patient({7.5, 7, 6}), both).inside);
+  const Sample beside = fields.sample(volume->geometry.to_patient({7, 7, 6}), both);
+  ASSERT_TRUE(beside.inside);
+  EXPECT_LT(glm::length(beside.gradient - Vec3(3, -2, 5)), 1e-3);
+}
+
+TEST(VolumeFields, ASingleSliceHasAGradientInItsPlane) {
+  Grid grid = small();
+  grid.size.z = 1;
+  const auto volume = linear_volume(grid);
+  const VolumeFields fields(volume, both, 1.5);
+  const Sample s = fields.sample(volume->geometry.to_patient({8.3, 7.1, 0}), both);
+  ASSERT_TRUE(s.inside);
+  EXPECT_LT(glm::length(s.gradient - Vec3(3, -2, 0)), 1e-3);
+}
+
+TEST(VolumeFields, GivesAndPreparesOnlyWhatIsWanted) {
+  const auto volume = linear_volume(small());
+  const VolumeFields value_only(volume, FieldSet::value, -1);
+  EXPECT_EQ(value_only.available(), FieldSet::value);
+  EXPECT_EQ(value_only.sample({0, 0, 0}, both).gradient, Vec3(0));
+  EXPECT_EQ(value_only.memory_bytes(), 0U);
+  const VolumeFields fields(volume, both, 1.5);
+  EXPECT_EQ(fields.sample({0, 0, 0}, FieldSet::gradient).value, 0);
+}
+
+TEST(VolumeFields, RefusesWhatItCannotGive) {
+  const auto volume = linear_volume(small());
+  EXPECT_THROW(VolumeFields(nullptr, both, 2), std::invalid_argument);
+  EXPECT_THROW(VolumeFields(volume, both, 0), std::invalid_argument);
+  EXPECT_THROW(VolumeFields(volume, both, 1000), std::invalid_argument);
+  EXPECT_THROW(VolumeFields(volume, FieldSet::vector, 2), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate::io
