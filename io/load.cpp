@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <mutex>
+#include <numeric>
+#include <optional>
 #include <span>
+#include <tuple>
+#include <type_traits>
 
 #include "palpate/io/errors.h"
 #include "palpate/io/internal/parallel.h"
@@ -59,10 +64,8 @@ Volume::Voxels allocate(Storage storage, std::size_t count) {
 // Padding of a volume of floats: far below any value, so that one range holds for slices of any rescale.
 constexpr float float_padding = std::numeric_limits<float>::lowest();
 
-void rescale(const SeriesSource& source, const SeriesSource::Slice& slice, std::span<const std::uint16_t> stored,
+void rescale(const internal::FileHeader& file, const internal::Plane& plane, std::span<const std::uint16_t> stored,
              std::span<float> values) {
-  const internal::FileHeader& file = source.file_of(slice);
-  const internal::Plane& plane = source.plane_of(slice);
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const double v = file.format.is_signed ? static_cast<std::int16_t>(stored[i]) : stored[i];
     const bool padded = file.padding && v >= file.padding->first && v <= file.padding->second;
@@ -70,23 +73,90 @@ void rescale(const SeriesSource& source, const SeriesSource::Slice& slice, std::
   }
 }
 
-void read_slice(const SeriesSource& source, const SeriesSource::Slice& slice, std::size_t size, std::size_t at,
-                Volume::Voxels& voxels) {
+// Stored values of a slice -> its place in the volume, rescaled where the volume is of floats.
+void place_slice(const SeriesSource& source, const SeriesSource::Slice& slice, std::span<const std::uint16_t> frame,
+                 std::size_t at, Volume::Voxels& voxels) {
   const internal::FileHeader& file = source.file_of(slice);
-  const std::uint32_t frame = source.plane_of(slice).frame;
-  if (auto* floats = std::get_if<std::vector<float>>(&voxels)) {
-    std::vector<std::uint16_t> stored(size);
-    internal::read_stored_values(file, frame, stored);
-    rescale(source, slice, stored, std::span(*floats).subspan(at, size));
-    return;
+  const internal::Plane& plane = source.plane_of(slice);
+  const auto columns = static_cast<std::size_t>(file.columns);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(file.rows); ++row) {
+    const auto stored = frame.subspan(
+        (plane.tile_row + row) * static_cast<std::size_t>(file.format.columns) + plane.tile_column, columns);
+    std::visit(
+        [&](auto& v) {
+          const auto target = std::span(v).subspan(at + row * columns, columns);
+          if constexpr (std::is_same_v<std::decay_t<decltype(v[0])>, float>) {
+            rescale(file, plane, stored, target);
+          } else {
+            std::memcpy(target.data(), stored.data(), target.size_bytes());
+          }
+        },
+        voxels);
   }
-  std::visit(
-      [&](auto& v) {
-        if constexpr (sizeof(v[0]) == 2) {  // signed and unsigned shorts may alias
-          internal::read_stored_values(file, frame, {reinterpret_cast<std::uint16_t*>(v.data() + at), size});
-        }
+}
+
+// Where a whole frame is one slice of 16-bit voxels, it is decoded in place.
+std::span<std::uint16_t> in_place(const internal::FileHeader& file, std::size_t at, Volume::Voxels& voxels) {
+  if (file.columns != file.format.columns || file.rows != file.format.rows) return {};
+  return std::visit(
+      [&](auto& v) -> std::span<std::uint16_t> {
+        if constexpr (sizeof(v[0]) != 2) return {};
+        const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
+        return {reinterpret_cast<std::uint16_t*>(v.data() + at), size};  // signed and unsigned shorts may alias
       },
       voxels);
+}
+
+// Slices that come from one file, by frame: the file is opened once and a mosaic is decoded once.
+struct Unit {
+  std::vector<std::size_t> slices;  // indices into the frame's slices
+};
+
+std::vector<Unit> units_of(const SeriesSource& source, const Slices& slices) {
+  constexpr std::size_t most = 16;  // slices a unit, so that all cores share a multi-frame file
+  std::vector<std::size_t> order(slices.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(slices[a].file, slices[a].plane) < std::tuple(slices[b].file, slices[b].plane);
+  });
+  std::vector<Unit> units;
+  for (const std::size_t k : order) {
+    const bool same_file = !units.empty() && slices[units.back().slices.front()].file == slices[k].file;
+    const bool same_frame =
+        same_file && source.plane_of(slices[units.back().slices.back()]).frame == source.plane_of(slices[k]).frame;
+    if (!same_frame && !(same_file && units.back().slices.size() < most)) units.emplace_back();
+    units.back().slices.push_back(k);
+  }
+  return units;
+}
+
+// Reads a unit's slices; failed(k, reason) for those that cannot be read.
+void read_unit(const SeriesSource& source, const Slices& slices, const Unit& unit, Volume::Voxels& voxels,
+               const std::function<void(std::size_t, const char*)>& failed) {
+  const internal::FileHeader& file = source.file_of(slices[unit.slices.front()]);
+  const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
+  std::optional<internal::PixelReader> reader;
+  std::vector<std::uint16_t> frame;
+  std::optional<std::uint32_t> held;
+  for (const std::size_t k : unit.slices) {
+    try {
+      if (!reader) reader.emplace(file);
+      const std::uint32_t wanted = source.plane_of(slices[k]).frame;
+      if (const auto target = in_place(file, k * size, voxels); !target.empty()) {
+        reader->read(wanted, target);
+        continue;
+      }
+      if (held != wanted) {
+        held.reset();
+        frame.resize(static_cast<std::size_t>(file.format.columns) * static_cast<std::size_t>(file.format.rows));
+        reader->read(wanted, frame);
+        held = wanted;
+      }
+      place_slice(source, slices[k], frame, k * size, voxels);
+    } catch (const std::exception& error) {
+      failed(k, error.what());
+    }
+  }
 }
 
 // A slice that turned out to be unreadable: the later ones move down.
@@ -116,7 +186,7 @@ Volume load(const Series& series, const LoadOptions& options) {
   const SeriesSource::Frame& frame = source.frames[static_cast<std::size_t>(options.frame)];
   const Slices& slices = frame.slices;
   const internal::FileHeader& first = source.file_of(slices.front());
-  const std::size_t size = static_cast<std::size_t>(first.format.columns) * static_cast<std::size_t>(first.format.rows);
+  const std::size_t size = static_cast<std::size_t>(first.columns) * static_cast<std::size_t>(first.rows);
 
   Volume volume;
   volume.unit = series.unit;
@@ -140,23 +210,20 @@ Volume load(const Series& series, const LoadOptions& options) {
 
   std::vector<std::size_t> failed;
   std::mutex failed_mutex;
+  const auto note_failure = [&](std::size_t k, const char* why) {
+    const std::lock_guard lock(failed_mutex);
+    failed.push_back(k);
+    volume.warnings.push_back(source.file_of(slices[k]).path.filename().string() + " is left out: " + why);
+  };
+  const std::vector<Unit> units = units_of(source, slices);
   internal::parallel_for(
-      slices.size(),
-      [&](std::size_t k) {
-        try {
-          read_slice(source, slices[k], size, k * size, volume.voxels);
-        } catch (const std::exception& error) {
-          const std::lock_guard lock(failed_mutex);
-          failed.push_back(k);
-          volume.warnings.push_back(source.file_of(slices[k]).path.string() + ": " + error.what() +
-                                    "; its slice is left out");
-        }
-      },
+      units.size(), [&](std::size_t u) { read_unit(source, slices, units[u], volume.voxels, note_failure); },
       options.progress, options.threads);
   if (failed.size() == slices.size()) throw DicomError(name_of(series) + " cannot be read: " + volume.warnings.front());
 
   std::sort(failed.begin(), failed.end());
   std::sort(volume.warnings.begin(), volume.warnings.end());
+  volume.warnings.erase(std::unique(volume.warnings.begin(), volume.warnings.end()), volume.warnings.end());
   drop_slices(failed, size, volume.voxels);
 
   std::vector<Vec3> positions;
@@ -165,9 +232,8 @@ Volume load(const Series& series, const LoadOptions& options) {
     const bool is_lost = std::binary_search(failed.begin(), failed.end(), k);
     (is_lost ? lost : positions).push_back(source.plane_of(slices[k]).placement->position);
   }
-  volume.geometry =
-      internal::stack_geometry(first.format.columns, first.format.rows, *source.plane_of(slices.front()).placement,
-                               std::move(positions), lost, first.thickness);
+  volume.geometry = internal::stack_geometry(first.columns, first.rows, *source.plane_of(slices.front()).placement,
+                                             std::move(positions), lost, first.thickness);
   return volume;
 }
 

@@ -16,7 +16,9 @@
 #include <glm/geometric.hpp>
 
 #include "palpate/io/errors.h"
+#include "palpate/io/internal/decode.h"
 #include "palpate/io/internal/dicom_value.h"
+#include "palpate/io/internal/planes.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -39,14 +41,6 @@ void refuse_foreign(const std::filesystem::path& path, std::uint64_t size) {
   if (size < 132 || !((little && (vr || short_value)) || (big && vr))) throw DicomError("not a DICOM file");
 }
 
-std::optional<Placement> placement_of(DcmItem& item) {
-  const auto position = numbers_of(item, DCM_ImagePositionPatient);
-  const auto orientation = numbers_of(item, DCM_ImageOrientationPatient);
-  const auto spacing = numbers_of(item, DCM_PixelSpacing);
-  if (position.size() != 3 || orientation.size() != 6 || spacing.size() != 2) return std::nullopt;
-  return make_placement(position, orientation, spacing);
-}
-
 void read_identity(DcmItem& item, FileHeader& header) {
   const std::string characters = text_of(item, DCM_SpecificCharacterSet);
   header.sop_class = text_of(item, DCM_SOPClassUID);
@@ -60,6 +54,8 @@ void read_identity(DcmItem& item, FileHeader& header) {
   header.identity.patient_id = utf8_of(text_of(item, DCM_PatientID), characters);
   header.identity.study_date = text_of(item, DCM_StudyDate);
   header.instance_number = number_of(item, DCM_InstanceNumber).value_or(0);
+  header.acquired = text_of(item, DCM_AcquisitionDate) + text_of(item, DCM_AcquisitionTime) + ' ' +
+                    text_of(item, DCM_ContentDate) + text_of(item, DCM_ContentTime);
   header.thickness = number_of(item, DCM_SliceThickness).value_or(0);
 }
 
@@ -81,6 +77,9 @@ void read_format(DcmItem& item, FileHeader& header) {
   format.is_signed = whole(DCM_PixelRepresentation, 0) == 1;
   if (format.columns < 1 || format.rows < 1) throw DicomError(what_it_is(header) + ": no image in it");
 
+  header.columns = format.columns;
+  header.rows = format.rows;
+
   const std::string photometric = text_of(item, DCM_PhotometricInterpretation);
   if (whole(DCM_SamplesPerPixel, 1) != 1 || (photometric != "MONOCHROME1" && photometric != "MONOCHROME2")) {
     header.unfit = "colour image (" + photometric + "): it has no values to feel";
@@ -91,35 +90,86 @@ void read_format(DcmItem& item, FileHeader& header) {
   }
 }
 
-void read_values(DcmItem& item, FileHeader& header, Plane& plane) {
-  plane.slope = number_of(item, DCM_RescaleSlope).value_or(1);
-  plane.intercept = number_of(item, DCM_RescaleIntercept).value_or(0);
-  const std::string type = text_of(item, DCM_RescaleType);
-  if (header.modality == "CT" && (type.empty() || type == "HU")) header.unit = "HU";
-
+// What lies outside the patient's image. MR scanners write 0 here although 0 is also what air reads: taken for padding,
+// it would hide the skin.
+std::optional<std::pair<double, double>> padding_of(DcmItem& item, const FileHeader& header) {
   const auto signed_value = [&](double v) { return header.format.is_signed && v > 32767 ? v - 65536 : v; };
-  if (const auto padding = number_of(item, DCM_PixelPaddingValue)) {
-    const auto limit = number_of(item, DCM_PixelPaddingRangeLimit).value_or(*padding);
-    header.padding = std::minmax(signed_value(*padding), signed_value(limit));
+  const auto value = number_of(item, DCM_PixelPaddingValue);
+  if (!value || (header.modality != "CT" && *value == 0)) return std::nullopt;
+  const double limit = number_of(item, DCM_PixelPaddingRangeLimit).value_or(*value);
+  return std::minmax(signed_value(*value), signed_value(limit));
+}
+
+void read_planes(DcmItem& item, FileHeader& header) {
+  const double frames = number_of(item, DCM_NumberOfFrames).value_or(1);
+  header.padding = padding_of(item, header);
+  header.unit = unit_of(header.modality, text_of(item, DCM_RescaleType));
+  if (first_item(item, DCM_ModalityLUTSequence) != nullptr && header.unfit.empty()) {
+    header.unfit = "its values need a modality look-up table, which is not applied here";
+  }
+  if (first_item(item, DCM_PerFrameFunctionalGroupsSequence) != nullptr) {
+    header.planes = functional_group_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
+  } else if (header.image_type.find("MOSAIC") != std::string::npos) {
+    header.planes = mosaic_planes(item, header);
+    if (header.planes.empty() && header.unfit.empty()) {
+      header.unfit = "Siemens mosaic without the private header that says how to take it apart";
+    }
+  } else {
+    header.planes.push_back(classic_plane(item, header));
+    if (frames > 1 && header.unfit.empty()) header.unfit = "several frames without a position for each";
+  }
+  const bool placed =
+      std::any_of(header.planes.begin(), header.planes.end(), [](const Plane& p) { return p.placement; });
+  if (!placed && header.unfit.empty()) {
+    header.unfit = "no position in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing)";
   }
 }
 
 // The bytes just before the pixel data's value: its tag, VR and length. DCMTK stops right behind them.
-void check_length(const std::filesystem::path& path, std::uint64_t size, const DcmXfer& syntax, std::size_t frames,
-                  FileHeader& header) {
-  std::array<unsigned char, 4> bytes{};
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(header.pixels_at) - 4);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), 4)) {
-    header.defect = "truncated before its pixels";
-    return;
-  }
-  if (syntax.getByteOrder() == EBO_BigEndian) std::reverse(bytes.begin(), bytes.end());
-  const std::uint64_t claimed = bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint64_t>(bytes[3]) << 24;
-  const std::uint64_t present = std::min(claimed, size - std::min(size, header.pixels_at));
+void check_native_length(const InputFile& file, std::size_t frames, bool explicit_vr, FileHeader& header) {
+  std::array<std::byte, 12> head{};
+  file.read(header.pixels_at - head.size(), head);
+  const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(head[i]); };
+  const std::size_t tag_at = explicit_vr ? 0 : 4;
+  const unsigned group =
+      header.big_endian ? byte(tag_at) << 8 | byte(tag_at + 1) : byte(tag_at + 1) << 8 | byte(tag_at);
+  if (group != 0x7FE0) throw DicomError(what_it_is(header) + ": no pixels in it");
+  header.swapped_words = header.big_endian && header.format.bits_allocated == 8 && byte(4) == 'O' && byte(5) == 'W';
+
+  std::array<std::byte, 4> length{head[8], head[9], head[10], head[11]};
+  if (header.big_endian) std::reverse(length.begin(), length.end());
+  std::uint64_t claimed = 0;
+  for (std::size_t i = 4; i-- > 0;) claimed = claimed << 8 | std::to_integer<unsigned>(length[i]);
+  const std::uint64_t present = std::min(claimed, file.size() - header.pixels_at);
   const std::uint64_t needed = header.format.bytes_per_frame() * frames;
   if (present < needed) {
     header.defect = "truncated: " + std::to_string(present) + " of " + std::to_string(needed) + " bytes of pixels";
+  }
+}
+
+void locate_pixels(const std::filesystem::path& path, const DcmXfer& syntax, FileHeader& header) {
+  std::size_t frames = 1;
+  for (const Plane& plane : header.planes) frames = std::max<std::size_t>(frames, plane.frame + 1);
+  const InputFile file(path);
+  header.big_endian = syntax.getByteOrder() == EBO_BigEndian;
+  try {
+    if (syntax.isEncapsulated()) {
+      header.coding = PixelCoding::encapsulated;
+      if (!can_decode(header.transfer_syntax)) {
+        if (header.unfit.empty())
+          header.unfit = std::string("its compression is unknown here: ") + syntax.getXferName();
+        return;
+      }
+      header.fragments = find_fragments(file, header.pixels_at, frames);
+      check_density(header.transfer_syntax, header.format, frames, file.size());
+    } else if (syntax.getStreamCompression() != ESC_none) {
+      header.coding = PixelCoding::deflated;
+      check_density(header.transfer_syntax, header.format, frames, file.size());
+    } else {
+      check_native_length(file, frames, syntax.isExplicitVR(), header);
+    }
+  } catch (const DicomError& error) {
+    header.defect = error.what();
   }
 }
 
@@ -127,6 +177,7 @@ void check_length(const std::filesystem::path& path, std::uint64_t size, const D
 
 std::optional<Placement> make_placement(const std::vector<double>& position, const std::vector<double>& orientation,
                                         const std::vector<double>& spacing) {
+  if (position.size() < 3 || orientation.size() < 6 || spacing.size() < 2) return std::nullopt;
   Placement place;
   place.position = {position[0], position[1], position[2]};
   place.direction_i = {orientation[0], orientation[1], orientation[2]};
@@ -169,18 +220,8 @@ FileHeader read_file_header(const std::filesystem::path& path) {
   header.transfer_syntax = syntax.getXferID();
   header.pixels_at = static_cast<std::uint64_t>(stream.tell());
 
-  const double frames = number_of(dataset, DCM_NumberOfFrames).value_or(1);
-  if (frames != 1) header.unfit = "several frames in one file";
-  Plane plane;
-  plane.placement = placement_of(dataset);
-  if (header.unfit.empty() && !plane.placement) header.unfit = "no position in the patient";
-  read_values(dataset, header, plane);
-  header.planes.push_back(plane);
-  if (syntax.isEncapsulated() || syntax.getStreamCompression() != ESC_none) {
-    header.unfit = std::string("compressed: ") + syntax.getXferName();
-  } else {
-    check_length(path, size, syntax, header.planes.size(), header);
-  }
+  read_planes(dataset, header);
+  locate_pixels(path, syntax, header);
   return header;
 }
 

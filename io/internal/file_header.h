@@ -2,6 +2,7 @@
 
 /// What one file's header says, as far as grouping, placing and decoding its images needs it.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "palpate/io/geometry.h"
+#include "palpate/io/internal/fragments.h"
 #include "palpate/io/series.h"
 
 namespace palpate::io::internal {
@@ -27,29 +29,46 @@ struct Placement {
 std::optional<Placement> make_placement(const std::vector<double>& position, const std::vector<double>& orientation,
                                         const std::vector<double>& spacing);
 
+/// What may tell apart images at one position, the most telling first.
+enum class Label {
+  image_type,
+  echo_time,
+  b_value,
+  diffusion_direction,
+  velocity_encoding,
+  time_point,
+  trigger_time,
+  acquisition
+};
+constexpr std::size_t label_count = 8;
+/// One text a label, numbers as text; empty where unknown.
+using Labels = std::array<std::string, label_count>;
+
 /// One image: a file, or a frame of a multi-frame file, or a tile of a mosaic.
 struct Plane {
-  std::uint32_t frame = 0;  ///< in the file's pixel data, from 0
-  std::uint32_t tile = 0;   ///< in the mosaic, from 0
+  std::uint32_t frame = 0;                      ///< in the file's pixel data, from 0
+  std::uint32_t tile_column = 0, tile_row = 0;  ///< first pixel of the tile in the frame
   std::optional<Placement> placement;
   double slope = 1;  ///< RescaleSlope
   double intercept = 0;
+  Labels labels;
 };
 
 struct PixelFormat {
-  int columns = 0;  ///< of one image as stored (a whole mosaic)
+  int columns = 0;  ///< of a frame as stored (all of a mosaic)
   int rows = 0;
   int bits_allocated = 16;
   int bits_stored = 16;
   int high_bit = 15;
   bool is_signed = false;
 
-  bool operator==(const PixelFormat&) const = default;
   std::size_t bytes_per_frame() const {
     return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
            static_cast<std::size_t>(bits_allocated / 8);
   }
 };
+
+enum class PixelCoding { native, deflated, encapsulated };
 
 struct FileHeader {
   std::filesystem::path path;
@@ -64,13 +83,21 @@ struct FileHeader {
   std::string unit;
   Series::Identity identity;
   double instance_number = 0;
+  std::string acquired;  ///< date and time of the acquisition and of the content, only to be compared
   double thickness = 0;  ///< SliceThickness, mm; 0 where unknown
 
   PixelFormat format;
+  int columns = 0;  ///< of one image (of a tile of a mosaic)
+  int rows = 0;
   std::optional<std::pair<double, double>> padding;  ///< stored values, both ends included
-  std::uint64_t pixels_at = 0;                       ///< where the pixel data's value starts in the file
-  std::vector<Plane> planes;
 
+  PixelCoding coding = PixelCoding::native;
+  bool big_endian = false;
+  bool swapped_words = false;                    ///< 8-bit pixels in big-endian 16-bit words
+  std::uint64_t pixels_at = 0;                   ///< where the pixel data's value starts in the file
+  std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
+
+  std::vector<Plane> planes;
   std::string unfit;   ///< why its images cannot be part of a volume (colour, no position); empty where they can
   std::string defect;  ///< why its pixels cannot be read (truncated); empty where they can
 };

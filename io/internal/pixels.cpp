@@ -1,40 +1,19 @@
 #include "palpate/io/internal/pixels.h"
 
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dcuid.h>
-#include <dcmtk/dcmdata/dcxfer.h>
-#include <fcntl.h>
-#include <unistd.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcfilefo.h>
+#include <dcmtk/dcmdata/dcistrmf.h>
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
 #include "palpate/io/errors.h"
+#include "palpate/io/internal/decode.h"
 
 namespace palpate::io::internal {
 namespace {
-
-class OpenFile {
- public:
-  explicit OpenFile(const std::filesystem::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (descriptor_ < 0) throw DicomError("cannot be opened: check that it still exists and may be read");
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  ~OpenFile() { ::close(descriptor_); }
-
-  void read(std::uint64_t at, std::span<std::byte> into) const {
-    while (!into.empty()) {
-      const ssize_t got = ::pread(descriptor_, into.data(), into.size(), static_cast<off_t>(at));
-      if (got <= 0) throw DicomError("truncated: its pixels end early");
-      at += static_cast<std::uint64_t>(got);
-      into = into.subspan(static_cast<std::size_t>(got));
-    }
-  }
-
- private:
-  int descriptor_;
-};
 
 void swap_bytes(std::span<std::uint16_t> values) {
   for (auto& v : values) v = static_cast<std::uint16_t>(v << 8 | v >> 8);
@@ -44,37 +23,70 @@ void swap_bytes(std::span<std::uint16_t> values) {
 void clean_bits(const PixelFormat& format, std::span<std::uint16_t> values) {
   if (format.bits_stored == 16) return;
   const int above = 15 - format.high_bit;
-  const int total = 16 - format.bits_stored;
+  const int unused = 16 - format.bits_stored;
   if (format.is_signed) {
     for (auto& v : values) {
-      const auto top = static_cast<std::int16_t>(static_cast<std::uint16_t>(v << above));
-      v = static_cast<std::uint16_t>(top >> total);
+      v = static_cast<std::uint16_t>(static_cast<std::int16_t>(static_cast<std::uint16_t>(v << above)) >> unused);
     }
   } else {
-    for (auto& v : values) v = static_cast<std::uint16_t>(static_cast<std::uint16_t>(v << above) >> total);
+    for (auto& v : values) v = static_cast<std::uint16_t>(static_cast<std::uint16_t>(v << above) >> unused);
   }
 }
 
-void read_native(const FileHeader& header, std::uint32_t frame, std::span<std::uint16_t> values) {
-  const std::size_t frame_bytes = header.format.bytes_per_frame();
-  const std::uint64_t at = header.pixels_at + frame * frame_bytes;
-  const OpenFile file(header.path);
-  if (header.format.bits_allocated == 8) {
-    std::vector<std::uint8_t> bytes(frame_bytes);
-    file.read(at, std::as_writable_bytes(std::span(bytes)));
-    std::copy(bytes.begin(), bytes.end(), values.begin());
-    return;
+// Parses the header once more and goes on reading where DCMTK stopped, through its inflating filter: memory stays
+// bounded by what is asked for.
+void read_deflated(const FileHeader& header, std::uint64_t offset, std::span<std::byte> bytes) {
+  DcmFileFormat file;
+  DcmInputFileStream stream(OFFilename(header.path.c_str()));
+  file.transferInit();
+  const OFCondition read = file.readUntilTag(stream, EXS_Unknown, EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
+  file.transferEnd();
+  std::vector<char> passed(std::min<std::uint64_t>(offset, 1U << 16));
+  bool complete = read.good();
+  while (complete && offset > 0) {
+    const auto step = static_cast<offile_off_t>(std::min<std::uint64_t>(offset, passed.size()));
+    complete = stream.read(passed.data(), step) == step;
+    offset -= static_cast<std::uint64_t>(step);
   }
-  file.read(at, std::as_writable_bytes(values));
-  const bool big = header.transfer_syntax == UID_BigEndianExplicitTransferSyntax;
-  if (big != (std::endian::native == std::endian::big)) swap_bytes(values);
+  while (complete && !bytes.empty()) {
+    const offile_off_t got = stream.read(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+    complete = got > 0;
+    if (complete) bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  if (!complete) throw DicomError("truncated: its compressed pixels end early");
+}
+
+void read_uncompressed(const FileHeader& header, const InputFile& file, std::uint64_t offset,
+                       std::span<std::byte> bytes) {
+  if (header.coding == PixelCoding::deflated) {
+    read_deflated(header, offset, bytes);
+  } else {
+    file.read(header.pixels_at + offset, bytes);
+  }
 }
 
 }  // namespace
 
-void read_stored_values(const FileHeader& header, std::uint32_t frame, std::span<std::uint16_t> values) {
-  read_native(header, frame, values);
-  clean_bits(header.format, values);
+PixelReader::PixelReader(const FileHeader& header) : header_(header), file_(header.path) {}
+
+void PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) const {
+  const PixelFormat& format = header_.format;
+  const std::size_t frame_bytes = format.bytes_per_frame();
+  if (header_.coding == PixelCoding::encapsulated) {
+    decode_frame(header_.transfer_syntax, format, read_fragments(file_, header_.fragments.at(frame)), values);
+  } else if (format.bits_allocated == 16) {
+    read_uncompressed(header_, file_, frame * frame_bytes, std::as_writable_bytes(values));
+    if (header_.big_endian != (std::endian::native == std::endian::big)) swap_bytes(values);
+  } else {
+    // 8-bit pixels in 16-bit words: big-endian files hold the second pixel first, and a word may straddle two frames.
+    const std::uint64_t start = frame * frame_bytes;
+    const std::uint64_t lead = header_.swapped_words ? start % 2 : 0;
+    std::vector<std::uint8_t> bytes(lead + frame_bytes + (header_.swapped_words ? (lead + frame_bytes) % 2 : 0));
+    read_uncompressed(header_, file_, start - lead, std::as_writable_bytes(std::span(bytes)));
+    for (std::size_t i = 0; header_.swapped_words && i + 1 < bytes.size(); i += 2) std::swap(bytes[i], bytes[i + 1]);
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(lead), values.size(), values.begin());
+  }
+  clean_bits(format, values);
 }
 
 }  // namespace palpate::io::internal

@@ -1,15 +1,28 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "palpate/io/internal/file_header.h"
+#include "palpate/io/internal/input_file.h"
 
 namespace palpate::io::internal {
 
-/// The stored values of one frame of a file, rows * columns of them, sign and bits as PixelFormat says (bits above
-/// HighBit and below BitsStored, such as overlays, are removed). A signed value is to be read as int16. Throws
-/// DicomError with a reason that does not name the file.
-void read_stored_values(const FileHeader& header, std::uint32_t frame, std::span<std::uint16_t> values);
+/// Reads frames out of one file. Keeps the file open; one thread at a time.
+class PixelReader {
+ public:
+  /// `header` has to live as long as the reader. Throws DicomError where the file cannot be opened.
+  explicit PixelReader(const FileHeader& header);
+
+  /// The stored values of a frame as the file holds it (all of a mosaic), rows * columns of them, sign extended; bits
+  /// outside BitsStored, such as overlays, are removed. Signed ones are to be read as int16. Throws DicomError with a
+  /// reason that does not name the file.
+  void read(std::uint32_t frame, std::span<std::uint16_t> values) const;
+
+ private:
+  const FileHeader& header_;
+  InputFile file_;
+};
 
 }  // namespace palpate::io::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "palpate/io/internal/file_header.h"
@@ -18,11 +19,11 @@ struct SeriesSource {
     std::vector<Vec3> lost;     ///< positions (mm) of slices known to exist that cannot be read
   };
 
-  std::vector<internal::FileHeader> files;
+  std::shared_ptr<const std::vector<internal::FileHeader>> files;  ///< shared by all series of one UID
   std::vector<Frame> frames;
 
-  const internal::FileHeader& file_of(const Slice& slice) const { return files[slice.file]; }
-  const internal::Plane& plane_of(const Slice& slice) const { return files[slice.file].planes[slice.plane]; }
+  const internal::FileHeader& file_of(const Slice& slice) const { return (*files)[slice.file]; }
+  const internal::Plane& plane_of(const Slice& slice) const { return file_of(slice).planes[slice.plane]; }
 };
 
 }  // namespace palpate::io

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace palpate::io::internal {
+
+/// A file open for reading at any place, closed with its owner. Safe to read from several threads.
+class InputFile {
+ public:
+  /// Throws DicomError where it cannot be opened.
+  explicit InputFile(const std::filesystem::path& path);
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  std::uint64_t size() const { return size_; }
+  /// Fills all of `into`; throws DicomError where the file ends before that.
+  void read(std::uint64_t at, std::span<std::byte> into) const;
+
+ private:
+  int descriptor_;
+  std::uint64_t size_;
+};
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,124 @@
+#include "palpate/io/internal/planes.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcitem.h>
+#include <dcmtk/dcmdata/dcsequen.h>
+
+#include <charconv>
+
+#include "palpate/io/internal/dicom_value.h"
+
+namespace palpate::io::internal {
+namespace {
+
+std::string label_of(std::optional<double> value) {
+  if (!value) return {};
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), *value).ptr};
+}
+
+std::string& at(Labels& labels, Label label) {
+  return labels[static_cast<std::size_t>(label)];
+}
+
+// Looks into a frame's own functional groups first, then into the shared ones.
+class FunctionalGroups {
+ public:
+  FunctionalGroups(DcmItem& own, DcmItem* shared) : own_(own), shared_(shared) {}
+
+  DcmItem* group(const DcmTagKey& sequence) const {
+    DcmItem* found = first_item(own_, sequence);
+    return found != nullptr || shared_ == nullptr ? found : first_item(*shared_, sequence);
+  }
+  std::vector<double> numbers(const DcmTagKey& sequence, const DcmTagKey& tag) const {
+    DcmItem* item = group(sequence);
+    return item != nullptr ? numbers_of(*item, tag) : std::vector<double>();
+  }
+  std::optional<double> number(const DcmTagKey& sequence, const DcmTagKey& tag) const {
+    const auto values = numbers(sequence, tag);
+    return values.empty() ? std::nullopt : std::optional(values.front());
+  }
+  std::string text(const DcmTagKey& sequence, const DcmTagKey& tag) const {
+    DcmItem* item = group(sequence);
+    return item != nullptr ? text_of(*item, tag) : std::string();
+  }
+
+ private:
+  DcmItem& own_;
+  DcmItem* shared_;
+};
+
+Labels labels_of(const FunctionalGroups& groups) {
+  Labels labels;
+  for (const DcmTagKey& sequence : {DCM_MRImageFrameTypeSequence, DCM_CTImageFrameTypeSequence}) {
+    at(labels, Label::image_type) +=
+        groups.text(sequence, DCM_FrameType) + groups.text(sequence, DCM_ComplexImageComponent);
+  }
+  at(labels, Label::echo_time) = label_of(groups.number(DCM_MREchoSequence, DCM_EffectiveEchoTime));
+  at(labels, Label::b_value) = label_of(groups.number(DCM_MRDiffusionSequence, DCM_DiffusionBValue));
+  if (DcmItem* diffusion = groups.group(DCM_MRDiffusionSequence)) {
+    if (DcmItem* direction = first_item(*diffusion, DCM_DiffusionGradientDirectionSequence)) {
+      at(labels, Label::diffusion_direction) = text_of(*direction, DCM_DiffusionGradientOrientation);
+    }
+  }
+  at(labels, Label::velocity_encoding) = groups.text(DCM_MRVelocityEncodingSequence, DCM_VelocityEncodingDirection);
+  at(labels, Label::time_point) = label_of(groups.number(DCM_FrameContentSequence, DCM_TemporalPositionIndex));
+  at(labels, Label::trigger_time) =
+      label_of(groups.number(DCM_CardiacSynchronizationSequence, DCM_NominalCardiacTriggerDelayTime));
+  return labels;
+}
+
+Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame) {
+  Plane plane;
+  plane.frame = frame;
+  plane.placement = make_placement(groups.numbers(DCM_PlanePositionSequence, DCM_ImagePositionPatient),
+                                   groups.numbers(DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient),
+                                   groups.numbers(DCM_PixelMeasuresSequence, DCM_PixelSpacing));
+  plane.slope = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleSlope).value_or(1);
+  plane.intercept = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleIntercept).value_or(0);
+  plane.labels = labels_of(groups);
+  return plane;
+}
+
+}  // namespace
+
+std::string unit_of(const std::string& modality, const std::string& rescale_type) {
+  return modality == "CT" && (rescale_type.empty() || rescale_type == "HU") ? "HU" : "";
+}
+
+Plane classic_plane(DcmItem& dataset, const FileHeader& header) {
+  Plane plane;
+  plane.placement =
+      make_placement(numbers_of(dataset, DCM_ImagePositionPatient), numbers_of(dataset, DCM_ImageOrientationPatient),
+                     numbers_of(dataset, DCM_PixelSpacing));
+  plane.slope = number_of(dataset, DCM_RescaleSlope).value_or(1);
+  plane.intercept = number_of(dataset, DCM_RescaleIntercept).value_or(0);
+  at(plane.labels, Label::image_type) = header.image_type;
+  at(plane.labels, Label::echo_time) = label_of(number_of(dataset, DCM_EchoTime));
+  at(plane.labels, Label::b_value) = label_of(number_of(dataset, DCM_DiffusionBValue));
+  at(plane.labels, Label::diffusion_direction) = text_of(dataset, DCM_DiffusionGradientOrientation);
+  at(plane.labels, Label::time_point) = label_of(number_of(dataset, DCM_TemporalPositionIdentifier));
+  at(plane.labels, Label::trigger_time) = label_of(number_of(dataset, DCM_TriggerTime));
+  at(plane.labels, Label::acquisition) = label_of(number_of(dataset, DCM_AcquisitionNumber));
+  return plane;
+}
+
+std::vector<Plane> functional_group_planes(DcmItem& dataset, const FileHeader& header, std::size_t frames) {
+  std::vector<Plane> planes;
+  DcmSequenceOfItems* per_frame = nullptr;
+  if (dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, per_frame).bad()) return planes;
+  DcmItem* const shared = first_item(dataset, DCM_SharedFunctionalGroupsSequence);
+  DcmObject* object = nullptr;
+  // Not by index: that walks the list from its start for every frame.
+  while (planes.size() < frames && (object = per_frame->nextInContainer(object)) != nullptr) {
+    auto* own = dynamic_cast<DcmItem*>(object);
+    if (own == nullptr) break;
+    planes.push_back(plane_of(FunctionalGroups(*own, shared), static_cast<std::uint32_t>(planes.size())));
+    std::string& type = at(planes.back().labels, Label::image_type);
+    if (type.empty()) type = header.image_type;
+  }
+  return planes;
+}
+
+}  // namespace palpate::io::internal
