@@ -9,37 +9,52 @@
 namespace palpate::modes {
 namespace {
 
-/// Signed step along uphill from the proxy to the anchor, mm.
-double correction_mm(const io::Sample& sample, double slope, const Vec3& uphill, const Vec3& moved_mm,
-                     double held_value) {
-  const double by_direction = -0.5 * glm::dot(moved_mm, uphill);
-  const double by_value =
-      std::clamp((held_value - sample.value) / slope, -defaults::anchor_reach_mm, defaults::anchor_reach_mm);
-  const double weight = -std::expm1(-glm::length(moved_mm) / defaults::anchor_length_mm);
-  const double step = by_direction + weight * (by_value - by_direction);
-  return std::clamp(step, -defaults::anchor_step_mm, defaults::anchor_step_mm);
-}
+// Below this a gradient has no direction that a step could take.
+constexpr double least_slope = 1e-150;
 
 }  // namespace
 
-Vec3 place_anchor(const io::Sample& sample, const Workspace& workspace, const Vec3& proxy_m,
-                  Contact& contact) noexcept {
-  const double slope = glm::length(sample.gradient);
-  if (!(slope > 1e-150)) {
-    contact = Contact{};
-    return proxy_m;
-  }
-  const Vec3 uphill = workspace.direction_to_device(sample.gradient / slope);
-  Vec3 anchor = proxy_m;
-  if (contact.held) {
-    const Vec3 moved_mm = (proxy_m - contact.anchor_m) * workspace.mm_per_m;
-    anchor += uphill * (correction_mm(sample, slope, uphill, moved_mm, contact.value) / workspace.mm_per_m);
+void follow_level(const io::Sample& sample, const Vec3& place_mm, Contact& contact) noexcept {
+  if (contact.hold == Hold::none) {
+    contact.level = sample.value;
   } else {
-    contact.value = sample.value;
+    const Vec3 moved = place_mm - contact.place_mm;
+    contact.level += 0.5 * glm::dot(contact.gradient + sample.gradient, moved);
+    if (contact.hold != Hold::held) {
+      contact.offset = 0;
+    } else if (contact.before != Hold::held) {
+      contact.offset = contact.level - sample.value;
+    }
+    // Not while yielding: the strength is felt then, and a steep one would show every step of the level.
+    if (contact.hold != Hold::yielding) {
+      // A value that is not found nearby (a boundary that thins out) draws the proxy along a gentle slope, not through
+      // it.
+      const double reach = defaults::level_reach_mm * glm::length(sample.gradient);
+      const double weight = -std::expm1(-glm::length(moved) / defaults::level_length_mm);
+      contact.level += weight * std::clamp(sample.value + contact.offset - contact.level, -reach, reach);
+    }
   }
-  contact.anchor_m = anchor;
-  contact.uphill = uphill;
-  return anchor;
+  contact.before = contact.hold;
+  contact.place_mm = place_mm;
+  contact.gradient = sample.gradient;
+}
+
+Vec3 anchor_step_mm(Contact& contact) noexcept {
+  if (contact.hold != Hold::held) {
+    contact.held_level = contact.level;
+    return Vec3(0);
+  }
+  const double slope = glm::length(contact.gradient);
+  if (!(slope > least_slope)) {
+    return Vec3(0);
+  }
+  const double step =
+      std::clamp((contact.held_level - contact.level) / slope, -defaults::anchor_step_mm, defaults::anchor_step_mm);
+  return (step / slope) * contact.gradient;
+}
+
+double level_at_anchor(const Contact& contact, const Vec3& step_mm) noexcept {
+  return contact.level + glm::dot(contact.gradient, step_mm);
 }
 
 }  // namespace palpate::modes

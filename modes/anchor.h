@@ -4,37 +4,51 @@
 ///
 /// A plane that is placed at the old proxy every frame is the tangent plane there; a tangential step t leaves the
 /// iso-surface by t^2 / 2R. On a concave wall that works the proxy into the wall: noise alone sinks it within a minute.
-/// Two things know better where the surface is:
+/// So while a surface holds the proxy, the anchor is moved from the old proxy by one Newton step along grad V, back to
+/// the value at which it was held; that value is renewed only after the surface has yielded or the proxy has lifted
+/// off.
 ///
-/// * the directions at both ends of the step: a chord of a circle is normal to the mean of the normals at its ends, so
-/// the
-///   anchor that keeps (anchor - last anchor) . (n_last + n) = 0 is off by t^3 only. Smooth, for directions come from a
-///   filter; but their errors add up along the way.
-/// * the iso-value V_c at which the proxy was first held, by one Newton step along grad V. It never drifts; but noise
-/// and the
-///   interpolation between voxels make iso-surfaces rough: a hand would feel each voxel.
-///
-/// So the first leads, and the second corrects it over some millimetres of travel (defaults::anchor_length_mm): a proxy
-/// that has not moved is left where it is, to the last bit, and an iso-value that is not found nearby (a boundary that
-/// thins out) draws the proxy along a gentle slope and not through the tissue. V_c is renewed only after the surface
-/// has yielded or the proxy has lifted off.
+/// The value itself has to be taken with care. The sampled V is exact where it is on average, but between voxels its
+/// iso-surfaces are rough, by interpolation and by noise, and a hand would feel each voxel: as a wobble of the anchor,
+/// and as a strength that flickers. The gradient comes from a filter and is smooth, but its integral along the way
+/// drifts. The *level* joins the two: near a surface it follows, from frame to frame, the integral of the gradient
+/// (trapezoidal, so that a circle is closed to third order); while held it also returns to V, or to as far from V as it
+/// was when the hold began, over some millimetres of travel (defaults::level_length_mm). Away from surfaces it is V. A
+/// proxy that does not move keeps its level, and its anchor, to the last bit.
+
+#include <cstdint>
 
 #include "palpate/io/field_source.h"
 #include "palpate/modes/workspace.h"
 
 namespace palpate::modes {
 
-/// What is remembered of the surface that holds the proxy.
-struct Contact {
-  bool held = false;
-  double value = 0;  ///< V_c
-  Vec3 anchor_m{0};  ///< of the last frame, device's frame
-  Vec3 uphill{0};    ///< grad V / |grad V| there, device's frame
+enum class Hold : std::uint8_t {
+  none,     ///< no surface was placed
+  lifted,   ///< the proxy has left every surface on the side that it is pushed to
+  held,     ///< on a surface
+  yielding  ///< pushed through a surface that gives its full strength
 };
 
-/// The anchor for a proxy at which `sample` (value and gradient) was taken. Where nothing is held yet it is the proxy,
-/// and the contact takes the value found there; `contact` is brought up to date but for `held`, which only the solution
-/// can tell. At most defaults::anchor_step_mm from the proxy. In the tick.
-Vec3 place_anchor(const io::Sample& sample, const Workspace& workspace, const Vec3& proxy_m, Contact& contact) noexcept;
+/// What is remembered of the surface at the proxy.
+struct Contact {
+  Hold hold = Hold::none;
+  Hold before = Hold::none;  ///< a frame earlier
+  double level = 0;          ///< at the last place sampled, the scan's unit
+  double offset = 0;         ///< of the level from V, where it began to hold
+  double held_level = 0;     ///< V_c
+  Vec3 place_mm{0};          ///< last place sampled, patient space
+  Vec3 gradient{0};          ///< there, per mm
+};
+
+/// Brings level, place and gradient up to date with a sample (value and gradient) taken at place_mm. In the tick.
+void follow_level(const io::Sample& sample, const Vec3& place_mm, Contact& contact) noexcept;
+
+/// From the place sampled to the anchor, mm of patient space: zero while nothing holds the proxy, at most
+/// defaults::anchor_step_mm long. Renews held_level where nothing holds it. In the tick.
+Vec3 anchor_step_mm(Contact& contact) noexcept;
+
+/// The level at the anchor: what strengths there are read from.
+double level_at_anchor(const Contact& contact, const Vec3& step_mm) noexcept;
 
 }  // namespace palpate::modes

@@ -71,7 +71,6 @@ TEST(Anchor, noise_at_rest_does_not_work_the_proxy_through_a_wall) {
     const Creep creep = hold(wall, 0, 0.02);
     EXPECT_GT(creep.least_n, 0.98 * push_n) << wall.name;
     EXPECT_LT(creep.most_n, 1.02 * push_n) << wall.name;
-    std::printf("%s, noise: %.4f to %.4f N\n", wall.name, creep.least_n, creep.most_n);
   }
 }
 
@@ -80,7 +79,6 @@ TEST(Anchor, sliding_does_not_work_the_proxy_through_a_wall) {
     const Creep creep = hold(wall, 0.2, 0);
     EXPECT_GT(creep.least_n, 0.98 * push_n) << wall.name;
     EXPECT_LT(creep.most_n, 1.02 * push_n) << wall.name;
-    std::printf("%s, slide: %.4f to %.4f N\n", wall.name, creep.least_n, creep.most_n);
   }
 }
 

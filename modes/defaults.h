@@ -26,10 +26,11 @@ inline constexpr double workspace_scale = 1.0;
 // The anchor that keeps a held proxy on its iso-surface (anchor.h), mm of patient.
 /// Largest correction in a sub-step.
 inline constexpr double anchor_step_mm = 0.1;
-/// Travel over which the iso-value has its say: long beside a voxel, whose interpolation it shall not feel.
-inline constexpr double anchor_length_mm = 5.0;
+/// Travel over which a held level returns to the sampled value: long beside a voxel, whose interpolation shall not be
+/// felt. felt.
+inline constexpr double level_length_mm = 20.0;
 /// Farthest iso-surface that it is drawn to.
-inline constexpr double anchor_reach_mm = 1.0;
+inline constexpr double level_reach_mm = 1.0;
 
 // Subdivision of a frame (haptic_step.h): probe travel of one sub-step, mm of patient, and the most sub-steps of a
 // frame.

@@ -1,4 +1,5 @@
-// Force laws: what is felt where, against the quasi-static balance of analytic profiles (modes.md, "What is felt where").
+// Force laws: what is felt where, against the quasi-static balance of analytic profiles (modes.md, "What is felt
+// where").
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,8 +27,8 @@ AnalyticSource skin_slab() {
   return AnalyticSource(testdata::make_slab(inward, std::vector<Layer>{{0.0, testdata::soft_tissue_hu}}), 1.0);
 }
 
-/// The quasi-static balance of a proxy pressed inwards: the first place, from where it was, at which the strength holds the pull.
-/// depths in mm along `inward`; strength in N.
+/// The quasi-static balance of a proxy pressed inwards: the first place, from where it was, at which the strength holds
+/// the pull. depths in mm along `inward`; strength in N.
 double balance_mm(const io::FieldSource& source, const Strength& strength, double probe_mm, double from_mm) {
   const auto pull_left = [&](double p) {
     return p / 1000 * k + strength(source.sample(p * inward, source.available())) - probe_mm / 1000 * k;
@@ -86,7 +87,7 @@ TEST(ForceLaw, increments_are_exact_while_held_on_a_flat_slab) {
     // Deeper first: coming back to 3 mm, the place where it is held could hold more than will be asked of it.
     hand.stroke(-5.0 * inward, 4.5 * inward, 2000);
     hand.stroke(4.5 * inward, 3.0 * inward, 300);
-    ASSERT_TRUE(hand.result.held);
+    ASSERT_EQ(hand.result.hold, Hold::held);
     const Vec3 force = hand.force();
     const Vec3 probe = 3.0 * inward;
     std::mt19937 random(3);

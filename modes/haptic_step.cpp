@@ -24,29 +24,39 @@ int count_sub_steps(const Plan& plan, double travel_mm) {
   return static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(plan.subdivision.most)));
 }
 
-/// Whether a surface holds the proxy: on one of its planes, neither behind it (yielding) nor in front (lifted off).
-bool is_held(std::span<const solver::Primitive> primitives, std::span<const std::uint8_t> mode_of, const Plan& plan,
-             const Vec3& proxy_m) {
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    if (plan.modes[mode_of[i]].holds && primitives[i].type == solver::PrimitiveType::plane &&
-        std::abs(glm::dot(proxy_m - primitives[i].position, primitives[i].direction)) <= contact_tolerance_m) {
-      return true;
+/// How the surfaces of a frame hold its proxy: held on one of them goes before yielding through another.
+Hold hold_of(const StepResult& result, const Plan& plan, const Vec3& proxy_m) {
+  Hold hold = Hold::none;
+  for (std::size_t i = 0; i < result.primitives.size(); ++i) {
+    const solver::Primitive& primitive = result.primitives[i];
+    if (plan.modes[result.mode_of[i]].holds && primitive.type == solver::PrimitiveType::plane) {
+      const double distance = glm::dot(proxy_m - primitive.position, primitive.direction);
+      if (std::abs(distance) <= contact_tolerance_m) {
+        return Hold::held;
+      }
+      hold = distance < 0 ? Hold::yielding : std::max(hold, Hold::lifted);
     }
   }
-  return false;
+  return hold;
 }
 
 /// One sample, placement and solution at a probe position.
 StepResult sub_step(const Plan& plan, const io::FieldSource& source, const Vec3& probe_m, Touch& touch,
                     solver::Chain& chain, StepScratch& scratch) {
   StepResult result;
-  result.sample = source.sample(plan.workspace.to_patient(touch.proxy_m), plan.fields);
-  result.anchor_m = plan.holds_iso_surface && result.sample.inside
-                        ? place_anchor(result.sample, plan.workspace, touch.proxy_m, touch.contact)
-                        : touch.proxy_m;
+  const Vec3 place_mm = plan.workspace.to_patient(touch.proxy_m);
+  result.sample = source.sample(place_mm, plan.fields);
+  result.anchor_m = touch.proxy_m;
+  io::Sample felt = result.sample;
+  if (plan.holds_iso_surface && felt.inside) {
+    follow_level(felt, place_mm, touch.contact);
+    const Vec3 step_mm = anchor_step_mm(touch.contact);
+    felt.value = level_at_anchor(touch.contact, step_mm);
+    result.anchor_m += plan.workspace.direction_to_device(step_mm) / plan.workspace.mm_per_m;
+  }
 
   PrimitiveList list(scratch.primitives, scratch.mode_of);
-  const Place place{result.sample, plan.workspace, result.anchor_m};
+  const Place place{felt, plan.workspace, result.anchor_m};
   for (std::size_t i = 0; i < plan.modes.size(); ++i) {
     const ActiveMode& mode = plan.modes[i];
     if (result.sample.inside || !mode.co_located) {
@@ -76,8 +86,7 @@ StepResult sub_step(const Plan& plan, const io::FieldSource& source, const Vec3&
     }
     return result;
   }
-  result.held = is_held(result.primitives, result.mode_of, plan, solution.proxy);
-  touch.contact.held = result.held;
+  result.hold = touch.contact.hold = hold_of(result, plan, solution.proxy);
   touch.proxy_m = solution.proxy;
   touch.probe_m = probe_m;
   touch.force_n = solver::coupling_force(balance, solution.proxy);

@@ -60,7 +60,7 @@ struct StepResult {
   std::span<const Vec3> shares;           ///< N: each primitive's force on the proxy
   std::span<const std::uint8_t> mode_of;  ///< for each primitive, its index in the scene's modes
   io::Sample sample;                      ///< what was sampled, at the old proxy: only the plan's fields
-  bool held = false;                      ///< whether a surface holds the proxy (neither yielding nor lifted off)
+  Hold hold = Hold::none;                 ///< how the surfaces hold the proxy
   /// solved; capped: the best answer, with its true bound; refused or unsuitable: a fault, whose proxy and force are
   /// those of the last good frame, for the safety filter to bring to zero.
   solver::Outcome outcome = solver::Outcome::solved;
