@@ -1,0 +1,17 @@
+#include "palpate/device/found_devices.h"
+
+#include "palpate/device/internal/falcon_usb.h"
+
+namespace palpate::device {
+
+std::vector<FoundDevice> find_devices() {
+  return find_falcons();
+}
+
+std::string permission_advice() {
+  return "type: sudo cp " PALPATE_UDEV_RULES_PATH
+         " /etc/udev/rules.d/ && sudo udevadm control --reload && sudo udevadm trigger && sudo adduser $USER plugdev; "
+         "then log in again and replug the device";
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,24 @@
+#pragma once
+
+/// What is plugged in.
+
+#include <string>
+#include <vector>
+
+namespace palpate::device {
+
+struct FoundDevice {
+  std::string kind;         ///< "falcon", "wooden_haptics", "space_mouse"
+  std::string name;         ///< as it calls itself
+  std::string address;      ///< what its settings' `address` takes: "bus:device" or a hidraw path
+  bool accessible = false;  ///< whether this user may open it
+  std::string note;  ///< what else to know: what to type where permission is denied, that it may be another device
+};
+
+/// Of every kind that this build has a driver for. Devices that cannot be opened are listed, too.
+std::vector<FoundDevice> find_devices();
+
+/// The lines to type where a device is there and permission is denied.
+std::string permission_advice();
+
+}  // namespace palpate::device

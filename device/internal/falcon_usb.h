@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "palpate/device/found_devices.h"
+#include "palpate/device/internal/link.h"
+
+namespace palpate::device {
+
+std::vector<FoundDevice> find_falcons();
+
+/// Opens the Falcon at "bus:device", or the only one. Throws std::runtime_error naming it and what to do.
+std::unique_ptr<FalconLink> open_falcon_usb(const std::string& address);
+
+}  // namespace palpate::device

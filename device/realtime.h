@@ -1,0 +1,46 @@
+#pragma once
+
+/// What a servo thread asks of the operating system, and how well it was served.
+
+#include <cstdint>
+#include <string>
+
+namespace palpate::device {
+
+struct RealtimeStatus {
+  bool scheduled = false;      ///< SCHED_FIFO was granted to this thread
+  bool memory_locked = false;  ///< no page of the process will be fetched from disk in a tick
+  std::string advice;          ///< empty, or what was refused and what to do about it
+};
+
+/// SCHED_FIFO for the calling thread. False where the system does not allow it; nothing else changes then.
+bool make_thread_realtime(int priority) noexcept;
+
+/// SCHED_FIFO for the calling thread and locked memory for the process. Never throws for what is refused: it says so.
+RealtimeStatus become_realtime(int priority = 50);
+
+/// Absolute deadlines at an even rate, so that lateness never adds up. All times are of CLOCK_MONOTONIC.
+class Metronome {
+ public:
+  /// The first deadline is one period from now. The period (s) must lie between 10 us and 1 s; throws
+  /// std::invalid_argument otherwise.
+  explicit Metronome(double period);
+
+  /// Sleeps until the next deadline and returns how late it woke, s. Deadlines that have passed altogether are skipped
+  /// and counted, never made up for.
+  double wait() noexcept;
+
+  std::uint64_t ticks() const noexcept { return ticks_; }    ///< deadlines met or late by less than a period
+  std::uint64_t missed() const noexcept { return missed_; }  ///< deadlines that passed without a tick
+
+ private:
+  std::int64_t period_;    // ns
+  std::int64_t deadline_;  // ns
+  std::uint64_t ticks_ = 0;
+  std::uint64_t missed_ = 0;
+};
+
+/// s of CLOCK_MONOTONIC.
+double monotonic_time() noexcept;
+
+}  // namespace palpate::device
