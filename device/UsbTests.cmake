@@ -1,0 +1,31 @@
+# The drivers through the real libusb and hidapi, in a session of its own, against the fakes behind libumockdev. Each test
+# ends well only when the last force that the fake saw is zero.
+add_executable(device_client internal/fakes/client_main.cpp)
+target_link_libraries(device_client PRIVATE palpate::device palpate_compile_options)
+add_dependencies(device_client palpate_guardian)
+
+pkg_check_modules(umockdev umockdev-1.0)
+find_program(UMOCKDEV_WRAPPER umockdev-wrapper)
+if(PALPATE_SANITIZE)
+  set(why_not "sanitizers and umockdev's preloaded library do not go together")
+elseif(NOT umockdev_FOUND OR NOT UMOCKDEV_WRAPPER)
+  set(why_not "umockdev is not installed: apt-get install umockdev libumockdev-dev")
+else()
+  set(why_not "")
+  add_executable(device_umockdev internal/fakes/umockdev_main.cpp internal/fakes/umockdev_falcon.cpp)
+  target_include_directories(device_umockdev SYSTEM PRIVATE ${umockdev_INCLUDE_DIRS})
+  target_link_libraries(device_umockdev PRIVATE palpate_fake_devices palpate_compile_options ${umockdev_LINK_LIBRARIES})
+endif()
+
+foreach(case falcon:run falcon:unplug falcon:sigint falcon:sigterm falcon:sigkill)
+  string(REPLACE ":" ";" words ${case})
+  set(test device.usb.${case})
+  if(why_not)
+    add_test(NAME ${test} COMMAND ${CMAKE_COMMAND} -E echo "skipped: ${why_not}")
+    set_tests_properties(${test} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:")
+  else()
+    add_test(NAME ${test} COMMAND ${UMOCKDEV_WRAPPER} $<TARGET_FILE:device_umockdev> $<TARGET_FILE:device_client> ${words})
+    # Several at once would starve each other of the time that a silent device is told by.
+    set_tests_properties(${test} PROPERTIES TIMEOUT 60 RUN_SERIAL TRUE)
+  endif()
+endforeach()

@@ -1,0 +1,91 @@
+// A session's part of the tests that go through the real libraries: opens a device as palpate does, pushes, ends.
+//   device_client KIND SCENARIO [FIRMWARE]
+// KIND: falcon. SCENARIO: list | run | unplug | sigint | sigterm | sigkill.
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include "palpate/device/falcon.h"
+#include "palpate/device/found_devices.h"
+#include "palpate/device/realtime.h"
+
+namespace {
+
+using namespace palpate::device;
+
+struct Run {
+  int fresh = 0;
+  double seconds = 0;
+};
+
+/// Ticks at 1 kHz until the time is over or the state is the one waited for.
+Run tick(Stylus& stylus, const Vec3& force, double seconds, State until) {
+  Metronome metronome(1e-3);
+  Run run;
+  const double start = monotonic_time();
+  while ((run.seconds = monotonic_time() - start) < seconds && stylus.state() != until) {
+    run.fresh += stylus.read().fresh ? 1 : 0;
+    stylus.write_force(force);
+    metronome.wait();
+  }
+  return run;
+}
+
+int list() {
+  for (const FoundDevice& device : find_devices()) {
+    std::printf("found %s '%s' at %s%s\n", device.kind.c_str(), device.name.c_str(), device.address.c_str(),
+                device.accessible ? "" : " (not accessible)");
+  }
+  return 0;
+}
+
+int expect(bool holds, const char* what) {
+  if (!holds) std::printf("client: failed: %s\n", what);
+  return holds ? 0 : 1;
+}
+
+int play(Stylus& stylus, const std::string& scenario) {
+  stylus.open();
+  tick(stylus, Vec3(0), 10, State::idle);
+  int failures = expect(stylus.state() == State::idle, "homed within 10 s");
+  const Run run = tick(stylus, Vec3(0, 1, 0), 1, State::fault);
+  std::printf("client: %d new poses in %.2f s, state %s\n", run.fresh, run.seconds, name_of(stylus.state()));
+  if (scenario == "unplug") {
+    tick(stylus, Vec3(0, 1, 0), 10, State::fault);
+    failures += expect(stylus.state() == State::fault, "unplugged is a fault");
+  } else {
+    failures += expect(run.fresh > 100, "more than 100 poses a second, also on a busy machine");
+    failures += expect(stylus.state() == State::idle, "still there");
+  }
+  std::fflush(stdout);
+  if (scenario == "sigint") std::raise(SIGINT);
+  if (scenario == "sigterm") std::raise(SIGTERM);
+  if (scenario == "sigkill") std::raise(SIGKILL);
+  stylus.close();
+  return failures;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::string kind = count > 1 ? arguments[1] : "";
+  const std::string scenario = count > 2 ? arguments[2] : "";
+  try {
+    if (scenario == "list") return list();
+    if (kind == "falcon") {
+      FalconSettings settings;
+      settings.firmware_file = count > 3 ? arguments[3] : "";
+      return play(*make_falcon(settings), scenario);
+    }
+  } catch (const std::exception& error) {
+    std::printf("client: refused: %s\n", error.what());
+    return 1;
+  }
+  std::puts("device_client KIND SCENARIO [FIRMWARE]");
+  return 2;
+}
