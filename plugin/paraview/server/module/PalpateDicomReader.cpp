@@ -1,0 +1,199 @@
+#include "PalpateDicomReader.h"
+
+#include <vtkDataObject.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "display_image.h"
+#include "palpate/io/errors.h"
+#include "scan_choice.h"
+#include "scan_store.h"
+
+using namespace palpate;
+
+struct PalpateDicomReader::Scan {
+  std::shared_ptr<const io::Catalogue> catalogue;
+  std::size_t chosen = 0;
+  plugin::DisplayGrid grid;
+  std::shared_ptr<const io::Volume> volume;  // of the frame shown last
+
+  const io::Series& series() const { return catalogue->series[chosen]; }
+};
+
+vtkStandardNewMacro(PalpateDicomReader);
+
+PalpateDicomReader::PalpateDicomReader()
+    : series_uids_(vtkSmartPointer<vtkStringArray>::New()),
+      series_labels_(vtkSmartPointer<vtkStringArray>::New()),
+      messages_(vtkSmartPointer<vtkStringArray>::New()) {
+  SetNumberOfInputPorts(0);
+}
+
+PalpateDicomReader::~PalpateDicomReader() = default;
+
+void PalpateDicomReader::PrintSelf(ostream& os, vtkIndent indent) {
+  Superclass::PrintSelf(os, indent);
+  os << indent << "SeriesUid: " << series_uid_ << "\n";  // not the folder: its name may be the patient's
+}
+
+void PalpateDicomReader::SetFileName(const char* name) {
+  if (file_name_ == (name ? name : "")) return;
+  file_name_ = name ? name : "";
+  scan_.reset();
+  Modified();
+}
+
+void PalpateDicomReader::SetSeriesUid(const char* uid) {
+  if (series_uid_ == (uid ? uid : "")) return;
+  series_uid_ = uid ? uid : "";
+  // ParaView fills an empty choice in from the list of series: with what is shown already.
+  if (scan_ && plugin::scan_name(*scan_->catalogue, scan_->chosen) == series_uid_) return;
+  scan_.reset();
+  Modified();
+}
+
+vtkStringArray* PalpateDicomReader::GetSeriesUids() {
+  return series_uids_;
+}
+vtkStringArray* PalpateDicomReader::GetSeriesLabels() {
+  return series_labels_;
+}
+vtkStringArray* PalpateDicomReader::GetMessages() {
+  return messages_;
+}
+bool PalpateDicomReader::GetDisplayResampled() {
+  return scan_ && scan_->grid.resampled;
+}
+
+int PalpateDicomReader::CanReadFile(const char* name) {
+  if (std::filesystem::is_directory(name)) return 1;
+  std::ifstream file(name, std::ios::binary);
+  std::array<char, 132> head{};  // a preamble of 128 bytes, then "DICM"
+  return file.read(head.data(), head.size()) && std::string_view(head.data() + 128, 4) == "DICM" ? 1 : 0;
+}
+
+void PalpateDicomReader::tell(const std::string& message) {
+  messages_->InsertNextValue(message);
+  // Not vtkWarningMacro: it wraps a sentence for a radiologist in source lines and addresses.
+  vtkOutputWindow::GetInstance()->DisplayWarningText(("Palpate: " + message + "\n").c_str());
+}
+
+void PalpateDicomReader::find() {
+  if (scan_) return;
+  if (file_name_.empty()) throw io::DicomError("no folder given: set FileName to a DICOM folder or file");
+  auto found = std::make_unique<Scan>();
+  found->catalogue = plugin::find_scans(file_name_, [this](double done) {
+    UpdateProgress(done);
+    return GetAbortExecute() == 0;
+  });
+  series_uids_->Reset();
+  series_labels_->Reset();
+  messages_->Reset();
+  for (const std::size_t n : plugin::choices(*found->catalogue, file_name_)) {
+    series_uids_->InsertNextValue(plugin::scan_name(*found->catalogue, n));
+    series_labels_->InsertNextValue(plugin::scan_label(found->catalogue->series[n]));
+  }
+  found->chosen = plugin::choose_scan(*found->catalogue, series_uid_, file_name_);
+  const io::Series& series = found->series();
+  if (series.geometry.slice_positions.empty()) {
+    throw io::DicomError(plugin::scan_label(series) + ": its images have no position in the patient");
+  }
+  found->grid = plugin::display_grid(series.geometry);
+  scan_ = std::move(found);
+  for (const std::string& warning : series.warnings) tell(warning);
+  if (scan_->grid.resampled) tell("slices are unevenly spaced: the display is resampled, touch is not");
+  if (!plugin::is_straight(scan_->grid)) {
+    tell(
+        "this scan is oblique or tilted: ParaView's Contour, Clip and Iso Volume would misplace it by millimetres; use "
+        "Palpate's Tissue Surface");
+  }
+}
+
+int PalpateDicomReader::RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) {
+  try {
+    find();
+  } catch (const std::exception& error) {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  vtkInformation& info = *output->GetInformationObject(0);
+  const plugin::DisplayGrid& grid = scan_->grid;
+  const auto& size = grid.dimensions;
+  info.Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), 0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1);
+  info.Set(vtkDataObject::SPACING(), grid.spacing_mm.data(), 3);
+  info.Set(vtkDataObject::ORIGIN(), grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z);
+  info.Set(vtkDataObject::DIRECTION(), plugin::direction_matrix(grid).data(), 9);
+  info.Set(CAN_PRODUCE_SUB_EXTENT(), 1);
+  const int frames = scan_->series().frames_per_position;
+  if (frames > 1) {
+    std::vector<double> times;
+    for (int frame = 0; frame < frames; ++frame) times.push_back(frame);
+    info.Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), frames);
+    const std::array<double, 2> range{times.front(), times.back()};
+    info.Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range.data(), 2);
+  } else {
+    info.Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    info.Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  }
+  return 1;
+}
+
+namespace {
+
+void add_note(vtkImageData& image, const char* name, const std::string& text) {
+  const auto note = vtkSmartPointer<vtkStringArray>::New();
+  note->SetName(name);
+  note->InsertNextValue(text);
+  image.GetFieldData()->AddArray(note);
+}
+
+}  // namespace
+
+int PalpateDicomReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) {
+  vtkInformation& info = *output->GetInformationObject(0);
+  vtkImageData& image = *vtkImageData::GetData(output);
+  try {
+    find();
+    const io::Series& series = scan_->series();
+    int frame = 0;
+    if (info.Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())) {
+      const double time = info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+      frame = static_cast<int>(std::clamp(std::round(time), 0.0, series.frames_per_position - 1.0));
+    }
+    const auto volume = plugin::load_scan(series, frame, [this](double done) {
+      UpdateProgress(done);
+      return GetAbortExecute() == 0;
+    });
+    if (volume != scan_->volume) {
+      for (const std::string& warning : volume->warnings) tell(warning);
+    }
+    scan_->volume = volume;
+    std::array<int, 6> extent{};
+    info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
+    plugin::show_volume(volume, scan_->grid, extent, series.unit.empty() ? "Value" : series.unit, image);
+    image.GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), frame);
+    add_note(image, "Modality", series.modality);
+    if (static_cast<std::size_t>(frame) < series.frame_names.size()) {
+      add_note(image, "Frame", series.frame_names[static_cast<std::size_t>(frame)]);
+    }
+  } catch (const std::exception& error) {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  return 1;
+}

@@ -1,0 +1,63 @@
+#pragma once
+
+/// A DICOM CT or MR series as vtkImageData in patient space (LPS, mm), values in the scan's unit (HU for CT).
+///
+/// The voxels are the process's own copy (scan_store.h) and are shown without another one. Several images at a position
+/// (time, b-value, echo) are time steps 0, 1, ... Oblique scans and gantry tilt are in the DirectionMatrix; unevenly
+/// spaced slices are resampled for display. Every rank of a parallel server reads the series and shows its part.
+
+#include <vtkImageAlgorithm.h>
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <string>
+
+#include "PalpateServerModule.h"
+
+class vtkStringArray;
+
+class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
+ public:
+  static PalpateDicomReader* New();
+  vtkTypeMacro(PalpateDicomReader, vtkImageAlgorithm)  // ends in a function body: no semicolon
+      void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// A folder, searched to the bottom, or one file: then the series that the file belongs to.
+  void SetFileName(const char* name);
+  const char* GetFileName() { return file_name_.c_str(); }
+  /// Which series, as in GetSeriesUids(); empty: the file's, or the one with most voxels.
+  void SetSeriesUid(const char* uid);
+  const char* GetSeriesUid() { return series_uid_.c_str(); }
+
+  /// Of the series found, in the same order, the one that an empty choice means first. Filled by UpdateInformation().
+  vtkStringArray* GetSeriesUids();
+  vtkStringArray* GetSeriesLabels();
+  /// What a user should know of the series read, a sentence each.
+  vtkStringArray* GetMessages();
+  /// Whether the slices are uneven and an even copy is shown.
+  bool GetDisplayResampled();
+
+  /// Whether a file begins as DICOM does, or is a folder.
+  static int CanReadFile(const char* name);
+
+  PalpateDicomReader(const PalpateDicomReader&) = delete;
+  PalpateDicomReader& operator=(const PalpateDicomReader&) = delete;
+
+ protected:
+  PalpateDicomReader();
+  ~PalpateDicomReader() override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+ private:
+  struct Scan;
+  void find();
+  void tell(const std::string& message);
+
+  std::string file_name_;
+  std::string series_uid_;
+  vtkSmartPointer<vtkStringArray> series_uids_;
+  vtkSmartPointer<vtkStringArray> series_labels_;
+  vtkSmartPointer<vtkStringArray> messages_;
+  std::unique_ptr<Scan> scan_;  ///< what was found; empty until then
+};

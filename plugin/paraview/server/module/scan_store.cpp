@@ -1,0 +1,99 @@
+#include "scan_store.h"
+
+#include <array>
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "palpate/io/load.h"
+#include "shared_voxels.h"
+
+namespace palpate::plugin {
+namespace {
+
+/// Something that is made once however many ask for it, and forgotten when the last of them lets go.
+template <typename Key, typename Value>
+class Shelf {
+ public:
+  template <typename Make>
+  std::shared_ptr<const Value> get(const Key& key, const Make& make) {
+    const std::shared_ptr<Slot> slot = slot_of(key);
+    const std::lock_guard making(slot->mutex);
+    if (auto held = slot->value.lock()) return held;
+    auto made = std::make_shared<const Value>(make());
+    slot->value = made;
+    return made;
+  }
+
+  template <typename Visit>
+  void visit(const Visit& visit) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, slot] : slots_) {
+      if (!slot->mutex.try_lock()) continue;  // being loaded: not held yet
+      const std::lock_guard reading(slot->mutex, std::adopt_lock);
+      if (const auto held = slot->value.lock()) visit(*held);
+    }
+  }
+
+ private:
+  struct Slot {
+    std::mutex mutex;
+    std::weak_ptr<const Value> value;
+  };
+
+  std::shared_ptr<Slot> slot_of(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(slots_,
+                  [](const auto& entry) { return entry.second.use_count() == 1 && entry.second->value.expired(); });
+    auto& slot = slots_[key];
+    if (!slot) slot = std::make_shared<Slot>();
+    return slot;
+  }
+
+  std::mutex mutex_;
+  std::map<Key, std::shared_ptr<Slot>> slots_;
+};
+
+using ScanKey = std::tuple<std::filesystem::path, std::string, int>;  // first file, series UID, frame
+
+Shelf<std::filesystem::path, io::Catalogue>& catalogues() {
+  static Shelf<std::filesystem::path, io::Catalogue> shelf;
+  return shelf;
+}
+
+Shelf<ScanKey, io::Volume>& scans() {
+  static Shelf<ScanKey, io::Volume> shelf;
+  return shelf;
+}
+
+}  // namespace
+
+std::shared_ptr<const io::Catalogue> find_scans(const std::filesystem::path& path, const io::Progress& progress) {
+  const auto folder = std::filesystem::is_regular_file(path) ? std::filesystem::absolute(path).parent_path() : path;
+  return catalogues().get(folder, [&] { return io::find_series(std::array{folder}, progress); });
+}
+
+std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame, const io::Progress& progress) {
+  const ScanKey key(series.files.empty() ? std::filesystem::path() : series.files.front(), series.uid, frame);
+  return scans().get(key, [&] {
+    io::LoadOptions how;
+    how.frame = frame;
+    how.progress = progress;
+    return scan_values(io::load(series, how));
+  });
+}
+
+StoreUse store_use() {
+  StoreUse use;
+  scans().visit([&](const io::Volume& volume) {
+    ++use.volumes;
+    use.voxel_bytes += std::visit([](const auto& v) { return v.size() * sizeof v[0]; }, volume.voxels);
+  });
+  use.shared_arrays = shared_array_count();
+  return use;
+}
+
+}  // namespace palpate::plugin

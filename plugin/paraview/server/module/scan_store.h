@@ -1,0 +1,39 @@
+#pragma once
+
+/// The process's scans: whoever wants the voxels of a series (the reader, a filter, the panel) gets the same ones,
+/// loaded once. The store itself keeps nothing alive: a scan goes when its last user lets go.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "PalpateServerModule.h"
+#include "palpate/io/progress.h"
+#include "palpate/io/series.h"
+#include "palpate/io/volume.h"
+
+namespace palpate::plugin {
+
+/// The series in a folder; of a file's folder where `path` is a file, for one slice is no scan. Throws as
+/// io::find_series(). From any thread.
+PALPATESERVER_EXPORT std::shared_ptr<const io::Catalogue> find_scans(const std::filesystem::path& path,
+                                                                     const io::Progress& progress = {});
+
+/// The voxels of one frame of a series, in scan_values() form. A second caller waits for the first; if the first
+/// cancels, the second loads. Throws as io::load(). From any thread.
+PALPATESERVER_EXPORT std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
+                                                                 const io::Progress& progress = {});
+
+/// What is held in this process at the moment.
+struct StoreUse {
+  std::size_t volumes = 0;
+  std::size_t voxel_bytes = 0;
+  std::size_t shared_arrays = 0;  ///< VTK arrays that view those voxels
+};
+PALPATESERVER_EXPORT StoreUse store_use();
+
+/// The same volume with slope 1 and intercept 0, for a viewer shows what is stored: still 16 bit where every value is
+/// an integer that fits (all CT), else as floats. Takes its voxels.
+io::Volume scan_values(io::Volume volume);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,96 @@
+"""The reader against the core: geometry, values, series, frames."""
+
+import os
+import random
+import shutil
+
+from palpate_test import (SCRATCH, core_info, core_samples, expect, expect_all_near, expect_near, fetch, main,
+                          open_series, phantom)
+from paraview import simple
+
+EVEN = ("straight", "oblique", "tilted")
+
+
+def geometry_is_the_cores():
+    for name in EVEN:
+        info, image = core_info(phantom(name)), fetch(open_series(phantom(name)))
+        matrix = [image.GetDirectionMatrix().GetElement(r, c) for c in range(3) for r in range(3)]
+        step = info["step_mm"]
+        length = sum(s * s for s in step) ** 0.5
+        expect(list(image.GetDimensions()) == info["dimensions"], f"{name}: dimensions {image.GetDimensions()}")
+        expect_all_near(image.GetSpacing(), [*info["spacing_mm"][:2], length], 1e-9, f"{name}: spacing")
+        expect_all_near(image.GetOrigin(), info["origin_mm"], 1e-9, f"{name}: origin")
+        expect_all_near(matrix, info["direction_i"] + info["direction_j"] + [s / length for s in step], 1e-9,
+                        f"{name}: direction")
+    expect(sum(matrix[3 + r] * matrix[6 + r] for r in range(3)) > 0.3, "the tilted phantom is not tilted")
+
+
+def voxels_are_the_cores():
+    for name in EVEN:
+        image = fetch(open_series(phantom(name)))
+        ids = [random.randrange(image.GetNumberOfPoints()) for _ in range(40)]
+        samples = core_samples(phantom(name), [image.GetPoint(n) for n in ids])
+        scalars = image.GetPointData().GetScalars()
+        expect(scalars.GetName() == "HU" and scalars.GetDataTypeAsString() == "short", f"{name}: {scalars.GetName()}")
+        expect_all_near([scalars.GetValue(n) for n in ids], [s["value"] for s in samples], 0, f"{name}: value")
+        info, found = core_info(phantom(name)), scalars.GetRange()
+        expect((info["minimum"], info["maximum"]) == found, f"{name}: range {found}")
+
+
+def uneven_slices_are_shown_where_they_are():
+    for name in ("uneven", "missing"):
+        reader = open_series(phantom(name))
+        image = fetch(reader)
+        expect(reader.GetPropertyValue("DisplayResampled"), f"{name}: not said to be resampled")
+        scalars = image.GetPointData().GetScalars()
+        ids = [random.randrange(image.GetNumberOfPoints()) for _ in range(60)]
+        gaps = 0
+        for n, sample in zip(ids, core_samples(phantom(name), [image.GetPoint(n) for n in ids])):
+            if "value" in sample:
+                expect_near(scalars.GetValue(n), sample["value"], 0.51, f"{name}: value at {image.GetPoint(n)}")
+            else:
+                gaps += 1
+                expect_near(scalars.GetValue(n), -1000, 0, f"{name}: value in a gap")
+        expect((gaps > 0) == (name == "missing"), f"{name}: {gaps} points in gaps")
+
+
+def a_series_is_chosen():
+    folder = os.path.join(SCRATCH, "two")
+    shutil.rmtree(folder, ignore_errors=True)
+    for name in ("straight", "tilted"):
+        shutil.copytree(phantom(name), os.path.join(folder, name))
+    reader = open_series(folder)
+    reader.UpdatePipelineInformation()
+    uids = list(reader.GetPropertyValue("SeriesUids"))
+    wanted = core_info(phantom("straight"))["uid"]
+    expect(len(uids) == 2 and wanted in uids, f"series found: {uids}")
+    expect(fetch(reader).GetDimensions() == (60, 80, 40), "without a choice it is the largest series")
+    reader.SeriesUID = wanted
+    expect(fetch(reader).GetDimensions() == (60, 70, 40), "the series chosen by its UID")
+    one_file = os.path.join(folder, "straight", sorted(os.listdir(os.path.join(folder, "straight")))[3])
+    expect(fetch(open_series(one_file)).GetDimensions() == (60, 70, 40), "the whole series of a file")
+
+
+def what_cannot_be_read_is_refused():
+    for path in (os.path.join(SCRATCH, "absent"), os.path.dirname(os.path.abspath(__file__))):
+        reader = open_series(path)
+        reader.UpdatePipelineInformation()
+        expect(reader.GetDataInformation().GetNumberOfPoints() == 0, f"{path} gave an image")
+    reader = open_series(phantom("straight"), "1.2.3")
+    reader.UpdatePipelineInformation()
+    expect(reader.GetDataInformation().GetNumberOfPoints() == 0, "a series that is not there gave an image")
+
+
+def a_state_file_brings_the_scan_back():
+    reader = open_series(phantom("oblique"), core_info(phantom("oblique"))["uid"])
+    before = fetch(reader).GetPointData().GetScalars().GetRange()
+    state = os.path.join(SCRATCH, "state.pvsm")
+    simple.SaveState(state)
+    simple.ResetSession()
+    simple.LoadState(state)
+    restored = list(simple.GetSources().values())[0]
+    expect(fetch(restored).GetPointData().GetScalars().GetRange() == before, "the state gave other values")
+
+
+main([geometry_is_the_cores, voxels_are_the_cores, uneven_slices_are_shown_where_they_are, a_series_is_chosen,
+      what_cannot_be_read_is_refused, a_state_file_brings_the_scan_back])
