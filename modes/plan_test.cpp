@@ -71,6 +71,14 @@ TEST(Plan, keeps_the_general_solver_only_where_some_frame_can_need_it) {
       {mode("surface"), both, mode("friction"), mode("friction"), mode("force", 1, DirectionField::gradient)}, scan));
   EXPECT_FALSE(exact({mode("follow"), mode("follow"), mode("force"), mode("friction")}, flow));
   EXPECT_FALSE(exact({mode("surface"), mode("follow", 1, DirectionField::gradient)}, flow));
+  Mode point = mode("landmark");
+  Mode plane = mode("landmark");
+  plane.shape = Shape::plane;
+  EXPECT_FALSE(exact({point, mode("force")}, flow));  // one constraint, wherever it is
+  EXPECT_TRUE(exact({point, plane}, flow));
+  EXPECT_TRUE(exact({point, mode("friction")}, flow));
+  EXPECT_FALSE(exact({mode("tube"), mode("friction")}, scan));
+  EXPECT_TRUE(exact({mode("tube"), mode("surface")}, scan));
   EXPECT_TRUE(exact({mode("surface"), mode("follow")}, flow));
   EXPECT_TRUE(exact({mode("follow"), mode("follow", 1, DirectionField::gradient)}, flow));
   EXPECT_FALSE(exact({mode("surface", 0), mode("follow")}, flow));  // what is left out needs no solver

@@ -45,6 +45,8 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
               {"type": "surface", "name": "s", "side": "both", "enabled": false, "color": "#0072B2",
                "strength_n": {"of": "low", "nodes": [[0, 0], [1, 2]], "interpolation": "monotone_cubic"},
                "gates": [{"of": "high", "nodes": [[0, 0], [1, 2]], "interpolation": "monotone_cubic"}]},
+              {"type": "landmark", "shape": "point", "position_mm": [1, 2, 3], "strength_n": 1},
+              {"type": "landmark", "shape": "line", "position_mm": [1, 2, 3], "direction": [0.1, 0, 2], "strength_n": 1},
               {"type": "force", "field": "gradient", "strength_n": {"of": "value", "nodes": [[7, 3]]}}]})";
   const Scene scene = scene_from_json(everything, "everything");
   EXPECT_EQ(to_json(scene_from_json(to_json(scene), "again")), to_json(scene));
@@ -52,7 +54,8 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
   EXPECT_EQ(scene.workspace.rotation[0].y, 1.0);
   EXPECT_FALSE(scene.modes[1].enabled);
   EXPECT_EQ(scene.modes[1].gates[0].factor.interpolation(), Interpolation::monotone_cubic);
-  EXPECT_EQ(scene.modes[2].strength_n(0), 3.0);
+  EXPECT_EQ(scene.modes[3].direction, Vec3(0.1, 0, 2));
+  EXPECT_EQ(scene.modes[4].strength_n(0), 3.0);
 }
 
 TEST(SceneJson, what_is_not_said_takes_the_default) {
@@ -73,9 +76,9 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
               StartsWith("mine.json: stiffness: there is no such key here; there are: "));
   EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "stiffness_n_per_m": 0})"),
               StartsWith("mine.json: stiffness_n_per_m: 0 is not a number above 0"));
-  EXPECT_THAT(
-      error_of(R"({"version": 1, "modes": [{"type": "surfce", "strength_n": 1}]})"),
-      StartsWith("mine.json: modes[0].type: there is no mode \"surfce\"; there are: force, follow, surface, friction"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [{"type": "surfce", "strength_n": 1}]})"),
+              StartsWith("mine.json: modes[0].type: there is no mode \"surfce\"; there are: force, follow, surface, "
+                         "friction, tube, landmark"));
   EXPECT_THAT(
       error_of(with_surface(R"("strength_n": {"nodes": [[0, -2]]})")),
       StartsWith("mine.json: modes[1].strength_n.nodes[0][1]: -2 is negative; a strength is in newtons, 0 or more"));
