@@ -22,7 +22,7 @@ using internal::PlaneFit;
 using internal::space_sums;
 
 constexpr int cell_lanes = 4;
-constexpr int block_lanes = 16;
+constexpr int block_lanes = 8;
 
 /// What a single cell may need, at the largest radius: on the stack, since the tick may not allocate.
 constexpr int cell_floats = [] {
@@ -55,6 +55,12 @@ class RowReader {
 
  private:
   void copy(const Stored* stored, int count, float* row) const noexcept {
+    if (std::is_integral_v<Stored> && !volume_.padding) {
+      for (int n = 0; n < count; ++n) {
+        row[n] = mask_ ? 1.0F : static_cast<float>(stored[n]);
+      }
+      return;
+    }
     bool any_padding = false;
     for (int n = 0; n < count; ++n) {
       const bool padding = is_padding(stored[n]);
@@ -83,6 +89,34 @@ struct EverywhereOne {
   void operator()(int, int, int, int count, float* row) const noexcept { std::fill(row, row + count, 1.0F); }
 };
 
+/// Where to cut an axis: at the kernel's reach from both ends, since only what is closer to them needs its own fits,
+/// and between these into pieces of at most `longest`.
+std::vector<int> cuts(int size, int reach, int longest) {
+  std::vector<int> at{0};
+  for (const int end : {std::min(reach, size), std::max(size - reach, 0), size}) {
+    while (at.back() < end) {
+      at.push_back(std::min(at.back() + longest, end));
+    }
+  }
+  return at;
+}
+
+/// The whole volume in blocks whose sums stay in a second-level cache.
+std::vector<Block> blocks_of(const glm::ivec3& size, const glm::ivec3& reach) {
+  const std::vector<int> x = cuts(size.x, reach.x, 112);
+  const std::vector<int> y = cuts(size.y, reach.y, 24);
+  const std::vector<int> z = cuts(size.z, 0, 40);
+  std::vector<Block> blocks;
+  for (std::size_t k = 1; k < z.size(); ++k) {
+    for (std::size_t j = 1; j < y.size(); ++j) {
+      for (std::size_t i = 1; i < x.size(); ++i) {
+        blocks.push_back({{x[i - 1], y[j - 1], z[k - 1]}, {x[i] - x[i - 1], y[j] - y[j - 1], z[k] - z[k - 1]}});
+      }
+    }
+  }
+  return blocks;
+}
+
 }  // namespace
 
 struct GradientKernel::Weights {
@@ -105,17 +139,35 @@ struct GradientKernel::Weights {
       const RowReader<Stored> mask(*volume, voxels, true);
       BlockSums<2, Lanes, RowReader<Stored>>(slices, layout, mask, rest).run(weights);
     }
-    const std::size_t stride = layout.plane();
     for (int k = 0; k < layout.block.size.z; ++k) {
-      const PlaneFit& whole_fit = whole_neighbourhood[static_cast<std::size_t>(layout.block.first.z + k)];
       for (int j = 0; j < layout.block.size.y; ++j) {
         const float* const row = sums + layout.at(1, 0, j, k);
-        const float* const weight_row = weights + layout.at(2, 0, j, k);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(layout.block.size.x); ++i) {
-          const PlaneFit& fit =
-              complete ? whole_fit : internal::fit_plane(weight_row + i, stride, scale_mm, to_patient);
-          *gradients++ = fit.gradient(row[i], row[stride + i], row[2 * stride + i], row[3 * stride + i]);
+        if (complete) {
+          const PlaneFit& fit = whole_neighbourhood[static_cast<std::size_t>(layout.block.first.z + k)];
+          fit_row(
+              row, layout, [&](int) -> const PlaneFit& { return fit; }, gradients);
+        } else {
+          const float* const weight_row = weights + layout.at(2, 0, j, k);
+          fit_row(
+              row, layout,
+              [&](int i) { return internal::fit_plane(weight_row + i, layout.plane(), scale_mm, to_patient); },
+              gradients);
         }
+        gradients += layout.block.size.x;
+      }
+    }
+  }
+
+  template <typename FitAt>
+  static void fit_row(const float* sums, const BlockLayout& layout, const FitAt& fit_at,
+                      glm::vec3* gradients) noexcept {
+    const std::size_t stride = layout.plane();
+    for (int i = 0; i < layout.block.size.x; ++i) {
+      const PlaneFit& fit = fit_at(i);
+      const float* const s = sums + i;
+      for (int axis = 0; axis < 3; ++axis) {
+        gradients[i][axis] = (fit.slope[0][axis] * s[stride] + fit.slope[1][axis] * s[2 * stride]) +
+                             (fit.slope[2][axis] * s[3 * stride] + fit.constant[axis] * s[0]);
       }
     }
   }
@@ -184,34 +236,30 @@ void GradientKernel::at_cell(const Block& cell, std::span<glm::vec3> gradients) 
 
 void GradientKernel::at_block(const Block& block, std::span<glm::vec3> gradients) const {
   const BlockLayout layout(block, weights_->slices, block_lanes);
-  std::vector<float> scratch(layout.moment_floats(1) + layout.moment_floats(2) + layout.scratch_floats(2));
-  weights_->run<block_lanes>(layout, scratch.data(), gradients.data());
+  const auto scratch = std::make_unique_for_overwrite<float[]>(layout.moment_floats(1) + layout.moment_floats(2) +
+                                                               layout.scratch_floats(2));
+  weights_->run<block_lanes>(layout, scratch.get(), gradients.data());
 }
 
 std::vector<glm::vec3> GradientKernel::whole(const Progress& progress, int threads) const {
   const Volume& volume = *weights_->volume;
   const glm::ivec3 size = volume.geometry.dimensions;
-  const glm::ivec3 edge(128, 32, 32);  // a block's sums stay in the second-level cache
-  const glm::ivec3 blocks = (size + edge - 1) / edge;
   std::vector<glm::vec3> gradients(volume.offset(0, 0, size.z));
-  const auto one = [&](std::size_t number) {
-    const int n = static_cast<int>(number);
-    Block block;
-    block.first = glm::ivec3(n % blocks.x, n / blocks.x % blocks.y, n / blocks.x / blocks.y) * edge;
-    block.size = glm::min(edge, size - block.first);
+  const std::vector<Block> blocks = blocks_of(size, radius());
+  const auto one = [&](std::size_t n) {
+    const Block& block = blocks[n];
     std::vector<glm::vec3> part(static_cast<std::size_t>(block.size.x * block.size.y * block.size.z));
     at_block(block, part);
     auto from = part.begin();
     for (int k = 0; k < block.size.z; ++k) {
       for (int j = 0; j < block.size.y; ++j) {
-        const auto to = gradients.begin() +
-                        static_cast<std::ptrdiff_t>(volume.offset(block.first.x, block.first.y + j, block.first.z + k));
-        std::copy(from, from + block.size.x, to);
+        const auto to = volume.offset(block.first.x, block.first.y + j, block.first.z + k);
+        std::copy(from, from + block.size.x, gradients.begin() + static_cast<std::ptrdiff_t>(to));
         from += block.size.x;
       }
     }
   };
-  internal::parallel_for(static_cast<std::size_t>(blocks.x * blocks.y * blocks.z), one, progress, threads);
+  internal::parallel_for(blocks.size(), one, progress, threads);
   return gradients;
 }
 

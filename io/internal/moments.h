@@ -54,6 +54,31 @@ struct BlockLayout {
   }
 };
 
+/// A few voxels of a row side by side. Four fill a register of any x86-64 processor; the compiler's own wider vectors
+/// would be taken apart through memory.
+template <int Lanes>
+struct Vector {
+  static_assert(Lanes % 4 == 0);
+  using Four [[gnu::vector_size(16)]] = float;
+  Four part[Lanes / 4] = {};
+
+  static Vector load(const float* from) noexcept {
+    Vector v;
+    __builtin_memcpy(v.part, from, sizeof v.part);
+    return v;
+  }
+  void store(float* to) const noexcept { __builtin_memcpy(to, part, sizeof part); }
+  Vector& operator+=(const Vector& other) noexcept {
+    for (int n = 0; n < Lanes / 4; ++n) part[n] += other.part[n];
+    return *this;
+  }
+  friend Vector operator+(Vector a, const Vector& b) noexcept { return a += b; }
+  friend Vector operator*(float factor, Vector v) noexcept {
+    for (Four& four : v.part) four = factor * four;
+    return v;
+  }
+};
+
 /// LoadRow: void(int slice, int j, int i, int count, float* row): voxels i ... i + count - 1 of a row, 0 where there
 /// are none.
 template <int Order, int Lanes, typename LoadRow>
@@ -68,39 +93,47 @@ class BlockSums {
         planes_(filtered_rows_ + layout.rows * (Order + 1) * layout.width) {}
 
   void run(float* sums) {
+    std::fill(row_, row_ + layout_.row_floats,
+              0.0F);  // the lanes beyond the block's width are never read from the volume
     if (kernel_.straight) {
       for (int n = 0; n < layout_.slices; ++n) {
         filter_plane(layout_.first_slice + n, 0, plane_of(n));
       }
     }
     for (int k = 0; k < layout_.block.size.z; ++k) {
+      const auto& contributions = kernel_.of_slice[static_cast<std::size_t>(layout_.block.first.z + k)];
       float* const out = sums + layout_.at(Order, 0, 0, k);
+      if (kernel_.straight) {
+        add_straight(contributions, out);
+        continue;
+      }
       std::fill(out, out + space_sums(Order) * layout_.plane(), 0.0F);
-      for (const Contribution& c : kernel_.of_slice[static_cast<std::size_t>(layout_.block.first.z + k)]) {
-        float* plane = plane_of(0);
-        if (kernel_.straight) {
-          plane = plane_of(c.slice - layout_.first_slice);
-        } else {
-          filter_plane(c.slice, c.taps, plane);
-        }
-        add_plane(c, plane, out);
+      for (const Contribution& c : contributions) {
+        filter_plane(c.slice, c.taps, planes_);
+        add_shifted(c, out);
       }
     }
   }
 
  private:
-  float* plane_of(int n) const { return planes_ + static_cast<std::size_t>(n * plane_sums(Order)) * layout_.plane(); }
+  using Vector = internal::Vector<Lanes>;
+  static constexpr int in_plane = plane_sums(Order);
+  static constexpr int in_space = space_sums(Order);
+
+  float* plane_of(int n) const { return planes_ + static_cast<std::size_t>(n * in_plane) * layout_.plane(); }
   float* filtered_row(int row, int power) const { return filtered_rows_ + (row * (Order + 1) + power) * layout_.width; }
 
   void filter_plane(int slice, int taps, float* plane) {
     const Taps& along_i = kernel_.taps_i[static_cast<std::size_t>(taps)];
     const Taps& along_j = kernel_.taps_j[static_cast<std::size_t>(taps)];
-    const auto [lowest, highest] = std::minmax_element(along_j.begin(), along_j.end(),
-                                                       [](const Tap& a, const Tap& b) { return a.offset < b.offset; });
-    for (int row = layout_.radius.y + lowest->offset; row < layout_.block.size.y + layout_.radius.y + highest->offset;
-         ++row) {
+    // Taps come from the middle outwards: the last two are the outermost.
+    const int outermost = along_j.back().offset;
+    const int other = along_j.size() > 1 ? along_j[along_j.size() - 2].offset : outermost;
+    const int first_row = layout_.radius.y + std::min(outermost, other);
+    const int last_row = layout_.radius.y + std::max(outermost, other) + layout_.block.size.y - 1;
+    for (int row = first_row; row <= last_row; ++row) {
       load_row_(slice, layout_.block.first.y + row - layout_.radius.y, layout_.block.first.x - layout_.radius.x,
-                layout_.row_floats, row_);
+                layout_.block.size.x + 2 * layout_.radius.x, row_);
       for (int i = 0; i < layout_.width; i += Lanes) {
         filter_row(along_i, row, i);
       }
@@ -113,98 +146,101 @@ class BlockSums {
   }
 
   void filter_row(const Taps& taps, int row, int i) {
-    float sum[Order + 1][Lanes] = {};
+    Vector sum[Order + 1] = {};
+    const float* const middle = row_ + layout_.radius.x + i;
     for (const Tap& tap : taps) {
-      const float* const in = row_ + layout_.radius.x + i + tap.offset;
+      const Vector in = Vector::load(middle + tap.offset);
       for (int power = 0; power <= Order; ++power) {
-        for (int lane = 0; lane < Lanes; ++lane) {
-          sum[power][lane] += tap.weight[power] * in[lane];
-        }
+        sum[power] += tap.weight[power] * in;
       }
     }
     for (int power = 0; power <= Order; ++power) {
-      std::copy(sum[power], sum[power] + Lanes, filtered_row(row, power) + i);
+      sum[power].store(filtered_row(row, power) + i);
     }
   }
 
   void filter_column(const Taps& taps, int j, int i, float* plane) {
-    // Powers of p and q of each sum, in the order of plane_sums().
-    constexpr int power_p[6] = {0, 1, 0, 2, 1, 0};
-    constexpr int power_q[6] = {0, 0, 1, 0, 1, 2};
-    float sum[plane_sums(Order)][Lanes] = {};
+    Vector sum[in_plane] = {};
     for (const Tap& tap : taps) {
-      const int row = j + layout_.radius.y + tap.offset;
-      for (int n = 0; n < plane_sums(Order); ++n) {
-        const float* const in = filtered_row(row, power_p[n]) + i;
-        for (int lane = 0; lane < Lanes; ++lane) {
-          sum[n][lane] += tap.weight[power_q[n]] * in[lane];
-        }
+      const float* const in = filtered_row(j + layout_.radius.y + tap.offset, 0) + i;
+      const Vector one = Vector::load(in);
+      const Vector p = Vector::load(in + layout_.width);
+      sum[0] += tap.weight[0] * one;
+      sum[1] += tap.weight[0] * p;
+      sum[2] += tap.weight[1] * one;
+      if constexpr (Order == 2) {
+        sum[3] += tap.weight[0] * Vector::load(in + 2 * layout_.width);
+        sum[4] += tap.weight[1] * p;
+        sum[5] += tap.weight[2] * one;
       }
     }
-    for (int n = 0; n < plane_sums(Order); ++n) {
-      std::copy(sum[n], sum[n] + Lanes, plane + n * layout_.plane() + static_cast<std::size_t>(j * layout_.width + i));
+    for (int n = 0; n < in_plane; ++n) {
+      sum[n].store(plane + n * layout_.plane() + static_cast<std::size_t>(j * layout_.width + i));
+    }
+  }
+
+  void add_straight(const std::vector<Contribution>& contributions, float* out) const {
+    const std::size_t size = layout_.plane();
+    for (std::size_t n = 0; n < size; n += Lanes) {
+      Vector s[in_space] = {};
+      for (const Contribution& c : contributions) {
+        const float* const b = plane_of(c.slice - layout_.first_slice) + n;
+        const Vector one = Vector::load(b);
+        const Vector p = Vector::load(b + size);
+        const Vector q = Vector::load(b + 2 * size);
+        const float w = c.weight;
+        const float wz = w * c.offset[2];
+        s[0] += w * one;
+        s[1] += w * p;
+        s[2] += w * q;
+        s[3] += wz * one;
+        if constexpr (Order == 2) {
+          s[4] += w * Vector::load(b + 3 * size);
+          s[5] += w * Vector::load(b + 4 * size);
+          s[6] += w * Vector::load(b + 5 * size);
+          s[7] += wz * p;
+          s[8] += wz * q;
+          s[9] += (wz * c.offset[2]) * one;
+        }
+      }
+      for (int m = 0; m < in_space; ++m) {
+        s[m].store(out + m * size + n);
+      }
     }
   }
 
   /// Moves a slice's sums from its own voxels' places to the offsets from the slice in hand, and adds them up.
-  void add_plane(const Contribution& c, const float* plane, float* out) const {
+  void add_shifted(const Contribution& c, float* out) const {
     const std::size_t size = layout_.plane();
-    for (std::size_t n = 0; n < size; n += Lanes) {
-      const float* const b = plane + n;
-      float* const s = out + n;
-      if (kernel_.straight) {
-        add_straight(c, b, s, size);
-      } else {
-        add_shifted(c, b, s, size);
-      }
-    }
-  }
-
-  static void add_straight(const Contribution& c, const float* b, float* s, std::size_t size) {
-    const float w = c.weight;
-    const float wz = c.weight * c.offset[2];
-    const float wzz = wz * c.offset[2];
-    for (int l = 0; l < Lanes; ++l) {
-      s[l] += w * b[l];
-      s[size + l] += w * b[size + l];
-      s[2 * size + l] += w * b[2 * size + l];
-      s[3 * size + l] += wz * b[l];
-    }
-    if constexpr (Order == 2) {
-      for (int l = 0; l < Lanes; ++l) {
-        s[4 * size + l] += w * b[3 * size + l];
-        s[5 * size + l] += w * b[4 * size + l];
-        s[6 * size + l] += w * b[5 * size + l];
-        s[7 * size + l] += wz * b[size + l];
-        s[8 * size + l] += wz * b[2 * size + l];
-        s[9 * size + l] += wzz * b[l];
-      }
-    }
-  }
-
-  static void add_shifted(const Contribution& c, const float* b, float* s, std::size_t size) {
     const float w = c.weight;
     const float x = c.offset[0];
     const float y = c.offset[1];
     const float z = c.offset[2];
-    for (int l = 0; l < Lanes; ++l) {
-      const float m = b[l];
-      const float p = b[size + l] + x * m;
-      const float q = b[2 * size + l] + y * m;
-      s[l] += w * m;
-      s[size + l] += w * p;
-      s[2 * size + l] += w * q;
-      s[3 * size + l] += w * (z * m);
+    for (std::size_t n = 0; n < size; n += Lanes) {
+      const float* const b = planes_ + n;
+      float* const s = out + n;
+      const Vector one = Vector::load(b);
+      const Vector p = Vector::load(b + size) + x * one;
+      const Vector q = Vector::load(b + 2 * size) + y * one;
+      add(s, w * one);
+      add(s + size, w * p);
+      add(s + 2 * size, w * q);
+      add(s + 3 * size, w * (z * one));
       if constexpr (Order == 2) {
-        s[4 * size + l] += w * (b[3 * size + l] + x * (b[size + l] + p));      // (p + x)^2
-        s[5 * size + l] += w * (b[4 * size + l] + y * b[size + l] + x * q);    // (p + x)(q + y)
-        s[6 * size + l] += w * (b[5 * size + l] + y * (b[2 * size + l] + q));  // (q + y)^2
-        s[7 * size + l] += w * (z * p);
-        s[8 * size + l] += w * (z * q);
-        s[9 * size + l] += w * (z * (z * m));
+        const Vector pp = Vector::load(b + 3 * size) + x * (Vector::load(b + size) + p);
+        const Vector pq = Vector::load(b + 4 * size) + y * Vector::load(b + size) + x * q;
+        const Vector qq = Vector::load(b + 5 * size) + y * (Vector::load(b + 2 * size) + q);
+        add(s + 4 * size, w * pp);
+        add(s + 5 * size, w * pq);
+        add(s + 6 * size, w * qq);
+        add(s + 7 * size, w * (z * p));
+        add(s + 8 * size, w * (z * q));
+        add(s + 9 * size, w * (z * (z * one)));
       }
     }
   }
+
+  static void add(float* sums, const Vector& more) { (Vector::load(sums) + more).store(sums); }
 
   const SliceKernel& kernel_;
   const BlockLayout& layout_;

@@ -64,10 +64,8 @@ PlaneFit fit_plane(const float* sums, std::size_t stride, double scale_mm, const
   // at a scale of 1.5 mm still have 0.08.
   constexpr double least_spread = 1e-4;
   const glm::dmat3 inverse = inverse_of_covariance(covariance, least_spread * scale_mm * scale_mm);
-  PlaneFit fit;
-  fit.slope = to_patient * inverse / total;
-  fit.constant = -(fit.slope * mean);
-  return fit;
+  const glm::dmat3 slope = to_patient * inverse / total;
+  return {glm::mat3(slope), glm::vec3(-(slope * mean))};
 }
 
 }  // namespace palpate::io::internal

@@ -8,15 +8,10 @@
 
 namespace palpate::io::internal {
 
-/// Gradient in patient space = slope . (sums of value times offset) + constant * (sum of values).
+/// Gradient in patient space = slope * (sums of value times offset along p, q, w) + constant * (sum of values).
 struct PlaneFit {
-  glm::dmat3 slope{0};
-  glm::dvec3 constant{0};
-
-  glm::vec3 gradient(float sum, float along_p, float along_q, float along_w) const noexcept {
-    const glm::dvec3 g = slope * glm::dvec3(along_p, along_q, along_w) + static_cast<double>(sum) * constant;
-    return {static_cast<float>(g.x), static_cast<float>(g.y), static_cast<float>(g.z)};
-  }
+  glm::mat3 slope{0};
+  glm::vec3 constant{0};
 };
 
 /// From the sums of the weights themselves (1, p, q, w, pp, pq, qq, pw, qw, ww: `stride` floats apart). A direction
