@@ -60,18 +60,24 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
   const double reach = hard ? size : s + size;
   const double rounding = 8 * unit_roundoff * reach * miss.length + 2 * reach * miss.error;
   const double off = hard ? (miss.length <= 4 * miss.error ? 0 : infinity) : s * miss.length;
-  const double slack = std::max(0.0, off - glm::dot(given, miss.vector.hi())) + rounding;
+  double slack = std::max(0.0, off - glm::dot(given, miss.vector.hi())) + rounding;
   if (miss.length > 4 * miss.error && !hard) {
     const Vec3 full = miss.vector.hi() * (s / miss.length);
     const double turn = 2 * s * miss.error / miss.length;
     const double change = length_of(full - given) + turn;
+    if (size >= s * (1 - 8 * unit_roundoff)) {
+      // Of full size but for rounding, which the force's error covers: only its direction can miss, and
+      // s |m| - F.m = |m| |s m/|m| - F|^2 / (2 s) has no cancellation. It counts where friction is about to slip.
+      const double miss_of_direction = change + 16 * unit_roundoff * s;
+      slack = std::min(slack, (miss.length + miss.error) * miss_of_direction * miss_of_direction / (2 * s));
+    }
     if (change * change <= stiffness * slack) {
       return {full, 8 * unit_roundoff * s + turn, 0, 0, false};
     }
   }
   const double near = rounding_of_data(attractor, z);
   const double backward = miss.length <= near ? 0 : slack;
-  return {given, 8 * unit_roundoff * size, slack, backward, slack > 0};
+  return {given, 16 * unit_roundoff * size, slack, backward, slack > 0};
 }
 
 }  // namespace
@@ -122,13 +128,41 @@ Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineV
   return bound;
 }
 
+namespace {
+
+bool has_full_size(const Placed& primitive, const Vec3& force) {
+  return (primitive.type == PrimitiveType::line || primitive.type == PrimitiveType::point) &&
+         length_of(force) >= primitive.strength * (1 - 8 * unit_roundoff);
+}
+
+// Moves z within the flat to where the attractor's direction is that of its force: by the rounding of z, which close to
+// the attractor turns the direction by far more than that of the force.
+void align(const Placed& attractor, const Vec3& force, const Flat& flat, FineVec3& z) {
+  const Miss miss = miss_of(attractor, z);
+  Vec3 step = (miss.vector - fine(force * (miss.length / length_of(force)))).hi();
+  for (int i = 0; i < flat.rank; ++i) {
+    step -= flat.normal[i] * glm::dot(flat.normal[i], step);
+  }
+  z = z + step;
+}
+
+}  // namespace
+
 Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z,
                          std::span<const Vec3> forces) {
-  std::array<std::uint32_t, 32> held;  // more of them add no more than tightness
+  std::array<std::uint32_t, 32> held;    // more of them add no more than tightness
+  std::array<std::uint32_t, 32> inside;  // those of the held whose force is not at its limit
   std::size_t count = 0;
+  std::size_t inside_count = 0;
+  std::uint32_t slipping = 0;
   for (std::size_t i = 0; i < primitives.size() && count < held.size(); ++i) {
     if (share_of(primitives[i], z, forces[i], stiffness).held) {
       held[count++] = static_cast<std::uint32_t>(i);
+      if (has_full_size(primitives[i], forces[i])) {
+        slipping = static_cast<std::uint32_t>(i);
+      } else {
+        inside[inside_count++] = static_cast<std::uint32_t>(i);
+      }
     }
   }
   Settled settled{z, {}};
@@ -137,6 +171,20 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
     flat = settle(primitives, std::span(held).first(count), settled.z);
   }
   settled.bound = bound_at(primitives, stiffness, settled.z, flat, forces);
+  if (inside_count + 1 == count) {
+    // Between sticking and slipping, where friction rests for as long as the probe does, the proxy is nearly but not
+    // quite on one attractor, which pulls with all its strength.
+    Settled free{z, {}};
+    Flat rest;
+    if (inside_count > 0) {
+      rest = settle(primitives, std::span(inside).first(inside_count), free.z);
+    }
+    align(primitives[slipping], forces[slipping], rest, free.z);
+    free.bound = bound_at(primitives, stiffness, free.z, rest, forces);
+    if (free.bound.backward_error < settled.bound.backward_error) {
+      return free;
+    }
+  }
   return settled;
 }
 
