@@ -11,11 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "palpate/io/errors.h"
+#include "palpate/io/internal/dataset_start.h"
 #include "palpate/io/internal/decode.h"
 #include "palpate/io/internal/dicom_value.h"
 #include "palpate/io/internal/planes.h"
@@ -23,22 +22,12 @@
 namespace palpate::io::internal {
 namespace {
 
-// A dataset without the preamble and "DICM" of part 10 starts with a low group and a believable length; nothing else is
-// handed to the parser, which would take a large text or picture for thousands of attributes.
-void refuse_foreign(const std::filesystem::path& path, std::uint64_t size) {
-  if (size == 0) throw DicomError("empty file");
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, 132> start{};
-  if (!file.read(start.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(start.size(), size)))) {
-    throw DicomError("cannot be read: check its permissions");
-  }
-  if (size >= 132 && std::memcmp(start.data() + 128, "DICM", 4) == 0) return;
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(start[i]); };
-  const bool little = (byte(0) == 8 || byte(0) == 2) && byte(1) == 0 && byte(3) == 0;
-  const bool big = byte(0) == 0 && (byte(1) == 8 || byte(1) == 2) && byte(2) == 0;
-  const bool vr = std::isupper(byte(4)) != 0 && std::isupper(byte(5)) != 0;
-  const bool short_value = byte(6) == 0 && byte(7) == 0 && byte(5) == 0;
-  if (size < 132 || !((little && (vr || short_value)) || (big && vr))) throw DicomError("not a DICOM file");
+void check_file(const InputFile& file, const std::filesystem::path& path) {
+  const DatasetStart start = find_dataset(file);
+  DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(start.at));
+  if (start.deflated && stream.installCompressionFilter(ESC_zlib).bad())
+    throw DicomError("damaged: it cannot be inflated");
+  check_structure(stream, start.encoding);
 }
 
 void read_identity(DcmItem& item, FileHeader& header) {
@@ -126,18 +115,18 @@ void read_planes(DcmItem& item, FileHeader& header) {
 }
 
 // The bytes just before the pixel data's value: its tag, VR and length. DCMTK stops right behind them.
-void check_native_length(const InputFile& file, std::size_t frames, bool explicit_vr, FileHeader& header) {
+void check_native_length(const InputFile& file, std::size_t frames, const DcmXfer& syntax, FileHeader& header) {
   std::array<std::byte, 12> head{};
   file.read(header.pixels_at - head.size(), head);
+  const bool big = syntax.getByteOrder() == EBO_BigEndian;
   const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(head[i]); };
-  const std::size_t tag_at = explicit_vr ? 0 : 4;
-  const unsigned group =
-      header.big_endian ? byte(tag_at) << 8 | byte(tag_at + 1) : byte(tag_at + 1) << 8 | byte(tag_at);
+  const std::size_t tag_at = syntax.isExplicitVR() ? 0 : 4;
+  const unsigned group = big ? byte(tag_at) << 8 | byte(tag_at + 1) : byte(tag_at + 1) << 8 | byte(tag_at);
   if (group != 0x7FE0) throw DicomError(what_it_is(header) + ": no pixels in it");
-  header.swapped_words = header.big_endian && header.format.bits_allocated == 8 && byte(4) == 'O' && byte(5) == 'W';
+  header.swapped_words = big && header.format.bits_allocated == 8 && byte(4) == 'O' && byte(5) == 'W';
 
   std::array<std::byte, 4> length{head[8], head[9], head[10], head[11]};
-  if (header.big_endian) std::reverse(length.begin(), length.end());
+  if (big) std::reverse(length.begin(), length.end());
   std::uint64_t claimed = 0;
   for (std::size_t i = 4; i-- > 0;) claimed = claimed << 8 | std::to_integer<unsigned>(length[i]);
   const std::uint64_t present = std::min(claimed, file.size() - header.pixels_at);
@@ -147,11 +136,10 @@ void check_native_length(const InputFile& file, std::size_t frames, bool explici
   }
 }
 
-void locate_pixels(const std::filesystem::path& path, const DcmXfer& syntax, FileHeader& header) {
+void locate_pixels(const InputFile& file, const DcmXfer& syntax, FileHeader& header) {
   std::size_t frames = 1;
   for (const Plane& plane : header.planes) frames = std::max<std::size_t>(frames, plane.frame + 1);
-  const InputFile file(path);
-  header.big_endian = syntax.getByteOrder() == EBO_BigEndian;
+  header.big_endian = syntax.getPixelDataByteOrder() == EBO_BigEndian;
   try {
     if (syntax.isEncapsulated()) {
       header.coding = PixelCoding::encapsulated;
@@ -166,7 +154,7 @@ void locate_pixels(const std::filesystem::path& path, const DcmXfer& syntax, Fil
       header.coding = PixelCoding::deflated;
       check_density(header.transfer_syntax, header.format, frames, file.size());
     } else {
-      check_native_length(file, frames, syntax.isExplicitVR(), header);
+      check_native_length(file, frames, syntax, header);
     }
   } catch (const DicomError& error) {
     header.defect = error.what();
@@ -196,8 +184,8 @@ std::optional<Placement> make_placement(const std::vector<double>& position, con
 }
 
 FileHeader read_file_header(const std::filesystem::path& path) {
-  const std::uint64_t size = std::filesystem::file_size(path);
-  refuse_foreign(path, size);
+  const InputFile input(path);
+  check_file(input, path);
 
   DcmFileFormat file;
   DcmInputFileStream stream(OFFilename(path.c_str()));
@@ -221,7 +209,7 @@ FileHeader read_file_header(const std::filesystem::path& path) {
   header.pixels_at = static_cast<std::uint64_t>(stream.tell());
 
   read_planes(dataset, header);
-  locate_pixels(path, syntax, header);
+  locate_pixels(input, syntax, header);
   return header;
 }
 

@@ -1,0 +1,91 @@
+#include "palpate/io/internal/dataset_start.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcxfer.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+
+#include "palpate/io/errors.h"
+
+namespace palpate::io::internal {
+namespace {
+
+struct FirstBytes {
+  std::array<std::byte, 12> bytes{};
+
+  FirstBytes(const InputFile& file, std::uint64_t at) {
+    if (at > file.size() || file.size() - at < bytes.size()) throw DicomError("not a DICOM file");
+    file.read(at, bytes);
+  }
+  unsigned operator[](std::size_t i) const { return std::to_integer<unsigned>(bytes[i]); }
+  bool has_vr() const {
+    const auto letter = [](unsigned c) { return c >= 'A' && c <= 'Z'; };
+    return letter((*this)[4]) && letter((*this)[5]);
+  }
+  unsigned group() const { return (*this)[0] | (*this)[1] << 8; }
+};
+
+// A dataset starts with a low group (8, rarely 2 or 4) and, without a VR, a length of at most a few hundred bytes.
+std::optional<Encoding> guess_encoding(const FirstBytes& start) {
+  const bool little = (start[0] == 8 || start[0] == 4) && start[1] == 0 && start[3] == 0;
+  const bool big = start[0] == 0 && (start[1] == 8 || start[1] == 4) && start[2] == 0;
+  const bool short_value = start[6] == 0 && start[7] == 0;
+  if (little && start.has_vr()) return Encoding{false, true};
+  if (big && start.has_vr()) return Encoding{true, true};
+  if (little && short_value) return Encoding{false, false};
+  return std::nullopt;
+}
+
+// Group 2 is always little endian with explicit VRs. Returns the transfer syntax; `at` moves behind it.
+std::string read_meta(const InputFile& file, std::uint64_t& at) {
+  std::string syntax;
+  while (file.size() - at >= 12) {
+    const FirstBytes element(file, at);
+    if (element.group() != 2 || !element.has_vr()) break;
+    const bool wide = element[4] == 'O' || (element[4] == 'U' && (element[5] == 'N' || element[5] == 'T'));
+    const std::uint64_t length =
+        wide ? element[8] | element[9] << 8 | element[10] << 16 | std::uint64_t{element[11]} << 24
+             : element[6] | element[7] << 8;
+    const std::uint64_t value_at = at + (wide ? 12 : 8);
+    if (value_at > file.size() || length > file.size() - value_at) throw DicomError("truncated in its header");
+    if ((element[2] | element[3] << 8) == 0x0010 && length <= 64) {
+      syntax.resize(length);
+      file.read(value_at, std::as_writable_bytes(std::span(syntax)));
+      syntax.erase(std::find_if(syntax.begin(), syntax.end(), [](char c) { return c == '\0' || c == ' '; }),
+                   syntax.end());
+    }
+    at = value_at + length;
+  }
+  return syntax;
+}
+
+}  // namespace
+
+DatasetStart find_dataset(const InputFile& file) {
+  if (file.size() == 0) throw DicomError("empty file");
+  DatasetStart start;
+  bool is_part_10 = false;
+  if (file.size() >= 132) {
+    std::array<std::byte, 4> magic{};
+    file.read(128, magic);
+    is_part_10 = std::memcmp(magic.data(), "DICM", magic.size()) == 0;
+    if (is_part_10) start.at = 132;
+  }
+  const std::uint64_t meta_at = start.at;
+  const std::string uid = read_meta(file, start.at);
+  const DcmXfer syntax(uid.c_str());  // which knows syntaxes without a UID, too
+  if (!uid.empty() && syntax.getXfer() != EXS_Unknown) {
+    start.encoding = {syntax.getByteOrder() == EBO_BigEndian, syntax.isExplicitVR() == OFTrue};
+    start.deflated = syntax.getStreamCompression() != ESC_none;
+    return start;
+  }
+  const auto guess = guess_encoding(FirstBytes(file, start.at));
+  if (!guess) throw DicomError(is_part_10 || start.at > meta_at ? "damaged: no dataset in it" : "not a DICOM file");
+  start.encoding = *guess;
+  return start;
+}
+
+}  // namespace palpate::io::internal

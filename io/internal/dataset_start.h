@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "palpate/io/internal/input_file.h"
+#include "palpate/io/internal/structure.h"
+
+namespace palpate::io::internal {
+
+/// Where a file's dataset begins and how it is written.
+struct DatasetStart {
+  std::uint64_t at = 0;
+  Encoding encoding;
+  bool deflated = false;
+};
+
+/// Reads preamble and file meta information (PS3.10 7.1); files without them are recognised by their first element.
+/// Throws DicomError ("not a DICOM file", "empty file") for everything else, so that no text or picture reaches a
+/// parser that would take it for thousands of attributes.
+DatasetStart find_dataset(const InputFile& file);
+
+}  // namespace palpate::io::internal
