@@ -1,6 +1,9 @@
 #include "palpate/device/found_devices.h"
 
+#include <iterator>
+
 #include "palpate/device/internal/falcon_usb.h"
+#include "palpate/device/internal/hid.h"
 
 namespace palpate::device {
 

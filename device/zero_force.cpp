@@ -1,5 +1,10 @@
 #include "palpate/device/internal/zero_force.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
 #include <ctime>
 #include <exception>
 
@@ -22,9 +27,22 @@ bool send_zeros_to_falcon(const std::string& address) {
   return true;
 }
 
+/// Straight to the hidraw node, which several may hold at once: a report number and zeros, in each of the lengths that
+/// firmwares read, since which one this arm has is not known here.
+bool send_zeros_to_hid(const std::string& address) {
+  const int node = open(address.c_str(), O_WRONLY | O_CLOEXEC);
+  if (node < 0) return false;
+  constexpr std::array<std::uint8_t, 65> zeros{};
+  int taken = 0;
+  for (const std::size_t length : {15, 9, 65}) taken += write(node, zeros.data(), length) > 0 ? 1 : 0;
+  close(node);
+  return taken > 0;
+}
+
 bool try_once(const std::string& kind, const std::string& address) {
   try {
-    return kind == "falcon" && send_zeros_to_falcon(address);
+    if (kind == "falcon") return send_zeros_to_falcon(address);
+    return kind == "wooden_haptics" && send_zeros_to_hid(address);
   } catch (const std::exception&) {
     return false;  // still held by the process that is ending, or gone
   }
