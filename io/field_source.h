@@ -1,7 +1,7 @@
 #pragma once
 
-/// What haptic modes read: fields sampled at one point of patient space (LPS, mm). A scan is one source (VolumeFields); an
-/// analytic phantom or a flow is another.
+/// What haptic modes read: fields sampled at one point of patient space (LPS, mm). A scan is one source (VolumeFields);
+/// an analytic phantom or a flow is another.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -26,9 +26,12 @@ constexpr FieldSet operator|(FieldSet a, FieldSet b) {
 constexpr FieldSet operator&(FieldSet a, FieldSet b) {
   return static_cast<FieldSet>(static_cast<unsigned>(a) & static_cast<unsigned>(b));
 }
-constexpr bool contains(FieldSet set, FieldSet wanted) { return (set & wanted) == wanted; }
+constexpr bool contains(FieldSet set, FieldSet wanted) {
+  return (set & wanted) == wanted;
+}
 
-/// Fields at a point. Outside the data (beyond the volume, in padding) `inside` is false and all else is zero: nothing is felt there.
+/// Fields at a point. Outside the data (beyond the volume, in padding) `inside` is false and all else is zero: nothing
+/// is felt there.
 struct Sample {
   bool inside = false;
   double value = 0;
@@ -37,6 +40,8 @@ struct Sample {
   Vec3 tube{0};      ///< unit vector along the tube, or zero
   double low = 0;    ///< value on the thinner side of the boundary
   double high = 0;   ///< value on the denser side
+  /// Whether the gradient was read from a brick computed ahead, or (false) at the sample: slower, with the same bits.
+  bool from_brick = false;
 };
 
 class FieldSource {
@@ -48,8 +53,8 @@ class FieldSource {
 
   /// Fields that sample() can give.
   virtual FieldSet available() const noexcept = 0;
-  /// The wanted fields at a point (mm). Called in the servo tick: no lock, exception or system call. What is not wanted is
-  /// neither computed nor read.
+  /// The wanted fields at a point (mm). Called in the servo tick: no lock, exception or system call. What is not wanted
+  /// is neither computed nor read.
   virtual Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept = 0;
 };
 

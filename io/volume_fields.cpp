@@ -1,9 +1,13 @@
 #include "palpate/io/volume_fields.h"
 
 #include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "palpate/io/internal/brick_cache.h"
 #include "palpate/io/internal/cell.h"
 
 namespace palpate::io {
@@ -30,9 +34,7 @@ double interpolated_value(const Volume& volume, const internal::Cell& cell) noex
   return volume.slope * std::visit(stored, volume.voxels) + volume.intercept;
 }
 
-Vec3 interpolated_gradient(const GradientKernel& kernel, const internal::Cell& cell) noexcept {
-  std::array<glm::vec3, 8> corners;
-  kernel.at_cell({cell.first, cell.size}, corners);
+Vec3 interpolated_gradient(const internal::Cell& cell, const std::array<glm::vec3, 8>& corners) noexcept {
   Vec3 gradient(0);
   std::size_t n = 0;
   for (int k = 0; k < cell.size.z; ++k) {
@@ -47,7 +49,8 @@ Vec3 interpolated_gradient(const GradientKernel& kernel, const internal::Cell& c
 
 }  // namespace
 
-VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm)
+VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
+                           const FieldOptions& options)
     : volume_(std::move(volume)), available_(wanted & offered) {
   if (!volume_) {
     throw std::invalid_argument("fields need a volume");
@@ -57,6 +60,10 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
   }
   if (contains(wanted, FieldSet::gradient)) {
     kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
+    if (options.brick_bytes > 0) {
+      bricks_ = std::make_unique<internal::BrickCache>(*kernel_, volume_->geometry.dimensions, options.brick_bytes,
+                                                       options.background);
+    }
   }
 }
 
@@ -65,7 +72,11 @@ VolumeFields::~VolumeFields() = default;
 Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noexcept {
   Sample s;
   internal::Cell cell;
-  if (!internal::find_cell(*volume_, volume_->geometry.to_index(position_mm), cell)) {
+  const Vec3 index = volume_->geometry.to_index(position_mm);
+  if (bricks_ && contains(wanted, FieldSet::gradient)) {
+    bricks_->move_to(index);  // outside as well: bricks shall be there when the point comes in
+  }
+  if (!internal::find_cell(*volume_, index, cell)) {
     return s;
   }
   s.inside = true;
@@ -73,13 +84,39 @@ Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noex
     s.value = interpolated_value(*volume_, cell);
   }
   if (kernel_ && contains(wanted, FieldSet::gradient)) {
-    s.gradient = interpolated_gradient(*kernel_, cell);
+    std::array<glm::vec3, 8> corners;
+    const Block block{cell.first, cell.size};
+    s.from_brick = bricks_ && bricks_->read(block, corners);
+    if (!s.from_brick) {
+      kernel_->at_cell(block, corners);
+    }
+    s.gradient = interpolated_gradient(cell, corners);
   }
   return s;
 }
 
+void VolumeFields::prepare(const Vec3& position_mm, double distance_mm) const {
+  if (!bricks_) {
+    return;
+  }
+  const Geometry& g = volume_->geometry;
+  const double between = std::abs(glm::dot(g.step, glm::cross(g.direction_i, g.direction_j)));
+  const Vec3 reach = distance_mm / Vec3(g.spacing_i, g.spacing_j, between);
+  const Vec3 last(g.dimensions - 1);
+  const Vec3 index = g.to_index(position_mm);
+  const glm::ivec3 low(glm::clamp(index - reach, Vec3(0), last) / static_cast<double>(internal::BrickCache::cells));
+  const glm::ivec3 high(glm::clamp(index + reach, Vec3(0), last) / static_cast<double>(internal::BrickCache::cells));
+  for (int k = low.z; k <= high.z; ++k) {
+    for (int j = low.y; j <= high.y; ++j) {
+      for (int i = low.x; i <= high.x; ++i) {
+        bricks_->fill(glm::ivec3(i, j, k) * internal::BrickCache::cells);
+      }
+    }
+  }
+}
+
 std::size_t VolumeFields::memory_bytes() const noexcept {
-  return kernel_ ? sizeof *kernel_ : 0;
+  return bricks_ ? bricks_->memory_bytes() : 0;
 }
 
 }  // namespace palpate::io

@@ -15,25 +15,45 @@ namespace palpate::io {
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
 ///
+/// A worker computes gradients in bricks ahead of and around the point last sampled, and keeps them under a memory
+/// bound. A sample that finds its brick missing computes its cell with the same kernel: it takes longer and gives the
+/// same bits.
+///
 /// Outside: beyond the hull of the voxel centres, between slices where some are missing, and wherever a voxel that the
 /// interpolation needs is padding.
+struct FieldOptions {
+  std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
+  bool background = true;                           ///< whether a worker fills bricks ahead
+};
+
+namespace internal {
+class BrickCache;
+}
+
 class VolumeFields : public FieldSource {
  public:
   /// Prepares what the wanted fields need and no more; `scale_mm` is that of the gradient and is not read without one.
   /// Throws std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
-  VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm);
+  VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
+               const FieldOptions& options = {});
   ~VolumeFields() override;
 
   FieldSet available() const noexcept override { return available_; }
+  /// From any number of threads.
   Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept override;
 
-  /// Memory beyond the volume's own, bytes.
+  /// Fills the bricks within a distance (mm, along each axis of the grid) of a point before it returns, as far as
+  /// memory goes.
+  void prepare(const Vec3& position_mm, double distance_mm) const;
+
+  /// Largest memory beyond the volume's own, bytes.
   std::size_t memory_bytes() const noexcept;
 
  private:
   std::shared_ptr<const Volume> volume_;
   FieldSet available_;
   std::unique_ptr<const GradientKernel> kernel_;
+  std::unique_ptr<internal::BrickCache> bricks_;
 };
 
 }  // namespace palpate::io

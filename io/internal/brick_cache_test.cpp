@@ -1,0 +1,116 @@
+#include "palpate/io/internal/brick_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "palpate/io/volume_fields.h"
+#include "palpate/testdata/scan.h"
+
+namespace palpate::io {
+namespace {
+
+constexpr FieldSet both = FieldSet::value | FieldSet::gradient;
+constexpr FieldOptions no_bricks{.brick_bytes = 0, .background = false};
+constexpr FieldOptions on_request{.background = false};
+
+std::shared_ptr<const Volume> head_like() {
+  testdata::Grid grid;
+  grid.size = {70, 66, 40};
+  grid.spacing = {1, 1, 1.5};
+  return std::make_shared<const Volume>(
+      testdata::scan(testdata::make_shell(20, 28), testdata::make_geometry(grid), {.noise = 20, .circle_radius = 31}));
+}
+
+/// A smooth walk that stays mostly inside and crosses brick borders, the volume's edge and the padding.
+Vec3 step_of_walk(int n) {
+  const double t = n * 0.01;
+  return {36 * std::sin(1.3 * t), 34 * std::sin(1.7 * t + 1), 31 * std::sin(0.9 * t + 2)};
+}
+
+bool same_bits(const Sample& a, const Sample& b) {
+  return a.inside == b.inside && std::memcmp(&a.value, &b.value, sizeof a.value) == 0 &&
+         std::memcmp(&a.gradient, &b.gradient, sizeof a.gradient) == 0;
+}
+
+TEST(Bricks, GiveTheBitsOfTheKernelAtTheSample) {
+  const auto volume = head_like();
+  const VolumeFields plain(volume, both, 2, no_bricks);
+  const VolumeFields bricks(volume, both, 2, on_request);
+  bricks.prepare({0, 0, 0}, 100);
+  int inside = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const Vec3 p = step_of_walk(n);
+    const Sample a = plain.sample(p, both);
+    const Sample b = bricks.sample(p, both);
+    ASSERT_TRUE(same_bits(a, b));
+    ASSERT_FALSE(a.from_brick);
+    ASSERT_EQ(b.from_brick, b.inside);
+    inside += a.inside;
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(Bricks, AreOnlyWhereTheyWerePrepared) {
+  const VolumeFields fields(head_like(), both, 2, on_request);
+  EXPECT_FALSE(fields.sample({20, 0, 0}, both).from_brick);
+  fields.prepare({20, 0, 0}, 1);
+  EXPECT_TRUE(fields.sample({20, 0, 0}, both).from_brick);
+  EXPECT_FALSE(fields.sample({-20, 0, 0}, both).from_brick);
+  EXPECT_FALSE(fields.sample({20, 0, 0}, FieldSet::value).from_brick);
+}
+
+TEST(Bricks, StayUnderTheirBoundAndKeepTheLatest) {
+  const auto volume = head_like();
+  const FieldOptions little{.brick_bytes = std::size_t{300} << 10, .background = false};
+  const VolumeFields fields(volume, both, 2, little);
+  EXPECT_LE(fields.memory_bytes(), little.brick_bytes);
+  EXPECT_GT(fields.memory_bytes(), little.brick_bytes / 2);
+  const VolumeFields plain(volume, both, 2, no_bricks);
+  for (int n = 0; n < 2000; n += 40) {
+    const Vec3 p = step_of_walk(n);
+    fields.prepare(p, 0);
+    const Sample s = fields.sample(p, both);
+    EXPECT_EQ(s.from_brick, s.inside);
+    EXPECT_TRUE(same_bits(s, plain.sample(p, both)));
+  }
+}
+
+TEST(Bricks, WorkerBringsThemToWhereThePointIs) {
+  const VolumeFields fields(head_like(), both, 2);
+  bool there = false;
+  for (int n = 0; n < 10000 && !there; ++n) {  // many times what one brick takes
+    there = fields.sample({20, 3, 2}, both).from_brick;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(there);
+}
+
+TEST(Bricks, TwoReadersAndAWorkerThatEvictsNeverSeeOtherBits) {
+  const auto volume = head_like();
+  const VolumeFields plain(volume, both, 1.5, no_bricks);
+  const VolumeFields fields(volume, both, 1.5, {.brick_bytes = std::size_t{200} << 10, .background = true});
+  std::atomic<int> wrong{0};
+  std::atomic<int> from_brick{0};
+  const auto walk = [&](int first) {
+    for (int n = 0; n < 3000; ++n) {
+      const Vec3 p = step_of_walk(first + n / 3);
+      const Sample s = fields.sample(p, both);
+      wrong += !same_bits(s, plain.sample(p, both));
+      from_brick += s.from_brick;
+      if (n % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  std::thread other(walk, 4000);
+  walk(0);
+  other.join();
+  EXPECT_EQ(wrong, 0);
+  RecordProperty("from_brick", from_brick.load());
+}
+
+}  // namespace
+}  // namespace palpate::io
