@@ -229,8 +229,10 @@ class FalconUsb final : public FalconLink {
 }  // namespace
 
 std::vector<FoundDevice> find_falcons() {
-  const Context context = open_context();
   std::vector<FoundDevice> found;
+  libusb_context* opened_context = nullptr;
+  if (libusb_init(&opened_context) != 0) return found;
+  const Context context(opened_context);
   visit_falcons(context.get(), [&](libusb_device* device) {
     libusb_device_handle* opened = nullptr;
     const int failed = libusb_open(device, &opened);

@@ -9,6 +9,7 @@
 
 namespace palpate::device {
 
+/// Never throws: no USB is no Falcons.
 std::vector<FoundDevice> find_falcons();
 
 /// Opens the Falcon at "bus:device", or the only one. Throws std::runtime_error naming it and what to do.
