@@ -17,10 +17,12 @@ if(PALPATE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${PALPATE_CCACHE})
 endif()
 
+# Designated initialisers name what they set and leave the rest at its default: no reason for a warning.
 # -ffp-contract=off: a session is replayed bit for bit, so no compiler may fuse what the source keeps apart.
 add_library(palpate_compile_options INTERFACE)
 target_compile_options(palpate_compile_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Werror -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Wno-missing-field-initializers -Werror -ffp-contract=off)
 if(PALPATE_SANITIZE)
   target_compile_options(palpate_compile_options INTERFACE
     -fsanitize=${PALPATE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The subcommands of `palpate`, one file each. Exit codes: 0 done, 1 something in the input was refused, 2 wrong usage,
-/// 3 internal fault.
+/// The subcommands of `palpate`, one file each. Exit codes: 0 done, 1 something in the input was refused, 2 wrong
+/// usage, 3 internal fault.
 
 #include <stdexcept>
 
@@ -23,12 +23,14 @@ class WrongUsage : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Each adds its subcommand to the program; the subcommand's callback does the work, prints to stdout and throws the above.
+// Each adds its subcommand to the program; the subcommand's callback does the work, prints to stdout and throws the
+// above.
 void add_info(CLI::App& program);
 void add_sample(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_probe(CLI::App& program);
 void add_solve(CLI::App& program);
+void add_bench(CLI::App& program);
 
 }  // namespace palpate::plugin

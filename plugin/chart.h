@@ -1,0 +1,50 @@
+#pragma once
+
+/// Charts as pictures: curves over linear or logarithmic axes, one panel or several below one another.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "palpate/plugin/canvas.h"
+
+namespace palpate::plugin {
+
+struct Axis {
+  std::string label;  ///< with its unit: "depth (mm)"
+  bool logarithmic = false;
+  std::optional<double> minimum = std::nullopt;  ///< chosen from the data where not given
+  std::optional<double> maximum = std::nullopt;
+};
+
+struct Curve {
+  enum class Style { line, points, bars };
+  std::string label;  ///< in the legend; empty: not there
+  std::vector<double> x, y;
+  Colour colour = colours::blue;
+  Style style = Style::line;
+  double width = 1.8;  ///< of the line, or radius of the points: pixels
+};
+
+/// A dashed line across the panel with a word beside it.
+struct Mark {
+  double at = 0;
+  std::string label;
+  Colour colour = colours::grey;
+  bool vertical = true;
+};
+
+struct Chart {
+  std::string title;
+  Axis x, y;
+  std::vector<Curve> curves;
+  std::vector<Mark> marks;
+};
+
+/// Draws the panels below one another, each `height` pixels high. Throws std::runtime_error naming the file.
+void write_png(std::span<const Chart> panels, const std::filesystem::path& file, int width = 960, int height = 420);
+void write_png(const Chart& chart, const std::filesystem::path& file, int width = 960, int height = 540);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,45 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "palpate/plugin/command.h"
+#include "palpate/plugin/loop_studies.h"
+#include "palpate/testdata/fresh_folder.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct StabilityArguments {
+  LoopStudyOptions options;
+  std::string output;
+};
+
+void run_stability(const StabilityArguments& arguments) {
+  if (arguments.output.empty()) {
+    run_loop_studies(arguments.options, "");
+    return;
+  }
+  testdata::FreshFolder folder(arguments.output);
+  run_loop_studies(arguments.options, folder.path());
+  folder.commit();
+}
+
+void add_stability(CLI::App& bench) {
+  auto arguments = std::make_shared<StabilityArguments>();
+  CLI::App* command = bench.add_subcommand(
+      "stability", "Solvers over frames and in the hand: creep, drift, chatter, and the stiffness that holds.");
+  command->add_option("--seconds", arguments->options.seconds, "of each study over frames")->capture_default_str();
+  command->add_option("--hands", arguments->options.hands, "seeded hands")->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");
+  command->callback([arguments] { run_stability(*arguments); });
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program) {
+  CLI::App* bench = program.add_subcommand("bench", "Error against run time, as tables, CSV files and pictures.");
+  bench->require_subcommand(1);
+  add_stability(*bench);
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "palpate/plugin/chart.h"
+#include "palpate/plugin/command.h"
+#include "palpate/plugin/scan.h"
+#include "palpate/plugin/series_option.h"
+#include "palpate/plugin/stroke.h"
+#include "palpate/plugin/summary.h"
+#include "palpate/plugin/vector_text.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct Arguments {
+  SeriesOption series;
+  std::string scene, from, to;
+  double speed = 50;
+  std::filesystem::path picture;
+  bool json = false;
+};
+
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json vector(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+std::string to_json(const std::vector<StrokePoint>& stroke, const modes::Scene& scene) {
+  nlohmann::json json{{"position_mm", nlohmann::json::array()}, {"proxy_mm", nlohmann::json::array()},
+                      {"force_n", nlohmann::json::array()},     {"value", nlohmann::json::array()},
+                      {"solver", nlohmann::json::array()},      {"error_bound_m", nlohmann::json::array()},
+                      {"boundary", nlohmann::json::array()}};
+  for (const StrokePoint& point : stroke) {
+    json["position_mm"].push_back(vector(point.position_mm));
+    json["proxy_mm"].push_back(vector(point.proxy_mm));
+    json["force_n"].push_back(vector(point.force_n));
+    json["value"].push_back(number(point.value));
+    json["solver"].push_back(solver::name_of(point.solver));
+    json["error_bound_m"].push_back(number(point.error_bound_m));
+    json["boundary"].push_back(point.boundary ? nlohmann::json(display_name(scene, *point.boundary))
+                                              : nlohmann::json());
+  }
+  return json.dump();
+}
+
+void print_text(const std::vector<StrokePoint>& stroke, const modes::Plan& plan, const modes::Scene& scene) {
+  fmt::print("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
+  const glm::dvec3 from = stroke.front().position_mm;
+  const glm::dvec3 along = glm::normalize(stroke.back().position_mm - from);
+  // A line every half millimetre is what a person reads; --json has every frame.
+  double next = 0;
+  for (const StrokePoint& point : stroke) {
+    const double depth = glm::dot(point.position_mm - from, along);
+    if (depth + 1e-9 >= next) {
+      next += 0.5;
+      fmt::print("{:9.2f} {:9.3f} {:9.2f} {:9.1f}  {:<11} {}\n", depth, glm::length(point.force_n),
+                 glm::dot(point.proxy_mm - from, along), point.value, solver::name_of(point.solver),
+                 point.boundary ? display_name(scene, *point.boundary) : "");
+    }
+  }
+  fmt::print("\n");
+  for (const Contact& contact : contacts_of(stroke, plan, 0.05)) {
+    const StrokePoint& first = stroke[contact.first];
+    fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N\n", display_name(scene, contact.boundary),
+               glm::dot(first.proxy_mm - from, along), patient_coordinates(first.proxy_mm), first.value,
+               contact.peak_n);
+  }
+}
+
+void draw(const std::vector<StrokePoint>& stroke, const modes::Plan& plan, const modes::Scene& scene,
+          const std::string& unit, const std::filesystem::path& file) {
+  Curve force{.label = "force felt", .x = {}, .y = {}, .colour = colours::vermilion};
+  Curve value{.label = "value at the probe's proxy", .x = {}, .y = {}, .colour = colours::blue};
+  Curve lag{.label = "probe ahead of proxy", .x = {}, .y = {}, .colour = colours::green};
+  for (const StrokePoint& point : stroke) {
+    const double depth = glm::distance(point.position_mm, stroke.front().position_mm);
+    force.x.push_back(depth);
+    force.y.push_back(glm::length(point.force_n));
+    value.x.push_back(depth);
+    value.y.push_back(point.value);
+    lag.x.push_back(depth);
+    lag.y.push_back(glm::distance(point.position_mm, point.proxy_mm));
+  }
+  std::vector<Mark> marks;
+  for (const Contact& contact : contacts_of(stroke, plan, 0.05)) {
+    marks.push_back({.at = glm::distance(stroke[contact.first].position_mm, stroke.front().position_mm),
+                     .label = display_name(scene, contact.boundary)});
+  }
+  const std::vector<Chart> panels{
+      {"Force along the stroke: " + scene.name, {"distance along the stroke (mm)"}, {"force (N)"}, {force}, marks},
+      {"Value", {"distance along the stroke (mm)"}, {unit.empty() ? "value" : "value (" + unit + ")"}, {value}, marks},
+      {"Distance from proxy to probe", {"distance along the stroke (mm)"}, {"distance (mm)"}, {lag}, marks}};
+  write_png(panels, file, 960, 330);
+}
+
+void run(const Arguments& arguments) {
+  const glm::dvec3 from = parse_vector(arguments.from, "--from");
+  const glm::dvec3 to = parse_vector(arguments.to, "--to");
+  if (!(arguments.speed > 0)) {
+    throw WrongUsage("--speed has to be above 0 mm/s");
+  }
+  const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
+  const modes::Scene scene = scene_for(arguments.scene, *volume);
+  const Felt felt = prepare(scene, volume, glm::dvec3(0.1));
+  const std::vector<StrokePoint> stroke = run_stroke(*felt.plan, *felt.source, from, to, arguments.speed);
+  if (!arguments.picture.empty()) {
+    draw(stroke, *felt.plan, scene, volume->unit, arguments.picture);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", to_json(stroke, scene));
+  } else {
+    print_text(stroke, *felt.plan, scene);
+  }
+}
+
+}  // namespace
+
+void add_profile(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      program.add_subcommand("profile",
+                             "The force felt along a straight stroke of the probe, as a table and a picture.\n"
+                             "Tunes a scene without a stylus.");
+  add_series_option(*command, arguments->series);
+  command->add_option("--from", arguments->from, "where the stroke begins: x,y,z in mm, patient space (LPS)")
+      ->required();
+  command->add_option("--to", arguments->to, "where it ends")->required();
+  command->add_option("--scene", arguments->scene,
+                      "a scene's file or the name of a starting scene (default: one that suits the modality)");
+  command->add_option("--speed", arguments->speed, "of the probe, mm/s; a frame is 1 ms")->capture_default_str();
+  command->add_option("-o,--picture", arguments->picture, "also draw the stroke: a PNG file");
+  command->add_flag("--json", arguments->json, "every frame, for machines");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,169 @@
+// The program as a person meets it: exit codes, messages, JSON, and nothing half-written left behind.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "palpate/plugin/recording.h"
+#include "palpate/testdata/scan.h"
+#include "palpate/testdata/write_series.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::HasSubstr;
+
+struct Outcome {
+  int exit = -1;
+  std::string output;  // stdout, or both where asked for
+};
+
+Outcome palpate(const std::string& arguments, bool with_errors = true) {
+  const std::string command = std::string(PALPATE_PROGRAM) + " " + arguments + (with_errors ? " 2>&1" : " 2>/dev/null");
+  Outcome outcome;
+  FILE* pipe = popen(command.c_str(), "r");  // NOLINT: the tests' own arguments
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    outcome.output.append(buffer.data(), count);
+  }
+  outcome.exit = WEXITSTATUS(pclose(pipe));
+  return outcome;
+}
+
+std::filesystem::path fresh(const std::string& name) {
+  const auto path = std::filesystem::path(testing::TempDir()) / ("command_test_" + name);
+  std::filesystem::remove_all(path);
+  return path;
+}
+
+std::string write_scene(const std::string& name, const std::string& text) {
+  const auto file = fresh(name);
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+/// A ball of soft tissue with a core of bone, 60 mm wide, as a DICOM series.
+const std::filesystem::path& phantom() {
+  static const std::filesystem::path folder = [] {
+    auto path = fresh("phantom");
+    testdata::Phantom ball = testdata::make_sphere(25);
+    ball.bodies.push_back(testdata::make_sphere(15, testdata::bone_hu).bodies.front());
+    testdata::write_series(testdata::scan(ball, testdata::make_geometry({.size = glm::ivec3(60)})), path);
+    return path;
+  }();
+  return folder;
+}
+
+const std::string forehead = " --from 0,-29,0 --to 0,0,0 ";
+
+TEST(Command, HelpTeachesAndUnknownWordsAreWrongUsage) {
+  EXPECT_EQ(palpate("--help").exit, 0);
+  for (const char* command : {"info", "sample", "plan", "profile", "probe", "solve"}) {
+    const Outcome help = palpate(std::string(command) + " --help");
+    EXPECT_EQ(help.exit, 0) << command;
+    EXPECT_THAT(help.output, HasSubstr("--")) << command;
+  }
+  EXPECT_EQ(palpate("").exit, 2);
+  EXPECT_EQ(palpate("prod x").exit, 2);
+  EXPECT_EQ(palpate("probe").exit, 2);
+  EXPECT_EQ(palpate("profile " + phantom().string() + " --from 1,2 --to 0,0,0").exit, 2);
+}
+
+TEST(Command, ProbeLeavesARecordingASummaryAndPictures) {
+  const auto out = fresh("probe");
+  const Outcome outcome =
+      palpate("probe " + phantom().string() + forehead + "--scene ct-skin-and-bone --json -o " + out.string(), false);
+  ASSERT_EQ(outcome.exit, 0) << outcome.output;
+  const auto summary = nlohmann::json::parse(outcome.output);
+  std::vector<std::string> felt;
+  for (const auto& hold : summary["holds"]) {
+    felt.push_back(hold["boundary"]);
+  }
+  EXPECT_THAT(felt, testing::AllOf(testing::Contains("skin"), testing::Contains("bone")));
+  EXPECT_EQ(felt.front(), "skin");
+  EXPECT_TRUE(summary["faults"].empty());
+  for (const char* file :
+       {"recording.h5", "summary.txt", "slice.png", "force-depth.png", "force-time.png", "tick-time.png"}) {
+    EXPECT_GT(std::filesystem::file_size(out / file), 300U) << file;
+  }
+  const Recording recording = read_recording(out / "recording.h5");
+  EXPECT_EQ(recording.frames.size(), summary["frames"].get<std::size_t>());
+  EXPECT_EQ(recording.header.scan_hash.size(), 16U);
+}
+
+TEST(Command, ProfileIsTheContract) {
+  const Outcome outcome =
+      palpate("profile " + phantom().string() + forehead + "--scene ct-skin-and-bone --json", false);
+  ASSERT_EQ(outcome.exit, 0);
+  const auto profile = nlohmann::json::parse(outcome.output);
+  const std::size_t count = profile["position_mm"].size();
+  EXPECT_GT(count, 500U);
+  for (const char* key : {"proxy_mm", "force_n", "value", "solver", "error_bound_m", "boundary"}) {
+    EXPECT_EQ(profile[key].size(), count) << key;
+  }
+  // Pressed from the front towards the back: every force is towards the front.
+  for (const auto& force : profile["force_n"]) {
+    EXPECT_LE(force[1].get<double>(), 1e-9);
+  }
+}
+
+TEST(Command, RefusesBadInputAndLeavesNothing) {
+  const auto out = fresh("refused");
+  const std::string tail = " -o " + out.string();
+  const auto refused = [&](const std::string& arguments, int exit, const std::string& words) {
+    const Outcome outcome = palpate(arguments + tail);
+    EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(words)) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(out)) << arguments;
+  };
+  const auto empty = fresh("empty_folder");
+  std::filesystem::create_directory(empty);
+  const std::string scan = "probe " + phantom().string() + forehead;
+  refused("probe /no/such/folder", 1, "/no/such/folder");
+  refused("probe " + empty.string(), 1, "command_test_empty_folder");
+  refused(scan + "--scene no-such-scene", 1, "no-such-scene");
+  refused(scan + "--scene " +
+              write_scene("mode.json", R"({"version":1,"name":"x","modes":[{"type":"surfce","strength_n":1}]})"),
+          1, "modes[0].type");
+  refused(
+      scan + "--scene " +
+          write_scene(
+              "negative.json",
+              R"({"version":1,"name":"x","modes":[{"type":"friction","strength_n":{"of":"value","nodes":[[0,-2]]}}]})"),
+      1, "modes[0].strength_n.nodes[0][1]");
+  refused(scan + "--scene " + write_scene("k.json", R"({"version":1,"name":"x","stiffness_n_per_m":0,"modes":[]})"), 1,
+          "stiffness_n_per_m");
+  refused(scan + "--device harpoon", 2, "harpoon");
+  refused("probe " + phantom().string() + " --from 100,100,100 --to 100,100,200", 1, "nothing be felt");
+}
+
+TEST(Command, SeveralSeriesAndNoneChosenListsThem) {
+  const auto both = fresh("both");
+  const auto geometry = testdata::make_geometry({.size = glm::ivec3(8)});
+  testdata::write_series(testdata::scan(testdata::make_sphere(3), geometry), both / "a", {.description = "first"});
+  testdata::write_series(testdata::scan(testdata::make_sphere(2), geometry), both / "b",
+                         {.description = "second", .number = 2});
+  const Outcome none = palpate("profile " + both.string() + " --from 0,-3,0 --to 0,0,0");
+  EXPECT_EQ(none.exit, 2);
+  EXPECT_THAT(none.output, testing::AllOf(HasSubstr("first"), HasSubstr("second"), HasSubstr("--series")));
+  EXPECT_EQ(palpate("profile " + both.string() + " --series 1 --from 0,-3,0 --to 0,0,0").exit, 0);
+  EXPECT_EQ(palpate("profile " + both.string() + " --series 3 --from 0,-3,0 --to 0,0,0").exit, 2);
+}
+
+TEST(Command, NothingIsOverwritten) {
+  const auto out = fresh("kept");
+  std::filesystem::create_directory(out);
+  std::ofstream(out / "recording.h5") << "precious";
+  EXPECT_EQ(palpate("probe " + phantom().string() + forehead + "-o " + out.string()).exit, 1);
+  EXPECT_EQ(std::filesystem::file_size(out / "recording.h5"), 8U);
+}
+
+}  // namespace
+}  // namespace palpate::plugin

@@ -1,0 +1,79 @@
+#include "palpate/plugin/scan.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+#include <variant>
+
+#include "palpate/io/volume_fields.h"
+#include "palpate/modes/scene_json.h"
+
+namespace palpate::plugin {
+
+Box bounding_box(const io::Geometry& geometry) {
+  Box box{glm::dvec3(std::numeric_limits<double>::infinity()), glm::dvec3(-std::numeric_limits<double>::infinity())};
+  for (const int k : {0, geometry.dimensions.z - 1}) {
+    for (const int j : {0, geometry.dimensions.y - 1}) {
+      for (const int i : {0, geometry.dimensions.x - 1}) {
+        const glm::dvec3 corner = geometry.to_patient({i, j, k});
+        box.low = glm::min(box.low, corner);
+        box.high = glm::max(box.high, corner);
+      }
+    }
+  }
+  return box;
+}
+
+std::string describe_scan(const io::Volume& volume) {
+  const io::Geometry& geometry = volume.geometry;
+  return fmt::format("{}, {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm", volume.modality, geometry.dimensions.x,
+                     geometry.dimensions.y, geometry.dimensions.z, geometry.spacing_i, geometry.spacing_j,
+                     glm::length(geometry.step));
+}
+
+std::string hash_of(const io::Volume& volume) {
+  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  const auto add = [&](const void* data, std::size_t bytes) { XXH3_64bits_update(state.get(), data, bytes); };
+  const io::Geometry& geometry = volume.geometry;
+  add(&geometry.dimensions, sizeof geometry.dimensions);
+  add(&geometry.direction_i, sizeof geometry.direction_i);
+  add(&geometry.direction_j, sizeof geometry.direction_j);
+  add(&geometry.spacing_i, sizeof geometry.spacing_i);
+  add(&geometry.spacing_j, sizeof geometry.spacing_j);
+  add(geometry.slice_positions.data(), geometry.slice_positions.size() * sizeof(glm::dvec3));
+  add(&volume.slope, sizeof volume.slope);
+  add(&volume.intercept, sizeof volume.intercept);
+  std::visit([&](const auto& voxels) { add(voxels.data(), voxels.size() * sizeof voxels[0]); }, volume.voxels);
+  return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+}
+
+modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume) {
+  if (!file_or_name.empty()) {
+    return modes::load_scene(file_or_name);
+  }
+  return modes::load_scene(volume.modality == "CT" ? "ct-skin-and-bone" : "mr-brain");
+}
+
+std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Geometry& geometry,
+                                            const glm::dvec3& device_half_extent_m) {
+  const Box box = bounding_box(geometry);
+  return std::make_shared<const modes::Plan>(
+      modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient,
+                       modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m)));
+}
+
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m) {
+  Felt felt{.plan = plan_for(scene, volume->geometry, device_half_extent_m), .source = nullptr};
+  felt.source = std::make_shared<const io::VolumeFields>(
+      volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)));
+  return felt;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,46 @@
+#pragma once
+
+/// A loaded scan and what the session needs to know of it.
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+
+#include "palpate/io/field_source.h"
+#include "palpate/io/volume.h"
+#include "palpate/modes/plan.h"
+#include "palpate/modes/scene.h"
+
+namespace palpate::plugin {
+
+/// Corners of the box around all voxel centres, patient space, mm.
+struct Box {
+  glm::dvec3 low{0};
+  glm::dvec3 high{0};
+};
+Box bounding_box(const io::Geometry& geometry);
+
+/// The scan in words, for reports: "CT, 256 x 256 x 108 voxels of 0.957 x 0.957 x 1.5 mm". Names no patient and no
+/// path.
+std::string describe_scan(const io::Volume& volume);
+
+/// 16 hexadecimal digits that tell one scan from another: XXH3 of voxels, rescale and geometry.
+std::string hash_of(const io::Volume& volume);
+
+/// The scene named by --scene (a file or a starting scene); the one that suits the modality where it is empty. Throws
+/// std::invalid_argument as modes::load_scene() does.
+modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume);
+
+/// The plan of a scene on a scan of that geometry, held with a device of that reach.
+std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Geometry& geometry,
+                                            const glm::dvec3& device_half_extent_m);
+
+/// A scene on a scan: the plan, and the fields that this plan needs and no more.
+struct Felt {
+  std::shared_ptr<const modes::Plan> plan;
+  std::shared_ptr<const io::FieldSource> source;
+};
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m);
+
+}  // namespace palpate::plugin

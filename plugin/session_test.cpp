@@ -1,0 +1,120 @@
+#include "palpate/plugin/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "palpate/device/replay_stylus.h"
+#include "palpate/device/simulated_stylus.h"
+#include "palpate/modes/scene_json.h"
+#include "palpate/testdata/analytic.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testdata::AnalyticSource;
+
+/// A slab of soft tissue below z = 0 of the patient, bone from 10 mm on; the patient's head end is up.
+std::shared_ptr<const AnalyticSource> slab() {
+  const std::vector<testdata::Layer> layers{{.depth = 0, .value = testdata::soft_tissue_hu},
+                                            {.depth = 10, .value = testdata::bone_hu}};
+  return std::make_shared<AnalyticSource>(testdata::make_slab({0, 0, -1}, layers), 1.5);
+}
+
+std::shared_ptr<const modes::Plan> plan_of(const char* scene) {
+  return std::make_shared<const modes::Plan>(
+      modes::make_plan(modes::load_scene(scene), io::FieldSet::value | io::FieldSet::gradient, modes::Workspace{}));
+}
+
+/// Down on to the skin, through it to the bone, and up again.
+const std::vector<device::Waypoint> press{
+    {.time = 0, .position = {0, 0.02, 0}},   {.time = 1, .position = {0, 0.02, 0}},
+    {.time = 2, .position = {0, -0.003, 0}}, {.time = 2.5, .position = {0, -0.003, 0}},
+    {.time = 4, .position = {0, -0.018, 0}}, {.time = 4.5, .position = {0, -0.018, 0}},
+    {.time = 5.5, .position = {0, 0.02, 0}}, {.time = 6, .position = {0, 0.02, 0}}};
+
+std::vector<Frame> run(device::Stylus& stylus, std::size_t ticks) {
+  Session session(plan_of("ct-skin-and-bone"), slab(), stylus, limits_for(modes::Limits{}, stylus.specification()));
+  std::vector<Frame> frames;
+  for (std::size_t n = 0; n < ticks; ++n) {
+    frames.push_back(session.tick());
+  }
+  return frames;
+}
+
+std::vector<Frame> press_once(std::uint64_t seed) {
+  device::SimulatedDevice model;
+  model.hand.tremor_seed = seed;
+  device::SimulatedStylus stylus(model);
+  stylus.follow(press);
+  return run(stylus, 6000);
+}
+
+/// Forces and poses alone: what may not depend on the clock.
+bool same_but_for_time_taken(std::vector<Frame> a, std::vector<Frame> b) {
+  for (auto* frames : {&a, &b}) {
+    for (Frame& frame : *frames) {
+      std::memset(frame.stage_ns, 0, sizeof frame.stage_ns);
+    }
+  }
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), sizeof(Frame) * a.size()) == 0;
+}
+
+TEST(Session, SkinThenBoneThenNothing) {
+  const std::vector<Frame> frames = press_once(1);
+  const auto force_at = [&](double time) { return frames[static_cast<std::size_t>(time * 1000)].sent_n[1]; };
+  EXPECT_EQ(force_at(0.5), 0) << "nothing is felt in the air";
+  EXPECT_GT(force_at(2.4), 0.3) << "the skin pushes up";
+  EXPECT_LT(force_at(2.4), 1.2);
+  EXPECT_GT(force_at(4.4), 1.2) << "the bone pushes harder than the skin ever does";
+  EXPECT_EQ(force_at(5.9), 0) << "lifted off";
+  for (const Frame& frame : frames) {
+    EXPECT_LE(glm::length(glm::dvec3(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2])), 3.0 + 1e-12);
+    EXPECT_EQ(static_cast<solver::Outcome>(frame.outcome), solver::Outcome::solved);
+    EXPECT_LT(frame.error_bound_m, 1e-12);
+  }
+}
+
+TEST(Session, SameSeedSameBits) {
+  EXPECT_TRUE(same_but_for_time_taken(press_once(5), press_once(5)));
+  EXPECT_FALSE(same_but_for_time_taken(press_once(5), press_once(6)));
+}
+
+TEST(Session, ReplayedPosesGiveTheSameForces) {
+  const std::vector<Frame> recorded = press_once(3);
+  std::vector<device::Reading> readings;
+  for (const Frame& frame : recorded) {
+    readings.push_back(
+        {.time = frame.time_s, .position = {frame.probe_m[0], frame.probe_m[1], frame.probe_m[2]}, .fresh = true});
+  }
+  device::ReplayStylus stylus(readings, device::SimulatedStylus().specification());
+  EXPECT_TRUE(same_but_for_time_taken(recorded, run(stylus, recorded.size())));
+}
+
+TEST(Session, APoseThatIsNotANumberLetsGo) {
+  device::SimulatedStylus stylus;
+  stylus.follow(press);
+  Session session(plan_of("ct-skin-and-bone"), slab(), stylus, limits_for(modes::Limits{}, stylus.specification()));
+  for (int n = 0; n < 2400; ++n) {
+    session.tick();
+  }
+  EXPECT_GT(session.tick().sent_n[1], 0.3);
+  stylus.inject(device::SimulatedFault::not_a_number);
+  const Frame& frame = session.tick();
+  EXPECT_EQ(glm::length(glm::dvec3(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2])), 0);
+  EXPECT_NE(session.fault(), device::Fault::none);
+  stylus.inject(device::SimulatedFault::none);
+  EXPECT_EQ(session.tick().sent_n[1], 0) << "latched: only the user clears it";
+}
+
+TEST(Session, ClosesTheStylusWithoutForce) {
+  device::SimulatedStylus stylus;
+  stylus.follow(press);
+  { run(stylus, 2400); }
+  EXPECT_EQ(stylus.state(), device::State::disconnected);
+}
+
+}  // namespace
+}  // namespace palpate::plugin
