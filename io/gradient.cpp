@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
 #include "palpate/io/internal/moments.h"
 #include "palpate/io/internal/parallel.h"
 #include "palpate/io/internal/plane_fit.h"
+#include "palpate/io/internal/row_reader.h"
 #include "palpate/io/internal/slice_kernel.h"
 
 namespace palpate::io {
@@ -19,9 +20,12 @@ namespace {
 using internal::BlockLayout;
 using internal::BlockSums;
 using internal::PlaneFit;
+using internal::RowReader;
 using internal::space_sums;
 
 constexpr int cell_lanes = 4;
+/// What a few hundred additions in single precision may leave of a sum that should cancel.
+constexpr double single_rounding = 3e-6;
 constexpr int block_lanes = 8;
 
 /// What a single cell may need, at the largest radius: on the stack, since the tick may not allocate.
@@ -32,57 +36,13 @@ constexpr int cell_floats = [] {
          2 * (space_sums(1) + space_sums(2)) * 2 * cell_lanes;
 }();
 
-/// Reads rows of a volume as stored values, or as 1 where there is a value: 0 beyond the volume and in padding.
-template <typename Stored>
-class RowReader {
- public:
-  RowReader(const Volume& volume, const std::vector<Stored>& voxels, bool mask)
-      : volume_(volume), voxels_(voxels.data()), mask_(mask) {}
+using WholeSums = std::array<float, space_sums(2)>;
 
-  void operator()(int slice, int j, int i, int count, float* row) const noexcept {
-    const glm::ivec3 size = volume_.geometry.dimensions;
-    const int first = std::clamp(-i, 0, count);
-    const int last = j < 0 || j >= size.y ? first : std::clamp(size.x - i, first, count);
-    std::fill(row, row + first, 0.0F);
-    if (first < last) {
-      copy(voxels_ + volume_.offset(i + first, j, slice), last - first, row + first);
-    }
-    std::fill(row + last, row + count, 0.0F);
-    complete_ = complete_ && last - first == count;
-  }
-  /// Whether everything read so far was inside and no padding.
-  bool complete() const noexcept { return complete_; }
-
- private:
-  void copy(const Stored* stored, int count, float* row) const noexcept {
-    if (std::is_integral_v<Stored> && !volume_.padding) {
-      for (int n = 0; n < count; ++n) {
-        row[n] = mask_ ? 1.0F : static_cast<float>(stored[n]);
-      }
-      return;
-    }
-    bool any_padding = false;
-    for (int n = 0; n < count; ++n) {
-      const bool padding = is_padding(stored[n]);
-      any_padding = any_padding || padding;
-      row[n] = padding ? 0.0F : mask_ ? 1.0F : static_cast<float>(stored[n]);
-    }
-    complete_ = complete_ && !any_padding;
-  }
-  bool is_padding(Stored stored) const noexcept {
-    if constexpr (std::is_floating_point_v<Stored>) {
-      if (!std::isfinite(stored)) {
-        return true;
-      }
-    }
-    return volume_.padding && stored >= volume_.padding->first && stored <= volume_.padding->second;
-  }
-
-  const Volume& volume_;
-  const Stored* voxels_;
-  bool mask_;
-  mutable bool complete_ = true;
-};
+/// The sums of second order as a matrix.
+template <typename SumAt>
+glm::dmat3 second_order(const SumAt& sum) noexcept {
+  return {sum(4), sum(5), sum(7), sum(5), sum(6), sum(8), sum(7), sum(8), sum(9)};
+}
 
 /// Rows of 1 everywhere: the neighbourhood of a voxel far from every edge.
 struct EverywhereOne {
@@ -125,6 +85,7 @@ struct GradientKernel::Weights {
   internal::SliceKernel slices;
   glm::dmat3 to_patient{1};
   std::vector<PlaneFit> whole_neighbourhood;  ///< by slice
+  std::vector<WholeSums> whole_sums;          ///< by slice: of the weights of a whole neighbourhood
 
   template <int Lanes, typename Stored>
   void run(const std::vector<Stored>& voxels, const BlockLayout& layout, float* scratch,
@@ -177,15 +138,53 @@ struct GradientKernel::Weights {
     std::visit([&](const auto& voxels) { run<Lanes>(voxels, layout, scratch, gradients); }, volume->voxels);
   }
 
+  template <typename Stored>
+  bool hessians(const std::vector<Stored>& voxels, const BlockLayout& layout, float* scratch,
+                glm::dmat3* hessians) const noexcept {
+    const RowReader<Stored> values(*volume, voxels, false);
+    BlockSums<2, cell_lanes, RowReader<Stored>>(slices, layout, values, scratch + layout.moment_floats(2)).run(scratch);
+    if (!values.complete()) {
+      return false;
+    }
+    for (int k = 0; k < layout.block.size.z; ++k) {
+      const WholeSums& whole = whole_sums[static_cast<std::size_t>(layout.block.first.z + k)];
+      const double total = static_cast<double>(whole[0]);
+      const auto weight = [&](std::size_t n) { return static_cast<double>(whole[n]) / total; };
+      const glm::dmat3 covariance = second_order(weight);
+      if (glm::determinant(covariance) <= 0) {
+        return false;  // a single slice has no curvature across
+      }
+      const glm::dmat3 inverse = to_patient * glm::inverse(covariance);
+      for (int j = 0; j < layout.block.size.y; ++j) {
+        for (int i = 0; i < layout.block.size.x; ++i) {
+          const float* const sums = scratch + layout.at(2, 0, j, k) + i;
+          const auto sum = [&](std::size_t n) { return static_cast<double>(sums[n * layout.plane()]) / total; };
+          // The second derivative of a Gaussian of covariance C is C^-1 (x x^T - C) C^-1 times it.
+          const glm::dmat3 excess = second_order(sum) - sum(0) * covariance;
+          const double largest =
+              std::max(glm::length(excess[0]), std::max(glm::length(excess[1]), glm::length(excess[2])));
+          const bool rounding_alone = largest <= single_rounding * std::abs(sum(0)) * scale_mm * scale_mm;
+          *hessians++ = rounding_alone ? glm::dmat3(0) : inverse * excess * glm::transpose(inverse);
+        }
+      }
+    }
+    return true;
+  }
+
   /// The same sums, over weights alone, that a block beside padding takes: a whole neighbourhood gets the same fit in
   /// both.
-  PlaneFit fit_of_whole_neighbourhood(int slice) const {
+  void add_whole_neighbourhood(int slice) {
     const BlockLayout layout({{0, 0, slice}, {1, 1, 1}}, slices, cell_lanes);
     std::vector<float> buffer(layout.moment_floats(2) + layout.scratch_floats(2));
     const EverywhereOne ones;
     BlockSums<2, cell_lanes, EverywhereOne>(slices, layout, ones, buffer.data() + layout.moment_floats(2))
         .run(buffer.data());
-    return internal::fit_plane(buffer.data(), layout.plane(), scale_mm, to_patient);
+    WholeSums sums;
+    for (std::size_t n = 0; n < sums.size(); ++n) {
+      sums[n] = buffer[n * layout.plane()];
+    }
+    whole_sums.push_back(sums);
+    whole_neighbourhood.push_back(internal::fit_plane(sums.data(), 1, scale_mm, to_patient));
   }
 };
 
@@ -214,7 +213,7 @@ GradientKernel::GradientKernel(std::shared_ptr<const Volume> volume, double scal
   weights->to_patient = volume->slope * weights->slices.to_patient;
   weights->volume = std::move(volume);
   for (int k = 0; k < weights->volume->geometry.dimensions.z; ++k) {
-    weights->whole_neighbourhood.push_back(weights->fit_of_whole_neighbourhood(k));
+    weights->add_whole_neighbourhood(k);
   }
   weights_ = std::move(weights);
 }
@@ -232,6 +231,14 @@ glm::ivec3 GradientKernel::radius() const noexcept {
 void GradientKernel::at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept {
   alignas(64) std::array<float, cell_floats> scratch;
   weights_->run<cell_lanes>(BlockLayout(cell, weights_->slices, cell_lanes), scratch.data(), gradients.data());
+}
+
+bool GradientKernel::hessians_at_cell(const Block& cell, std::span<glm::dmat3> hessians) const noexcept {
+  alignas(64) std::array<float, cell_floats> scratch;
+  const BlockLayout layout(cell, weights_->slices, cell_lanes);
+  return std::visit(
+      [&](const auto& voxels) { return weights_->hessians(voxels, layout, scratch.data(), hessians.data()); },
+      weights_->volume->voxels);
 }
 
 void GradientKernel::at_block(const Block& block, std::span<glm::vec3> gradients) const {

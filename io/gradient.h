@@ -12,6 +12,7 @@
 /// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
 /// they round differently in their vectorised part, in a row's tail and from one processor to the next.
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -48,6 +49,10 @@ class GradientKernel {
   /// The eight voxels of a cell or fewer: writes size.x * size.y * size.z gradients, i fastest. May be called in the
   /// tick. At most 2 voxels along each axis, all of them within the volume.
   void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
+  /// The Hessians of a cell's voxels (patient space, per mm^2, without the rescale slope's sign and size): second
+  /// derivatives of the same Gaussian. False, and nothing written, where a neighbourhood is not complete: second
+  /// derivatives of what is not there would be guesses. May be called in the tick.
+  bool hessians_at_cell(const Block& cell, std::span<glm::dmat3> hessians) const noexcept;
   /// Any block within the volume; allocates.
   void at_block(const Block& block, std::span<glm::vec3> gradients) const;
   /// The whole volume on `threads` threads (0: all cores): 12 bytes a voxel. Throws Cancelled.

@@ -9,11 +9,12 @@
 
 #include "palpate/io/internal/brick_cache.h"
 #include "palpate/io/internal/cell.h"
+#include "palpate/io/internal/symmetric_eigen.h"
 
 namespace palpate::io {
 namespace {
 
-constexpr FieldSet offered = FieldSet::value | FieldSet::gradient;
+constexpr FieldSet offered = FieldSet::value | FieldSet::gradient | FieldSet::tube;
 
 double interpolated_value(const Volume& volume, const internal::Cell& cell) noexcept {
   const auto stored = [&](const auto& voxels) {
@@ -47,6 +48,27 @@ Vec3 interpolated_gradient(const internal::Cell& cell, const std::array<glm::vec
   return gradient;
 }
 
+/// The eigenvector of least curvature of the interpolated Hessian; zero where none stands out.
+Vec3 tube_direction(const GradientKernel& kernel, const internal::Cell& cell) noexcept {
+  std::array<glm::dmat3, 8> corners;
+  if (!kernel.hessians_at_cell({cell.first, cell.size}, corners)) {
+    return Vec3(0);
+  }
+  glm::dmat3 hessian(0);
+  std::size_t n = 0;
+  for (int k = 0; k < cell.size.z; ++k) {
+    for (int j = 0; j < cell.size.y; ++j) {
+      for (int i = 0; i < cell.size.x; ++i) {
+        hessian += cell.weight(i, j, k) * corners[n++];
+      }
+    }
+  }
+  const internal::SymmetricEigen eigen = internal::eigen_of_symmetric(hessian);
+  constexpr double least_difference = 1e-3;  // of the largest curvature: below it two directions curve alike
+  const double difference = std::abs(eigen.values[1]) - std::abs(eigen.values[0]);
+  return difference > least_difference * std::abs(eigen.values[2]) ? eigen.vectors[0] : Vec3(0);
+}
+
 }  // namespace
 
 VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
@@ -56,11 +78,11 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
     throw std::invalid_argument("fields need a volume");
   }
   if (!contains(offered, wanted)) {
-    throw std::invalid_argument("a scan has no vector field; take a mode that reads its value or its gradient");
+    throw std::invalid_argument("a scan offers its value, its gradient and the direction of tubes, and no other field");
   }
-  if (contains(wanted, FieldSet::gradient)) {
+  if ((wanted & (FieldSet::gradient | FieldSet::tube)) != FieldSet::none) {
     kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
-    if (options.brick_bytes > 0) {
+    if (contains(wanted, FieldSet::gradient) && options.brick_bytes > 0) {
       bricks_ = std::make_unique<internal::BrickCache>(*kernel_, volume_->geometry.dimensions, options.brick_bytes,
                                                        options.background);
     }
@@ -83,7 +105,10 @@ Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noex
   if (contains(wanted, FieldSet::value)) {
     s.value = interpolated_value(*volume_, cell);
   }
-  if (kernel_ && contains(wanted, FieldSet::gradient)) {
+  if (contains(wanted & available_, FieldSet::tube)) {
+    s.tube = tube_direction(*kernel_, cell);
+  }
+  if (contains(wanted & available_, FieldSet::gradient)) {
     std::array<glm::vec3, 8> corners;
     const Block block{cell.first, cell.size};
     s.from_brick = bricks_ && bricks_->read(block, corners);

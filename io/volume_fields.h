@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fields of a scan: value and gradient at any point of the patient.
+/// The fields of a scan: value, gradient and the direction of tubes at any point of the patient.
 
 #include <cstddef>
 #include <memory>
@@ -14,6 +14,9 @@ namespace palpate::io {
 /// Value: trilinear between voxel centres, exact at them, in `Volume::unit`. Gradient: trilinear between the voxels'
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
+///
+/// Tube: the eigenvector of least curvature of the Hessian at the gradient's scale, trilinear between the voxels'
+/// Hessians; computed at the sample; zero within the kernel's reach of the edge or of padding.
 ///
 /// A worker computes gradients in bricks ahead of and around the point last sampled, and keeps them under a memory
 /// bound. A sample that finds its brick missing computes its cell with the same kernel: it takes longer and gives the

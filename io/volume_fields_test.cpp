@@ -148,6 +148,41 @@ TEST(VolumeFields, ASingleSliceHasAGradientInItsPlane) {
   EXPECT_LT(glm::length(s.gradient - Vec3(3, -2, 0)), 1e-3);
 }
 
+TEST(VolumeFields, TubeRunsAlongTheVesselOnEveryGrid) {
+  const Vec3 axis = glm::normalize(Vec3(1, -2, 2));
+  Grid straight;
+  straight.size = {44, 44, 44};
+  Grid tilted = rotated(straight, {1, 2, 3}, 50);
+  tilted.tilt_degrees = 20;
+  Grid thick = straight;
+  thick.spacing.z = 2;
+  thick.size.z = 22;
+  for (const double lumen : {300.0, -200.0}) {  // brighter and darker than the tissue around
+    for (const Grid& grid : {straight, tilted, thick}) {
+      const auto volume =
+          share(testdata::scan(testdata::make_tube(3, axis, lumen), testdata::make_geometry(grid), {.noise = 10}));
+      const VolumeFields fields(volume, FieldSet::tube, 2);
+      for (const double along : {-7.3, 0.0, 5.1}) {
+        for (const Vec3& off : {Vec3(0), 0.8 * glm::normalize(glm::cross(axis, Vec3(1, 0, 0)))}) {
+          const Sample s = fields.sample(along * axis + off, FieldSet::tube);
+          ASSERT_TRUE(s.inside);
+          EXPECT_NEAR(glm::length(s.tube), 1, 1e-12);
+          EXPECT_GT(std::abs(glm::dot(s.tube, axis)), std::cos(0.06));  // 3.4 degrees
+        }
+      }
+    }
+  }
+}
+
+TEST(VolumeFields, TubeIsZeroWhereNothingCurvesOrTheNeighbourhoodEnds) {
+  const auto volume = share(testdata::scan(testdata::Phantom{40, {}}, testdata::make_geometry(small())));
+  const VolumeFields fields(volume, FieldSet::tube, 1);
+  EXPECT_EQ(fields.sample({0, 0, 0}, FieldSet::tube).tube, Vec3(0));
+  const auto vessel = share(testdata::scan(testdata::make_tube(3, {0, 0, 1}), testdata::make_geometry(small())));
+  EXPECT_NE(VolumeFields(vessel, FieldSet::tube, 1).sample({0, 0, 0}, FieldSet::tube).tube, Vec3(0));
+  EXPECT_EQ(VolumeFields(vessel, FieldSet::tube, 1).sample({7.5, 0, 0}, FieldSet::tube).tube, Vec3(0));
+}
+
 TEST(VolumeFields, GivesAndPreparesOnlyWhatIsWanted) {
   const auto volume = linear_volume(small());
   const VolumeFields value_only(volume, FieldSet::value, -1);

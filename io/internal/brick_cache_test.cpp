@@ -93,7 +93,7 @@ TEST(Bricks, WorkerBringsThemToWhereThePointIs) {
 TEST(Bricks, TwoReadersAndAWorkerThatEvictsNeverSeeOtherBits) {
   const auto volume = head_like();
   const VolumeFields plain(volume, both, 1.5, no_bricks);
-  const VolumeFields fields(volume, both, 1.5, {.brick_bytes = std::size_t{200} << 10, .background = true});
+  const VolumeFields fields(volume, both, 1.5, {.brick_bytes = std::size_t{600} << 10, .background = true});
   std::atomic<int> wrong{0};
   std::atomic<int> from_brick{0};
   const auto walk = [&](int first) {
@@ -102,7 +102,7 @@ TEST(Bricks, TwoReadersAndAWorkerThatEvictsNeverSeeOtherBits) {
       const Sample s = fields.sample(p, both);
       wrong += !same_bits(s, plain.sample(p, both));
       from_brick += s.from_brick;
-      if (n % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (n % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   };
   std::thread other(walk, 4000);
