@@ -248,15 +248,22 @@ void GradientKernel::at_block(const Block& block, std::span<glm::vec3> gradients
   weights_->run<block_lanes>(layout, scratch.get(), gradients.data());
 }
 
+void GradientKernel::for_each_block(const std::function<void(const Block&, std::span<const glm::vec3>)>& use,
+                                    const Progress& progress, int threads) const {
+  const std::vector<Block> blocks = blocks_of(weights_->volume->geometry.dimensions, radius());
+  const auto one = [&](std::size_t n) {
+    const glm::ivec3 size = blocks[n].size;
+    std::vector<glm::vec3> gradients(static_cast<std::size_t>(size.x * size.y * size.z));
+    at_block(blocks[n], gradients);
+    use(blocks[n], gradients);
+  };
+  internal::parallel_for(blocks.size(), one, progress, threads);
+}
+
 std::vector<glm::vec3> GradientKernel::whole(const Progress& progress, int threads) const {
   const Volume& volume = *weights_->volume;
-  const glm::ivec3 size = volume.geometry.dimensions;
-  std::vector<glm::vec3> gradients(volume.offset(0, 0, size.z));
-  const std::vector<Block> blocks = blocks_of(size, radius());
-  const auto one = [&](std::size_t n) {
-    const Block& block = blocks[n];
-    std::vector<glm::vec3> part(static_cast<std::size_t>(block.size.x * block.size.y * block.size.z));
-    at_block(block, part);
+  std::vector<glm::vec3> gradients(volume.offset(0, 0, volume.geometry.dimensions.z));
+  const auto place = [&](const Block& block, std::span<const glm::vec3> part) {
     auto from = part.begin();
     for (int k = 0; k < block.size.z; ++k) {
       for (int j = 0; j < block.size.y; ++j) {
@@ -266,7 +273,7 @@ std::vector<glm::vec3> GradientKernel::whole(const Progress& progress, int threa
       }
     }
   };
-  internal::parallel_for(blocks.size(), one, progress, threads);
+  for_each_block(place, progress, threads);
   return gradients;
 }
 

@@ -12,6 +12,7 @@
 /// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
 /// they round differently in their vectorised part, in a row's tail and from one processor to the next.
 
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -55,7 +56,11 @@ class GradientKernel {
   bool hessians_at_cell(const Block& cell, std::span<glm::dmat3> hessians) const noexcept;
   /// Any block within the volume; allocates.
   void at_block(const Block& block, std::span<glm::vec3> gradients) const;
-  /// The whole volume on `threads` threads (0: all cores): 12 bytes a voxel. Throws Cancelled.
+  /// The whole volume piece by piece, on `threads` threads (0: all cores) and in no order: `use` gets every voxel once
+  /// and may be called by several threads at a time. Throws Cancelled, and what `use` throws.
+  void for_each_block(const std::function<void(const Block&, std::span<const glm::vec3>)>& use,
+                      const Progress& progress = {}, int threads = 0) const;
+  /// The whole volume's gradients: 12 bytes a voxel. Throws Cancelled.
   std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
 
  private:

@@ -1,0 +1,60 @@
+#include "palpate/io/histogram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace palpate::io {
+namespace {
+
+void check(const Bins& bins, const char* what) {
+  if (bins.count < 1 || !(bins.high > bins.low)) {
+    throw std::invalid_argument(std::string("histogram: the bins of the ") + what + " are empty");
+  }
+}
+
+}  // namespace
+
+int Bins::bin_of(double value) const noexcept {
+  const double at = (value - low) / width();
+  return at > 0 ? static_cast<int>(std::min(at, count - 1.0)) : 0;
+}
+
+JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
+                               const Bins& magnitudes, const Progress& progress, int threads) {
+  check(values, "values");
+  check(magnitudes, "gradient magnitudes");
+  JointHistogram all{values, magnitudes, {}, 0};
+  all.counts.resize(static_cast<std::size_t>(values.count) * static_cast<std::size_t>(magnitudes.count));
+  std::mutex adding;
+  const auto count_block = [&](const Block& block, std::span<const glm::vec3> gradients) {
+    std::vector<std::uint32_t> counts(all.counts.size());
+    std::uint64_t voxels = 0;
+    auto gradient = gradients.begin();
+    for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
+      for (int j = block.first.y; j < block.first.y + block.size.y; ++j) {
+        for (int i = block.first.x; i < block.first.x + block.size.x; ++i, ++gradient) {
+          const double value = volume.value_at(i, j, k);
+          if (volume.is_padding(i, j, k) || !std::isfinite(value)) {
+            continue;
+          }
+          const auto column = static_cast<std::size_t>(values.bin_of(value));
+          const auto row = static_cast<std::size_t>(magnitudes.bin_of(static_cast<double>(glm::length(*gradient))));
+          ++counts[row * static_cast<std::size_t>(values.count) + column];
+          ++voxels;
+        }
+      }
+    }
+    const std::scoped_lock lock(adding);
+    std::transform(counts.begin(), counts.end(), all.counts.begin(), all.counts.begin(),
+                   [](std::uint32_t a, std::uint64_t b) { return a + b; });
+    all.voxels += voxels;
+  };
+  kernel.for_each_block(count_block, progress, threads);
+  return all;
+}
+
+}  // namespace palpate::io
