@@ -16,6 +16,8 @@ const char* name_of(LinkFault fault) {
       return "unplugged";
     case LinkFault::silent:
       return "silent";
+    case LinkFault::slow:
+      return "too slow to push safely";
     case LinkFault::unreachable_pose:
       return "unreachable pose";
     case LinkFault::unhomed:
@@ -23,6 +25,14 @@ const char* name_of(LinkFault fault) {
   }
   return "unknown";
 }
+
+namespace {
+
+// At a period of 8 ms and a delay of as much, the linear bound of stiffness.h lies below a wall of 400 N/m.
+constexpr double rate_window = 0.25;  // s
+constexpr std::uint64_t fewest_in_window = 30;
+
+}  // namespace
 
 LinkStylus::LinkStylus(Specification specification, std::unique_ptr<Protocol> protocol, LinkMaker make_link,
                        const LinkStylusOptions& options)
@@ -47,8 +57,8 @@ void LinkStylus::open() {
     guardian_.reset();
     throw;
   }
-  opened_ = news_time_ = link_->now();
-  news_ = protocol_->status().news;
+  opened_ = news_time_ = window_start_ = link_->now();
+  news_ = window_news_ = protocol_->status().news;
   force_.store(Vec3(0));
   force_.load();
   force_time_ = -std::numeric_limits<double>::infinity();
@@ -108,6 +118,7 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
   }
   if (status.state == State::fault) fail(status.fault);
   if (now - news_time_ > protocol_->longest_silence()) fail(LinkFault::silent);
+  judge_rate(now);
 
   if (force_.has_news()) force_time_ = now;
   const Vec3 newest = force_.load();
@@ -115,6 +126,15 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
   const std::size_t due = protocol_->step(may_push ? newest : Vec3(0), now, packet);
   if (due > 0) link_->send(std::span(packet).first(due));
   if (fault() == LinkFault::none) state_.store(protocol_->status().state, std::memory_order_relaxed);
+}
+
+void LinkStylus::judge_rate(double now) noexcept {
+  if (now - window_start_ < rate_window) return;
+  // A window much longer than it should be was this thread's own delay, and tells nothing of the device.
+  const bool fair = now - window_start_ < 2 * rate_window && state() == State::idle;
+  if (fair && news_ - window_news_ < fewest_in_window) fail(LinkFault::slow);
+  window_start_ = now;
+  window_news_ = news_;
 }
 
 void LinkStylus::fail(LinkFault fault) noexcept {

@@ -45,6 +45,7 @@ class LinkStylus final : public Stylus {
 
  private:
   void exchange(double timeout, bool closing) noexcept;
+  void judge_rate(double now) noexcept;
   void fail(LinkFault fault) noexcept;
   void send_zeros() noexcept;
 
@@ -67,6 +68,8 @@ class LinkStylus final : public Stylus {
   double force_time_ = 0;
   double news_time_ = 0;
   std::uint64_t news_ = 0;
+  double window_start_ = 0;
+  std::uint64_t window_news_ = 0;
   // The servo's.
   Reading last_reading_;
 };

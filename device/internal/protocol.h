@@ -12,7 +12,7 @@
 namespace palpate::device {
 
 /// Why a driver gave up, until it is opened again.
-enum class LinkFault : std::uint8_t { none, unplugged, silent, unreachable_pose, unhomed };
+enum class LinkFault : std::uint8_t { none, unplugged, silent, slow, unreachable_pose, unhomed };
 const char* name_of(LinkFault fault);
 
 struct ProtocolStatus {
