@@ -1,8 +1,7 @@
 #pragma once
 
-/// Every default that a hand may feel, in one place, with its unit and its reason.
-
-#include <algorithm>
+/// Every default that a hand may feel, in one place, with its unit and its reason. But for the gradient's scale, which
+/// io::default_gradient_scale_mm() (io/gradient.h) finds from a scan's voxels.
 
 namespace palpate::modes::defaults {
 
@@ -36,13 +35,6 @@ inline constexpr double level_reach_mm = 1.0;
 // frame.
 inline constexpr double sub_step_mm = 0.1;
 inline constexpr int most_sub_steps = 8;
-
-/// Scale of the gradient (sigma of the derivative of Gaussian), mm. At 1 mm voxels 2 voxels give at most 0.25 degrees
-/// of direction error on a sphere of 20 mm, 1 voxel 1.8 degrees. in_plane_voxel_mm: the larger of the two spacings
-/// within a slice; slice_spacing_mm: between slice centres.
-constexpr double gradient_scale_mm(double in_plane_voxel_mm, double slice_spacing_mm) {
-  return std::max({1.5, 2.0 * in_plane_voxel_mm, 0.6 * slice_spacing_mm});
-}
 
 /// The simulated device: like a Desktop PHANTOM. One definition that every study shares.
 struct SimulatedDevice {

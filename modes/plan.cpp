@@ -24,10 +24,8 @@ constexpr FieldName field_names[] = {
 
 std::string words(io::FieldSet fields) {
   std::string text;
-  for (const FieldName& entry : field_names) {
-    if (contains(fields, entry.field)) {
-      text += (text.empty() ? "" : ", ") + std::string(entry.name);
-    }
+  for (const std::string& name : names_of(fields)) {
+    text += (text.empty() ? "" : ", ") + name;
   }
   return text;
 }
@@ -40,6 +38,10 @@ io::FieldSet without(io::FieldSet set, io::FieldSet taken) {
 std::string name_of(const Mode& mode, std::size_t index) {
   return mode.name.empty() ? mode.type + " (modes[" + std::to_string(index) + "])"
                            : mode.type + " \"" + mode.name + "\"";
+}
+
+std::string saved_by(const ModeType& type) {
+  return "its strength and its primitive in every tick (" + std::string(type.name) + ")";
 }
 
 /// The mode's gates, those of its pair of tissues included, and the side it resists.
@@ -120,15 +122,25 @@ void choose_solvers(const Scene& scene, const std::vector<Footprint>& footprints
   }
   const std::string why = count_in_words(footprints) + ": always analytical (section 3.1)";
   if (plan.solvers.exact) {
-    plan.left_out.push_back({"exact solver", why, "nothing a tick, but its scratch memory"});
+    plan.left_out.push_back({"exact solver", why, "its scratch memory; it would not be called"});
   }
   if (plan.solvers.descent) {
-    plan.left_out.push_back({"descent solver", why, "nothing a tick"});
+    plan.left_out.push_back({"descent solver", why, "nothing: it would not be called"});
   }
   plan.solvers.exact = plan.solvers.descent = false;
 }
 
 }  // namespace
+
+std::vector<std::string> names_of(io::FieldSet fields) {
+  std::vector<std::string> names;
+  for (const FieldName& entry : field_names) {
+    if (contains(fields, entry.field)) {
+      names.emplace_back(entry.name);
+    }
+  }
+  return names;
+}
 
 Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& workspace) {
   validate(scene);
@@ -156,11 +168,11 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
     const io::FieldSet reads = type.reads(mode) | active.strength.reads();
     const io::FieldSet missing = without(reads, available);
     if (!mode.enabled) {
-      plan.left_out.push_back({name, "it is switched off", words(reads)});
+      plan.left_out.push_back({name, "it is switched off", saved_by(type)});
     } else if (is_zero_everywhere(mode)) {
-      plan.left_out.push_back({name, "its strength is zero everywhere", words(reads)});
+      plan.left_out.push_back({name, "its strength is zero everywhere", saved_by(type)});
     } else if (missing != io::FieldSet::none) {
-      plan.left_out.push_back({name, "there is no " + words(missing) + " here", words(reads)});
+      plan.left_out.push_back({name, "there is no " + words(missing) + " here", saved_by(type)});
     } else {
       plan.fields = plan.fields | reads;
       plan.holds_iso_surface = plan.holds_iso_surface || active.holds;
@@ -170,7 +182,7 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
   }
   for (const FieldName& entry : field_names) {
     if (contains(available, entry.field) && !contains(plan.fields, entry.field)) {
-      plan.left_out.push_back({entry.name, "no mode reads it", entry.cost});
+      plan.left_out.push_back({entry.name, "no mode reads it", entry.cost, entry.field});
     }
   }
   choose_solvers(scene, footprints, plan);

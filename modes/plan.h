@@ -15,9 +15,10 @@ namespace palpate::modes {
 
 /// Something that was left out of a plan: never computed, kept in memory or called.
 struct LeftOut {
-  std::string what;   ///< "friction", "Hessian", "exact solver", ...
-  std::string why;    ///< "strength is zero everywhere"
-  std::string saves;  ///< "one gradient a tick", ...
+  std::string what;                         ///< "friction", "Hessian", "exact solver", ...
+  std::string why;                          ///< "strength is zero everywhere"
+  std::string saves;                        ///< "one gradient a tick", ...
+  io::FieldSet field = io::FieldSet::none;  ///< where it is a field: which
 };
 
 /// Immutable once made: sessions share it between threads by pointer.
@@ -31,6 +32,9 @@ struct Plan {
   bool holds_iso_surface = false;  ///< whether a surface mode needs the anchor (anchor.h)
   std::vector<LeftOut> left_out;
 };
+
+/// "value", "gradient", "vector field", "Hessian", "low and high": the names of a plan's fields for people.
+std::vector<std::string> names_of(io::FieldSet fields);
 
 /// Throws std::invalid_argument, naming the key, where the scene is not valid. A mode whose field the scan does not
 /// have is left out, with that reason.

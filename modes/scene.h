@@ -109,7 +109,7 @@ struct Scene {
   WorkspaceSettings workspace;
   SolverSwitches solvers;
   Subdivision subdivision;
-  std::optional<double> gradient_scale_mm;  ///< by default defaults::gradient_scale_mm() of the scan
+  std::optional<double> gradient_scale_mm;  ///< by default io::default_gradient_scale_mm() of the scan
   std::vector<Tissue> tissues;
   std::vector<Mode> modes;
 };

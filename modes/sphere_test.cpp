@@ -21,7 +21,7 @@ class GridSource : public io::FieldSource {
  public:
   explicit GridSource(double noise)
       : volume_(testdata::scan(testdata::make_sphere(radius_mm), testdata::make_geometry({}), {.noise = noise})) {
-    const testdata::AnalyticSource smooth(testdata::make_sphere(radius_mm), defaults::gradient_scale_mm(1, 1));
+    const testdata::AnalyticSource smooth(testdata::make_sphere(radius_mm), 2.0);
     for (int z = 0; z < 64; ++z) {
       for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
