@@ -1,0 +1,118 @@
+#include "PalpateFields.h"
+
+#include <vtkDataObject.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+
+#include "image_fields.h"
+#include "scan_of_image.h"
+
+using namespace palpate;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+vtkStandardNewMacro(PalpateFields);
+
+void PalpateFields::PrintSelf(ostream& os, vtkIndent indent) {
+  Superclass::PrintSelf(os, indent);
+  os << indent << "Scale: " << scale_mm_ << " mm\n" << indent << "Mode: " << mode_ << "\n";
+}
+
+void PalpateFields::SetMakeGradient(bool on) {
+  make_gradient_ = on;
+  Modified();
+}
+
+void PalpateFields::SetMakeMagnitude(bool on) {
+  make_magnitude_ = on;
+  Modified();
+}
+
+void PalpateFields::SetMakeFeltStrength(bool on) {
+  make_felt_ = on;
+  Modified();
+}
+
+void PalpateFields::SetScale(double scale_mm) {
+  scale_mm_ = scale_mm;
+  Modified();
+}
+
+void PalpateFields::SetScene(const char* scene) {
+  scene_ = scene ? scene : "";
+  Modified();
+}
+
+void PalpateFields::SetMode(const char* name) {
+  mode_ = name ? name : "";
+  Modified();
+}
+
+int PalpateFields::FillInputPortInformation(int, vtkInformation* info) {
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+// The superclass would announce the input's scalars only.
+int PalpateFields::RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) {
+  return 1;
+}
+
+int PalpateFields::RequestUpdateExtent(vtkInformation*, vtkInformationVector** input, vtkInformationVector* output) {
+  vtkInformation& image = *input[0]->GetInformationObject(0);
+  std::array<int, 6> whole{};
+  std::array<int, 6> wanted{};
+  image.Get(Pipeline::WHOLE_EXTENT(), whole.data());
+  output->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), wanted.data());
+  // A part needs its neighbours' voxels as far as the gradient reaches.
+  const int reach = plugin::furthest_reach(image.Get(vtkDataObject::SPACING()), scale_mm_);
+  for (std::size_t axis = 0; axis < 3 && wanted[0] <= wanted[1]; ++axis) {
+    wanted[2 * axis] = std::max(wanted[2 * axis] - reach, whole[2 * axis]);
+    wanted[2 * axis + 1] = std::min(wanted[2 * axis + 1] + reach, whole[2 * axis + 1]);
+  }
+  image.Set(Pipeline::UPDATE_EXTENT(), wanted.data(), 6);
+  return 1;
+}
+
+int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vtkInformationVector* output) {
+  vtkImageData& image = *vtkImageData::GetData(input[0]);
+  vtkImageData& result = *vtkImageData::GetData(output);
+  result.ShallowCopy(&image);
+  if (image.GetNumberOfPoints() == 0) return 1;
+  try {
+    const auto volume = plugin::scan_of(image);
+    plugin::FieldChoice choice{.gradient = make_gradient_,
+                               .magnitude = make_magnitude_,
+                               .felt = make_felt_,
+                               .scene = plugin::scene_of(scene_, *volume),
+                               .mode = mode_};
+    if (scale_mm_ > 0) choice.scene.gradient_scale_mm = scale_mm_;
+    for (const auto& array : plugin::fields_of(image, volume, choice, [this](double done) {
+           UpdateProgress(done);
+           return GetAbortExecute() == 0;
+         })) {
+      result.GetPointData()->AddArray(array);
+    }
+  } catch (const std::exception& error) {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  // What is looked at first is what was asked for last.
+  result.GetPointData()->SetActiveScalars(make_felt_        ? plugin::felt_name
+                                          : make_magnitude_ ? plugin::magnitude_name
+                                                            : nullptr);
+  if (!make_felt_ && !make_magnitude_) result.GetPointData()->SetScalars(image.GetPointData()->GetScalars());
+  std::array<int, 6> wanted{};
+  output->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), wanted.data());
+  result.Crop(wanted.data());
+  return 1;
+}

@@ -1,0 +1,175 @@
+#include "image_fields.h"
+
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "palpate/io/errors.h"
+#include "palpate/io/volume_fields.h"
+#include "palpate/modes/mode_type.h"
+#include "palpate/plugin/scan.h"
+#include "scan_of_image.h"
+
+namespace palpate::plugin {
+namespace {
+
+using io::FieldSet;
+
+/// The modes whose strengths are added up.
+std::vector<const modes::ActiveMode*> felt_modes(const modes::Plan& plan, const FieldChoice& choice) {
+  std::vector<const modes::ActiveMode*> felt;
+  if (!choice.felt) return felt;
+  const auto& all = choice.scene.modes;
+  if (!choice.mode.empty() &&
+      std::ranges::none_of(all, [&](const modes::Mode& mode) { return mode.name == choice.mode; })) {
+    throw std::invalid_argument("the scene has no mode named \"" + choice.mode + "\"");
+  }
+  for (const modes::ActiveMode& mode : plan.modes) {
+    const bool wanted = choice.mode.empty() ? mode.holds : all[mode.scene_index].name == choice.mode;
+    if (wanted) felt.push_back(&mode);
+  }
+  return felt;
+}
+
+vtkSmartPointer<vtkFloatArray> make_array(const char* name, int components, vtkIdType points) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(points);
+  return array;
+}
+
+/// The arrays in the making; a point is written by one thread.
+class Fields {
+ public:
+  Fields(const FieldChoice& choice, std::vector<const modes::ActiveMode*> felt, vtkIdType points)
+      : felt_modes_(std::move(felt)) {
+    if (choice.gradient) gradient_ = make_array(gradient_name, 3, points);
+    if (choice.magnitude) magnitude_ = make_array(magnitude_name, 1, points);
+    if (choice.felt) felt_ = make_array(felt_name, 1, points);
+  }
+
+  void put(vtkIdType point, const io::Sample& sample) const {
+    if (gradient_) {
+      const glm::vec3 gradient(sample.gradient);
+      gradient_->SetTypedTuple(point, &gradient.x);
+    }
+    if (magnitude_) magnitude_->SetValue(point, static_cast<float>(glm::length(sample.gradient)));
+    if (!felt_) return;
+    double strength = 0;
+    for (const modes::ActiveMode* mode : felt_modes_) strength += sample.inside ? mode->strength(sample) : 0;
+    felt_->SetValue(point, static_cast<float>(strength));
+  }
+
+  std::vector<vtkSmartPointer<vtkFloatArray>> arrays() const {
+    std::vector<vtkSmartPointer<vtkFloatArray>> made;
+    for (const auto& array : {gradient_, magnitude_, felt_}) {
+      if (array) made.push_back(array);
+    }
+    return made;
+  }
+
+ private:
+  std::vector<const modes::ActiveMode*> felt_modes_;
+  vtkSmartPointer<vtkFloatArray> gradient_;
+  vtkSmartPointer<vtkFloatArray> magnitude_;
+  vtkSmartPointer<vtkFloatArray> felt_;
+};
+
+constexpr int slab = 8;  // slices at a time: each block computes its neighbours' sums once more
+
+/// Slabs of slices on all cores, a few at a time so that progress is told and cancelling works.
+template <typename Work>
+void for_slabs(int slices, const io::Progress& progress, const Work& work) {
+  const int at_a_time = slab * std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1);
+  for (int begin = 0; begin < slices; begin += at_a_time) {
+    if (progress && !progress(static_cast<double>(begin) / slices)) throw io::Cancelled();
+    const int end = std::min(begin + at_a_time, slices);
+    vtkSMPTools::For(begin / slab, (end + slab - 1) / slab, 1, [&](vtkIdType first, vtkIdType last) {
+      for (vtkIdType n = first; n < last; ++n) {
+        work(static_cast<int>(n) * slab, std::min(static_cast<int>(n + 1) * slab, slices));
+      }
+    });
+  }
+}
+
+void fill_from_voxels(const io::Volume& volume, const io::GradientKernel* kernel, const std::array<int, 3>& first,
+                      const glm::ivec3& size, const io::Progress& progress, const Fields& fields) {
+  for_slabs(size.z, progress, [&](int begin, int end) {
+    std::vector<glm::vec3> gradients(static_cast<std::size_t>(end - begin) * size.x * size.y);
+    if (kernel) kernel->at_block({{first[0], first[1], first[2] + begin}, {size.x, size.y, end - begin}}, gradients);
+    std::size_t n = 0;
+    vtkIdType point = vtkIdType{begin} * size.x * size.y;
+    for (int k = begin; k < end; ++k) {
+      for (int j = 0; j < size.y; ++j) {
+        for (int i = 0; i < size.x; ++i, ++n, ++point) {
+          const glm::ivec3 at(first[0] + i, first[1] + j, first[2] + k);
+          io::Sample sample;
+          sample.inside = !volume.is_padding(at.x, at.y, at.z);
+          if (sample.inside) {
+            sample.value = volume.value_at(at.x, at.y, at.z);
+            sample.gradient = gradients[n];
+          }
+          fields.put(point, sample);
+        }
+      }
+    }
+  });
+}
+
+void fill_from_samples(vtkImageData& image, const io::FieldSource& source, FieldSet wanted,
+                       const io::Progress& progress, const Fields& fields) {
+  const int* const size = image.GetDimensions();
+  const vtkIdType slice = vtkIdType{size[0]} * size[1];
+  for_slabs(size[2], progress, [&](int begin, int end) {
+    for (vtkIdType point = begin * slice; point < end * slice; ++point) {
+      glm::dvec3 position;
+      image.GetPoint(point, &position.x);
+      fields.put(point, source.sample(position, wanted));
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
+                                                      const std::shared_ptr<const io::Volume>& volume,
+                                                      const FieldChoice& choice, const io::Progress& progress) {
+  const double scale = choice.scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry));
+  const auto plan = plan_for(choice.scene, volume->geometry, glm::dvec3(0.1));
+  const auto modes = felt_modes(*plan, choice);
+  FieldSet wanted = FieldSet::value;
+  for (const modes::ActiveMode* mode : modes) wanted = wanted | mode->strength.reads();
+  if (choice.gradient || choice.magnitude) wanted = wanted | FieldSet::gradient;
+
+  const Fields fields(choice, modes, image.GetNumberOfPoints());
+  const VoxelBlock block = block_of(image, *volume);
+  const bool of_voxels = block.aligned && io::contains(FieldSet::value | FieldSet::gradient, wanted);
+  if (of_voxels) {
+    std::optional<io::GradientKernel> kernel;
+    if (io::contains(wanted, FieldSet::gradient)) kernel.emplace(volume, scale);
+    glm::ivec3 size;
+    image.GetDimensions(&size.x);
+    fill_from_voxels(*volume, kernel ? &*kernel : nullptr, block.first, size, progress, fields);
+  } else {
+    fill_from_samples(image, io::VolumeFields(volume, wanted, scale), wanted, progress, fields);
+  }
+  return fields.arrays();
+}
+
+int furthest_reach(const double* spacing_mm, double scale_mm) {
+  constexpr double cut_off = 3.2;     // sigma: io/gradient.h
+  constexpr double leaning = 0.5;     // slices under a gantry tilt of 60 degrees are half their step apart
+  constexpr double most_default = 2;  // default_gradient_scale_mm() is at most this many voxels, or 1.5 mm
+  const auto [least, most] = std::minmax({spacing_mm[0], spacing_mm[1], spacing_mm[2]});
+  const double scale = scale_mm > 0 ? scale_mm : std::max(1.5, most_default * most);
+  return static_cast<int>(std::ceil(cut_off * scale / (leaning * least))) + 1;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,32 @@
+#pragma once
+
+/// From an image in the pipeline back to a scan that can be felt.
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "palpate/io/volume.h"
+#include "palpate/modes/scene.h"
+
+class vtkImageData;
+
+namespace palpate::plugin {
+
+/// The volume that the image's active point scalars show, where a Palpate reader made them, also where the image is a
+/// part or an even copy of it; else a volume of its own from any image with one scalar component. Throws
+/// std::invalid_argument for an image that has none.
+std::shared_ptr<const io::Volume> scan_of(vtkImageData& image);
+
+/// Whether the image's points are voxels of the volume, and which is the first of them.
+struct VoxelBlock {
+  bool aligned = false;
+  std::array<int, 3> first{};
+};
+VoxelBlock block_of(vtkImageData& image, const io::Volume& volume);
+
+/// A scene given as JSON, as the name of a starting scene or as a file; the one that suits the modality where it is
+/// empty. Throws std::invalid_argument as modes::scene_from_json() and modes::load_scene() do.
+modes::Scene scene_of(const std::string& text, const io::Volume& volume);
+
+}  // namespace palpate::plugin
