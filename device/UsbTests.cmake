@@ -12,12 +12,14 @@ elseif(NOT umockdev_FOUND OR NOT UMOCKDEV_WRAPPER)
   set(why_not "umockdev is not installed: apt-get install umockdev libumockdev-dev")
 else()
   set(why_not "")
-  add_executable(device_umockdev internal/fakes/umockdev_main.cpp internal/fakes/umockdev_falcon.cpp)
+  add_executable(device_umockdev internal/fakes/umockdev_main.cpp internal/fakes/umockdev_falcon.cpp
+    internal/fakes/umockdev_hid.cpp)
   target_include_directories(device_umockdev SYSTEM PRIVATE ${umockdev_INCLUDE_DIRS})
   target_link_libraries(device_umockdev PRIVATE palpate_fake_devices palpate_compile_options ${umockdev_LINK_LIBRARIES})
 endif()
 
-foreach(case falcon:run falcon:unplug falcon:sigint falcon:sigterm falcon:sigkill)
+foreach(case falcon:run falcon:unplug falcon:sigint falcon:sigterm falcon:sigkill wooden_haptics:run wooden_haptics:unplug
+    wooden_haptics:sigkill space_mouse:run)
   string(REPLACE ":" ";" words ${case})
   set(test device.usb.${case})
   if(why_not)

@@ -8,7 +8,10 @@
 namespace palpate::device {
 
 std::vector<FoundDevice> find_devices() {
-  return find_falcons();
+  std::vector<FoundDevice> found = find_falcons();
+  std::vector<FoundDevice> hid = find_hid_devices();
+  std::move(hid.begin(), hid.end(), std::back_inserter(found));
+  return found;
 }
 
 std::string permission_advice() {

@@ -1,18 +1,19 @@
 // A session's part of the tests that go through the real libraries: opens a device as palpate does, pushes, ends.
-//   device_client KIND SCENARIO [FIRMWARE]
-// KIND: falcon. SCENARIO: list | run | unplug | sigint | sigterm | sigkill.
+//   device_client KIND SCENARIO [FILE]
+// KIND: falcon (FILE: firmware), wooden_haptics (FILE: settings), space_mouse.
+// SCENARIO: run | unplug | sigint | sigterm | sigkill.
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <string>
-#include <thread>
+#include <vector>
 
 #include "palpate/device/falcon.h"
 #include "palpate/device/found_devices.h"
 #include "palpate/device/realtime.h"
+#include "palpate/device/space_mouse.h"
+#include "palpate/device/wooden_haptics.h"
 
 namespace {
 
@@ -37,11 +38,12 @@ Run tick(Stylus& stylus, const Vec3& force, double seconds, State until) {
 }
 
 int list() {
-  for (const FoundDevice& device : find_devices()) {
-    std::printf("found %s '%s' at %s%s\n", device.kind.c_str(), device.name.c_str(), device.address.c_str(),
+  const std::vector<FoundDevice> found = find_devices();
+  for (const FoundDevice& device : found) {
+    std::printf("client: found %s '%s' at %s%s\n", device.kind.c_str(), device.name.c_str(), device.address.c_str(),
                 device.accessible ? "" : " (not accessible)");
   }
-  return 0;
+  return found.size() == 1 ? 0 : 1;
 }
 
 int expect(bool holds, const char* what) {
@@ -50,9 +52,10 @@ int expect(bool holds, const char* what) {
 }
 
 int play(Stylus& stylus, const std::string& scenario) {
+  int failures = expect(list() == 0, "found one device");
   stylus.open();
   tick(stylus, Vec3(0), 10, State::idle);
-  int failures = expect(stylus.state() == State::idle, "homed within 10 s");
+  failures += expect(stylus.state() == State::idle, "homed within 10 s");
   const Run run = tick(stylus, Vec3(0, 1, 0), 1, State::fault);
   std::printf("client: %d new poses in %.2f s, state %s\n", run.fresh, run.seconds, name_of(stylus.state()));
   if (scenario == "unplug") {
@@ -63,9 +66,13 @@ int play(Stylus& stylus, const std::string& scenario) {
     failures += expect(stylus.state() == State::idle, "still there");
   }
   std::fflush(stdout);
+  if (failures > 0) return failures;
   if (scenario == "sigint") std::raise(SIGINT);
   if (scenario == "sigterm") std::raise(SIGTERM);
   if (scenario == "sigkill") std::raise(SIGKILL);
+  if (stylus.specification().force_axes == 0) {
+    failures += expect(stylus.read().position.x > 0.05, "a puck that is pushed for a second moves");
+  }
   stylus.close();
   return failures;
 }
@@ -76,16 +83,19 @@ int main(int count, char** arguments) {
   const std::string kind = count > 1 ? arguments[1] : "";
   const std::string scenario = count > 2 ? arguments[2] : "";
   try {
-    if (scenario == "list") return list();
     if (kind == "falcon") {
       FalconSettings settings;
       settings.firmware_file = count > 3 ? arguments[3] : "";
       return play(*make_falcon(settings), scenario);
     }
+    if (kind == "wooden_haptics" && count > 3) {
+      return play(*make_wooden_haptics(read_wooden_haptics(arguments[3])), scenario);
+    }
+    if (kind == "space_mouse") return play(*make_space_mouse(), scenario);
   } catch (const std::exception& error) {
     std::printf("client: refused: %s\n", error.what());
     return 1;
   }
-  std::puts("device_client KIND SCENARIO [FIRMWARE]");
+  std::puts("device_client KIND SCENARIO [FILE]");
   return 2;
 }
