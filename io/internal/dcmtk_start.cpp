@@ -2,9 +2,6 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdict.h>
-#include <dcmtk/dcmdata/dcrledrg.h>
-#include <dcmtk/dcmjpeg/djdecode.h>
-#include <dcmtk/dcmjpls/djdecode.h>
 #include <dcmtk/oflog/oflog.h>
 
 #include <mutex>
@@ -31,9 +28,6 @@ void start_dcmtk() {
     const bool filled = dictionary.isDictionaryLoaded();
     dcmDataDict.rdunlock();
     check_dictionary(dictionary, filled);
-    DJDecoderRegistration::registerCodecs(EDC_never);  // the caller asks for stored values, never for RGB
-    DJLSDecoderRegistration::registerCodecs();
-    DcmRLEDecoderRegistration::registerCodecs();
   });
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
-/// One compressed frame -> stored values.
+/// One compressed frame -> stored values. JPEG by DCMTK's IJG codecs, JPEG-LS by CharLS, JPEG 2000 by OpenJPEG, RLE by
+/// ourselves: the decoders for JPEG-LS and RLE inside DCMTK 3.6.7 write beyond their buffers on damaged streams.
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 
 #include "palpate/io/internal/file_header.h"
 
@@ -26,11 +26,19 @@ void check_density(const std::string& transfer_syntax, const PixelFormat& format
 void decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
                   std::span<std::uint16_t> values);
 
-/// Columns and rows that a JPEG or JPEG-LS stream claims (its SOF marker, ISO 10918-1 annex B); nothing where it has
-/// none.
-std::optional<std::pair<int, int>> jpeg_size(std::span<const std::byte> bytes);
-
-/// The same for JPEG 2000, a codestream or a JP2 file, by OpenJPEG.
+// The decoders of each family, as decode_frame(). Samples are as the stream holds them: bits that the format does not
+// store and signs are left to the caller.
+void decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+void decode_jpeg_ls(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
 void decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+void decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+
+/// What a JPEG stream says of itself in its SOF marker (ISO 10918-1 annex B).
+struct JpegFrame {
+  int columns = 0;
+  int rows = 0;
+  int precision = 0;
+};
+std::optional<JpegFrame> jpeg_frame(std::span<const std::byte> bytes);
 
 }  // namespace palpate::io::internal

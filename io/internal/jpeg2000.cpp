@@ -54,6 +54,11 @@ Stream stream_of(Source& source) {
   return stream;
 }
 
+// OpenJPEG carries on over damaged packets and only warns. Warnings while it reads the header are matters of style.
+void note_damage(const char* /*message*/, void* damaged) {
+  *static_cast<bool*>(damaged) = true;
+}
+
 [[noreturn]] void refuse(const char* why) {
   throw DicomError(std::string("damaged: its JPEG 2000 image ") + why);
 }
@@ -81,7 +86,10 @@ void decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes
     refuse("is of another size than the file says");
   }
   if (image->comps[0].prec > 16 || image->comps[0].dx != 1 || image->comps[0].dy != 1) refuse("is of an unknown kind");
+  bool damaged = false;
+  opj_set_warning_handler(codec.get(), note_damage, &damaged);
   if (!opj_decode(codec.get(), stream.get(), image.get())) refuse("cannot be decoded to its end");
+  if (damaged) refuse("holds errors");
   const opj_image_comp_t& component = image->comps[0];
   if (component.data == nullptr || component.w != columns || component.h != rows) refuse("is incomplete");
   // Sign and unused bits are treated as for every other coder, by what the file says of them.

@@ -13,6 +13,7 @@ namespace palpate::io::internal {
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work, const Progress& progress,
                   int threads) {
+  if (progress && !progress(0)) throw Cancelled();
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> done = 0;
   std::atomic<bool> stop = false;
@@ -24,8 +25,8 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
       for (std::size_t i = next++; i < count && !stop; i = next++) {
         work(i);
         const std::size_t finished = ++done;
-        if (reports && progress && !progress(static_cast<double>(finished) / static_cast<double>(count)))
-          throw Cancelled();
+        const double part = static_cast<double>(finished) / static_cast<double>(count);
+        if (reports && progress && finished < count && !progress(part)) throw Cancelled();
       }
     } catch (...) {
       const std::lock_guard lock(failure_mutex);
@@ -42,6 +43,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
     run(true);
   }
   if (failure) std::rethrow_exception(failure);
+  if (progress && !progress(1)) throw Cancelled();
 }
 
 }  // namespace palpate::io::internal

@@ -67,4 +67,31 @@ void write_stack(const std::filesystem::path& folder, int count, const std::func
   }
 }
 
+DcmItem& group(DcmItem& item, const DcmTagKey& sequence) {
+  DcmItem* made = nullptr;
+  succeed(item.findOrCreateSequenceItem(sequence, made, 0));
+  return *made;
+}
+
+void make_multi_frame(DcmDataset& dataset, const std::vector<double>& heights,
+                      const std::function<void(std::size_t, DcmItem&)>& frame) {
+  put(dataset, DCM_SOPClassUID, UID_EnhancedMRImageStorage);
+  put(dataset, DCM_Modality, "MR");
+  put(dataset, DCM_NumberOfFrames, std::to_string(heights.size()));
+  DcmItem& shared = group(dataset, DCM_SharedFunctionalGroupsSequence);
+  succeed(
+      group(shared, DCM_PlaneOrientationSequence).putAndInsertString(DCM_ImageOrientationPatient, "1\\0\\0\\0\\1\\0"));
+  succeed(group(shared, DCM_PixelMeasuresSequence).putAndInsertString(DCM_PixelSpacing, "0.5\\0.75"));
+  for (const DcmTagKey& tag : {DCM_ImagePositionPatient, DCM_ImageOrientationPatient, DCM_PixelSpacing}) {
+    dataset.findAndDeleteElement(tag);
+  }
+  for (std::size_t f = 0; f < heights.size(); ++f) {
+    DcmItem* item = nullptr;
+    succeed(dataset.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, item, -2));
+    const std::string position = std::string("0\\0\\") + std::to_string(heights[f]);
+    succeed(group(*item, DCM_PlanePositionSequence).putAndInsertString(DCM_ImagePositionPatient, position.c_str()));
+    frame(f, *item);
+  }
+}
+
 }  // namespace palpate::io::internal

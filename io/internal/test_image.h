@@ -12,6 +12,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace palpate::io::internal {
 
@@ -63,5 +64,13 @@ void write(const TestImage& image, const std::filesystem::path& path);
 void write_stack(
     const std::filesystem::path& folder, int count,
     const std::function<void(int, TestImage&)>& change = [](int, TestImage&) {});
+
+/// Makes the dataset an enhanced one: a frame for each height z (mm), in this order, oriented and spaced as the image
+/// was. `frame` may add to a frame's functional groups.
+void make_multi_frame(
+    DcmDataset& dataset, const std::vector<double>& heights,
+    const std::function<void(std::size_t, DcmItem&)>& frame = [](std::size_t, DcmItem&) {});
+/// The item of a functional group, made where it is not there.
+DcmItem& group(DcmItem& item, const DcmTagKey& sequence);
 
 }  // namespace palpate::io::internal
