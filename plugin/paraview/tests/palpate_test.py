@@ -3,6 +3,7 @@
 Every test runs in pvpython with the folder of the built programs, the plug-in's file and a scratch folder as arguments.
 """
 
+import hashlib
 import json
 import os
 import random
@@ -26,7 +27,8 @@ PHANTOMS = {
 
 def phantom(name):
     """The folder of a phantom, made on first use."""
-    folder = os.path.join(SCRATCH, name)
+    told = hashlib.sha1(" ".join(PHANTOMS[name]).encode()).hexdigest()[:8]
+    folder = os.path.join(SCRATCH, f"{name}-{told}")
     if not os.path.isdir(folder):
         run("palpate-testdata", "phantom", *PHANTOMS[name], "-o", folder)
     return folder
@@ -79,6 +81,11 @@ def expect_all_near(actual, wanted, tolerance, message):
         expect_near(a, w, tolerance, f"{message} [{n}]")
 
 
+def delete_all():
+    for proxy in list(simple.GetSources().values()):
+        simple.Delete(proxy)
+
+
 def main(tests):
     """Runs every test and fails with the first that fails."""
     random.seed(1)
@@ -86,6 +93,5 @@ def main(tests):
     for test in tests:
         print(f"{test.__name__} ...", flush=True)
         test()
-        for proxy in list(simple.GetSources().values()):
-            simple.Delete(proxy)
+        delete_all()
     print("all passed")

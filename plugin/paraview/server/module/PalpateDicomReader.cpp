@@ -80,6 +80,10 @@ bool PalpateDicomReader::GetDisplayResampled() {
   return scan_ && scan_->grid.resampled;
 }
 
+int PalpateDicomReader::GetStoredScans() { return static_cast<int>(plugin::store_use().volumes); }
+vtkIdType PalpateDicomReader::GetStoredBytes() { return static_cast<vtkIdType>(plugin::store_use().voxel_bytes); }
+int PalpateDicomReader::GetSharedArrays() { return static_cast<int>(plugin::store_use().shared_arrays); }
+
 int PalpateDicomReader::CanReadFile(const char* name) {
   if (std::filesystem::is_directory(name)) return 1;
   std::ifstream file(name, std::ios::binary);
@@ -95,7 +99,6 @@ void PalpateDicomReader::tell(const std::string& message) {
 
 void PalpateDicomReader::find() {
   if (scan_) return;
-  if (file_name_.empty()) throw io::DicomError("no folder given: set FileName to a DICOM folder or file");
   auto found = std::make_unique<Scan>();
   found->catalogue = plugin::find_scans(file_name_, [this](double done) {
     UpdateProgress(done);
@@ -125,6 +128,7 @@ void PalpateDicomReader::find() {
 }
 
 int PalpateDicomReader::RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) {
+  if (file_name_.empty()) return 1;  // nothing is asked for: nothing to show, and nothing wrong
   try {
     find();
   } catch (const std::exception& error) {
@@ -167,6 +171,7 @@ void add_note(vtkImageData& image, const char* name, const std::string& text) {
 int PalpateDicomReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) {
   vtkInformation& info = *output->GetInformationObject(0);
   vtkImageData& image = *vtkImageData::GetData(output);
+  if (file_name_.empty()) return 1;
   try {
     find();
     const io::Series& series = scan_->series();

@@ -37,6 +37,11 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   /// Whether the slices are uneven and an even copy is shown.
   bool GetDisplayResampled();
 
+  /// Of all scans in this process: how many, bytes of voxels, VTK arrays that view them.
+  int GetStoredScans();
+  vtkIdType GetStoredBytes();
+  int GetSharedArrays();
+
   /// Whether a file begins as DICOM does, or is a folder.
   static int CanReadFile(const char* name);
 
