@@ -31,6 +31,7 @@ void add_plan(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_probe(CLI::App& program);
 void add_solve(CLI::App& program);
+void add_devices(CLI::App& program);
 void add_bench(CLI::App& program);
 
 }  // namespace palpate::plugin

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "palpate/plugin/bench_fields.h"
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/loop_studies.h"
 #include "palpate/testdata/fresh_folder.h"
@@ -40,6 +41,7 @@ void add_bench(CLI::App& program) {
   CLI::App* bench = program.add_subcommand("bench", "Error against run time, as tables, CSV files and pictures.");
   bench->require_subcommand(1);
   add_stability(*bench);
+  add_bench_fields(*bench);
 }
 
 }  // namespace palpate::plugin

@@ -22,8 +22,10 @@ int main(int argc, char** argv) {
   try {
     add_info(program);
     add_sample(program);
+    add_plan(program);
     add_profile(program);
     add_probe(program);
+    add_devices(program);
     add_bench(program);
     program.parse(argc, argv);
     return 0;
