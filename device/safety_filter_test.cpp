@@ -8,8 +8,6 @@
 #include <random>
 #include <string>
 
-#include "palpate/device/fault_log.h"
-
 namespace palpate::device {
 namespace {
 
@@ -367,36 +365,6 @@ TEST(SafetyFilter, TellsWhatToDoAboutEveryFault) {
     EXPECT_STRNE(name_of(fault), "unknown");
     EXPECT_FALSE(std::string(advice_for(fault)).empty());
   }
-}
-
-TEST(FaultLog, KeepsTheFramesAroundTheFirstFault) {
-  FaultLog log;
-  Session session;
-  session.activate();
-  const auto record = [&](double seconds) {
-    for (int i = 0; i < std::lround(seconds / tick); ++i) {
-      session.step();
-      log.record(session.input, session.result);
-    }
-  };
-  record(3);
-  EXPECT_FALSE(log.stopped());
-  EXPECT_EQ(log.frames().size(), FaultLog::capacity);
-  session.input.force.x = nan;
-  record(0.001);
-  const double fault_time = session.input.time;
-  session.input.force = Vec3(0, 1, 0);
-  record(2);
-  ASSERT_TRUE(log.stopped());
-  const auto frames = log.frames();
-  ASSERT_EQ(frames.size(), FaultLog::capacity);
-  const SafetyFrame& at_fault = frames[FaultLog::capacity - FaultLog::frames_after_fault - 1];
-  EXPECT_EQ(at_fault.input.time, fault_time);
-  EXPECT_TRUE(std::isnan(at_fault.input.force.x));
-  EXPECT_EQ(at_fault.result.fault, Fault::force_not_finite);
-  for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_GT(frames[i].input.time, frames[i - 1].input.time);
-  log.clear();
-  EXPECT_TRUE(log.frames().empty());
 }
 
 }  // namespace

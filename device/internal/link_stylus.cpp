@@ -49,8 +49,8 @@ void LinkStylus::open() {
   close();
   // The guardian first: from the moment when a force can be sent, somebody can take it back.
   guardian_ = start_guardian(options_.guardian);
-  link_ = make_link_();
   try {
+    link_ = make_link_();
     protocol_->connect(*link_);
   } catch (...) {
     link_.reset();
