@@ -1,5 +1,6 @@
 """The same numbers from a server of its own, serial and on two ranks, as from the process itself."""
 
+import os
 import socket
 import subprocess
 import sys
@@ -23,7 +24,9 @@ def serve(ranks):
     command = [PVSERVER, f"--server-port={port}", "--force-offscreen-rendering"]
     if ranks > 1:
         command = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), *command]
-    server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    # pvpython is an MPI process itself; its own ranks' settings would confuse those of the server.
+    alone = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
+    server = subprocess.Popen(command, env=alone, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     for line in server.stdout:
         if "Accepting connection" in line:
             return server, port
