@@ -1,0 +1,46 @@
+// libFuzzer's way into the reader: the bytes are a file; its header is read and every image in it decoded.
+//
+//   cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DPALPATE_MODULES=io -DPALPATE_FUZZ=ON
+//   ninja -C build/fuzz fuzz_reader && build/fuzz/bin/fuzz_reader -max_len=100000 CORPUS
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "palpate/io/errors.h"
+#include "palpate/io/load.h"
+
+namespace {
+
+using namespace palpate::io;
+
+void read_all(const std::filesystem::path& path) {
+  const Catalogue found = find_series(std::array{path});
+  for (const Series& series : found.series) {
+    for (int frame = 0; frame < series.frames_per_position; ++frame) {
+      try {
+        LoadOptions options;
+        options.frame = frame;
+        options.threads = 1;
+        static_cast<void>(statistics(load(series, options)));
+      } catch (const DicomError&) {
+      }
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  // A file in memory: the reader takes paths.
+  const int file = ::memfd_create("fuzz", MFD_CLOEXEC);
+  if (file < 0 || ::write(file, data, size) != static_cast<ssize_t>(size)) return 0;
+  read_all("/proc/self/fd/" + std::to_string(file));
+  ::close(file);
+  return 0;
+}
