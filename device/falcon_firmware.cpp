@@ -121,7 +121,7 @@ std::string upload(FalconLink& link, const std::vector<std::uint8_t>& image) {
 
 std::vector<std::uint8_t> read_image(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (image.empty() || image.size() > largest_image) {
     throw std::runtime_error("Novint Falcon: " + file + (image.empty() ? " cannot be read" : " is too long") +
                              "; name the firmware file that came with the device");
