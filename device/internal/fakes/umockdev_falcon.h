@@ -2,12 +2,11 @@
 
 /// The fake Falcon behind usbdevfs, as libusb finds it.
 
+#include <umockdev.h>
+
 #include <memory>
 
 #include "palpate/device/internal/fakes/fake_falcon.h"
-
-typedef struct _UMockdevTestbed UMockdevTestbed;
-typedef struct _GError GError;
 
 namespace palpate::device {
 

@@ -2,13 +2,12 @@
 
 /// A fake HID device behind hidraw, as hidapi finds it.
 
+#include <umockdev.h>
+
 #include <memory>
 #include <string>
 
 #include "palpate/device/internal/fakes/fake_hid.h"
-
-typedef struct _UMockdevTestbed UMockdevTestbed;
-typedef struct _GError GError;
 
 namespace palpate::device {
 
