@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <clocale>
+#include <cstdlib>
 #include <fstream>
 
 #include "palpate/io/errors.h"
@@ -215,6 +217,26 @@ TEST(FindSeries, DescriptionBecomesUtf8) {
     });
     EXPECT_EQ(find_in(folder).series.at(0).description, expected) << characters;
   }
+}
+
+// A host program may run in a country that writes 0,75: neither attributes nor words may change.
+TEST(FindSeries, DecimalCommaOfTheLocaleChangesNothing) {
+  const TestFolder folder;
+  write_stack(folder.path(), 6, [](int k, TestImage& image) { image.z = k == 5 ? 13.75 : 2.25 * k; });
+  const Series before = find_in(folder).series.at(0);
+  const TestFolder locales;
+  const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8").string() + " >/dev/null 2>&1";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "localedef cannot make de_DE here";  // NOLINT(cert-env33-c)
+  ::setenv("LOCPATH", locales.path().c_str(), 1);
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "de_DE cannot be used here";
+  ASSERT_STREQ(std::localeconv()->decimal_point, ",");
+  const Series after = find_in(folder).series.at(0);
+  std::setlocale(LC_ALL, "C");
+  ::unsetenv("LOCPATH");
+  EXPECT_EQ(after.geometry.spacing_i, 0.75);
+  EXPECT_EQ(after.geometry.slice_positions, before.geometry.slice_positions);
+  ASSERT_THAT(before.warnings, SizeIs(1));
+  EXPECT_EQ(after.warnings, before.warnings);
 }
 
 TEST(FindSeries, NamesWhatDoesNotExist) {

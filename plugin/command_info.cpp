@@ -60,7 +60,7 @@ Json json_of(const glm::dvec3& v) {
 Json json_of(const Examined& examined) {
   const io::Series& s = examined.series;
   const io::Geometry& g = s.geometry;
-  const bool placed = !g.slice_positions.empty();
+  const bool placed = g.dimensions.x > 0;
   const bool has_values = examined.values.count > 0;
   Json json;
   json["uid"] = s.uid;
@@ -71,7 +71,7 @@ Json json_of(const Examined& examined) {
   json["dimensions"] = {g.dimensions.x, g.dimensions.y, g.dimensions.z};
   json["frames_per_position"] = s.frames_per_position;
   json["spacing_mm"] = placed ? Json::array({g.spacing_i, g.spacing_j, g.slice_spacing()}) : Json();
-  json["origin_mm"] = placed ? json_of(g.slice_positions.front()) : Json();
+  json["origin_mm"] = g.slice_positions.empty() ? Json() : json_of(g.slice_positions.front());
   json["direction_i"] = placed ? json_of(g.direction_i) : Json();
   json["direction_j"] = placed ? json_of(g.direction_j) : Json();
   json["step_mm"] = placed ? json_of(g.step) : Json();
@@ -97,7 +97,7 @@ void print_text(std::size_t number, const Examined& examined, bool patient) {
   }
   text += fmt::format("   {} file{}\n", s.files.size(), s.files.size() == 1 ? "" : "s");
   if (!g.slice_positions.empty()) {
-    text += fmt::format("   first voxel at {} mm; columns along {}; rows along {}; slices step {} mm{}\n",
+    text += fmt::format("   first voxel at {} mm; along a row {}; along a column {}; from slice to slice {} mm{}\n",
                         triple(g.slice_positions.front()), triple(g.direction_i), triple(g.direction_j), triple(g.step),
                         g.uniform ? "" : " on average");
   }

@@ -1,0 +1,218 @@
+#include "palpate/plugin/bench_load.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "palpate/io/load.h"
+#include "palpate/plugin/command.h"
+#include "palpate/plugin/series_option.h"
+
+extern char** environ;  // NOLINT: POSIX's
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LoadOptions {
+  std::vector<std::string> folders;
+  int rounds = 5;
+  bool jpeg_lossless = false;
+  bool once = false;
+};
+
+struct Loader {
+  std::string name;
+  std::vector<std::string> call;  // the folder is appended
+};
+
+struct Run {
+  double seconds = 0;
+  double cpu_seconds = 0;
+  long peak_mib = 0;
+};
+
+/// A folder under the temporary one, removed with its owner.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "palpate_bench_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw InputRefused("cannot make a folder in " + fs::temp_directory_path().string());
+    path_ = name;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string own_program() {
+  return fs::read_symlink("/proc/self/exe").string();
+}
+
+std::optional<std::string> find_program(const std::string& name) {
+  const fs::path beside = fs::path(own_program()).parent_path() / name;
+  if (fs::exists(beside)) return beside.string();
+  const char* path = std::getenv("PATH");
+  std::string rest = path != nullptr ? path : "";
+  while (!rest.empty()) {
+    const auto colon = rest.find(':');
+    const fs::path candidate = fs::path(rest.substr(0, colon)) / name;
+    if (::access(candidate.c_str(), X_OK) == 0) return candidate.string();
+    rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+  }
+  return std::nullopt;
+}
+
+/// Nothing where the program fails.
+std::optional<Run> time_program(const std::vector<std::string>& call) {
+  std::vector<char*> arguments;
+  for (const std::string& word : call)
+    arguments.push_back(const_cast<char*>(word.c_str()));  // NOLINT: posix_spawn's type
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  const auto start = std::chrono::steady_clock::now();
+  pid_t child = 0;
+  const int failed = ::posix_spawn(&child, arguments.front(), &quiet, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  int status = 0;
+  rusage usage{};
+  if (failed != 0 || ::wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    return std::nullopt;
+  }
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  return Run{wall.count(), seconds(usage.ru_utime) + seconds(usage.ru_stime), usage.ru_maxrss / 1024};
+}
+
+std::vector<Loader> loaders(const fs::path& scratch) {
+  std::vector<Loader> all{{"palpate", {own_program(), "bench", "load", "--once"}}};
+  if (const auto program = find_program("load_by_dcmtk")) all.push_back({"DCMTK", {*program}});
+  if (const auto program = find_program("load_by_gdcm")) all.push_back({"GDCM", {*program}});
+  if (const auto program = find_program("dcm2niix")) {
+    all.push_back({"dcm2niix", {*program, "-z", "n", "-b", "n", "-w", "1", "-f", "x", "-o", scratch.string()}});
+  }
+  return all;
+}
+
+template <typename Value>
+Value median(std::vector<Value> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+void compare(const std::string& title, const std::string& folder, int rounds) {
+  const Scratch output;
+  const std::vector<Loader> all = loaders(output.path());
+  std::vector<std::vector<Run>> runs(all.size());
+  for (int round = -1; round < rounds; ++round) {  // the first warms the page cache
+    for (std::size_t l = 0; l < all.size(); ++l) {
+      auto call = all[l].call;
+      call.push_back(folder);
+      const auto run = time_program(call);
+      if (run && round >= 0) runs[l].push_back(*run);
+    }
+  }
+  fmt::print("\n{}: median of {} alternating runs, {} cores\n", title, rounds, std::thread::hardware_concurrency());
+  fmt::print("{:<10} {:>9} {:>9} {:>9}   call\n", "", "wall s", "CPU s", "peak MiB");
+  double own = 0;
+  double fastest_peer = 0;
+  for (std::size_t l = 0; l < all.size(); ++l) {
+    if (runs[l].empty()) {
+      fmt::print("{:<10} failed   {} {}\n", all[l].name, fmt::join(all[l].call, " "), folder);
+      continue;
+    }
+    std::vector<double> wall;
+    std::vector<double> cpu;
+    std::vector<long> peak;
+    for (const Run& run : runs[l]) {
+      wall.push_back(run.seconds);
+      cpu.push_back(run.cpu_seconds);
+      peak.push_back(run.peak_mib);
+    }
+    const double typical = median(wall);
+    fmt::print("{:<10} {:>9.3f} {:>9.3f} {:>9}   {} {}\n", all[l].name, typical, median(cpu), median(peak),
+               fmt::join(all[l].call, " "), folder);
+    if (l == 0) own = typical;
+    if (l > 0 && (fastest_peer == 0 || typical < fastest_peer)) fastest_peer = typical;
+  }
+  if (own > 0 && fastest_peer > 0) fmt::print("palpate / fastest peer: {:.2f}\n", own / fastest_peer);
+}
+
+// The same series in JPEG lossless, by DCMTK's dcmcjpeg.
+void compress(const fs::path& folder, const fs::path& into) {
+  const auto program = find_program("dcmcjpeg");
+  if (!program) throw InputRefused("--jpeg-lossless needs dcmcjpeg: install the package dcmtk");
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    time_program({*program, "+e1", entry.path().string(), (into / entry.path().filename()).string()});
+  }
+}
+
+void load_once(const std::string& folder) {
+  const SeriesOption option{.path = folder, .series = "", .frame = 0};
+  const io::Volume volume = io::load(choose_series(option));
+  const io::Statistics values = io::statistics(volume);
+  fmt::print("{} slices, {} to {}, mean {:.9g}\n", volume.geometry.dimensions.z, values.minimum, values.maximum,
+             values.mean);
+}
+
+void run(const LoadOptions& options) {
+  if (options.once) {
+    load_once(options.folders.front());
+    return;
+  }
+  for (const std::string& folder : options.folders) {
+    compare(folder, folder, options.rounds);
+    if (options.jpeg_lossless) {
+      const Scratch compressed;
+      compress(folder, compressed.path());
+      compare(folder + " in JPEG lossless", compressed.path().string(), options.rounds);
+    }
+  }
+  fmt::print(
+      "\nPeers found beside this program or on the PATH are run; load_by_dcmtk and load_by_gdcm are built with "
+      "-DPALPATE_PEERS=ON.\n");
+}
+
+}  // namespace
+
+void add_bench_load(CLI::App& bench) {
+  CLI::App* command = bench.add_subcommand("load", "From a folder to a volume, against DCMTK, GDCM and dcm2niix");
+  const auto options = std::make_shared<LoadOptions>();
+  command->add_option("FOLDER", options->folders, "Folders that hold one series each")->required();
+  command->add_option("--rounds", options->rounds, "Runs of each, in turn")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--jpeg-lossless", options->jpeg_lossless, "Also each series in JPEG lossless (needs dcmcjpeg)");
+  command->add_flag("--once", options->once, "Load the first folder once and print its values (what is timed)");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace palpate::plugin
