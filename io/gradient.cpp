@@ -104,7 +104,8 @@ struct GradientKernel::Weights {
       for (int j = 0; j < layout.block.size.y; ++j) {
         const float* const row = sums + layout.at(1, 0, j, k);
         if (complete) {
-          const PlaneFit& fit = whole_neighbourhood[static_cast<std::size_t>(layout.block.first.z + k)];
+          const int slice = layout.block.first.z + k;
+          const PlaneFit& fit = whole_neighbourhood[static_cast<std::size_t>(slice)];
           fit_row(
               row, layout, [&](int) -> const PlaneFit& { return fit; }, gradients);
         } else {
@@ -147,7 +148,8 @@ struct GradientKernel::Weights {
       return false;
     }
     for (int k = 0; k < layout.block.size.z; ++k) {
-      const WholeSums& whole = whole_sums[static_cast<std::size_t>(layout.block.first.z + k)];
+      const int slice = layout.block.first.z + k;
+      const WholeSums& whole = whole_sums[static_cast<std::size_t>(slice)];
       const double total = static_cast<double>(whole[0]);
       const auto weight = [&](std::size_t n) { return static_cast<double>(whole[n]) / total; };
       const glm::dmat3 covariance = second_order(weight);
@@ -252,8 +254,7 @@ void GradientKernel::for_each_block(const std::function<void(const Block&, std::
                                     const Progress& progress, int threads) const {
   const std::vector<Block> blocks = blocks_of(weights_->volume->geometry.dimensions, radius());
   const auto one = [&](std::size_t n) {
-    const glm::ivec3 size = blocks[n].size;
-    std::vector<glm::vec3> gradients(static_cast<std::size_t>(size.x * size.y * size.z));
+    std::vector<glm::vec3> gradients(blocks[n].voxels());
     at_block(blocks[n], gradients);
     use(blocks[n], gradients);
   };

@@ -12,6 +12,7 @@
 /// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
 /// they round differently in their vectorised part, in a row's tail and from one processor to the next.
 
+#include <cstddef>
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -31,6 +32,10 @@ double default_gradient_scale_mm(const Geometry& geometry) noexcept;
 struct Block {
   glm::ivec3 first{0};
   glm::ivec3 size{0};
+
+  std::size_t voxels() const noexcept {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+  }
 };
 
 /// Reads the volume; keeps little more than the weights of its own. Immutable, so any number of threads may use it.

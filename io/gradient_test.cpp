@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
@@ -99,7 +100,8 @@ TEST(Gradient, IsThePlaneOfItsDefinitionOnEveryGridUpToEdgesAndPadding) {
 }
 
 bool same_bits(const glm::vec3& a, const glm::vec3& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f); };
+  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
 }
 
 TEST(Gradient, HasTheSameBitsInTheWholeInAnyBlockAndInACell) {

@@ -26,7 +26,7 @@ TEST(JointHistogram, CountsEachVoxelOfTheWholeGradientOnce) {
   const GradientKernel kernel(volume, 2);
   const JointHistogram histogram = joint_histogram(*volume, kernel, values, magnitudes);
   const auto gradients = kernel.whole();
-  std::vector<std::uint64_t> counts(44 * 30);
+  std::vector<std::uint64_t> counts(std::size_t{44} * 30);
   std::uint64_t voxels = 0;
   for (int k = 0; k < 40; ++k) {
     for (int j = 0; j < 46; ++j) {

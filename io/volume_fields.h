@@ -11,6 +11,15 @@
 
 namespace palpate::io {
 
+struct FieldOptions {
+  std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
+  bool background = true;                           ///< whether a worker fills bricks ahead
+};
+
+namespace internal {
+class BrickCache;
+}
+
 /// Value: trilinear between voxel centres, exact at them, in `Volume::unit`. Gradient: trilinear between the voxels'
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
@@ -24,15 +33,6 @@ namespace palpate::io {
 ///
 /// Outside: beyond the hull of the voxel centres, between slices where some are missing, and wherever a voxel that the
 /// interpolation needs is padding.
-struct FieldOptions {
-  std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
-  bool background = true;                           ///< whether a worker fills bricks ahead
-};
-
-namespace internal {
-class BrickCache;
-}
-
 class VolumeFields : public FieldSource {
  public:
   /// Prepares what the wanted fields need and no more; `scale_mm` is that of the gradient and is not read without one.

@@ -104,9 +104,12 @@ TEST(VolumeFields, NeitherTheEdgeNorPaddingNorAGapIsABoundary) {
   const VolumeFields fields(volume, both, 2);
   int inside = 0;
   int outside = 0;
-  for (double x = -16; x <= 16; x += 0.87) {
-    for (double y = -16; y <= 16; y += 1.13) {
-      for (double z = -11; z <= 11; z += 0.93) {
+  for (int i = 0; i < 37; ++i) {
+    for (int j = 0; j < 29; ++j) {
+      for (int k = 0; k < 24; ++k) {
+        const double x = -16 + 0.87 * i;
+        const double y = -16 + 1.13 * j;
+        const double z = -11 + 0.93 * k;
         const Sample s = fields.sample({x, y, z}, both);
         if (s.inside) {
           ++inside;

@@ -59,11 +59,9 @@ std::size_t BrickCache::number_of(const glm::ivec3& brick) const noexcept {
 }
 
 glm::dvec3 BrickCache::middle_of(std::size_t brick) const noexcept {
-  const auto x = static_cast<std::size_t>(bricks_.x);
-  const auto y = static_cast<std::size_t>(bricks_.y);
-  const glm::dvec3 at(static_cast<double>(brick % x), static_cast<double>(brick / x % y),
-                      static_cast<double>(brick / x / y));
-  return (at + 0.5) * static_cast<double>(cells);
+  const auto n = static_cast<int>(brick);
+  const glm::ivec3 at(n % bricks_.x, n / bricks_.x % bricks_.y, n / bricks_.x / bricks_.y);
+  return (glm::dvec3(at) + 0.5) * static_cast<double>(cells);
 }
 
 bool BrickCache::read(const Block& cell, std::array<glm::vec3, 8>& corners) const noexcept {
@@ -83,7 +81,8 @@ bool BrickCache::read(const Block& cell, std::array<glm::vec3, 8>& corners) cons
   std::size_t n = 0;
   for (int k = 0; k < cell.size.z; ++k) {
     for (int j = 0; j < cell.size.y; ++j) {
-      float* next = gradients + 3 * (((from.z + k) * edge + from.y + j) * edge + from.x);
+      const int offset = 3 * (((from.z + k) * edge + from.y + j) * edge + from.x);
+      float* next = gradients + offset;
       for (int i = 0; i < cell.size.x; ++i, ++n) {
         for (int axis = 0; axis < 3; ++axis) {
           corners[n][axis] = std::atomic_ref<float>(*next++).load(std::memory_order_acquire);
@@ -142,13 +141,14 @@ bool BrickCache::fill_brick(const glm::ivec3& brick, const glm::dvec3& point) {
   }
   const glm::ivec3 first = brick * cells;
   const Block block{first, glm::min(glm::ivec3(edge), dimensions_ - first)};
-  std::vector<glm::vec3> gradients(count(block.size));
+  std::vector<glm::vec3> gradients(block.voxels());
   kernel_.at_block(block, gradients);
   std::vector<glm::vec3> whole(static_cast<std::size_t>(edge) * edge * edge);
   auto from = gradients.begin();
   for (int k = 0; k < block.size.z; ++k) {
     for (int j = 0; j < block.size.y; ++j) {
-      std::copy(from, from + block.size.x, whole.begin() + (k * edge + j) * edge);
+      const int to = (k * edge + j) * edge;
+      std::copy(from, from + block.size.x, whole.begin() + to);
       from += block.size.x;
     }
   }

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <thread>
 
@@ -33,8 +34,9 @@ Vec3 step_of_walk(int n) {
 }
 
 bool same_bits(const Sample& a, const Sample& b) {
-  return a.inside == b.inside && std::memcmp(&a.value, &b.value, sizeof a.value) == 0 &&
-         std::memcmp(&a.gradient, &b.gradient, sizeof a.gradient) == 0;
+  const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d); };
+  return a.inside == b.inside && bits(a.value) == bits(b.value) && bits(a.gradient.x) == bits(b.gradient.x) &&
+         bits(a.gradient.y) == bits(b.gradient.y) && bits(a.gradient.z) == bits(b.gradient.z);
 }
 
 TEST(Bricks, GiveTheBitsOfTheKernelAtTheSample) {

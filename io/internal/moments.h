@@ -90,18 +90,19 @@ class BlockSums {
         load_row_(load_row),
         row_(scratch),
         filtered_rows_(row_ + layout.row_floats),
-        planes_(filtered_rows_ + layout.rows * (Order + 1) * layout.width) {}
+        planes_(filtered_rows_ + static_cast<std::size_t>(layout.rows) * (Order + 1) * width()) {}
 
   void run(float* sums) {
-    std::fill(row_, row_ + layout_.row_floats,
-              0.0F);  // the lanes beyond the block's width are never read from the volume
+    // The lanes beyond the block's width are never read from the volume.
+    std::fill(row_, row_ + layout_.row_floats, 0.0F);
     if (kernel_.straight) {
       for (int n = 0; n < layout_.slices; ++n) {
         filter_plane(layout_.first_slice + n, 0, plane_of(n));
       }
     }
     for (int k = 0; k < layout_.block.size.z; ++k) {
-      const auto& contributions = kernel_.of_slice[static_cast<std::size_t>(layout_.block.first.z + k)];
+      const int slice = layout_.block.first.z + k;
+      const auto& contributions = kernel_.of_slice[static_cast<std::size_t>(slice)];
       float* const out = sums + layout_.at(Order, 0, 0, k);
       if (kernel_.straight) {
         add_straight(contributions, out);
@@ -120,8 +121,11 @@ class BlockSums {
   static constexpr int in_plane = plane_sums(Order);
   static constexpr int in_space = space_sums(Order);
 
-  float* plane_of(int n) const { return planes_ + static_cast<std::size_t>(n * in_plane) * layout_.plane(); }
-  float* filtered_row(int row, int power) const { return filtered_rows_ + (row * (Order + 1) + power) * layout_.width; }
+  std::size_t width() const { return static_cast<std::size_t>(layout_.width); }
+  float* plane_of(int n) const { return planes_ + static_cast<std::size_t>(n) * in_plane * layout_.plane(); }
+  float* filtered_row(int row, int power) const {
+    return filtered_rows_ + (static_cast<std::size_t>(row) * (Order + 1) + static_cast<std::size_t>(power)) * width();
+  }
 
   void filter_plane(int slice, int taps, float* plane) {
     const Taps& along_i = kernel_.taps_i[static_cast<std::size_t>(taps)];
@@ -164,18 +168,18 @@ class BlockSums {
     for (const Tap& tap : taps) {
       const float* const in = filtered_row(j + layout_.radius.y + tap.offset, 0) + i;
       const Vector one = Vector::load(in);
-      const Vector p = Vector::load(in + layout_.width);
+      const Vector p = Vector::load(in + width());
       sum[0] += tap.weight[0] * one;
       sum[1] += tap.weight[0] * p;
       sum[2] += tap.weight[1] * one;
       if constexpr (Order == 2) {
-        sum[3] += tap.weight[0] * Vector::load(in + 2 * layout_.width);
+        sum[3] += tap.weight[0] * Vector::load(in + 2 * width());
         sum[4] += tap.weight[1] * p;
         sum[5] += tap.weight[2] * one;
       }
     }
     for (int n = 0; n < in_plane; ++n) {
-      sum[n].store(plane + n * layout_.plane() + static_cast<std::size_t>(j * layout_.width + i));
+      sum[n].store(plane + n * layout_.plane() + static_cast<std::size_t>(j) * width() + static_cast<std::size_t>(i));
     }
   }
 
