@@ -43,23 +43,33 @@ void draw_values(Canvas& canvas, const io::FieldSource& source, const Projection
   canvas.grey_image(grey, columns, rows, {0, header}, {columns, rows});
 }
 
+/// Text that stays readable over bone and air alike.
+void label(Canvas& canvas, const Point& at, const std::string& words, double size, const Colour& colour,
+           Anchor anchor = Anchor::left) {
+  const double width = canvas.text_width(words, size);
+  const double left = at.x - (anchor == Anchor::left ? 0 : anchor == Anchor::centre ? width / 2 : width);
+  canvas.rectangle({left - 4, at.y - size}, {width + 8, 1.35 * size}, {0, 0, 0, 0.55});
+  canvas.text(at, words, size, colour, anchor);
+}
+
 void draw_letters(Canvas& canvas, const SliceView& view) {
   const double middle_x = canvas.width() / 2.0;
   const double middle_y = header + (canvas.height() - header) / 2.0;
-  canvas.text({canvas.width() - 10.0, middle_y}, orientation_letters(view.right), 20, colours::yellow, Anchor::right);
-  canvas.text({10, middle_y}, orientation_letters(-view.right), 20, colours::yellow);
-  canvas.text({middle_x, canvas.height() - 10.0}, orientation_letters(view.down), 20, colours::yellow, Anchor::centre);
-  canvas.text({middle_x, header + 22}, orientation_letters(-view.down), 20, colours::yellow, Anchor::centre);
+  label(canvas, {canvas.width() - 10.0, middle_y}, orientation_letters(view.right), 20, colours::yellow, Anchor::right);
+  label(canvas, {10, middle_y}, orientation_letters(-view.right), 20, colours::yellow);
+  label(canvas, {middle_x, canvas.height() - 10.0}, orientation_letters(view.down), 20, colours::yellow,
+        Anchor::centre);
+  label(canvas, {middle_x, header + 22}, orientation_letters(-view.down), 20, colours::yellow, Anchor::centre);
 }
 
 void draw_scales(Canvas& canvas, double pixels_per_mm) {
   const double bottom = canvas.height() - 16.0;
   const Point left{20, bottom};
   canvas.line(std::array{left, left + Point{10 * pixels_per_mm, 0}}, colours::white, 3);
-  canvas.text(left + Point{0, -8}, "10 mm", 13, colours::white);
+  label(canvas, left + Point{0, -8}, "10 mm", 13, colours::white);
   const Point right{canvas.width() - 24.0 - 90, bottom};
   canvas.arrow(right, right + Point{mm_per_newton * pixels_per_mm, 0}, colours::green, 3);
-  canvas.text(right + Point{0, -8}, "1 N", 13, colours::white);
+  label(canvas, right + Point{0, -8}, "1 N", 13, colours::white);
 }
 
 }  // namespace
@@ -96,7 +106,7 @@ void write_slice_png(const io::FieldSource& source, const SliceView& view, std::
     std::transform(track.points_mm.begin(), track.points_mm.end(), std::back_inserter(points), projection);
     canvas.line(points, track.colour, track.width);
     canvas.line(std::array{Point{14, label_top - 5}, Point{40, label_top - 5}}, track.colour, 4);
-    canvas.text({48, label_top}, track.label, 14, colours::white);
+    label(canvas, {48, label_top}, track.label, 14, colours::white);
     label_top += 20;
   }
   draw_letters(canvas, view);
