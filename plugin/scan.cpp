@@ -64,7 +64,7 @@ std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io:
                                             const glm::dvec3& device_half_extent_m) {
   const Box box = bounding_box(geometry);
   return std::make_shared<const modes::Plan>(
-      modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient,
+      modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::tube,
                        modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m)));
 }
 
