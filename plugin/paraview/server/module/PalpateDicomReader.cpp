@@ -80,9 +80,30 @@ bool PalpateDicomReader::GetDisplayResampled() {
   return scan_ && scan_->grid.resampled;
 }
 
-int PalpateDicomReader::GetStoredScans() { return static_cast<int>(plugin::store_use().volumes); }
-vtkIdType PalpateDicomReader::GetStoredBytes() { return static_cast<vtkIdType>(plugin::store_use().voxel_bytes); }
-int PalpateDicomReader::GetSharedArrays() { return static_cast<int>(plugin::store_use().shared_arrays); }
+double* PalpateDicomReader::GetLattice() {
+  lattice_.fill(0);
+  if (scan_) {
+    const plugin::DisplayGrid& grid = scan_->grid;
+    const std::array<glm::dvec3, 6> rows{glm::dvec3(grid.dimensions[0], grid.dimensions[1], grid.dimensions[2]),
+                                         {grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]},
+                                         grid.origin_mm,
+                                         grid.direction_i,
+                                         grid.direction_j,
+                                         grid.direction_k};
+    for (std::size_t n = 0; n < lattice_.size(); ++n) lattice_[n] = rows[n / 3][static_cast<int>(n % 3)];
+  }
+  return lattice_.data();
+}
+
+int PalpateDicomReader::GetStoredScans() {
+  return static_cast<int>(plugin::store_use().volumes);
+}
+vtkIdType PalpateDicomReader::GetStoredBytes() {
+  return static_cast<vtkIdType>(plugin::store_use().voxel_bytes);
+}
+int PalpateDicomReader::GetSharedArrays() {
+  return static_cast<int>(plugin::store_use().shared_arrays);
+}
 
 int PalpateDicomReader::CanReadFile(const char* name) {
   if (std::filesystem::is_directory(name)) return 1;

@@ -9,6 +9,7 @@
 #include <vtkImageAlgorithm.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -37,6 +38,10 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   /// Whether the slices are uneven and an even copy is shown.
   bool GetDisplayResampled();
 
+  /// Of the image: dimensions, spacing, origin, directions of i, j and k, three numbers each. ParaView's clients know
+  /// only the bounds otherwise. Zeros before UpdateInformation().
+  double* GetLattice() VTK_SIZEHINT(18);
+
   /// Of all scans in this process: how many, bytes of voxels, VTK arrays that view them.
   int GetStoredScans();
   vtkIdType GetStoredBytes();
@@ -64,5 +69,6 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   vtkSmartPointer<vtkStringArray> series_uids_;
   vtkSmartPointer<vtkStringArray> series_labels_;
   vtkSmartPointer<vtkStringArray> messages_;
+  std::array<double, 18> lattice_{};
   std::unique_ptr<Scan> scan_;  ///< what was found; empty until then
 };

@@ -1,0 +1,29 @@
+#pragma once
+
+/// Which way is which: the planes that a radiologist looks at, and the letters at their edges. Patient space (LPS).
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace palpate::plugin {
+
+/// "L", "R", "A", "P", "H" or "F" (head, feet) for the direction that a vector points to; two letters, the nearer
+/// first, where it is more than 10 degrees off.
+std::string letters_of(const glm::dvec3& direction);
+
+enum class Plane { axial, coronal, sagittal };
+
+/// How a slice is looked at.
+struct Sight {
+  int index_axis = 2;         ///< the slice is one of constant index along this axis
+  glm::dvec3 along{0, 0, 1};  ///< unit, from the eye into the screen: normal to the slice
+  glm::dvec3 up{0, -1, 0};    ///< unit, perpendicular to `along`
+};
+
+/// The slice of a lattice with these directions (unit, not in one plane) that is nearest to an anatomical plane, seen
+/// as radiology does: axial from the feet with the front up, coronal from the front, sagittal from the left, the head
+/// up. No two planes get the same index axis.
+Sight sight_of(Plane plane, const std::array<glm::dvec3, 3>& directions);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,184 @@
+#include "clinical_views.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqObjectBuilder.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqServer.h>
+#include <vtkNew.h>
+#include <vtkPVArrayInformation.h>
+#include <vtkPVDataInformation.h>
+#include <vtkPVDataSetAttributesInformation.h>
+#include <vtkSMPVRepresentationProxy.h>
+#include <vtkSMParaViewPipelineControllerWithRendering.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMViewLayoutProxy.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "image_lattice.h"
+
+namespace palpate::plugin {
+namespace {
+
+pqRenderView* make_view(pqServer& server, bool flat) {
+  auto* const view = qobject_cast<pqRenderView*>(
+      pqApplicationCore::instance()->getObjectBuilder()->createView(pqRenderView::renderViewType(), &server));
+  vtkSMProxy& proxy = *view->getProxy();
+  const auto set = [&](const char* name, int value) { vtkSMPropertyHelper(&proxy, name, true).Set(value); };
+  set("UseColorPaletteForBackground", 0);
+  set("OrientationAxesVisibility", flat ? 0 : 1);
+  set("CenterAxesVisibility", 0);
+  if (flat) set("InteractionMode", 1);
+  const double black[3] = {0, 0, 0};
+  vtkSMPropertyHelper(&proxy, "Background").Set(black, 3);
+  proxy.UpdateVTKObjects();
+  return view;
+}
+
+vtkSMViewLayoutProxy& make_layout(pqServer& server) {
+  const auto proxy = vtkSmartPointer<vtkSMProxy>::Take(server.proxyManager()->NewProxy("misc", "ViewLayout"));
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->InitializeProxy(proxy);
+  server.proxyManager()->RegisterProxy("layouts", "Scan", proxy);
+  return *vtkSMViewLayoutProxy::SafeDownCast(proxy);
+}
+
+vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRenderView& view, const char* array) {
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  vtkSMProxy* const shown = controller->Show(&image, 0, view.getViewProxy());
+  auto* const proxy = vtkSMPVRepresentationProxy::SafeDownCast(shown);
+  proxy->SetRepresentationType(representation);
+  vtkSMPVRepresentationProxy::SetScalarColoring(proxy, array, 0);
+  vtkSMPVRepresentationProxy::SetScalarBarVisibility(proxy, view.getViewProxy(), false);
+  return *proxy;
+}
+
+constexpr int slice_mode(int index_axis) {
+  return index_axis == 2 ? VTK_XY_PLANE : index_axis == 1 ? VTK_XZ_PLANE : VTK_YZ_PLANE;
+}
+
+/// Half the size of the scan as it is seen along `direction`.
+double half_extent(const ImageLattice& lattice, const glm::dvec3& direction) {
+  double half = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    half += 0.5 * (lattice.dimensions[axis] - 1) * lattice.spacing[axis] *
+            std::abs(glm::dot(lattice.directions[static_cast<std::size_t>(axis)], direction));
+  }
+  return half;
+}
+
+Window first_window(bool hounsfield, double low, double high) {
+  return hounsfield ? ct_windows[0].window : Window{(low + high) / 2, std::max(high - low, 1e-3)};
+}
+
+}  // namespace
+
+ClinicalViews::~ClinicalViews() = default;
+
+void ClinicalViews::close() {
+  slices_.clear();
+  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  for (const auto& view : views_) {
+    if (view) builder->destroy(view);
+  }
+  views_.clear();
+}
+
+void ClinicalViews::refresh() {
+  for (const auto& slice : slices_) {
+    if (!slice) continue;
+    slice->refresh_text();
+  }
+  for (const auto& view : views_) {
+    if (view) view->render();
+  }
+}
+
+void ClinicalViews::set_window(const Window& window) {
+  window_->window = window;
+  if (window_->grey_map) plugin::set_window(*window_->grey_map, window);
+  refresh();
+}
+
+void ClinicalViews::show(pqPipelineSource& source) {
+  close();
+  pqServer& server = *source.getServer();
+  auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
+  const ImageLattice lattice = lattice_of(image);
+
+  // A fresh session has one empty view; it gives way, so that there is one tab with the scan in it and nothing else.
+  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
+  if (auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+      old && layout && layout->GetViews().size() == 1 && old->getNumberOfVisibleRepresentations() == 0) {
+    builder->destroy(old);
+    layout->Reset();
+  } else {
+    layout = &make_layout(server);
+  }
+  layout->SplitHorizontal(0, 0.5);
+  layout->SplitVertical(1, 0.5);
+  layout->SplitVertical(2, 0.5);
+
+  window_->window = first_window(lattice.hounsfield, lattice.low, lattice.high);
+  window_->grey_map = grey_map(server);
+  plugin::set_window(*window_->grey_map, window_->window);
+  window_->changed = [this] { refresh(); };
+
+  constexpr struct {
+    Plane plane;
+    int cell;
+  } places[] = {{Plane::axial, 3}, {Plane::sagittal, 5}, {Plane::coronal, 4}};
+  for (const auto& [plane, cell] : places) {
+    pqRenderView& view = *make_view(server, true);
+    layout->AssignView(cell, view.getViewProxy());
+    vtkSMProxy& shown = show_as("Slice", image, view, lattice.array.c_str());
+    const Sight sight = sight_of(plane, lattice.directions);
+    vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight.index_axis));
+    vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->grey_map);
+    vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
+        .Set(vtkSMPropertyHelper(window_->grey_map, "ScalarOpacityFunction").GetAsProxy());
+    shown.UpdateVTKObjects();
+    const glm::dvec3 right = glm::cross(sight.along, sight.up);
+    const int slices = lattice.dimensions[sight.index_axis];
+    slices_.emplace_back(new SliceView(view, shown,
+                                       {.plane = plane,
+                                        .sight = sight,
+                                        .slices = slices,
+                                        .slice = slices / 2,
+                                        .center_mm = lattice.center(),
+                                        .half_height_mm = half_extent(lattice, sight.up),
+                                        .half_width_mm = half_extent(lattice, right)},
+                                       window_));
+    views_.emplace_back(&view);
+  }
+
+  pqRenderView& volume_view = *make_view(server, false);
+  layout->AssignView(6, volume_view.getViewProxy());
+  vtkSMProxy& volume = show_as("Volume", image, volume_view, lattice.array.c_str());
+  set_volume_colours(volume, lattice.hounsfield, lattice.low, lattice.high);
+  // From the front and a little from the patient's left and above; the head up.
+  const glm::dvec3 eye = lattice.center() + glm::dvec3(500, -900, 300);
+  const glm::dvec3 head(0, 0, 1);
+  vtkSMProxy& camera = *volume_view.getProxy();
+  vtkSMPropertyHelper(&camera, "CameraPosition").Set(&eye.x, 3);
+  const glm::dvec3 center = lattice.center();
+  vtkSMPropertyHelper(&camera, "CameraFocalPoint").Set(&center.x, 3);
+  vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
+  camera.UpdateVTKObjects();
+  volume_view.getRenderViewProxy()->ResetCamera(true);
+  views_.emplace_back(&volume_view);
+  pqActiveObjects::instance().setActiveView(&volume_view);
+  refresh();
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,38 @@
+#pragma once
+
+/// The clinician's layout: axial, coronal and sagittal slices and the volume, of one scan.
+
+#include <QPointer>
+
+#include <memory>
+#include <vector>
+
+#include "slice_view.h"
+
+class pqPipelineSource;
+
+namespace palpate::plugin {
+
+class ClinicalViews {
+ public:
+  ClinicalViews() = default;
+  ClinicalViews(const ClinicalViews&) = delete;
+  ClinicalViews& operator=(const ClinicalViews&) = delete;
+  ~ClinicalViews();
+
+  /// Shows an image in a layout of its own, the first slices in the middle. The source has to be up to date.
+  void show(pqPipelineSource& source);
+  /// Views of the layout shown last are taken away again.
+  void close();
+  void set_window(const Window& window);
+  const Window& window() const { return window_->window; }
+
+ private:
+  void refresh();
+
+  std::shared_ptr<SharedWindow> window_ = std::make_shared<SharedWindow>();
+  std::vector<QPointer<SliceView>> slices_;
+  std::vector<QPointer<pqRenderView>> views_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,71 @@
+#include "scan_loader.h"
+
+#include <QMetaObject>
+
+#include <exception>
+#include <utility>
+
+#include "palpate/io/errors.h"
+#include "palpate/plugin/paraview/server/module/scan_store.h"
+
+namespace palpate::plugin {
+
+ScanLoader::~ScanLoader() {
+  cancel();
+}
+
+void ScanLoader::cancel() {
+  *cancelled_ = true;
+  if (thread_.joinable()) thread_.join();
+  busy_ = false;
+}
+
+template <typename Result, typename Work, typename Done>
+void ScanLoader::start(Work work, Progress progress, Done done) {
+  cancel();
+  cancelled_ = std::make_shared<std::atomic<bool>>(false);
+  busy_ = true;
+  thread_ = std::thread(
+      [this, cancelled = cancelled_, work = std::move(work), progress = std::move(progress), done = std::move(done)] {
+        const auto on_ui = [this, cancelled](auto call) {
+          QMetaObject::invokeMethod(
+              &receiver_,
+              [cancelled, call] {
+                if (!*cancelled) call();
+              },
+              Qt::QueuedConnection);
+        };
+        int told = -1;
+        const io::Progress tell = [&](double part) {
+          if (const int percent = static_cast<int>(100 * part); percent != std::exchange(told, percent)) {
+            on_ui([progress, part] { progress(part); });
+          }
+          return !*cancelled;
+        };
+        Result result;
+        std::string error;
+        try {
+          result = work(tell);
+        } catch (const io::Cancelled&) {
+        } catch (const std::exception& failure) {
+          error = failure.what();
+        }
+        on_ui([this, done, result, error] {
+          busy_ = false;
+          done(result, error);
+        });
+      });
+}
+
+void ScanLoader::find(const std::string& path, Progress progress, Found found) {
+  start<std::shared_ptr<const io::Catalogue>>([path](const io::Progress& tell) { return find_scans(path, tell); },
+                                              std::move(progress), std::move(found));
+}
+
+void ScanLoader::load(const io::Series& series, int frame, Progress progress, Loaded loaded) {
+  start<std::shared_ptr<const io::Volume>>(
+      [series, frame](const io::Progress& tell) { return load_scan(series, frame, tell); }, std::move(progress),
+      std::move(loaded));
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,46 @@
+#pragma once
+
+/// Finding and loading scans in the background, so that the panel stays alive and a scan can be given up.
+
+#include <QObject>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "palpate/io/series.h"
+#include "palpate/io/volume.h"
+
+namespace palpate::plugin {
+
+/// One job at a time; a new one cancels the last. All callbacks come on the UI thread, none after destruction.
+class ScanLoader {
+ public:
+  /// Empty where the job failed or was cancelled; then `error` says why, or is empty if it was cancelled.
+  using Found = std::function<void(std::shared_ptr<const io::Catalogue>, const std::string& error)>;
+  using Loaded = std::function<void(std::shared_ptr<const io::Volume>, const std::string& error)>;
+  using Progress = std::function<void(double done)>;
+
+  ScanLoader() = default;
+  ScanLoader(const ScanLoader&) = delete;
+  ScanLoader& operator=(const ScanLoader&) = delete;
+  ~ScanLoader();
+
+  void find(const std::string& path, Progress progress, Found found);
+  void load(const io::Series& series, int frame, Progress progress, Loaded loaded);
+  void cancel();
+  bool is_busy() const { return busy_; }
+
+ private:
+  template <typename Result, typename Work, typename Done>
+  void start(Work work, Progress progress, Done done);
+
+  std::thread thread_;
+  std::shared_ptr<std::atomic<bool>> cancelled_ = std::make_shared<std::atomic<bool>>(false);
+  bool busy_ = false;  // UI thread only
+  QObject receiver_;   // its end ends the callbacks
+};
+
+}  // namespace palpate::plugin

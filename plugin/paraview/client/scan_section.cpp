@@ -1,0 +1,224 @@
+#include "scan_section.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqObjectBuilder.h>
+#include <pqPipelineSource.h>
+#include <pqServer.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+
+#include <QComboBox>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <exception>
+
+#include "palpate/plugin/paraview/server/module/display_image.h"
+#include "palpate/plugin/paraview/server/module/scan_choice.h"
+
+namespace palpate::plugin {
+namespace {
+
+QString text(const std::string& utf8) {
+  return QString::fromStdString(utf8);
+}
+
+}  // namespace
+
+ScanSection::ScanSection(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("palpateScan"));
+  setAcceptDrops(true);
+  build();
+  set_busy(false);
+}
+
+ScanSection::~ScanSection() = default;
+
+void ScanSection::build() {
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+
+  open_ = new QPushButton(tr("Open DICOM folder…"), this);
+  open_->setObjectName(QStringLiteral("palpateOpen"));
+  open_->setToolTip(tr("A folder of DICOM files, searched to the bottom. A folder may also be dropped here."));
+  connect(open_, &QPushButton::clicked, this, [this] { ask_folder(); });
+  column->addWidget(open_);
+
+  series_ = new QListWidget(this);
+  series_->setObjectName(QStringLiteral("palpateSeries"));
+  series_->setWordWrap(true);
+  series_->setMinimumHeight(90);
+  series_->setMaximumHeight(160);
+  connect(series_, &QListWidget::itemActivated, this,
+          [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
+  connect(series_, &QListWidget::itemClicked, this,
+          [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
+  column->addWidget(series_);
+
+  auto* const work = new QHBoxLayout;
+  progress_ = new QProgressBar(this);
+  progress_->setObjectName(QStringLiteral("palpateProgress"));
+  cancel_ = new QPushButton(tr("Cancel"), this);
+  cancel_->setObjectName(QStringLiteral("palpateCancel"));
+  connect(cancel_, &QPushButton::clicked, this, [this] {
+    loader_.cancel();
+    set_busy(false);
+    tell(tr("Cancelled."));
+  });
+  work->addWidget(progress_, 1);
+  work->addWidget(cancel_);
+  column->addLayout(work);
+
+  auto* const window = new QHBoxLayout;
+  window->addWidget(new QLabel(tr("Window"), this));
+  window_ = new QComboBox(this);
+  window_->setObjectName(QStringLiteral("palpateWindow"));
+  window_->setToolTip(tr("Also: drag in a slice, to the right for a wider window, up for a brighter one."));
+  for (const NamedWindow& named : ct_windows) {
+    window_->addItem(
+        QStringLiteral("%1 (%2 / %3)").arg(tr(named.name)).arg(named.window.level).arg(named.window.width));
+  }
+  connect(window_, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) { apply_window(choice); });
+  window->addWidget(window_, 1);
+  column->addLayout(window);
+
+  message_ = new QLabel(this);
+  message_->setObjectName(QStringLiteral("palpateMessage"));
+  message_->setWordWrap(true);
+  message_->setTextFormat(Qt::PlainText);
+  column->addWidget(message_);
+}
+
+void ScanSection::set_busy(bool busy, const QString& what) {
+  progress_->setVisible(busy);
+  progress_->setFormat(what + QStringLiteral(" %p%"));
+  progress_->setValue(0);
+  cancel_->setVisible(busy);
+  window_->setEnabled(!busy && volume_ == nullptr && source_ != nullptr);
+}
+
+void ScanSection::tell(const QString& message, bool problem) {
+  message_->setText(message);
+  message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
+  message_->setVisible(!message.isEmpty());
+}
+
+void ScanSection::ask_folder() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open DICOM folder"));
+  if (!folder.isEmpty()) open(folder.toStdString());
+}
+
+void ScanSection::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
+}
+
+void ScanSection::dropEvent(QDropEvent* event) {
+  open(event->mimeData()->urls().first().toLocalFile().toStdString());
+}
+
+void ScanSection::open(const std::string& path) {
+  path_ = path;
+  catalogue_.reset();
+  series_->clear();
+  tell({});
+  set_busy(true, tr("Finding series"));
+  loader_.find(
+      path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      [this](auto catalogue, const std::string& error) { list(std::move(catalogue), error); });
+}
+
+void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error) {
+  set_busy(false);
+  if (!catalogue) {
+    tell(text(error), true);
+    return;
+  }
+  catalogue_ = std::move(catalogue);
+  for (const std::size_t n : choices(*catalogue_, path_)) {
+    const io::Series& series = catalogue_->series[n];
+    auto* const item = new QListWidgetItem(text(scan_label(series)), series_);
+    item->setData(Qt::UserRole, static_cast<qulonglong>(n));
+    // Shown to verify the patient, never stored: only where the pointer rests.
+    item->setToolTip(tr("%1\nID %2, study of %3")
+                         .arg(text(series.identity.patient_name), text(series.identity.patient_id),
+                              text(series.identity.study_date)));
+    if (!series.usable) item->setForeground(palette().brush(QPalette::Disabled, QPalette::Text));
+  }
+  const auto usable = std::ranges::count_if(catalogue_->series, [](const io::Series& s) { return s.usable; });
+  if (catalogue_->series.empty()) {
+    tell(tr("No image series in this folder (%n file(s) looked at).", nullptr,
+            static_cast<int>(catalogue_->skipped.size())),
+         true);
+  } else if (usable == 1) {
+    series_->setCurrentRow(0);
+    load(choices(*catalogue_, path_).front());
+  } else {
+    tell(tr("%n series: choose one.", nullptr, static_cast<int>(catalogue_->series.size())));
+  }
+}
+
+void ScanSection::load(std::size_t series) {
+  if (!catalogue_ || series >= catalogue_->series.size()) return;
+  set_busy(true, tr("Loading"));
+  tell({});
+  loader_.load(
+      catalogue_->series[series], 0, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      [this, series](auto volume, const std::string& error) {
+        volume_ = std::move(volume);
+        if (volume_) show(series);
+        volume_.reset();
+        set_busy(false);
+        if (!error.empty()) tell(text(error), true);
+      });
+}
+
+void ScanSection::show(std::size_t series) {
+  pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
+  pqServer* const server = pqActiveObjects::instance().activeServer();
+  if (!server) {
+    tell(tr("ParaView is not connected to a server."), true);
+    return;
+  }
+  try {
+    views_.close();
+    if (source_) builder.destroy(source_);
+    source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
+    vtkSMProxy& proxy = *source_->getProxy();
+    vtkSMPropertyHelper(&proxy, "FileName").Set(path_.c_str());
+    vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*catalogue_, series).c_str());
+    proxy.UpdateVTKObjects();
+    source_->updatePipeline();
+    source_->setModifiedState(pqProxy::UNMODIFIED);  // there is nothing left for an Apply button to do
+    views_.show(*source_);
+    window_->setCurrentIndex(0);
+    const io::Series& shown = catalogue_->series[series];
+    QStringList notes;
+    for (const std::string& warning : shown.warnings) notes << text(warning);
+    for (const std::string& warning : volume_->warnings) notes << text(warning);
+    if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");
+    if (!is_straight(display_grid(shown.geometry))) {
+      notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
+    }
+    tell(notes.join(QStringLiteral("\n")));
+  } catch (const std::exception& error) {
+    tell(text(error.what()), true);
+  }
+}
+
+void ScanSection::apply_window(int choice) {
+  if (choice >= 0 && choice < static_cast<int>(ct_windows.size())) {
+    views_.set_window(ct_windows[static_cast<std::size_t>(choice)].window);
+  }
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,64 @@
+#pragma once
+
+/// The panel's first section: from a folder to a scan on the screen.
+
+#include <QCoreApplication>
+#include <QPointer>
+#include <QWidget>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "clinical_views.h"
+#include "scan_loader.h"
+
+class QComboBox;
+class QLabel;
+class QListWidget;
+class QProgressBar;
+class QPushButton;
+class pqPipelineSource;
+
+namespace palpate::plugin {
+
+class ScanSection : public QWidget {
+  Q_DECLARE_TR_FUNCTIONS(ScanSection)
+
+ public:
+  explicit ScanSection(QWidget* parent = nullptr);
+  ~ScanSection() override;
+
+  /// Finds the series of a folder or file; where one alone is a volume, shows it.
+  void open(const std::string& path);
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  void build();
+  void ask_folder();
+  void list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error);
+  void load(std::size_t series);
+  void show(std::size_t series);
+  void apply_window(int choice);
+  void set_busy(bool busy, const QString& what = {});
+  void tell(const QString& message, bool problem = false);
+
+  QPushButton* open_ = nullptr;
+  QListWidget* series_ = nullptr;
+  QProgressBar* progress_ = nullptr;
+  QPushButton* cancel_ = nullptr;
+  QComboBox* window_ = nullptr;
+  QLabel* message_ = nullptr;
+
+  std::string path_;
+  std::shared_ptr<const io::Catalogue> catalogue_;
+  std::shared_ptr<const io::Volume> volume_;  // held from loading until the reader has it
+  QPointer<pqPipelineSource> source_;
+  ClinicalViews views_;
+  ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
+};
+
+}  // namespace palpate::plugin

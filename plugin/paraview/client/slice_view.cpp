@@ -1,0 +1,222 @@
+#include "slice_view.h"
+
+#include <pqRenderView.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkPVRenderView.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+#include <QCoreApplication>
+#include <QWidget>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace palpate::plugin {
+namespace {
+
+QString translated(const char* text) {
+  return QCoreApplication::translate("SliceView", text);
+}
+
+QString name_of(Plane plane) {
+  switch (plane) {
+    case Plane::axial:
+      return translated("Axial");
+    case Plane::coronal:
+      return translated("Coronal");
+    case Plane::sagittal:
+      break;
+  }
+  return translated("Sagittal");
+}
+
+vtkPVRenderView* client_view(pqRenderView& view) {
+  return vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
+}
+
+}  // namespace
+
+/// The text over the slice. The letters follow the camera, whoever turns it.
+class SliceView::Overlay {
+ public:
+  explicit Overlay(vtkPVRenderView& view) : renderer_(view.GetNonCompositedRenderer()), camera_(view) {
+    constexpr struct {
+      double x, y;
+      int horizontal, vertical;
+    } places[5] = {{0.99, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
+                   {0.01, 0.5, VTK_TEXT_LEFT, VTK_TEXT_CENTERED},
+                   {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
+                   {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
+                   {0.01, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP}};
+    for (std::size_t n = 0; n < texts_.size(); ++n) {
+      vtkTextActor& text = *texts_[n];
+      text.GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+      text.SetPosition(places[n].x, places[n].y);
+      vtkTextProperty& style = *text.GetTextProperty();
+      style.SetFontSize(n < 4 ? 18 : 13);
+      style.SetBold(n < 4);
+      style.SetColor(1, 0.85, 0.35);
+      style.SetShadow(1);
+      style.SetJustification(places[n].horizontal);
+      style.SetVerticalJustification(places[n].vertical);
+      renderer_->AddActor(texts_[n]);
+    }
+    before_render_->SetClientData(this);
+    before_render_->SetCallback(
+        [](vtkObject*, unsigned long, void* self, void*) { static_cast<Overlay*>(self)->update_letters(); });
+    observer_ = renderer_->AddObserver(vtkCommand::StartEvent, before_render_);
+  }
+  Overlay(const Overlay&) = delete;
+  Overlay& operator=(const Overlay&) = delete;
+  ~Overlay() {
+    renderer_->RemoveObserver(observer_);
+    for (const auto& text : texts_) renderer_->RemoveActor(text);
+  }
+
+  void set_corner(const QString& text) { texts_[4]->SetInput(text.toUtf8().constData()); }
+
+ private:
+  void update_letters() {
+    vtkCamera& camera = *camera_.GetActiveCamera();
+    glm::dvec3 along, up;
+    camera.GetDirectionOfProjection(&along.x);
+    camera.GetViewUp(&up.x);
+    const glm::dvec3 right = glm::normalize(glm::cross(along, up));
+    const glm::dvec3 upright = glm::cross(right, along);  // the camera's own up need not be perpendicular
+    const std::array<glm::dvec3, 4> edges{right, -right, upright, -upright};
+    for (std::size_t n = 0; n < edges.size(); ++n) texts_[n]->SetInput(letters_of(edges[n]).c_str());
+  }
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkPVRenderView& camera_;
+  std::array<vtkNew<vtkTextActor>, 5> texts_;
+  vtkNew<vtkCallbackCommand> before_render_;
+  unsigned long observer_ = 0;
+};
+
+/// Takes what it uses before ParaView's own interaction sees it, and leaves the rest (zoom, pan) alone.
+class SliceView::Mouse {
+ public:
+  Mouse(SliceView& owner, vtkRenderWindowInteractor& interactor) : owner_(owner), interactor_(&interactor) {
+    command_->SetClientData(this);
+    command_->SetCallback(
+        [](vtkObject*, unsigned long event, void* self, void*) { static_cast<Mouse*>(self)->handle(event); });
+    constexpr float before_paraview = 10;
+    for (const auto event :
+         {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
+          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent}) {
+      observers_.push_back(interactor_->AddObserver(event, command_, before_paraview));
+    }
+  }
+  Mouse(const Mouse&) = delete;
+  Mouse& operator=(const Mouse&) = delete;
+  ~Mouse() {
+    for (const unsigned long observer : observers_) interactor_->RemoveObserver(observer);
+  }
+
+ private:
+  void handle(unsigned long event) {
+    const int* const at = interactor_->GetEventPosition();
+    command_->SetAbortFlag(0);
+    switch (event) {
+      case vtkCommand::LeftButtonPressEvent:
+        if (interactor_->GetControlKey() || interactor_->GetShiftKey()) return;
+        dragging_ = true;
+        from_ = {at[0], at[1]};
+        start_ = owner_.window_->window;
+        break;
+      case vtkCommand::LeftButtonReleaseEvent:
+        if (!std::exchange(dragging_, false)) return;
+        break;
+      case vtkCommand::MouseMoveEvent:
+        if (!dragging_) return;
+        drag_to(at[0], at[1]);
+        break;
+      case vtkCommand::MouseWheelForwardEvent:
+        owner_.show_slice(owner_.setup_.slice + 1);
+        break;
+      case vtkCommand::MouseWheelBackwardEvent:
+        owner_.show_slice(owner_.setup_.slice - 1);
+        break;
+      default:
+        return;
+    }
+    command_->SetAbortFlag(1);
+  }
+
+  // To the right wider, up brighter; a drag over the view's width doubles the window or halves it.
+  void drag_to(int x, int y) {
+    const int* const size = interactor_->GetSize();
+    const double right = static_cast<double>(x - from_[0]) / std::max(size[0], 1);
+    const double up = static_cast<double>(y - from_[1]) / std::max(size[1], 1);
+    Window& window = owner_.window_->window;
+    window.width = std::max(start_.width * std::exp2(2 * right), 1e-3);
+    window.level = start_.level - up * start_.width;
+    set_window(*owner_.window_->grey_map, window);
+    if (owner_.window_->changed) owner_.window_->changed();
+  }
+
+  SliceView& owner_;
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
+  vtkNew<vtkCallbackCommand> command_;
+  std::vector<unsigned long> observers_;
+  bool dragging_ = false;
+  std::array<int, 2> from_{};
+  Window start_;
+};
+
+SliceView::SliceView(pqRenderView& view, vtkSMProxy& representation, const SliceSetup& setup,
+                     std::shared_ptr<SharedWindow> window)
+    : QObject(&view), view_(view), representation_(representation), setup_(setup), window_(std::move(window)) {
+  vtkPVRenderView& client = *client_view(view);
+  overlay_ = std::make_unique<Overlay>(client);
+  if (client.GetInteractor()) mouse_ = std::make_unique<Mouse>(*this, *client.GetInteractor());
+  place_camera();
+  show_slice(setup_.slice);
+}
+
+SliceView::~SliceView() = default;
+
+void SliceView::place_camera() {
+  const glm::dvec3 eye = setup_.center_mm - 1000.0 * setup_.sight.along;  // parallel: the distance does not matter
+  vtkSMProxy& view = *view_.getProxy();
+  vtkSMPropertyHelper(&view, "CameraParallelProjection").Set(1);
+  vtkSMPropertyHelper(&view, "CameraFocalPoint").Set(&setup_.center_mm.x, 3);
+  vtkSMPropertyHelper(&view, "CameraPosition").Set(&eye.x, 3);
+  vtkSMPropertyHelper(&view, "CameraViewUp").Set(&setup_.sight.up.x, 3);
+  const QSize size = view_.widget()->size();
+  const double aspect = size.height() > 0 ? std::max(static_cast<double>(size.width()) / size.height(), 0.1) : 1;
+  constexpr double margin = 1.08;  // for the letters
+  vtkSMPropertyHelper(&view, "CameraParallelScale")
+      .Set(margin * std::max(setup_.half_height_mm, setup_.half_width_mm / aspect));
+  view.UpdateVTKObjects();
+}
+
+void SliceView::show_slice(int slice) {
+  setup_.slice = std::clamp(slice, 0, setup_.slices - 1);
+  vtkSMPropertyHelper(&representation_, "Slice").Set(setup_.slice);
+  representation_.UpdateVTKObjects();
+  refresh_text();
+  view_.render();
+}
+
+void SliceView::refresh_text() {
+  overlay_->set_corner(QStringLiteral("%1  %2 / %3\nW %4  L %5")
+                           .arg(name_of(setup_.plane))
+                           .arg(setup_.slice + 1)
+                           .arg(setup_.slices)
+                           .arg(window_->window.width, 0, 'f', 0)
+                           .arg(window_->window.level, 0, 'f', 0));
+}
+
+}  // namespace palpate::plugin
