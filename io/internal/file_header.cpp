@@ -3,7 +3,6 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
-#include <dcmtk/dcmdata/dcistrmf.h>
 #include <dcmtk/dcmdata/dcmetinf.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <dcmtk/dcmdata/dcxfer.h>
@@ -14,21 +13,13 @@
 #include <glm/geometric.hpp>
 
 #include "palpate/io/errors.h"
-#include "palpate/io/internal/dataset_start.h"
+#include "palpate/io/internal/dataset.h"
 #include "palpate/io/internal/decode.h"
 #include "palpate/io/internal/dicom_value.h"
 #include "palpate/io/internal/planes.h"
 
 namespace palpate::io::internal {
 namespace {
-
-void check_file(const InputFile& file, const std::filesystem::path& path) {
-  const DatasetStart start = find_dataset(file);
-  DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(start.at));
-  if (start.deflated && stream.installCompressionFilter(ESC_zlib).bad())
-    throw DicomError("damaged: it cannot be inflated");
-  check_structure(stream, start.encoding);
-}
 
 void read_identity(DcmItem& item, FileHeader& header) {
   const std::string characters = text_of(item, DCM_SpecificCharacterSet);
@@ -114,29 +105,19 @@ void read_planes(DcmItem& item, FileHeader& header) {
   }
 }
 
-// The bytes just before the pixel data's value: its tag, VR and length. DCMTK stops right behind them.
-void check_native_length(const InputFile& file, std::size_t frames, const DcmXfer& syntax, FileHeader& header) {
-  std::array<std::byte, 12> head{};
-  file.read(header.pixels_at - head.size(), head);
-  const bool big = syntax.getByteOrder() == EBO_BigEndian;
-  const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(head[i]); };
-  const std::size_t tag_at = syntax.isExplicitVR() ? 0 : 4;
-  const unsigned group = big ? byte(tag_at) << 8 | byte(tag_at + 1) : byte(tag_at + 1) << 8 | byte(tag_at);
-  if (group != 0x7FE0) throw DicomError(what_it_is(header) + ": no pixels in it");
-  header.swapped_words = big && header.format.bits_allocated == 8 && byte(4) == 'O' && byte(5) == 'W';
-
-  std::array<std::byte, 4> length{head[8], head[9], head[10], head[11]};
-  if (big) std::reverse(length.begin(), length.end());
-  std::uint64_t claimed = 0;
-  for (std::size_t i = 4; i-- > 0;) claimed = claimed << 8 | std::to_integer<unsigned>(length[i]);
-  const std::uint64_t present = std::min(claimed, file.size() - header.pixels_at);
+void check_native_length(const InputFile& file, std::size_t frames, const PixelElement& pixels, FileHeader& header) {
+  const std::uint64_t present =
+      std::min<std::uint64_t>(pixels.length, file.size() - std::min(file.size(), header.pixels_at));
   const std::uint64_t needed = header.format.bytes_per_frame() * frames;
   if (present < needed) {
     header.defect = "truncated: " + std::to_string(present) + " of " + std::to_string(needed) + " bytes of pixels";
   }
 }
 
-void locate_pixels(const InputFile& file, const DcmXfer& syntax, FileHeader& header) {
+void locate_pixels(const InputFile& file, const DatasetStart& start, const PixelElement& pixels, const DcmXfer& syntax,
+                   FileHeader& header) {
+  header.pixels_at = start.at + pixels.value_at;
+  header.swapped_words = start.encoding.big_endian && header.format.bits_allocated == 8 && pixels.vr == "OW";
   std::size_t frames = 1;
   for (const Plane& plane : header.planes) frames = std::max<std::size_t>(frames, plane.frame + 1);
   header.big_endian = syntax.getPixelDataByteOrder() == EBO_BigEndian;
@@ -154,7 +135,7 @@ void locate_pixels(const InputFile& file, const DcmXfer& syntax, FileHeader& hea
       header.coding = PixelCoding::deflated;
       check_density(header.transfer_syntax, header.format, frames, file.size());
     } else {
-      check_native_length(file, frames, syntax, header);
+      check_native_length(file, frames, pixels, header);
     }
   } catch (const DicomError& error) {
     header.defect = error.what();
@@ -185,15 +166,10 @@ std::optional<Placement> make_placement(const std::vector<double>& position, con
 
 FileHeader read_file_header(const std::filesystem::path& path) {
   const InputFile input(path);
-  check_file(input, path);
-
+  const DatasetStart start = find_dataset(input);
   DcmFileFormat file;
-  DcmInputFileStream stream(OFFilename(path.c_str()));
-  file.transferInit();
-  const OFCondition read = file.readUntilTag(stream, EXS_Unknown, EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
-  file.transferEnd();
+  const auto pixels = parse_header(input, path, start, file);
   DcmDataset& dataset = *file.getDataset();
-  if (read.bad()) throw DicomError(std::string("damaged header: ") + read.text());
 
   FileHeader header;
   header.path = path;
@@ -203,13 +179,12 @@ FileHeader read_file_header(const std::filesystem::path& path) {
     throw DicomError("DICOMDIR: an index; the files themselves are looked at");
   }
   read_format(dataset, header);
+  if (!pixels) throw DicomError(what_it_is(header) + ": no pixels in it");
 
   const DcmXfer syntax(dataset.getOriginalXfer());
   header.transfer_syntax = syntax.getXferID();
-  header.pixels_at = static_cast<std::uint64_t>(stream.tell());
-
   read_planes(dataset, header);
-  locate_pixels(input, syntax, header);
+  locate_pixels(input, start, *pixels, syntax, header);
   return header;
 }
 

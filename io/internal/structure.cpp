@@ -1,8 +1,5 @@
 #include "palpate/io/internal/structure.h"
 
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dcistrma.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -24,6 +21,8 @@ constexpr std::uint32_t item_end = 0xFFFEE00D;
 constexpr std::uint32_t sequence_end = 0xFFFEE0DD;
 constexpr std::uint32_t pixel_data = 0x7FE00010;
 
+constexpr const char* too_deep = "damaged: its sequences are nested too deeply";
+
 enum class Holds { elements, items, fragments };
 
 struct Level {
@@ -35,60 +34,59 @@ struct Level {
 
 class Walk {
  public:
-  Walk(DcmInputStream& in, Encoding encoding) : in_(in) {
-    levels_.push_back({Holds::elements, std::nullopt, encoding, 0});
-  }
+  Walk(ByteSource& in, Encoding encoding) : in_(in) { levels_.push_back({Holds::elements, std::nullopt, encoding, 0}); }
 
-  void run() {
+  std::optional<PixelElement> run() {
     while (step()) {
     }
+    return pixels_;
   }
 
  private:
   struct Head {
+    std::string vr;
     std::uint32_t length = 0;
-    bool sequence = false;
-    bool unknown = false;
   };
 
-  bool read(void* into, std::uint32_t count) {
-    const bool complete = in_.read(into, count) == static_cast<offile_off_t>(count);
-    at_ += count;
-    return complete;
-  }
-  std::uint32_t number(std::uint32_t bytes) {
-    std::array<unsigned char, 4> raw{};
-    if (!read(raw.data(), bytes)) throw DicomError("truncated in its header");
-    if (!levels_.back().encoding.big_endian) std::reverse(raw.begin(), raw.begin() + bytes);
+  static std::uint32_t number_in(std::span<const std::byte> raw, bool big_endian) {
     std::uint32_t value = 0;
-    for (std::uint32_t i = 0; i < bytes; ++i) value = value << 8 | raw[i];
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      value = value << 8 | std::to_integer<std::uint32_t>(raw[big_endian ? i : raw.size() - 1 - i]);
+    }
     return value;
   }
+  std::size_t take(std::span<std::byte> into) {
+    const std::size_t got = in_.read(into);
+    at_ += got;
+    return got;
+  }
+  std::uint32_t number(std::size_t bytes) {
+    std::array<std::byte, 4> raw{};
+    const auto wanted = std::span(raw).first(bytes);
+    if (take(wanted) != bytes) throw DicomError("truncated in its header");
+    return number_in(wanted, levels_.back().encoding.big_endian);
+  }
   void skip(std::uint64_t count) {
-    while (count > 0) {
-      const offile_off_t skipped = in_.skip(static_cast<offile_off_t>(count));
-      if (skipped <= 0) throw DicomError("truncated in its header");
-      at_ += static_cast<std::uint64_t>(skipped);
-      count -= static_cast<std::uint64_t>(skipped);
-    }
+    if (!in_.skip(count)) throw DicomError("truncated in its header");
+    at_ += count;
   }
   void push(Holds holds, std::uint32_t length, Encoding encoding) {
-    if (levels_.size() >= deepest) throw DicomError("damaged: its sequences are nested too deeply");
+    if (levels_.size() >= deepest) throw DicomError(too_deep);
     const auto end = length == undefined_length ? std::nullopt : std::optional(at_ + length);
     levels_.push_back({holds, end, encoding, 0});
   }
 
   // The VR and the length of an element. VRs that are not in the standard are read as DCMTK reads them.
   Head head() {
-    if (!levels_.back().encoding.explicit_vr) return {number(4), false, false};
-    std::array<char, 2> vr{};
-    if (!read(vr.data(), 2)) throw DicomError("truncated in its header");
-    const std::string_view name(vr.data(), 2);
+    if (!levels_.back().encoding.explicit_vr) return {"", number(4)};
+    std::array<std::byte, 2> vr{};
+    if (take(vr) != vr.size()) throw DicomError("truncated in its header");
+    const std::string name{std::to_integer<char>(vr[0]), std::to_integer<char>(vr[1])};
     constexpr std::string_view brief = "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US";
     const bool letters = std::all_of(name.begin(), name.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
-    if (!letters || brief.find(name) != std::string_view::npos) return {number(2), false, false};
+    if (!letters || brief.find(name) != std::string_view::npos) return {name, number(2)};
     number(2);  // reserved
-    return {number(4), name == "SQ", name == "UN"};
+    return {name, number(4)};
   }
 
   bool step() {
@@ -96,33 +94,39 @@ class Walk {
       levels_.pop_back();
       return true;
     }
-    std::array<unsigned char, 4> raw{};
-    const offile_off_t got = in_.read(raw.data(), 4);
-    at_ += 4;
-    if (got <= 0 && levels_.size() == 1) return false;  // an object without pixels ends here
-    if (got != 4) throw DicomError("truncated in its header");
-    const std::uint32_t tag = levels_.back().encoding.big_endian
-                                  ? unsigned{raw[0]} << 24 | unsigned{raw[1]} << 16 | unsigned{raw[2]} << 8 | raw[3]
-                                  : unsigned{raw[1]} << 24 | unsigned{raw[0]} << 16 | unsigned{raw[3]} << 8 | raw[2];
+    const std::uint64_t start = at_;
+    std::array<std::byte, 4> raw{};
+    const std::size_t got = take(raw);
+    if (got == 0 && levels_.size() == 1) return false;  // an object without pixels ends here
+    if (got != raw.size()) throw DicomError("truncated in its header");
+    const bool big_endian = levels_.back().encoding.big_endian;
+    const std::uint32_t tag =
+        number_in(std::span(raw).first(2), big_endian) << 16 | number_in(std::span(raw).last(2), big_endian);
     if (++elements_ > most_elements) throw DicomError("damaged: its header has no end");
-    return levels_.back().holds == Holds::elements ? element(tag) : item(tag);
+    return levels_.back().holds == Holds::elements ? element(tag, start) : item(tag);
   }
 
-  bool element(std::uint32_t tag) {
+  bool element(std::uint32_t tag, std::uint64_t start) {
     if (tag == item_end && levels_.size() > 1 && !levels_.back().end) {
       number(4);
       levels_.pop_back();
       return true;
     }
-    if (levels_.size() == 1 && tag >= pixel_data) return false;
+    if (levels_.size() == 1 && tag >= pixel_data) {
+      if (tag == pixel_data) {
+        const Head is = head();
+        pixels_ = PixelElement{start, at_, is.length, is.vr};
+      }
+      return false;
+    }
     Level& level = levels_.back();
     if (tag <= level.last_tag && ++disorder_ > most_disorder) throw DicomError("damaged: its header is in disorder");
     level.last_tag = tag;
     const Encoding inside = level.encoding;
     const Head is = head();
-    if (is.sequence || is.length == undefined_length) {
+    if (is.vr == "SQ" || is.length == undefined_length) {
       const Encoding implicit{false, false};  // PS3.5 6.2.2: the content of an unknown sequence
-      push(tag == pixel_data ? Holds::fragments : Holds::items, is.length, is.unknown ? implicit : inside);
+      push(tag == pixel_data ? Holds::fragments : Holds::items, is.length, is.vr == "UN" ? implicit : inside);
     } else if (!inside.explicit_vr && is.length >= 8) {
       maybe_sequence(is.length, inside);
     } else {
@@ -133,17 +137,16 @@ class Walk {
 
   // Without a VR a sequence of known length looks like any other value, but for the item it starts with.
   void maybe_sequence(std::uint32_t length, Encoding inside) {
-    in_.mark();
-    const std::uint64_t start = at_;
+    const Level level{Holds::items, at_ + length, inside, 0};
     const std::uint32_t group = number(2);
     const std::uint32_t tag = group << 16 | number(2);
-    in_.putback();
-    at_ = start;
-    if (tag == item_tag) {
-      push(Holds::items, length, inside);
-    } else {
-      skip(length);
+    if (tag != item_tag) {
+      skip(length - 4);
+      return;
     }
+    if (levels_.size() >= deepest) throw DicomError(too_deep);
+    levels_.push_back(level);
+    item(tag);
   }
 
   bool item(std::uint32_t tag) {
@@ -160,17 +163,18 @@ class Walk {
     return true;
   }
 
-  DcmInputStream& in_;
+  ByteSource& in_;
   std::uint64_t at_ = 0;
   std::vector<Level> levels_;
   std::size_t elements_ = 0;
   std::size_t disorder_ = 0;
+  std::optional<PixelElement> pixels_;
 };
 
 }  // namespace
 
-void check_structure(DcmInputStream& dataset, Encoding encoding) {
-  Walk(dataset, encoding).run();
+std::optional<PixelElement> find_pixels(ByteSource& dataset, Encoding encoding) {
+  return Walk(dataset, encoding).run();
 }
 
 }  // namespace palpate::io::internal

@@ -1,6 +1,10 @@
 #pragma once
 
-class DcmInputStream;
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
 
 namespace palpate::io::internal {
 
@@ -10,10 +14,31 @@ struct Encoding {
   bool explicit_vr = true;
 };
 
-/// Walks over a dataset up to its pixel data without building anything, and throws DicomError where a parser that does
-/// build would overflow its stack (sequences nested deeper than any object defined), run for hours (elements in no
-/// order, which is quadratic in DCMTK) or fill the memory (millions of elements), or where the bytes are no elements or
-/// end early.
-void check_structure(DcmInputStream& dataset, Encoding encoding);
+/// Bytes of a dataset, one after the other: of a file as it is, or inflated.
+class ByteSource {
+ public:
+  ByteSource() = default;
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+  virtual ~ByteSource() = default;
+  /// Fills `into` as far as there are bytes; returns how many there were.
+  virtual std::size_t read(std::span<std::byte> into) = 0;
+  /// Moves on; false where the bytes end before that.
+  virtual bool skip(std::uint64_t count) = 0;
+};
+
+/// The pixel data element of a dataset.
+struct PixelElement {
+  std::uint64_t header_end = 0;  ///< bytes of the dataset before the element
+  std::uint64_t value_at = 0;    ///< bytes of the dataset before its value
+  std::uint32_t length = 0;      ///< of its value, as claimed; 0xFFFFFFFF where encapsulated
+  std::string vr;                ///< empty where the dataset has none
+};
+
+/// Walks over a dataset up to its pixel data without building anything; nothing where it has none. Throws DicomError
+/// where a parser that does build would overflow its stack (sequences nested deeper than any object defined), run for
+/// hours (elements in no order, which is quadratic in DCMTK) or fill the memory (millions of elements), or where the
+/// bytes are no elements or end early.
+std::optional<PixelElement> find_pixels(ByteSource& dataset, Encoding encoding);
 
 }  // namespace palpate::io::internal

@@ -1,12 +1,17 @@
-#include "palpate/io/internal/dataset_start.h"
+#include "palpate/io/internal/dataset.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcfilefo.h>
+#include <dcmtk/dcmdata/dcistrmb.h>
+#include <dcmtk/dcmdata/dcistrmf.h>
 #include <dcmtk/dcmdata/dcxfer.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
+#include <vector>
 
 #include "palpate/io/errors.h"
 
@@ -62,6 +67,59 @@ std::string read_meta(const InputFile& file, std::uint64_t& at) {
   return syntax;
 }
 
+// A window of the file, so that a header costs a few reads and not one an element.
+class FileBytes final : public ByteSource {
+ public:
+  FileBytes(const InputFile& file, std::uint64_t at) : file_(file), at_(at) {}
+
+  std::size_t read(std::span<std::byte> into) override {
+    const std::size_t count = std::min<std::uint64_t>(into.size(), file_.size() - std::min(file_.size(), at_));
+    if (at_ < window_at_ || at_ + count > window_at_ + window_.size()) {
+      window_.resize(std::min<std::uint64_t>(file_.size() - at_, window_size));
+      window_at_ = at_;
+      file_.read(window_at_, window_);
+    }
+    std::copy_n(window_.begin() + static_cast<std::ptrdiff_t>(at_ - window_at_), count, into.begin());
+    at_ += count;
+    return count;
+  }
+  bool skip(std::uint64_t count) override {
+    if (at_ > file_.size() || count > file_.size() - at_) return false;
+    at_ += count;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint64_t window_size = 1U << 14;
+  const InputFile& file_;
+  std::uint64_t at_;
+  std::uint64_t window_at_ = 0;
+  std::vector<std::byte> window_;
+};
+
+class InflatedBytes final : public ByteSource {
+ public:
+  InflatedBytes(const std::filesystem::path& path, std::uint64_t at)
+      : stream_(OFFilename(path.c_str()), static_cast<offile_off_t>(at)) {
+    if (stream_.installCompressionFilter(ESC_zlib).bad()) throw DicomError("damaged: it cannot be inflated");
+  }
+  std::size_t read(std::span<std::byte> into) override {
+    const offile_off_t got = stream_.read(into.data(), static_cast<offile_off_t>(into.size()));
+    return got > 0 ? static_cast<std::size_t>(got) : 0;
+  }
+  bool skip(std::uint64_t count) override {
+    while (count > 0) {
+      const offile_off_t skipped = stream_.skip(static_cast<offile_off_t>(count));
+      if (skipped <= 0) return false;
+      count -= static_cast<std::uint64_t>(skipped);
+    }
+    return true;
+  }
+
+ private:
+  DcmInputFileStream stream_;
+};
+
 }  // namespace
 
 DatasetStart find_dataset(const InputFile& file) {
@@ -86,6 +144,36 @@ DatasetStart find_dataset(const InputFile& file) {
   if (!guess) throw DicomError(is_part_10 || start.at > meta_at ? "damaged: no dataset in it" : "not a DICOM file");
   start.encoding = *guess;
   return start;
+}
+
+std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
+                                         const DatasetStart& start, DcmFileFormat& header) {
+  std::optional<PixelElement> pixels;
+  OFCondition read = EC_Normal;
+  header.transferInit();
+  if (start.deflated) {
+    InflatedBytes bytes(path, start.at);
+    pixels = find_pixels(bytes, start.encoding);
+    DcmInputFileStream stream(OFFilename(path.c_str()));
+    read = header.readUntilTag(stream, EXS_Unknown, EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
+  } else {
+    FileBytes bytes(file, start.at);
+    pixels = find_pixels(bytes, start.encoding);
+    // The pixels stay out: what DCMTK sees ends before them.
+    constexpr std::uint64_t largest = 1U << 28;  // five times the header of 10 000 enhanced frames
+    if ((pixels ? pixels->header_end : file.size()) > largest) {
+      throw DicomError(pixels ? "its header is larger than 256 MiB" : "no pixels in it");
+    }
+    std::vector<std::byte> before(pixels ? start.at + pixels->header_end : file.size());
+    file.read(0, before);
+    DcmInputBufferStream stream;
+    stream.setBuffer(before.data(), static_cast<offile_off_t>(before.size()));
+    stream.setEos();
+    read = header.read(stream, EXS_Unknown, EGL_noChange, DCM_MaxReadLength);
+  }
+  header.transferEnd();
+  if (read.bad()) throw DicomError(std::string("damaged header: ") + read.text());
+  return pixels;
 }
 
 }  // namespace palpate::io::internal

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <filesystem>
+#include <optional>
 
 #include "palpate/io/internal/input_file.h"
 #include "palpate/io/internal/structure.h"
+
+class DcmFileFormat;
 
 namespace palpate::io::internal {
 
@@ -19,5 +22,10 @@ struct DatasetStart {
 /// Throws DicomError ("not a DICOM file", "empty file") for everything else, so that no text or picture reaches a
 /// parser that would take it for thousands of attributes.
 DatasetStart find_dataset(const InputFile& file);
+
+/// Reads all before the pixel data into `header`, having checked that this is safe. Returns where the pixel data is (in
+/// the inflated dataset, where it is deflated); nothing where there is none. Throws DicomError.
+std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
+                                         const DatasetStart& start, DcmFileFormat& header);
 
 }  // namespace palpate::io::internal
