@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "palpate/plugin/recording.h"
 #include "palpate/testdata/scan.h"
@@ -155,6 +157,32 @@ TEST(Command, SeveralSeriesAndNoneChosenListsThem) {
   EXPECT_THAT(none.output, testing::AllOf(HasSubstr("first"), HasSubstr("second"), HasSubstr("--series")));
   EXPECT_EQ(palpate("profile " + both.string() + " --series 1 --from 0,-3,0 --to 0,0,0").exit, 0);
   EXPECT_EQ(palpate("profile " + both.string() + " --series 3 --from 0,-3,0 --to 0,0,0").exit, 2);
+}
+
+TEST(Command, SolveAnswersEveryLineOfItsInput) {
+  const auto input = fresh("balances.jsonl");
+  std::ofstream(input) << R"({"id":1,"stiffness":400,"probe":[0,0,-0.002],"primitives":[)"
+                          R"({"type":"plane","strength":2,"position":[0,0,0],"direction":[0,0,1]}]})"
+                       << "\n";
+  const Outcome solved = palpate("solve --solver exact --repeat 3 < " + input.string(), false);
+  EXPECT_EQ(solved.exit, 0);
+  const auto answer = nlohmann::json::parse(solved.output);
+  EXPECT_EQ(answer["id"], 1);
+  EXPECT_EQ(answer["solver"], "exact");
+  EXPECT_NEAR(answer["force"][2].get<double>(), 0.8, 1e-14);
+
+  std::ofstream(input, std::ios::app) << "\n" << R"({"id":3,"stiffness":-1,"probe":[0,0,0],"primitives":[]})";
+  const Outcome partly = palpate("solve < " + input.string(), false);
+  EXPECT_EQ(partly.exit, 1);
+  std::istringstream lines(partly.output);
+  std::vector<nlohmann::json> answers;
+  for (std::string line; std::getline(lines, line);) answers.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(answers.size(), 3U);
+  EXPECT_TRUE(answers[0].contains("proxy"));
+  EXPECT_EQ(answers[1]["error"], "the line is empty");
+  EXPECT_EQ(answers[2]["id"], 3);
+  EXPECT_EQ(answers[2]["error"], "stiffness is not positive (-1)");
+  EXPECT_EQ(palpate("solve --solver magic < /dev/null").exit, 2);
 }
 
 TEST(Command, NothingIsOverwritten) {

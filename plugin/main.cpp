@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   try {
     add_info(program);
     add_sample(program);
+    add_solve(program);
     add_plan(program);
     add_profile(program);
     add_probe(program);
