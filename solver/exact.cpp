@@ -46,7 +46,9 @@ Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratc
   ExactScratch::Arrays& arrays = scratch.arrays();
   arrays.fit(n);
   const std::span<Placed> placed = std::span(arrays.placed).first(n);
-  internal::Multipliers state{placed, balance.stiffness};
+  internal::Multipliers state;
+  state.primitives = placed;
+  state.stiffness = balance.stiffness;
   state.forces = std::span(arrays.forces).first(n);
   state.next = std::span(arrays.next).first(n);
   state.hold = std::span(arrays.hold).first(n);
