@@ -3,6 +3,7 @@
 #include <string>
 
 #include "palpate/plugin/bench_fields.h"
+#include "palpate/plugin/bench_solvers.h"
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/loop_studies.h"
 #include "palpate/testdata/fresh_folder.h"
@@ -42,6 +43,7 @@ void add_bench(CLI::App& program) {
   bench->require_subcommand(1);
   add_stability(*bench);
   add_bench_fields(*bench);
+  add_bench_solvers(*bench);
 }
 
 }  // namespace palpate::plugin

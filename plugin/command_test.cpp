@@ -171,7 +171,8 @@ TEST(Command, SolveAnswersEveryLineOfItsInput) {
   EXPECT_EQ(answer["solver"], "exact");
   EXPECT_NEAR(answer["force"][2].get<double>(), 0.8, 1e-14);
 
-  std::ofstream(input, std::ios::app) << "\n" << R"({"id":3,"stiffness":-1,"probe":[0,0,0],"primitives":[]})";
+  std::ofstream(input, std::ios::app) << "\n"
+                                      << R"({"id":3,"stiffness":-1,"probe":[0,0,0],"primitives":[]})";
   const Outcome partly = palpate("solve < " + input.string(), false);
   EXPECT_EQ(partly.exit, 1);
   std::istringstream lines(partly.output);

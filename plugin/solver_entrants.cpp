@@ -1,0 +1,125 @@
+#include "palpate/plugin/solver_entrants.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+
+#include "palpate/solver/analytical.h"
+#include "palpate/solver/descent.h"
+#include "palpate/solver/exact.h"
+
+#ifdef PALPATE_NLOPT
+#include <nlopt.h>
+#endif
+
+namespace palpate::plugin {
+namespace {
+
+using solver::Balance;
+using solver::Problem;
+using solver::Solution;
+using solver::Vec3;
+using Forces = std::span<Vec3>;
+
+Entrant descent(std::string name, const solver::DescentOptions& options) {
+  return {std::move(name), [](const Problem&, Forces) {},
+          [options](const Balance& balance, Forces forces) { return solve_descent(balance, options, forces); }};
+}
+
+#ifdef PALPATE_NLOPT
+
+/// E(x), whose minimum the proxy is; J.
+double energy(const Balance& balance, const Vec3& x) {
+  double sum = balance.stiffness / 2 * glm::dot(x - balance.probe, x - balance.probe);
+  for (const solver::Primitive& primitive : balance.primitives) {
+    const Vec3 e = primitive.position - x;
+    const Vec3& q = primitive.direction;
+    switch (primitive.type) {
+      case solver::PrimitiveType::directed_force:
+        sum -= primitive.strength * glm::dot(q, x - balance.probe);
+        break;
+      case solver::PrimitiveType::plane:
+        sum += primitive.strength * std::max(0.0, glm::dot(q, e));
+        break;
+      case solver::PrimitiveType::line:
+        sum += primitive.strength * glm::length(e - q * glm::dot(q, e));
+        break;
+      case solver::PrimitiveType::point:
+        sum += primitive.strength * glm::length(e);
+        break;
+    }
+  }
+  return sum;
+}
+
+Solution solve_simplex(nlopt_opt optimizer, const Balance& balance, Forces forces) {
+  Solution solution;
+  solution.iterations = 0;
+  for (const solver::Primitive& primitive : balance.primitives) {
+    if (std::isinf(primitive.strength)) return solution;
+  }
+  const auto function = [](unsigned, const double* x, double*, void* data) {
+    return energy(*static_cast<const Balance*>(data), {x[0], x[1], x[2]});
+  };
+  Balance own = balance;
+  nlopt_set_min_objective(optimizer, function, &own);
+  const Vec3& start = balance.previous_proxy;
+  std::array<double, 3> x{start.x, start.y, start.z};
+  double least = 0;
+  const nlopt_result result = nlopt_optimize(optimizer, x.data(), &least);
+  solution.iterations = nlopt_get_numevals(optimizer);
+  solution.proxy = {x[0], x[1], x[2]};
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = force_on(balance.primitives[i], solution.proxy);
+  solution.outcome = result == NLOPT_MAXEVAL_REACHED || result < 0 ? solver::Outcome::capped : solver::Outcome::solved;
+  return solution;
+}
+
+Entrant simplex() {
+  // Steps of 1 mm at first and a tolerance at the last bit, as descent has.
+  const std::shared_ptr<nlopt_opt_s> optimizer(nlopt_create(NLOPT_LN_NELDERMEAD, 3), nlopt_destroy);
+  nlopt_set_initial_step1(optimizer.get(), 1e-3);
+  nlopt_set_xtol_abs1(optimizer.get(), std::numeric_limits<double>::epsilon());
+  nlopt_set_maxeval(optimizer.get(), solver::DescentOptions{}.max_iterations);
+  return {
+      "Nelder-Mead", [](const Problem&, Forces) {},
+      [optimizer](const Balance& balance, Forces forces) { return solve_simplex(optimizer.get(), balance, forces); }};
+}
+
+#endif
+
+}  // namespace
+
+std::vector<Entrant> solver_entrants() {
+  const auto nothing = [](const Problem&, Forces) {};
+  const auto scratch = std::make_shared<solver::ExactScratch>(128);
+  const auto frame_before = [scratch](const Problem& problem, Forces forces) {
+    constexpr double step = 5e-5;
+    Balance before = problem.balance();
+    before.probe += glm::normalize(Vec3(1, -2, 0.5)) * step;
+    const Solution solution = solve_exact(before, forces, *scratch);
+    const bool usable = solution.outcome == solver::Outcome::solved || solution.outcome == solver::Outcome::capped;
+    if (!usable) std::fill(forces.begin(), forces.end(), Vec3(0));
+  };
+  const auto exact = [scratch](solver::Start start) {
+    return [scratch, start](const Balance& balance, Forces forces) {
+      return solve_exact(balance, forces, *scratch, start);
+    };
+  };
+  std::vector<Entrant> entrants;
+  entrants.push_back(
+      {"analytical", nothing, [](const Balance& balance, Forces forces) { return solve_analytical(balance, forces); }});
+  entrants.push_back({"exact cold", nothing, exact(solver::Start::cold)});
+  entrants.push_back({"exact warm", frame_before, exact(solver::Start::warm)});
+  entrants.push_back(descent("descent", {}));
+  entrants.push_back(descent("descent to 1 um", {.smallest_step = 1e-6}));
+  entrants.push_back(descent("descent l x 0.95", {.reduction = 0.95}));
+#ifdef PALPATE_NLOPT
+  entrants.push_back(simplex());
+#endif
+  return entrants;
+}
+
+}  // namespace palpate::plugin
