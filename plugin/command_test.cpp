@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -39,8 +40,10 @@ Outcome palpate(const std::string& arguments, bool with_errors = true) {
   return outcome;
 }
 
+/// Each test is a process of its own, and they run side by side.
 std::filesystem::path fresh(const std::string& name) {
-  const auto path = std::filesystem::path(testing::TempDir()) / ("command_test_" + name);
+  const auto path =
+      std::filesystem::path(testing::TempDir()) / ("command_test_" + std::to_string(getpid()) + "_" + name);
   std::filesystem::remove_all(path);
   return path;
 }
@@ -129,7 +132,7 @@ TEST(Command, RefusesBadInputAndLeavesNothing) {
   std::filesystem::create_directory(empty);
   const std::string scan = "probe " + phantom().string() + forehead;
   refused("probe /no/such/folder", 1, "/no/such/folder");
-  refused("probe " + empty.string(), 1, "command_test_empty_folder");
+  refused("probe " + empty.string(), 1, "_empty_folder");
   refused(scan + "--scene no-such-scene", 1, "no-such-scene");
   refused(scan + "--scene " +
               write_scene("mode.json", R"({"version":1,"name":"x","modes":[{"type":"surfce","strength_n":1}]})"),

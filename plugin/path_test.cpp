@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <fstream>
 #include <stdexcept>
 
@@ -10,7 +12,7 @@ namespace palpate::plugin {
 namespace {
 
 std::filesystem::path write(const std::string& name, const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) / name;
+  const auto file = std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name);
   std::ofstream(file) << text;
   return file;
 }

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <cstring>
+
 #include <fstream>
 #include <random>
 
@@ -11,7 +13,7 @@ namespace palpate::plugin {
 namespace {
 
 std::filesystem::path fresh(const std::string& name) {
-  const auto file = std::filesystem::path(testing::TempDir()) / name;
+  const auto file = std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name);
   std::filesystem::remove(file);
   return file;
 }
