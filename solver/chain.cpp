@@ -37,6 +37,30 @@ Solution solve_in_order(const Balance& balance, const ChainOptions& options, Exa
 
 Chain::Chain(const ChainOptions& options) : options_(options), scratch_(options.capacity) {
   last_forces_.reserve(options.capacity);
+  last_primitives_.reserve(options.capacity);
+}
+
+void Chain::forget() noexcept {
+  last_forces_.clear();
+  last_solution_.outcome = Outcome::unsuitable;
+}
+
+bool Chain::is_last(const Balance& balance) const noexcept {
+  const auto same = [](const Primitive& a, const Primitive& b) {
+    return a.type == b.type && a.strength == b.strength && a.position == b.position && a.direction == b.direction;
+  };
+  return last_solution_.outcome == Outcome::solved && balance.stiffness == last_.stiffness &&
+         balance.probe == last_.probe &&
+         (last_solution_.solver != SolverKind::descent || balance.previous_proxy == last_.previous_proxy) &&
+         std::equal(balance.primitives.begin(), balance.primitives.end(), last_primitives_.begin(),
+                    last_primitives_.end(), same);
+}
+
+void Chain::remember(const Balance& balance, const Solution& solution, std::span<const Vec3> forces) noexcept {
+  last_forces_.assign(forces.begin(), forces.end());
+  last_primitives_.assign(balance.primitives.begin(), balance.primitives.end());
+  last_ = {balance.stiffness, balance.probe, balance.previous_proxy, {}};
+  last_solution_ = solution;
 }
 
 Solution Chain::solve(const Balance& balance, std::span<Vec3> forces) noexcept {
@@ -46,11 +70,15 @@ Solution Chain::solve(const Balance& balance, std::span<Vec3> forces) noexcept {
     refused.rejection = rejection;
     return refused;
   }
+  if (options_.warm_start && is_last(balance)) {
+    std::copy(last_forces_.begin(), last_forces_.end(), forces.begin());
+    return last_solution_;
+  }
   const Solution solution = solve_in_order(balance, options_, scratch_, last_forces_, forces);
   if (solution.outcome == Outcome::solved || solution.outcome == Outcome::capped) {
-    last_forces_.assign(forces.begin(), forces.end());
+    remember(balance, solution, forces);
   } else {
-    last_forces_.clear();
+    forget();
   }
   return solution;
 }

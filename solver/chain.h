@@ -30,15 +30,24 @@ class Chain {
 
   /// forces: one for each primitive, in the order given; each primitive's force on the proxy, N. Does not allocate,
   /// lock, throw or log for balances of up to the number of primitives reserved.
+  ///
+  /// The balance of the last call (but for the previous proxy, unless descent solved it) gets its answer once more, so
+  /// that a force at rest is constant to the last bit in spite of the warm start.
   Solution solve(const Balance& balance, std::span<Vec3> forces) noexcept;
 
   /// The next balance starts cold.
-  void forget() noexcept { last_forces_.clear(); }
+  void forget() noexcept;
 
  private:
+  bool is_last(const Balance& balance) const noexcept;
+  void remember(const Balance& balance, const Solution& solution, std::span<const Vec3> forces) noexcept;
+
   ChainOptions options_;
   ExactScratch scratch_;
   std::vector<Vec3> last_forces_;
+  std::vector<Primitive> last_primitives_;
+  Balance last_;  ///< its primitives are those above
+  Solution last_solution_;
 };
 
 }  // namespace palpate::solver

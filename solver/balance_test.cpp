@@ -1,0 +1,96 @@
+#include "palpate/solver/balance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace palpate::solver {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Rejection> check(const Primitive& flawed) {
+  const std::array primitives{make_plane(1, {0, 0, 0}, {1, 0, 0}), flawed};
+  return validate({400, Vec3{0}, Vec3{0}, primitives});
+}
+
+TEST(Balance, CouplingPullsTheProbeTowardsTheProxy) {
+  const Balance balance{400, {0.001, 0, 0}, Vec3{0}, {}};
+  const Vec3 proxy{0.003, 0, -0.001};
+  EXPECT_NEAR(coupling_force(balance, proxy).x, 0.8, 1e-15);  // -k (probe - proxy), equation (1)
+  EXPECT_NEAR(coupling_force(balance, proxy).z, -0.4, 1e-15);
+}
+
+TEST(Balance, ResidualIsThePullAndTheForces) {
+  const std::array primitives{make_directed_force(0.5, {0, 1, 0}), make_point(2, {0, 0, 1})};
+  const Balance balance{400, {0.001, 0, 0}, Vec3{0}, primitives};
+  const Vec3 epsilon = residual(balance, Vec3{0});
+  EXPECT_NEAR(epsilon.x, 0.4, 1e-15);  // k (probe - proxy)
+  EXPECT_NEAR(epsilon.y, 0.5, 1e-15);
+  EXPECT_NEAR(epsilon.z, 2, 1e-15);
+}
+
+TEST(Balance, UsableNumbersPass) {
+  EXPECT_FALSE(check(make_line(0, {1, 2, 3}, {0, 0, 5})));
+  EXPECT_FALSE(check(make_point(infinity, {1, 2, 3})));
+}
+
+TEST(Balance, RubbishNamesPrimitiveAndField) {
+  struct Case {
+    Primitive primitive;
+    Field field;
+    Flaw flaw;
+  };
+  const Case cases[] = {
+      {make_plane(-1, {0, 0, 0}, {1, 0, 0}), Field::strength, Flaw::negative},
+      {make_plane(-infinity, {0, 0, 0}, {1, 0, 0}), Field::strength, Flaw::negative},
+      {make_plane(nan, {0, 0, 0}, {1, 0, 0}), Field::strength, Flaw::not_finite},
+      {make_directed_force(infinity, {1, 0, 0}), Field::strength, Flaw::not_finite},
+      {make_plane(1e51, {0, 0, 0}, {1, 0, 0}), Field::strength, Flaw::out_of_range},
+      {make_plane(1, {0, nan, 0}, {1, 0, 0}), Field::position, Flaw::not_finite},
+      {make_point(1, {0, 0, infinity}), Field::position, Flaw::not_finite},
+      {make_point(1, {0, 0, 1e51}), Field::position, Flaw::out_of_range},
+      {make_line(1, {0, 0, 0}, {0, 0, 0}), Field::direction, Flaw::zero_direction},
+      {make_directed_force(1, {0, 0, 0}), Field::direction, Flaw::zero_direction},
+      {make_line(1, {0, 0, 0}, {0, nan, 0}), Field::direction, Flaw::not_finite},
+  };
+  for (const Case& c : cases) {
+    const auto rejection = check(c.primitive);
+    ASSERT_TRUE(rejection) << name_of(c.primitive.type) << " " << static_cast<int>(c.flaw);
+    EXPECT_EQ(rejection->primitive, 1U);
+    EXPECT_EQ(rejection->field, c.field);
+    EXPECT_EQ(rejection->flaw, c.flaw);
+    EXPECT_THAT(describe(*rejection), HasSubstr("primitive 1: "));
+  }
+}
+
+TEST(Balance, WhatIsNotReadMayBeAnything) {
+  EXPECT_FALSE(check({PrimitiveType::directed_force, 1, {nan, nan, nan}, {1, 0, 0}}));
+  EXPECT_FALSE(check({PrimitiveType::point, 1, {0, 0, 0}, {0, nan, 0}}));
+}
+
+TEST(Balance, StiffnessAndProbeHaveToBeUsable) {
+  const Vec3 o{0};
+  EXPECT_EQ(validate({0, o, o, {}})->flaw, Flaw::not_positive);
+  EXPECT_EQ(validate({-400, o, o, {}})->flaw, Flaw::not_positive);
+  EXPECT_EQ(validate({nan, o, o, {}})->flaw, Flaw::not_finite);
+  EXPECT_EQ(validate({infinity, o, o, {}})->flaw, Flaw::not_finite);
+  EXPECT_EQ(validate({1e-60, o, o, {}})->flaw, Flaw::out_of_range);
+  EXPECT_EQ(validate({400, {0, nan, 0}, o, {}})->field, Field::probe);
+  EXPECT_EQ(validate({400, o, {infinity, 0, 0}, {}})->field, Field::previous_proxy);
+  EXPECT_FALSE(validate({400, o, o, {}}));
+}
+
+TEST(Balance, DescriptionIsASentence) {
+  EXPECT_EQ(describe({2, Field::strength, Flaw::negative, -1}), "primitive 2: strength is negative (-1)");
+  EXPECT_EQ(describe({Rejection::whole_balance, Field::stiffness, Flaw::not_positive, 0}),
+            "stiffness is not positive (0)");
+}
+
+}  // namespace
+}  // namespace palpate::solver

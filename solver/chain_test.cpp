@@ -1,0 +1,131 @@
+#include "palpate/solver/chain.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "palpate/solver/problems.h"
+
+namespace {
+
+std::atomic<bool> trap{false};
+std::atomic<int> trapped{0};
+
+void* allocate(std::size_t size) {
+  if (trap) {
+    ++trapped;
+  }
+  if (void* memory = std::malloc(size > 0 ? size : 1)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return allocate(size);
+}
+void* operator new[](std::size_t size) {
+  return allocate(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace palpate::solver {
+namespace {
+
+constexpr double mm = 1e-3;
+
+SolverKind solver_of(const ChainOptions& options, std::span<const Primitive> primitives) {
+  Chain chain(options);
+  std::vector<Vec3> forces(primitives.size());
+  return chain.solve({400, {-mm, -2 * mm, 0}, Vec3{0}, primitives}, forces).solver;
+}
+
+TEST(Chain, TheFirstThatCanDoesAndTheOthersMayBeOff) {
+  const std::array orthogonal{make_plane(1, Vec3{0}, {0, 1, 0})};
+  const std::array oblique{make_plane(3, Vec3{0}, {1, 0, 0}), make_plane(3, Vec3{0}, {0.6, 0.8, 0})};
+  EXPECT_EQ(solver_of({}, orthogonal), SolverKind::analytical);
+  EXPECT_EQ(solver_of({}, oblique), SolverKind::exact);
+  EXPECT_EQ(solver_of({.analytical = false}, orthogonal), SolverKind::exact);
+  EXPECT_EQ(solver_of({.exact = false, .descent = true}, oblique), SolverKind::descent);
+  EXPECT_EQ(solver_of({.exact = false, .descent = true}, orthogonal), SolverKind::analytical);
+}
+
+TEST(Chain, WithoutASolverThatCanItIsUnsuitable) {
+  const std::array oblique{make_plane(3, Vec3{0}, {1, 0, 0}), make_plane(3, Vec3{0}, {0.6, 0.8, 0})};
+  Chain chain({.exact = false});
+  std::array<Vec3, 2> forces;
+  EXPECT_EQ(chain.solve({400, {-mm, -2 * mm, 0}, Vec3{0}, oblique}, forces).outcome, Outcome::unsuitable);
+}
+
+TEST(Chain, RefusesRubbishBeforeAnySolver) {
+  const std::array primitives{make_plane(1, Vec3{0}, {0, 1, 0}), make_plane(-1, Vec3{0}, {0, 1, 0})};
+  Chain chain;
+  std::array<Vec3, 2> forces;
+  const Solution solution = chain.solve({400, Vec3{0}, Vec3{0}, primitives}, forces);
+  ASSERT_EQ(solution.outcome, Outcome::refused);
+  EXPECT_EQ(solution.solver, SolverKind::none);
+  EXPECT_EQ(solution.rejection->primitive, 1U);
+}
+
+TEST(Chain, RestIsConstantToTheLastBit) {
+  for (const Family family : {Family::allowed, Family::co_located, Family::spread}) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Problem problem = make_problem(family, seed);
+      std::vector<Vec3> forces(problem.primitives.size());
+      Chain chain;
+      Vec3 proxy{0};
+      for (int frame = 0; frame < 50; ++frame) {
+        const Solution solution = chain.solve(problem.balance(), forces);
+        if (frame > 1) {
+          ASSERT_EQ(solution.proxy, proxy) << name_of(family) << " " << seed << " frame " << frame;
+        }
+        proxy = solution.proxy;
+      }
+    }
+  }
+}
+
+TEST(Chain, DoesNotAllocateWithinItsCapacity) {
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Problem problem = make_problem(family, seed);
+      std::vector<Vec3> forces(problem.primitives.size());
+      Chain chain({.descent = true, .capacity = 100});
+      Chain descent({.analytical = false,
+                     .exact = false,
+                     .descent = true,
+                     .descent_options = {.max_iterations = 50},
+                     .capacity = 100});
+      trap = true;
+      for (int frame = 0; frame < 3; ++frame) {
+        chain.solve(problem.balance(), forces);
+      }
+      descent.solve(problem.balance(), forces);
+      trap = false;
+      ASSERT_EQ(trapped, 0) << name_of(family) << " " << seed;
+    }
+  }
+  trap = true;
+  std::vector<int> counted(3);
+  trap = false;
+  EXPECT_EQ(trapped, 1) << "the trap itself";
+}
+
+}  // namespace
+}  // namespace palpate::solver

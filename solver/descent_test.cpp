@@ -1,0 +1,69 @@
+#include "palpate/solver/descent.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace palpate::solver {
+namespace {
+
+constexpr double mm = 1e-3;
+
+TEST(Descent, StepsAreOfTheLengthGiven) {  // equation (22)
+  const Balance balance{400, {10 * mm, 0, 0}, Vec3{0}, {}};
+  DescentOptions options;
+  options.max_iterations = 3;
+  const Solution solution = solve_descent(balance, options, {});
+  EXPECT_EQ(solution.outcome, Outcome::capped);
+  EXPECT_EQ(solution.iterations, 3);
+  EXPECT_NEAR(solution.proxy.x, 3 * mm, 1e-17);
+}
+
+TEST(Descent, StepShrinksWhereTheResidualTurns) {  // equation (23)
+  // From 0 towards 1.5 mm: 1 mm, 2 mm (turned: the next step is 0.7 mm), 1.3 mm (turned again: 0.49 mm), 1.79 mm.
+  const Balance balance{400, {1.5 * mm, 0, 0}, Vec3{0}, {}};
+  DescentOptions options;
+  options.max_iterations = 4;
+  EXPECT_NEAR(solve_descent(balance, options, {}).proxy.x, 1.79 * mm, 1e-17);
+}
+
+TEST(Descent, EndsWhereTheStepIsBelowTheSmallest) {
+  const std::array primitives{make_directed_force(0.4, {0, 1, 0})};
+  const Balance balance{400, {1.5 * mm, 0, 0}, Vec3{0}, primitives};
+  std::array<Vec3, 1> forces;
+  const Solution fine = solve_descent(balance, {}, forces);
+  EXPECT_EQ(fine.outcome, Outcome::solved);
+  EXPECT_LE(glm::length(fine.proxy - Vec3{1.5 * mm, mm, 0}), fine.error_bound);
+  EXPECT_EQ(forces[0], (Vec3{0, 0.4, 0}));
+  DescentOptions coarse;
+  coarse.smallest_step = 1e-6;
+  EXPECT_LT(solve_descent(balance, coarse, forces).iterations, fine.iterations);
+}
+
+TEST(Descent, StartsAtThePreviousProxy) {
+  const Balance balance{400, Vec3{0}, {0, 0, 5 * mm}, {}};
+  DescentOptions options;
+  options.max_iterations = 1;
+  EXPECT_NEAR(solve_descent(balance, options, {}).proxy.z, 4 * mm, 1e-17);
+}
+
+TEST(Descent, BoundIsTrueOfAProxyHeldByAPlane) {
+  const std::array primitives{make_plane(1, Vec3{0}, {0, 1, 0})};
+  const Balance balance{400, {0.5 * mm, -2 * mm, 0}, {0, 0.1 * mm, 0.3 * mm}, primitives};
+  std::array<Vec3, 1> forces;
+  const Solution solution = solve_descent(balance, {}, forces);
+  const double error = glm::length(solution.proxy - Vec3{0.5 * mm, 0, 0});
+  EXPECT_GE(solution.error_bound, error);
+}
+
+TEST(Descent, HardConstraintsAreNotItsBusiness) {
+  const std::array primitives{make_plane(std::numeric_limits<double>::infinity(), Vec3{0}, {0, 1, 0})};
+  std::array<Vec3, 1> forces;
+  EXPECT_EQ(solve_descent({400, Vec3{0}, Vec3{0}, primitives}, {}, forces).outcome, Outcome::unsuitable);
+}
+
+}  // namespace
+}  // namespace palpate::solver
