@@ -207,15 +207,15 @@ TEST(FindSeries, DescriptionBecomesUtf8) {
                                                          {"ISO_IR 192", "\xE9\xA0\xAD", "\xE9\xA0\xAD"},
                                                          {"ISO_IR 144", "\xB3\xDE\xDB\xDE\xD2\xD0", "Голова"},
                                                          {"", "T\xEAte", "T\xC3\xAAte"}}};
-  for (const auto& [characters, stored, expected] : cases) {
+  for (const auto& texts : cases) {  // character set, as stored, expected
     const TestFolder folder;
     write_stack(folder.path(), 2, [&](int, TestImage& image) {
       image.edit = [&](DcmDataset& d) {
-        if (!characters.empty()) put(d, DCM_SpecificCharacterSet, characters);
-        put(d, DCM_SeriesDescription, stored);
+        if (!texts[0].empty()) put(d, DCM_SpecificCharacterSet, texts[0]);
+        put(d, DCM_SeriesDescription, texts[1]);
       };
     });
-    EXPECT_EQ(find_in(folder).series.at(0).description, expected) << characters;
+    EXPECT_EQ(find_in(folder).series.at(0).description, texts[2]) << texts[0];
   }
 }
 

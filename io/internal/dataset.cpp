@@ -1,10 +1,11 @@
 #include "palpate/io/internal/dataset.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdatset.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
-#include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcistrmb.h>
 #include <dcmtk/dcmdata/dcistrmf.h>
+#include <dcmtk/dcmdata/dcuid.h>
 #include <dcmtk/dcmdata/dcxfer.h>
 
 #include <algorithm>
@@ -104,8 +105,13 @@ class InflatedBytes final : public ByteSource {
     if (stream_.installCompressionFilter(ESC_zlib).bad()) throw DicomError("damaged: it cannot be inflated");
   }
   std::size_t read(std::span<std::byte> into) override {
-    const offile_off_t got = stream_.read(into.data(), static_cast<offile_off_t>(into.size()));
-    return got > 0 ? static_cast<std::size_t>(got) : 0;
+    std::size_t total = 0;
+    while (total < into.size()) {
+      const offile_off_t got = stream_.read(into.data() + total, static_cast<offile_off_t>(into.size() - total));
+      if (got <= 0) break;
+      total += static_cast<std::size_t>(got);
+    }
+    return total;
   }
   bool skip(std::uint64_t count) override {
     while (count > 0) {
@@ -120,6 +126,14 @@ class InflatedBytes final : public ByteSource {
   DcmInputFileStream stream_;
 };
 
+// What DCMTK is to parse by: the file's own syntax, or one written alike where DCMTK does not know that.
+E_TransferSyntax syntax_of(const DatasetStart& start) {
+  const E_TransferSyntax known = DcmXfer(start.transfer_syntax.c_str()).getXfer();
+  if (!start.transfer_syntax.empty() && known != EXS_Unknown) return known;
+  if (!start.encoding.explicit_vr) return EXS_LittleEndianImplicit;
+  return start.encoding.big_endian ? EXS_BigEndianExplicit : EXS_LittleEndianExplicit;
+}
+
 }  // namespace
 
 DatasetStart find_dataset(const InputFile& file) {
@@ -133,9 +147,9 @@ DatasetStart find_dataset(const InputFile& file) {
     if (is_part_10) start.at = 132;
   }
   const std::uint64_t meta_at = start.at;
-  const std::string uid = read_meta(file, start.at);
-  const DcmXfer syntax(uid.c_str());  // which knows syntaxes without a UID, too
-  if (!uid.empty() && syntax.getXfer() != EXS_Unknown) {
+  start.transfer_syntax = read_meta(file, start.at);
+  const DcmXfer syntax(start.transfer_syntax.c_str());  // which knows syntaxes without a UID, too
+  if (!start.transfer_syntax.empty() && syntax.getXfer() != EXS_Unknown) {
     start.encoding = {syntax.getByteOrder() == EBO_BigEndian, syntax.isExplicitVR() == OFTrue};
     start.deflated = syntax.getStreamCompression() != ESC_none;
     return start;
@@ -143,35 +157,39 @@ DatasetStart find_dataset(const InputFile& file) {
   const auto guess = guess_encoding(FirstBytes(file, start.at));
   if (!guess) throw DicomError(is_part_10 || start.at > meta_at ? "damaged: no dataset in it" : "not a DICOM file");
   start.encoding = *guess;
+  if (start.transfer_syntax.empty()) start.transfer_syntax = DcmXfer(syntax_of(start)).getXferID();
   return start;
 }
 
+std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start) {
+  return std::make_unique<InflatedBytes>(path, start.at);
+}
+
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
-                                         const DatasetStart& start, DcmFileFormat& header) {
+                                         const DatasetStart& start, DcmDataset& dataset) {
   std::optional<PixelElement> pixels;
   OFCondition read = EC_Normal;
-  header.transferInit();
+  // The syntax is given, so that DCMTK never guesses another one than was checked.
+  dataset.transferInit();
   if (start.deflated) {
-    InflatedBytes bytes(path, start.at);
-    pixels = find_pixels(bytes, start.encoding);
-    DcmInputFileStream stream(OFFilename(path.c_str()));
-    read = header.readUntilTag(stream, EXS_Unknown, EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
+    pixels = find_pixels(*inflated(path, start), start.encoding);
+    DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(start.at));
+    read = dataset.readUntilTag(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
   } else {
     FileBytes bytes(file, start.at);
     pixels = find_pixels(bytes, start.encoding);
+    const std::uint64_t length = pixels ? pixels->header_end : file.size() - start.at;
+    constexpr std::uint64_t longest = 1U << 28;  // five times the header of 10 000 enhanced frames
+    if (length > longest) throw DicomError(pixels ? "its header is larger than 256 MiB" : "no pixels in it");
     // The pixels stay out: what DCMTK sees ends before them.
-    constexpr std::uint64_t largest = 1U << 28;  // five times the header of 10 000 enhanced frames
-    if ((pixels ? pixels->header_end : file.size()) > largest) {
-      throw DicomError(pixels ? "its header is larger than 256 MiB" : "no pixels in it");
-    }
-    std::vector<std::byte> before(pixels ? start.at + pixels->header_end : file.size());
-    file.read(0, before);
+    std::vector<std::byte> before(length);
+    file.read(start.at, before);
     DcmInputBufferStream stream;
     stream.setBuffer(before.data(), static_cast<offile_off_t>(before.size()));
     stream.setEos();
-    read = header.read(stream, EXS_Unknown, EGL_noChange, DCM_MaxReadLength);
+    read = dataset.read(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength);
   }
-  header.transferEnd();
+  dataset.transferEnd();
   if (read.bad()) throw DicomError(std::string("damaged header: ") + read.text());
   return pixels;
 }

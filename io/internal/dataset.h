@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "palpate/io/internal/input_file.h"
 #include "palpate/io/internal/structure.h"
 
-class DcmFileFormat;
+class DcmDataset;
 
 namespace palpate::io::internal {
 
@@ -16,6 +18,7 @@ struct DatasetStart {
   std::uint64_t at = 0;
   Encoding encoding;
   bool deflated = false;
+  std::string transfer_syntax;  ///< UID
 };
 
 /// Reads preamble and file meta information (PS3.10 7.1); files without them are recognised by their first element.
@@ -23,9 +26,12 @@ struct DatasetStart {
 /// parser that would take it for thousands of attributes.
 DatasetStart find_dataset(const InputFile& file);
 
-/// Reads all before the pixel data into `header`, having checked that this is safe. Returns where the pixel data is (in
-/// the inflated dataset, where it is deflated); nothing where there is none. Throws DicomError.
+/// A deflated dataset, inflated as it is read.
+std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start);
+
+/// Reads all before the pixel data into `dataset`, having checked that this is safe. Returns where the pixel data is
+/// (in the inflated dataset, where it is deflated); nothing where there is none. Throws DicomError.
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
-                                         const DatasetStart& start, DcmFileFormat& header);
+                                         const DatasetStart& start, DcmDataset& dataset);
 
 }  // namespace palpate::io::internal

@@ -1,9 +1,8 @@
 #include "palpate/io/internal/file_header.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdatset.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
-#include <dcmtk/dcmdata/dcfilefo.h>
-#include <dcmtk/dcmdata/dcmetinf.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <dcmtk/dcmdata/dcxfer.h>
 
@@ -114,26 +113,28 @@ void check_native_length(const InputFile& file, std::size_t frames, const PixelE
   }
 }
 
-void locate_pixels(const InputFile& file, const DatasetStart& start, const PixelElement& pixels, const DcmXfer& syntax,
-                   FileHeader& header) {
-  header.pixels_at = start.at + pixels.value_at;
-  header.swapped_words = start.encoding.big_endian && header.format.bits_allocated == 8 && pixels.vr == "OW";
+void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader& header) {
   std::size_t frames = 1;
   for (const Plane& plane : header.planes) frames = std::max<std::size_t>(frames, plane.frame + 1);
+  const DcmXfer syntax(header.transfer_syntax.c_str());
   header.big_endian = syntax.getPixelDataByteOrder() == EBO_BigEndian;
+  header.swapped_words = header.big_endian && header.format.bits_allocated == 8 && pixels.vr == "OW";
+  header.pixels_at = header.start.deflated ? pixels.value_at : header.start.at + pixels.value_at;
+  const bool encapsulated = pixels.length == PixelElement::undefined_length;
+  if (encapsulated && !can_decode(header.transfer_syntax)) {
+    if (header.unfit.empty()) header.unfit = "its compression is unknown here: " + header.transfer_syntax;
+    return;
+  }
   try {
-    if (syntax.isEncapsulated()) {
+    if (encapsulated) {
       header.coding = PixelCoding::encapsulated;
-      if (!can_decode(header.transfer_syntax)) {
-        if (header.unfit.empty())
-          header.unfit = std::string("its compression is unknown here: ") + syntax.getXferName();
-        return;
-      }
       header.fragments = find_fragments(file, header.pixels_at, frames);
       check_density(header.transfer_syntax, header.format, frames, file.size());
-    } else if (syntax.getStreamCompression() != ESC_none) {
+    } else if (header.start.deflated) {
       header.coding = PixelCoding::deflated;
       check_density(header.transfer_syntax, header.format, frames, file.size());
+    } else if (can_decode(header.transfer_syntax)) {
+      header.defect = "damaged: its pixels are not compressed as it says";
     } else {
       check_native_length(file, frames, pixels, header);
     }
@@ -165,26 +166,21 @@ std::optional<Placement> make_placement(const std::vector<double>& position, con
 }
 
 FileHeader read_file_header(const std::filesystem::path& path) {
-  const InputFile input(path);
-  const DatasetStart start = find_dataset(input);
-  DcmFileFormat file;
-  const auto pixels = parse_header(input, path, start, file);
-  DcmDataset& dataset = *file.getDataset();
-
+  const InputFile file(path);
   FileHeader header;
   header.path = path;
-  read_identity(dataset, header);
-  if (header.sop_class == UID_MediaStorageDirectoryStorage ||
-      text_of(*file.getMetaInfo(), DCM_MediaStorageSOPClassUID) == UID_MediaStorageDirectoryStorage) {
+  header.start = find_dataset(file);
+  header.transfer_syntax = header.start.transfer_syntax;
+  DcmDataset dataset;
+  const auto pixels = parse_header(file, path, header.start, dataset);
+  if (dataset.tagExists(DCM_DirectoryRecordSequence)) {
     throw DicomError("DICOMDIR: an index; the files themselves are looked at");
   }
+  read_identity(dataset, header);
   read_format(dataset, header);
   if (!pixels) throw DicomError(what_it_is(header) + ": no pixels in it");
-
-  const DcmXfer syntax(dataset.getOriginalXfer());
-  header.transfer_syntax = syntax.getXferID();
   read_planes(dataset, header);
-  locate_pixels(input, start, *pixels, syntax, header);
+  locate_pixels(file, *pixels, header);
   return header;
 }
 

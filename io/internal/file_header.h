@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "palpate/io/geometry.h"
+#include "palpate/io/internal/dataset.h"
 #include "palpate/io/internal/fragments.h"
 #include "palpate/io/series.h"
 
@@ -94,7 +95,8 @@ struct FileHeader {
   PixelCoding coding = PixelCoding::native;
   bool big_endian = false;
   bool swapped_words = false;                    ///< 8-bit pixels in big-endian 16-bit words
-  std::uint64_t pixels_at = 0;                   ///< where the pixel data's value starts in the file
+  DatasetStart start;                            ///< where the dataset is
+  std::uint64_t pixels_at = 0;                   ///< where the pixels are: in the file; of the inflated dataset
   std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
 
   std::vector<Plane> planes;

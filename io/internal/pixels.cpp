@@ -1,15 +1,11 @@
 #include "palpate/io/internal/pixels.h"
 
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dcdeftag.h>
-#include <dcmtk/dcmdata/dcfilefo.h>
-#include <dcmtk/dcmdata/dcistrmf.h>
-
 #include <algorithm>
 #include <bit>
 #include <vector>
 
 #include "palpate/io/errors.h"
+#include "palpate/io/internal/dataset.h"
 #include "palpate/io/internal/decode.h"
 
 namespace palpate::io::internal {
@@ -33,27 +29,11 @@ void clean_bits(const PixelFormat& format, std::span<std::uint16_t> values) {
   }
 }
 
-// Parses the header once more and goes on reading where DCMTK stopped, through its inflating filter: memory stays
-// bounded by what is asked for.
 void read_deflated(const FileHeader& header, std::uint64_t offset, std::span<std::byte> bytes) {
-  DcmFileFormat file;
-  DcmInputFileStream stream(OFFilename(header.path.c_str()));
-  file.transferInit();
-  const OFCondition read = file.readUntilTag(stream, EXS_Unknown, EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
-  file.transferEnd();
-  std::vector<char> passed(std::min<std::uint64_t>(offset, 1U << 16));
-  bool complete = read.good();
-  while (complete && offset > 0) {
-    const auto step = static_cast<offile_off_t>(std::min<std::uint64_t>(offset, passed.size()));
-    complete = stream.read(passed.data(), step) == step;
-    offset -= static_cast<std::uint64_t>(step);
+  const auto source = inflated(header.path, header.start);
+  if (!source->skip(header.pixels_at + offset) || source->read(bytes) != bytes.size()) {
+    throw DicomError("truncated: its deflated pixels end early");
   }
-  while (complete && !bytes.empty()) {
-    const offile_off_t got = stream.read(bytes.data(), static_cast<offile_off_t>(bytes.size()));
-    complete = got > 0;
-    if (complete) bytes = bytes.subspan(static_cast<std::size_t>(got));
-  }
-  if (!complete) throw DicomError("truncated: its compressed pixels end early");
 }
 
 void read_uncompressed(const FileHeader& header, const InputFile& file, std::uint64_t offset,

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t deepest = 64;             // structured reports, the deepest objects there are, stay below 20
 constexpr std::size_t most_disorder = 1000;     // elements behind one with a higher tag; the standard allows none
 constexpr std::size_t most_elements = 4000000;  // 100 for each of 40 000 frames
-constexpr std::uint32_t undefined_length = 0xFFFFFFFF;
+constexpr std::uint32_t undefined_length = PixelElement::undefined_length;
 constexpr std::uint32_t item_tag = 0xFFFEE000;
 constexpr std::uint32_t item_end = 0xFFFEE00D;
 constexpr std::uint32_t sequence_end = 0xFFFEE0DD;

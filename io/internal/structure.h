@@ -29,10 +29,11 @@ class ByteSource {
 
 /// The pixel data element of a dataset.
 struct PixelElement {
-  std::uint64_t header_end = 0;  ///< bytes of the dataset before the element
-  std::uint64_t value_at = 0;    ///< bytes of the dataset before its value
-  std::uint32_t length = 0;      ///< of its value, as claimed; 0xFFFFFFFF where encapsulated
-  std::string vr;                ///< empty where the dataset has none
+  static constexpr std::uint32_t undefined_length = 0xFFFFFFFF;  ///< compressed pixels, in fragments
+  std::uint64_t header_end = 0;                                  ///< bytes of the dataset before the element
+  std::uint64_t value_at = 0;                                    ///< bytes of the dataset before its value
+  std::uint32_t length = 0;                                      ///< of its value, as claimed
+  std::string vr;                                                ///< empty where the dataset has none
 };
 
 /// Walks over a dataset up to its pixel data without building anything; nothing where it has none. Throws DicomError
