@@ -135,12 +135,46 @@ bool is_near(const Placed& primitive, const Vec3& z) {
   return miss.length <= 1e-8 * (length_of(primitive.offset.hi()) + length_of(z));
 }
 
+// Between sticking and slipping, where friction rests for as long as the probe does, one attractor among the held pulls
+// with all its strength, within rounding, in the directions that the others leave free. There the forces are one point
+// of the force bodies, which share_out() approaches slowly; here they are known.
+bool let_slip(const Multipliers& state, const PlacedPrimitives& primitives, std::span<std::uint32_t> held,
+              const Vec3& wanted, std::span<Vec3> forces, Settled& slipped) {
+  const auto slips = std::find_if(held.begin(), held.end(), [&](std::uint32_t i) {
+    const Placed& primitive = state.primitives[i];
+    return primitive.type != PrimitiveType::plane && length_of(forces[i]) >= primitive.strength * (1 - 0x1p-30);
+  });
+  if (slips == held.end()) {
+    return false;
+  }
+  std::iter_swap(slips, held.end() - 1);
+  const std::span<std::uint32_t> others = held.first(held.size() - 1);
+  const Placed& attractor = state.primitives[held.back()];
+  FineVec3 z = fine(state.z);
+  const Flat rest = settle(primitives, others, z);
+  Vec3 pull = part_of(rest, wanted, true);
+  if (attractor.type == PrimitiveType::line) {
+    pull -= attractor.direction * glm::dot(attractor.direction, pull);
+  }
+  const double size = length_of(pull);
+  if (!(std::abs(size - attractor.strength) <= 0x1p-30 * size)) {
+    return false;
+  }
+  forces[held.back()] = pull * (attractor.strength / size);
+  share_out(state, rest, others, part_of(rest, wanted - forces[held.back()], false), forces);
+  Vec3 sum = state.pull;
+  for (std::size_t i = 0; i < state.primitives.size(); ++i) {
+    sum += state.primitives[i].type == PrimitiveType::directed_force ? Vec3{0} : forces[i];
+  }
+  slipped = settle_and_bound(primitives, state.stiffness, fine(sum / state.stiffness), forces);
+  return true;
+}
+
 }  // namespace
 
 Settled finish(const Multipliers& state, const PlacedPrimitives& primitives, std::span<std::uint32_t> held,
                std::span<Vec3> forces) {
   std::size_t count = 0;
-  bool curved = false;
   for (std::size_t i = 0; i < state.primitives.size(); ++i) {
     forces[i] = state.next[i];
     if (state.primitives[i].type == PrimitiveType::directed_force) {
@@ -148,8 +182,6 @@ Settled finish(const Multipliers& state, const PlacedPrimitives& primitives, std
     } else if (state.hold[i] == Hold::held || is_near(state.primitives[i], state.z)) {
       state.hold[i] = Hold::held;
       held[count++] = static_cast<std::uint32_t>(i);
-    } else {
-      curved = curved || state.primitives[i].type != PrimitiveType::plane;
     }
   }
   Settled settled{fine(state.z), {}};
@@ -173,6 +205,15 @@ Settled finish(const Multipliers& state, const PlacedPrimitives& primitives, std
     share_out(state, flat, held.first(count), -part_of(flat, missing, false), forces);
   }
   settled.bound = bound_at(primitives, state.stiffness, settled.z, flat, forces);
+  Settled slipped;
+  if (settled.bound.backward_error > 0x1p-50 * size_of(settled.z) &&
+      let_slip(state, primitives, held.first(count), -missing, forces, slipped)) {
+    if (slipped.bound.backward_error < settled.bound.backward_error) {
+      return slipped;
+    }
+    share_out(state, flat, held.first(count), -part_of(flat, missing, false), forces);
+    settled.bound = bound_at(primitives, state.stiffness, settled.z, flat, forces);
+  }
   return settled;
 }
 
