@@ -56,7 +56,8 @@ TEST(ForceLaw, pressing_on_a_rising_strength_follows_the_quasi_static_balance_wi
   for (const double speed : {0.001, 0.01, 0.05, 0.2}) {  // mm per frame of 1 ms
     Hand hand(scene_of({surface(tau)}), source);
     double expected = -8;
-    for (double probe = -8; probe < 6; probe += speed) {
+    for (int frame = 0; frame * speed < 14; ++frame) {
+      const double probe = -8 + frame * speed;
       hand.move_to(probe * inward);
       expected = std::max(expected, balance_mm(source, strength, probe, expected));
       if (expected > -0.1) {
