@@ -3,11 +3,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <vector>
+#include <memory>
 
-#include "palpate/io/volume.h"
+#include "palpate/io/volume_fields.h"
 #include "palpate/modes/internal/test_rig.h"
-#include "palpate/testdata/analytic.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::modes {
@@ -16,43 +15,13 @@ namespace {
 constexpr double radius_mm = 25.0;
 constexpr double k = 400.0;
 
-/// Voxels of 1 mm, trilinear: box-integrated values, and the gradient of the Gaussian-smoothed sphere.
-class GridSource : public io::FieldSource {
- public:
-  explicit GridSource(double noise)
-      : volume_(testdata::scan(testdata::make_sphere(radius_mm), testdata::make_geometry({}), {.noise = noise})) {
-    const testdata::AnalyticSource smooth(testdata::make_sphere(radius_mm), 2.0);
-    for (int z = 0; z < 64; ++z) {
-      for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x) {
-          gradients_.push_back(smooth.sample(volume_.geometry.to_patient({x, y, z}), io::FieldSet::gradient).gradient);
-        }
-      }
-    }
-  }
-  io::FieldSet available() const noexcept override { return io::FieldSet::value | io::FieldSet::gradient; }
-  io::Sample sample(const io::Vec3& position_mm, io::FieldSet) const noexcept override {
-    const io::Vec3 index = volume_.geometry.to_index(position_mm);
-    const glm::ivec3 low(glm::floor(index));
-    if (low.x < 0 || low.y < 0 || low.z < 0 || low.x > 62 || low.y > 62 || low.z > 62) {
-      return {};
-    }
-    const io::Vec3 part = index - io::Vec3(low);
-    io::Sample sample{.inside = true};
-    for (int corner = 0; corner < 8; ++corner) {
-      const int dx = corner & 1, dy = (corner >> 1) & 1, dz = corner >> 2;
-      const double weight =
-          (dx != 0 ? part.x : 1 - part.x) * (dy != 0 ? part.y : 1 - part.y) * (dz != 0 ? part.z : 1 - part.z);
-      sample.value += weight * volume_.value_at(low.x + dx, low.y + dy, low.z + dz);
-      sample.gradient += weight * gradients_[volume_.offset(low.x + dx, low.y + dy, low.z + dz)];
-    }
-    return sample;
-  }
-
- private:
-  io::Volume volume_;
-  std::vector<io::Vec3> gradients_;
-};
+/// Voxels of 1 mm at the default gradient scale, as a scanner would show the sphere.
+io::VolumeFields scanned_sphere() {
+  auto volume =
+      std::make_shared<const io::Volume>(testdata::scan(testdata::make_sphere(radius_mm), testdata::make_geometry({})));
+  const double scale_mm = io::default_gradient_scale_mm(volume->geometry);
+  return {std::move(volume), io::FieldSet::value | io::FieldSet::gradient, scale_mm};
+}
 
 struct Slide {
   double worst_degrees = 0;                      ///< of the force against the radial direction, beyond v dt / R
@@ -99,7 +68,7 @@ Slide slide(const io::FieldSource& source, double depth_mm, double speed_mm_per_
 }
 
 TEST(Sphere, voxels_of_1_mm_give_the_direction_within_1_degree_and_no_jump_of_force) {
-  const GridSource source(0);
+  const io::VolumeFields source = scanned_sphere();
   // From 1 mm on: what the felt radius varies by along the way (0.1 mm) is not little beside a shallower press.
   for (const double depth : {1.0, 2.0, 4.0}) {
     for (const double speed : {0.005, 0.05}) {
