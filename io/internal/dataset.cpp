@@ -167,22 +167,21 @@ std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const Da
 
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
                                          const DatasetStart& start, DcmDataset& dataset) {
-  std::optional<PixelElement> pixels;
+  DatasetShape shape;
   OFCondition read = EC_Normal;
   // The syntax is given, so that DCMTK never guesses another one than was checked.
   dataset.transferInit();
   if (start.deflated) {
-    pixels = find_pixels(*inflated(path, start), start.encoding);
+    shape = check_structure(*inflated(path, start), start.encoding);
     DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(start.at));
     read = dataset.readUntilTag(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
   } else {
     FileBytes bytes(file, start.at);
-    pixels = find_pixels(bytes, start.encoding);
-    const std::uint64_t length = pixels ? pixels->header_end : file.size() - start.at;
+    shape = check_structure(bytes, start.encoding);
     constexpr std::uint64_t longest = 1U << 28;  // five times the header of 10 000 enhanced frames
-    if (length > longest) throw DicomError(pixels ? "its header is larger than 256 MiB" : "no pixels in it");
+    if (shape.header_end > longest) throw DicomError("its header is larger than 256 MiB");
     // The pixels stay out: what DCMTK sees ends before them.
-    std::vector<std::byte> before(length);
+    std::vector<std::byte> before(shape.header_end);
     file.read(start.at, before);
     DcmInputBufferStream stream;
     stream.setBuffer(before.data(), static_cast<offile_off_t>(before.size()));
@@ -191,7 +190,7 @@ std::optional<PixelElement> parse_header(const InputFile& file, const std::files
   }
   dataset.transferEnd();
   if (read.bad()) throw DicomError(std::string("damaged header: ") + read.text());
-  return pixels;
+  return shape.pixels;
 }
 
 }  // namespace palpate::io::internal

@@ -36,10 +36,10 @@ class Walk {
  public:
   Walk(ByteSource& in, Encoding encoding) : in_(in) { levels_.push_back({Holds::elements, std::nullopt, encoding, 0}); }
 
-  std::optional<PixelElement> run() {
+  DatasetShape run() {
     while (step()) {
     }
-    return pixels_;
+    return shape_;
   }
 
  private:
@@ -97,7 +97,10 @@ class Walk {
     const std::uint64_t start = at_;
     std::array<std::byte, 4> raw{};
     const std::size_t got = take(raw);
-    if (got == 0 && levels_.size() == 1) return false;  // an object without pixels ends here
+    if (got == 0 && levels_.size() == 1) {  // an object without pixels ends here
+      shape_.header_end = start;
+      return false;
+    }
     if (got != raw.size()) throw DicomError("truncated in its header");
     const bool big_endian = levels_.back().encoding.big_endian;
     const std::uint32_t tag =
@@ -113,9 +116,10 @@ class Walk {
       return true;
     }
     if (levels_.size() == 1 && tag >= pixel_data) {
+      shape_.header_end = start;
       if (tag == pixel_data) {
         const Head is = head();
-        pixels_ = PixelElement{start, at_, is.length, is.vr};
+        shape_.pixels = PixelElement{at_, is.length, is.vr};
       }
       return false;
     }
@@ -168,12 +172,12 @@ class Walk {
   std::vector<Level> levels_;
   std::size_t elements_ = 0;
   std::size_t disorder_ = 0;
-  std::optional<PixelElement> pixels_;
+  DatasetShape shape_;
 };
 
 }  // namespace
 
-std::optional<PixelElement> find_pixels(ByteSource& dataset, Encoding encoding) {
+DatasetShape check_structure(ByteSource& dataset, Encoding encoding) {
   return Walk(dataset, encoding).run();
 }
 

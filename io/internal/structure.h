@@ -30,16 +30,20 @@ class ByteSource {
 /// The pixel data element of a dataset.
 struct PixelElement {
   static constexpr std::uint32_t undefined_length = 0xFFFFFFFF;  ///< compressed pixels, in fragments
-  std::uint64_t header_end = 0;                                  ///< bytes of the dataset before the element
   std::uint64_t value_at = 0;                                    ///< bytes of the dataset before its value
   std::uint32_t length = 0;                                      ///< of its value, as claimed
   std::string vr;                                                ///< empty where the dataset has none
 };
 
-/// Walks over a dataset up to its pixel data without building anything; nothing where it has none. Throws DicomError
-/// where a parser that does build would overflow its stack (sequences nested deeper than any object defined), run for
-/// hours (elements in no order, which is quadratic in DCMTK) or fill the memory (millions of elements), or where the
-/// bytes are no elements or end early.
-std::optional<PixelElement> find_pixels(ByteSource& dataset, Encoding encoding);
+struct DatasetShape {
+  std::uint64_t header_end = 0;  ///< bytes before the pixel data, or before whatever is behind its place, or all
+  std::optional<PixelElement> pixels;
+};
+
+/// Walks over a dataset up to the place of its pixel data without building anything. Throws DicomError where a parser
+/// that does build would overflow its stack (sequences nested deeper than any object defined), run for hours (elements
+/// in no order, which is quadratic in DCMTK) or fill the memory (millions of elements), or where the bytes are no
+/// elements or end early.
+DatasetShape check_structure(ByteSource& dataset, Encoding encoding);
 
 }  // namespace palpate::io::internal
