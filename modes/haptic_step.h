@@ -33,6 +33,9 @@ struct Plan;
 /// in.
 inline constexpr std::size_t most_primitives = 2 * Scene::most_modes * PrimitiveList::most_of_a_mode;
 
+/// Marks, in StepResult::mode_of, primitives of a scene that is being left.
+inline constexpr std::uint8_t of_scene_left = 0x80;
+
 /// What one frame hands to the next. Value-initialised: nothing has been touched, and the next frame starts in free
 /// space.
 struct Touch {
@@ -40,7 +43,10 @@ struct Touch {
   Vec3 probe_m{0};  ///< device's frame, of the last good frame
   Vec3 proxy_m{0};
   Vec3 force_n{0};
-  Contact contact;  ///< with the surface that holds the proxy
+  Contact contact;        ///< with the surface that holds the proxy
+  Workspace workspace;    ///< of the last frame: the proxy stays where it is in the patient when this changes
+  bool changing = false;  ///< whether the last frame was one of a change
+  Contact leaving;        ///< contact with the scene that is being left
 };
 
 /// Room for one frame. Large: allocate it with the session, not in the tick.
@@ -57,10 +63,11 @@ struct StepResult {
   Vec3 force_n{0};   ///< f = -k (probe - proxy), equation (1), before any safety filter; always finite
   Vec3 anchor_m{0};  ///< where all co-located primitives stood
   std::span<const solver::Primitive> primitives;
-  std::span<const Vec3> shares;           ///< N: each primitive's force on the proxy
-  std::span<const std::uint8_t> mode_of;  ///< for each primitive, its index in the scene's modes
-  io::Sample sample;                      ///< what was sampled, at the old proxy: only the plan's fields
-  Hold hold = Hold::none;                 ///< how the surfaces hold the proxy
+  std::span<const Vec3> shares;  ///< N: each primitive's force on the proxy
+  /// For each primitive, its index in the scene's modes; plus of_scene_left where it is one of the scene being left.
+  std::span<const std::uint8_t> mode_of;
+  io::Sample sample;       ///< what was sampled, at the old proxy: only the plan's fields
+  Hold hold = Hold::none;  ///< how the surfaces hold the proxy
   /// solved; capped: the best answer, with its true bound; refused or unsuitable: a fault, whose proxy and force are
   /// those of the last good frame, for the safety filter to bring to zero.
   solver::Outcome outcome = solver::Outcome::solved;
@@ -71,9 +78,29 @@ struct StepResult {
   int capped = 0;  ///< sub-steps that hit a solver's cap
 };
 
+/// A scene on its data.
+struct Scenery {
+  const Plan* plan = nullptr;
+  const io::FieldSource* source = nullptr;
+};
+
+/// A change of scene, scan, time frame or workspace on its way. Both sceneries act, each sampled once a sub-step at the
+/// proxy, with their strengths weighted (1 - part) and part; stiffness and workspace go from one to the other. So
+/// whatever the change, the force follows the ramp and never steps, and the proxy moves with the data.
+struct Change {
+  Scenery from;
+  Scenery to;
+  double part = 0;  ///< 0 to 1, never less than in the frame before; at 1 the next frame steps `to` alone
+};
+
 /// In the tick: does not allocate, lock, log or throw. A probe that is not finite is refused (outcome), and touch stays
 /// as it was.
 StepResult step(const Plan& plan, const io::FieldSource& source, const Vec3& probe_m, Touch& touch,
                 solver::Chain& chain, StepScratch& scratch) noexcept;
+
+/// A frame of a change. One change at a time: the next begins when this has ended. The chain has to hold the exact
+/// solver, for two scenes together can need it where neither does alone.
+StepResult step(const Change& change, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
+                StepScratch& scratch) noexcept;
 
 }  // namespace palpate::modes

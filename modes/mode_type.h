@@ -75,6 +75,8 @@ class PrimitiveList {
   PrimitiveList(std::span<solver::Primitive> room, std::span<std::uint8_t> mode_of) noexcept
       : room_(room), mode_of_(mode_of) {}
   void set_mode(std::uint8_t mode) noexcept { mode_ = mode; }
+  /// Multiplies the strength of what is added from here on.
+  void set_weight(double weight) noexcept { weight_ = weight; }
   /// Left out where the strength is zero; a mode leaves out itself what has no direction.
   void add(const solver::Primitive& primitive) noexcept;
   std::size_t size() const noexcept { return size_; }
@@ -84,6 +86,7 @@ class PrimitiveList {
   std::span<std::uint8_t> mode_of_;
   std::size_t size_ = 0;
   std::uint8_t mode_ = 0;
+  double weight_ = 1;
 };
 
 /// A type of mode: constant data and functions.

@@ -26,6 +26,11 @@ struct Workspace {
   /// Rotates a direction of patient space into the device's frame; lengths are kept.
   Vec3 direction_to_device(const Vec3& direction) const noexcept { return glm::transpose(rotation) * direction; }
   Vec3 direction_to_patient(const Vec3& direction) const noexcept { return rotation * direction; }
+
+  bool operator==(const Workspace&) const = default;
 };
+
+/// On the way from one workspace to another, `part` 0 to 1: exactly those at the ends. In the tick.
+Workspace between(const Workspace& from, const Workspace& to, double part) noexcept;
 
 }  // namespace palpate::modes
