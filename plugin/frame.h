@@ -9,8 +9,8 @@
 namespace palpate::plugin {
 
 /// Where a tick's time went, in this order.
-enum class Stage : std::uint8_t { read, step, filter, write };
-constexpr std::size_t stage_count = 4;
+enum class Stage : std::uint8_t { read, step, filter, write, observe };
+constexpr std::size_t stage_count = 5;
 
 /// What one primitive did to the proxy. Device frame.
 struct Share {
@@ -40,10 +40,11 @@ struct Frame {
   std::uint32_t outcome = 0;  ///< solver::Outcome of the last sub-step
   std::uint32_t safety = 0;   ///< the safety filter's state and cause
   std::uint32_t share_count = 0;
-  std::uint32_t buttons = 0;                 ///< of the stylus, as a bit mask
+  std::uint32_t buttons = 0;     ///< of the stylus, as a bit mask
+  std::uint32_t from_brick = 0;  ///< 1: the last sub-step's gradient was ready; 0: it was computed at the sample
   std::uint32_t stage_ns[stage_count] = {};  ///< the only fields that depend on the clock
 };
-static_assert(sizeof(Frame) == 8 + 17 * 8 + (8 + stage_count) * 4,
+static_assert(sizeof(Frame) == 8 + 17 * 8 + (9 + stage_count) * 4,
               "no padding: frames are compared and written as bytes");
 
 }  // namespace palpate::plugin

@@ -88,6 +88,7 @@ Handle frame_type() {
                             {"safety", offsetof(Frame, safety), u32},
                             {"share_count", offsetof(Frame, share_count), u32},
                             {"buttons", offsetof(Frame, buttons), u32},
+                            {"from_brick", offsetof(Frame, from_brick), u32},
                             {"stage_ns", offsetof(Frame, stage_ns), u32, stage_count}};
   return make_row_type(sizeof(Frame), members);
 }

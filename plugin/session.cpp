@@ -100,6 +100,7 @@ const Frame& Session::tick() noexcept {
   frame_.outcome = static_cast<std::uint32_t>(result.outcome);
   frame_.safety = pack_safety(safe.state, safe.fault);
   frame_.buttons = reading.buttons;
+  frame_.from_brick = result.sample.from_brick ? 1 : 0;
   frame_.share_count = static_cast<std::uint32_t>(result.primitives.size());
   glm::dvec3 balance = -result.force_n;
   for (std::size_t n = 0; n < result.primitives.size(); ++n) {
@@ -111,6 +112,7 @@ const Frame& Session::tick() noexcept {
     balance += result.shares[n];
   }
   frame_.residual_n = glm::length(balance);
+  timer.finish(Stage::observe);
   return frame_;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "palpate/device/simulated_stylus.h"
 #include "palpate/modes/scene_json.h"
 #include "palpate/testdata/analytic.h"
+#include "palpate/testdata/flow.h"
 
 namespace palpate::plugin {
 namespace {
@@ -91,6 +93,42 @@ TEST(Session, ReplayedPosesGiveTheSameForces) {
   }
   device::ReplayStylus stylus(readings, device::SimulatedStylus().specification());
   EXPECT_TRUE(same_but_for_time_taken(recorded, run(stylus, recorded.size())));
+}
+
+/// Section 5 of the paper: follow and force on the flow stay analytical; with a surface on the pressure the general
+/// solver takes over where they are oblique, and the frames show which.
+TEST(Session, TheWindTunnelsFramesShowTheSolver) {
+  const auto flow = std::make_shared<testdata::FlowSource>(testdata::FlowPastSphere{});
+  const auto solvers_of = [&](const modes::Scene& scene) {
+    modes::Workspace workspace;
+    workspace.center_mm = {0, -26, 0};  // beside the sphere of 20 mm
+    const auto plan = std::make_shared<const modes::Plan>(modes::make_plan(scene, flow->available(), workspace));
+    device::SimulatedStylus stylus;
+    stylus.follow(std::vector<device::Waypoint>{{.time = 0, .position = {-0.03, 0.004, 0}},
+                                                {.time = 2, .position = {0.03, 0.002, 0.004}},
+                                                {.time = 4, .position = {-0.03, -0.004, 0.006}}});
+    Session session(plan, flow, stylus, limits_for(scene.limits, stylus.specification()));
+    std::array<int, 4> count{};
+    for (int n = 0; n < 4000; ++n) {
+      const Frame& frame = session.tick();
+      // Solved, or the best answer at the cap on work: either way certified, to less than the device's position step.
+      EXPECT_LT(frame.error_bound_m, 0.02e-3) << n;
+      ++count[frame.solver];
+    }
+    return count;
+  };
+  const auto analytical = static_cast<std::size_t>(solver::SolverKind::analytical);
+  const auto exact = static_cast<std::size_t>(solver::SolverKind::exact);
+  modes::Scene scene = modes::load_scene("flow");
+  EXPECT_EQ(solvers_of(scene)[analytical], 4000);
+  const modes::Scene with_surface = modes::scene_from_json(
+      R"({"version": 1, "modes": [{"type": "surface", "side": "both",
+          "strength_n": {"of": "gradient_per_mm", "nodes": [[0, 0], [0.02, 1]]}}]})",
+      "surface");
+  scene.modes.push_back(with_surface.modes.front());
+  const auto count = solvers_of(scene);
+  EXPECT_GT(count[exact], 0);
+  EXPECT_EQ(count[analytical] + count[exact], 4000);
 }
 
 TEST(Session, APoseThatIsNotANumberLetsGo) {
