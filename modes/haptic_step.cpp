@@ -142,7 +142,7 @@ StepResult sub_step(const Setting& setting, const Vec3& probe_m, Touch& touch, s
 void name_scene_modes(const Setting& setting, std::span<std::uint8_t> mode_of) {
   for (std::uint8_t& mode : mode_of) {
     const auto mark = static_cast<std::uint8_t>(mode & of_scene_left);
-    const Plan& plan = mark != 0 ? *setting.from.plan : *setting.to.plan;
+    const Plan& plan = mark != 0 && setting.from.plan != nullptr ? *setting.from.plan : *setting.to.plan;
     mode = static_cast<std::uint8_t>(plan.modes[mode & (of_scene_left - 1U)].scene_index | mark);
   }
 }

@@ -17,7 +17,7 @@ namespace {
 void step_through(benchmark::State& state, const Scene& scene, const io::FieldSource& source) {
   testing::Hand hand(scene, source);
   double t = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     t += 0.05;
     hand.move_to({3 * std::sin(0.02 * t), 0, 25 + 2 * std::sin(0.4 * t)});
     benchmark::DoNotOptimize(hand.result.force_n);
@@ -51,7 +51,7 @@ BENCHMARK(surfaces)->RangeMultiplier(2)->Range(1, 8);
 void sampling_alone(benchmark::State& state) {
   const testdata::AnalyticSource source(testdata::make_sphere(25), 1.0);
   double t = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     t += 0.05;
     benchmark::DoNotOptimize(source.sample({3 * std::sin(0.02 * t), 0, 25 + 2 * std::sin(0.4 * t)},
                                            io::FieldSet::value | io::FieldSet::gradient));
