@@ -1,7 +1,5 @@
 #include "palpate/io/load.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <cstring>
 #include <functional>
@@ -52,28 +50,14 @@ Storage storage_for(const SeriesSource& source, const Slices& slices) {
   return any_large ? Storage::as_float : Storage::as_signed;
 }
 
-// In large pages, where the system gives them: most of the time of a load goes into the faults of small ones.
-template <typename Voxel>
-std::vector<Voxel> in_large_pages(std::size_t count) {
-  std::vector<Voxel> voxels;
-  voxels.reserve(count);
-  constexpr std::uintptr_t page = 1U << 21;
-  const auto first = (reinterpret_cast<std::uintptr_t>(voxels.data()) + page - 1) / page * page;
-  const auto end = (reinterpret_cast<std::uintptr_t>(voxels.data()) + count * sizeof(Voxel)) / page * page;
-  if (first < end)
-    ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);  // NOLINT(performance-no-int-to-ptr)
-  voxels.resize(count);
-  return voxels;
-}
-
 Volume::Voxels allocate(Storage storage, std::size_t count) {
   switch (storage) {
     case Storage::as_signed:
-      return in_large_pages<std::int16_t>(count);
+      return std::vector<std::int16_t>(count);
     case Storage::as_unsigned:
-      return in_large_pages<std::uint16_t>(count);
+      return std::vector<std::uint16_t>(count);
     default:
-      return in_large_pages<float>(count);
+      return std::vector<float>(count);
   }
 }
 
