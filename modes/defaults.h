@@ -26,7 +26,7 @@ inline constexpr double workspace_scale = 1.0;
 /// Largest correction in a sub-step.
 inline constexpr double anchor_step_mm = 0.1;
 /// Travel over which a held level returns to the sampled value: long beside a voxel, whose interpolation shall not be
-/// felt. felt.
+/// felt.
 inline constexpr double level_length_mm = 20.0;
 /// Farthest iso-surface that it is drawn to.
 inline constexpr double level_reach_mm = 1.0;
@@ -35,6 +35,10 @@ inline constexpr double level_reach_mm = 1.0;
 // frame.
 inline constexpr double sub_step_mm = 0.1;
 inline constexpr int most_sub_steps = 8;
+/// Farthest that the proxy jumps unsampled when a surface gives way, mm of patient: thin beside a boundary that a CT
+/// can show. And the most halts of a frame.
+inline constexpr double proxy_step_mm = 0.25;
+inline constexpr int most_halts = 16;
 
 /// The simulated device: like a Desktop PHANTOM. One definition that every study shares.
 struct SimulatedDevice {

@@ -155,6 +155,17 @@ void follow_workspace(const Workspace& workspace, Touch& touch) {
   }
 }
 
+/// Brings a proxy that has jumped farther than the step back to where it has gone that far.
+bool halt(const Vec3& old_proxy_m, double step_m, Touch& touch) {
+  const Vec3 jump = touch.proxy_m - old_proxy_m;
+  const double length = glm::length(jump);
+  if (length <= step_m) {
+    return false;
+  }
+  touch.proxy_m = old_proxy_m + jump * (step_m / length);
+  return true;
+}
+
 StepResult step_setting(const Setting& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
                         StepScratch& scratch) {
   StepResult result;
@@ -176,18 +187,27 @@ StepResult step_setting(const Setting& setting, const Vec3& probe_m, Touch& touc
   const double wanted = std::ceil(travel_mm / subdivision.step_mm);
   const int sub_steps = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(subdivision.most)));
   int capped = 0;
-  for (int i = 1; i <= sub_steps; ++i) {
+  int halts = 0;
+  for (int i = 1; i <= sub_steps;) {
     const Vec3 probe = i == sub_steps ? probe_m : from + (probe_m - from) * (static_cast<double>(i) / sub_steps);
+    const Vec3 old_proxy = touch.proxy_m;
     result = sub_step(setting, probe, touch, chain, scratch);
     capped += result.outcome == solver::Outcome::capped ? 1 : 0;
     if (!is_answer(result.outcome)) {
       break;
+    }
+    if (halts < subdivision.most_halts &&
+        halt(old_proxy, subdivision.proxy_step_mm / setting.workspace.mm_per_m, touch)) {
+      ++halts;
+    } else {
+      ++i;
     }
   }
   name_scene_modes(setting, std::span(scratch.mode_of).first(result.mode_of.size()));
   result.proxy_m = touch.proxy_m;
   result.force_n = touch.force_n;
   result.sub_steps = sub_steps;
+  result.halts = halts;
   result.capped = capped;
   return result;
 }

@@ -8,6 +8,12 @@
 /// travelled more than Subdivision::step_mm, the frame is cut into sub-steps at evenly spaced probe positions, each
 /// sampled, placed and solved in full; their number comes from the travel alone, never from the clock, so that a
 /// session can be replayed.
+///
+/// The proxy can jump where the probe does not: when a surface gives way it is up to s / k from the probe, 2.5 mm for
+/// 1 N at 400 N/m, and would pass a thin tissue, or the edge of the next one, in one frame. So a sub-step that would
+/// carry it farther than Subdivision::proxy_step_mm halts it on the way, and is sampled, placed and solved again there,
+/// at the same probe position; the last halt of a frame (most_halts) lets it go. Every frame still ends in a balance
+/// that is solved in full, and where no surface gives way there is no halt.
 
 #include <array>
 #include <cstddef>
@@ -56,7 +62,7 @@ struct StepScratch {
   std::array<Vec3, most_primitives> shares;
 };
 
-/// Of the last sub-step, but for sub_steps, worst and capped, which are over all of them. Vectors in the device's
+/// Of the last sub-step, but for sub_steps, halts and capped, which count over all of them. Vectors in the device's
 /// frame. Spans view the scratch: good until the next step.
 struct StepResult {
   Vec3 proxy_m{0};
@@ -74,8 +80,9 @@ struct StepResult {
   solver::SolverKind solver = solver::SolverKind::none;
   int iterations = 0;      ///< of the solver
   double error_bound = 0;  ///< m
-  int sub_steps = 1;
-  int capped = 0;  ///< sub-steps that hit a solver's cap
+  int sub_steps = 1;       ///< of the probe
+  int halts = 0;           ///< of the proxy
+  int capped = 0;          ///< sub-steps that hit a solver's cap
 };
 
 /// A scene on its data.

@@ -91,7 +91,45 @@ TEST(HapticStep, samples_once_a_sub_step_and_only_what_the_plan_reads) {
     ball.samples = 0;
     const Vec3 from = fine.plan.workspace.to_patient(fine.touch.probe_m);
     EXPECT_EQ(fine.move_to(from - Vec3(0, 0, travel)).sub_steps, expected) << travel;
-    EXPECT_EQ(ball.samples, expected);
+    EXPECT_EQ(ball.samples, expected + fine.result.halts);
+  }
+}
+
+/// Two membranes across z, 1.5 mm apart, each a 1 mm rise and fall of the value: the second lies within the jump that
+/// the first one's strength stores in the spring.
+class Membranes : public io::FieldSource {
+ public:
+  io::FieldSet available() const noexcept override { return io::FieldSet::value | io::FieldSet::gradient; }
+  io::Sample sample(const io::Vec3& p, io::FieldSet) const noexcept override {
+    io::Sample sample;
+    sample.inside = true;
+    for (const auto& [z, height] : {std::pair{0.0, 1.0}, {-1.5, 2.0}}) {
+      const double bump = height * std::exp(-(p.z - z) * (p.z - z) / 0.08);
+      sample.value += bump;
+      sample.gradient.z -= 2 * (p.z - z) / 0.08 * bump;
+    }
+    return sample;
+  }
+};
+
+TEST(HapticStep, a_surface_that_gives_way_does_not_carry_the_proxy_past_the_next) {
+  const Membranes membranes;
+  Scene scene = scene_of({surface(TransferFunction({{0.1, 0}, {1, 1}, {2, 2.5}}), Datum::value)}, 8);
+  for (const int most_halts : {16, 0}) {
+    scene.subdivision.most_halts = most_halts;
+    Hand hand(scene, membranes);
+    // The first gives way at 1 N, 2.5 mm deep; what it lets go of would pass the second, which holds 2.5 N.
+    hand.stroke({0, 0, 3}, {0, 0, -3.5}, 4000);
+    if (most_halts > 0) {
+      EXPECT_GT(hand.proxy_mm().z, -1.5);
+      EXPECT_EQ(hand.result.hold, Hold::held);
+    } else {
+      EXPECT_LT(hand.proxy_mm().z, -2.0) << "without halts the second is missed: else this test shows nothing";
+    }
+    // At rest nothing moves, so nothing is halted.
+    hand.move_to({0, 0, -3.5});
+    hand.move_to({0, 0, -3.5});
+    EXPECT_EQ(hand.result.halts, 0);
   }
 }
 

@@ -146,6 +146,10 @@ void validate(const Scene& scene) {
     refuse("solvers", "all are switched off");
   }
   check_positive("subdivision.step_mm", scene.subdivision.step_mm, "mm of patient");
+  check_positive("subdivision.proxy_step_mm", scene.subdivision.proxy_step_mm, "mm of patient");
+  if (scene.subdivision.most_halts < 0 || scene.subdivision.most_halts > 1000) {
+    refuse("subdivision.most_halts", std::to_string(scene.subdivision.most_halts) + " is not between 0 and 1000");
+  }
   if (scene.subdivision.most < 1 || scene.subdivision.most > 1000) {
     refuse("subdivision.most", std::to_string(scene.subdivision.most) + " is not between 1 and 1000");
   }

@@ -86,8 +86,10 @@ struct SolverSwitches {
 
 /// A frame is cut into as many sub-steps as the probe's travel needs (haptic_step.h).
 struct Subdivision {
-  double step_mm = defaults::sub_step_mm;  ///< probe travel of one sub-step, mm of patient
-  int most = defaults::most_sub_steps;     ///< 1: never subdivided
+  double step_mm = defaults::sub_step_mm;          ///< probe travel of one sub-step, mm of patient
+  int most = defaults::most_sub_steps;             ///< 1: never subdivided
+  double proxy_step_mm = defaults::proxy_step_mm;  ///< farther jumps of the proxy are halted on the way, mm of patient
+  int most_halts = defaults::most_halts;           ///< 0: never halted
 };
 
 /// Where the scan meets the hand: settings, from which place_workspace() makes a Workspace for a scan.

@@ -177,6 +177,8 @@ Subdivision read_subdivision(const At& at) {
   Subdivision subdivision;
   members.optional("step_mm", subdivision.step_mm, number);
   members.optional("most", subdivision.most, integer);
+  members.optional("proxy_step_mm", subdivision.proxy_step_mm, number);
+  members.optional("most_halts", subdivision.most_halts, integer);
   members.done();
   return subdivision;
 }

@@ -115,7 +115,10 @@ Json json_of(const Scene& scene) {
   json["workspace"] = json_of(scene.workspace);
   json["solvers"] = {
       {"analytical", scene.solvers.analytical}, {"exact", scene.solvers.exact}, {"descent", scene.solvers.descent}};
-  json["subdivision"] = {{"step_mm", scene.subdivision.step_mm}, {"most", scene.subdivision.most}};
+  json["subdivision"] = {{"step_mm", scene.subdivision.step_mm},
+                         {"most", scene.subdivision.most},
+                         {"proxy_step_mm", scene.subdivision.proxy_step_mm},
+                         {"most_halts", scene.subdivision.most_halts}};
   if (scene.gradient_scale_mm) {
     json["gradient_scale_mm"] = *scene.gradient_scale_mm;
   }
