@@ -45,10 +45,12 @@ struct Placed {
 };
 
 Placed place(const Scenery& scenery, double weight, std::uint8_t mark, const Workspace& workspace, const Vec3& proxy_m,
-             Contact& contact, PrimitiveList& list) {
+             Contact& contact, PrimitiveList& list, StepScratch& scratch) {
   const Plan& plan = *scenery.plan;
   const Vec3 place_mm = workspace.to_patient(proxy_m);
+  scratch.watch.lap(scratch.times.map);
   Placed placed{.sample = scenery.source->sample(place_mm, plan.fields), .anchor_m = proxy_m, .first = list.size()};
+  scratch.watch.lap(scratch.times.sample);
   io::Sample felt = placed.sample;
   if (plan.holds_iso_surface && felt.inside) {
     follow_level(felt, place_mm, contact);
@@ -66,6 +68,7 @@ Placed place(const Scenery& scenery, double weight, std::uint8_t mark, const Wor
     }
   }
   placed.end = list.size();
+  scratch.watch.lap(scratch.times.modes);
   return placed;
 }
 
@@ -120,16 +123,19 @@ StepResult sub_step(const Setting& setting, const Vec3& probe_m, Touch& touch, s
                     StepScratch& scratch) {
   StepResult result;
   PrimitiveList list(scratch.primitives, scratch.mode_of);
-  const Placed to = place(setting.to, setting.part, 0, setting.workspace, touch.proxy_m, touch.contact, list);
+  const Placed to = place(setting.to, setting.part, 0, setting.workspace, touch.proxy_m, touch.contact, list, scratch);
   Placed from;
   if (setting.from.plan != nullptr) {
-    from = place(setting.from, 1 - setting.part, of_scene_left, setting.workspace, touch.proxy_m, touch.leaving, list);
+    from = place(setting.from, 1 - setting.part, of_scene_left, setting.workspace, touch.proxy_m, touch.leaving, list,
+                 scratch);
   }
   result.sample = to.sample;
   result.anchor_m = to.anchor_m;
   result.primitives = std::span(scratch.primitives).first(list.size());
   result.mode_of = std::span(scratch.mode_of).first(list.size());
-  if (solve(setting, probe_m, std::span(scratch.shares).first(list.size()), chain, touch, result)) {
+  const bool solved = solve(setting, probe_m, std::span(scratch.shares).first(list.size()), chain, touch, result);
+  scratch.watch.lap(scratch.times.solve);
+  if (solved) {
     result.hold = touch.contact.hold = hold_of(to, *setting.to.plan, result, touch.proxy_m);
     if (setting.from.plan != nullptr) {
       touch.leaving.hold = hold_of(from, *setting.from.plan, result, touch.proxy_m);
@@ -168,6 +174,8 @@ bool halt(const Vec3& old_proxy_m, double step_m, Touch& touch) {
 
 StepResult step_setting(const Setting& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
                         StepScratch& scratch) {
+  scratch.times = {};
+  scratch.watch.start();
   StepResult result;
   if (!is_finite(probe_m)) {
     result.outcome = solver::Outcome::refused;
@@ -204,6 +212,7 @@ StepResult step_setting(const Setting& setting, const Vec3& probe_m, Touch& touc
     }
   }
   name_scene_modes(setting, std::span(scratch.mode_of).first(result.mode_of.size()));
+  scratch.watch.lap(scratch.times.modes);
   result.proxy_m = touch.proxy_m;
   result.force_n = touch.force_n;
   result.sub_steps = sub_steps;

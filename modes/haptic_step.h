@@ -24,6 +24,7 @@
 #include "palpate/modes/anchor.h"
 #include "palpate/modes/mode_type.h"
 #include "palpate/modes/scene.h"
+#include "palpate/modes/stopwatch.h"
 #include "palpate/solver/primitive.h"
 #include "palpate/solver/solution.h"
 
@@ -60,6 +61,8 @@ struct StepScratch {
   std::array<solver::Primitive, most_primitives> primitives;
   std::array<std::uint8_t, most_primitives> mode_of;
   std::array<Vec3, most_primitives> shares;
+  Stopwatch watch;
+  StepTimes times;  ///< of the last step
 };
 
 /// Of the last sub-step, but for sub_steps, halts and capped, which count over all of them. Vectors in the device's

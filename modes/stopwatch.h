@@ -1,0 +1,50 @@
+#pragma once
+
+/// Where the time of a frame goes, counted so cheaply that every frame can be. Read, never acted upon: a replay gives
+/// the same forces.
+
+#include <cstdint>
+
+#if !defined(__x86_64__)
+#include <chrono>
+#endif
+
+namespace palpate::modes {
+
+/// A count that grows evenly with time, in a unit of its own: counts_per_ns() tells.
+inline std::uint64_t clock_count() noexcept {
+#if defined(__x86_64__)
+  // The processor's time stamp: a quarter of the cost of std::chrono's clocks, which would be a tenth of a frame.
+  return __builtin_ia32_rdtsc();
+#else
+  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
+#endif
+}
+
+/// Measured against the system's clock when first asked for, which takes some milliseconds: ask before the first tick.
+double counts_per_ns();
+
+/// Counts that each part of a step took, all sub-steps together.
+struct StepTimes {
+  std::uint64_t map = 0;     ///< between the device's frame and the patient
+  std::uint64_t sample = 0;  ///< of the fields
+  std::uint64_t modes = 0;   ///< placing primitives
+  std::uint64_t solve = 0;   ///< the balance
+};
+
+/// Splits the time between its laps.
+class Stopwatch {
+ public:
+  void start() noexcept { last_ = clock_count(); }
+  /// Adds the time since start() or the last lap.
+  void lap(std::uint64_t& part) noexcept {
+    const std::uint64_t now = clock_count();
+    part += now - last_;
+    last_ = now;
+  }
+
+ private:
+  std::uint64_t last_ = 0;
+};
+
+}  // namespace palpate::modes
