@@ -40,6 +40,7 @@ void read_all(const std::filesystem::path& path) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // A file in memory: the reader takes paths.
   const int file = ::memfd_create("fuzz", MFD_CLOEXEC);
