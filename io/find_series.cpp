@@ -8,6 +8,7 @@
 #include "palpate/io/internal/file_header.h"
 #include "palpate/io/internal/grouping.h"
 #include "palpate/io/internal/parallel.h"
+#include "palpate/io/internal/velocity.h"
 #include "palpate/io/series.h"
 
 namespace palpate::io {
@@ -66,6 +67,7 @@ Catalogue find_series(std::span<const fs::path> paths, const Progress& progress)
   }
   catalogue.series = internal::group_into_series(std::move(images), catalogue.skipped);
   std::stable_partition(catalogue.series.begin(), catalogue.series.end(), [](const Series& s) { return s.usable; });
+  catalogue.velocity_fields = internal::join_velocities(catalogue.series);
   std::sort(catalogue.skipped.begin(), catalogue.skipped.end(),
             [](const SkippedFile& a, const SkippedFile& b) { return a.path < b.path; });
   return catalogue;

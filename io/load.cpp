@@ -16,33 +16,51 @@
 #include "palpate/io/internal/pixels.h"
 #include "palpate/io/internal/series_source.h"
 #include "palpate/io/internal/stacking.h"
+#include "palpate/io/internal/velocity.h"
 
 namespace palpate::io {
 namespace {
 
 using Slices = std::vector<SeriesSource::Slice>;
 
+/// What is to be read: the rescaled values of a frame, or the velocities (m/s) that they stand for.
+struct Reading {
+  const SeriesSource& source;
+  const SeriesSource::Frame& frame;
+  bool as_velocity = false;
+
+  struct Rescale {
+    double slope = 1;
+    double intercept = 0;
+    bool operator==(const Rescale&) const = default;
+  };
+  Rescale rescale_of(const SeriesSource::Slice& slice) const {
+    const internal::Plane& plane = source.plane_of(slice);
+    if (as_velocity) return {plane.velocity->slope, plane.velocity->intercept};
+    return {plane.slope, plane.intercept};
+  }
+};
+
 std::string name_of(const Series& series) {
   return "series " + series.uid + (series.description.empty() ? "" : " (" + series.description + ")");
 }
 
-bool one_rescale(const SeriesSource& source, const Slices& slices) {
-  const internal::Plane& first = source.plane_of(slices.front());
+bool one_rescale(const Reading& reading) {
+  const Slices& slices = reading.frame.slices;
   return std::all_of(slices.begin(), slices.end(), [&](const SeriesSource::Slice& slice) {
-    const internal::Plane& plane = source.plane_of(slice);
-    return plane.slope == first.slope && plane.intercept == first.intercept &&
-           source.file_of(slice).padding == source.file_of(slices.front()).padding;
+    return reading.rescale_of(slice) == reading.rescale_of(slices.front()) &&
+           reading.source.file_of(slice).padding == reading.source.file_of(slices.front()).padding;
   });
 }
 
 enum class Storage { as_signed, as_unsigned, as_float };
 
-Storage storage_for(const SeriesSource& source, const Slices& slices) {
-  if (!one_rescale(source, slices)) return Storage::as_float;
+Storage storage_for(const Reading& reading) {
+  if (!one_rescale(reading)) return Storage::as_float;
   bool any_signed = false;
   bool any_large = false;
-  for (const auto& slice : slices) {
-    const internal::PixelFormat& format = source.file_of(slice).format;
+  for (const auto& slice : reading.frame.slices) {
+    const internal::PixelFormat& format = reading.source.file_of(slice).format;
     any_signed |= format.is_signed;
     any_large |= !format.is_signed && format.bits_stored == 16;
   }
@@ -64,20 +82,20 @@ Volume::Voxels allocate(Storage storage, std::size_t count) {
 // Padding of a volume of floats: far below any value, so that one range holds for slices of any rescale.
 constexpr float float_padding = std::numeric_limits<float>::lowest();
 
-void rescale(const internal::FileHeader& file, const internal::Plane& plane, std::span<const std::uint16_t> stored,
+void rescale(const internal::FileHeader& file, const Reading::Rescale& by, std::span<const std::uint16_t> stored,
              std::span<float> values) {
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const double v = file.format.is_signed ? static_cast<std::int16_t>(stored[i]) : stored[i];
     const bool padded = file.padding && v >= file.padding->first && v <= file.padding->second;
-    values[i] = padded ? float_padding : static_cast<float>(plane.slope * v + plane.intercept);
+    values[i] = padded ? float_padding : static_cast<float>(by.slope * v + by.intercept);
   }
 }
 
 // Stored values of a slice -> its place in the volume, rescaled where the volume is of floats.
-void place_slice(const SeriesSource& source, const SeriesSource::Slice& slice, std::span<const std::uint16_t> frame,
+void place_slice(const Reading& reading, const SeriesSource::Slice& slice, std::span<const std::uint16_t> frame,
                  std::size_t at, Volume::Voxels& voxels) {
-  const internal::FileHeader& file = source.file_of(slice);
-  const internal::Plane& plane = source.plane_of(slice);
+  const internal::FileHeader& file = reading.source.file_of(slice);
+  const internal::Plane& plane = reading.source.plane_of(slice);
   const auto columns = static_cast<std::size_t>(file.columns);
   for (std::size_t row = 0; row < static_cast<std::size_t>(file.rows); ++row) {
     const auto stored = frame.subspan(
@@ -86,7 +104,7 @@ void place_slice(const SeriesSource& source, const SeriesSource::Slice& slice, s
         [&](auto& v) {
           const auto target = std::span(v).subspan(at + row * columns, columns);
           if constexpr (std::is_same_v<std::decay_t<decltype(v[0])>, float>) {
-            rescale(file, plane, stored, target);
+            rescale(file, reading.rescale_of(slice), stored, target);
           } else {
             std::memcpy(target.data(), stored.data(), target.size_bytes());
           }
@@ -131,8 +149,10 @@ std::vector<Unit> units_of(const SeriesSource& source, const Slices& slices) {
 }
 
 // Reads a unit's slices; failed(k, reason) for those that cannot be read.
-void read_unit(const SeriesSource& source, const Slices& slices, const Unit& unit, Volume::Voxels& voxels,
+void read_unit(const Reading& reading, const Unit& unit, Volume::Voxels& voxels,
                const std::function<void(std::size_t, const char*)>& failed) {
+  const SeriesSource& source = reading.source;
+  const Slices& slices = reading.frame.slices;
   const internal::FileHeader& file = source.file_of(slices[unit.slices.front()]);
   const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
   std::optional<internal::PixelReader> reader;
@@ -152,7 +172,7 @@ void read_unit(const SeriesSource& source, const Slices& slices, const Unit& uni
         reader->read(wanted, frame);
         held = wanted;
       }
-      place_slice(source, slices[k], frame, k * size, voxels);
+      place_slice(reading, slices[k], frame, k * size, voxels);
     } catch (const std::exception& error) {
       failed(k, error.what());
     }
@@ -171,40 +191,30 @@ void drop_slices(const std::vector<std::size_t>& failed, std::size_t size, Volum
       voxels);
 }
 
-}  // namespace
-
-Volume load(const Series& series, const LoadOptions& options) {
-  if (!series.source || series.source->frames.empty()) {
-    const std::string why = series.warnings.empty() ? "it has no readable images" : series.warnings.front();
-    throw DicomError(name_of(series) + " cannot be loaded: " + why);
-  }
-  const SeriesSource& source = *series.source;
-  if (options.frame < 0 || static_cast<std::size_t>(options.frame) >= source.frames.size()) {
-    throw DicomError(name_of(series) + " has frames 0 to " + std::to_string(source.frames.size() - 1) + ", not " +
-                     std::to_string(options.frame));
-  }
-  const SeriesSource::Frame& frame = source.frames[static_cast<std::size_t>(options.frame)];
-  const Slices& slices = frame.slices;
+/// `name` is for errors.
+Volume read_frame(const Reading& reading, const std::string& name, const LoadOptions& options) {
+  const SeriesSource& source = reading.source;
+  const Slices& slices = reading.frame.slices;
   const internal::FileHeader& first = source.file_of(slices.front());
   const std::size_t size = static_cast<std::size_t>(first.columns) * static_cast<std::size_t>(first.rows);
 
   Volume volume;
-  volume.unit = series.unit;
-  volume.modality = series.modality;
-  const Storage storage = storage_for(source, slices);
+  volume.unit = reading.as_velocity ? "m/s" : first.unit;
+  volume.modality = first.modality;
+  const Storage storage = storage_for(reading);
   try {
     volume.voxels = allocate(storage, size * slices.size());
   } catch (const std::bad_alloc&) {
-    throw DicomError(name_of(series) +
-                     " needs more memory than there is: " + std::to_string(size * slices.size() >> 19) + " MiB");
+    throw DicomError(name + " needs more memory than there is: " + std::to_string(size * slices.size() >> 19) + " MiB");
   }
   if (storage == Storage::as_float) {
     const bool any_padding =
         std::any_of(slices.begin(), slices.end(), [&](const auto& slice) { return source.file_of(slice).padding; });
     if (any_padding) volume.padding = {float_padding, float_padding};
   } else {
-    volume.slope = source.plane_of(slices.front()).slope;
-    volume.intercept = source.plane_of(slices.front()).intercept;
+    const Reading::Rescale by = reading.rescale_of(slices.front());
+    volume.slope = by.slope;
+    volume.intercept = by.intercept;
     volume.padding = first.padding;
   }
 
@@ -217,9 +227,9 @@ Volume load(const Series& series, const LoadOptions& options) {
   };
   const std::vector<Unit> units = units_of(source, slices);
   internal::parallel_for(
-      units.size(), [&](std::size_t u) { read_unit(source, slices, units[u], volume.voxels, note_failure); },
-      options.progress, options.threads);
-  if (failed.size() == slices.size()) throw DicomError(name_of(series) + " cannot be read: " + volume.warnings.front());
+      units.size(), [&](std::size_t u) { read_unit(reading, units[u], volume.voxels, note_failure); }, options.progress,
+      options.threads);
+  if (failed.size() == slices.size()) throw DicomError(name + " cannot be read: " + volume.warnings.front());
 
   std::sort(failed.begin(), failed.end());
   std::sort(volume.warnings.begin(), volume.warnings.end());
@@ -227,7 +237,7 @@ Volume load(const Series& series, const LoadOptions& options) {
   drop_slices(failed, size, volume.voxels);
 
   std::vector<Vec3> positions;
-  std::vector<Vec3> lost = frame.lost;
+  std::vector<Vec3> lost = reading.frame.lost;
   for (std::size_t k = 0; k < slices.size(); ++k) {
     const bool is_lost = std::binary_search(failed.begin(), failed.end(), k);
     (is_lost ? lost : positions).push_back(source.plane_of(slices[k]).placement->position);
@@ -235,6 +245,43 @@ Volume load(const Series& series, const LoadOptions& options) {
   volume.geometry = internal::stack_geometry(first.columns, first.rows, *source.plane_of(slices.front()).placement,
                                              std::move(positions), lost, first.thickness);
   return volume;
+}
+
+Volume read_velocity(const std::array<SeriesSource::Component, 3>& along, const std::string& name,
+                     const LoadOptions& options) {
+  std::array<Volume, 3> components;
+  std::array<Vec3, 3> directions{};
+  for (std::size_t n = 0; n < 3; ++n) {
+    const SeriesSource& source = *along[n].source;
+    const SeriesSource::Frame& frame = source.frames[along[n].frame];
+    directions[n] = source.plane_of(frame.slices.front()).velocity->direction;
+    LoadOptions third = options;
+    if (options.progress) {
+      third.progress = [&, n](double done) { return options.progress((static_cast<double>(n) + done) / 3); };
+    }
+    components[n] = read_frame({source, frame, true}, name, third);
+  }
+  return internal::vector_field(std::move(components), directions);
+}
+
+}  // namespace
+
+Volume load(const Series& series, const LoadOptions& options) {
+  const std::string name = name_of(series);
+  const std::size_t frames =
+      series.source ? std::max(series.source->frames.size(), series.source->velocities.size()) : 0;
+  if (frames == 0) {
+    const std::string why = series.warnings.empty() ? "it has no readable images" : series.warnings.front();
+    throw DicomError(name + " cannot be loaded: " + why);
+  }
+  const auto wanted = static_cast<std::size_t>(options.frame);
+  if (options.frame < 0 || wanted >= frames) {
+    throw DicomError(name + " has frames 0 to " + std::to_string(frames - 1) + ", not " +
+                     std::to_string(options.frame));
+  }
+  const SeriesSource& source = *series.source;
+  if (!source.velocities.empty()) return read_velocity(source.velocities[wanted], name, options);
+  return read_frame({source, source.frames[wanted]}, name, options);
 }
 
 }  // namespace palpate::io

@@ -12,7 +12,8 @@ struct LoadOptions {
   int threads = 0;    ///< 0: all cores
 };
 
-/// The voxels of one frame of a series, rescaled as Volume says. Decodes files in parallel; needs little more memory
+/// The voxels of one frame of a series, rescaled as Volume says; of a velocity field (Catalogue::velocity_fields), the
+/// three directions and the speed, m/s. Decodes files in parallel; needs little more memory
 /// than the volume. A slice that cannot be decoded is left out as a gap and named in Volume::warnings. Throws
 /// DicomError where nothing can be read or the series holds no scalar, placed images; Cancelled.
 Volume load(const Series& series, const LoadOptions& options = {});

@@ -56,6 +56,9 @@ struct SkippedFile {
 struct Catalogue {
   std::vector<Series> series;        ///< usable ones first, then by the path of their first file
   std::vector<SkippedFile> skipped;  ///< by path
+  /// Velocities that were measured along three directions (phase contrast), joined: what load() gives of one is a
+  /// vector field (Volume::vectors) in m/s. The series they are made of are among `series` as well.
+  std::vector<Series> velocity_fields;
 };
 
 /// The series in these files and folders (searched to the bottom, names and extensions ignored, DICOMDIR not trusted).

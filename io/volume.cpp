@@ -1,6 +1,7 @@
 #include "palpate/io/volume.h"
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 
 namespace palpate::io {
@@ -23,15 +24,22 @@ Statistics statistics(const Volume& volume) noexcept {
         if (voxels.empty()) return {};
         using Stored = typename std::decay_t<decltype(voxels)>::value_type;
         using Sum = std::conditional_t<std::is_integral_v<Stored>, std::int64_t, double>;
-        Stored low = voxels.front();
-        Stored high = voxels.front();
+        constexpr bool exact = std::is_integral_v<Stored>;
+        Stored low = std::numeric_limits<Stored>::max();
+        Stored high = std::numeric_limits<Stored>::lowest();
         Sum sum = 0;
+        std::uint64_t count = 0;
         for (const Stored v : voxels) {
+          if constexpr (!exact) {
+            if (volume.padding && v >= volume.padding->first && v <= volume.padding->second) continue;
+            ++count;
+          }
           low = std::min(low, v);
           high = std::max(high, v);
           sum += v;
         }
-        const auto count = voxels.size();
+        if constexpr (exact) count = voxels.size();
+        if (count == 0) return {};
         const double mean = static_cast<double>(sum) / static_cast<double>(count);
         const auto rescaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
         const auto [minimum, maximum] = std::minmax({rescaled(low), rescaled(high)});  // a slope may be negative

@@ -2,8 +2,11 @@
 
 /// The voxels of one series (one frame of it, where positions repeat), in patient space.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +16,8 @@
 #include "palpate/io/geometry.h"
 
 namespace palpate::io {
+
+struct VectorComponents;
 
 /// value = slope * stored + intercept, in `unit`.
 ///
@@ -31,6 +36,8 @@ struct Volume {
   std::optional<std::pair<double, double>> padding;
   /// What load() had to leave out, in words for the user.
   std::vector<std::string> warnings;
+  /// Where the volume is a vector field; its values are then the vectors' lengths. Null for all others.
+  std::shared_ptr<const VectorComponents> vectors;
 
   std::size_t offset(int i, int j, int k) const noexcept {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(geometry.dimensions.y) +
@@ -43,7 +50,15 @@ struct Volume {
   bool is_padding(int i, int j, int k) const noexcept;
 };
 
-/// Of rescaled values, over all voxels, padding included.
+/// A vector field as it was measured: one volume for each of three directions, all on the same grid.
+///
+/// vector = to_patient * (value of along[0], of along[1], of along[2]), along patient axes, in the volumes' unit.
+struct VectorComponents {
+  std::array<std::shared_ptr<const Volume>, 3> along;
+  glm::dmat3 to_patient{1};
+};
+
+/// Of rescaled values, over all voxels; padding included where it is stored as it came (16 bit).
 struct Statistics {
   double minimum = 0;
   double maximum = 0;
@@ -51,7 +66,7 @@ struct Statistics {
   std::uint64_t count = 0;  ///< voxels
 };
 
-/// Exact sums for 16-bit voxels. All zero for a volume without voxels.
+/// Exact sums for 16-bit voxels. All zero for a volume without values.
 Statistics statistics(const Volume& volume) noexcept;
 /// Of two sets of voxels together.
 Statistics merge(const Statistics& a, const Statistics& b) noexcept;

@@ -14,8 +14,6 @@
 namespace palpate::io {
 namespace {
 
-constexpr FieldSet offered = FieldSet::value | FieldSet::gradient | FieldSet::tube;
-
 double interpolated_value(const Volume& volume, const internal::Cell& cell) noexcept {
   const auto stored = [&](const auto& voxels) {
     double sum = 0;
@@ -33,6 +31,14 @@ double interpolated_value(const Volume& volume, const internal::Cell& cell) noex
     return sum;
   };
   return volume.slope * std::visit(stored, volume.voxels) + volume.intercept;
+}
+
+Vec3 interpolated_vector(const VectorComponents& vectors, const internal::Cell& cell) noexcept {
+  Vec3 along;
+  for (int n = 0; n < 3; ++n) {
+    along[n] = interpolated_value(*vectors.along[static_cast<std::size_t>(n)], cell);
+  }
+  return vectors.to_patient * along;
 }
 
 Vec3 interpolated_gradient(const internal::Cell& cell, const std::array<glm::vec3, 8>& corners) noexcept {
@@ -71,14 +77,21 @@ Vec3 tube_direction(const GradientKernel& kernel, const internal::Cell& cell) no
 
 }  // namespace
 
+FieldSet fields_of(const Volume& volume) noexcept {
+  const FieldSet scalar = FieldSet::value | FieldSet::gradient | FieldSet::tube;
+  return volume.vectors ? scalar | FieldSet::vector : scalar;
+}
+
 VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                            const FieldOptions& options)
-    : volume_(std::move(volume)), available_(wanted & offered) {
+    : volume_(std::move(volume)), available_(wanted) {
   if (!volume_) {
     throw std::invalid_argument("fields need a volume");
   }
-  if (!contains(offered, wanted)) {
-    throw std::invalid_argument("a scan offers its value, its gradient and the direction of tubes, and no other field");
+  if (!contains(fields_of(*volume_), wanted)) {
+    throw std::invalid_argument(
+        "a scan offers its value, its gradient and the direction of tubes, and vectors only where velocities were "
+        "measured along three directions");
   }
   if ((wanted & (FieldSet::gradient | FieldSet::tube)) != FieldSet::none) {
     kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
@@ -104,6 +117,9 @@ Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noex
   s.inside = true;
   if (contains(wanted, FieldSet::value)) {
     s.value = interpolated_value(*volume_, cell);
+  }
+  if (contains(wanted & available_, FieldSet::vector)) {
+    s.vector = interpolated_vector(*volume_->vectors, cell);
   }
   if (contains(wanted & available_, FieldSet::tube)) {
     s.tube = tube_direction(*kernel_, cell);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fields of a scan: value, gradient and the direction of tubes at any point of the patient.
+/// The fields of a scan at any point of the patient: value, gradient, vector, the direction of tubes.
 
 #include <cstddef>
 #include <memory>
@@ -20,12 +20,17 @@ namespace internal {
 class BrickCache;
 }
 
+/// What a volume's fields can be: the value and what is derived from it, and vectors where it holds them.
+FieldSet fields_of(const Volume& volume) noexcept;
+
 /// Value: trilinear between voxel centres, exact at them, in `Volume::unit`. Gradient: trilinear between the voxels'
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
 ///
 /// Tube: the eigenvector of least curvature of the Hessian at the gradient's scale, trilinear between the voxels'
 /// Hessians; computed at the sample; zero within the kernel's reach of the edge or of padding.
+///
+/// Vector: trilinear between the voxels' vectors, in `Volume::unit`.
 ///
 /// A worker computes gradients in bricks ahead of and around the point last sampled, and keeps them under a memory
 /// bound. A sample that finds its brick missing computes its cell with the same kernel: it takes longer and gives the

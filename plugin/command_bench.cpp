@@ -3,6 +3,7 @@
 #include <string>
 
 #include "palpate/plugin/bench_fields.h"
+#include "palpate/plugin/bench_load.h"
 #include "palpate/plugin/bench_solvers.h"
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/loop_studies.h"
@@ -43,6 +44,7 @@ void add_bench(CLI::App& program) {
   bench->require_subcommand(1);
   add_stability(*bench);
   add_bench_fields(*bench);
+  add_bench_load(*bench);
   add_bench_solvers(*bench);
 }
 

@@ -121,11 +121,13 @@ void run(const InfoOptions& options) {
   const std::vector<std::filesystem::path> paths(options.paths.begin(), options.paths.end());
   const io::Catalogue catalogue = io::find_series(paths, terminal_progress("finding series"));
   Json series = Json::array();
+  Json velocity_fields = Json::array();
   std::size_t number = 0;
-  for (const io::Series& found : catalogue.series) {
+  for (const io::Series& found : numbered_series(catalogue)) {
     const Examined examined = examine(found);
     if (options.json) {
-      series.push_back(json_of(examined));
+      const bool joined = series.size() == catalogue.series.size();
+      (joined ? velocity_fields : series).push_back(json_of(examined));
     } else {
       print_text(++number, examined, options.patient);
     }
@@ -134,7 +136,8 @@ void run(const InfoOptions& options) {
     Json skipped = Json::array();
     for (const auto& file : catalogue.skipped)
       skipped.push_back({{"path", file.path.string()}, {"reason", file.reason}});
-    const Json all = {{"series", series}, {"skipped", skipped}};
+    Json all = {{"series", series}, {"skipped", skipped}};
+    if (!velocity_fields.empty()) all["velocity_fields"] = velocity_fields;
     // A file's name may be in any encoding.
     std::puts(all.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   } else {

@@ -99,7 +99,7 @@ void run(const PlanOptions& options) {
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   const modes::Scene scene = scene_for(options.scene, *volume);
   const device::Specification device = device::SimulatedStylus().specification();
-  const auto plan = plan_for(scene, volume->geometry, device.workspace_half_extent);
+  const auto plan = plan_for(scene, *volume, device.workspace_half_extent);
 
   std::vector<modes::LeftOut> left_out = plan->left_out;
   measure_left_out_fields(volume, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)),

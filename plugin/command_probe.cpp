@@ -121,7 +121,7 @@ void run(const Arguments& arguments) {
   if (!scene.workspace.center_mm) {
     // The hand's middle is where the path is; the fields do not depend on it.
     scene.workspace.center_mm = middle_of(path);
-    felt.plan = plan_for(scene, volume->geometry, specification.workspace_half_extent);
+    felt.plan = plan_for(scene, *volume, specification.workspace_half_extent);
   }
   stylus.follow(to_device(path, felt.plan->workspace, specification.workspace_half_extent));
 

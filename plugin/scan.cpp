@@ -49,7 +49,17 @@ std::string hash_of(const io::Volume& volume) {
   add(geometry.slice_positions.data(), geometry.slice_positions.size() * sizeof(glm::dvec3));
   add(&volume.slope, sizeof volume.slope);
   add(&volume.intercept, sizeof volume.intercept);
-  std::visit([&](const auto& voxels) { add(voxels.data(), voxels.size() * sizeof voxels[0]); }, volume.voxels);
+  const auto add_voxels = [&](const io::Volume& of) {
+    std::visit([&](const auto& voxels) { add(voxels.data(), voxels.size() * sizeof voxels[0]); }, of.voxels);
+  };
+  add_voxels(volume);
+  if (volume.vectors) {
+    add(&volume.vectors->to_patient, sizeof volume.vectors->to_patient);
+    for (const auto& component : volume.vectors->along) {
+      add(&component->slope, sizeof component->slope);
+      add_voxels(*component);
+    }
+  }
   return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 
@@ -57,20 +67,36 @@ modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume
   if (!file_or_name.empty()) {
     return modes::load_scene(file_or_name);
   }
+  if (volume.vectors) {
+    return modes::load_scene("flow");
+  }
   return modes::load_scene(volume.modality == "CT" ? "ct-skin-and-bone" : "mr-brain");
 }
 
-std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Geometry& geometry,
-                                            const glm::dvec3& device_half_extent_m) {
+namespace {
+
+std::shared_ptr<const modes::Plan> make_shared_plan(const modes::Scene& scene, io::FieldSet available,
+                                                    const io::Geometry& geometry, const glm::dvec3& half_extent_m) {
   const Box box = bounding_box(geometry);
   return std::make_shared<const modes::Plan>(
-      modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::tube,
-                       modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m)));
+      modes::make_plan(scene, available, modes::place_workspace(scene.workspace, box.low, box.high, half_extent_m)));
+}
+
+}  // namespace
+
+std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Geometry& geometry,
+                                            const glm::dvec3& device_half_extent_m) {
+  return make_shared_plan(scene, io::fields_of(io::Volume()), geometry, device_half_extent_m);
+}
+
+std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
+                                            const glm::dvec3& device_half_extent_m) {
+  return make_shared_plan(scene, io::fields_of(volume), volume.geometry, device_half_extent_m);
 }
 
 Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
              const glm::dvec3& device_half_extent_m) {
-  Felt felt{.plan = plan_for(scene, volume->geometry, device_half_extent_m), .source = nullptr};
+  Felt felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
   felt.source = std::make_shared<const io::VolumeFields>(
       volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)));
   return felt;

@@ -27,12 +27,17 @@ std::string describe_scan(const io::Volume& volume);
 /// 16 hexadecimal digits that tell one scan from another: XXH3 of voxels, rescale and geometry.
 std::string hash_of(const io::Volume& volume);
 
-/// The scene named by --scene (a file or a starting scene); the one that suits the modality where it is empty. Throws
+/// The scene named by --scene (a file or a starting scene); the one that suits the modality, or a velocity field,
+/// where it is empty. Throws
 /// std::invalid_argument as modes::load_scene() does.
 modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume);
 
-/// The plan of a scene on a scan of that geometry, held with a device of that reach.
+/// The plan of a scene on a scalar scan of that geometry, held with a device of that reach.
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Geometry& geometry,
+                                            const glm::dvec3& device_half_extent_m);
+
+/// The plan of a scene on a scan, with the fields that this scan has: also vectors where it is a velocity field.
+std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m);
 
 /// A scene on a scan: the plan, and the fields that this plan needs and no more.

@@ -27,11 +27,12 @@ std::string list_of(const std::vector<io::Series>& series, bool usable_only) {
 }
 
 [[noreturn]] void refuse_choice(const std::string& why, const io::Catalogue& catalogue, bool usable_only) {
-  throw WrongUsage(why + "; choose one with --series N or --series UID:" + list_of(catalogue.series, usable_only));
+  throw WrongUsage(why +
+                   "; choose one with --series N or --series UID:" + list_of(numbered_series(catalogue), usable_only));
 }
 
 io::Series named_series(const SeriesOption& option, const io::Catalogue& catalogue) {
-  const auto& series = catalogue.series;
+  const std::vector<io::Series> series = numbered_series(catalogue);
   std::size_t number = 0;
   const char* const end = option.series.data() + option.series.size();
   const auto parsed = std::from_chars(option.series.data(), end, number);
@@ -65,6 +66,12 @@ io::Series only_series(const SeriesOption& option, const io::Catalogue& catalogu
 }
 
 }  // namespace
+
+std::vector<io::Series> numbered_series(const io::Catalogue& catalogue) {
+  std::vector<io::Series> all = catalogue.series;
+  all.insert(all.end(), catalogue.velocity_fields.begin(), catalogue.velocity_fields.end());
+  return all;
+}
 
 void add_series_option(CLI::App& command, SeriesOption& option) {
   command.add_option("SERIES", option.path, "Folder or file of a DICOM series")->required();

@@ -3,6 +3,7 @@
 /// How every command that works on a scan is told which: SERIES [--series N|UID] [--frame N].
 
 #include <string>
+#include <vector>
 
 #include "palpate/io/progress.h"
 #include "palpate/io/series.h"
@@ -33,6 +34,9 @@ io::Series choose_series(const SeriesOption& option, const io::Catalogue& catalo
 
 /// The chosen series, chosen frame; warnings go to stderr, and progress where stderr is a terminal.
 io::Volume load_series(const SeriesOption& option);
+
+/// All that --series can name, in the order in which it is numbered: the series, then the velocity fields made of some.
+std::vector<io::Series> numbered_series(const io::Catalogue& catalogue);
 
 /// One line on a series: its number, modality, description, size, spacing, frames and UID.
 std::string describe_series(std::size_t number, const io::Series& series);

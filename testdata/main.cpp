@@ -1,4 +1,4 @@
-// palpate-testdata: phantoms with known answers and a real head CT, written as DICOM CT series.
+// palpate-testdata: phantoms with known answers, a flow and a real head CT, written as DICOM series.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "palpate/testdata/invesalius.h"
 #include "palpate/testdata/scan.h"
+#include "palpate/testdata/write_flow.h"
 #include "palpate/testdata/write_series.h"
 
 namespace {
@@ -103,12 +104,44 @@ void add_phantom(CLI::App& program, PhantomRequest& request) {
   command.callback([&request] { write_phantom(request); });
 }
 
+struct FlowRequest {
+  testdata::FlowStudy study;
+  std::string folder;
+  std::vector<double> spacing{2.5, 2.5, 2.5};
+  std::vector<int> size{48, 48, 48};
+  double speed = 1;
+};
+
+void write_flow(FlowRequest& request) {
+  request.study.flow.free_stream = {request.speed, 0, 0};
+  request.study.grid.size = {request.size[0], request.size[1], request.size[2]};
+  request.study.grid.spacing = {request.spacing[0], request.spacing[1], request.spacing[2]};
+  testdata::write_flow_study(request.study, request.folder);
+  std::printf("%s: flow past a sphere of %g mm, %d times\n", request.folder.c_str(), request.study.flow.radius,
+              request.study.times);
+}
+
+void add_flow(CLI::App& program, FlowRequest& request) {
+  CLI::App& command = *program.add_subcommand("flow", "Write a 4D-flow study: flow past a sphere, pulsating");
+  command.add_option("-o,--output", request.folder, "Folder to make")->required();
+  command.add_option("--spacing", request.spacing, "mm between columns, rows, slices")->delimiter(',')->expected(3);
+  command.add_option("--size", request.size, "Columns, rows, slices")->delimiter(',')->expected(3);
+  command.add_option("--radius", request.study.flow.radius, "mm: of the sphere")->check(CLI::PositiveNumber);
+  command.add_option("--speed", request.speed, "m/s: mean free stream, towards the patient's left")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--times", request.study.times, "In one cycle")->check(CLI::PositiveNumber);
+  command.callback([&request] { write_flow(request); });
+}
+
 int run(int argc, char** argv) {
-  CLI::App program("Phantoms with known answers and a real head CT, written as DICOM CT series", "palpate-testdata");
+  CLI::App program("Phantoms with known answers, a flow and a real head CT, written as DICOM series",
+                   "palpate-testdata");
   program.require_subcommand(1);
   program.option_defaults()->always_capture_default();
   PhantomRequest request;
   add_phantom(program, request);
+  FlowRequest flow;
+  add_flow(program, flow);
 
   std::string file = testdata::invesalius_cranium;
   std::string folder;

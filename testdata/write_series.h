@@ -1,27 +1,42 @@
 #pragma once
 
-/// A volume as a DICOM CT series: one file a slice, as a scanner sends it (CT Image Storage, explicit little endian).
+/// A volume as a DICOM series: one file a slice, as a scanner sends it (CT or MR Image Storage, explicit little
+/// endian).
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "palpate/io/volume.h"
+#include "palpate/testdata/shape.h"
 
 namespace palpate::testdata {
+
+/// What a phase-contrast series measured.
+struct PhaseContrast {
+  Vec3 direction{0, 0, 1};  ///< unit, patient axes: the stored values are speeds along it
+  double venc_cm_per_s = 0;
+};
 
 /// What the series says of itself. No person is behind it: PatientName and PatientID are `subject`, dates are empty,
 /// PatientIdentityRemoved is YES.
 struct SeriesLabel {
   std::string description = "phantom";  ///< SeriesDescription
   std::string subject = "PHANTOM";
-  std::string comments;  ///< ImageComments of every slice
-  int number = 1;        ///< SeriesNumber
+  std::string comments;         ///< ImageComments of every slice
+  int number = 1;               ///< SeriesNumber
+  int bits_stored = 16;         ///< of the 16 that a voxel has
+  std::string modality = "CT";  ///< or "MR"
+  /// Where not empty, volumes of the same study text belong to one study, those of the same number to one series.
+  std::string study;
+  std::optional<double> trigger_time_ms;  ///< TriggerTime: when in the heart's cycle
+  std::optional<PhaseContrast> phase_contrast;
 };
 
 /// Writes slice_0001.dcm and on into `folder`, which must not exist or be empty: all of them or, on an error, none.
 /// UIDs follow from the content, so the same volume gives the same bytes.
 ///
-/// Throws std::runtime_error naming the file for what cannot be written, std::invalid_argument for what a CT series
+/// Throws std::runtime_error naming the file for what cannot be written, std::invalid_argument for what such a series
 /// cannot hold (float voxels, a slice larger than 65535 on a side).
 void write_series(const io::Volume& volume, const std::filesystem::path& folder, const SeriesLabel& label = {});
 

@@ -45,6 +45,13 @@ constexpr std::size_t label_count = 8;
 /// One text a label, numbers as text; empty where unknown.
 using Labels = std::array<std::string, label_count>;
 
+/// What a phase-contrast image says: the speed along a direction is slope * stored + intercept, m/s.
+struct VelocityEncoding {
+  Vec3 direction{0};  ///< unit, patient axes
+  double slope = 0;
+  double intercept = 0;
+};
+
 /// One image: a file, or a frame of a multi-frame file, or a tile of a mosaic.
 struct Plane {
   std::uint32_t frame = 0;                      ///< in the file's pixel data, from 0
@@ -53,6 +60,7 @@ struct Plane {
   double slope = 1;  ///< RescaleSlope
   double intercept = 0;
   Labels labels;
+  std::optional<VelocityEncoding> velocity;
 };
 
 struct PixelFormat {

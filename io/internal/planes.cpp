@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "palpate/io/internal/dicom_value.h"
+#include "palpate/io/internal/velocity.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -69,7 +70,7 @@ Labels labels_of(const FunctionalGroups& groups) {
   return labels;
 }
 
-Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame) {
+Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, const FileHeader& header) {
   Plane plane;
   plane.frame = frame;
   plane.placement = make_placement(groups.numbers(DCM_PlanePositionSequence, DCM_ImagePositionPatient),
@@ -78,6 +79,12 @@ Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame) {
   plane.slope = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleSlope).value_or(1);
   plane.intercept = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleIntercept).value_or(0);
   plane.labels = labels_of(groups);
+  std::string& type = at(plane.labels, Label::image_type);
+  if (type.empty()) type = header.image_type;
+  plane.velocity =
+      velocity_of(groups.numbers(DCM_MRVelocityEncodingSequence, DCM_VelocityEncodingDirection),
+                  groups.number(DCM_MRVelocityEncodingSequence, DCM_VelocityEncodingMaximumValue),
+                  groups.text(DCM_PixelValueTransformationSequence, DCM_RescaleType), plane, header.format);
   return plane;
 }
 
@@ -101,6 +108,7 @@ Plane classic_plane(DcmItem& dataset, const FileHeader& header) {
   at(plane.labels, Label::time_point) = label_of(number_of(dataset, DCM_TemporalPositionIdentifier));
   at(plane.labels, Label::trigger_time) = label_of(number_of(dataset, DCM_TriggerTime));
   at(plane.labels, Label::acquisition) = label_of(number_of(dataset, DCM_AcquisitionNumber));
+  read_classic_velocity(dataset, header.format, plane);
   return plane;
 }
 
@@ -114,9 +122,7 @@ std::vector<Plane> functional_group_planes(DcmItem& dataset, const FileHeader& h
   while (planes.size() < frames && (object = per_frame->nextInContainer(object)) != nullptr) {
     auto* own = dynamic_cast<DcmItem*>(object);
     if (own == nullptr) break;
-    planes.push_back(plane_of(FunctionalGroups(*own, shared), static_cast<std::uint32_t>(planes.size())));
-    std::string& type = at(planes.back().labels, Label::image_type);
-    if (type.empty()) type = header.image_type;
+    planes.push_back(plane_of(FunctionalGroups(*own, shared), static_cast<std::uint32_t>(planes.size()), header));
   }
   return planes;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -21,6 +22,14 @@ struct SeriesSource {
 
   std::shared_ptr<const std::vector<internal::FileHeader>> files;  ///< shared by all series of one UID
   std::vector<Frame> frames;
+
+  /// One direction of a velocity: a frame of the series that holds it.
+  struct Component {
+    std::shared_ptr<const SeriesSource> source;
+    std::size_t frame = 0;
+  };
+  /// By time, where this is a velocity in three directions; then it has no files and frames of its own.
+  std::vector<std::array<Component, 3>> velocities;
 
   const internal::FileHeader& file_of(const Slice& slice) const { return (*files)[slice.file]; }
   const internal::Plane& plane_of(const Slice& slice) const { return file_of(slice).planes[slice.plane]; }
