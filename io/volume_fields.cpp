@@ -10,35 +10,45 @@
 #include "palpate/io/internal/brick_cache.h"
 #include "palpate/io/internal/cell.h"
 #include "palpate/io/internal/symmetric_eigen.h"
+#include "palpate/io/low_high.h"
 
 namespace palpate::io {
 namespace {
 
-double interpolated_value(const Volume& volume, const internal::Cell& cell) noexcept {
-  const auto stored = [&](const auto& voxels) {
-    double sum = 0;
-    for (int k = 0; k < cell.size.z; ++k) {
-      for (int j = 0; j < cell.size.y; ++j) {
-        for (int i = 0; i < cell.size.x; ++i) {
-          const double weight = cell.weight(i, j, k);
-          if (weight > 0) {  // beside the cell there may be padding that is no number
-            const glm::ivec3 v = cell.first + glm::ivec3(i, j, k);
-            sum += weight * static_cast<double>(voxels[volume.offset(v.x, v.y, v.z)]);
-          }
-        }
-      }
-    }
-    return sum;
-  };
-  return volume.slope * std::visit(stored, volume.voxels) + volume.intercept;
-}
+constexpr FieldSet from_gradients = FieldSet::gradient | FieldSet::low_high;
 
 Vec3 interpolated_vector(const VectorComponents& vectors, const internal::Cell& cell) noexcept {
   Vec3 along;
   for (int n = 0; n < 3; ++n) {
-    along[n] = interpolated_value(*vectors.along[static_cast<std::size_t>(n)], cell);
+    along[n] = internal::trilinear_value(*vectors.along[static_cast<std::size_t>(n)], cell);
   }
   return vectors.to_patient * along;
+}
+
+/// Weighted by how much of a boundary each corner shows: what lies flat has no two sides.
+LowHigh interpolated_low_high(const Volume& volume, const internal::Cell& cell, const std::array<glm::vec3, 8>& corners,
+                              double scale_mm) noexcept {
+  double low = 0, high = 0, sum = 0;
+  std::size_t n = 0;
+  for (int k = 0; k < cell.size.z; ++k) {
+    for (int j = 0; j < cell.size.y; ++j) {
+      for (int i = 0; i < cell.size.x; ++i) {
+        const Vec3 gradient(corners[n++]);
+        const double weight = cell.weight(i, j, k) * glm::dot(gradient, gradient);
+        if (weight > 0) {
+          const LowHigh corner = low_high_at(volume, cell.first + glm::ivec3(i, j, k), gradient, scale_mm);
+          low += weight * corner.low;
+          high += weight * corner.high;
+          sum += weight;
+        }
+      }
+    }
+  }
+  if (sum > 0) {
+    return {static_cast<float>(low / sum), static_cast<float>(high / sum)};
+  }
+  const auto value = static_cast<float>(internal::trilinear_value(volume, cell));
+  return {value, value};
 }
 
 Vec3 interpolated_gradient(const internal::Cell& cell, const std::array<glm::vec3, 8>& corners) noexcept {
@@ -78,7 +88,7 @@ Vec3 tube_direction(const GradientKernel& kernel, const internal::Cell& cell) no
 }  // namespace
 
 FieldSet fields_of(const Volume& volume) noexcept {
-  const FieldSet scalar = FieldSet::value | FieldSet::gradient | FieldSet::tube;
+  const FieldSet scalar = FieldSet::value | FieldSet::gradient | FieldSet::tube | FieldSet::low_high;
   return volume.vectors ? scalar | FieldSet::vector : scalar;
 }
 
@@ -90,12 +100,13 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
   }
   if (!contains(fields_of(*volume_), wanted)) {
     throw std::invalid_argument(
-        "a scan offers its value, its gradient and the direction of tubes, and vectors only where velocities were "
+        "a scan offers its value, its gradient, the values on both sides of a boundary and the direction of tubes, and "
+        "vectors only where velocities were "
         "measured along three directions");
   }
-  if ((wanted & (FieldSet::gradient | FieldSet::tube)) != FieldSet::none) {
+  if ((wanted & (FieldSet::gradient | FieldSet::tube | FieldSet::low_high)) != FieldSet::none) {
     kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
-    if (contains(wanted, FieldSet::gradient) && options.brick_bytes > 0) {
+    if ((wanted & from_gradients) != FieldSet::none && options.brick_bytes > 0) {
       bricks_ = std::make_unique<internal::BrickCache>(*kernel_, volume_->geometry.dimensions, options.brick_bytes,
                                                        options.background);
     }
@@ -108,7 +119,8 @@ Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noex
   Sample s;
   internal::Cell cell;
   const Vec3 index = volume_->geometry.to_index(position_mm);
-  if (bricks_ && contains(wanted, FieldSet::gradient)) {
+  const FieldSet given = wanted & available_;
+  if (bricks_ && (given & from_gradients) != FieldSet::none) {
     bricks_->move_to(index);  // outside as well: bricks shall be there when the point comes in
   }
   if (!internal::find_cell(*volume_, index, cell)) {
@@ -116,22 +128,29 @@ Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noex
   }
   s.inside = true;
   if (contains(wanted, FieldSet::value)) {
-    s.value = interpolated_value(*volume_, cell);
+    s.value = internal::trilinear_value(*volume_, cell);
   }
-  if (contains(wanted & available_, FieldSet::vector)) {
+  if (contains(given, FieldSet::vector)) {
     s.vector = interpolated_vector(*volume_->vectors, cell);
   }
-  if (contains(wanted & available_, FieldSet::tube)) {
+  if (contains(given, FieldSet::tube)) {
     s.tube = tube_direction(*kernel_, cell);
   }
-  if (contains(wanted & available_, FieldSet::gradient)) {
+  if ((given & from_gradients) != FieldSet::none) {
     std::array<glm::vec3, 8> corners;
     const Block block{cell.first, cell.size};
     s.from_brick = bricks_ && bricks_->read(block, corners);
     if (!s.from_brick) {
       kernel_->at_cell(block, corners);
     }
-    s.gradient = interpolated_gradient(cell, corners);
+    if (contains(given, FieldSet::gradient)) {
+      s.gradient = interpolated_gradient(cell, corners);
+    }
+    if (contains(given, FieldSet::low_high)) {
+      const LowHigh sides = interpolated_low_high(*volume_, cell, corners, kernel_->scale_mm());
+      s.low = sides.low;
+      s.high = sides.high;
+    }
   }
   return s;
 }

@@ -27,6 +27,9 @@ FieldSet fields_of(const Volume& volume) noexcept;
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
 ///
+/// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square; computed at
+/// the sample from those gradients.
+///
 /// Tube: the eigenvector of least curvature of the Hessian at the gradient's scale, trilinear between the voxels'
 /// Hessians; computed at the sample; zero within the kernel's reach of the edge or of padding.
 ///

@@ -37,4 +37,23 @@ bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept {
   return true;
 }
 
+double trilinear_value(const Volume& volume, const Cell& cell) noexcept {
+  const auto stored = [&](const auto& voxels) {
+    double sum = 0;
+    for (int k = 0; k < cell.size.z; ++k) {
+      for (int j = 0; j < cell.size.y; ++j) {
+        for (int i = 0; i < cell.size.x; ++i) {
+          const double weight = cell.weight(i, j, k);
+          if (weight > 0) {  // beside the cell there may be padding that is no number
+            const glm::ivec3 v = cell.first + glm::ivec3(i, j, k);
+            sum += weight * static_cast<double>(voxels[volume.offset(v.x, v.y, v.z)]);
+          }
+        }
+      }
+    }
+    return sum;
+  };
+  return volume.slope * std::visit(stored, volume.voxels) + volume.intercept;
+}
+
 }  // namespace palpate::io::internal

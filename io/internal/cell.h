@@ -22,4 +22,7 @@ struct Cell {
 /// between slices where some are missing, beside padding that would have a weight.
 bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept;
 
+/// The rescaled value there.
+double trilinear_value(const Volume& volume, const Cell& cell) noexcept;
+
 }  // namespace palpate::io::internal
