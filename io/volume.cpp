@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <type_traits>
+
+#include "palpate/io/internal/parallel.h"
 
 namespace palpate::io {
 
@@ -18,34 +21,59 @@ bool Volume::is_padding(int i, int j, int k) const noexcept {
   return stored >= padding->first && stored <= padding->second;
 }
 
-Statistics statistics(const Volume& volume) noexcept {
-  return std::visit(
-      [&](const auto& voxels) -> Statistics {
-        if (voxels.empty()) return {};
-        using Stored = typename std::decay_t<decltype(voxels)>::value_type;
-        using Sum = std::conditional_t<std::is_integral_v<Stored>, std::int64_t, double>;
-        constexpr bool exact = std::is_integral_v<Stored>;
-        Stored low = std::numeric_limits<Stored>::max();
-        Stored high = std::numeric_limits<Stored>::lowest();
-        Sum sum = 0;
-        std::uint64_t count = 0;
-        for (const Stored v : voxels) {
-          if constexpr (!exact) {
-            if (volume.padding && v >= volume.padding->first && v <= volume.padding->second) continue;
-            ++count;
-          }
-          low = std::min(low, v);
-          high = std::max(high, v);
-          sum += v;
-        }
-        if constexpr (exact) count = voxels.size();
-        if (count == 0) return {};
-        const double mean = static_cast<double>(sum) / static_cast<double>(count);
-        const auto rescaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
-        const auto [minimum, maximum] = std::minmax({rescaled(low), rescaled(high)});  // a slope may be negative
-        return {minimum, maximum, rescaled(mean), count};
-      },
-      volume.voxels);
+namespace {
+
+/// Of stored values: exact where they are whole numbers.
+template <typename Stored>
+struct Tally {
+  static constexpr bool is_whole = std::is_integral_v<Stored>;
+  Stored low = std::numeric_limits<Stored>::max();
+  Stored high = std::numeric_limits<Stored>::lowest();
+  std::conditional_t<is_whole, std::int64_t, double> sum = 0;
+  std::uint64_t count = 0;
+
+  void add(std::span<const Stored> voxels, const Volume& volume) {
+    for (const Stored v : voxels) {
+      if constexpr (!is_whole) {
+        if (volume.padding && v >= volume.padding->first && v <= volume.padding->second) continue;
+        ++count;
+      }
+      low = std::min(low, v);
+      high = std::max(high, v);
+      sum += v;
+    }
+    if constexpr (is_whole) count += voxels.size();
+  }
+  void add(const Tally& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    sum += other.sum;
+    count += other.count;
+  }
+};
+
+template <typename Stored>
+Statistics statistics_of(std::span<const Stored> voxels, const Volume& volume) {
+  // Always the same pieces, so that the mean does not depend on the number of threads.
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::vector<Tally<Stored>> tallies((voxels.size() + piece - 1) / piece);
+  const auto count_piece = [&](std::size_t n) {
+    tallies[n].add(voxels.subspan(n * piece, std::min(piece, voxels.size() - n * piece)), volume);
+  };
+  internal::parallel_for(tallies.size(), count_piece, {}, 0);
+  Tally<Stored> all;
+  for (const Tally<Stored>& tally : tallies) all.add(tally);
+  if (all.count == 0) return {};
+  const double mean = static_cast<double>(all.sum) / static_cast<double>(all.count);
+  const auto rescaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
+  const auto [minimum, maximum] = std::minmax({rescaled(all.low), rescaled(all.high)});  // a slope may be negative
+  return {minimum, maximum, rescaled(mean), all.count};
+}
+
+}  // namespace
+
+Statistics statistics(const Volume& volume) {
+  return std::visit([&](const auto& voxels) { return statistics_of(std::span(voxels), volume); }, volume.voxels);
 }
 
 Statistics merge(const Statistics& a, const Statistics& b) noexcept {

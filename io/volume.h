@@ -66,8 +66,9 @@ struct Statistics {
   std::uint64_t count = 0;  ///< voxels
 };
 
-/// Exact sums for 16-bit voxels. All zero for a volume without values.
-Statistics statistics(const Volume& volume) noexcept;
+/// Exact sums for 16-bit voxels. All zero for a volume without values. On all cores, with the same result on any
+/// number.
+Statistics statistics(const Volume& volume);
 /// Of two sets of voxels together.
 Statistics merge(const Statistics& a, const Statistics& b) noexcept;
 
