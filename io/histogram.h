@@ -40,4 +40,22 @@ struct JointHistogram {
 JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                const Bins& magnitudes, const Progress& progress = {}, int threads = 0);
 
+/// Which pairs of values boundaries lie between: how often each low occurs together with each high (low_high.h).
+struct LowHighHistogram {
+  Bins values;                        ///< of low and of high, in the volume's unit
+  std::vector<std::uint64_t> counts;  ///< low bins fastest
+  std::uint64_t voxels = 0;           ///< that were counted
+
+  std::uint64_t at(int low_bin, int high_bin) const noexcept {
+    return counts[static_cast<std::size_t>(high_bin) * static_cast<std::size_t>(values.count) +
+                  static_cast<std::size_t>(low_bin)];
+  }
+};
+
+/// Counts the voxels whose gradient's magnitude is above the least (per mm), but for padding; of a volume of more than
+/// some millions of voxels, evenly spread ones. `threads` 0: all cores; the counts do not depend on them. Throws
+/// std::invalid_argument for bins that are none, Cancelled.
+LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
+                                    double least_magnitude, const Progress& progress = {}, int threads = 0);
+
 }  // namespace palpate::io
