@@ -117,9 +117,10 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
       stored ? PlacedPrimitives(std::span(few).first(n)) : PlacedPrimitives(balance.primitives, balance.probe);
 
   Vec3 z{0};
+  Placed room;
   Groups groups;
   for (std::size_t i = 0; i < n; ++i) {
-    const Placed& primitive = primitives[i];
+    const Placed& primitive = primitives.at(i, room);
     forces[i] = Vec3{0};
     if (primitive.type == PrimitiveType::directed_force) {
       forces[i] = primitive.direction * primitive.strength;
@@ -137,7 +138,7 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const Placed& primitive = primitives[i];
+    const Placed& primitive = primitives.at(i, room);
     if (primitive.type != PrimitiveType::directed_force && primitive.strength > 0) {
       forces[i] = part_of(primitive, *std::find_if(groups.all().begin(), groups.all().end(),
                                                    [&](const Group& group) { return coincide(primitive, group); }));

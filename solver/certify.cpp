@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "palpate/solver/internal/bound.h"
+#include "palpate/solver/internal/settle.h"
 
 namespace palpate::solver {
 

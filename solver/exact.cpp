@@ -2,33 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 #include "palpate/solver/certify.h"
 #include "palpate/solver/internal/answer.h"
-#include "palpate/solver/internal/finish.h"
+#include "palpate/solver/internal/walk.h"
 
 namespace palpate::solver {
 
+using internal::FineVec3;
 using internal::Hold;
+using internal::length_of;
 using internal::Placed;
 
 struct ExactScratch::Arrays {
   std::vector<Placed> placed;
+  std::vector<Placed> moved;
   std::vector<Vec3> forces;
-  std::vector<Vec3> next;
-  std::vector<Vec3> best;
   std::vector<Hold> hold;
-  std::vector<std::uint32_t> held;
+  std::vector<std::uint32_t> met;
 
   void fit(std::size_t n) {
     if (placed.size() < n) {
       placed.resize(n);
+      moved.resize(n);
       forces.resize(n);
-      next.resize(n);
-      best.resize(n);
       hold.resize(n);
-      held.resize(n);
+      met.resize(n);
     }
   }
 };
@@ -40,76 +42,274 @@ ExactScratch::~ExactScratch() = default;
 ExactScratch::ExactScratch(ExactScratch&&) noexcept = default;
 ExactScratch& ExactScratch::operator=(ExactScratch&&) noexcept = default;
 
-Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch, Start start,
-                     const ExactOptions& options) noexcept {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// One balance and its walks; keeps the best of what they find.
+class Search {
+ public:
+  Search(const Balance& balance, std::span<Vec3> forces, ExactScratch::Arrays& arrays, int cap);
+
+  Solution run(Start start);
+
+ private:
+  void start_from_forces();
+  void start_from_sweep();
+  bool start_at_common_position();
+  void take_as_given();
+  void make_general();
+  bool walk(int cap);
+  void consider();
+  void refuse_unmet();
+
+  const Balance& balance_;
+  std::span<Vec3> forces_;
+  std::span<Placed> placed_;
+  std::span<Placed> moved_;
+  internal::Walk walk_;
+  Solution solution_;
+  int cap_;
+  double bound_ = infinity;   // of the best answer
+  double hard_strength_ = 0;  // N: what stands for infinity; 0 where nothing is hard
+  double extent_ = 0;         // m: of the start
+};
+
+Search::Search(const Balance& balance, std::span<Vec3> forces, ExactScratch::Arrays& arrays, int cap)
+    : balance_(balance), forces_(forces), cap_(cap) {
   const std::size_t n = balance.primitives.size();
-  ExactScratch::Arrays& arrays = scratch.arrays();
   arrays.fit(n);
-  const std::span<Placed> placed = std::span(arrays.placed).first(n);
-  internal::Multipliers state;
-  state.primitives = placed;
-  state.stiffness = balance.stiffness;
-  state.forces = std::span(arrays.forces).first(n);
-  state.next = std::span(arrays.next).first(n);
-  state.hold = std::span(arrays.hold).first(n);
+  placed_ = std::span(arrays.placed).first(n);
+  moved_ = std::span(arrays.moved).first(n);
+  walk_.stiffness = balance.stiffness;
+  walk_.forces = std::span(arrays.forces).first(n);
+  walk_.hold = std::span(arrays.hold).first(n);
+  walk_.met = std::span(arrays.met).first(n);
+  solution_.solver = SolverKind::exact;
+  solution_.outcome = Outcome::capped;
+  solution_.error_bound = infinity;
+  double force = 0;
+  double largest = 0;
+  bool hard = false;
   for (std::size_t i = 0; i < n; ++i) {
-    placed[i] = internal::place(balance.primitives[i], balance.probe);
-    state.forces[i] = state.next[i] = Vec3{0};
-    if (placed[i].type == PrimitiveType::directed_force) {
-      state.pull += placed[i].direction * placed[i].strength;
+    Placed& placed = placed_[i];
+    placed = internal::place(balance.primitives[i], balance.probe);
+    if (placed.type == PrimitiveType::directed_force) {
+      walk_.forces[i] = placed.direction * placed.strength;
+      walk_.pull += walk_.forces[i];
+      force += placed.strength;
+    } else {
+      largest = std::max(largest, internal::size_of(placed.offset));
+      hard = hard || std::isinf(placed.strength);
+      force += std::isinf(placed.strength) ? 0 : placed.strength;
     }
   }
-  const internal::PlacedPrimitives primitives =
-      n > 0 ? internal::PlacedPrimitives(placed) : internal::PlacedPrimitives(balance.primitives, balance.probe);
+  if (hard) {
+    // More than any multiplier of a well-conditioned balance; raised where that is not enough.
+    hard_strength_ = 0x1p30 * (force + balance.stiffness * largest + 1e-100);
+  }
+}
 
-  if (start == Start::warm) {
-    state.z = state.pull / state.stiffness;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (placed[i].type != PrimitiveType::directed_force) {
-        state.forces[i] = internal::project(placed[i], forces[i], state.hold[i]);
-        state.z += state.forces[i] / state.stiffness;
+// Where the forces given would put the proxy, locked to what they do not exhaust.
+void Search::start_from_forces() {
+  Vec3 sum = walk_.pull;
+  walk_.frame = {};
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    const Placed& placed = placed_[i];
+    if (placed.type == PrimitiveType::directed_force) {
+      continue;
+    }
+    Hold hold;
+    const Vec3 force = internal::project(placed, forces_[i], hold);
+    sum += force;
+    if (hold == Hold::held && length_of(force) < placed.strength * (1 - 1e-12) && force != Vec3{0}) {
+      lock(walk_.frame, placed_, static_cast<std::uint32_t>(i));
+    }
+  }
+  walk_.z = internal::fine(sum / balance_.stiffness);
+  extent_ = length_of(sum) / balance_.stiffness;
+}
+
+// One pass of proximal steps: the analytical solver without its conditions.
+void Search::start_from_sweep() {
+  Vec3 z = walk_.pull / balance_.stiffness;
+  walk_.frame = {};
+  for (const PrimitiveType type : {PrimitiveType::plane, PrimitiveType::line, PrimitiveType::point}) {
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      const Placed& placed = placed_[i];
+      if (placed.type != type) {
+        continue;
+      }
+      Hold hold;
+      const Vec3 step = internal::project(placed, (placed.offset.hi() - z) * balance_.stiffness, hold);
+      if (hold == Hold::held && step != Vec3{0}) {
+        if (type != PrimitiveType::plane) {
+          walk_.frame = {};
+        }
+        lock(walk_.frame, placed_, static_cast<std::uint32_t>(i));
+      }
+      z += step / balance_.stiffness;
+    }
+  }
+  walk_.z = internal::fine(z);
+  extent_ = length_of(z);
+}
+
+// Where all constraints are at one position: from there the way to the proxy is straight.
+bool Search::start_at_common_position() {
+  const Placed* first = nullptr;
+  for (const Placed& placed : placed_) {
+    if (placed.type == PrimitiveType::directed_force || placed.strength == 0) {
+      continue;
+    }
+    if (first != nullptr && !same(first->offset, placed.offset)) {
+      return false;
+    }
+    first = &placed;
+  }
+  if (first == nullptr) {
+    return false;
+  }
+  walk_.z = first->offset;
+  walk_.frame = {};
+  return true;
+}
+
+void Search::take_as_given() {
+  if (hard_strength_ == 0) {
+    walk_.primitives = placed_;
+    return;
+  }
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    moved_[i] = placed_[i];
+    moved_[i].strength = std::min(moved_[i].strength, hard_strength_);
+  }
+  walk_.primitives = moved_;
+}
+
+// Moves every primitive by less than half an ulp, each its own way, so that no more of them meet than have to. Hard
+// constraints stay, for they might no longer have a common point; hard planes yield.
+void Search::make_general() {
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    Placed& moved = moved_[i];
+    moved = placed_[i];
+    moved.strength = hard_strength_ > 0 ? std::min(moved.strength, hard_strength_) : moved.strength;
+    if (moved.type == PrimitiveType::directed_force) {
+      continue;
+    }
+    const double distance = 0x1p-54 * (length_of(moved.offset.hi()) + extent_) + 1e-45;
+    const auto bits = (static_cast<std::uint64_t>(i) + 1) * 0x9e3779b97f4a7c15;
+    const auto part = [bits](int shift) {
+      return static_cast<double>((bits >> shift) & 0xfff) * 0x1p-12 - 0x1.0018p-1;
+    };
+    const Vec3 way{part(52), part(40), part(28)};
+    if (!std::isinf(placed_[i].strength)) {
+      moved.offset = moved.offset + way * distance;
+    } else if (moved.type == PrimitiveType::plane) {
+      moved.offset = moved.offset + moved.direction * (std::abs(way.x) * -distance);
+    }
+  }
+  walk_.primitives = moved_;
+}
+
+// True where the walk's end is the answer.
+bool Search::walk(int cap) {
+  solution_.iterations += internal::walk(walk_, cap);
+  consider();
+  return solution_.outcome == Outcome::solved;
+}
+
+void Search::consider() {
+  internal::Settled settled = internal::settle_on(walk_.frame, placed_, balance_.stiffness, walk_.z, walk_.forces);
+  const double promise = promised_accuracy(balance_, balance_.probe + settled.z.hi(), walk_.forces);
+  if (!(settled.bound.error <= 0.05 * promise)) {
+    const internal::PlacedPrimitives primitives = placed_.empty()
+                                                      ? internal::PlacedPrimitives(balance_.primitives, balance_.probe)
+                                                      : internal::PlacedPrimitives(placed_);
+    const internal::Settled snapped = internal::settle_and_bound(primitives, balance_.stiffness, walk_.z, walk_.forces);
+    settled = snapped.bound.error < settled.bound.error ? snapped : settled;
+  }
+  if (!(settled.bound.error < bound_) && bound_ < infinity) {
+    return;
+  }
+  bound_ = settled.bound.error;
+  std::copy(walk_.forces.begin(), walk_.forces.end(), forces_.begin());
+  internal::write_answer(balance_, settled, solution_);
+  if (settled.bound.backward_error <= promise) {
+    solution_.outcome = Outcome::solved;
+  }
+}
+
+// The hard constraint that the best answer is furthest from, if that is further than the tolerance.
+void Search::refuse_unmet() {
+  const FineVec3 z = internal::exact_difference(solution_.proxy, balance_.probe);
+  double size = internal::size_of(z);
+  double furthest = 0;
+  std::size_t index = 0;
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    const Placed& placed = placed_[i];
+    if (!std::isinf(placed.strength)) {
+      continue;
+    }
+    size = std::max(size, length_of(placed.offset.hi()));
+    const double distance =
+        placed.type == PrimitiveType::plane ? internal::depth_of(placed, z).value : internal::miss_of(placed, z).length;
+    if (distance > furthest) {
+      furthest = distance;
+      index = i;
+    }
+  }
+  if (furthest > hard_tolerance * size) {
+    solution_.outcome = Outcome::refused;
+    solution_.rejection = Rejection{index, Field::strength, Flaw::incompatible, furthest};
+  }
+}
+
+Solution Search::run(Start start) {
+  constexpr int few = 40;
+  while (true) {
+    if (start == Start::warm) {
+      start_from_forces();
+      take_as_given();
+      if (walk(few)) {
+        return solution_;
       }
     }
-  } else {
-    internal::sweep(state);
+    start_from_sweep();
+    take_as_given();
+    if (walk(1)) {
+      return solution_;
+    }
+    start_at_common_position();
+    if (walk(few)) {
+      return solution_;
+    }
+    make_general();
+    if (walk(cap_)) {
+      return solution_;
+    }
+    take_as_given();
+    if (walk(few)) {
+      return solution_;
+    }
+    if (hard_strength_ == 0 || hard_strength_ > 1e60) {
+      break;
+    }
+    hard_strength_ *= 0x1p30;
+    bound_ = infinity;
+    start = Start::cold;
   }
-  Solution solution;
-  solution.solver = SolverKind::exact;
-  solution.outcome = Outcome::capped;
-  internal::Settled best{};
-  bool any = false;
-  state.sigma = 100 * state.stiffness;
-  int round = 0;
-  while (true) {
-    solution.iterations += internal::minimise(state, options.max_iterations - solution.iterations);
-    const internal::Settled settled =
-        internal::finish(state, primitives, std::span(arrays.held).first(n), std::span(arrays.best).first(n));
-    if (!any || settled.bound.error < best.bound.error) {
-      any = true;
-      best = settled;
-      std::copy_n(arrays.best.begin(), n, forces.begin());
-      internal::write_answer(balance, best, solution);
-    }
-    if (best.bound.backward_error <= promised_accuracy(balance, solution.proxy, forces)) {
-      solution.outcome = Outcome::solved;
-      break;
-    }
-    if (solution.iterations >= options.max_iterations) {
-      break;
-    }
-    if (round == 0 && start == Start::cold) {
-      std::fill(state.forces.begin(), state.forces.end(), Vec3{0});
-    } else {
-      std::copy(state.next.begin(), state.next.end(), state.forces.begin());
-    }
-    if (state.sigma < 1e10 * state.stiffness) {
-      state.sigma *= 30;
-    }
-    if (++round > 40) {
-      break;
-    }
+  if (hard_strength_ > 0) {
+    refuse_unmet();
   }
-  return solution;
+  return solution_;
+}
+
+}  // namespace
+
+Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch, Start start,
+                     const ExactOptions& options) noexcept {
+  return Search(balance, forces, scratch.arrays(), options.max_iterations).run(start);
 }
 
 }  // namespace palpate::solver

@@ -2,20 +2,24 @@
 
 /// The exact solver: any finite set of primitives, co-located or not, orthogonal or not, hard or not.
 ///
-/// The proxy minimises a strongly convex energy of three unknowns, E(x) = k/2 |x - probe|^2 + sum phi_i(x). Each phi_i
-/// is the support function of a convex force body. The method of multipliers (D. P. Bertsekas, Constrained Optimization
-/// and Lagrange Multiplier Methods, 1982, ch. 5) replaces phi_i by its Moreau envelope of stiffness sigma about the
-/// current force F_i: what is to be minimised then has a continuous, piecewise smooth gradient, and a semismooth Newton
-/// method (L. Qi, J. Sun, 1993) with a line search along that gradient finds its minimum in a few steps of O(n) and one
-/// 3 x 3 system. Its forces are the next F_i. Every round shrinks the error by about k / sigma.
+/// The proxy minimises a strongly convex energy of three unknowns, E(x) = k/2 |x - probe|^2 + sum phi_i(x), smooth but
+/// for the primitives themselves. So it lies on a flat (all of space, a plane, a line or a point) where some primitives
+/// hold it, and is there the minimum of a smooth function. The solver walks down E from flat to flat:
 ///
-/// As soon as the forces tell which primitives hold the proxy (those strictly inside their force bodies), the proxy is
-/// put onto their flat in double-double arithmetic, and the smooth rest, of dimension 3 - rank, is solved by Newton's
-/// method. That answer counts only with its certificate; otherwise sigma rises and the next round begins.
+/// * on a flat, Newton's steps, cut back to where E is least along them. A plane that is crossed on the way and pushes
+///   back from both sides is locked, an attractor that is passed and lies deeper too: the flat loses a dimension;
+/// * at the minimum on a flat, the force needed is shared among what is locked. Where each can exert its share that is
+///   the proxy. Otherwise the one that can do it least is let go, and the walk goes on.
 ///
-/// It ends because each round has a unique minimum that the line search approaches monotonically, because the rounds
-/// are the proximal point method on a concave dual that has a maximum (R. T. Rockafellar, 1976), and in any case at the
-/// cap on Newton steps: Outcome::capped, with the best answer found and its true bound.
+/// It ends: every step lowers E, every flat's minimum is reached before the flat is left, so no flat is left twice, and
+/// there are finitely many. (In rounding: at the cap on work, Outcome::capped, with the best answer found and its true
+/// bound.) Where more primitives meet than fix a point, as they do at the old proxy, they share the force as the
+/// nearest point of the sum of their force bodies (internal/share.h); if that does not tell, they are moved apart by
+/// less than half an ulp, each its own way, and the walk is done again. Distances to what is near are in double-double,
+/// in coordinates relative to the probe, so primitives parallel to within an ulp are still told apart.
+///
+/// A hard constraint counts as one of a very large strength, which is raised until all of them are met: an exact
+/// penalty (D. P. Bertsekas, Constrained Optimization and Lagrange Multiplier Methods, 1982, 4.3).
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +31,7 @@
 namespace palpate::solver {
 
 struct ExactOptions {
-  int max_iterations = 200;  ///< Newton steps, of O(n) each
+  int max_iterations = 400;  ///< looks at all primitives, of O(n) each, in the one walk that is long where any is
 };
 
 enum class Start : std::uint8_t {

@@ -2,7 +2,7 @@
 
 /// From an answer relative to the probe to a Solution.
 
-#include "palpate/solver/internal/bound.h"
+#include "palpate/solver/internal/settle.h"
 #include "palpate/solver/solution.h"
 
 namespace palpate::solver::internal {

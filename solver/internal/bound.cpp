@@ -1,10 +1,11 @@
 #include "palpate/solver/internal/bound.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+
+#include "palpate/solver/certify.h"
 
 namespace palpate::solver::internal {
 
@@ -21,7 +22,13 @@ double rounding_of_data(const Placed& primitive, const FineVec3& z) {
   return 8 * unit_roundoff * (size_of(primitive.offset) + size_of(z));
 }
 
-Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, double stiffness, double doubt) {
+// How far a hard constraint may be missed, where that is asked for.
+double leeway(const Placed& primitive, const FineVec3& z, bool leniently) {
+  return leniently ? hard_tolerance * (size_of(primitive.offset) + size_of(z)) : 0;
+}
+
+Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
+                     bool leniently) {
   const double s = plane.strength;
   Depth depth = depth_of(plane, z);
   depth.error += doubt;
@@ -29,7 +36,7 @@ Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, 
   const auto slack_within = [&](double tolerance) {
     const double behind = std::max(0.0, depth.value + depth.error - tolerance);
     const double before = std::max(0.0, depth.error - depth.value - tolerance);
-    const bool met = depth.value <= depth.error + tolerance;
+    const bool met = depth.value <= depth.error + tolerance + leeway(plane, z, leniently);
     return (std::isinf(s) ? (met ? 0 : infinity) : (s - given) * behind) + given * before;
   };
   const double slack = slack_within(0);
@@ -44,8 +51,8 @@ Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, 
   return {plane.direction * given, 4 * unit_roundoff * given, slack, backward, slack > 0};
 }
 
-Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3& force, double stiffness,
-                         double doubt) {
+Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
+                         bool leniently) {
   const double s = attractor.strength;
   const bool hard = std::isinf(s);
   Miss miss = miss_of(attractor, z);
@@ -59,7 +66,8 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
   }
   const double reach = hard ? size : s + size;
   const double rounding = 8 * unit_roundoff * reach * miss.length + 2 * reach * miss.error;
-  const double off = hard ? (miss.length <= 4 * miss.error ? 0 : infinity) : s * miss.length;
+  const double off =
+      hard ? (miss.length <= 4 * miss.error + leeway(attractor, z, leniently) ? 0 : infinity) : s * miss.length;
   double slack = std::max(0.0, off - glm::dot(given, miss.vector.hi())) + rounding;
   if (miss.length > 4 * miss.error && !hard) {
     const Vec3 full = miss.vector.hi() * (s / miss.length);
@@ -82,34 +90,36 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
 
 }  // namespace
 
-Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt) {
+Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
+               bool leniently) {
   switch (primitive.type) {
     case PrimitiveType::directed_force:
       return {primitive.direction * primitive.strength, 4 * unit_roundoff * primitive.strength, 0, 0, false};
     case PrimitiveType::plane:
-      return share_of_plane(primitive, z, force, stiffness, doubt);
+      return share_of_plane(primitive, z, force, stiffness, doubt, leniently);
     case PrimitiveType::line:
     case PrimitiveType::point:
-      return share_of_attractor(primitive, z, force, stiffness, doubt);
+      return share_of_attractor(primitive, z, force, stiffness, doubt, leniently);
   }
   return {};
 }
 
 Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
-               std::span<const Vec3> forces) {
+               std::span<const Vec3> forces, bool leniently) {
   FineVec3 sum = z * stiffness;
   Bound bound;
   double rounding = stiffness * flat.doubt;
   double backward_slack = 0;
+  Placed room;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     Share share;
-    if (flat.has_chosen(i)) {
+    if (flat.has(i)) {
       // On the exact flat its own primitives have no slack: only their force bodies are asked.
-      Placed met = primitives[i];
+      Placed met = primitives.at(i, room);
       met.offset = z;
       share = share_of(met, z, forces[i], stiffness);
     } else {
-      share = share_of(primitives[i], z, forces[i], stiffness, flat.doubt);
+      share = share_of(primitives.at(i, room), z, forces[i], stiffness, flat.doubt, leniently);
     }
     sum = sum + -share.force;
     rounding += share.force_error;
@@ -126,66 +136,6 @@ Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineV
   bound.error = law(bound.slack);
   bound.backward_error = bound.slack > 0 ? law(backward_slack) : bound.error;
   return bound;
-}
-
-namespace {
-
-bool has_full_size(const Placed& primitive, const Vec3& force) {
-  return (primitive.type == PrimitiveType::line || primitive.type == PrimitiveType::point) &&
-         length_of(force) >= primitive.strength * (1 - 8 * unit_roundoff);
-}
-
-// Moves z within the flat to where the attractor's direction is that of its force: by the rounding of z, which close to
-// the attractor turns the direction by far more than that of the force.
-void align(const Placed& attractor, const Vec3& force, const Flat& flat, FineVec3& z) {
-  const Miss miss = miss_of(attractor, z);
-  Vec3 step = (miss.vector - fine(force * (miss.length / length_of(force)))).hi();
-  for (int i = 0; i < flat.rank; ++i) {
-    step -= flat.normal[i] * glm::dot(flat.normal[i], step);
-  }
-  z = z + step;
-}
-
-}  // namespace
-
-Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z,
-                         std::span<const Vec3> forces) {
-  std::array<std::uint32_t, 32> held;    // more of them add no more than tightness
-  std::array<std::uint32_t, 32> inside;  // those of the held whose force is not at its limit
-  std::size_t count = 0;
-  std::size_t inside_count = 0;
-  std::uint32_t slipping = 0;
-  for (std::size_t i = 0; i < primitives.size() && count < held.size(); ++i) {
-    if (share_of(primitives[i], z, forces[i], stiffness).held) {
-      held[count++] = static_cast<std::uint32_t>(i);
-      if (has_full_size(primitives[i], forces[i])) {
-        slipping = static_cast<std::uint32_t>(i);
-      } else {
-        inside[inside_count++] = static_cast<std::uint32_t>(i);
-      }
-    }
-  }
-  Settled settled{z, {}};
-  Flat flat;
-  if (count > 0) {
-    flat = settle(primitives, std::span(held).first(count), settled.z);
-  }
-  settled.bound = bound_at(primitives, stiffness, settled.z, flat, forces);
-  if (inside_count + 1 == count) {
-    // Between sticking and slipping, where friction rests for as long as the probe does, the proxy is nearly but not
-    // quite on one attractor, which pulls with all its strength.
-    Settled free{z, {}};
-    Flat rest;
-    if (inside_count > 0) {
-      rest = settle(primitives, std::span(inside).first(inside_count), free.z);
-    }
-    align(primitives[slipping], forces[slipping], rest, free.z);
-    free.bound = bound_at(primitives, stiffness, free.z, rest, forces);
-    if (free.bound.backward_error < settled.bound.backward_error) {
-      return free;
-    }
-  }
-  return settled;
 }
 
 }  // namespace palpate::solver::internal

@@ -2,9 +2,9 @@
 
 /// The slack law of certify.h in coordinates relative to the probe.
 
+#include <cstdint>
 #include <span>
 
-#include "palpate/solver/internal/flat.h"
 #include "palpate/solver/internal/placed.h"
 
 namespace palpate::solver::internal {
@@ -20,7 +20,19 @@ struct Share {
 
 /// The cheaper of the full force at z (no slack) and the admissible force nearest to `force` (with its slack).
 /// doubt: how far z may be from the point meant, m.
-Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt = 0);
+Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt = 0,
+               bool leniently = false);
+
+/// A flat that holds the proxy: of which primitives, and how far the exact one passes the point taken for it.
+struct Flat {
+  int count = 0;
+  std::uint32_t chosen[3];
+  double doubt = 0;  ///< m
+
+  bool has(std::size_t i) const {
+    return (count > 0 && chosen[0] == i) || (count > 1 && chosen[1] == i) || (count > 2 && chosen[2] == i);
+  }
+};
 
 struct Bound {
   double error = 0;           ///< m, rounded outwards
@@ -29,18 +41,9 @@ struct Bound {
   double slack = 0;           ///< J
 };
 
-/// The law at the exact point of the flat that z stands for. forces: as many as primitives.
+/// The law at the exact point of the flat that z stands for. forces: as many as primitives. leniently: hard constraints
+/// count as met within hard_tolerance.
 Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
-               std::span<const Vec3> forces);
-
-/// An answer relative to the probe with the bound of its error.
-struct Settled {
-  FineVec3 z;
-  Bound bound;
-};
-
-/// Settles z onto what holds it there, if that is near, and bounds the error of the point found.
-Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z,
-                         std::span<const Vec3> forces);
+               std::span<const Vec3> forces, bool leniently = false);
 
 }  // namespace palpate::solver::internal

@@ -31,9 +31,17 @@ Placed place(const Primitive& primitive, const Vec3& probe) {
     placed.offset = exact_difference(primitive.position, probe);
   }
   if (primitive.type != PrimitiveType::point) {
-    placed.given_direction = primitive.direction;
-    placed.given_length = std::sqrt(glm::dot(primitive.direction, primitive.direction));
-    placed.direction = primitive.direction / placed.given_length;
+    Vec3 given = primitive.direction;
+    double squared = glm::dot(given, given);
+    if (!(squared > 0.25 && squared < 4)) {
+      // By a power of two, which is exact.
+      const double largest = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
+      given *= std::ldexp(1.0, -std::ilogb(largest));
+      squared = glm::dot(given, given);
+    }
+    placed.given_direction = given;
+    placed.given_length = std::sqrt(squared);
+    placed.direction = given / placed.given_length;
   }
   return placed;
 }
@@ -64,8 +72,11 @@ Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
     return {fine(rough), rough_length, 0x1p-51 * size};
   }
   const Vec3& q = line_or_point.given_direction;
-  const DoubleDouble along = dot(e, q) / dot(fine(q), q);
-  const FineVec3 m = e - q * along;
+  const double squared = line_or_point.given_length * line_or_point.given_length;
+  // What is along the line is taken away twice: first all but its rounding, then that.
+  const double along = glm::dot(rough_e, q) / squared;
+  FineVec3 m = e - FineVec3{two_product(q.x, along), two_product(q.y, along), two_product(q.z, along)};
+  m = m - fine(q * (dot(m, q).hi / squared));
   return {m, length_of(m.hi()), fine_error(line_or_point.offset, z)};
 }
 

@@ -16,7 +16,8 @@ struct Placed {
   PrimitiveType type;
   double strength;       ///< N
   FineVec3 offset;       ///< position - probe, m, exact; not set of a directed force
-  Vec3 given_direction;  ///< of any length; this and the following not set of a point
+  Vec3 given_direction;  ///< of length 0.5 to 3.5: the one given times a power of two; not set of a point, as what
+                         ///< follows
   Vec3 direction;        ///< of length 1, but for rounding
   double given_length;   ///< of given_direction, but for rounding
 };
@@ -30,7 +31,14 @@ class PlacedPrimitives {
   explicit PlacedPrimitives(std::span<const Placed> stored) : stored_(stored) {}
 
   std::size_t size() const { return stored_.empty() ? primitives_.size() : stored_.size(); }
-  Placed operator[](std::size_t i) const { return stored_.empty() ? place(primitives_[i], probe_) : stored_[i]; }
+  /// room: where the primitive is put if it is not stored.
+  const Placed& at(std::size_t i, Placed& room) const {
+    if (!stored_.empty()) {
+      return stored_[i];
+    }
+    room = place(primitives_[i], probe_);
+    return room;
+  }
 
  private:
   std::span<const Primitive> primitives_;
