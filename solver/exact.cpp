@@ -268,6 +268,7 @@ void Search::refuse_unmet() {
 Solution Search::run(Start start) {
   constexpr int few = 40;
   while (true) {
+    walk_.coarseness = 0x1p-51;
     if (start == Start::warm) {
       start_from_forces();
       take_as_given();
@@ -284,6 +285,7 @@ Solution Search::run(Start start) {
     if (walk(few)) {
       return solution_;
     }
+    walk_.coarseness = 0;
     make_general();
     if (walk(cap_)) {
       return solution_;

@@ -69,7 +69,7 @@ Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
   const double rough_length = length_of(rough);
   const double size = size_of(e);
   if (4 * rough_length > size) {
-    return {fine(rough), rough_length, 0x1p-51 * size};
+    return {fine(rough), rough_length, 0x1p-51 * size + fine_error(line_or_point.offset, z)};
   }
   const Vec3& q = line_or_point.given_direction;
   const double squared = line_or_point.given_length * line_or_point.given_length;
@@ -85,7 +85,7 @@ Depth depth_of(const Placed& plane, const FineVec3& z) {
   const double rough = glm::dot(e.hi(), plane.direction);
   const double rough_error = rounding * size_of(e);
   if (std::abs(rough) > 0x1p20 * rough_error) {
-    return {rough, rough_error};
+    return {rough, rough_error + fine_error(plane.offset, z)};
   }
   return {dot(e, plane.given_direction).hi / plane.given_length, fine_error(plane.offset, z)};
 }

@@ -33,6 +33,7 @@ class Walker {
   int run();
 
  private:
+  double tolerance(const Placed& primitive, const FineVec3& z) const;
   void evaluate(const FineVec3& z, const Frame& frame, Local& local);
   double slope(const FineVec3& z, const Frame& frame, const FineVec3& way, std::uint32_t but = none);
   bool release(Local& local, FineVec3& way);
@@ -50,6 +51,10 @@ class Walker {
 
 Vec3 force_of_attractor(const Placed& attractor, const Miss& miss) {
   return miss.length > 0 ? miss.vector.hi() * (attractor.strength / miss.length) : Vec3{0};
+}
+
+double Walker::tolerance(const Placed& primitive, const FineVec3& z) const {
+  return touch + state_.coarseness * (size_of(primitive.offset) + size_of(z));
 }
 
 void Walker::evaluate(const FineVec3& z, const Frame& frame, Local& local) {
@@ -72,7 +77,7 @@ void Walker::evaluate(const FineVec3& z, const Frame& frame, Local& local) {
     const double s = primitive.strength;
     if (primitive.type == PrimitiveType::plane) {
       const Depth depth = depth_of(primitive, z);
-      if (std::abs(depth.value) <= depth.error + touch) {
+      if (std::abs(depth.value) <= depth.error + tolerance(primitive, z)) {
         state_.met[local.met++] = static_cast<std::uint32_t>(i);
         continue;
       }
@@ -81,7 +86,7 @@ void Walker::evaluate(const FineVec3& z, const Frame& frame, Local& local) {
       local.size += behind ? s : 0;
     } else {
       const Miss miss = miss_of(primitive, z);
-      if (miss.length <= 4 * miss.error + touch) {
+      if (miss.length <= 4 * miss.error + tolerance(primitive, z)) {
         state_.met[local.met++] = static_cast<std::uint32_t>(i);
         continue;
       }
@@ -126,11 +131,19 @@ double Walker::slope(const FineVec3& z, const Frame& frame, const FineVec3& way,
       continue;
     }
     if (primitive.type == PrimitiveType::plane) {
-      if (depth_of(primitive, z).value > 0) {
+      const Depth depth = depth_of(primitive, z);
+      if (std::abs(depth.value) <= depth.error + tolerance(primitive, z)) {
+        sum += primitive.strength * std::max(0.0, rate_of(primitive, way));
+      } else if (depth.value > 0) {
         sum += primitive.strength * rate_of(primitive, way);
       }
     } else {
-      sum -= glm::dot(force_of_attractor(primitive, miss_of(primitive, z)), way.hi());
+      const Miss miss = miss_of(primitive, z);
+      if (miss.length <= 4 * miss.error + tolerance(primitive, z)) {
+        sum += primitive.strength * speed_across(primitive, way.hi());
+      } else {
+        sum -= glm::dot(force_of_attractor(primitive, miss), way.hi());
+      }
     }
   }
   return sum;

@@ -17,6 +17,7 @@ struct Walk {
   Vec3 pull{0};                        ///< the sum of the directed forces, N
   FineVec3 z;                          ///< m, relative to the probe: where the walk starts and ends
   Frame frame;                         ///< what is locked there
+  double coarseness = 0;               ///< of what counts as met, relative to the distances from the probe
   std::span<Vec3> forces;              ///< out, N: each primitive's force on the proxy at the end
   std::span<Hold> hold;                ///< scratch
   std::span<std::uint32_t> met;        ///< scratch
