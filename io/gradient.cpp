@@ -3,22 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "palpate/io/internal/central_differences.h"
+#include "palpate/io/internal/fits.h"
 #include "palpate/io/internal/moments.h"
 #include "palpate/io/internal/parallel.h"
 #include "palpate/io/internal/plane_fit.h"
 #include "palpate/io/internal/row_reader.h"
 #include "palpate/io/internal/slice_kernel.h"
+#include "palpate/io/internal/straight_block.h"
 
 namespace palpate::io {
 namespace {
 
 using internal::BlockLayout;
 using internal::BlockSums;
+using internal::GradientTarget;
 using internal::PlaneFit;
 using internal::RowReader;
 using internal::space_sums;
@@ -36,45 +42,29 @@ constexpr int cell_floats = [] {
          2 * (space_sums(1) + space_sums(2)) * 2 * cell_lanes;
 }();
 
-using WholeSums = std::array<float, space_sums(2)>;
-
 /// The sums of second order as a matrix.
 template <typename SumAt>
 glm::dmat3 second_order(const SumAt& sum) noexcept {
   return {sum(4), sum(5), sum(7), sum(5), sum(6), sum(8), sum(7), sum(8), sum(9)};
 }
 
-/// Rows of 1 everywhere: the neighbourhood of a voxel far from every edge.
-struct EverywhereOne {
-  void operator()(int, int, int, int count, float* row) const noexcept { std::fill(row, row + count, 1.0F); }
-};
-
-/// Where to cut an axis: at the kernel's reach from both ends, since only what is closer to them needs its own fits,
-/// and between these into pieces of at most `longest`.
-std::vector<int> cuts(int size, int reach, int longest) {
-  std::vector<int> at{0};
-  for (const int end : {std::min(reach, size), std::max(size - reach, 0), size}) {
-    while (at.back() < end) {
-      at.push_back(std::min(at.back() + longest, end));
-    }
-  }
-  return at;
-}
-
 /// The whole volume in blocks whose sums stay in a second-level cache.
-std::vector<Block> blocks_of(const glm::ivec3& size, const glm::ivec3& reach) {
-  const std::vector<int> x = cuts(size.x, reach.x, 112);
-  const std::vector<int> y = cuts(size.y, reach.y, 24);
-  const std::vector<int> z = cuts(size.z, 0, 40);
+std::vector<Block> blocks_of(const glm::ivec3& size) {
+  const glm::ivec3 longest(64, 48, 64);
   std::vector<Block> blocks;
-  for (std::size_t k = 1; k < z.size(); ++k) {
-    for (std::size_t j = 1; j < y.size(); ++j) {
-      for (std::size_t i = 1; i < x.size(); ++i) {
-        blocks.push_back({{x[i - 1], y[j - 1], z[k - 1]}, {x[i] - x[i - 1], y[j] - y[j - 1], z[k] - z[k - 1]}});
+  glm::ivec3 at(0);
+  for (at.z = 0; at.z < size.z; at.z += longest.z) {
+    for (at.y = 0; at.y < size.y; at.y += longest.y) {
+      for (at.x = 0; at.x < size.x; at.x += longest.x) {
+        blocks.push_back({at, glm::min(longest, size - at)});
       }
     }
   }
   return blocks;
+}
+
+GradientTarget packed(const Block& block, glm::vec3* gradients) {
+  return {gradients, block.size.x, static_cast<std::ptrdiff_t>(block.size.x) * block.size.y};
 }
 
 }  // namespace
@@ -82,61 +72,64 @@ std::vector<Block> blocks_of(const glm::ivec3& size, const glm::ivec3& reach) {
 struct GradientKernel::Weights {
   std::shared_ptr<const Volume> volume;
   double scale_mm = 0;
+  std::optional<internal::CentralDifferences> differences;  ///< instead of all that follows
   internal::SliceKernel slices;
   glm::dmat3 to_patient{1};
-  std::vector<PlaneFit> whole_neighbourhood;  ///< by slice
-  std::vector<WholeSums> whole_sums;          ///< by slice: of the weights of a whole neighbourhood
+  internal::Fits fits;
 
+  /// Any block by the sums of moments.h.
   template <int Lanes, typename Stored>
   void run(const std::vector<Stored>& voxels, const BlockLayout& layout, float* scratch,
-           glm::vec3* gradients) const noexcept {
+           const GradientTarget& target) const noexcept {
     float* const sums = scratch;
     float* const weights = sums + layout.moment_floats(1);
     float* const rest = weights + layout.moment_floats(2);
     const RowReader<Stored> values(*volume, voxels, false);
     BlockSums<1, Lanes, RowReader<Stored>>(slices, layout, values, rest).run(sums);
     const bool complete = values.complete();
-    if (!complete) {
+    const bool needs_weights = values.met_padding() || (!complete && !fits.knows_edges());
+    if (needs_weights) {
       const RowReader<Stored> mask(*volume, voxels, true);
       BlockSums<2, Lanes, RowReader<Stored>>(slices, layout, mask, rest).run(weights);
     }
+    const glm::ivec3 first = layout.block.first;
     for (int k = 0; k < layout.block.size.z; ++k) {
       for (int j = 0; j < layout.block.size.y; ++j) {
         const float* const row = sums + layout.at(1, 0, j, k);
-        if (complete) {
-          const int slice = layout.block.first.z + k;
-          const PlaneFit& fit = whole_neighbourhood[static_cast<std::size_t>(slice)];
-          fit_row(
-              row, layout, [&](int) -> const PlaneFit& { return fit; }, gradients);
-        } else {
-          const float* const weight_row = weights + layout.at(2, 0, j, k);
-          fit_row(
-              row, layout,
-              [&](int i) { return internal::fit_plane(weight_row + i, layout.plane(), scale_mm, to_patient); },
-              gradients);
+        const float* const weight_row = weights + layout.at(2, 0, j, k);
+        glm::vec3* const gradients = target.first + k * target.slice + j * target.row;
+        for (int i = 0; i < layout.block.size.x; ++i) {
+          const PlaneFit fit = complete ? fits.whole(first.z + k)
+                               : needs_weights
+                                   ? internal::fit_plane(weight_row + i, layout.plane(), scale_mm, to_patient)
+                                   : fits.at(first.x + i, first.y + j, first.z + k);
+          gradients[i] = internal::gradient_of(fit, row + i, layout.plane());
         }
-        gradients += layout.block.size.x;
-      }
-    }
-  }
-
-  template <typename FitAt>
-  static void fit_row(const float* sums, const BlockLayout& layout, const FitAt& fit_at,
-                      glm::vec3* gradients) noexcept {
-    const std::size_t stride = layout.plane();
-    for (int i = 0; i < layout.block.size.x; ++i) {
-      const PlaneFit& fit = fit_at(i);
-      const float* const s = sums + i;
-      for (int axis = 0; axis < 3; ++axis) {
-        gradients[i][axis] = (fit.slope[0][axis] * s[stride] + fit.slope[1][axis] * s[2 * stride]) +
-                             (fit.slope[2][axis] * s[3 * stride] + fit.constant[axis] * s[0]);
       }
     }
   }
 
   template <int Lanes>
-  void run(const BlockLayout& layout, float* scratch, glm::vec3* gradients) const noexcept {
-    std::visit([&](const auto& voxels) { run<Lanes>(voxels, layout, scratch, gradients); }, volume->voxels);
+  void run(const BlockLayout& layout, float* scratch, const GradientTarget& target) const noexcept {
+    std::visit([&](const auto& voxels) { run<Lanes>(voxels, layout, scratch, target); }, volume->voxels);
+  }
+
+  /// A block in whatever way is fastest; they all give the same bits.
+  void run(const Block& block, const GradientTarget& target) const {
+    if (differences) {
+      differences->at_block(*volume, block, target);
+      return;
+    }
+    const auto straight = [&](const auto& voxels) {
+      return internal::straight_block(*volume, voxels, slices, fits, block, target);
+    };
+    if (slices.straight && std::visit(straight, volume->voxels)) {
+      return;
+    }
+    const BlockLayout layout(block, slices, block_lanes);
+    const auto scratch = std::make_unique_for_overwrite<float[]>(layout.moment_floats(1) + layout.moment_floats(2) +
+                                                                 layout.scratch_floats(2));
+    run<block_lanes>(layout, scratch.get(), target);
   }
 
   template <typename Stored>
@@ -149,7 +142,7 @@ struct GradientKernel::Weights {
     }
     for (int k = 0; k < layout.block.size.z; ++k) {
       const int slice = layout.block.first.z + k;
-      const WholeSums& whole = whole_sums[static_cast<std::size_t>(slice)];
+      const internal::Fits::Sums& whole = fits.whole_sums(slice);
       const double total = static_cast<double>(whole[0]);
       const auto weight = [&](std::size_t n) { return static_cast<double>(whole[n]) / total; };
       const glm::dmat3 covariance = second_order(weight);
@@ -171,22 +164,6 @@ struct GradientKernel::Weights {
       }
     }
     return true;
-  }
-
-  /// The same sums, over weights alone, that a block beside padding takes: a whole neighbourhood gets the same fit in
-  /// both.
-  void add_whole_neighbourhood(int slice) {
-    const BlockLayout layout({{0, 0, slice}, {1, 1, 1}}, slices, cell_lanes);
-    std::vector<float> buffer(layout.moment_floats(2) + layout.scratch_floats(2));
-    const EverywhereOne ones;
-    BlockSums<2, cell_lanes, EverywhereOne>(slices, layout, ones, buffer.data() + layout.moment_floats(2))
-        .run(buffer.data());
-    WholeSums sums;
-    for (std::size_t n = 0; n < sums.size(); ++n) {
-      sums[n] = buffer[n * layout.plane()];
-    }
-    whole_sums.push_back(sums);
-    whole_neighbourhood.push_back(internal::fit_plane(sums.data(), 1, scale_mm, to_patient));
   }
 };
 
@@ -213,10 +190,21 @@ GradientKernel::GradientKernel(std::shared_ptr<const Volume> volume, double scal
   weights->slices = internal::make_slice_kernel(volume->geometry, scale_mm);
   weights->scale_mm = scale_mm;
   weights->to_patient = volume->slope * weights->slices.to_patient;
+  weights->fits = internal::Fits(volume->geometry.dimensions, weights->slices, scale_mm, weights->to_patient);
   weights->volume = std::move(volume);
-  for (int k = 0; k < weights->volume->geometry.dimensions.z; ++k) {
-    weights->add_whole_neighbourhood(k);
+  weights_ = std::move(weights);
+}
+
+GradientKernel::GradientKernel(std::shared_ptr<const Volume> volume, CentralDifferences) {
+  if (!volume) {
+    throw std::invalid_argument("a gradient needs a volume");
   }
+  const Geometry& g = volume->geometry;
+  auto weights = std::make_unique<Weights>();
+  weights->scale_mm = std::max({g.spacing_i, g.spacing_j, std::abs(g.slice_spacing())});
+  weights->slices.radius = glm::ivec3(1);
+  weights->differences.emplace(g, volume->slope);
+  weights->volume = std::move(volume);
   weights_ = std::move(weights);
 }
 
@@ -231,11 +219,19 @@ glm::ivec3 GradientKernel::radius() const noexcept {
 }
 
 void GradientKernel::at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept {
+  const GradientTarget target = packed(cell, gradients.data());
+  if (weights_->differences) {
+    weights_->differences->at_block(*weights_->volume, cell, target);
+    return;
+  }
   alignas(64) std::array<float, cell_floats> scratch;
-  weights_->run<cell_lanes>(BlockLayout(cell, weights_->slices, cell_lanes), scratch.data(), gradients.data());
+  weights_->run<cell_lanes>(BlockLayout(cell, weights_->slices, cell_lanes), scratch.data(), target);
 }
 
 bool GradientKernel::hessians_at_cell(const Block& cell, std::span<glm::dmat3> hessians) const noexcept {
+  if (weights_->differences) {
+    return false;
+  }
   alignas(64) std::array<float, cell_floats> scratch;
   const BlockLayout layout(cell, weights_->slices, cell_lanes);
   return std::visit(
@@ -244,15 +240,12 @@ bool GradientKernel::hessians_at_cell(const Block& cell, std::span<glm::dmat3> h
 }
 
 void GradientKernel::at_block(const Block& block, std::span<glm::vec3> gradients) const {
-  const BlockLayout layout(block, weights_->slices, block_lanes);
-  const auto scratch = std::make_unique_for_overwrite<float[]>(layout.moment_floats(1) + layout.moment_floats(2) +
-                                                               layout.scratch_floats(2));
-  weights_->run<block_lanes>(layout, scratch.get(), gradients.data());
+  weights_->run(block, packed(block, gradients.data()));
 }
 
 void GradientKernel::for_each_block(const std::function<void(const Block&, std::span<const glm::vec3>)>& use,
                                     const Progress& progress, int threads) const {
-  const std::vector<Block> blocks = blocks_of(weights_->volume->geometry.dimensions, radius());
+  const std::vector<Block> blocks = blocks_of(weights_->volume->geometry.dimensions);
   const auto one = [&](std::size_t n) {
     std::vector<glm::vec3> gradients(blocks[n].voxels());
     at_block(blocks[n], gradients);
@@ -261,20 +254,21 @@ void GradientKernel::for_each_block(const std::function<void(const Block&, std::
   internal::parallel_for(blocks.size(), one, progress, threads);
 }
 
-std::vector<glm::vec3> GradientKernel::whole(const Progress& progress, int threads) const {
+void GradientKernel::whole_into(std::span<glm::vec3> gradients, const Progress& progress, int threads) const {
   const Volume& volume = *weights_->volume;
-  std::vector<glm::vec3> gradients(volume.offset(0, 0, volume.geometry.dimensions.z));
-  const auto place = [&](const Block& block, std::span<const glm::vec3> part) {
-    auto from = part.begin();
-    for (int k = 0; k < block.size.z; ++k) {
-      for (int j = 0; j < block.size.y; ++j) {
-        const auto to = volume.offset(block.first.x, block.first.y + j, block.first.z + k);
-        std::copy(from, from + block.size.x, gradients.begin() + static_cast<std::ptrdiff_t>(to));
-        from += block.size.x;
-      }
-    }
+  const std::vector<Block> blocks = blocks_of(volume.geometry.dimensions);
+  const auto row = static_cast<std::ptrdiff_t>(volume.offset(0, 1, 0));
+  const auto slice = static_cast<std::ptrdiff_t>(volume.offset(0, 0, 1));
+  const auto one = [&](std::size_t n) {
+    const glm::ivec3& first = blocks[n].first;
+    weights_->run(blocks[n], {gradients.data() + volume.offset(first.x, first.y, first.z), row, slice});
   };
-  for_each_block(place, progress, threads);
+  internal::parallel_for(blocks.size(), one, progress, threads);
+}
+
+std::vector<glm::vec3> GradientKernel::whole(const Progress& progress, int threads) const {
+  std::vector<glm::vec3> gradients(weights_->volume->offset(0, 0, weights_->volume->geometry.dimensions.z));
+  whole_into(gradients, progress, threads);
   return gradients;
 }
 

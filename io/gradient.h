@@ -8,6 +8,8 @@
 /// fields, and what lies outside has no say: there is no boundary where the data ends. Source: Knutsson and Westin,
 /// "Normalized and differential convolution", CVPR 1993.
 ///
+/// Or, sharper and noisier: central differences between neighbouring voxels.
+///
 /// One kernel serves the whole volume, a brick and a single sample, and gives the same bits in all three: every sum is
 /// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
 /// they round differently in their vectorised part, in a row's tail and from one processor to the next.
@@ -41,13 +43,17 @@ struct Block {
 /// Reads the volume; keeps little more than the weights of its own. Immutable, so any number of threads may use it.
 class GradientKernel {
  public:
+  struct CentralDifferences {};
   /// Throws std::invalid_argument for no volume, and for a scale that is not above 0 or reaches over more than 64
   /// voxels.
   GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm);
+  /// Central differences. Throws std::invalid_argument for no volume.
+  GradientKernel(std::shared_ptr<const Volume> volume, CentralDifferences);
   ~GradientKernel();
   GradientKernel(const GradientKernel&) = delete;
   GradientKernel& operator=(const GradientKernel&) = delete;
 
+  /// Of the Gaussian; of central differences, half the distance that they span at the most.
   double scale_mm() const noexcept;
   /// Voxels that the kernel reaches over on each side of the one it is centred on.
   glm::ivec3 radius() const noexcept;
@@ -57,7 +63,7 @@ class GradientKernel {
   void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
   /// The Hessians of a cell's voxels (patient space, per mm^2, without the rescale slope's sign and size): second
   /// derivatives of the same Gaussian. False, and nothing written, where a neighbourhood is not complete: second
-  /// derivatives of what is not there would be guesses. May be called in the tick.
+  /// derivatives of what is not there would be guesses. Not of central differences. May be called in the tick.
   bool hessians_at_cell(const Block& cell, std::span<glm::dmat3> hessians) const noexcept;
   /// Any block within the volume; allocates.
   void at_block(const Block& block, std::span<glm::vec3> gradients) const;
@@ -67,6 +73,8 @@ class GradientKernel {
                       const Progress& progress = {}, int threads = 0) const;
   /// The whole volume's gradients: 12 bytes a voxel. Throws Cancelled.
   std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
+  /// The same into memory of the caller's: one for each voxel, i fastest.
+  void whole_into(std::span<glm::vec3> gradients, const Progress& progress = {}, int threads = 0) const;
 
  private:
   struct Weights;

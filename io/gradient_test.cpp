@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 #include <random>
 
@@ -104,36 +105,112 @@ bool same_bits(const glm::vec3& a, const glm::vec3& b) {
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
 }
 
+/// The whole volume on one thread and on two, random blocks and random cells.
+void expect_the_same_bits_everywhere(const GradientKernel& kernel, const Volume& volume) {
+  const auto whole = kernel.whole({}, 1);
+  const auto with_two_threads = kernel.whole({}, 2);
+  ASSERT_TRUE(std::equal(whole.begin(), whole.end(), with_two_threads.begin(), same_bits));
+  std::mt19937 random(5);
+  const glm::ivec3 size = volume.geometry.dimensions;
+  for (int n = 0; n < 60; ++n) {
+    Block block;
+    const bool cell = n >= 20;
+    for (int axis = 0; axis < 3; ++axis) {
+      block.size[axis] = cell ? 2 : 1 + static_cast<int>(random() % std::min(20U, static_cast<unsigned>(size[axis])));
+      block.first[axis] = static_cast<int>(random() % static_cast<unsigned>(size[axis] - block.size[axis] + 1));
+    }
+    std::vector<glm::vec3> part(static_cast<std::size_t>(block.size.x * block.size.y * block.size.z));
+    cell ? kernel.at_cell(block, part) : kernel.at_block(block, part);
+    auto got = part.begin();
+    for (int k = 0; k < block.size.z; ++k) {
+      for (int j = 0; j < block.size.y; ++j) {
+        for (int i = 0; i < block.size.x; ++i) {
+          const glm::ivec3 v = block.first + glm::ivec3(i, j, k);
+          ASSERT_TRUE(same_bits(*got++, whole[volume.offset(v.x, v.y, v.z)])) << v.x << ' ' << v.y << ' ' << v.z;
+        }
+      }
+    }
+  }
+}
+
 TEST(Gradient, HasTheSameBitsInTheWholeInAnyBlockAndInACell) {
   for (const bool quantised : {true, false}) {
-    for (const Grid& grid : grids({39, 26, 22})) {
-      const auto volume = scan(testdata::make_sphere(8), grid,
-                               {.noise = 40, .quantised = quantised, .circle_radius = quantised ? 12.0 : 0.0});
-      const GradientKernel kernel(volume, 1.4);
-      const auto whole = kernel.whole({}, 1);
-      const auto with_two_threads = kernel.whole({}, 2);
-      ASSERT_TRUE(std::equal(whole.begin(), whole.end(), with_two_threads.begin(), same_bits));
-      std::mt19937 random(5);
-      const glm::ivec3 size = volume->geometry.dimensions;
-      for (int n = 0; n < 60; ++n) {
-        Block block;
-        const bool cell = n >= 20;
-        for (int axis = 0; axis < 3; ++axis) {
-          block.size[axis] =
-              cell ? 2 : 1 + static_cast<int>(random() % std::min(20U, static_cast<unsigned>(size[axis])));
-          block.first[axis] = static_cast<int>(random() % static_cast<unsigned>(size[axis] - block.size[axis] + 1));
+    for (const double circle : {0.0, 12.0}) {
+      if (circle > 0 && !quantised) continue;
+      for (const Grid& grid : grids({39, 26, 22})) {
+        const auto volume =
+            scan(testdata::make_sphere(8), grid, {.noise = 40, .quantised = quantised, .circle_radius = circle});
+        expect_the_same_bits_everywhere(GradientKernel(volume, 1.4), *volume);
+        expect_the_same_bits_everywhere(GradientKernel(volume, GradientKernel::CentralDifferences{}), *volume);
+      }
+    }
+  }
+}
+
+TEST(CentralDifferences, AreExactOnLinearFieldsOnEveryGridUpToEdgesAndPadding) {
+  const Vec3 slope(3, -2, 5);
+  for (const Grid& grid : grids({24, 22, 20})) {
+    Volume v;
+    v.geometry = testdata::make_geometry(grid);
+    v.slope = 2;
+    v.padding = {-9e9, -8e9};
+    const glm::ivec3 size = v.geometry.dimensions;
+    std::vector<float> voxels;
+    for (int k = 0; k < size.z; ++k) {
+      for (int j = 0; j < size.y; ++j) {
+        for (int i = 0; i < size.x; ++i) {
+          const bool padding = (i * 7 + j * 5 + k * 3) % 11 == 0;
+          voxels.push_back(padding ? -8.5e9F
+                                   : static_cast<float>(0.5 * glm::dot(slope, v.geometry.to_patient({i, j, k}))));
         }
-        std::vector<glm::vec3> part(static_cast<std::size_t>(block.size.x * block.size.y * block.size.z));
-        cell ? kernel.at_cell(block, part) : kernel.at_block(block, part);
-        auto got = part.begin();
-        for (int k = 0; k < block.size.z; ++k) {
-          for (int j = 0; j < block.size.y; ++j) {
-            for (int i = 0; i < block.size.x; ++i) {
-              const glm::ivec3 v = block.first + glm::ivec3(i, j, k);
-              ASSERT_TRUE(same_bits(*got++, whole[volume->offset(v.x, v.y, v.z)]));
-            }
+      }
+    }
+    v.voxels = voxels;
+    const auto volume = std::make_shared<const Volume>(std::move(v));
+    const auto gradients = GradientKernel(volume, GradientKernel::CentralDifferences{}).whole();
+    const auto counts = [&](const glm::ivec3& at) {
+      return glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, size)) &&
+             !volume->is_padding(at.x, at.y, at.z);
+    };
+    const auto has_neighbours = [&](const glm::ivec3& at) {
+      const auto& gaps = volume->geometry.gaps;
+      const bool gap_below = std::find(gaps.begin(), gaps.end(), at.z - 1) != gaps.end();
+      const bool gap_above = std::find(gaps.begin(), gaps.end(), at.z) != gaps.end();
+      return (counts(at - glm::ivec3(1, 0, 0)) || counts(at + glm::ivec3(1, 0, 0))) &&
+             (counts(at - glm::ivec3(0, 1, 0)) || counts(at + glm::ivec3(0, 1, 0))) &&
+             ((counts(at - glm::ivec3(0, 0, 1)) && !gap_below) || (counts(at + glm::ivec3(0, 0, 1)) && !gap_above));
+    };
+    int exact = 0;
+    for (int k = 0; k < size.z; ++k) {
+      for (int j = 0; j < size.y; ++j) {
+        for (int i = 0; i < size.x; ++i) {
+          const Vec3 gradient(gradients[volume->offset(i, j, k)]);
+          if (!counts({i, j, k})) {
+            ASSERT_EQ(gradient, Vec3(0));
+          } else if (has_neighbours({i, j, k})) {
+            ASSERT_LT(glm::length(gradient - slope), 2e-4) << i << ' ' << j << ' ' << k;
+            ++exact;
           }
         }
+      }
+    }
+    EXPECT_GT(exact, size.x * size.y * size.z * 3 / 4);
+  }
+}
+
+TEST(CentralDifferences, AreHalfTheDifferenceOfTheNeighbours) {
+  Grid grid;
+  grid.size = {9, 8, 7};
+  grid.spacing = {0.5, 0.7, 2};
+  const auto volume = scan(testdata::make_sphere(2), grid, {.noise = 300});
+  const auto gradients = GradientKernel(volume, GradientKernel::CentralDifferences{}).whole();
+  const auto v = [&](int i, int j, int k) { return volume->value_at(i, j, k); };
+  for (int k = 1; k < 6; ++k) {
+    for (int j = 1; j < 7; ++j) {
+      for (int i = 1; i < 8; ++i) {
+        const Vec3 expected((v(i + 1, j, k) - v(i - 1, j, k)) / 1.0, (v(i, j + 1, k) - v(i, j - 1, k)) / 1.4,
+                            (v(i, j, k + 1) - v(i, j, k - 1)) / 4.0);
+        ASSERT_LT(glm::length(Vec3(gradients[volume->offset(i, j, k)]) - expected), 1e-3);
       }
     }
   }

@@ -73,6 +73,10 @@ struct Vector {
     return *this;
   }
   friend Vector operator+(Vector a, const Vector& b) noexcept { return a += b; }
+  friend Vector operator-(Vector a, const Vector& b) noexcept {
+    for (int n = 0; n < Lanes / 4; ++n) a.part[n] -= b.part[n];
+    return a;
+  }
   friend Vector operator*(float factor, Vector v) noexcept {
     for (Four& four : v.part) four = factor * four;
     return v;
@@ -152,10 +156,21 @@ class BlockSums {
   void filter_row(const Taps& taps, int row, int i) {
     Vector sum[Order + 1] = {};
     const float* const middle = row_ + layout_.radius.x + i;
-    for (const Tap& tap : taps) {
-      const Vector in = Vector::load(middle + tap.offset);
+    const std::size_t alone = kernel_.straight ? 1 : taps.size();
+    for (std::size_t t = 0; t < alone; ++t) {
+      const Vector in = Vector::load(middle + taps[t].offset);
       for (int power = 0; power <= Order; ++power) {
-        sum[power] += tap.weight[power] * in;
+        sum[power] += taps[t].weight[power] * in;
+      }
+    }
+    for (std::size_t t = alone; t + 1 < taps.size(); t += 2) {
+      const Vector left = Vector::load(middle + taps[t].offset);
+      const Vector right = Vector::load(middle + taps[t + 1].offset);
+      const float* const weight = taps[t + 1].weight;
+      sum[0] += weight[0] * (right + left);
+      sum[1] += weight[1] * (right - left);
+      if constexpr (Order == 2) {
+        sum[2] += weight[2] * (right + left);
       }
     }
     for (int power = 0; power <= Order; ++power) {
@@ -165,17 +180,35 @@ class BlockSums {
 
   void filter_column(const Taps& taps, int j, int i, float* plane) {
     Vector sum[in_plane] = {};
-    for (const Tap& tap : taps) {
-      const float* const in = filtered_row(j + layout_.radius.y + tap.offset, 0) + i;
-      const Vector one = Vector::load(in);
-      const Vector p = Vector::load(in + width());
+    const auto load = [&](const Tap& tap, int power) {
+      return Vector::load(filtered_row(j + layout_.radius.y + tap.offset, power) + i);
+    };
+    const std::size_t alone = kernel_.straight ? 1 : taps.size();
+    for (std::size_t t = 0; t < alone; ++t) {
+      const Tap& tap = taps[t];
+      const Vector one = load(tap, 0);
+      const Vector p = load(tap, 1);
       sum[0] += tap.weight[0] * one;
       sum[1] += tap.weight[0] * p;
       sum[2] += tap.weight[1] * one;
       if constexpr (Order == 2) {
-        sum[3] += tap.weight[0] * Vector::load(in + 2 * width());
+        sum[3] += tap.weight[0] * load(tap, 2);
         sum[4] += tap.weight[1] * p;
         sum[5] += tap.weight[2] * one;
+      }
+    }
+    for (std::size_t t = alone; t + 1 < taps.size(); t += 2) {
+      const Tap& left = taps[t];
+      const Tap& right = taps[t + 1];
+      const Vector even = load(right, 0) + load(left, 0);
+      const Vector odd = load(right, 0) - load(left, 0);
+      sum[0] += right.weight[0] * even;
+      sum[1] += right.weight[0] * (load(right, 1) + load(left, 1));
+      sum[2] += right.weight[1] * odd;
+      if constexpr (Order == 2) {
+        sum[3] += right.weight[0] * (load(right, 2) + load(left, 2));
+        sum[4] += right.weight[1] * (load(right, 1) - load(left, 1));
+        sum[5] += right.weight[2] * even;
       }
     }
     for (int n = 0; n < in_plane; ++n) {
@@ -187,29 +220,62 @@ class BlockSums {
     const std::size_t size = layout_.plane();
     for (std::size_t n = 0; n < size; n += Lanes) {
       Vector s[in_space] = {};
-      for (const Contribution& c : contributions) {
-        const float* const b = plane_of(c.slice - layout_.first_slice) + n;
-        const Vector one = Vector::load(b);
-        const Vector p = Vector::load(b + size);
-        const Vector q = Vector::load(b + 2 * size);
-        const float w = c.weight;
-        const float wz = w * c.offset[2];
-        s[0] += w * one;
-        s[1] += w * p;
-        s[2] += w * q;
-        s[3] += wz * one;
-        if constexpr (Order == 2) {
-          s[4] += w * Vector::load(b + 3 * size);
-          s[5] += w * Vector::load(b + 4 * size);
-          s[6] += w * Vector::load(b + 5 * size);
-          s[7] += wz * p;
-          s[8] += wz * q;
-          s[9] += (wz * c.offset[2]) * one;
+      for (std::size_t c = 0; c < contributions.size(); ++c) {
+        if (contributions[c].paired) {
+          add_pair(contributions[c], contributions[c + 1], n, s);
+          ++c;
+        } else {
+          add_slice(contributions[c], n, s);
         }
       }
       for (int m = 0; m < in_space; ++m) {
         s[m].store(out + m * size + n);
       }
+    }
+  }
+
+  void add_slice(const Contribution& c, std::size_t n, Vector (&s)[in_space]) const {
+    const std::size_t size = layout_.plane();
+    const float* const b = plane_of(c.slice - layout_.first_slice) + n;
+    const Vector one = Vector::load(b);
+    const Vector p = Vector::load(b + size);
+    const Vector q = Vector::load(b + 2 * size);
+    const float w = c.weight;
+    const float wz = w * c.offset[2];
+    s[0] += w * one;
+    s[1] += w * p;
+    s[2] += w * q;
+    s[3] += wz * one;
+    if constexpr (Order == 2) {
+      s[4] += w * Vector::load(b + 3 * size);
+      s[5] += w * Vector::load(b + 4 * size);
+      s[6] += w * Vector::load(b + 5 * size);
+      s[7] += wz * p;
+      s[8] += wz * q;
+      s[9] += (wz * c.offset[2]) * one;
+    }
+  }
+
+  /// Two slices as far on either side.
+  void add_pair(const Contribution& below, const Contribution& above, std::size_t n, Vector (&s)[in_space]) const {
+    const std::size_t size = layout_.plane();
+    const float* const b = plane_of(below.slice - layout_.first_slice) + n;
+    const float* const a = plane_of(above.slice - layout_.first_slice) + n;
+    const auto even = [&](std::size_t m) { return Vector::load(a + m * size) + Vector::load(b + m * size); };
+    const auto odd = [&](std::size_t m) { return Vector::load(a + m * size) - Vector::load(b + m * size); };
+    const float w = above.weight;
+    const float wz = w * above.offset[2];
+    s[0] += w * even(0);
+    s[1] += w * even(1);
+    s[2] += w * even(2);
+    s[3] += wz * odd(0);
+    if constexpr (Order == 2) {
+      s[4] += w * even(3);
+      s[5] += w * even(4);
+      s[6] += w * even(5);
+      s[7] += wz * odd(1);
+      s[8] += wz * odd(2);
+      s[9] += (wz * above.offset[2]) * even(0);
     }
   }
 

@@ -14,6 +14,18 @@ struct PlaneFit {
   glm::vec3 constant{0};
 };
 
+/// Of a voxel whose sums (1, p, q, w) lie `stride` floats apart. Never a negative zero, so that a sum that is left out
+/// because it would be multiplied by zero changes no bit.
+inline glm::vec3 gradient_of(const PlaneFit& fit, const float* s, std::size_t stride) noexcept {
+  glm::vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    gradient[axis] = ((fit.slope[0][axis] * s[stride] + fit.slope[1][axis] * s[2 * stride]) +
+                      (fit.slope[2][axis] * s[3 * stride] + fit.constant[axis] * s[0])) +
+                     0.0F;
+  }
+  return gradient;
+}
+
 /// From the sums of the weights themselves (1, p, q, w, pp, pq, qq, pw, qw, ww: `stride` floats apart). A direction
 /// along which the neighbourhood has no extent worth a slope (a single slice, a lone voxel beside padding) gets slope
 /// 0. to_patient: gradient along (p, q, w) -> patient space, rescale slope included.

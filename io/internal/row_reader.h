@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "palpate/io/internal/straight_filters.h"
 #include "palpate/io/volume.h"
 
 namespace palpate::io::internal {
@@ -31,14 +32,15 @@ class RowReader {
   }
   /// Whether everything read so far was inside and no padding.
   bool complete() const noexcept { return complete_; }
+  bool met_padding() const noexcept { return met_padding_; }
 
  private:
   void copy(const Stored* stored, int count, float* row) const noexcept {
-    if (std::is_integral_v<Stored> && !volume_.padding) {
-      for (int n = 0; n < count; ++n) {
-        row[n] = mask_ ? 1.0F : static_cast<float>(stored[n]);
+    if constexpr (std::is_integral_v<Stored>) {
+      if (!volume_.padding) {
+        mask_ ? std::fill(row, row + count, 1.0F) : to_floats(stored, count, row);
+        return;
       }
-      return;
     }
     bool any_padding = false;
     for (int n = 0; n < count; ++n) {
@@ -46,6 +48,7 @@ class RowReader {
       any_padding = any_padding || padding;
       row[n] = padding ? 0.0F : mask_ ? 1.0F : static_cast<float>(stored[n]);
     }
+    met_padding_ = met_padding_ || any_padding;
     complete_ = complete_ && !any_padding;
   }
   bool is_padding(Stored stored) const noexcept {
@@ -61,6 +64,7 @@ class RowReader {
   const Stored* voxels_;
   bool mask_;
   mutable bool complete_ = true;
+  mutable bool met_padding_ = false;
 };
 
 }  // namespace palpate::io::internal

@@ -75,6 +75,7 @@ class Builder {
         if (!below && !above) break;
       }
     }
+    pair_contributions();
     for (const Taps& taps : kernel_.taps_i) grow(kernel_.radius.x, taps);
     for (const Taps& taps : kernel_.taps_j) grow(kernel_.radius.y, taps);
     return std::move(kernel_);
@@ -114,6 +115,17 @@ class Builder {
     }
     kernel_.radius.z = std::max(kernel_.radius.z, std::abs(other - k));
     kernel_.of_slice[static_cast<std::size_t>(k)].push_back(c);
+  }
+
+  void pair_contributions() {
+    for (auto& contributions : kernel_.of_slice) {
+      for (std::size_t n = 1; n + 1 < contributions.size(); ++n) {
+        Contribution& first = contributions[n];
+        const Contribution& second = contributions[n + 1];
+        first.paired = kernel_.straight && first.weight == second.weight && first.offset[2] == -second.offset[2];
+        n += first.paired ? 1 : 0;
+      }
+    }
   }
 
   int shifted_taps(int steps, const Vec3& mm) {

@@ -21,8 +21,9 @@ struct Tap {
   float weight[3] = {0, 0, 0};
 };
 
-/// Ordered from the middle outwards, sides in turn: on even data what is left and what is right of the middle cancels
-/// to exactly 0.
+/// Ordered from the middle outwards, sides in turn (the negative first). Where the middle is a voxel the two sides are
+/// alike, and are added or subtracted before they are weighted: half the products, and on even data what is left and
+/// what is right of the middle cancels to exactly 0.
 using Taps = std::vector<Tap>;
 
 /// What slice `slice` adds to the one it contributes to.
@@ -31,6 +32,8 @@ struct Contribution {
   float weight = 0;
   float offset[3] = {0, 0, 0};  ///< mm: this slice's voxel (i, j) from the other's voxel (i, j)
   int taps = 0;                 ///< index into SliceKernel::taps_i and taps_j
+  /// Whether the next contribution lies as far on the other side, with the same weight: the two are added first.
+  bool paired = false;
 };
 
 struct SliceKernel {
@@ -38,6 +41,7 @@ struct SliceKernel {
   std::vector<Taps> taps_i;
   std::vector<Taps> taps_j;
   /// Whether all contributions share the first taps, so that a slice filtered in its plane serves every other.
+  /// The taps are then symmetric, too.
   bool straight = true;
   glm::ivec3 radius{0};   ///< largest offset along each axis
   glm::dmat3 to_patient;  ///< gradient along the basis -> gradient in patient space (inverse transpose of the basis)

@@ -1,0 +1,192 @@
+#include "palpate/io/internal/straight_filters.h"
+
+#include "palpate/io/internal/for_processor.h"
+
+namespace palpate::io::internal {
+namespace {
+
+// Several pairs in one pass over the row, so that the sums stay in registers meanwhile.
+constexpr int at_once = 4;
+
+[[gnu::always_inline]] inline void add_row_pairs(const float* __restrict in, const TapPair* pairs, int count, int width,
+                                                 float* __restrict one, float* __restrict p) {
+  PALPATE_INDEPENDENT
+  for (int i = 0; i < width; ++i) {
+    float even = one[i];
+    float odd = p[i];
+    for (int n = 0; n < count; ++n) {
+      const float right = in[i + pairs[n].offset];
+      const float left = in[i - pairs[n].offset];
+      even += pairs[n].even * (right + left);
+      odd += pairs[n].odd * (right - left);
+    }
+    one[i] = even;
+    p[i] = odd;
+  }
+}
+
+[[gnu::always_inline]] inline void add_column_pairs(const float* __restrict rows, std::ptrdiff_t stride,
+                                                    const TapPair* pairs, int count, int width, float* __restrict one,
+                                                    float* __restrict p, float* __restrict q) {
+  PALPATE_INDEPENDENT
+  for (int i = 0; i < width; ++i) {
+    float s0 = one[i];
+    float s1 = p[i];
+    float s2 = q[i];
+    for (int n = 0; n < count; ++n) {
+      const float* const right = rows + pairs[n].offset * stride;
+      const float* const left = rows - pairs[n].offset * stride;
+      s0 += pairs[n].even * (right[i] + left[i]);
+      s1 += pairs[n].even * (right[i + width] + left[i + width]);
+      s2 += pairs[n].odd * (right[i] - left[i]);
+    }
+    one[i] = s0;
+    p[i] = s1;
+    q[i] = s2;
+  }
+}
+
+struct Sums {
+  float* s0;  ///< null: not wanted
+  float* p;
+  float* q;
+  float* w;
+};
+
+template <int Count, bool Total>
+[[gnu::always_inline]] inline void add_slice_pairs(const SlicePair* pairs, std::size_t size, const Sums& sums) {
+  float* __restrict const s0 = sums.s0;
+  float* __restrict const p = sums.p;
+  float* __restrict const q = sums.q;
+  float* __restrict const w = sums.w;
+  const float* a[Count];
+  const float* b[Count];
+  float weight[Count];
+  float weight_w[Count];
+  for (int c = 0; c < Count; ++c) {
+    a[c] = pairs[c].above;
+    b[c] = pairs[c].below;
+    weight[c] = pairs[c].weight;
+    weight_w[c] = pairs[c].weight_w;
+  }
+  PALPATE_INDEPENDENT
+  for (std::size_t n = 0; n < size; ++n) {
+    float sum0 = Total ? s0[n] : 0;
+    float sum1 = p[n];
+    float sum2 = q[n];
+    float sum3 = w[n];
+    for (int c = 0; c < Count; ++c) {
+      if constexpr (Total) sum0 += weight[c] * (a[c][n] + b[c][n]);
+      sum1 += weight[c] * (a[c][n + size] + b[c][n + size]);
+      sum2 += weight[c] * (a[c][n + 2 * size] + b[c][n + 2 * size]);
+      sum3 += weight_w[c] * (a[c][n] - b[c][n]);
+    }
+    if constexpr (Total) s0[n] = sum0;
+    p[n] = sum1;
+    q[n] = sum2;
+    w[n] = sum3;
+  }
+}
+
+template <bool Total>
+[[gnu::always_inline]] inline void add_slice(const SlicePair& slice, std::size_t size, const Sums& sums) {
+  float* __restrict const s0 = sums.s0;
+  float* __restrict const p = sums.p;
+  float* __restrict const q = sums.q;
+  float* __restrict const w = sums.w;
+  const float* __restrict const b = slice.below;
+  const float weight = slice.weight;
+  const float weight_w = slice.weight_w;
+  PALPATE_INDEPENDENT
+  for (std::size_t n = 0; n < size; ++n) {
+    if constexpr (Total) s0[n] += weight * b[n];
+    p[n] += weight * b[n + size];
+    q[n] += weight * b[n + 2 * size];
+    w[n] += weight_w * b[n];
+  }
+}
+
+template <bool Total>
+[[gnu::always_inline]] inline void add_all_slices(const SlicePair* pairs, int count, std::size_t size,
+                                                  const Sums& sums) {
+  for (int c = 0; c < count;) {
+    if (pairs[c].above == nullptr) {
+      add_slice<Total>(pairs[c], size, sums);
+      ++c;
+    } else if (c + 1 < count && pairs[c + 1].above != nullptr) {
+      add_slice_pairs<2, Total>(pairs + c, size, sums);
+      c += 2;
+    } else {
+      add_slice_pairs<1, Total>(pairs + c, size, sums);
+      ++c;
+    }
+  }
+}
+
+}  // namespace
+
+PALPATE_FOR_PROCESSOR
+void filter_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* one, float* p) {
+  PALPATE_INDEPENDENT
+  for (int i = 0; i < width; ++i) {
+    one[i] = middle * in[i];
+    p[i] = 0;
+  }
+  int n = 0;
+  for (; n + at_once <= count; n += at_once) add_row_pairs(in, pairs + n, at_once, width, one, p);
+  for (; n < count; ++n) add_row_pairs(in, pairs + n, 1, width, one, p);
+}
+
+PALPATE_FOR_PROCESSOR
+void filter_column(const float* rows, std::ptrdiff_t stride, float middle, const TapPair* pairs, int count, int width,
+                   float* one, float* p, float* q) {
+  PALPATE_INDEPENDENT
+  for (int i = 0; i < width; ++i) {
+    one[i] = middle * rows[i];
+    p[i] = middle * rows[i + width];
+    q[i] = 0;
+  }
+  int n = 0;
+  for (; n + at_once <= count; n += at_once) add_column_pairs(rows, stride, pairs + n, at_once, width, one, p, q);
+  for (; n < count; ++n) add_column_pairs(rows, stride, pairs + n, 1, width, one, p, q);
+}
+
+PALPATE_FOR_PROCESSOR
+void sum_slices(const SlicePair* pairs, int count, std::size_t size, float* s0, float* p, float* q, float* w) {
+  for (std::size_t n = 0; n < size; ++n) p[n] = q[n] = w[n] = 0;
+  const Sums sums{s0, p, q, w};
+  if (s0 == nullptr) {
+    add_all_slices<false>(pairs, count, size, sums);
+    return;
+  }
+  for (std::size_t n = 0; n < size; ++n) s0[n] = 0;
+  add_all_slices<true>(pairs, count, size, sums);
+}
+
+PALPATE_FOR_PROCESSOR
+void fit_balanced_row(const glm::mat3& slope, const float* p, const float* q, const float* w, int count,
+                      glm::vec3* gradients) {
+  float m[9];
+  for (int n = 0; n < 9; ++n) m[n] = slope[n / 3][n % 3];
+  float* const out = &gradients->x;
+  PALPATE_INDEPENDENT
+  for (int i = 0; i < count; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      out[3 * i + axis] = ((m[axis] * p[i] + m[3 + axis] * q[i]) + m[6 + axis] * w[i]) + 0.0F;
+    }
+  }
+}
+
+PALPATE_FOR_PROCESSOR
+void to_floats(const std::int16_t* stored, int count, float* values) {
+  PALPATE_INDEPENDENT
+  for (int n = 0; n < count; ++n) values[n] = static_cast<float>(stored[n]);
+}
+
+PALPATE_FOR_PROCESSOR
+void to_floats(const std::uint16_t* stored, int count, float* values) {
+  PALPATE_INDEPENDENT
+  for (int n = 0; n < count; ++n) values[n] = static_cast<float>(stored[n]);
+}
+
+}  // namespace palpate::io::internal
