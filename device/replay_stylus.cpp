@@ -1,5 +1,6 @@
 #include "palpate/device/replay_stylus.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace palpate::device {
@@ -7,6 +8,20 @@ namespace palpate::device {
 ReplayStylus::ReplayStylus(std::span<const Reading> readings, const Specification& recorded)
     : readings_(readings), specification_(recorded) {
   specification_.name = recorded.name.empty() ? "replay" : "replay of " + recorded.name;
+}
+
+ReplayStylus::ReplayStylus(std::span<const Reading> readings, std::span<const State> states,
+                           const Specification& recorded)
+    : ReplayStylus(readings, recorded) {
+  if (states.size() != readings.size()) {
+    throw std::invalid_argument(specification_.name + ": as many states as poses are needed");
+  }
+  states_ = states;
+}
+
+State ReplayStylus::state() const noexcept {
+  if (states_.empty() || state_ == State::disconnected) return state_;
+  return states_[std::min(next_, states_.size() - 1)];
 }
 
 void ReplayStylus::open() {

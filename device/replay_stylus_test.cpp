@@ -40,5 +40,22 @@ TEST(ReplayStylus, RefusesAnEmptyRecording) {
   EXPECT_THROW(ReplayStylus({}).open(), std::runtime_error);
 }
 
+TEST(ReplayStylus, RepeatsTheStatesToo) {
+  const Reading readings[] = {{0, {}, 0, true}, {0.001, {}, 0, true}, {0.002, {}, 0, false}};
+  const State states[] = {State::homing, State::active, State::fault};
+  ReplayStylus stylus(readings, states);
+  EXPECT_EQ(stylus.state(), State::disconnected);
+  stylus.open();
+  for (const State expected : states) {
+    stylus.read();
+    EXPECT_EQ(stylus.state(), expected);
+    stylus.write_force(Vec3(0));
+  }
+  EXPECT_EQ(stylus.state(), State::fault) << "the last, from then on";
+  stylus.close();
+  EXPECT_EQ(stylus.state(), State::disconnected);
+  EXPECT_THROW(ReplayStylus(readings, std::span(states).first(2)), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace palpate::device

@@ -8,43 +8,64 @@
 
 namespace palpate::plugin {
 
-/// Where a tick's time went, in this order.
-enum class Stage : std::uint8_t { read, step, filter, write, observe };
-constexpr std::size_t stage_count = 5;
+/// Where a tick's time went, in this order; observe is what it takes to make the frame itself.
+enum class Stage : std::uint8_t { read, map, sample, modes, solve, filter, write, observe };
+constexpr std::size_t stage_count = 8;
+constexpr const char* stage_names[stage_count] = {"read",  "map",    "sample", "modes",
+                                                  "solve", "filter", "write",  "observe"};
 
 /// What one primitive did to the proxy. Device frame.
 struct Share {
   std::uint64_t frame = 0;  ///< index of the frame
-  std::uint32_t mode = 0;   ///< index into the scene's modes
+  std::uint32_t mode = 0;   ///< index into the scene's modes; plus modes::of_scene_left where that scene is being left
   std::uint32_t type = 0;   ///< solver::PrimitiveType
   double strength_n = 0;    ///< N
   double force_n[3] = {};   ///< N, on the proxy
 };
 
+/// What was asked of the session at a frame: bits of Frame::commands.
+namespace command {
+constexpr std::uint32_t arm = 1, disarm = 2, clear_fault = 4, change_stylus = 8;
+}
+
 /// Device frame: m, N, s.
 struct Frame {
   std::uint64_t index = 0;
-  double time_s = 0;  ///< since the session began, on the device's clock
+  double time_s = 0;  ///< since the session began, counted in deadlines: not the clock's
   double dt_s = 0;
+  double pose_time_s = 0;  ///< of the pose, on the device's own clock
+  double heartbeat_s = 0;  ///< time_s at which whoever commands was last seen alive
   double probe_m[3] = {};
   double proxy_m[3] = {};
-  double force_n[3] = {};    ///< of the coupling, before the safety filter
+  double force_n[3] = {};    ///< of the coupling, before damping and the safety filter
   double sent_n[3] = {};     ///< what the device was fed
   double value = 0;          ///< of the scan at the proxy; NaN outside
   double residual_n = 0;     ///< |equation (7)| with each primitive's share, which is defined on a constraint too
   double error_bound_m = 0;  ///< |proxy - exact proxy| is at most this
+  double change_part = 1;    ///< how far the change to this scene has come; 1: it is there
   std::uint32_t scene_epoch = 0;
   std::uint32_t sub_steps = 0;
+  std::uint32_t halts = 0;
   std::uint32_t iterations = 0;
   std::uint32_t solver = 0;   ///< solver::SolverKind of the last sub-step
   std::uint32_t outcome = 0;  ///< solver::Outcome of the last sub-step
   std::uint32_t safety = 0;   ///< the safety filter's state and cause
   std::uint32_t share_count = 0;
-  std::uint32_t buttons = 0;     ///< of the stylus, as a bit mask
+  std::uint32_t buttons = 0;  ///< of the stylus, as a bit mask
+  std::uint32_t fresh = 0;    ///< 1: the pose is new in this frame
+  std::uint32_t stylus_state = 0;
+  std::uint32_t stylus_epoch = 0;  ///< counts the styluses held in this session
+  std::uint32_t commands = 0;      ///< bits of namespace command that took effect in this frame
+  // From here on: what depends on the clock or on other threads, and never decides anything.
   std::uint32_t from_brick = 0;  ///< 1: the last sub-step's gradient was ready; 0: it was computed at the sample
-  std::uint32_t stage_ns[stage_count] = {};  ///< the only fields that depend on the clock
+  std::uint32_t missed = 0;      ///< deadlines that went by without a tick since the frame before
+  std::uint32_t late_ns = 0;     ///< how long after its deadline this tick began
+  std::uint32_t stage_ns[stage_count] = {};
 };
-static_assert(sizeof(Frame) == 8 + 17 * 8 + (9 + stage_count) * 4,
+static_assert(sizeof(Frame) == 8 + 20 * 8 + (16 + stage_count) * 4,
               "no padding: frames are compared and written as bytes");
+
+/// Whether two frames are the same to the last bit in all that a replay repeats.
+bool same_in_replay(const Frame& a, const Frame& b) noexcept;
 
 }  // namespace palpate::plugin

@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
     add_plan(program);
     add_profile(program);
     add_probe(program);
+    add_record(program);
+    add_replay(program);
     add_devices(program);
     add_bench(program);
     program.parse(argc, argv);

@@ -152,7 +152,10 @@ void write_force_time(const Recording& recording, const modes::Scene& scene, con
     sent.y.push_back(glm::length(vector_of(frame.sent_n)));
     std::vector<glm::dvec3> force(scene.modes.size(), glm::dvec3(0));
     for (std::uint32_t n = 0; n < frame.share_count; ++n, ++share) {
-      force[recording.shares[share].mode] += vector_of(recording.shares[share].force_n);
+      // What is left of a scene that went is not one of this one's modes.
+      if (recording.shares[share].mode < force.size()) {
+        force[recording.shares[share].mode] += vector_of(recording.shares[share].force_n);
+      }
     }
     for (std::size_t mode = 0; mode < scene.modes.size(); ++mode) {
       by_mode[mode].x.push_back(frame.time_s);

@@ -114,9 +114,13 @@ Summary summarize(const Recording& recording, const modes::Plan& plan) {
                                            device::advice_for(fault_of(frame))));
     }
     fault = fault_of(frame);
+    summary.missed += frame.missed;
     times.push_back(tick_us(frame));
   }
   summary.tick_us = percentiles_of(std::move(times));
+  for (const Gap& gap : recording.gaps) {
+    summary.lost += gap.frames;
+  }
   return summary;
 }
 
@@ -154,6 +158,7 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
                       summary.largest_error_bound_m, summary.largest_residual_m);
   text += fmt::format("Time of a tick   median {:.2f} us, 99 % {:.2f} us, 99.9 % {:.2f} us, largest {:.1f} us\n",
                       summary.tick_us.median, summary.tick_us.p99, summary.tick_us.p999, summary.tick_us.largest);
+  text += fmt::format("Missed ticks     {}; frames lost to the recording {}\n", summary.missed, summary.lost);
   text += summary.faults.empty() ? "Safety           no fault\n" : "Safety\n";
   for (const std::string& fault : summary.faults) {
     text += "  " + fault + "\n";
@@ -189,6 +194,8 @@ std::string to_json(const Summary& summary, const modes::Scene& scene) {
                               {"p99", summary.tick_us.p99},
                               {"p999", summary.tick_us.p999},
                               {"largest", summary.tick_us.largest}}},
+                            {"missed_ticks", summary.missed},
+                            {"lost_frames", summary.lost},
                             {"faults", summary.faults}};
   return json.dump(1);
 }

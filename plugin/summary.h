@@ -35,6 +35,8 @@ struct Summary {
   double largest_error_bound_m = 0;
   double largest_residual_m = 0;    ///< |residual| / k
   Percentiles tick_us;              ///< all stages together
+  std::uint64_t missed = 0;         ///< deadlines that went by without a tick
+  std::uint64_t lost = 0;           ///< frames that are not in the recording
   std::vector<std::string> faults;  ///< of the safety filter, in words
 };
 

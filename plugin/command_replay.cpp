@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "palpate/modes/scene_json.h"
+#include "palpate/plugin/command.h"
+#include "palpate/plugin/replay.h"
+#include "palpate/plugin/run_session.h"
+#include "palpate/plugin/series_option.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct Arguments {
+  std::filesystem::path recording, csv;
+  SeriesOption series;
+  bool json = false;
+};
+
+/// Scenes of the recording on the one scan that is named.
+SnapshotMaker on_scan(const std::shared_ptr<const io::Volume>& volume) {
+  const std::string hash = hash_of(*volume);
+  return [volume, hash](const SceneRecord& record) {
+    if (record.scan_hash != hash) {
+      throw InputRefused(
+          fmt::format("the recording was made on another scan: its hash is {}, this one's {}", record.scan_hash, hash));
+    }
+    const modes::Scene scene = modes::scene_from_json(record.scene, "the recording's scene");
+    device::Specification stylus;
+    stylus.workspace_half_extent = record.half_extent_m;
+    stylus.maximum_force = record.maximum_force_n;
+    return snapshot_of(scene, prepare(scene, volume, record.half_extent_m), stylus);
+  };
+}
+
+std::string verdict(const Replay& replay) {
+  if (replay.different == 0) {
+    return "the same to the last bit";
+  }
+  return fmt::format(
+      "{} differ, the first is frame {}: the proxy by at most {:.1e} m (certified bounds of the two together {:.1e} "
+      "m), "
+      "the force sent by at most {:.1e} N",
+      replay.different, *replay.first_different, replay.largest_proxy_m, replay.largest_bound_m,
+      replay.largest_force_n);
+}
+
+void print_json(const Replay& replay) {
+  nlohmann::ordered_json json{{"frames", replay.frames},
+                              {"different", replay.different},
+                              {"first_different", nullptr},
+                              {"largest_proxy_m", replay.largest_proxy_m},
+                              {"largest_force_n", replay.largest_force_n},
+                              {"largest_bound_m", replay.largest_bound_m},
+                              {"after_gap", replay.after_gap}};
+  if (replay.first_different) json["first_different"] = *replay.first_different;
+  fmt::print("{}\n", json.dump(1));
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.series.path.empty() && arguments.csv.empty()) {
+    throw WrongUsage("replay needs the SERIES that was felt, or --csv to export the recording alone");
+  }
+  const Recording recording = read_recording(arguments.recording);
+  if (!recording.complete) {
+    fmt::print(stderr, "palpate: {} was not closed in good order; {} frames of it can be read\n",
+               arguments.recording.string(), recording.frames.size());
+  }
+  if (!arguments.csv.empty()) {
+    write_csv(recording, arguments.csv);
+  }
+  if (arguments.series.path.empty()) {
+    return;
+  }
+  const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
+  const Replay result = replay(recording, on_scan(volume));
+  if (arguments.json) {
+    print_json(result);
+  } else {
+    fmt::print("{} frames replayed: {}\n", result.frames, verdict(result));
+    if (result.after_gap > 0) {
+      fmt::print("{} frames come after some that were lost, and cannot be replayed\n", result.after_gap);
+    }
+  }
+  // Another build may differ by what both certify; more than that is another session.
+  if (!(result.largest_proxy_m <= result.largest_bound_m)) {
+    throw InputRefused("the replay is not the session that was recorded");
+  }
+}
+
+}  // namespace
+
+void add_replay(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand(
+      "replay",
+      "A recorded session again, frame by frame, compared with what was recorded: on the same build the same to the\n"
+      "last bit, whichever stylus it was made with.");
+  command->add_option("RECORDING", arguments->recording, "what `probe` or `record` wrote")
+      ->required()
+      ->check(CLI::ExistingFile);
+  add_series_option(*command, arguments->series);
+  command->get_option("SERIES")->required(false);
+  command->add_option("--csv", arguments->csv, "also export it: a line a frame, every member a column");
+  command->add_flag("--json", arguments->json, "for machines");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,57 @@
+#pragma once
+
+/// HDF5's C interface with identifiers that close themselves and failures that throw.
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace palpate::plugin::hdf5 {
+
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, herr_t (*close)(hid_t), const char* what) : id_(id), close_(close) {
+    if (id < 0) {
+      throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
+    }
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) {
+      close_(id_);
+    }
+  }
+  operator hid_t() const { return id_; }  // NOLINT: HDF5's calls take it as it is
+
+  /// Never closed: after a failed write closing would write again.
+  void forget() noexcept { id_ = H5I_INVALID_HID; }
+
+ private:
+  hid_t id_ = H5I_INVALID_HID;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+inline void check(herr_t status, const char* what) {
+  if (status < 0) {
+    throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
+  }
+}
+
+/// HDF5 prints its error stack to stderr by default, for each thread anew; ours is in the exception. And it must not
+/// write to a file again, when the program ends, that it could not write to before.
+inline void silence() {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+}  // namespace palpate::plugin::hdf5

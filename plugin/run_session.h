@@ -1,0 +1,52 @@
+#pragma once
+
+/// A session from beginning to end, recorded: at the clock's pace on the servo thread, or, with a stylus that is only
+/// arithmetic, as fast as it goes.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "palpate/device/realtime.h"
+#include "palpate/device/stylus.h"
+#include "palpate/modes/scene.h"
+#include "palpate/plugin/recorder.h"
+#include "palpate/plugin/scan.h"
+#include "palpate/plugin/session.h"
+
+namespace palpate::plugin {
+
+struct SessionRun {
+  modes::Scene scene;
+  Felt felt;  ///< the scene on the scan
+  std::string scan_hash;
+  std::string unit;  ///< the scan's
+  std::shared_ptr<device::Stylus> stylus;
+  std::uint64_t seed = 0;
+  double seconds = 0;  ///< 0: until it is interrupted
+  bool at_clock_pace = true;
+  bool live = false;  ///< a line on stderr that is written over
+};
+
+struct SessionRunResult {
+  RecorderStatus recorder;
+  device::RealtimeStatus realtime;  ///< of the servo thread, at the clock's pace
+  std::uint64_t missed = 0;         ///< deadlines without a tick
+  bool interrupted = false;         ///< by SIGINT or SIGTERM: ended in good order
+};
+
+/// Records to the file (`<file>.partial` until it ends). Throws what opening the stylus and the file throws.
+SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file);
+
+/// The scene with its coupling no stiffer than the stylus renders stably (device/stiffness.h); says so on stderr where
+/// that changes it.
+modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
+
+/// The snapshot of a scene on a scan for a stylus.
+Snapshot snapshot_of(const modes::Scene& scene, const Felt& felt, const device::Specification& stylus);
+
+/// Whether stderr is a terminal.
+bool stderr_is_terminal();
+
+}  // namespace palpate::plugin
