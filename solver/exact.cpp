@@ -162,7 +162,7 @@ bool Search::start_at_common_position() {
     if (placed.type == PrimitiveType::directed_force || placed.strength == 0) {
       continue;
     }
-    if (first != nullptr && !same(first->offset, placed.offset)) {
+    if (first != nullptr && internal::size_of(first->offset - placed.offset) > 1e-30) {
       return false;
     }
     first = &placed;
@@ -214,7 +214,7 @@ void Search::make_general() {
 
 // True where the walk's end is the answer.
 bool Search::walk(int cap) {
-  solution_.iterations += internal::walk(walk_, cap);
+  solution_.iterations += internal::descend(walk_, cap);
   consider();
   return solution_.outcome == Outcome::solved;
 }

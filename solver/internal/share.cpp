@@ -57,11 +57,10 @@ struct Sharing {
   }
 };
 
-Vec3 find_potential(const Sharing& sharing, double tolerance) {
-  Symmetric3 derivative;
+Vec3 find_potential(const Sharing& sharing, double tolerance, Symmetric3& derivative) {
   Vec3 p{0};
   Vec3 gap = sharing.missing(p, derivative);
-  for (int steps = 0; steps < 30 && length_of(gap) > tolerance; ++steps) {
+  for (int steps = 0; steps < 12 && length_of(gap) > tolerance; ++steps) {
     const Vec3 step = derivative.solve(gap, sharing.reluctance);
     const double start = glm::dot(gap, step);
     if (!(start > 0)) {
@@ -112,15 +111,23 @@ Vec3 share_out(std::span<const Placed> primitives, std::span<const std::uint32_t
   }
   Vec3 gap = wanted;
   for (int round = 0; round < 6; ++round) {
-    const double last = length_of(gap);
-    const Vec3 p = find_potential(sharing, std::max(tolerance / 4, 1e-4 * last));
+    const Vec3 last = gap;
+    Symmetric3 derivative;
+    const Vec3 p = find_potential(sharing, std::max(tolerance / 4, 1e-4 * length_of(last)), derivative);
     gap = wanted;
+    double size = 0;
     for (const std::uint32_t i : which) {
       forces[i] = project(primitives[i], forces[i] + p, hold[i]);
       gap -= forces[i];
+      size += length_of(forces[i]);
     }
     const double left = length_of(gap);
-    if (left <= tolerance || (round > 0 && left > 0.5 * last)) {
+    if (left <= tolerance + 0x1p-51 * size) {
+      return Vec3{0};
+    }
+    // Out of reach, or only slow because bodies are nearly flat in that direction?
+    const double give = glm::dot(gap, derivative.times(gap)) - sharing.reluctance * left * left;
+    if (round > 0 && left > 0.5 * length_of(last) && !(give > 1e-9 * left * left)) {
       break;
     }
     sharing.reluctance *= 1e-2;

@@ -20,7 +20,7 @@ enum class Hold : std::uint8_t {
 Vec3 project(const Placed& primitive, const Vec3& force, Hold& hold);
 
 /// Forces of the primitives whose indices are given, each inside its force body, that together come as near to `wanted`
-/// as they can (to about 1e-9 of it; where they can exert it, to `tolerance`). Returns what is missing, N.
+/// as they can. Returns what is missing, N: nothing, where that is no more than `tolerance` and rounding.
 ///
 /// The least change of the forces from zero has the form F_i = projection of p onto body i, with one p for all; p is
 /// found by a semismooth Newton method (L. Qi, J. Sun, 1993), and the same once or twice more from the forces found,
