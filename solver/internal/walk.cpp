@@ -285,7 +285,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
     const FineVec3 there = walk_.z + way * nearest;
     const Local local = look(there, walk_.frame);
     const double slope_there = glm::dot(local.gradient, way.hi());
-    if (std::abs(slope_there) <= primitive.strength * speed) {
+    if (walk_.primitives.size() <= 16 || std::abs(slope_there) <= primitive.strength * speed) {
       Frame frame;
       if (line && walk_.frame.rank == 1) {
         lock(frame, walk_.primitives, i);
