@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -66,6 +67,49 @@ std::vector<Block> blocks_of(const glm::ivec3& size) {
 GradientTarget packed(const Block& block, glm::vec3* gradients) {
   return {gradients, block.size.x, static_cast<std::ptrdiff_t>(block.size.x) * block.size.y};
 }
+
+using Hessian = GradientKernel::Hessian;
+
+Hessian unknown_hessian() noexcept {
+  Hessian unknown;
+  unknown.fill(std::numeric_limits<float>::quiet_NaN());
+  return unknown;
+}
+
+/// From the sums of second order of a complete neighbourhood to its Hessian: the second derivative of a Gaussian of
+/// covariance C is C^-1 (x x^T - C) C^-1 times it.
+class SecondDerivatives {
+ public:
+  SecondDerivatives(const internal::Fits::Sums& whole, double scale_mm, const glm::dmat3& to_patient) noexcept
+      : total_(static_cast<double>(whole[0])), rounding_(single_rounding * scale_mm * scale_mm) {
+    const auto weight = [&](std::size_t n) { return static_cast<double>(whole[n]) / total_; };
+    covariance_ = second_order(weight);
+    known_ = glm::determinant(covariance_) > 0;  // a single slice has no curvature across
+    inverse_ = known_ ? to_patient * glm::inverse(covariance_) : glm::dmat3(0);
+  }
+
+  Hessian operator()(const float* sums, std::size_t stride) const noexcept {
+    if (!known_) {
+      return unknown_hessian();
+    }
+    const auto sum = [&](std::size_t n) { return static_cast<double>(sums[n * stride]) / total_; };
+    const glm::dmat3 excess = second_order(sum) - sum(0) * covariance_;
+    const double largest = std::max(glm::length(excess[0]), std::max(glm::length(excess[1]), glm::length(excess[2])));
+    if (largest <= rounding_ * std::abs(sum(0))) {
+      return {};
+    }
+    const glm::dmat3 h = inverse_ * excess * glm::transpose(inverse_);
+    return {static_cast<float>(h[0][0]), static_cast<float>(h[1][0]), static_cast<float>(h[1][1]),
+            static_cast<float>(h[2][0]), static_cast<float>(h[2][1]), static_cast<float>(h[2][2])};
+  }
+
+ private:
+  double total_;
+  double rounding_;
+  glm::dmat3 covariance_{0};
+  glm::dmat3 inverse_{0};
+  bool known_ = false;
+};
 
 }  // namespace
 
@@ -132,38 +176,37 @@ struct GradientKernel::Weights {
     run<block_lanes>(layout, scratch.get(), target);
   }
 
-  template <typename Stored>
-  bool hessians(const std::vector<Stored>& voxels, const BlockLayout& layout, float* scratch,
-                glm::dmat3* hessians) const noexcept {
+  template <int Lanes, typename Stored>
+  void run_hessians(const std::vector<Stored>& voxels, const BlockLayout& layout, float* scratch,
+                    Hessian* out) const noexcept {
+    float* const counted = scratch + layout.moment_floats(2);
+    float* const rest = counted + layout.moment_floats(1);
     const RowReader<Stored> values(*volume, voxels, false);
-    BlockSums<2, cell_lanes, RowReader<Stored>>(slices, layout, values, scratch + layout.moment_floats(2)).run(scratch);
-    if (!values.complete()) {
-      return false;
+    BlockSums<2, Lanes, RowReader<Stored>>(slices, layout, values, rest).run(scratch);
+    const bool complete = values.complete();
+    if (!complete) {
+      const RowReader<Stored> mask(*volume, voxels, true);
+      BlockSums<1, Lanes, RowReader<Stored>>(slices, layout, mask, rest).run(counted);
     }
     for (int k = 0; k < layout.block.size.z; ++k) {
       const int slice = layout.block.first.z + k;
-      const internal::Fits::Sums& whole = fits.whole_sums(slice);
-      const double total = static_cast<double>(whole[0]);
-      const auto weight = [&](std::size_t n) { return static_cast<double>(whole[n]) / total; };
-      const glm::dmat3 covariance = second_order(weight);
-      if (glm::determinant(covariance) <= 0) {
-        return false;  // a single slice has no curvature across
-      }
-      const glm::dmat3 inverse = to_patient * glm::inverse(covariance);
+      const SecondDerivatives second(fits.whole_sums(slice), scale_mm, to_patient);
+      const bool all_slices = slice >= slices.radius.z && slice + slices.radius.z < volume->geometry.dimensions.z;
       for (int j = 0; j < layout.block.size.y; ++j) {
+        const float* const sums = scratch + layout.at(2, 0, j, k);
+        const float* const weight = counted + layout.at(1, 0, j, k);
         for (int i = 0; i < layout.block.size.x; ++i) {
-          const float* const sums = scratch + layout.at(2, 0, j, k) + i;
-          const auto sum = [&](std::size_t n) { return static_cast<double>(sums[n * layout.plane()]) / total; };
-          // The second derivative of a Gaussian of covariance C is C^-1 (x x^T - C) C^-1 times it.
-          const glm::dmat3 excess = second_order(sum) - sum(0) * covariance;
-          const double largest =
-              std::max(glm::length(excess[0]), std::max(glm::length(excess[1]), glm::length(excess[2])));
-          const bool rounding_alone = largest <= single_rounding * std::abs(sum(0)) * scale_mm * scale_mm;
-          *hessians++ = rounding_alone ? glm::dmat3(0) : inverse * excess * glm::transpose(inverse);
+          // Every weight that is missing is missing from the sum, and the sum is taken in the same order.
+          const bool is_whole = all_slices && (complete || weight[i] == fits.whole_sums(slice)[0]);
+          *out++ = is_whole ? second(sums + i, layout.plane()) : unknown_hessian();
         }
       }
     }
-    return true;
+  }
+
+  template <int Lanes>
+  void run_hessians(const BlockLayout& layout, float* scratch, Hessian* out) const noexcept {
+    std::visit([&](const auto& voxels) { run_hessians<Lanes>(voxels, layout, scratch, out); }, volume->voxels);
   }
 };
 
@@ -228,15 +271,24 @@ void GradientKernel::at_cell(const Block& cell, std::span<glm::vec3> gradients) 
   weights_->run<cell_lanes>(BlockLayout(cell, weights_->slices, cell_lanes), scratch.data(), target);
 }
 
-bool GradientKernel::hessians_at_cell(const Block& cell, std::span<glm::dmat3> hessians) const noexcept {
+void GradientKernel::hessians_at_cell(const Block& cell, std::span<Hessian> hessians) const noexcept {
   if (weights_->differences) {
-    return false;
+    std::fill_n(hessians.begin(), cell.voxels(), unknown_hessian());
+    return;
   }
   alignas(64) std::array<float, cell_floats> scratch;
-  const BlockLayout layout(cell, weights_->slices, cell_lanes);
-  return std::visit(
-      [&](const auto& voxels) { return weights_->hessians(voxels, layout, scratch.data(), hessians.data()); },
-      weights_->volume->voxels);
+  weights_->run_hessians<cell_lanes>(BlockLayout(cell, weights_->slices, cell_lanes), scratch.data(), hessians.data());
+}
+
+void GradientKernel::hessians_at_block(const Block& block, std::span<Hessian> hessians) const {
+  if (weights_->differences) {
+    std::fill_n(hessians.begin(), block.voxels(), unknown_hessian());
+    return;
+  }
+  const BlockLayout layout(block, weights_->slices, block_lanes);
+  const auto scratch = std::make_unique_for_overwrite<float[]>(layout.moment_floats(1) + layout.moment_floats(2) +
+                                                               layout.scratch_floats(2));
+  weights_->run_hessians<block_lanes>(layout, scratch.get(), hessians.data());
 }
 
 void GradientKernel::at_block(const Block& block, std::span<glm::vec3> gradients) const {

@@ -14,6 +14,7 @@
 /// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
 /// they round differently in their vectorised part, in a row's tail and from one processor to the next.
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <glm/mat3x3.hpp>
@@ -61,10 +62,14 @@ class GradientKernel {
   /// The eight voxels of a cell or fewer: writes size.x * size.y * size.z gradients, i fastest. May be called in the
   /// tick. At most 2 voxels along each axis, all of them within the volume.
   void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
-  /// The Hessians of a cell's voxels (patient space, per mm^2, without the rescale slope's sign and size): second
-  /// derivatives of the same Gaussian. False, and nothing written, where a neighbourhood is not complete: second
-  /// derivatives of what is not there would be guesses. Not of central differences. May be called in the tick.
-  bool hessians_at_cell(const Block& cell, std::span<glm::dmat3> hessians) const noexcept;
+  /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel in patient space, per mm^2, without the rescale slope's
+  /// sign and size; not-a-number where the neighbourhood is not complete: second derivatives of what is not there would
+  /// be guesses.
+  using Hessian = std::array<float, 6>;
+  /// Those of the same Gaussian at a cell's voxels; none of central differences. May be called in the tick.
+  void hessians_at_cell(const Block& cell, std::span<Hessian> hessians) const noexcept;
+  /// The same of any block; allocates.
+  void hessians_at_block(const Block& block, std::span<Hessian> hessians) const;
   /// Any block within the volume; allocates.
   void at_block(const Block& block, std::span<glm::vec3> gradients) const;
   /// The whole volume piece by piece, on `threads` threads (0: all cores) and in no order: `use` gets every voxel once

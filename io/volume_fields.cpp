@@ -2,11 +2,15 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "palpate/io/cubic_spline.h"
 #include "palpate/io/internal/brick_cache.h"
 #include "palpate/io/internal/cell.h"
 #include "palpate/io/internal/symmetric_eigen.h"
@@ -64,25 +68,43 @@ Vec3 interpolated_gradient(const internal::Cell& cell, const std::array<glm::vec
   return gradient;
 }
 
-/// The eigenvector of least curvature of the interpolated Hessian; zero where none stands out.
-Vec3 tube_direction(const GradientKernel& kernel, const internal::Cell& cell) noexcept {
-  std::array<glm::dmat3, 8> corners;
-  if (!kernel.hessians_at_cell({cell.first, cell.size}, corners)) {
-    return Vec3(0);
-  }
-  glm::dmat3 hessian(0);
+/// The eigenvector of least curvature of the interpolated Hessian; zero where none stands out or it is not known.
+Vec3 tube_direction(const internal::Cell& cell, const std::array<GradientKernel::Hessian, 8>& corners) noexcept {
+  std::array<double, 6> h{};
   std::size_t n = 0;
   for (int k = 0; k < cell.size.z; ++k) {
     for (int j = 0; j < cell.size.y; ++j) {
-      for (int i = 0; i < cell.size.x; ++i) {
-        hessian += cell.weight(i, j, k) * corners[n++];
+      for (int i = 0; i < cell.size.x; ++i, ++n) {
+        for (std::size_t m = 0; m < h.size(); ++m) {
+          h[m] += cell.weight(i, j, k) * static_cast<double>(corners[n][m]);
+        }
       }
     }
   }
-  const internal::SymmetricEigen eigen = internal::eigen_of_symmetric(hessian);
+  if (!std::isfinite(h[0])) {
+    return Vec3(0);
+  }
+  const internal::SymmetricEigen eigen =
+      internal::eigen_of_symmetric(glm::dmat3(h[0], h[1], h[3], h[1], h[2], h[4], h[3], h[4], h[5]));
   constexpr double least_difference = 1e-3;  // of the largest curvature: below it two directions curve alike
   const double difference = std::abs(eigen.values[1]) - std::abs(eigen.values[0]);
   return difference > least_difference * std::abs(eigen.values[2]) ? eigen.vectors[0] : Vec3(0);
+}
+
+internal::BrickContent gradients_of(const GradientKernel& kernel) {
+  return {3, [&kernel](const Block& block, std::span<float> numbers) {
+            std::vector<glm::vec3> gradients(block.voxels());
+            kernel.at_block(block, gradients);
+            std::memcpy(numbers.data(), gradients.data(), numbers.size_bytes());
+          }};
+}
+
+internal::BrickContent hessians_of(const GradientKernel& kernel) {
+  return {6, [&kernel](const Block& block, std::span<float> numbers) {
+            std::vector<GradientKernel::Hessian> hessians(block.voxels());
+            kernel.hessians_at_block(block, hessians);
+            std::memcpy(numbers.data(), hessians.data(), numbers.size_bytes());
+          }};
 }
 
 }  // namespace
@@ -94,71 +116,93 @@ FieldSet fields_of(const Volume& volume) noexcept {
 
 VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                            const FieldOptions& options)
-    : volume_(std::move(volume)), available_(wanted) {
+    : volume_(std::move(volume)), available_(wanted), method_(options.gradient) {
   if (!volume_) {
     throw std::invalid_argument("fields need a volume");
   }
   if (!contains(fields_of(*volume_), wanted)) {
     throw std::invalid_argument(
         "a scan offers its value, its gradient, the values on both sides of a boundary and the direction of tubes, and "
-        "vectors only where velocities were "
-        "measured along three directions");
+        "vectors only where velocities were measured along three directions");
   }
-  if ((wanted & (FieldSet::gradient | FieldSet::tube | FieldSet::low_high)) != FieldSet::none) {
+  const bool tube = contains(wanted, FieldSet::tube);
+  // The spline needs no gradients of voxels; the values on both sides of a boundary do.
+  const FieldSet by_voxel = method_ == GradientMethod::cubic_b_spline ? FieldSet::low_high : from_gradients;
+  const bool gradients = (wanted & by_voxel) != FieldSet::none;
+  if (gradients && method_ == GradientMethod::central_differences) {
+    kernel_ = std::make_unique<GradientKernel>(volume_, GradientKernel::CentralDifferences{});
+    if (tube) hessian_kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
+  } else if (gradients || tube) {
     kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
-    if ((wanted & from_gradients) != FieldSet::none && options.brick_bytes > 0) {
-      bricks_ = std::make_unique<internal::BrickCache>(*kernel_, volume_->geometry.dimensions, options.brick_bytes,
-                                                       options.background);
-    }
+  }
+  const glm::ivec3 size = volume_->geometry.dimensions;
+  // A Hessian takes twice the memory of a gradient.
+  const std::size_t third = options.brick_bytes / 3;
+  if (gradients && options.brick_bytes > 0) {
+    bricks_ = std::make_unique<internal::BrickCache>(gradients_of(*kernel_), size, tube ? third : options.brick_bytes,
+                                                     options.background);
+  }
+  if (tube && options.brick_bytes > 0) {
+    tube_bricks_ = std::make_unique<internal::BrickCache>(
+        hessians_of(tube_kernel()), size, options.brick_bytes - (gradients ? third : 0), options.background);
   }
 }
 
 VolumeFields::~VolumeFields() = default;
 
+void VolumeFields::sample_gradients(const internal::Cell& cell, FieldSet given, Sample& s) const noexcept {
+  std::array<glm::vec3, 8> corners;
+  const Block block{cell.first, cell.size};
+  s.from_brick = bricks_ && bricks_->read(block, std::span(&corners[0].x, 3 * corners.size()));
+  if (!s.from_brick) {
+    kernel_->at_cell(block, corners);
+  }
+  if (contains(given, FieldSet::gradient)) {
+    s.gradient = interpolated_gradient(cell, corners);
+  }
+  if (contains(given, FieldSet::low_high)) {
+    const LowHigh sides = interpolated_low_high(*volume_, cell, corners, kernel_->scale_mm());
+    s.low = sides.low;
+    s.high = sides.high;
+  }
+}
+
+Vec3 VolumeFields::sample_tube(const internal::Cell& cell) const noexcept {
+  std::array<GradientKernel::Hessian, 8> corners;
+  const Block block{cell.first, cell.size};
+  if (!tube_bricks_ || !tube_bricks_->read(block, std::span(corners[0].data(), 6 * corners.size()))) {
+    tube_kernel().hessians_at_cell(block, corners);
+  }
+  return tube_direction(cell, corners);
+}
+
 Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noexcept {
   Sample s;
   internal::Cell cell;
   const Vec3 index = volume_->geometry.to_index(position_mm);
-  const FieldSet given = wanted & available_;
-  if (bricks_ && (given & from_gradients) != FieldSet::none) {
-    bricks_->move_to(index);  // outside as well: bricks shall be there when the point comes in
-  }
+  FieldSet given = wanted & available_;
+  // Outside as well: bricks shall be there when the point comes in.
+  if (bricks_ && (given & from_gradients) != FieldSet::none) bricks_->move_to(index);
+  if (tube_bricks_ && contains(given, FieldSet::tube)) tube_bricks_->move_to(index);
   if (!internal::find_cell(*volume_, index, cell)) {
     return s;
   }
   s.inside = true;
-  if (contains(wanted, FieldSet::value)) {
+  if (method_ == GradientMethod::cubic_b_spline && (wanted & (FieldSet::value | given)) != FieldSet::none) {
+    const ValueAndGradient spline = cubic_b_spline(*volume_, cell);
+    if (contains(wanted, FieldSet::value)) s.value = spline.value;
+    if (contains(given, FieldSet::gradient)) s.gradient = spline.gradient;
+    given = given & (FieldSet::low_high | FieldSet::tube | FieldSet::vector);
+  } else if (contains(wanted, FieldSet::value)) {
     s.value = internal::trilinear_value(*volume_, cell);
   }
-  if (contains(given, FieldSet::vector)) {
-    s.vector = interpolated_vector(*volume_->vectors, cell);
-  }
-  if (contains(given, FieldSet::tube)) {
-    s.tube = tube_direction(*kernel_, cell);
-  }
-  if ((given & from_gradients) != FieldSet::none) {
-    std::array<glm::vec3, 8> corners;
-    const Block block{cell.first, cell.size};
-    s.from_brick = bricks_ && bricks_->read(block, corners);
-    if (!s.from_brick) {
-      kernel_->at_cell(block, corners);
-    }
-    if (contains(given, FieldSet::gradient)) {
-      s.gradient = interpolated_gradient(cell, corners);
-    }
-    if (contains(given, FieldSet::low_high)) {
-      const LowHigh sides = interpolated_low_high(*volume_, cell, corners, kernel_->scale_mm());
-      s.low = sides.low;
-      s.high = sides.high;
-    }
-  }
+  if (contains(given, FieldSet::vector)) s.vector = interpolated_vector(*volume_->vectors, cell);
+  if (contains(given, FieldSet::tube)) s.tube = sample_tube(cell);
+  if ((given & from_gradients) != FieldSet::none) sample_gradients(cell, given, s);
   return s;
 }
 
 void VolumeFields::prepare(const Vec3& position_mm, double distance_mm) const {
-  if (!bricks_) {
-    return;
-  }
   const Geometry& g = volume_->geometry;
   const double between = std::abs(glm::dot(g.step, glm::cross(g.direction_i, g.direction_j)));
   const Vec3 reach = distance_mm / Vec3(g.spacing_i, g.spacing_j, between);
@@ -169,14 +213,16 @@ void VolumeFields::prepare(const Vec3& position_mm, double distance_mm) const {
   for (int k = low.z; k <= high.z; ++k) {
     for (int j = low.y; j <= high.y; ++j) {
       for (int i = low.x; i <= high.x; ++i) {
-        bricks_->fill(glm::ivec3(i, j, k) * internal::BrickCache::cells);
+        const glm::ivec3 voxel = glm::ivec3(i, j, k) * internal::BrickCache::cells;
+        if (bricks_) bricks_->fill(voxel);
+        if (tube_bricks_) tube_bricks_->fill(voxel);
       }
     }
   }
 }
 
 std::size_t VolumeFields::memory_bytes() const noexcept {
-  return bricks_ ? bricks_->memory_bytes() : 0;
+  return (bricks_ ? bricks_->memory_bytes() : 0) + (tube_bricks_ ? tube_bricks_->memory_bytes() : 0);
 }
 
 }  // namespace palpate::io

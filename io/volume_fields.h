@@ -11,14 +11,23 @@
 
 namespace palpate::io {
 
+/// Where the gradient comes from.
+enum class GradientMethod {
+  gaussian,             ///< derivative of Gaussian at a scale
+  central_differences,  ///< sharper, noisier, without a scale
+  cubic_b_spline        ///< with the value, from one stencil (cubic_spline.h); the value is blurred a little
+};
+
 struct FieldOptions {
+  GradientMethod gradient = GradientMethod::gaussian;
   std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
   bool background = true;                           ///< whether a worker fills bricks ahead
 };
 
 namespace internal {
 class BrickCache;
-}
+struct Cell;
+}  // namespace internal
 
 /// What a volume's fields can be: the value and what is derived from it, and vectors where it holds them.
 FieldSet fields_of(const Volume& volume) noexcept;
@@ -27,23 +36,23 @@ FieldSet fields_of(const Volume& volume) noexcept;
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
 ///
-/// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square; computed at
-/// the sample from those gradients.
+/// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square; computed
+/// at the sample from those gradients.
 ///
 /// Tube: the eigenvector of least curvature of the Hessian at the gradient's scale, trilinear between the voxels'
-/// Hessians; computed at the sample; zero within the kernel's reach of the edge or of padding.
+/// Hessians; zero within the kernel's reach of the edge or of padding.
 ///
 /// Vector: trilinear between the voxels' vectors, in `Volume::unit`.
 ///
-/// A worker computes gradients in bricks ahead of and around the point last sampled, and keeps them under a memory
-/// bound. A sample that finds its brick missing computes its cell with the same kernel: it takes longer and gives the
-/// same bits.
+/// A worker computes gradients (and Hessians, where tubes are wanted) in bricks ahead of and around the point last
+/// sampled, and keeps them under a memory bound. A sample that finds its brick missing computes its cell with the same
+/// kernel: it takes longer and gives the same bits.
 ///
 /// Outside: beyond the hull of the voxel centres, between slices where some are missing, and wherever a voxel that the
 /// interpolation needs is padding.
 class VolumeFields : public FieldSource {
  public:
-  /// Prepares what the wanted fields need and no more; `scale_mm` is that of the gradient and is not read without one.
+  /// Prepares what the wanted fields need and no more; `scale_mm` is that of the Gaussian and is not read without one.
   /// Throws std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
   VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                const FieldOptions& options = {});
@@ -63,8 +72,15 @@ class VolumeFields : public FieldSource {
  private:
   std::shared_ptr<const Volume> volume_;
   FieldSet available_;
-  std::unique_ptr<const GradientKernel> kernel_;
+  GradientMethod method_;
+  std::unique_ptr<const GradientKernel> kernel_;          ///< of gradients
+  std::unique_ptr<const GradientKernel> hessian_kernel_;  ///< of tubes, where it is another
   std::unique_ptr<internal::BrickCache> bricks_;
+  std::unique_ptr<internal::BrickCache> tube_bricks_;
+
+  const GradientKernel& tube_kernel() const noexcept { return hessian_kernel_ ? *hessian_kernel_ : *kernel_; }
+  void sample_gradients(const internal::Cell& cell, FieldSet given, Sample& s) const noexcept;
+  Vec3 sample_tube(const internal::Cell& cell) const noexcept;
 };
 
 }  // namespace palpate::io

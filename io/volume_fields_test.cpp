@@ -186,6 +186,82 @@ TEST(VolumeFields, TubeIsZeroWhereNothingCurvesOrTheNeighbourhoodEnds) {
   EXPECT_EQ(VolumeFields(vessel, FieldSet::tube, 1).sample({7.5, 0, 0}, FieldSet::tube).tube, Vec3(0));
 }
 
+TEST(VolumeFields, CubicSplineIsExactOnLinearFieldsUpToTheEdgeAndBesidePadding) {
+  Grid plain = small();
+  Grid tilted = rotated(small(), {1, 2, 3}, 50);
+  tilted.tilt_degrees = 20;
+  Grid thick = small();
+  thick.spacing = {0.6, 0.8, 5};
+  for (const Grid& grid : {plain, tilted, thick}) {
+    const auto volume = linear_volume(grid);
+    std::get<std::vector<float>>(volume->voxels)[volume->offset(8, 7, 6)] = std::numeric_limits<float>::quiet_NaN();
+    const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic_b_spline});
+    const Vec3 last(volume->geometry.dimensions - 1);
+    for (const Vec3& at : {Vec3(0), last, Vec3(0.5), last - 0.25, Vec3(6.5, 7, 6), Vec3(9, 7, 6), Vec3(9.4, 6.3, 5.2),
+                           Vec3(8, 8.5, 6)}) {
+      const Vec3 position = volume->geometry.to_patient(at);
+      const Sample s = fields.sample(position, both);
+      ASSERT_TRUE(s.inside);
+      EXPECT_NEAR(s.value, 7 + glm::dot(Vec3(3, -2, 5), position), 1e-4);
+      EXPECT_LT(glm::length(s.gradient - Vec3(3, -2, 5)), 2e-4);
+    }
+    EXPECT_EQ(fields.memory_bytes(), 0U);
+  }
+}
+
+TEST(VolumeFields, CubicSplineGivesTheGradientOfItsOwnValue) {
+  Grid tilted = rotated(small(), {1, 2, 3}, 50);
+  tilted.tilt_degrees = 20;
+  const auto volume = share(testdata::scan(testdata::make_sphere(5), testdata::make_geometry(tilted), {.noise = 100}));
+  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic_b_spline});
+  for (int n = 0; n < 50; ++n) {
+    const Vec3 at(0.07 * n - 2, 0.05 * n - 1.5, 0.03 * n - 1);
+    constexpr double h = 1e-4;
+    Vec3 expected;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 step(0);
+      step[axis] = h;
+      expected[axis] = (fields.sample(at + step, both).value - fields.sample(at - step, both).value) / (2 * h);
+    }
+    EXPECT_LT(glm::length(fields.sample(at, both).gradient - expected), 1e-3 + 1e-4 * glm::length(expected));
+  }
+}
+
+TEST(VolumeFields, CubicSplineDoesNotReachAcrossMissingSlices) {
+  Grid grid = small();
+  grid.missing = {6, 7};
+  auto volume = linear_volume(grid);
+  auto& voxels = std::get<std::vector<float>>(volume->voxels);
+  for (std::size_t n = volume->offset(0, 0, 6); n < voxels.size(); ++n) voxels[n] += 1000;  // beyond the gap
+  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic_b_spline});
+  for (const double k : {4.6, 5.0, 6.0, 6.3}) {
+    const Vec3 at = volume->geometry.to_patient({8, 7, k});
+    const Sample s = fields.sample(at, both);
+    ASSERT_TRUE(s.inside);
+    EXPECT_NEAR(s.value, 7 + glm::dot(Vec3(3, -2, 5), at) + (k < 5.5 ? 0 : 1000), 1e-3) << k;
+    EXPECT_NEAR(s.gradient.x, 3, 1e-3) << k;
+    EXPECT_NEAR(s.gradient.y, -2, 1e-3) << k;
+  }
+}
+
+TEST(VolumeFields, CentralDifferencesServeEveryFieldThatNeedsGradients) {
+  const auto volume = share(testdata::scan(testdata::make_tube(3, {0, 0, 1}), testdata::make_geometry(small())));
+  constexpr FieldSet all = both | FieldSet::low_high | FieldSet::tube;
+  const FieldOptions central{.gradient = GradientMethod::central_differences, .background = false};
+  const VolumeFields fields(volume, all, 1, central);
+  const Vec3 at(2.9, 0.3, 0.2);
+  const Sample missing = fields.sample(at, all);
+  fields.prepare(at, 1);
+  const Sample s = fields.sample(at, all);
+  EXPECT_TRUE(s.from_brick);
+  EXPECT_EQ(s.gradient, missing.gradient);
+  EXPECT_EQ(s.tube, missing.tube);
+  EXPECT_NEAR(std::abs(s.tube.z), 1, 1e-3);
+  EXPECT_LT(s.gradient.x, -50);
+  EXPECT_NEAR(s.low, 40, 5);
+  EXPECT_NEAR(s.high, 300, 5);
+}
+
 TEST(VolumeFields, GivesAndPreparesOnlyWhatIsWanted) {
   const auto volume = linear_volume(small());
   const VolumeFields value_only(volume, FieldSet::value, -1);

@@ -7,21 +7,25 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <new>
+#include <utility>
 
 namespace palpate::io::internal {
 namespace {
 
 constexpr int edge = BrickCache::cells + 1;  // voxels
-constexpr std::size_t brick_floats = std::size_t{3} * edge * edge * edge;
 
 std::size_t slots_in(std::size_t memory_bytes, std::size_t bricks, std::size_t slot_bytes) {
   const std::size_t table = bricks * sizeof(std::int32_t);
   const std::size_t left = memory_bytes > table ? memory_bytes - table : 0;
-  return std::clamp<std::size_t>(left / (brick_floats * sizeof(float) + slot_bytes), 1, bricks);
+  return std::clamp<std::size_t>(left / slot_bytes, 1, bricks);
 }
 
 glm::ivec3 bricks_of(const glm::ivec3& dimensions) {
   return (glm::max(dimensions - 1, glm::ivec3(1)) + BrickCache::cells - 1) / BrickCache::cells;
+}
+
+std::size_t floats_of_brick(int floats_a_voxel) {
+  return static_cast<std::size_t>(floats_a_voxel) * edge * edge * edge;
 }
 
 std::size_t count(const glm::ivec3& n) {
@@ -30,14 +34,15 @@ std::size_t count(const glm::ivec3& n) {
 
 }  // namespace
 
-BrickCache::BrickCache(const GradientKernel& kernel, const glm::ivec3& dimensions, std::size_t memory_bytes,
-                       bool background)
-    : kernel_(kernel),
+BrickCache::BrickCache(BrickContent content, const glm::ivec3& dimensions, std::size_t memory_bytes, bool background)
+    : content_(std::move(content)),
       dimensions_(dimensions),
       bricks_(bricks_of(dimensions)),
       slot_of_(count(bricks_)),
-      slots_(slots_in(memory_bytes, count(bricks_), sizeof(Slot))),
-      gradients_(std::make_unique_for_overwrite<float[]>(slots_.size() * brick_floats)) {
+      slots_(slots_in(memory_bytes, count(bricks_),
+                      sizeof(Slot) + floats_of_brick(content_.floats_a_voxel) * sizeof(float))),
+      brick_floats_(floats_of_brick(content_.floats_a_voxel)),
+      numbers_(std::make_unique_for_overwrite<float[]>(slots_.size() * brick_floats_)) {
   for (auto& slot : slot_of_) {
     slot.store(-1, std::memory_order_relaxed);
   }
@@ -49,7 +54,7 @@ BrickCache::BrickCache(const GradientKernel& kernel, const glm::ivec3& dimension
 BrickCache::~BrickCache() = default;
 
 std::size_t BrickCache::memory_bytes() const noexcept {
-  return slots_.size() * (brick_floats * sizeof(float) + sizeof(Slot)) + slot_of_.size() * sizeof(slot_of_[0]);
+  return slots_.size() * (brick_floats_ * sizeof(float) + sizeof(Slot)) + slot_of_.size() * sizeof(slot_of_[0]);
 }
 
 std::size_t BrickCache::number_of(const glm::ivec3& brick) const noexcept {
@@ -64,7 +69,7 @@ glm::dvec3 BrickCache::middle_of(std::size_t brick) const noexcept {
   return (glm::dvec3(at) + 0.5) * static_cast<double>(cells);
 }
 
-bool BrickCache::read(const Block& cell, std::array<glm::vec3, 8>& corners) const noexcept {
+bool BrickCache::read(const Block& cell, std::span<float> corners) const noexcept {
   const glm::ivec3 brick = cell.first / cells;
   const std::size_t number = number_of(brick);
   const std::int32_t at = slot_of_[number].load(std::memory_order_acquire);
@@ -77,16 +82,14 @@ bool BrickCache::read(const Block& cell, std::array<glm::vec3, 8>& corners) cons
     return false;
   }
   const glm::ivec3 from = cell.first - brick * cells;
-  float* const gradients = gradients_.get() + static_cast<std::size_t>(at) * brick_floats;
-  std::size_t n = 0;
+  float* const numbers = numbers_.get() + static_cast<std::size_t>(at) * brick_floats_;
+  const int floats = content_.floats_a_voxel;
+  auto corner = corners.begin();
   for (int k = 0; k < cell.size.z; ++k) {
     for (int j = 0; j < cell.size.y; ++j) {
-      const int offset = 3 * (((from.z + k) * edge + from.y + j) * edge + from.x);
-      float* next = gradients + offset;
-      for (int i = 0; i < cell.size.x; ++i, ++n) {
-        for (int axis = 0; axis < 3; ++axis) {
-          corners[n][axis] = std::atomic_ref<float>(*next++).load(std::memory_order_acquire);
-        }
+      float* next = numbers + floats * (((from.z + k) * edge + from.y + j) * edge + from.x);
+      for (int n = 0; n < floats * cell.size.x; ++n) {
+        *corner++ = std::atomic_ref<float>(*next++).load(std::memory_order_acquire);
       }
     }
   }
@@ -141,22 +144,24 @@ bool BrickCache::fill_brick(const glm::ivec3& brick, const glm::dvec3& point) {
   }
   const glm::ivec3 first = brick * cells;
   const Block block{first, glm::min(glm::ivec3(edge), dimensions_ - first)};
-  std::vector<glm::vec3> gradients(block.voxels());
-  kernel_.at_block(block, gradients);
-  std::vector<glm::vec3> whole(static_cast<std::size_t>(edge) * edge * edge);
-  auto from = gradients.begin();
+  const auto floats = static_cast<std::size_t>(content_.floats_a_voxel);
+  std::vector<float> numbers(floats * block.voxels());
+  content_.compute(block, numbers);
+  std::vector<float> whole(brick_floats_);
+  const std::size_t row = floats * static_cast<std::size_t>(block.size.x);
+  auto from = numbers.begin();
   for (int k = 0; k < block.size.z; ++k) {
     for (int j = 0; j < block.size.y; ++j) {
-      const int to = (k * edge + j) * edge;
-      std::copy(from, from + block.size.x, whole.begin() + to);
-      from += block.size.x;
+      const std::size_t to = floats * static_cast<std::size_t>((k * edge + j) * edge);
+      std::copy_n(from, row, whole.begin() + static_cast<std::ptrdiff_t>(to));
+      from += static_cast<std::ptrdiff_t>(row);
     }
   }
   publish(*slot, number, whole);
   return true;
 }
 
-void BrickCache::publish(std::size_t at, std::size_t brick, const std::vector<glm::vec3>& gradients) {
+void BrickCache::publish(std::size_t at, std::size_t brick, const std::vector<float>& numbers) {
   Slot& slot = slots_[at];
   const std::int32_t old = slot.brick.load(std::memory_order_relaxed);
   if (old >= 0) {
@@ -168,11 +173,9 @@ void BrickCache::publish(std::size_t at, std::size_t brick, const std::vector<gl
   slot.version.store(version + 1, std::memory_order_relaxed);
   // Each of these releases, so none is seen before the odd version.
   slot.brick.store(static_cast<std::int32_t>(brick), std::memory_order_release);
-  float* to = gradients_.get() + at * brick_floats;
-  for (const glm::vec3& g : gradients) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::atomic_ref<float>(*to++).store(g[axis], std::memory_order_release);
-    }
+  float* to = numbers_.get() + at * brick_floats_;
+  for (const float number : numbers) {
+    std::atomic_ref<float>(*to++).store(number, std::memory_order_release);
   }
   slot.version.store(version + 2, std::memory_order_release);
   slot_of_[brick].store(static_cast<std::int32_t>(at), std::memory_order_release);

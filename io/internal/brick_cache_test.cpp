@@ -33,10 +33,14 @@ Vec3 step_of_walk(int n) {
   return {36 * std::sin(1.3 * t), 34 * std::sin(1.7 * t + 1), 31 * std::sin(0.9 * t + 2)};
 }
 
-bool same_bits(const Sample& a, const Sample& b) {
+bool same_bits(const Vec3& a, const Vec3& b) {
   const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d); };
-  return a.inside == b.inside && bits(a.value) == bits(b.value) && bits(a.gradient.x) == bits(b.gradient.x) &&
-         bits(a.gradient.y) == bits(b.gradient.y) && bits(a.gradient.z) == bits(b.gradient.z);
+  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
+}
+
+bool same_bits(const Sample& a, const Sample& b) {
+  return a.inside == b.inside && same_bits({a.value, a.low, a.high}, {b.value, b.low, b.high}) &&
+         same_bits(a.gradient, b.gradient) && same_bits(a.tube, b.tube);
 }
 
 TEST(Bricks, GiveTheBitsOfTheKernelAtTheSample) {
@@ -55,6 +59,26 @@ TEST(Bricks, GiveTheBitsOfTheKernelAtTheSample) {
     inside += a.inside;
   }
   EXPECT_GT(inside, 1000);
+}
+
+TEST(Bricks, OfTubesAndOfCentralDifferencesGiveTheBitsOfTheSampleToo) {
+  constexpr FieldSet all = both | FieldSet::tube | FieldSet::low_high;
+  const auto volume = head_like();
+  for (const GradientMethod method : {GradientMethod::gaussian, GradientMethod::central_differences}) {
+    const VolumeFields plain(volume, all, 1.2, {.gradient = method, .brick_bytes = 0, .background = false});
+    const VolumeFields bricks(volume, all, 1.2, {.gradient = method, .background = false});
+    bricks.prepare({0, 0, 0}, 100);
+    int tubes = 0;
+    for (int n = 0; n < 1500; ++n) {
+      const Vec3 p = step_of_walk(3 * n);
+      const Sample a = plain.sample(p, all);
+      const Sample b = bricks.sample(p, all);
+      ASSERT_TRUE(same_bits(a, b)) << n;
+      ASSERT_EQ(b.from_brick, b.inside);
+      tubes += a.tube != Vec3(0);
+    }
+    EXPECT_GT(tubes, 100);
+  }
 }
 
 TEST(Bricks, AreOnlyWhereTheyWerePrepared) {
