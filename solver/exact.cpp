@@ -281,7 +281,10 @@ Solution Search::run(Start start) {
     if (walk(1)) {
       return solution_;
     }
-    start_at_common_position();
+    if (start_at_common_position() && walk(few)) {
+      return solution_;
+    }
+    start_from_sweep();
     if (walk(few)) {
       return solution_;
     }

@@ -57,10 +57,10 @@ struct Sharing {
   }
 };
 
-Vec3 find_potential(const Sharing& sharing, double tolerance, Symmetric3& derivative) {
+Vec3 find_potential(const Sharing& sharing, double tolerance, Symmetric3& derivative, int& looks) {
   Vec3 p{0};
   Vec3 gap = sharing.missing(p, derivative);
-  for (int steps = 0; steps < 12 && length_of(gap) > tolerance; ++steps) {
+  while (looks > 0 && length_of(gap) > tolerance) {
     const Vec3 step = derivative.solve(gap, sharing.reluctance);
     const double start = glm::dot(gap, step);
     if (!(start > 0)) {
@@ -74,6 +74,7 @@ Vec3 find_potential(const Sharing& sharing, double tolerance, Symmetric3& deriva
     Vec3 there = p;
     for (int tries = 0; tries < 12; ++tries) {
       there = p + step * t;
+      --looks;
       gap = sharing.missing(there, derivative);
       const double end = glm::dot(gap, step);
       if (std::abs(end) <= 0.3 * start || (t == 1 && end > 0)) {
@@ -110,10 +111,11 @@ Vec3 share_out(std::span<const Placed> primitives, std::span<const std::uint32_t
     forces[i] = Vec3{0};
   }
   Vec3 gap = wanted;
-  for (int round = 0; round < 6; ++round) {
+  int looks = 80;
+  for (int round = 0; round < 6 && looks > 0; ++round) {
     const Vec3 last = gap;
     Symmetric3 derivative;
-    const Vec3 p = find_potential(sharing, std::max(tolerance / 4, 1e-4 * length_of(last)), derivative);
+    const Vec3 p = find_potential(sharing, std::max(tolerance / 4, 1e-4 * length_of(last)), derivative, looks);
     gap = wanted;
     double size = 0;
     for (const std::uint32_t i : which) {

@@ -153,16 +153,21 @@ bool Walker::part(FineVec3& way) {
   }
   constexpr double aligned = 1e-5;
   walk_.frame = {};
+  Local rest = here_;
   for (const std::uint32_t i : met) {
     const Placed& primitive = walk_.primitives[i];
     const double along = std::abs(glm::dot(primitive.direction, missing));
     const bool stays = (primitive.type == PrimitiveType::plane && along <= aligned * size) ||
                        (primitive.type == PrimitiveType::line && along >= (1 - aligned) * size);
     if (!(stays && walk_.hold[i] == Hold::held && lock(walk_.frame, walk_.primitives, i))) {
-      here_.gradient -= walk_.forces[i];
+      rest.gradient -= walk_.forces[i];
     }
   }
-  way = within(walk_.frame, fine(newton_step(walk_.frame, here_, walk_.stiffness)));
+  way = within(walk_.frame, fine(newton_step(walk_.frame, rest, walk_.stiffness)));
+  if (!(slope(walk_, here_, walk_.frame, way) < 0)) {
+    return false;
+  }
+  here_ = rest;
   return true;
 }
 
