@@ -44,6 +44,7 @@ ExactScratch& ExactScratch::operator=(ExactScratch&&) noexcept = default;
 
 namespace {
 
+constexpr std::size_t none_there = ~std::size_t{0};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // One balance and its walks; keeps the best of what they find.
@@ -56,7 +57,7 @@ class Search {
  private:
   void start_from_forces();
   void start_from_sweep();
-  bool start_at_common_position();
+  std::size_t start_at_common_position();
   void take_as_given();
   void make_general();
   bool walk(int cap);
@@ -155,24 +156,31 @@ void Search::start_from_sweep() {
   extent_ = length_of(z);
 }
 
-// Where all constraints are at one position: from there the way to the proxy is straight.
-bool Search::start_at_common_position() {
-  const Placed* first = nullptr;
+// Where most constraints are, if more than one: from there, if it is all of them, the way to the proxy is straight.
+// Returns how many of them are elsewhere, or none_there.
+std::size_t Search::start_at_common_position() {
+  constexpr std::size_t enough = 32;  // of a balance of more the first are asked
+  const std::size_t n = std::min(placed_.size(), enough);
+  const auto acts = [](const Placed& placed) {
+    return placed.type != PrimitiveType::directed_force && placed.strength > 0;
+  };
+  std::size_t most = 0;
+  std::size_t acting = 0;
+  for (std::size_t i = 0; i < n && 2 * most < n; ++i) {
+    std::size_t there = 0;
+    for (std::size_t j = i; acts(placed_[i]) && j < n; ++j) {
+      there += acts(placed_[j]) && internal::size_of(placed_[i].offset - placed_[j].offset) <= 1e-30 ? 1 : 0;
+    }
+    if (there > most) {
+      most = there;
+      walk_.z = placed_[i].offset;
+      walk_.frame = {};
+    }
+  }
   for (const Placed& placed : placed_) {
-    if (placed.type == PrimitiveType::directed_force || placed.strength == 0) {
-      continue;
-    }
-    if (first != nullptr && internal::size_of(first->offset - placed.offset) > 1e-30) {
-      return false;
-    }
-    first = &placed;
+    acting += acts(placed) ? 1 : 0;
   }
-  if (first == nullptr) {
-    return false;
-  }
-  walk_.z = first->offset;
-  walk_.frame = {};
-  return true;
+  return most > 1 || most == acting ? acting - most : none_there;
 }
 
 void Search::take_as_given() {
@@ -281,12 +289,19 @@ Solution Search::run(Start start) {
     if (walk(1)) {
       return solution_;
     }
-    if (start_at_common_position() && walk(few)) {
+    std::size_t elsewhere = start_at_common_position();
+    if (elsewhere == 0 && walk(few)) {
       return solution_;
     }
     start_from_sweep();
     if (walk(few)) {
       return solution_;
+    }
+    if (elsewhere > 0 && elsewhere != none_there) {
+      start_at_common_position();
+      if (walk(few)) {
+        return solution_;
+      }
     }
     walk_.coarseness = 0;
     make_general();
