@@ -39,10 +39,11 @@ bool add_attractor(const Walk& walk, const Placed& attractor, const FineVec3& z,
   local.size += s;
   local.noise += s * (miss.error / miss.length);
   const double curvature = s / miss.length;
-  local.hessian.add_identity(curvature);
-  local.hessian.add_dyad(towards, -curvature);
   if (attractor.type == PrimitiveType::line) {
-    local.hessian.add_dyad(attractor.direction, -curvature);
+    local.hessian.add_dyad(glm::cross(attractor.direction, towards), curvature);
+  } else {
+    local.hessian.add_identity(curvature);
+    local.hessian.add_dyad(towards, -curvature);
   }
   return true;
 }

@@ -8,7 +8,7 @@ namespace palpate::solver::internal {
 
 namespace {
 
-// Of a scalar product of three terms in double-double and in double, with a margin.
+// Of a difference and its scalar product in double-double and in double, with a margin.
 constexpr double fine_rounding = 0x1p-98;
 constexpr double rounding = 0x1p-50;
 
@@ -60,34 +60,36 @@ double size_of(const FineVec3& v) {
 }
 
 Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
-  const FineVec3 e = line_or_point.offset - z;
-  if (line_or_point.type == PrimitiveType::point) {
-    return {e, length_of(e.hi()), fine_error(line_or_point.offset, z)};
-  }
-  const Vec3 rough_e = e.hi();
-  const Vec3 rough = rough_e - line_or_point.direction * glm::dot(line_or_point.direction, rough_e);
+  const bool point = line_or_point.type == PrimitiveType::point;
+  const double size = size_of(line_or_point.offset) + size_of(z);
+  const Vec3 rough_e = line_or_point.offset.hi() - z.hi();
+  const Vec3& q = line_or_point.direction;
+  const Vec3 rough = point ? rough_e : rough_e - q * glm::dot(q, rough_e);
   const double rough_length = length_of(rough);
-  const double size = size_of(e);
   if (4 * rough_length > size) {
-    return {fine(rough), rough_length, 0x1p-51 * size + fine_error(line_or_point.offset, z)};
+    return {fine(rough), rough_length, rounding * size};
   }
-  const Vec3& q = line_or_point.given_direction;
-  const double squared = line_or_point.given_length * line_or_point.given_length;
+  const FineVec3 e = line_or_point.offset - z;
+  const double error = fine_error(line_or_point.offset, z);
+  if (point) {
+    return {e, length_of(e.hi()), error};
+  }
   // What is along the line is taken away twice: first all but its rounding, then that.
-  const double along = glm::dot(rough_e, q) / squared;
-  FineVec3 m = e - FineVec3{two_product(q.x, along), two_product(q.y, along), two_product(q.z, along)};
-  m = m - fine(q * (dot(m, q).hi / squared));
-  return {m, length_of(m.hi()), fine_error(line_or_point.offset, z)};
+  const Vec3& given = line_or_point.given_direction;
+  const double squared = line_or_point.given_length * line_or_point.given_length;
+  const double along = glm::dot(e.hi(), given) / squared;
+  FineVec3 m = e - FineVec3{two_product(given.x, along), two_product(given.y, along), two_product(given.z, along)};
+  m = m - fine(given * (dot(m, given).hi / squared));
+  return {m, length_of(m.hi()), error};
 }
 
 Depth depth_of(const Placed& plane, const FineVec3& z) {
-  const FineVec3 e = plane.offset - z;
-  const double rough = glm::dot(e.hi(), plane.direction);
-  const double rough_error = rounding * size_of(e);
+  const double rough_error = rounding * (size_of(plane.offset) + size_of(z));
+  const double rough = glm::dot(plane.offset.hi() - z.hi(), plane.direction);
   if (std::abs(rough) > 0x1p20 * rough_error) {
-    return {rough, rough_error + fine_error(plane.offset, z)};
+    return {rough, rough_error};
   }
-  return {dot(e, plane.given_direction).hi / plane.given_length, fine_error(plane.offset, z)};
+  return {dot(plane.offset - z, plane.given_direction).hi / plane.given_length, fine_error(plane.offset, z)};
 }
 
 }  // namespace palpate::solver::internal
