@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -16,13 +17,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A DICOMDIR that is named itself stands for the folder it describes; what it says of that folder is not believed.
+fs::path meant_by(const fs::path& path) {
+  std::string name = path.filename().string();
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name == "DICOMDIR" ? fs::absolute(path).parent_path() : path;
+}
+
 // Links to folders are not followed: they may lead in a circle.
 std::vector<fs::path> files_below(std::span<const fs::path> paths) {
   std::vector<fs::path> files;
-  for (const fs::path& path : paths) {
+  for (const fs::path& named : paths) {
     std::error_code error;
+    if (!fs::exists(named, error)) throw DicomError("no such file or folder: " + named.string());
+    const fs::path path = fs::is_regular_file(named, error) ? meant_by(named) : named;
     const auto status = fs::status(path, error);
-    if (!fs::exists(status)) throw DicomError("no such file or folder: " + path.string());
     if (fs::is_regular_file(status)) files.push_back(path);
     if (!fs::is_directory(status)) continue;
     auto entry = fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error);

@@ -239,6 +239,31 @@ TEST(FindSeries, DecimalCommaOfTheLocaleChangesNothing) {
   EXPECT_EQ(after.warnings, before.warnings);
 }
 
+TEST(FindSeries, DicomdirStandsForItsFolder) {
+  const TestFolder folder;
+  write_stack(folder.path(), 3);
+  std::ofstream(folder / "DICOMDIR") << "whatever it says";
+  EXPECT_EQ(find_series(std::array{folder / "DICOMDIR"}).series.at(0).geometry.dimensions.z, 3);
+}
+
+TEST(FindSeries, CancelledHalfWayLeavesNothingRunning) {
+  const TestFolder folder;
+  write_stack(folder.path(), 40);
+  const Series series = find_in(folder).series.at(0);
+  for (const double stop_at : {0.0, 0.2, 0.9}) {
+    LoadOptions options;
+    int later = 0;
+    bool stopped = false;
+    options.progress = [&](double done) {
+      later += stopped;
+      stopped = stopped || done >= stop_at;
+      return !stopped;
+    };
+    EXPECT_THROW(load(series, options), Cancelled);
+    EXPECT_EQ(later, 0) << "called again after it said no";
+  }
+}
+
 TEST(FindSeries, NamesWhatDoesNotExist) {
   const TestFolder folder;
   try {

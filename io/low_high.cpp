@@ -12,7 +12,9 @@ namespace {
 
 constexpr double scales_reached = 2.0;     // farther away a step has little part in a derivative of Gaussian
 constexpr double steps_a_voxel = 2.5;      // of the profile: finer than what trilinear values can show
-constexpr double least_of_steepest = 0.1;  // where a rise ends
+constexpr double least_of_steepest = 0.1;  // where a rise ends; or, earlier, where the next one begins:
+constexpr double lull = 0.3;               // it has been less than this,
+constexpr double rise_again = 0.2;         // and grows by that
 constexpr int most_steps = 32;             // on each side
 
 /// Extent of a voxel along a direction, mm.
@@ -82,15 +84,26 @@ LowHigh low_high_at(const Volume& volume, const glm::ivec3& voxel, const Vec3& g
   if (steepest < 0) {
     return {own, own};
   }
-  const double least = least_of_steepest * rise(steepest);
-  int high = steepest + 1;
-  while (high < profile.last && rise(high) > least) {
-    ++high;
-  }
-  int low = steepest;
-  while (low > profile.first && rise(low - 1) > least) {
-    --low;
-  }
+  // How many of the steps next to the steepest still belong to its rise.
+  const auto followed = [&](int direction, int steps_there) {
+    double least = rise(steepest);
+    int least_at = 0;
+    for (int n = 1; n <= steps_there; ++n) {
+      const double here = rise(steepest + direction * n);
+      if (here <= least_of_steepest * rise(steepest)) {
+        return n - 1;
+      }
+      if (here < least) {
+        least = here;
+        least_at = n;
+      } else if (least < lull * rise(steepest) && here > least + rise_again * rise(steepest)) {
+        return least_at;
+      }
+    }
+    return steps_there;
+  };
+  const int high = steepest + 1 + followed(1, profile.last - steepest - 1);
+  const int low = steepest - followed(-1, steepest - profile.first);
   return {static_cast<float>(profile.values[static_cast<std::size_t>(low)]),
           static_cast<float>(profile.values[static_cast<std::size_t>(high)])};
 }

@@ -61,9 +61,9 @@ struct Catalogue {
   std::vector<Series> velocity_fields;
 };
 
-/// The series in these files and folders (searched to the bottom, names and extensions ignored, DICOMDIR not trusted).
-/// A damaged file costs that file. Throws DicomError where a path does not exist or cannot be listed, or DICOM's data
-/// dictionary is missing; Cancelled.
+/// The series in these files and folders (searched to the bottom, names and extensions ignored). A DICOMDIR among the
+/// paths stands for its folder; none is trusted. A damaged file costs that file. Throws DicomError where a path does
+/// not exist or cannot be listed, or DICOM's data dictionary is missing; Cancelled.
 Catalogue find_series(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
 }  // namespace palpate::io
