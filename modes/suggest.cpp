@@ -140,8 +140,9 @@ Found find_tissues(const io::LowHighHistogram& edges, double bandwidth) {
   const int bins = edges.values.count;
   const int least_bins = bins_of_least_step(edges.values);
   cv::Mat1f both(1, bins, 0.0F);
-  for (int high = 0; high < bins; ++high) {
-    for (int low = 0; low < high - least_bins; ++low) {
+  // The outermost bins hold what lies beyond them: of no one value.
+  for (int high = 1; high < bins - 1; ++high) {
+    for (int low = 1; low < high - least_bins; ++low) {
       const auto count = static_cast<float>(edges.at(low, high));
       both(0, low) += count;
       both(0, high) += count;
@@ -232,8 +233,8 @@ Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, do
   mode.strength_n =
       TransferFunction({{readable(0.15 * peak), 0},
                         {readable(0.4 * peak), is_hard ? defaults::bone_strength_n : defaults::skin_strength_n}});
-  mode.gates = {{Datum::value, TransferFunction({{readable(boundary.middle - 0.03 * step), 0},
-                                                 {readable(boundary.middle + 0.03 * step), 1}})}};
+  mode.gates = {{Datum::value, TransferFunction({{readable(boundary.middle - 0.08 * step), 0},
+                                                 {readable(boundary.middle + 0.02 * step), 1}})}};
   return mode;
 }
 
@@ -243,8 +244,8 @@ Mode friction_above(const FoundBoundary& boundary, const Suggestion& suggestion)
   mode.type = "friction";
   mode.name = "friction";
   mode.strength_of = Datum::value;
-  mode.strength_n = TransferFunction({{readable(boundary.middle - 0.03 * step), 0},
-                                      {readable(boundary.middle + 0.03 * step), defaults::friction_strength_n}});
+  mode.strength_n = TransferFunction({{readable(boundary.middle - 0.08 * step), 0},
+                                      {readable(boundary.middle + 0.02 * step), defaults::friction_strength_n}});
   return mode;
 }
 
