@@ -2,10 +2,12 @@
 
 #include <cairo.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 namespace palpate::plugin {
 
@@ -110,6 +112,15 @@ void Canvas::text(const Point& at, const std::string& words, double size, const 
 
 void Canvas::grey_image(std::span<const unsigned char> pixels, int columns, int rows, const Point& corner,
                         const Point& size) {
+  std::vector<std::array<unsigned char, 3>> colours(pixels.size());
+  std::transform(pixels.begin(), pixels.end(), colours.begin(), [](unsigned char grey) {
+    return std::array{grey, grey, grey};
+  });
+  image(colours, columns, rows, corner, size);
+}
+
+void Canvas::image(std::span<const std::array<unsigned char, 3>> pixels, int columns, int rows, const Point& corner,
+                   const Point& size) {
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows), cairo_surface_destroy);
   cairo_surface_flush(image.get());
@@ -117,9 +128,11 @@ void Canvas::grey_image(std::span<const unsigned char> pixels, int columns, int 
   const int stride = cairo_image_surface_get_stride(image.get());
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const unsigned char grey = pixels[static_cast<std::size_t>(row) * columns + column];
+      const auto& [red, green, blue] = pixels[static_cast<std::size_t>(row) * columns + column];
       unsigned char* pixel = data + static_cast<std::ptrdiff_t>(row) * stride + 4 * column;
-      pixel[0] = pixel[1] = pixel[2] = grey;
+      pixel[0] = blue;  // CAIRO_FORMAT_RGB24 on a little-endian machine
+      pixel[1] = green;
+      pixel[2] = red;
     }
   }
   cairo_surface_mark_dirty(image.get());

@@ -2,6 +2,7 @@
 
 /// A picture being drawn with Cairo: 8-bit RGB, pixels from the upper left, written as PNG.
 
+#include <array>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -47,6 +48,9 @@ class Canvas {
   /// Grey values 0..255, row by row, stretched over the rectangle without smoothing between neighbours further than a
   /// pixel.
   void grey_image(std::span<const unsigned char> pixels, int columns, int rows, const Point& corner, const Point& size);
+  /// The same in colour: red, green, blue.
+  void image(std::span<const std::array<unsigned char, 3>> pixels, int columns, int rows, const Point& corner,
+             const Point& size);
   /// Restricts drawing to the rectangle until unclip().
   void clip(const Point& corner, const Point& size);
   void unclip();

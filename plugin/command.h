@@ -27,6 +27,7 @@ class WrongUsage : public std::runtime_error {
 // above.
 void add_info(CLI::App& program);
 void add_sample(CLI::App& program);
+void add_suggest(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_probe(CLI::App& program);

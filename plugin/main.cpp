@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     add_info(program);
     add_sample(program);
     add_solve(program);
+    add_suggest(program);
     add_plan(program);
     add_profile(program);
     add_probe(program);
