@@ -274,7 +274,7 @@ void Search::refuse_unmet() {
 }
 
 Solution Search::run(Start start) {
-  constexpr int few = 40;
+  constexpr int few = 30;
   while (true) {
     walk_.coarseness = 0x1p-51;
     if (start == Start::warm) {

@@ -250,7 +250,8 @@ bool Walker::lock_plane(const FineVec3& way, Bracket& bracket, double middle) {
   settle(frame, walk_.primitives, there);
   const Local local = look(there, frame);
   const double rate = rate_of(primitive, way);
-  const double others = glm::dot(local.gradient, way.hi());
+  const double others =
+      slope(walk_, local, frame, way) - (independent ? 0 : primitive.strength * std::max(0.0, rate));
   const double before = others + primitive.strength * std::min(0.0, rate);
   const double after = others + primitive.strength * std::max(0.0, rate);
   if (independent && before < 0) {
@@ -289,7 +290,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
     }
     const FineVec3 there = walk_.z + way * nearest;
     const Local local = look(there, walk_.frame);
-    const double slope_there = glm::dot(local.gradient, way.hi());
+    const double slope_there = slope(walk_, local, walk_.frame, way);
     if (walk_.primitives.size() <= 16 || std::abs(slope_there) <= primitive.strength * speed) {
       Frame frame;
       if (line && walk_.frame.rank == 1) {
