@@ -85,7 +85,8 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
   }
   const double near = rounding_of_data(attractor, z);
   const double backward = miss.length <= near ? 0 : slack;
-  return {given, 16 * unit_roundoff * size, slack, backward, slack > 0};
+  const bool on = size < s * (1 - 8 * unit_roundoff) || miss.length <= 4 * near;
+  return {given, 16 * unit_roundoff * size, slack, backward, slack > 0 && on};
 }
 
 }  // namespace

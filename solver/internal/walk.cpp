@@ -250,8 +250,7 @@ bool Walker::lock_plane(const FineVec3& way, Bracket& bracket, double middle) {
   settle(frame, walk_.primitives, there);
   const Local local = look(there, frame);
   const double rate = rate_of(primitive, way);
-  const double others =
-      slope(walk_, local, frame, way) - (independent ? 0 : primitive.strength * std::max(0.0, rate));
+  const double others = slope(walk_, local, frame, way) - (independent ? 0 : primitive.strength * std::max(0.0, rate));
   const double before = others + primitive.strength * std::min(0.0, rate);
   const double after = others + primitive.strength * std::max(0.0, rate);
   if (independent && before < 0) {
