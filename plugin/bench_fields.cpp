@@ -1,18 +1,26 @@
 #include "palpate/plugin/bench_fields.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <memory>
+#include <new>
+#include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -93,33 +101,84 @@ std::vector<NamedGrid> grids() {
           {"1x1x1 uneven 0.3", uneven}};
 }
 
-/// Errors at points spread evenly over a sphere of 20 mm, sampled as a proxy would.
+struct Method {
+  std::string name;
+  io::GradientMethod gradient = io::GradientMethod::gaussian;
+  double scale_mm = 0;
+};
+
+std::vector<Method> methods() {
+  return {{"gaussian", io::GradientMethod::gaussian, 1.0},      {"gaussian", io::GradientMethod::gaussian, 1.5},
+          {"gaussian", io::GradientMethod::gaussian, 2.0},      {"gaussian", io::GradientMethod::gaussian, 3.0},
+          {"central", io::GradientMethod::central_differences}, {"b-spline", io::GradientMethod::cubic_b_spline}};
+}
+
+/// What voxels do to a Gaussian's width along a normal: averaging over a voxel adds a twelfth of its edge's square, and
+/// linear interpolation between voxels f (1 - f) of it.
+double widened(double scale, const io::Geometry& g, const Vec3& position, const Vec3& normal) {
+  const Vec3 index = g.to_index(position);
+  const Vec3 f = index - glm::floor(index);
+  const Vec3 edges[] = {g.spacing_i * g.direction_i, g.spacing_j * g.direction_j,
+                        g.slice_spacing() * glm::cross(g.direction_i, g.direction_j)};
+  const Vec3 steps[] = {edges[0], edges[1], g.step};
+  double variance = scale * scale;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double edge = glm::dot(edges[axis], normal);
+    const double step = glm::dot(steps[axis], normal);
+    variance += edge * edge / 12 + f[axis] * (1 - f[axis]) * step * step;
+  }
+  return std::sqrt(variance);
+}
+
+struct Errors {
+  double direction_worst = 0;
+  double direction_rms = 0;
+  double magnitude_worst = 0;    ///< against the Gaussian alone
+  double unexplained_worst = 0;  ///< against the Gaussian that voxels have widened
+};
+
+/// At points spread evenly over a sphere, sampled as a proxy would.
+Errors errors_on_sphere(const std::shared_ptr<const io::Volume>& volume, const Method& method, double radius) {
+  constexpr int points = 2000;
+  const io::VolumeFields fields(volume, both, method.scale_mm,
+                                {.gradient = method.gradient, .brick_bytes = 0, .background = false});
+  Errors errors;
+  for (int n = 0; n < points; ++n) {
+    const double z = 1 - (2 * n + 1.0) / points;  // Fibonacci's spiral
+    const double angle = n * 2.399963229728653;
+    const double r = std::sqrt(1 - z * z);
+    const Vec3 normal(r * std::cos(angle), r * std::sin(angle), z);
+    const Vec3 g = fields.sample(radius * normal, both).gradient;
+    const double degrees = glm::degrees(std::atan2(glm::length(glm::cross(normal, g)), -glm::dot(normal, g)));
+    errors.direction_worst = std::max(errors.direction_worst, degrees);
+    errors.direction_rms += degrees * degrees / points;
+    if (method.scale_mm > 0) {
+      const double wide = widened(method.scale_mm, volume->geometry, radius * normal, normal);
+      const auto off = [&](double scale) { return std::abs(glm::length(g) / slope_at_surface(radius, scale) - 1); };
+      errors.magnitude_worst = std::max(errors.magnitude_worst, off(method.scale_mm));
+      errors.unexplained_worst = std::max(errors.unexplained_worst, off(wide));
+    }
+  }
+  errors.direction_rms = std::sqrt(errors.direction_rms);
+  return errors;
+}
+
 void tabulate_errors(const std::filesystem::path& folder) {
   constexpr double radius = 20;
-  constexpr int points = 2000;
-  Table table("grid,noise_hu,scale_mm,direction_worst_deg,direction_rms_deg,magnitude_worst_percent");
+  Table table(
+      "grid,noise_hu,method,scale_mm,direction_worst_deg,direction_rms_deg,magnitude_worst_percent,"
+      "beyond_voxel_blur_percent");
   for (const auto& [name, grid] : grids()) {
     for (const double noise : {0.0, 20.0}) {
       const auto volume = std::make_shared<const io::Volume>(
           testdata::scan(testdata::make_sphere(radius), testdata::make_geometry(grid), {.noise = noise}));
-      for (const double scale : {1.0, 1.5, 2.0, 3.0}) {
-        const io::VolumeFields fields(volume, both, scale, {.brick_bytes = 0, .background = false});
-        double worst = 0;
-        double squares = 0;
-        double worst_magnitude = 0;
-        for (int n = 0; n < points; ++n) {
-          const double z = 1 - (2 * n + 1.0) / points;  // Fibonacci's spiral
-          const double angle = n * 2.399963229728653;
-          const double r = std::sqrt(1 - z * z);
-          const Vec3 normal(r * std::cos(angle), r * std::sin(angle), z);
-          const Vec3 g = fields.sample(radius * normal, both).gradient;
-          const double error = glm::degrees(std::atan2(glm::length(glm::cross(normal, g)), -glm::dot(normal, g)));
-          worst = std::max(worst, error);
-          squares += error * error;
-          worst_magnitude = std::max(worst_magnitude, std::abs(glm::length(g) / slope_at_surface(radius, scale) - 1));
-        }
-        table.add(fmt::format("{},{:.0f},{},{:.2f},{:.2f},{:.1f}", name, noise, scale, worst,
-                              std::sqrt(squares / points), 100 * worst_magnitude));
+      for (const Method& method : methods()) {
+        const Errors e = errors_on_sphere(volume, method, radius);
+        const std::string magnitude =
+            method.scale_mm > 0 ? fmt::format("{},{:.2f},{:.2f},{:.1f},{:.1f}", method.scale_mm, e.direction_worst,
+                                              e.direction_rms, 100 * e.magnitude_worst, 100 * e.unexplained_worst)
+                                : fmt::format(",{:.2f},{:.2f},,", e.direction_worst, e.direction_rms);
+        table.add(fmt::format("{},{:.0f},{},{}", name, noise, method.name, magnitude));
       }
     }
   }
@@ -150,37 +209,121 @@ std::shared_ptr<const io::Volume> large_volume(bool quick) {
   return std::make_shared<const io::Volume>(std::move(volume));
 }
 
-void tabulate_times(const std::shared_ptr<const io::Volume>& volume, const std::filesystem::path& folder) {
-  const double scale = io::default_gradient_scale_mm(volume->geometry);
-  const glm::ivec3 size = volume->geometry.dimensions;
-  const io::GradientKernel kernel(volume, scale);
-  Table table("what,time,unit");
-  for (const int threads : {1, 0}) {
-    const auto start = Clock::now();
-    const auto gradients = kernel.whole({}, threads);
-    table.add(fmt::format("gradient of {}x{}x{} at {:.2g} mm on {},{:.2f},s", size.x, size.y, size.z, scale,
-                          threads == 1 ? "1 thread" : "all cores", seconds_since(start)));
+/// Fresh memory for a whole gradient, as the kernel hands it out or in large pages where it can.
+class Output {
+ public:
+  Output(std::size_t count, bool large_pages) : count_(count) {
+    constexpr std::size_t large = std::size_t{2} << 20;
+    const std::size_t bytes = (count * sizeof(glm::vec3) + large - 1) / large * large;
+    memory_.reset(std::aligned_alloc(large, bytes));
+    if (!memory_) throw std::bad_alloc();
+    ::madvise(memory_.get(), bytes, large_pages ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
   }
-  std::vector<glm::vec3> brick(17 * 17 * 17);
-  const double fill = microseconds(50, [&](int n) { kernel.at_block({size / 3 + n, glm::ivec3(17)}, brick); });
-  table.add(fmt::format("a brick of 16x16x16 cells,{:.0f},us", fill));
+  std::span<glm::vec3> span() const { return {static_cast<glm::vec3*>(memory_.get()), count_}; }
 
-  const io::VolumeFields missing(volume, both, scale, {.brick_bytes = 0, .background = false});
-  const io::VolumeFields hot(volume, both, scale, {.background = false});
-  hot.prepare(Vec3(0), 20);
+ private:
+  struct Free {
+    void operator()(void* memory) const { std::free(memory); }  // NOLINT: of aligned_alloc
+  };
+  std::size_t count_;
+  std::unique_ptr<void, Free> memory_;
+};
+
+/// Best of three, each into fresh memory.
+double best_seconds(std::size_t count, bool large_pages, const std::function<void(std::span<glm::vec3>)>& write) {
+  double best = 1e300;
+  for (int run = 0; run < 3; ++run) {
+    const Output output(count, large_pages);
+    const auto start = Clock::now();
+    write(output.span());
+    best = std::min(best, seconds_since(start));
+  }
+  return best;
+}
+
+/// Seconds that a program beside this one prints; nothing where it was not built.
+std::optional<double> peer_seconds(const char* name, const glm::ivec3& size) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  if (!std::filesystem::exists(program)) return std::nullopt;
+  const std::string call = fmt::format("{} {} {} {} 3", program.string(), size.x, size.y, size.z);
+  FILE* const pipe = ::popen(call.c_str(), "r");  // NOLINT: a program of this build
+  if (pipe == nullptr) return std::nullopt;
+  double seconds = 0;
+  const int got = std::fscanf(pipe, "%lf", &seconds);  // NOLINT: its only output
+  return ::pclose(pipe) == 0 && got == 1 ? std::optional(seconds) : std::nullopt;
+}
+
+void tabulate_whole_volumes(const std::shared_ptr<const io::Volume>& volume, const std::filesystem::path& folder) {
+  const glm::ivec3 size = volume->geometry.dimensions;
+  const std::size_t count = volume->offset(0, 0, size.z);
+  const io::GradientKernel gaussian(volume, io::default_gradient_scale_mm(volume->geometry));
+  const io::GradientKernel central(volume, io::GradientKernel::CentralDifferences{});
+  Table table("whole volume,threads,pages,seconds");
+  for (const bool large : {false, true}) {
+    const char* const pages = large ? "large" : "small";
+    const double cold = best_seconds(
+        count, large, [](std::span<glm::vec3> to) { std::memset(static_cast<void*>(to.data()), 1, to.size_bytes()); });
+    table.add(fmt::format("cold write of the output,1,{},{:.3f}", pages, cold));
+    for (const int threads : {1, 0}) {
+      const std::string how = fmt::format("{},{}", threads == 1 ? "1" : "all", pages);
+      const auto take = [&](const io::GradientKernel& kernel) {
+        return best_seconds(count, large, [&](std::span<glm::vec3> to) { kernel.whole_into(to, {}, threads); });
+      };
+      const double differences = take(central);
+      const double filtered = take(gaussian);
+      table.add(fmt::format("central differences,{},{:.3f}", how, differences));
+      table.add(fmt::format("gaussian of {:.2g} mm,{},{:.3f}", gaussian.scale_mm(), how, filtered));
+      fmt::print("# central / cold write {:.2f}, gaussian / central {:.2f}\n", differences / cold,
+                 filtered / differences);
+    }
+  }
+  for (const auto& [name, program] :
+       {std::pair{"vtkImageGradient", "gradient_by_vtk"}, std::pair{"ITK recursive gaussian", "gradient_by_itk"}}) {
+    if (const auto seconds = peer_seconds(program, size)) {
+      table.add(fmt::format("{},all,small,{:.3f}", name, *seconds));
+    } else {
+      fmt::print("# {}: {} is not beside this program (-DPALPATE_PEERS=ON builds it where it can)\n", name, program);
+    }
+  }
+  table.save(folder, "whole_volume_times.csv");
+}
+
+void tabulate_samples(const std::shared_ptr<const io::Volume>& volume, const std::filesystem::path& folder) {
+  const double scale = io::default_gradient_scale_mm(volume->geometry);
+  const io::GradientKernel kernel(volume, scale);
+  Table table("sample,microseconds");
+  std::vector<glm::vec3> brick(17 * 17 * 17);
+  const glm::ivec3 middle = volume->geometry.dimensions / 3;
+  const double fill = microseconds(50, [&](int n) { kernel.at_block({middle + n, glm::ivec3(17)}, brick); });
+  table.add(fmt::format("filling a brick of 16x16x16 cells,{:.0f}", fill));
   double sum = 0;  // so that no sample is optimised away
-  const auto at = [](int n) { return Vec3(n % 97, n % 89, n % 83) * 0.1; };
+  const auto near = [](int n) { return Vec3(n % 97, n % 89, n % 83) * 0.1; };
   const auto far = [](int n) { return Vec3((n * 37) % 40 - 20, (n * 23) % 40 - 20, (n * 29) % 40 - 20); };
-  const double value = microseconds(5000, [&](int n) { sum += hot.sample(at(n), io::FieldSet::value).value; });
-  const double near = microseconds(5000, [&](int n) { sum += hot.sample(at(n), both).gradient.x; });
-  const double cold = microseconds(5000, [&](int n) { sum += hot.sample(far(n), both).gradient.x; });
-  const double alone = microseconds(1000, [&](int n) { sum += missing.sample(at(n), both).gradient.x; });
-  table.add(fmt::format("value of a sample,{:.3f},us", value));
-  table.add(fmt::format("value and gradient from a brick,{:.3f},us", near));
-  table.add(fmt::format("the same from a brick at random,{:.3f},us", cold));
-  table.add(fmt::format("the same with the brick missing,{:.1f},us", alone));
+  const auto time_of = [&](const io::VolumeFields& fields, io::FieldSet wanted, int calls, bool scattered) {
+    return microseconds(calls, [&](int n) {
+      const io::Sample s = fields.sample(scattered ? far(n) : near(n), wanted);
+      sum += s.value + s.gradient.x + s.low + s.tube.x;
+    });
+  };
+  struct Row {
+    const char* name;
+    io::FieldSet wanted;
+    io::GradientMethod method = io::GradientMethod::gaussian;
+  };
+  for (const auto& [name, wanted, method] :
+       {Row{"value", io::FieldSet::value}, Row{"value and gradient", both},
+        Row{"value; central differences", both, io::GradientMethod::central_differences},
+        Row{"value and gradient by b-spline", both, io::GradientMethod::cubic_b_spline},
+        Row{"low and high", io::FieldSet::low_high}, Row{"tube", io::FieldSet::tube}}) {
+    const io::VolumeFields hot(volume, wanted, scale, {.gradient = method, .background = false});
+    hot.prepare(Vec3(0), 20);
+    const io::VolumeFields without(volume, wanted, scale, {.gradient = method, .brick_bytes = 0, .background = false});
+    table.add(fmt::format("{}: hot,{:.3f}", name, time_of(hot, wanted, 5000, false)));
+    table.add(fmt::format("{}: cold,{:.3f}", name, time_of(hot, wanted, 5000, true)));
+    table.add(fmt::format("{}: brick missing,{:.3f}", name, time_of(without, wanted, 500, false)));
+  }
   if (!std::isfinite(sum)) fmt::print("{}\n", sum);
-  table.save(folder, "field_times.csv");
+  table.save(folder, "sample_times.csv");
 }
 
 /// A stylus at 1 kHz on a winding way: how many samples find no brick.
@@ -253,7 +396,8 @@ void tabulate_jitter(const io::Volume& loaded, const std::filesystem::path& fold
 void run_all(const FieldsArguments& arguments, const std::filesystem::path& folder) {
   tabulate_errors(folder);
   const auto volume = large_volume(arguments.quick);
-  tabulate_times(volume, folder);
+  tabulate_whole_volumes(volume, folder);
+  tabulate_samples(volume, folder);
   tabulate_misses(volume, folder);
   if (!arguments.series.path.empty()) {
     tabulate_jitter(load_series(arguments.series), folder);
