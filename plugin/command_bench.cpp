@@ -4,7 +4,10 @@
 
 #include "palpate/plugin/bench_fields.h"
 #include "palpate/plugin/bench_load.h"
+#include "palpate/plugin/bench_soak.h"
 #include "palpate/plugin/bench_solvers.h"
+#include "palpate/plugin/bench_subdivision.h"
+#include "palpate/plugin/bench_tick.h"
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/loop_studies.h"
 #include "palpate/testdata/fresh_folder.h"
@@ -45,7 +48,10 @@ void add_bench(CLI::App& program) {
   add_stability(*bench);
   add_bench_fields(*bench);
   add_bench_load(*bench);
+  add_bench_soak(*bench);
   add_bench_solvers(*bench);
+  add_bench_subdivision(*bench);
+  add_bench_tick(*bench);
 }
 
 }  // namespace palpate::plugin

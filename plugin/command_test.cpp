@@ -2,11 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,63 +10,24 @@
 #include <string>
 #include <vector>
 
+#include "palpate/plugin/internal/command_rig.h"
 #include "palpate/plugin/recording.h"
-#include "palpate/testdata/scan.h"
-#include "palpate/testdata/write_series.h"
 
 namespace palpate::plugin {
 namespace {
 
-using testing::HasSubstr;
-
-struct Outcome {
-  int exit = -1;
-  std::string output;  // stdout, or both where asked for
-};
-
-Outcome palpate(const std::string& arguments, bool with_errors = true) {
-  const std::string command = std::string(PALPATE_PROGRAM) + " " + arguments + (with_errors ? " 2>&1" : " 2>/dev/null");
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");  // NOLINT: the tests' own arguments
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    outcome.output.append(buffer.data(), count);
-  }
-  outcome.exit = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
-
-/// Each test is a process of its own, and they run side by side.
-std::filesystem::path fresh(const std::string& name) {
-  const auto path =
-      std::filesystem::path(testing::TempDir()) / ("command_test_" + std::to_string(getpid()) + "_" + name);
-  std::filesystem::remove_all(path);
-  return path;
-}
+using namespace testing;
+using ::testing::HasSubstr;
 
 std::string write_scene(const std::string& name, const std::string& text) {
-  const auto file = fresh(name);
+  const auto file = fresh_path(name);
   std::ofstream(file) << text;
   return file.string();
 }
 
-/// A ball of soft tissue with a core of bone, 60 mm wide, as a DICOM series.
-const std::filesystem::path& phantom() {
-  static const std::filesystem::path folder = [] {
-    auto path = fresh("phantom");
-    testdata::Phantom ball = testdata::make_sphere(25);
-    ball.bodies.push_back(testdata::make_sphere(15, testdata::bone_hu).bodies.front());
-    testdata::write_series(testdata::scan(ball, testdata::make_geometry({.size = glm::ivec3(60)})), path);
-    return path;
-  }();
-  return folder;
-}
-
-const std::string forehead = " --from 0,-29,0 --to 0,0,0 ";
-
 TEST(Command, HelpTeachesAndUnknownWordsAreWrongUsage) {
   EXPECT_EQ(palpate("--help").exit, 0);
-  for (const char* command : {"info", "sample", "plan", "profile", "probe", "solve"}) {
+  for (const char* command : {"info", "sample", "plan", "profile", "probe", "record", "replay", "solve"}) {
     const Outcome help = palpate(std::string(command) + " --help");
     EXPECT_EQ(help.exit, 0) << command;
     EXPECT_THAT(help.output, HasSubstr("--")) << command;
@@ -82,7 +39,7 @@ TEST(Command, HelpTeachesAndUnknownWordsAreWrongUsage) {
 }
 
 TEST(Command, ProbeLeavesARecordingASummaryAndPictures) {
-  const auto out = fresh("probe");
+  const auto out = fresh_path("probe");
   const Outcome outcome =
       palpate("probe " + phantom().string() + forehead + "--scene ct-skin-and-bone --json -o " + out.string(), false);
   ASSERT_EQ(outcome.exit, 0) << outcome.output;
@@ -91,7 +48,7 @@ TEST(Command, ProbeLeavesARecordingASummaryAndPictures) {
   for (const auto& hold : summary["holds"]) {
     felt.push_back(hold["boundary"]);
   }
-  EXPECT_THAT(felt, testing::AllOf(testing::Contains("skin"), testing::Contains("bone")));
+  EXPECT_THAT(felt, ::testing::AllOf(::testing::Contains("skin"), ::testing::Contains("bone")));
   EXPECT_EQ(felt.front(), "skin");
   EXPECT_TRUE(summary["faults"].empty());
   for (const char* file :
@@ -120,7 +77,7 @@ TEST(Command, ProfileIsTheContract) {
 }
 
 TEST(Command, RefusesBadInputAndLeavesNothing) {
-  const auto out = fresh("refused");
+  const auto out = fresh_path("refused");
   const std::string tail = " -o " + out.string();
   const auto refused = [&](const std::string& arguments, int exit, const std::string& words) {
     const Outcome outcome = palpate(arguments + tail);
@@ -128,7 +85,7 @@ TEST(Command, RefusesBadInputAndLeavesNothing) {
     EXPECT_THAT(outcome.output, HasSubstr(words)) << arguments;
     EXPECT_FALSE(std::filesystem::exists(out)) << arguments;
   };
-  const auto empty = fresh("empty_folder");
+  const auto empty = fresh_path("empty_folder");
   std::filesystem::create_directory(empty);
   const std::string scan = "probe " + phantom().string() + forehead;
   refused("probe /no/such/folder", 1, "/no/such/folder");
@@ -150,20 +107,20 @@ TEST(Command, RefusesBadInputAndLeavesNothing) {
 }
 
 TEST(Command, SeveralSeriesAndNoneChosenListsThem) {
-  const auto both = fresh("both");
+  const auto both = fresh_path("both");
   const auto geometry = testdata::make_geometry({.size = glm::ivec3(8)});
   testdata::write_series(testdata::scan(testdata::make_sphere(3), geometry), both / "a", {.description = "first"});
   testdata::write_series(testdata::scan(testdata::make_sphere(2), geometry), both / "b",
                          {.description = "second", .number = 2});
   const Outcome none = palpate("profile " + both.string() + " --from 0,-3,0 --to 0,0,0");
   EXPECT_EQ(none.exit, 2);
-  EXPECT_THAT(none.output, testing::AllOf(HasSubstr("first"), HasSubstr("second"), HasSubstr("--series")));
+  EXPECT_THAT(none.output, ::testing::AllOf(HasSubstr("first"), HasSubstr("second"), HasSubstr("--series")));
   EXPECT_EQ(palpate("profile " + both.string() + " --series 1 --from 0,-3,0 --to 0,0,0").exit, 0);
   EXPECT_EQ(palpate("profile " + both.string() + " --series 3 --from 0,-3,0 --to 0,0,0").exit, 2);
 }
 
 TEST(Command, SolveAnswersEveryLineOfItsInput) {
-  const auto input = fresh("balances.jsonl");
+  const auto input = fresh_path("balances.jsonl");
   std::ofstream(input) << R"({"id":1,"stiffness":400,"probe":[0,0,-0.002],"primitives":[)"
                           R"({"type":"plane","strength":2,"position":[0,0,0],"direction":[0,0,1]}]})"
                        << "\n";
@@ -190,7 +147,7 @@ TEST(Command, SolveAnswersEveryLineOfItsInput) {
 }
 
 TEST(Command, NothingIsOverwritten) {
-  const auto out = fresh("kept");
+  const auto out = fresh_path("kept");
   std::filesystem::create_directory(out);
   std::ofstream(out / "recording.h5") << "precious";
   EXPECT_EQ(palpate("probe " + phantom().string() + forehead + "-o " + out.string()).exit, 1);

@@ -21,7 +21,7 @@ Recorder::Recorder(const FrameRing& ring, std::filesystem::path file, const Reco
     : ring_(ring),
       options_(std::move(options)),
       file_(std::move(file)),
-      next_(ring.written()),
+      next_(options_.first_frame.value_or(ring.written())),
       writer_(file_, header),
       thread_([this] { run(); }) {}
 
@@ -42,7 +42,7 @@ void Recorder::note(const StylusRecord& stylus) {
 }
 
 std::uint64_t Recorder::backlog() const noexcept {
-  return ring_.written() - next_.load(std::memory_order_relaxed);
+  return ring_.written() - next();
 }
 
 void Recorder::wait_for_room() {
@@ -62,12 +62,13 @@ RecorderStatus Recorder::finish() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
+    end_ = ring_.written();
   }
   progress_.notify_all();
   if (thread_.joinable()) {
     thread_.join();
     const std::lock_guard lock(mutex_);
-    status_.lost += backlog();  // of a recording that stopped early: all that came after
+    status_.lost += end_ - next();  // of a recording that stopped early: all that came after
   }
   return status();
 }
@@ -108,12 +109,14 @@ bool Recorder::has_room() const {
 /// False where there was nothing to write.
 bool Recorder::write_batch() {
   std::vector<std::function<void(RecordingWriter&)>> events;
+  std::uint64_t end = 0;
   {
     const std::lock_guard lock(mutex_);
     events.swap(events_);
+    end = end_;
   }
-  const std::uint64_t begin = next_.load(std::memory_order_relaxed);
-  const std::uint64_t until = std::min(ring_.written(), begin + most_of_batch);
+  const std::uint64_t begin = next();
+  const std::uint64_t until = std::min({ring_.written(), begin + most_of_batch, end});
   if (events.empty() && until == begin) {
     return false;
   }
@@ -132,7 +135,7 @@ void Recorder::write_frames(std::uint64_t until) {
   shares_.clear();
   Gap gap;
   Frame frame;
-  std::uint64_t n = next_.load(std::memory_order_relaxed);
+  std::uint64_t n = next();
   // A lost frame of the ring has no number to tell: its place in the file does.
   const auto lose = [&](std::uint64_t frames) {
     if (gap.frames == 0) {

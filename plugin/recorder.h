@@ -10,8 +10,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,7 +24,8 @@
 namespace palpate::plugin {
 
 struct RecorderOptions {
-  std::uintmax_t spare_bytes = 64U << 20U;  ///< room on the disk that is left to others: recording ends before that
+  std::uintmax_t spare_bytes = 64U << 20U;   ///< room on the disk that is left to others: recording ends before that
+  std::optional<std::uint64_t> first_frame;  ///< of the ring; by default the next that it gets
   /// Called by the recording thread before each batch is written; tests make a disk slow with it.
   std::function<void()> before_write;
 };
@@ -51,11 +54,14 @@ class Recorder {
 
   /// Frames that the ring holds and the file does not yet.
   std::uint64_t backlog() const noexcept;
+  /// The frame of the ring that is to be written next.
+  std::uint64_t next() const noexcept { return next_.load(std::memory_order_relaxed); }
   /// For a session that does not run at the clock's pace: waits until half of the ring is free.
   void wait_for_room();
   RecorderStatus status() const;
 
-  /// Writes what is left in the ring and closes the file. To be called when the servo has ended; once.
+  /// Writes what is left in the ring and closes the file; frames that come meanwhile belong to the next recorder, whose
+  /// RecorderOptions::first_frame is next(). Once.
   RecorderStatus finish();
 
  private:
@@ -73,7 +79,8 @@ class Recorder {
   std::vector<std::function<void(RecordingWriter&)>> events_;
   RecorderStatus status_;
   bool ending_ = false;
-  std::atomic<std::uint64_t> next_;  // frame of the ring
+  std::uint64_t end_ = std::numeric_limits<std::uint64_t>::max();  ///< frames from here on are another recorder's
+  std::atomic<std::uint64_t> next_;                                // frame of the ring
   // The recording thread's.
   RecordingWriter writer_;
   std::vector<Frame> frames_;

@@ -149,6 +149,7 @@ void RecordingWriter::finish() {
   flush();
   naming(file_, [&] {
     open_.reset();
+    H5garbage_collect();
     std::filesystem::rename(partial_, file_);
   });
 }

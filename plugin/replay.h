@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "palpate/plugin/recording.h"
@@ -27,5 +28,22 @@ struct Replay {
 
 /// Throws std::runtime_error where the recording has no scene or an event is missing, and what the maker throws.
 Replay replay(const Recording& recording, const SnapshotMaker& make_snapshot);
+
+/// The same of a recording in several files, one after the other.
+class Replayer {
+ public:
+  explicit Replayer(SnapshotMaker make_snapshot);
+  Replayer(const Replayer&) = delete;
+  Replayer& operator=(const Replayer&) = delete;
+  ~Replayer();
+
+  /// The next part. Throws as replay().
+  void feed(const Recording& part);
+  const Replay& result() const noexcept;
+
+ private:
+  struct Progress;
+  std::unique_ptr<Progress> progress_;
+};
 
 }  // namespace palpate::plugin

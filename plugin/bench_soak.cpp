@@ -1,0 +1,72 @@
+#include "palpate/plugin/bench_soak.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "palpate/plugin/command.h"
+#include "palpate/plugin/run_session.h"
+#include "palpate/plugin/soak.h"
+
+namespace palpate::plugin {
+namespace {
+
+void print(const SoakResult& result) {
+  fmt::print("{} ticks, {} deadlines missed, {} of them unaccounted for\n", result.ticks, result.missed,
+             result.unaccounted);
+  fmt::print("{} changes of scene, {} of scan, {} unplugs; {} frames with a latched fault\n", result.scenes,
+             result.scans, result.unplugs, result.faulty_frames);
+  fmt::print("largest force {:.2f} N; frames beyond a limit of force or slew {}, not finite {}\n", result.largest_n,
+             result.over_limit, result.not_finite);
+  fmt::print("replayed {} frames, {} differ; frames lost to the recording {}\n", result.replay.frames,
+             result.replay.different, result.lost);
+  fmt::print(
+      "live heap at the end of {} cycles: differs by {} bytes once warm; resident memory grows by {:.3f} MiB/h\n",
+      result.points.size(), result.heap_spread(), result.resident_slope() / (1024.0 * 1024.0));
+  for (const SoakPoint& point : result.points) {
+    fmt::print("  {:8.1f} s  live {:>12} bytes  resident {:>12} bytes\n", point.time_s, point.live_bytes,
+               point.resident_bytes);
+  }
+}
+
+void run(SoakOptions options) {
+  const bool show = stderr_is_terminal();
+  options.folder = std::filesystem::temp_directory_path() / fmt::format("palpate-soak-{}", getpid());
+  std::filesystem::create_directory(options.folder);
+  options.progress = [show](double done) {
+    if (show) fmt::print(stderr, "\rsoaking {:3.0f} %{}", 100 * done, done < 1 ? "" : "\r\033[K");
+  };
+  const std::shared_ptr<void> remove(nullptr, [&](void*) {
+    std::error_code ignored;
+    std::filesystem::remove_all(options.folder, ignored);
+  });
+  const SoakResult result = soak(options);
+  print(result);
+  if (result.over_limit + result.not_finite + result.unaccounted + result.lost + result.replay.different +
+          result.replay.after_gap >
+      0) {
+    throw InputRefused("the soak found what may not be: see above");
+  }
+}
+
+}  // namespace
+
+void add_bench_soak(CLI::App& bench) {
+  auto options = std::make_shared<SoakOptions>();
+  CLI::App* command = bench.add_subcommand(
+      "soak",
+      "An hour of probing: scenes swapped every second, scans every minute, the device unplugged at random;\n"
+      "recorded, replayed, limits and memory watched.");
+  command->add_option("--minutes", options->minutes, "of probing")->capture_default_str();
+  command->add_option("--scan", options->seconds_of_scan, "seconds of each scan")->capture_default_str();
+  command->add_option("--rate", options->rate_hz, "ticks a second")->capture_default_str();
+  command->add_option("--seed", options->seed, "of the hand and of the unplugging")->capture_default_str();
+  command->add_flag("--clock", options->at_clock_pace,
+                    "at the clock's pace on the servo thread, instead of as fast as the arithmetic");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,230 @@
+#include "palpate/plugin/bench_tick.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <random>
+
+#include "palpate/device/simulated_stylus.h"
+#include "palpate/io/volume_fields.h"
+#include "palpate/modes/scene_json.h"
+#include "palpate/plugin/command.h"
+#include "palpate/plugin/probe_path.h"
+#include "palpate/plugin/run_session.h"
+#include "palpate/plugin/series_option.h"
+#include "palpate/plugin/sphere_study.h"
+#include "palpate/plugin/tick_study.h"
+#include "palpate/testdata/fresh_folder.h"
+#include "palpate/testdata/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct Arguments {
+  SeriesOption series;
+  ProbePathOption path;
+  std::string output;
+  std::size_t ticks = 200000;
+  int largest = 1024;
+  bool sphere = false;
+};
+
+/// Rows on stdout, kept for the CSV.
+class Rows {
+ public:
+  void add(const TickRow& row) {
+    fmt::print("{}\n", to_text(row));
+    csv_ += to_csv(row);
+  }
+  const std::string& csv() const { return csv_; }
+
+ private:
+  std::string csv_ = tick_csv_header();
+};
+
+modes::Scene surface_and_friction() {
+  return modes::scene_from_json(R"({"version": 1, "name": "surface and friction", "modes": [
+    {"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1.5]]}},
+    {"type": "friction", "strength_n": {"of": "value", "nodes": [[-310, 0], [-290, 0.1]]}}]})",
+                                "bench tick");
+}
+
+/// As many surfaces, that share 1.5 N; on both sides each places two planes.
+modes::Scene surfaces(int count, bool both) {
+  std::string text = R"({"version": 1, "modes": [)";
+  for (int n = 0; n < count; ++n) {
+    text += fmt::format(
+        R"({}{{"type": "surface", "side": "{}", "strength_n": {{"of": "gradient_per_mm", "nodes": [[20, 0], [60, {}]]}}}})",
+        n > 0 ? "," : "", both ? "both" : "entering", 1.5 / count);
+  }
+  return modes::scene_from_json(text + "]}", "bench tick");
+}
+
+/// A scan with a hand's path on it.
+struct Walk {
+  std::shared_ptr<const io::Volume> volume;
+  modes::WorkspaceSettings workspace;
+  std::vector<glm::dvec3> poses_m;
+};
+
+/// The poses of the main job's press: in the air, on the skin, along it, through to the bone.
+Walk press_on(const Arguments& arguments) {
+  Walk walk{
+      .volume = std::make_shared<const io::Volume>(load_series(arguments.series)), .workspace = {}, .poses_m = {}};
+  const auto stylus = std::make_shared<device::SimulatedStylus>();
+  const device::Specification specification = stylus->specification();
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  Felt felt = prepare(scene, walk.volume, specification.workspace_half_extent);
+  const double end_s = follow_probe_path(arguments.path, *walk.volume, scene, felt, *stylus);
+  walk.workspace = scene.workspace;
+  Session session(snapshot_of(scene, felt, specification), stylus);
+  for (int n = 0; n < static_cast<int>(end_s * specification.rate); ++n) {
+    const Frame& frame = session.tick();
+    walk.poses_m.emplace_back(frame.probe_m[0], frame.probe_m[1], frame.probe_m[2]);
+  }
+  return walk;
+}
+
+Snapshot on(const Walk& walk, modes::Scene scene, const io::FieldOptions& options = {}) {
+  scene.workspace = walk.workspace;
+  const device::Specification specification = device::SimulatedStylus().specification();
+  Felt felt{.plan = plan_for(scene, *walk.volume, specification.workspace_half_extent), .source = nullptr};
+  felt.source = std::make_shared<const io::VolumeFields>(walk.volume, felt.plan->fields,
+                                                         io::default_gradient_scale_mm(walk.volume->geometry), options);
+  return snapshot_of(scene, felt, specification);
+}
+
+/// A cube of voxels of 1 mm with hills of tissue under air.
+Walk hills(int size, bool random) {
+  testdata::Grid grid;
+  grid.size = glm::ivec3(size);
+  io::Volume volume;
+  volume.geometry = testdata::make_geometry(grid);
+  volume.modality = "CT";
+  volume.unit = "HU";
+  const auto count = static_cast<std::size_t>(size);
+  std::vector<std::int16_t> voxels(count * count * count);
+  const auto height = [](double x, double y) { return 4 * std::sin(x / 15) + 4 * std::cos(y / 15); };
+  const double half = 0.5 * (size - 1);
+  std::size_t at = 0;
+  for (int k = 0; k < size; ++k) {
+    for (int j = 0; j < size; ++j) {
+      for (int i = 0; i < size; ++i, ++at) {
+        const double depth = height(i - half, j - half) - (k - half);
+        voxels[at] = static_cast<std::int16_t>(-480 + std::clamp(260 * depth, -520.0, 520.0));
+      }
+    }
+  }
+  volume.voxels = std::move(voxels);
+  Walk walk{.volume = std::make_shared<const io::Volume>(std::move(volume)), .workspace = {}, .poses_m = {}};
+  const modes::Workspace workspace;
+  std::mt19937_64 numbers(1);
+  std::uniform_real_distribution<double> anywhere(-0.4 * size, 0.4 * size);
+  const int poses = random ? 50000 : 20000;
+  for (int n = 0; n < poses; ++n) {
+    // Smoothly: 2 mm deep along the hills at 50 mm/s. At random: anywhere, every tick.
+    const double angle = 0.05 / 35 * n;
+    const double x = random ? anywhere(numbers) : 35 * std::cos(angle);
+    const double y = random ? anywhere(numbers) : 35 * std::sin(angle);
+    const double z = random ? anywhere(numbers) : height(x, y) - 2 * std::min(1.0, n / 200.0);
+    walk.poses_m.push_back(workspace.to_device({x, y, z}));
+  }
+  return walk;
+}
+
+void tabulate_series(const Arguments& arguments, Rows& rows) {
+  const Walk walk = press_on(arguments);
+  fmt::print("On {}, the main job's press, {} ticks a row\n\n{}\n", describe_scan(*walk.volume), arguments.ticks,
+             tick_row_header());
+  const auto measure = [&](const std::string& what, const Snapshot& snapshot) {
+    rows.add(measure_ticks(what, snapshot, walk.poses_m, arguments.ticks));
+  };
+  const modes::Scene three = modes::load_scene("ct-skin-and-bone");
+  measure("surface + friction", on(walk, surface_and_friction()));
+  measure("three modes: skin, bone, friction", on(walk, three));
+  const io::FieldOptions no_bricks{.brick_bytes = 0, .background = false};
+  measure("surface + friction, brick missed", on(walk, surface_and_friction(), no_bricks));
+  {
+    const BusyThread busy;
+    measure("surface + friction, busy neighbour", on(walk, surface_and_friction()));
+    measure("three modes, busy neighbour", on(walk, three));
+  }
+  fmt::print("\nGrowth with modes, and with primitives\n");
+  for (int modes = 1; modes <= 8; ++modes) measure(fmt::format("{} surfaces", modes), on(walk, surfaces(modes, false)));
+  for (int modes = 1; modes <= 8; modes *= 2) {
+    measure(fmt::format("{} surfaces on both sides", modes), on(walk, surfaces(modes, true)));
+  }
+}
+
+void tabulate_sizes(const Arguments& arguments, Rows& rows) {
+  fmt::print("\nGrowth with the volume: hills of tissue, surface + friction, no sub-steps\n");
+  modes::Scene scene = surface_and_friction();
+  scene.subdivision.most = 1;
+  for (const bool random : {false, true}) {
+    for (int size = 128; size <= arguments.largest; size *= 2) {
+      const Walk walk = hills(size, random);
+      rows.add(measure_ticks(fmt::format("{}^3, {} walk", size, random ? "random" : "smooth"), on(walk, scene),
+                             walk.poses_m, random ? arguments.ticks / 4 : arguments.ticks));
+    }
+  }
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text;
+  if (!stream.flush()) {
+    throw std::runtime_error("cannot write " + file.string() + " (is the disk full?)");
+  }
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.series.path.empty() && !arguments.sphere) {
+    throw WrongUsage("bench tick needs a SERIES, or --sphere");
+  }
+  std::optional<testdata::FreshFolder> folder;
+  if (!arguments.output.empty()) {
+    folder.emplace(arguments.output);
+  }
+  std::string csv;
+  if (arguments.sphere) {
+    csv = run_sphere_study();
+  } else {
+    Rows rows;
+    tabulate_series(arguments, rows);
+    tabulate_sizes(arguments, rows);
+    fmt::print("\nCHAI3D's voxel haptics, measured elsewhere and not run here: 4.8 to 28 us a tick.\n");
+    csv = rows.csv();
+  }
+  if (folder) {
+    write(folder->path() / (arguments.sphere ? "sphere.csv" : "tick.csv"), csv);
+    folder->commit();
+  }
+}
+
+}  // namespace
+
+void add_bench_tick(CLI::App& bench) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = bench.add_subcommand(
+      "tick", "What a tick costs, stage by stage, and how it grows; --sphere: how exact it is on a known shape.");
+  add_series_option(*command, arguments->series);
+  command->get_option("SERIES")->required(false);
+  add_probe_path_option(*command, arguments->path);
+  command->add_flag("--sphere", arguments->sphere, "a sphere of 5 cm, 128^3 and 256^3, instead of a series");
+  command->add_option("--ticks", arguments->ticks, "of each row")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{100000000}))
+      ->capture_default_str();
+  command->add_option("--largest", arguments->largest, "edge of the largest volume made, voxels (1024: 2 GiB)")
+      ->check(CLI::Range(128, 1024))
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "also write a CSV file to this folder; new or empty");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace palpate::plugin
