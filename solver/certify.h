@@ -25,8 +25,11 @@ struct Certificate {
 /// proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, where that is less.
 ///
 /// forces: as many as primitives, N. Where one lies outside its primitive's force body the nearest force inside is
-/// taken, so any forces give a true bound, good ones a tight one. The balance has to be one that validate() accepts.
-/// Infinity where a hard constraint is not met. O(n), no allocation, noexcept.
+/// taken, so any forces give a true bound, good ones a tight one. A hard constraint that the proxy does not meet costs
+/// the way to it. Where what holds the proxy and the hard constraints cannot all be met at once, those missed by no
+/// more than hard_tolerance count as met (the bound is then that of the balance with them moved there); where one is
+/// missed by more there is no bound: infinity. The balance has to be one that validate() accepts. O(n), no allocation,
+/// noexcept.
 Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
 /// What a solver of this library promises of a well-conditioned balance, m: 1e-14 m + 16 ulp of the coordinates (of the

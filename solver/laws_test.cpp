@@ -1,0 +1,282 @@
+/// What the mathematics says of every force balance, over seeded balances of all families. PALPATE_CASES in the
+/// environment sets how many of each law's cases are tried in all (the default fits a test run; 1000000 takes minutes).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "palpate/solver/analytical.h"
+#include "palpate/solver/certify.h"
+#include "palpate/solver/chain.h"
+#include "palpate/solver/problems.h"
+#include "palpate/solver/reference.h"
+
+namespace palpate::solver {
+namespace {
+
+// Cases of each family, of a law that by default has `usual` cases in all and whose cases are `slowness` times as slow.
+std::uint64_t cases(std::uint64_t usual, std::uint64_t slowness = 1) {
+  const char* asked = std::getenv("PALPATE_CASES");
+  const std::uint64_t all = asked != nullptr ? std::strtoull(asked, nullptr, 10) / slowness : usual;
+  return std::max<std::uint64_t>(1, all / std::size(all_families));
+}
+
+std::uint64_t cases_of(Family family, std::uint64_t each) {
+  return family == Family::many ? std::max<std::uint64_t>(1, each / 100) : each;
+}
+
+struct Answer {
+  Solution solution;
+  std::vector<Vec3> forces;
+  double promise = 0;
+
+  double bound() const { return solution.error_bound; }
+};
+
+Answer solve(const Problem& problem) {
+  static ExactScratch scratch(128);
+  Answer answer;
+  answer.forces.resize(problem.primitives.size());
+  const Balance balance = problem.balance();
+  answer.solution = solve_exact(balance, answer.forces, scratch);
+  answer.promise = promised_accuracy(balance, answer.solution.proxy, answer.forces);
+  return answer;
+}
+
+// Two answers to what is the same balance but for rounding.
+void expect_same(const Answer& a, const Answer& b, const Vec3& apart, Family family, std::uint64_t seed) {
+  ASSERT_EQ(a.solution.outcome, Outcome::solved) << name_of(family) << " " << seed;
+  ASSERT_EQ(b.solution.outcome, Outcome::solved) << name_of(family) << " " << seed;
+  EXPECT_LE(glm::length(apart), 4 * (a.promise + b.promise)) << name_of(family) << " " << seed;
+}
+
+// Where an ulp of the data moves the proxy by about an ulp.
+constexpr Family well_conditioned[] = {Family::allowed, Family::oblique, Family::co_located, Family::spread,
+                                       Family::many};
+
+TEST(Laws, EveryBalanceIsSolvedAndNoCapIsHit) {
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(40000)); ++seed) {
+      const Problem problem = make_problem(family, seed);
+      const Answer answer = solve(problem);
+      ASSERT_EQ(answer.solution.outcome, Outcome::solved)
+          << name_of(family) << " " << seed << " of " << problem.primitives.size() << ", bound " << answer.bound();
+      ASSERT_TRUE(std::isfinite(answer.bound())) << name_of(family) << " " << seed;
+    }
+  }
+}
+
+TEST(Laws, NoBoundIsBelowTheTrueErrorAndTheAccuracyIsThatPromised) {
+  std::size_t known = 0;
+  std::size_t tried = 0;
+  for (const Family family : all_families) {
+    // A reference of 100 primitives takes long.
+    for (std::uint64_t seed = 0; seed < (family == Family::many ? 1 : cases(440, 400)); ++seed) {
+      const Problem problem = make_problem(family, seed);
+      const Balance balance = problem.balance();
+      const Reference reference = solve_reference(balance);
+      const Answer exact = solve(problem);
+      const double error = distance_to(reference, balance, exact.solution.proxy);
+      EXPECT_LE(error, exact.bound() + reference.radius) << name_of(family) << " " << seed;
+      ++tried;
+      if (reference.radius < 0.1 * exact.promise) {
+        ++known;
+        const bool ill_conditioned = family == Family::near_parallel || family == Family::stiff;
+        EXPECT_LE(error, (ill_conditioned ? 1e3 : 1.1) * exact.promise) << name_of(family) << " " << seed;
+      }
+      std::vector<Vec3> forces(problem.primitives.size());
+      const Solution pass = solve_analytical(balance, forces);
+      if (pass.outcome == Outcome::solved) {
+        EXPECT_LE(distance_to(reference, balance, pass.proxy), pass.error_bound + reference.radius)
+            << name_of(family) << " " << seed;
+      }
+      const Certificate certificate = certify(balance, exact.solution.proxy, exact.forces);
+      EXPECT_LE(error, certificate.error_bound + reference.radius) << name_of(family) << " " << seed;
+    }
+  }
+  EXPECT_GE(10 * known, 8 * tried);
+}
+
+TEST(Laws, OrderDoesNotMatter) {
+  for (const Family family : well_conditioned) {
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
+      Problem problem = make_problem(family, seed);
+      const Answer forwards = solve(problem);
+      Random random(seed);
+      for (std::size_t i = problem.primitives.size(); i > 1; --i) {
+        std::swap(problem.primitives[i - 1], problem.primitives[random.below(i)]);
+      }
+      const Answer shuffled = solve(problem);
+      expect_same(forwards, shuffled, forwards.solution.proxy - shuffled.solution.proxy, family, seed);
+    }
+  }
+}
+
+struct Motion {
+  Vec3 axis[3];
+  Vec3 shift;
+
+  Vec3 turn(const Vec3& v) const { return axis[0] * v.x + axis[1] * v.y + axis[2] * v.z; }
+  Vec3 move(const Vec3& v) const { return turn(v) + shift; }
+};
+
+TEST(Laws, ARigidMotionMovesTheProxyAlong) {
+  for (const Family family : well_conditioned) {
+    // Turned and rounded, what was orthogonal is no longer, but by an ulp: 'allowed' stays well-conditioned all the
+    // same.
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
+      Problem problem = make_problem(family, seed);
+      const Answer here = solve(problem);
+      Random random(seed);
+      Motion motion;
+      motion.axis[0] = random.unit_vector();
+      motion.axis[1] = glm::normalize(glm::cross(motion.axis[0], random.unit_vector()));
+      motion.axis[2] = glm::cross(motion.axis[0], motion.axis[1]);
+      motion.shift = random.normal_vector(0.05);
+      problem.probe = motion.move(problem.probe);
+      problem.previous_proxy = motion.move(problem.previous_proxy);
+      for (Primitive& primitive : problem.primitives) {
+        primitive.position = motion.move(primitive.position);
+        primitive.direction = motion.turn(primitive.direction);
+      }
+      const Answer there = solve(problem);
+      expect_same(here, there, motion.move(here.solution.proxy) - there.solution.proxy, family, seed);
+    }
+  }
+}
+
+TEST(Laws, StiffnessAndStrengthsTogetherDoNotMatter) {
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
+      Problem problem = make_problem(family, seed);
+      const Answer weak = solve(problem);
+      problem.stiffness *= 8;  // a power of two, so that the balance is the same to the last bit
+      for (Primitive& primitive : problem.primitives) {
+        primitive.strength *= 8;
+      }
+      const Answer strong = solve(problem);
+      expect_same(weak, strong, weak.solution.proxy - strong.solution.proxy, family, seed);
+    }
+  }
+}
+
+TEST(Laws, APrimitiveMayBeSplitIntoTwoHalves) {
+  for (const Family family : well_conditioned) {
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
+      Problem problem = make_problem(family, seed);
+      const Answer whole = solve(problem);
+      if (problem.primitives.empty()) {
+        continue;
+      }
+      Random random(seed);
+      Primitive& half = problem.primitives[random.below(problem.primitives.size())];
+      half.strength /= 2;
+      const Primitive other = half;
+      problem.primitives.push_back(other);
+      const Answer halves = solve(problem);
+      expect_same(whole, halves, whole.solution.proxy - halves.solution.proxy, family, seed);
+    }
+  }
+}
+
+TEST(Laws, TheProxyMovesNoFasterThanTheProbe) {
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
+      Problem problem = make_problem(family, seed);
+      const Answer before = solve(problem);
+      const Vec3 probe = problem.probe;
+      Random random(seed);
+      problem.probe += random.unit_vector() * random.log_uniform(1e-9, 1e-2);
+      const Answer after = solve(problem);
+      const double moved = glm::length(after.solution.proxy - before.solution.proxy);
+      const double probe_moved = glm::length(problem.probe - probe) * (1 + 1e-14);
+      EXPECT_LE(moved, probe_moved + before.bound() + after.bound()) << name_of(family) << " " << seed;
+    }
+  }
+}
+
+TEST(Laws, AtRestTheForceIsConstantToTheLastBit) {
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(2000, 10)); ++seed) {
+      const Problem problem = make_problem(family, seed);
+      Chain chain({.capacity = 128});
+      std::vector<Vec3> forces(problem.primitives.size());
+      Problem moving = problem;
+      moving.probe += Vec3(1e-5, -2e-5, 0.5e-5);
+      chain.solve(moving.balance(), forces);
+      const Vec3 first = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
+      for (int frame = 0; frame < 10; ++frame) {
+        const Vec3 force = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
+        ASSERT_EQ(force, first) << name_of(family) << " " << seed << " frame " << frame;
+      }
+    }
+  }
+}
+
+// Puts one thing wrong; returns what has to be said about it.
+Rejection spoil(Problem& problem, Random& random) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t i = random.below(problem.primitives.size());
+  Primitive& primitive = problem.primitives[i];
+  const bool has_position = primitive.type != PrimitiveType::directed_force;
+  switch (random.below(8)) {
+    case 0:
+      problem.stiffness = -problem.stiffness;
+      return {Rejection::whole_balance, Field::stiffness, Flaw::not_positive};
+    case 1:
+      problem.probe.y = random.below(2) == 0 ? nan : -infinity;
+      return {Rejection::whole_balance, Field::probe, Flaw::not_finite};
+    case 2:
+      primitive.strength = nan;
+      return {i, Field::strength, Flaw::not_finite};
+    case 3:
+      primitive.strength = -1e-30;
+      return {i, Field::strength, Flaw::negative};
+    case 4:
+      primitive.position.z = has_position ? infinity : nan;
+      primitive.strength = has_position ? primitive.strength : -1;
+      return has_position ? Rejection{i, Field::position, Flaw::not_finite}
+                          : Rejection{i, Field::strength, Flaw::negative};
+    case 5:
+      primitive.type = PrimitiveType::line;
+      primitive.direction = Vec3{0};
+      return {i, Field::direction, Flaw::zero_direction};
+    case 6:
+      primitive.type = PrimitiveType::plane;
+      primitive.direction = {nan, 0, 0};
+      return {i, Field::direction, Flaw::not_finite};
+    default:
+      problem.stiffness = 1e60;
+      return {Rejection::whole_balance, Field::stiffness, Flaw::out_of_range};
+  }
+}
+
+TEST(Laws, WhateverIsWrongIsNamed) {
+  for (const Family family : all_families) {
+    Chain chain({.capacity = 128});
+    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
+      Problem problem = make_problem(family, seed);
+      if (problem.primitives.empty()) {
+        continue;
+      }
+      Random random(seed);
+      const Rejection expected = spoil(problem, random);
+      std::vector<Vec3> forces(problem.primitives.size());
+      const Solution solution = chain.solve(problem.balance(), forces);
+      ASSERT_EQ(solution.outcome, Outcome::refused) << name_of(family) << " " << seed;
+      EXPECT_EQ(solution.rejection->primitive, expected.primitive) << name_of(family) << " " << seed;
+      EXPECT_EQ(solution.rejection->field, expected.field) << name_of(family) << " " << seed;
+      EXPECT_EQ(solution.rejection->flaw, expected.flaw) << name_of(family) << " " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::solver
