@@ -60,7 +60,9 @@ class Search {
   std::size_t start_at_common_position();
   void take_as_given();
   void make_general();
-  bool walk(int cap);
+  bool walk(int cap, bool anyway = false);
+  bool walk_as_given(Start start);
+  bool walk_apart();
   void consider();
   void refuse_unmet();
 
@@ -220,10 +222,12 @@ void Search::make_general() {
   walk_.primitives = moved_;
 }
 
-// True where the walk's end is the answer.
-bool Search::walk(int cap) {
+// True where the walk's end is the answer. anyway: looks at it though the walk has not arrived.
+bool Search::walk(int cap, bool anyway) {
   solution_.iterations += internal::descend(walk_, cap);
-  consider();
+  if (walk_.arrived || anyway) {
+    consider();
+  }
   return solution_.outcome == Outcome::solved;
 }
 
@@ -273,53 +277,57 @@ void Search::refuse_unmet() {
   }
 }
 
-Solution Search::run(Start start) {
+bool Search::walk_as_given(Start start) {
   constexpr int few = 30;
-  while (true) {
-    walk_.coarseness = 0x1p-51;
-    if (start == Start::warm) {
-      start_from_forces();
-      take_as_given();
-      if (walk(few)) {
-        return solution_;
-      }
-    }
-    start_from_sweep();
-    take_as_given();
-    if (walk(1)) {
-      return solution_;
-    }
-    std::size_t elsewhere = start_at_common_position();
-    if (elsewhere == 0 && walk(few)) {
-      return solution_;
-    }
-    start_from_sweep();
+  walk_.coarseness = 0x1p-51;
+  take_as_given();
+  // Where the analytical solver's pass ends, one look is enough if that is the answer.
+  const std::size_t elsewhere = start_at_common_position();
+  start_from_sweep();
+  if (walk(1, elsewhere == 0)) {
+    return true;
+  }
+  if (start == Start::warm) {
+    start_from_forces();
     if (walk(few)) {
-      return solution_;
+      return true;
     }
-    if (elsewhere > 0 && elsewhere != none_there) {
-      start_at_common_position();
-      if (walk(few)) {
-        return solution_;
-      }
-    }
-    walk_.coarseness = 0;
-    make_general();
-    if (walk(cap_)) {
-      return solution_;
-    }
-    take_as_given();
+  }
+  if (elsewhere == 0) {
+    start_at_common_position();
     if (walk(few)) {
-      return solution_;
+      return true;
     }
-    if (hard_strength_ == 0 || hard_strength_ > 1e60) {
-      break;
-    }
+  }
+  start_from_sweep();
+  if (walk(few)) {
+    return true;
+  }
+  if (elsewhere == 0 || elsewhere == none_there) {
+    return false;
+  }
+  start_at_common_position();
+  return walk(few);
+}
+
+// In general position, and from there as given, to the last digits.
+bool Search::walk_apart() {
+  walk_.coarseness = 0;
+  make_general();
+  if (walk(cap_, true)) {
+    return true;
+  }
+  take_as_given();
+  return walk(30, true);
+}
+
+Solution Search::run(Start start) {
+  while (!walk_as_given(start) && !walk_apart() && hard_strength_ > 0 && hard_strength_ < 1e60) {
     hard_strength_ *= 0x1p30;
     bound_ = infinity;
     start = Start::cold;
   }
-  if (hard_strength_ > 0) {
+  if (solution_.outcome != Outcome::solved && hard_strength_ > 0) {
     refuse_unmet();
   }
   return solution_;

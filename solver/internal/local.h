@@ -20,6 +20,7 @@ struct Walk {
   double coarseness = 0;               ///< of what counts as met, relative to the distances from the probe
   FineVec3 z;                          ///< m
   Frame frame;                         ///< what is locked
+  bool arrived = false;                ///< out: at the minimum, as far as this walk can tell
   std::span<Vec3> forces;              ///< N: each primitive's force on the proxy, where it was looked at last
   std::span<Hold> hold;                ///< scratch
   std::span<std::uint32_t> met;        ///< scratch

@@ -52,6 +52,7 @@ Local Walker::look(const FineVec3& z, const Frame& frame) {
 }
 
 int Walker::run() {
+  walk_.arrived = false;
   settle(walk_.frame, walk_.primitives, walk_.z);
   here_ = look(walk_.z, walk_.frame);
   while (true) {
@@ -118,6 +119,7 @@ bool Walker::release(FineVec3& way) {
     }
   }
   if (worst_index < 0) {
+    walk_.arrived = true;
     return false;
   }
   released_ = frame.locked[worst_index];
@@ -149,6 +151,7 @@ bool Walker::part(FineVec3& way) {
       share_out(walk_.primitives, met, here_.gradient, 4 * unit_roundoff * here_.size, walk_.forces, walk_.hold);
   const double size = length_of(missing);
   if (size == 0) {
+    walk_.arrived = true;
     return false;
   }
   constexpr double aligned = 1e-5;
