@@ -8,9 +8,8 @@ namespace palpate::solver::internal {
 
 namespace {
 
-// Of a difference and its scalar product in double-double and in double, with a margin.
+// Of a difference and its scalar product in double-double, with a margin.
 constexpr double fine_rounding = 0x1p-98;
-constexpr double rounding = 0x1p-50;
 
 // A difference of equal numbers is exact.
 double fine_error(const FineVec3& offset, const FineVec3& z) {
@@ -46,32 +45,15 @@ Placed place(const Primitive& primitive, const Vec3& probe) {
   return placed;
 }
 
-double length_of(const Vec3& v) {
-  const double squared = glm::dot(v, v);
-  if (squared > 1e-280 && squared < 1e280) {
-    return std::sqrt(squared);
-  }
+double scaled_length_of(const Vec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return largest > 0 ? largest * glm::length(v / largest) : 0;
 }
 
-double size_of(const FineVec3& v) {
-  return std::abs(v.x.hi) + std::abs(v.y.hi) + std::abs(v.z.hi);
-}
-
-Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
-  const bool point = line_or_point.type == PrimitiveType::point;
-  const double size = size_of(line_or_point.offset) + size_of(z);
-  const Vec3 rough_e = line_or_point.offset.hi() - z.hi();
-  const Vec3& q = line_or_point.direction;
-  const Vec3 rough = point ? rough_e : rough_e - q * glm::dot(q, rough_e);
-  const double rough_length = length_of(rough);
-  if (4 * rough_length > size) {
-    return {fine(rough), rough_length, rounding * size};
-  }
+Miss fine_miss_of(const Placed& line_or_point, const FineVec3& z) {
   const FineVec3 e = line_or_point.offset - z;
   const double error = fine_error(line_or_point.offset, z);
-  if (point) {
+  if (line_or_point.type == PrimitiveType::point) {
     return {e, length_of(e.hi()), error};
   }
   // What is along the line is taken away twice: first all but its rounding, then that.
@@ -83,12 +65,7 @@ Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
   return {m, length_of(m.hi()), error};
 }
 
-Depth depth_of(const Placed& plane, const FineVec3& z) {
-  const double rough_error = rounding * (size_of(plane.offset) + size_of(z));
-  const double rough = glm::dot(plane.offset.hi() - z.hi(), plane.direction);
-  if (std::abs(rough) > 0x1p20 * rough_error) {
-    return {rough, rough_error};
-  }
+Depth fine_depth_of(const Placed& plane, const FineVec3& z) {
   return {dot(plane.offset - z, plane.given_direction).hi / plane.given_length, fine_error(plane.offset, z)};
 }
 

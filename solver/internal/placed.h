@@ -3,7 +3,9 @@
 /// A primitive as the solvers see it: relative to the probe. "Direction" is the direction of the doubles given, taken
 /// as exact, so a direction of length 1 + 1e-15 means what it says.
 
+#include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <span>
 
 #include "palpate/solver/internal/double_double.h"
@@ -46,6 +48,23 @@ class PlacedPrimitives {
   std::span<const Placed> stored_;
 };
 
+/// Length without under- or overflow.
+double scaled_length_of(const Vec3& v);
+inline double length_of(const Vec3& v) {
+  const double squared = glm::dot(v, v);
+  return squared > 1e-280 && squared < 1e280 ? std::sqrt(squared) : scaled_length_of(v);
+}
+
+/// Sum of the components' magnitudes.
+inline double size_of(const FineVec3& v) {
+  return std::abs(v.x.hi) + std::abs(v.y.hi) + std::abs(v.z.hi);
+}
+
+bool same(const FineVec3& a, const FineVec3& b);
+
+/// Of a difference and its scalar product in double, with a margin.
+inline constexpr double rough_rounding = 0x1p-50;
+
 // The following are in double-double where a cancellation asks for it.
 
 /// From z (relative to the probe, m) to the nearest point of a line or point, and how wrong it may be.
@@ -54,21 +73,26 @@ struct Miss {
   double length = 0;
   double error = 0;
 };
-Miss miss_of(const Placed& line_or_point, const FineVec3& z);
+Miss fine_miss_of(const Placed& line_or_point, const FineVec3& z);
+inline Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
+  const Vec3 e = line_or_point.offset.hi() - z.hi();
+  const Vec3& q = line_or_point.direction;
+  const Vec3 rough = line_or_point.type == PrimitiveType::point ? e : e - q * glm::dot(q, e);
+  const double length = length_of(rough);
+  const double size = size_of(line_or_point.offset) + size_of(z);
+  return 4 * length > size ? Miss{fine(rough), length, rough_rounding * size} : fine_miss_of(line_or_point, z);
+}
 
 /// (position - z) . direction of a plane, positive behind it.
 struct Depth {
   double value = 0;
   double error = 0;
 };
-Depth depth_of(const Placed& plane, const FineVec3& z);
-
-bool same(const FineVec3& a, const FineVec3& b);
-
-/// Length without under- or overflow.
-double length_of(const Vec3& v);
-
-/// Sum of the components' magnitudes.
-double size_of(const FineVec3& v);
+Depth fine_depth_of(const Placed& plane, const FineVec3& z);
+inline Depth depth_of(const Placed& plane, const FineVec3& z) {
+  const double rough = glm::dot(plane.offset.hi() - z.hi(), plane.direction);
+  const double error = rough_rounding * (size_of(plane.offset) + size_of(z));
+  return std::abs(rough) > 0x1p20 * error ? Depth{rough, error} : fine_depth_of(plane, z);
+}
 
 }  // namespace palpate::solver::internal
