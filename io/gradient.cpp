@@ -51,7 +51,7 @@ glm::dmat3 second_order(const SumAt& sum) noexcept {
 
 /// The whole volume in blocks whose sums stay in a second-level cache.
 std::vector<Block> blocks_of(const glm::ivec3& size) {
-  const glm::ivec3 longest(64, 48, 64);
+  const glm::ivec3 longest(512, 24, 64);
   std::vector<Block> blocks;
   glm::ivec3 at(0);
   for (at.z = 0; at.z < size.z; at.z += longest.z) {

@@ -30,7 +30,7 @@ class StraightBlock {
         along_i_(pairs_of(kernel.taps_i[0])),
         along_j_(pairs_of(kernel.taps_j[0])),
         width_((block.size.x + 7) / 8 * 8),
-        plane_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(block.size.y)),
+        plane_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(block.size.y) + apart),
         rows_(block.size.y + 2 * kernel.radius.y),
         ring_(2 * kernel.radius.z + 1),
         row_(static_cast<std::size_t>(width_ + 2 * kernel.radius.x), 0.0F),
@@ -59,6 +59,10 @@ class StraightBlock {
   }
 
  private:
+  /// Planes lie a little more than their size apart: as a power of two it would let the same place of all of them
+  /// compete for the same few lines of the nearest cache.
+  static constexpr std::size_t apart = 80;
+
   float* plane_of(int slice) { return planes_.get() + 3 * plane_ * static_cast<std::size_t>(slice % ring_); }
 
   void filter_plane(int slice) {
@@ -93,7 +97,7 @@ class StraightBlock {
     float* const s = sums_.get();
     const bool needs_total = !balanced_ || !reader_.complete();
     sum_slices(pairs.data(), static_cast<int>(pairs.size()), plane_, needs_total ? s : nullptr, s + plane_,
-               s + 2 * plane_, s + 3 * plane_);
+               s + 2 * plane_, s + 3 * plane_, plane_ - apart);
   }
 
   void fit_row(int j, int slice, glm::vec3* gradients) {

@@ -46,7 +46,11 @@ constexpr int at_once = 4;
   }
 }
 
-struct Sums {
+/// A piece of the voxels, so small that its sums stay in the nearest cache.
+struct Piece {
+  std::size_t first;
+  std::size_t count;
+  std::size_t plane;
   float* s0;  ///< null: not wanted
   float* p;
   float* q;
@@ -54,31 +58,33 @@ struct Sums {
 };
 
 template <int Count, bool Total>
-[[gnu::always_inline]] inline void add_slice_pairs(const SlicePair* pairs, std::size_t size, const Sums& sums) {
-  float* __restrict const s0 = sums.s0;
-  float* __restrict const p = sums.p;
-  float* __restrict const q = sums.q;
-  float* __restrict const w = sums.w;
+[[gnu::always_inline]] inline void add_slice_pairs(const SlicePair* pairs, const Piece& piece) {
+  float* __restrict const s0 = piece.s0;
+  float* __restrict const p = piece.p;
+  float* __restrict const q = piece.q;
+  float* __restrict const w = piece.w;
+  const std::size_t plane = piece.plane;
   const float* a[Count];
   const float* b[Count];
   float weight[Count];
   float weight_w[Count];
   for (int c = 0; c < Count; ++c) {
-    a[c] = pairs[c].above;
-    b[c] = pairs[c].below;
+    a[c] = pairs[c].above + piece.first;
+    b[c] = pairs[c].below + piece.first;
     weight[c] = pairs[c].weight;
     weight_w[c] = pairs[c].weight_w;
   }
+  const std::size_t count = piece.count;
   PALPATE_INDEPENDENT
-  for (std::size_t n = 0; n < size; ++n) {
+  for (std::size_t n = 0; n < count; ++n) {
     float sum0 = Total ? s0[n] : 0;
     float sum1 = p[n];
     float sum2 = q[n];
     float sum3 = w[n];
     for (int c = 0; c < Count; ++c) {
       if constexpr (Total) sum0 += weight[c] * (a[c][n] + b[c][n]);
-      sum1 += weight[c] * (a[c][n + size] + b[c][n + size]);
-      sum2 += weight[c] * (a[c][n + 2 * size] + b[c][n + 2 * size]);
+      sum1 += weight[c] * (a[c][n + plane] + b[c][n + plane]);
+      sum2 += weight[c] * (a[c][n + 2 * plane] + b[c][n + 2 * plane]);
       sum3 += weight_w[c] * (a[c][n] - b[c][n]);
     }
     if constexpr (Total) s0[n] = sum0;
@@ -89,35 +95,36 @@ template <int Count, bool Total>
 }
 
 template <bool Total>
-[[gnu::always_inline]] inline void add_slice(const SlicePair& slice, std::size_t size, const Sums& sums) {
-  float* __restrict const s0 = sums.s0;
-  float* __restrict const p = sums.p;
-  float* __restrict const q = sums.q;
-  float* __restrict const w = sums.w;
-  const float* __restrict const b = slice.below;
+[[gnu::always_inline]] inline void add_slice(const SlicePair& slice, const Piece& piece) {
+  float* __restrict const s0 = piece.s0;
+  float* __restrict const p = piece.p;
+  float* __restrict const q = piece.q;
+  float* __restrict const w = piece.w;
+  const float* __restrict const b = slice.below + piece.first;
+  const std::size_t plane = piece.plane;
   const float weight = slice.weight;
   const float weight_w = slice.weight_w;
+  const std::size_t count = piece.count;
   PALPATE_INDEPENDENT
-  for (std::size_t n = 0; n < size; ++n) {
+  for (std::size_t n = 0; n < count; ++n) {
     if constexpr (Total) s0[n] += weight * b[n];
-    p[n] += weight * b[n + size];
-    q[n] += weight * b[n + 2 * size];
+    p[n] += weight * b[n + plane];
+    q[n] += weight * b[n + 2 * plane];
     w[n] += weight_w * b[n];
   }
 }
 
 template <bool Total>
-[[gnu::always_inline]] inline void add_all_slices(const SlicePair* pairs, int count, std::size_t size,
-                                                  const Sums& sums) {
-  for (int c = 0; c < count;) {
+[[gnu::always_inline]] inline void add_all_slices(const SlicePair* pairs, int pair_count, const Piece& piece) {
+  for (int c = 0; c < pair_count;) {
     if (pairs[c].above == nullptr) {
-      add_slice<Total>(pairs[c], size, sums);
+      add_slice<Total>(pairs[c], piece);
       ++c;
-    } else if (c + 1 < count && pairs[c + 1].above != nullptr) {
-      add_slice_pairs<2, Total>(pairs + c, size, sums);
+    } else if (c + 1 < pair_count && pairs[c + 1].above != nullptr) {
+      add_slice_pairs<2, Total>(pairs + c, piece);
       c += 2;
     } else {
-      add_slice_pairs<1, Total>(pairs + c, size, sums);
+      add_slice_pairs<1, Total>(pairs + c, piece);
       ++c;
     }
   }
@@ -152,15 +159,20 @@ void filter_column(const float* rows, std::ptrdiff_t stride, float middle, const
 }
 
 PALPATE_FOR_PROCESSOR
-void sum_slices(const SlicePair* pairs, int count, std::size_t size, float* s0, float* p, float* q, float* w) {
-  for (std::size_t n = 0; n < size; ++n) p[n] = q[n] = w[n] = 0;
-  const Sums sums{s0, p, q, w};
-  if (s0 == nullptr) {
-    add_all_slices<false>(pairs, count, size, sums);
-    return;
+void sum_slices(const SlicePair* pairs, int pair_count, std::size_t plane, float* s0, float* p, float* q, float* w,
+                std::size_t count) {
+  constexpr std::size_t longest = 512;
+  for (std::size_t first = 0; first < count; first += longest) {
+    const std::size_t length = count - first < longest ? count - first : longest;
+    const Piece piece{first, length, plane, s0 != nullptr ? s0 + first : nullptr, p + first, q + first, w + first};
+    for (std::size_t n = 0; n < length; ++n) piece.p[n] = piece.q[n] = piece.w[n] = 0;
+    if (s0 == nullptr) {
+      add_all_slices<false>(pairs, pair_count, piece);
+    } else {
+      for (std::size_t n = 0; n < length; ++n) piece.s0[n] = 0;
+      add_all_slices<true>(pairs, pair_count, piece);
+    }
   }
-  for (std::size_t n = 0; n < size; ++n) s0[n] = 0;
-  add_all_slices<true>(pairs, count, size, sums);
 }
 
 PALPATE_FOR_PROCESSOR

@@ -28,13 +28,14 @@ void filter_column(const float* rows, std::ptrdiff_t stride, float middle, const
 
 /// A slice, or two as far on either side, that add to a sum.
 struct SlicePair {
-  const float* below = nullptr;  ///< planes one, p, q, `size` floats each
+  const float* below = nullptr;  ///< planes one, p, q
   const float* above = nullptr;  ///< null where there is but one slice
   float weight = 0;
   float weight_w = 0;  ///< times the offset along the normal
 };
-/// Sums in space of `size` voxels: 1 (unless null), p, q, w.
-void sum_slices(const SlicePair* pairs, int count, std::size_t size, float* s0, float* p, float* q, float* w);
+/// Sums in space of `count` voxels: 1 (unless null), p, q, w. A slice's planes lie `plane` floats apart.
+void sum_slices(const SlicePair* pairs, int pair_count, std::size_t plane, float* s0, float* p, float* q, float* w,
+                std::size_t count);
 
 /// Gradients of a row from its sums, of a neighbourhood whose weights are balanced (PlaneFit::constant is 0).
 void fit_balanced_row(const glm::mat3& slope, const float* p, const float* q, const float* w, int count,
