@@ -1,10 +1,12 @@
 #include "palpate/io/volume_fields.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -29,18 +31,31 @@ Vec3 interpolated_vector(const VectorComponents& vectors, const internal::Cell& 
   return vectors.to_patient * along;
 }
 
+/// What is known of a cell's corners: their gradients and, from a brick that holds them, the values on both sides of
+/// the boundary there.
+struct Corners {
+  static constexpr int with_sides = 5;  ///< numbers a corner; otherwise 3
+  std::array<float, std::size_t{8} * with_sides> numbers;
+  int stride = 3;
+
+  const float* at(std::size_t n) const noexcept { return numbers.data() + n * static_cast<std::size_t>(stride); }
+  Vec3 gradient(std::size_t n) const noexcept { return {at(n)[0], at(n)[1], at(n)[2]}; }
+};
+
 /// Weighted by how much of a boundary each corner shows: what lies flat has no two sides.
-LowHigh interpolated_low_high(const Volume& volume, const internal::Cell& cell, const std::array<glm::vec3, 8>& corners,
+LowHigh interpolated_low_high(const Volume& volume, const internal::Cell& cell, const Corners& corners,
                               double scale_mm) noexcept {
   double low = 0, high = 0, sum = 0;
   std::size_t n = 0;
   for (int k = 0; k < cell.size.z; ++k) {
     for (int j = 0; j < cell.size.y; ++j) {
-      for (int i = 0; i < cell.size.x; ++i) {
-        const Vec3 gradient(corners[n++]);
+      for (int i = 0; i < cell.size.x; ++i, ++n) {
+        const Vec3 gradient = corners.gradient(n);
         const double weight = cell.weight(i, j, k) * glm::dot(gradient, gradient);
         if (weight > 0) {
-          const LowHigh corner = low_high_at(volume, cell.first + glm::ivec3(i, j, k), gradient, scale_mm);
+          const LowHigh corner = corners.stride == Corners::with_sides
+                                     ? LowHigh{corners.at(n)[3], corners.at(n)[4]}
+                                     : low_high_at(volume, cell.first + glm::ivec3(i, j, k), gradient, scale_mm);
           low += weight * corner.low;
           high += weight * corner.high;
           sum += weight;
@@ -55,13 +70,13 @@ LowHigh interpolated_low_high(const Volume& volume, const internal::Cell& cell, 
   return {value, value};
 }
 
-Vec3 interpolated_gradient(const internal::Cell& cell, const std::array<glm::vec3, 8>& corners) noexcept {
+Vec3 interpolated_gradient(const internal::Cell& cell, const Corners& corners) noexcept {
   Vec3 gradient(0);
   std::size_t n = 0;
   for (int k = 0; k < cell.size.z; ++k) {
     for (int j = 0; j < cell.size.y; ++j) {
       for (int i = 0; i < cell.size.x; ++i) {
-        gradient += cell.weight(i, j, k) * Vec3(corners[n++]);
+        gradient += cell.weight(i, j, k) * corners.gradient(n++);
       }
     }
   }
@@ -96,6 +111,22 @@ internal::BrickContent gradients_of(const GradientKernel& kernel) {
             std::vector<glm::vec3> gradients(block.voxels());
             kernel.at_block(block, gradients);
             std::memcpy(numbers.data(), gradients.data(), numbers.size_bytes());
+          }};
+}
+
+internal::BrickContent gradients_and_sides_of(const GradientKernel& kernel, const Volume& volume) {
+  return {Corners::with_sides, [&kernel, &volume](const Block& block, std::span<float> numbers) {
+            std::vector<glm::vec3> gradients(block.voxels());
+            kernel.at_block(block, gradients);
+            for (std::size_t n = 0; n < gradients.size(); ++n) {
+              const auto at = static_cast<int>(n);
+              const glm::ivec3 offset(at % block.size.x, at / block.size.x % block.size.y,
+                                      at / block.size.x / block.size.y);
+              const glm::vec3& g = gradients[n];
+              const LowHigh sides = low_high_at(volume, block.first + offset, Vec3(g), kernel.scale_mm());
+              const float of_voxel[Corners::with_sides] = {g.x, g.y, g.z, sides.low, sides.high};
+              std::copy(std::begin(of_voxel), std::end(of_voxel), numbers.begin() + at * Corners::with_sides);
+            }
           }};
 }
 
@@ -139,8 +170,9 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
   // A Hessian takes twice the memory of a gradient.
   const std::size_t third = options.brick_bytes / 3;
   if (gradients && options.brick_bytes > 0) {
-    bricks_ = std::make_unique<internal::BrickCache>(gradients_of(*kernel_), size, tube ? third : options.brick_bytes,
-                                                     options.background);
+    bricks_ = std::make_unique<internal::BrickCache>(
+        contains(wanted, FieldSet::low_high) ? gradients_and_sides_of(*kernel_, *volume_) : gradients_of(*kernel_),
+        size, tube ? third : options.brick_bytes, options.background);
   }
   if (tube && options.brick_bytes > 0) {
     tube_bricks_ = std::make_unique<internal::BrickCache>(
@@ -151,11 +183,15 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
 VolumeFields::~VolumeFields() = default;
 
 void VolumeFields::sample_gradients(const internal::Cell& cell, FieldSet given, Sample& s) const noexcept {
-  std::array<glm::vec3, 8> corners;
+  Corners corners;
   const Block block{cell.first, cell.size};
-  s.from_brick = bricks_ && bricks_->read(block, std::span(&corners[0].x, 3 * corners.size()));
+  corners.stride = contains(available_, FieldSet::low_high) ? Corners::with_sides : 3;
+  s.from_brick = bricks_ && bricks_->read(block, corners.numbers);
   if (!s.from_brick) {
-    kernel_->at_cell(block, corners);
+    std::array<glm::vec3, 8> gradients;
+    kernel_->at_cell(block, gradients);
+    corners.stride = 3;
+    std::memcpy(corners.numbers.data(), gradients.data(), sizeof gradients);
   }
   if (contains(given, FieldSet::gradient)) {
     s.gradient = interpolated_gradient(cell, corners);

@@ -36,17 +36,16 @@ FieldSet fields_of(const Volume& volume) noexcept;
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
 ///
-/// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square; computed
-/// at the sample from those gradients.
+/// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square.
 ///
 /// Tube: the eigenvector of least curvature of the Hessian at the gradient's scale, trilinear between the voxels'
 /// Hessians; zero within the kernel's reach of the edge or of padding.
 ///
 /// Vector: trilinear between the voxels' vectors, in `Volume::unit`.
 ///
-/// A worker computes gradients (and Hessians, where tubes are wanted) in bricks ahead of and around the point last
-/// sampled, and keeps them under a memory bound. A sample that finds its brick missing computes its cell with the same
-/// kernel: it takes longer and gives the same bits.
+/// A worker computes gradients (with low and high, and Hessians, where they are wanted) in bricks ahead of and around
+/// the point last sampled, and keeps them under a memory bound. A sample that finds its brick missing computes its cell
+/// with the same kernel: it takes longer and gives the same bits.
 ///
 /// Outside: beyond the hull of the voxel centres, between slices where some are missing, and wherever a voxel that the
 /// interpolation needs is padding.
