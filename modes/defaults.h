@@ -1,7 +1,9 @@
 #pragma once
 
-/// Every default that a hand may feel, in one place, with its unit and its reason. But for the gradient's scale, which
-/// io::default_gradient_scale_mm() (io/gradient.h) finds from a scan's voxels.
+/// Every default of a scene that a hand may feel, in one place, with its unit and its reason. Two are elsewhere, for these
+/// folders know nothing of each other: the gradient's scale, which io::default_gradient_scale_mm() (io/gradient.h) finds
+/// from a scan's voxels, and the simulated device and hand that every study shares (device/simulated_stylus.h,
+/// device/simulated_hand.h).
 
 namespace palpate::modes::defaults {
 
@@ -39,25 +41,5 @@ inline constexpr int most_sub_steps = 8;
 /// can show. And the most halts of a frame.
 inline constexpr double proxy_step_mm = 0.25;
 inline constexpr int most_halts = 16;
-
-/// The simulated device: like a Desktop PHANTOM. One definition that every study shares.
-struct SimulatedDevice {
-  double mass_kg = 0.045;
-  double coulomb_friction_n = 0.06;
-  double viscous_friction_n_s_per_m = 0.3;
-  double position_step_m = 0.02e-3;
-  double rate_hz = 1000.0;  ///< with a zero-order hold
-  double delay_s = 0.5e-3;
-};
-
-/// The simulated hand that holds it.
-struct SimulatedHand {
-  double mass_kg = 0.050;
-  double stiffness_n_per_m = 500.0;
-  double damping_n_s_per_m = 4.0;
-  double tremor_low_hz = 8.0;
-  double tremor_high_hz = 12.0;
-  double tremor_rms_m = 0.05e-3;
-};
 
 }  // namespace palpate::modes::defaults
