@@ -4,8 +4,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/run_session.h"
@@ -32,7 +36,25 @@ void print(const SoakResult& result) {
   }
 }
 
+/// What a thread of the C library keeps for itself after a free counts as allocated, and differs from time to time. It
+/// can be told to keep nothing only before the program starts: so it starts once more.
+void start_again_without_thread_caches() {
+  constexpr const char* name = "GLIBC_TUNABLES";
+  if (std::getenv(name) != nullptr) return;
+  setenv(name, "glibc.malloc.tcache_count=0", 1);
+  std::ifstream command_line("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(command_line, word, '\0');) words.push_back(word);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv("/proc/self/exe", arguments.data());
+  fmt::print(stderr,
+             "palpate: could not start again without thread caches; the heap's figures are off by what they hold\n");
+}
+
 void run(SoakOptions options) {
+  start_again_without_thread_caches();
   const bool show = stderr_is_terminal();
   options.folder = std::filesystem::temp_directory_path() / fmt::format("palpate-soak-{}", getpid());
   std::filesystem::create_directory(options.folder);

@@ -100,8 +100,13 @@ Snapshot on(const Walk& walk, modes::Scene scene, const io::FieldOptions& option
   return snapshot_of(scene, felt, specification);
 }
 
+/// How the hand goes over the hills: smoothly, 2 mm deep at 50 mm/s; by random steps of 0.5 mm, which is the speed
+/// limit's half; or anywhere in the volume every tick, as no hand can.
+enum class Gait { smooth, random, anywhere };
+constexpr const char* gait_names[] = {"smooth walk", "random walk", "anywhere each tick"};
+
 /// A cube of voxels of 1 mm with hills of tissue under air.
-Walk hills(int size, bool random) {
+Walk hills(int size, Gait gait) {
   testdata::Grid grid;
   grid.size = glm::ivec3(size);
   io::Volume volume;
@@ -126,14 +131,24 @@ Walk hills(int size, bool random) {
   const modes::Workspace workspace;
   std::mt19937_64 numbers(1);
   std::uniform_real_distribution<double> anywhere(-0.4 * size, 0.4 * size);
-  const int poses = random ? 50000 : 20000;
-  for (int n = 0; n < poses; ++n) {
-    // Smoothly: 2 mm deep along the hills at 50 mm/s. At random: anywhere, every tick.
-    const double angle = 0.05 / 35 * n;
-    const double x = random ? anywhere(numbers) : 35 * std::cos(angle);
-    const double y = random ? anywhere(numbers) : 35 * std::sin(angle);
-    const double z = random ? anywhere(numbers) : height(x, y) - 2 * std::min(1.0, n / 200.0);
-    walk.poses_m.push_back(workspace.to_device({x, y, z}));
+  std::normal_distribution<double> step(0, 0.5 / std::sqrt(3.0));
+  glm::dvec3 at_mm(0);
+  double depth_mm = 0;
+  for (int n = 0; n < 20000; ++n) {
+    if (gait == Gait::smooth) {
+      const double angle = 0.05 / 35 * n;
+      at_mm = {35 * std::cos(angle), 35 * std::sin(angle), 0};
+      at_mm.z = height(at_mm.x, at_mm.y) - 2 * std::min(1.0, n / 200.0);
+    } else if (gait == Gait::random) {
+      // Never far from the hills' surface.
+      depth_mm = std::clamp(depth_mm + step(numbers), -1.0, 2.0);
+      at_mm.x = std::clamp(at_mm.x + step(numbers), -40.0, 40.0);
+      at_mm.y = std::clamp(at_mm.y + step(numbers), -40.0, 40.0);
+      at_mm.z = height(at_mm.x, at_mm.y) - depth_mm;
+    } else {
+      at_mm = {anywhere(numbers), anywhere(numbers), anywhere(numbers)};
+    }
+    walk.poses_m.push_back(workspace.to_device(at_mm));
   }
   return walk;
 }
@@ -155,6 +170,8 @@ void tabulate_series(const Arguments& arguments, Rows& rows) {
     measure("surface + friction, busy neighbour", on(walk, surface_and_friction()));
     measure("three modes, busy neighbour", on(walk, three));
   }
+  rows.add(measure_ticks("surface + friction, at 1 kHz", on(walk, surface_and_friction()), walk.poses_m,
+                         std::min<std::size_t>(arguments.ticks, 10000), 1000));
   fmt::print("\nGrowth with modes, and with primitives\n");
   for (int modes = 1; modes <= 8; ++modes) measure(fmt::format("{} surfaces", modes), on(walk, surfaces(modes, false)));
   for (int modes = 1; modes <= 8; modes *= 2) {
@@ -166,11 +183,11 @@ void tabulate_sizes(const Arguments& arguments, Rows& rows) {
   fmt::print("\nGrowth with the volume: hills of tissue, surface + friction, no sub-steps\n");
   modes::Scene scene = surface_and_friction();
   scene.subdivision.most = 1;
-  for (const bool random : {false, true}) {
+  for (const Gait gait : {Gait::smooth, Gait::random, Gait::anywhere}) {
     for (int size = 128; size <= arguments.largest; size *= 2) {
-      const Walk walk = hills(size, random);
-      rows.add(measure_ticks(fmt::format("{}^3, {} walk", size, random ? "random" : "smooth"), on(walk, scene),
-                             walk.poses_m, random ? arguments.ticks / 4 : arguments.ticks));
+      const Walk walk = hills(size, gait);
+      rows.add(measure_ticks(fmt::format("{}^3, {}", size, gait_names[static_cast<std::size_t>(gait)]), on(walk, scene),
+                             walk.poses_m, arguments.ticks / (gait == Gait::anywhere ? 4 : 1)));
     }
   }
 }

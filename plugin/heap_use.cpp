@@ -46,6 +46,7 @@ std::uint64_t live_heap_bytes() {
 }
 
 std::uint64_t resident_bytes() {
+  malloc_trim(0);
   std::ifstream statm("/proc/self/statm");
   std::uint64_t total = 0, resident = 0;
   statm >> total >> resident;

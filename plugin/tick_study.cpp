@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <thread>
 #include <utility>
+
+#include "palpate/device/realtime.h"
 
 namespace palpate::plugin {
 namespace {
@@ -40,19 +43,29 @@ class WalkingStylus final : public device::Stylus {
 
 }  // namespace
 
+void run_as_servo(const std::function<void()>& work) {
+  std::thread([&] {
+    device::make_thread_realtime(50);
+    work();
+  }).join();
+}
+
+void pause_now_and_then(std::size_t tick) {
+  if (tick % 20 == 19) {
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+}
+
 TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::span<const glm::dvec3> poses_m,
-                      std::size_t ticks) {
+                      std::size_t ticks, double rate_hz) {
   FrameRing ring(1024);
   Session session(snapshot, std::make_shared<WalkingStylus>(poses_m), &ring);
-  for (std::size_t n = 0; n < ticks / 10; ++n) {
-    session.tick();
-  }
   TickRow row{.what = what, .ticks = ticks};
   std::vector<double> us(ticks);
   const double us_per_count = 1e-3 / modes::counts_per_ns();
   std::array<std::uint64_t, stage_count> stages{};
   std::uint64_t primitives = 0, bricks = 0, sub_steps = 0;
-  for (std::size_t n = 0; n < ticks; ++n) {
+  const auto tick = [&](std::size_t n) {
     const std::uint64_t begun = modes::clock_count();
     const Frame& frame = session.tick();
     us[n] = static_cast<double>(modes::clock_count() - begun) * us_per_count;
@@ -60,7 +73,19 @@ TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::sp
     primitives += frame.share_count;
     bricks += frame.from_brick;
     sub_steps += frame.sub_steps;
-  }
+  };
+  run_as_servo([&] {
+    device::Metronome metronome(rate_hz > 0 ? 1 / rate_hz : 1e-3);
+    const auto pause = [&](std::size_t n) { rate_hz > 0 ? void(metronome.wait()) : pause_now_and_then(n); };
+    for (std::size_t n = 0; n < ticks / 10; ++n) {
+      session.tick();
+      pause(n);
+    }
+    for (std::size_t n = 0; n < ticks; ++n) {
+      tick(n);
+      pause(n);
+    }
+  });
   const auto mean = [&](std::uint64_t sum) { return static_cast<double>(sum) / static_cast<double>(ticks); };
   for (std::size_t stage = 0; stage < stage_count; ++stage) row.stage_mean_ns[stage] = mean(stages[stage]);
   row.us = percentiles_of(std::move(us));

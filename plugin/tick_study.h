@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -26,10 +27,18 @@ struct TickRow {
   double from_brick = 0;                            ///< share of frames whose gradient was ready
 };
 
+/// Runs the work on a thread of its own, scheduled as the servo's is where the system allows it, and waits for it.
+void run_as_servo(const std::function<void()>& work);
+
+/// For a servo that does not keep the clock's pace: to be called after every tick. Sleeps now and then, as every servo
+/// does between its ticks, so that the worker that computes fields ahead gets its turn.
+void pause_now_and_then(std::size_t tick);
+
 /// Ticks over the poses (device frame, m), there and back again and again so that none jumps; what is measured begins
-/// after a tenth of them.
+/// after a tenth of them. At a rate (Hz) they are at the clock's pace, with whatever else runs between them; 0: nearly
+/// back to back.
 TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::span<const glm::dvec3> poses_m,
-                      std::size_t ticks);
+                      std::size_t ticks, double rate_hz = 0);
 
 /// While it lives, another thread keeps a core and the memory busy.
 class BusyThread {
