@@ -125,7 +125,7 @@ internal::BrickContent gradients_and_sides_of(const GradientKernel& kernel, cons
               const glm::vec3& g = gradients[n];
               const LowHigh sides = low_high_at(volume, block.first + offset, Vec3(g), kernel.scale_mm());
               const float of_voxel[Corners::with_sides] = {g.x, g.y, g.z, sides.low, sides.high};
-              std::copy(std::begin(of_voxel), std::end(of_voxel), numbers.begin() + at * Corners::with_sides);
+              std::copy(std::begin(of_voxel), std::end(of_voxel), &numbers[n * Corners::with_sides]);
             }
           }};
 }

@@ -48,7 +48,7 @@ template <typename Stored>
   const float share_j = rows.share_j;
   float* __restrict const out = &gradients->x;
   PALPATE_INDEPENDENT
-  for (int n = 0; n < count; ++n) {
+  for (std::ptrdiff_t n = 0; n < count; ++n) {
     const auto here = static_cast<float>(middle[n]);
     const Differences d{0.5F * (static_cast<float>(middle[n + 1]) - static_cast<float>(middle[n - 1])),
                         share_j * (static_cast<float>(after[n]) - static_cast<float>(before[n])),

@@ -79,9 +79,9 @@ void Fits::add_edges(const SliceKernel& kernel, double scale_mm, const glm::dmat
     if (kind == first_of_kind.size()) {
       first_of_kind.push_back(k);
     }
-    kind_of_slice_.push_back(static_cast<int>(kind));
+    kind_of_slice_.push_back(kind);
   }
-  if (first_of_kind.size() * static_cast<std::size_t>(small_.x * small_.y) > most_edges) {
+  if (first_of_kind.size() * static_cast<std::size_t>(small_.x) * static_cast<std::size_t>(small_.y) > most_edges) {
     return;
   }
   for (const int k : first_of_kind) {

@@ -4,6 +4,7 @@
 /// edge cuts off.
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "palpate/io/internal/moments.h"
@@ -29,10 +30,11 @@ class Fits {
   bool knows_edges() const noexcept { return !edges_.empty(); }
   /// Of a voxel's neighbourhood as the volume's edge cuts it off, where nothing in it is padding.
   const PlaneFit& at(int i, int j, int k) const noexcept {
-    const int row = reduced(j, dimensions_.y, radius_.y, small_.y);
-    const int column = reduced(i, dimensions_.x, radius_.x, small_.x);
-    return edges_[static_cast<std::size_t>((kind_of_slice_[static_cast<std::size_t>(k)] * small_.y + row) * small_.x +
-                                           column)];
+    const auto row = static_cast<std::size_t>(reduced(j, dimensions_.y, radius_.y, small_.y));
+    const auto column = static_cast<std::size_t>(reduced(i, dimensions_.x, radius_.x, small_.x));
+    const auto rows = static_cast<std::size_t>(small_.y);
+    const auto columns = static_cast<std::size_t>(small_.x);
+    return edges_[(kind_of_slice_[static_cast<std::size_t>(k)] * rows + row) * columns + column];
   }
 
  private:
@@ -47,8 +49,8 @@ class Fits {
   glm::ivec3 small_{0};
   std::vector<PlaneFit> whole_;
   std::vector<Sums> whole_sums_;
-  std::vector<int> kind_of_slice_;  ///< slices of one kind have the same neighbours at the same distances
-  std::vector<PlaneFit> edges_;     ///< by column, row, kind
+  std::vector<std::size_t> kind_of_slice_;  ///< slices of one kind have the same neighbours at the same distances
+  std::vector<PlaneFit> edges_;             ///< by column, row, kind
 };
 
 }  // namespace palpate::io::internal

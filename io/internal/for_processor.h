@@ -21,8 +21,8 @@
 #endif
 #endif
 
-/// Before a loop whose turns do not depend on each other: what it writes, it does not read elsewhere. (clang finds out by
-/// itself, and would complain where a sanitizer keeps it from making use of it.)
+/// Before a loop whose turns do not depend on each other: what it writes, it does not read elsewhere. (clang finds out
+/// by itself, and would complain where a sanitizer keeps it from making use of it.)
 #ifdef __clang__
 #define PALPATE_INDEPENDENT
 #else

@@ -29,7 +29,7 @@ class StraightBlock {
         reader_(volume, voxels, false),
         along_i_(pairs_of(kernel.taps_i[0])),
         along_j_(pairs_of(kernel.taps_j[0])),
-        width_((block.size.x + 7) / 8 * 8),
+        width_(static_cast<std::ptrdiff_t>(block.size.x + 7) / 8 * 8),
         plane_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(block.size.y) + apart),
         rows_(block.size.y + 2 * kernel.radius.y),
         ring_(2 * kernel.radius.z + 1),
@@ -67,18 +67,19 @@ class StraightBlock {
 
   void filter_plane(int slice) {
     const int reach = kernel_.radius.x;
-    for (int r = 0; r < rows_; ++r) {
-      reader_(slice, block_.first.y + r - kernel_.radius.y, block_.first.x - reach, block_.size.x + 2 * reach,
-              row_.data());
+    for (std::ptrdiff_t r = 0; r < rows_; ++r) {
+      reader_(slice, block_.first.y + static_cast<int>(r) - kernel_.radius.y, block_.first.x - reach,
+              block_.size.x + 2 * reach, row_.data());
       float* const one = filtered_.get() + 2 * width_ * r;
       filter_row(row_.data() + reach, kernel_.taps_i[0][0].weight[0], along_i_.data(),
-                 static_cast<int>(along_i_.size()), width_, one, one + width_);
+                 static_cast<int>(along_i_.size()), static_cast<int>(width_), one, one + width_);
     }
     float* const to = plane_of(slice);
     for (int j = 0; j < block_.size.y; ++j) {
       float* const one = to + width_ * j;
       filter_column(filtered_.get() + 2 * width_ * (j + kernel_.radius.y), 2 * width_, kernel_.taps_j[0][0].weight[0],
-                    along_j_.data(), static_cast<int>(along_j_.size()), width_, one, one + plane_, one + 2 * plane_);
+                    along_j_.data(), static_cast<int>(along_j_.size()), static_cast<int>(width_), one, one + plane_,
+                    one + 2 * plane_);
     }
   }
 
@@ -135,10 +136,10 @@ class StraightBlock {
   RowReader<Stored> reader_;
   std::vector<TapPair> along_i_;
   std::vector<TapPair> along_j_;
-  int width_;
-  std::size_t plane_;  ///< floats of a plane
-  int rows_;
-  int ring_;  ///< planes kept
+  std::ptrdiff_t width_;  ///< floats of a row
+  std::size_t plane_;     ///< floats of a plane
+  std::ptrdiff_t rows_;   ///< that the columns of a slice reach over
+  int ring_;              ///< planes kept
   std::vector<float> row_;
   std::unique_ptr<float[]> filtered_;
   std::unique_ptr<float[]> planes_;
