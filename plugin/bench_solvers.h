@@ -6,8 +6,9 @@ class App;
 
 namespace palpate::plugin {
 
-/// `palpate bench solvers [--cases N] [-o DIR]`: error against run time, every family of solver/problems.h by every
-/// solver, as a table and, with -o, as CSV and a picture.
+/// `palpate bench solvers [--cases N] [-o DIR]`: error against a 128-bit reference against run time, every family of
+/// solver/problems.h by every solver; run time against the number of primitives; and the paper's Table 1 beside ours.
+/// As tables and, with -o, as CSV and pictures.
 void add_bench_solvers(CLI::App& bench);
 
 }  // namespace palpate::plugin

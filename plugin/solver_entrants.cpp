@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "palpate/solver/analytical.h"
 #include "palpate/solver/descent.h"
 #include "palpate/solver/exact.h"
+#include "palpate/testdata/flow.h"
 
 #ifdef PALPATE_NLOPT
 #include <nlopt.h>
@@ -111,8 +113,8 @@ std::vector<Entrant> solver_entrants() {
   std::vector<Entrant> entrants;
   entrants.push_back(
       {"analytical", nothing, [](const Balance& balance, Forces forces) { return solve_analytical(balance, forces); }});
-  entrants.push_back({"exact cold", nothing, exact(solver::Start::cold)});
-  entrants.push_back({"exact warm", frame_before, exact(solver::Start::warm)});
+  entrants.push_back({"exact cold", nothing, exact(solver::Start::cold), true});
+  entrants.push_back({"exact warm", frame_before, exact(solver::Start::warm), true});
   entrants.push_back(descent("descent", {}));
   entrants.push_back(descent("descent to 1 um", {.smallest_step = 1e-6}));
   entrants.push_back(descent("descent l x 0.95", {.reduction = 0.95}));
@@ -120,6 +122,79 @@ std::vector<Entrant> solver_entrants() {
   entrants.push_back(simplex());
 #endif
   return entrants;
+}
+
+namespace {
+
+/// The primitives at a proxy (m). Strengths in proportion to the speed, and of a surface that yields at 0.8 N.
+std::vector<solver::Primitive> place_in_flow(const testdata::FlowSource& flow, const Vec3& proxy, bool surface) {
+  constexpr double mm = 1e-3;
+  constexpr double force_per_speed = 0.15;   // N s/m
+  constexpr double follow_per_speed = 0.25;  // N s/m
+  const io::Sample sample = flow.sample(proxy / mm, flow.available());
+  const Vec3 velocity = sample.vector;
+  const double speed = glm::length(velocity);
+  std::vector<solver::Primitive> primitives;
+  if (!sample.inside || speed == 0) return primitives;
+  primitives.push_back(solver::make_line(follow_per_speed * speed, proxy, velocity / speed));
+  primitives.push_back(solver::make_directed_force(force_per_speed * speed, velocity / speed));
+  const double slope = glm::length(sample.gradient);
+  if (surface && slope > 0) primitives.push_back(solver::make_plane(0.8, proxy, sample.gradient / slope));
+  return primitives;
+}
+
+/// Whether a constraint holds the proxy: then equation (7) says nothing.
+bool is_held(std::span<const solver::Primitive> primitives, const Vec3& proxy) {
+  constexpr double near = 1e-6;  // m
+  return std::any_of(primitives.begin(), primitives.end(), [&](const solver::Primitive& primitive) {
+    const Vec3 e = primitive.position - proxy;
+    const double along = glm::dot(e, primitive.direction);
+    if (primitive.type == solver::PrimitiveType::plane) return std::abs(along) < near;
+    return primitive.type == solver::PrimitiveType::line && glm::length(e - along * primitive.direction) < near;
+  });
+}
+
+}  // namespace
+
+WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, int frames) {
+  using Clock = std::chrono::steady_clock;
+  const testdata::FlowSource flow{testdata::FlowPastSphere{}};
+  const Vec3 center{-0.018, 0, 0.020};
+  constexpr double reach = 0.012;  // m
+  WindTunnelResult result;
+  Problem problem{.stiffness = 400, .probe = center, .previous_proxy = center, .primitives = {}};
+  double time_us = 0;
+  int solved = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double t = 0.001 * frame;
+    problem.probe = center + reach * Vec3(std::sin(4.1 * t), std::sin(3.3 * t + 1), 0.5 * std::sin(5.3 * t + 2));
+    problem.primitives = place_in_flow(flow, problem.previous_proxy, surface);
+    std::vector<Vec3> forces(problem.primitives.size(), Vec3(0));
+    entrant.prepare(problem, forces);
+    const solver::Balance balance = problem.balance();
+    const auto start = Clock::now();
+    const Solution solution = entrant.solve(balance, forces);
+    const std::chrono::duration<double, std::micro> time = Clock::now() - start;
+    if (solution.outcome != solver::Outcome::solved && solution.outcome != solver::Outcome::capped) {
+      ++result.declined;
+      // The walk goes on from where the proxy is.
+      solver::ExactScratch scratch;
+      problem.previous_proxy = solve_exact(balance, forces, scratch).proxy;
+      continue;
+    }
+    ++solved;
+    time_us += time.count();
+    if (!is_held(problem.primitives, solution.proxy)) {
+      const double missing = glm::length(residual(balance, solution.proxy)) / problem.stiffness;
+      ++result.free;
+      result.mean_residual_m += missing;
+      result.largest_residual_m = std::max(result.largest_residual_m, missing);
+    }
+    problem.previous_proxy = solution.proxy;
+  }
+  result.mean_us = solved > 0 ? time_us / solved : 0;
+  result.mean_residual_m = result.free > 0 ? result.mean_residual_m / static_cast<double>(result.free) : 0;
+  return result;
 }
 
 }  // namespace palpate::plugin
