@@ -1,9 +1,9 @@
 #pragma once
 
-/// Every default of a scene that a hand may feel, in one place, with its unit and its reason. Two are elsewhere, for these
-/// folders know nothing of each other: the gradient's scale, which io::default_gradient_scale_mm() (io/gradient.h) finds
-/// from a scan's voxels, and the simulated device and hand that every study shares (device/simulated_stylus.h,
-/// device/simulated_hand.h).
+/// Every default of a scene that a hand may feel, in one place, with its unit and its reason. Two are elsewhere, for
+/// these folders know nothing of each other: the gradient's scale, which io::default_gradient_scale_mm()
+/// (io/gradient.h) finds from a scan's voxels, and the simulated device and hand that every study shares
+/// (device/simulated_stylus.h, device/simulated_hand.h).
 
 namespace palpate::modes::defaults {
 
