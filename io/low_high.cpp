@@ -27,17 +27,20 @@ double extent_along(const Geometry& g, const Vec3& direction) noexcept {
 struct Profile {
   std::array<double, 2 * most_steps + 1> values;
   int first = most_steps, last = most_steps;
+
+  double& at(int n) noexcept { return values[static_cast<std::size_t>(n)]; }
+  double at(int n) const noexcept { return values[static_cast<std::size_t>(n)]; }
 };
 
 Profile profile_of(const Volume& volume, const glm::ivec3& voxel, const Vec3& index_step, int steps) noexcept {
   Profile profile;
-  profile.values[most_steps] = volume.value_at(voxel.x, voxel.y, voxel.z);
+  profile.at(most_steps) = volume.value_at(voxel.x, voxel.y, voxel.z);
   const auto take = [&](int n) {
     internal::Cell cell;
     if (!internal::find_cell(volume, Vec3(voxel) + static_cast<double>(n) * index_step, cell)) {
       return false;
     }
-    profile.values[static_cast<std::size_t>(most_steps + n)] = internal::trilinear_value(volume, cell);
+    profile.at(most_steps + n) = internal::trilinear_value(volume, cell);
     return true;
   };
   for (int n = 1; n <= steps && take(n); ++n) {
@@ -68,9 +71,7 @@ LowHigh low_high_at(const Volume& volume, const glm::ivec3& voxel, const Vec3& g
   const double step_mm = reach / steps;
   const Vec3 index_step = 0.5 * (g.to_index(middle + step_mm * uphill) - g.to_index(middle - step_mm * uphill));
   const Profile profile = profile_of(volume, voxel, index_step, steps);
-  const auto rise = [&](int n) {
-    return profile.values[static_cast<std::size_t>(n + 1)] - profile.values[static_cast<std::size_t>(n)];
-  };
+  const auto rise = [&](int n) { return profile.at(n + 1) - profile.at(n); };
   int steepest = -1;
   double most = 0;
   for (int n = profile.first; n < profile.last; ++n) {
@@ -104,8 +105,7 @@ LowHigh low_high_at(const Volume& volume, const glm::ivec3& voxel, const Vec3& g
   };
   const int high = steepest + 1 + followed(1, profile.last - steepest - 1);
   const int low = steepest - followed(-1, steepest - profile.first);
-  return {static_cast<float>(profile.values[static_cast<std::size_t>(low)]),
-          static_cast<float>(profile.values[static_cast<std::size_t>(high)])};
+  return {static_cast<float>(profile.at(low)), static_cast<float>(profile.at(high))};
 }
 
 double low_high_reach_mm(const Geometry& g, double scale_mm) noexcept {
