@@ -12,7 +12,6 @@ namespace palpate::solver {
 
 namespace {
 
-using internal::FineVec3;
 using internal::length_of;
 using internal::Placed;
 using internal::PlacedPrimitives;
