@@ -17,12 +17,12 @@ class Handover {
   Handover(const Handover&) = delete;
   Handover& operator=(const Handover&) = delete;
   ~Handover() {
-    std::unique_ptr<T>(offered_.load());
+    give(nullptr);
     collect();
   }
 
   /// Giver: offers an item, in place of one that was not taken yet.
-  void give(std::unique_ptr<T> item) { std::unique_ptr<T>(offered_.exchange(item.release())); }
+  void give(std::unique_ptr<T> item) { const std::unique_ptr<T> replaced(offered_.exchange(item.release())); }
 
   /// Taker, wait-free: the item that is offered, which the taker now owns; null where there is none.
   T* take() noexcept { return is_offered() ? offered_.exchange(nullptr, std::memory_order_acq_rel) : nullptr; }
