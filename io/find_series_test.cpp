@@ -5,10 +5,8 @@
 
 #include <array>
 #include <clocale>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <glm/geometric.hpp>
 
 #include "palpate/io/errors.h"
 #include "palpate/io/internal/dcmtk_start.h"
@@ -141,17 +139,6 @@ TEST(FindSeries, TwoOrientationsOfOneUidAreTwoVolumes) {
   EXPECT_EQ(load(found.series[1]).value_at(0, 0, 0), 200);
 }
 
-/// The same pixels in every frame.
-void repeat_pixels(DcmDataset& dataset, std::size_t frames) {
-  const Uint16* pixels = nullptr;
-  unsigned long count = 0;
-  internal::succeed(dataset.findAndGetUint16Array(DCM_PixelData, pixels, &count));
-  const std::vector<Uint16> one(pixels, pixels + count);
-  std::vector<Uint16> all;
-  for (std::size_t n = 0; n < frames; ++n) all.insert(all.end(), one.begin(), one.end());
-  internal::succeed(dataset.putAndInsertUint16Array(DCM_PixelData, all.data(), static_cast<unsigned long>(all.size())));
-}
-
 TEST(FindSeries, SeveralMultiFrameFilesOfASeriesAreOneVolume) {
   const TestFolder folder;
   const std::array<std::vector<double>, 2> heights{{{8, 2, 4}, {6, 10, 0}}};  // mm: frames and files in no order
@@ -159,7 +146,7 @@ TEST(FindSeries, SeveralMultiFrameFilesOfASeriesAreOneVolume) {
     TestImage image;
     image.edit = [&](DcmDataset& d) {
       internal::make_multi_frame(d, heights[file]);
-      repeat_pixels(d, heights[file].size());
+      internal::repeat_pixels(d, heights[file].size());
     };
     write(image, folder / std::to_string(file));
   }
@@ -170,65 +157,6 @@ TEST(FindSeries, SeveralMultiFrameFilesOfASeriesAreOneVolume) {
   const Geometry& geometry = load(found.series[0]).geometry;
   ASSERT_EQ(geometry.dimensions.z, 6);
   for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(geometry.slice_positions[k].z, 2.0 * static_cast<double>(k));
-}
-
-// Enhanced phase contrast: magnitude and three directions in one file, frame by frame.
-TEST(FindSeries, VelocitiesOfAnEnhancedFileAreJoined) {
-  const TestFolder folder;
-  std::vector<double> heights;
-  for (int n = 0; n < 12; ++n) heights.push_back(2.0 * (n % 3));
-  TestImage image;
-  image.columns = 4;
-  image.rows = 3;
-  image.value = [](int i, int) { return 2048 + 100 * i; };
-  image.edit = [&](DcmDataset& d) {
-    put(d, DCM_BitsStored, 12);
-    put(d, DCM_HighBit, 11);
-    repeat_pixels(d, heights.size());
-    internal::make_multi_frame(d, heights, [&](std::size_t n, DcmItem& frame) {
-      const bool magnitude = n < 3;
-      DcmItem& type = internal::group(frame, DCM_MRImageFrameTypeSequence);
-      internal::succeed(type.putAndInsertString(DCM_ComplexImageComponent, magnitude ? "MAGNITUDE" : "PHASE"));
-      if (magnitude) return;
-      DcmItem& velocity = internal::group(frame, DCM_MRVelocityEncodingSequence);
-      std::array<double, 3> along{};
-      along[n / 3 - 1] = 1;
-      internal::succeed(velocity.putAndInsertFloat64Array(DCM_VelocityEncodingDirection, along.data(), 3));
-      internal::succeed(velocity.putAndInsertFloat64(DCM_VelocityEncodingMaximumValue, 150));
-    });
-  };
-  write(image, folder / "enhanced");
-  const Catalogue found = find_in(folder);
-  ASSERT_THAT(found.series, SizeIs(1));
-  EXPECT_EQ(found.series[0].frames_per_position, 4);
-  ASSERT_THAT(found.velocity_fields, SizeIs(1));
-  const Volume volume = load(found.velocity_fields[0]);
-  ASSERT_TRUE(volume.vectors);
-  for (int i = 0; i < 4; ++i) {
-    const double speed = 1.5 * 100 * i / 2048;  // of 1.5 m/s at full range
-    for (const auto& component : volume.vectors->along) EXPECT_NEAR(component->value_at(i, 1, 1), speed, 1e-12);
-    EXPECT_NEAR(volume.value_at(i, 1, 1), std::sqrt(3.0) * speed, 1e-6);
-  }
-}
-
-TEST(FindSeries, VelocitiesNamedByTheSequenceAreJoined) {
-  const TestFolder folder;
-  constexpr std::array names{"*fl3d1_v80rl", "*fl3d1_v80ap", "*fl3d1_v80hf"};  // the last against the z axis
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    std::filesystem::create_directory(folder / names[n]);
-    write_stack(folder / names[n], 3, [&](int, TestImage& image) {
-      image.series = "1.2.3." + std::to_string(n + 1);
-      image.value = [](int, int) { return 49152; };  // half of the range above its middle
-      image.edit = [&](DcmDataset& d) { put(d, DCM_SequenceName, names[n]); };
-    });
-  }
-  const Catalogue found = find_in(folder);
-  EXPECT_THAT(found.series, SizeIs(3));
-  ASSERT_THAT(found.velocity_fields, SizeIs(1));
-  const VectorComponents vectors = *load(found.velocity_fields[0]).vectors;
-  Vec3 along;
-  for (int n = 0; n < 3; ++n) along[n] = vectors.along[static_cast<std::size_t>(n)]->value_at(2, 2, 1);
-  EXPECT_LT(glm::length(vectors.to_patient * along - Vec3(0.4, 0.4, -0.4)), 1e-12);
 }
 
 TEST(FindSeries, LocalizerInASeriesIsSetApart) {

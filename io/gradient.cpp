@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "palpate/io/internal/parallel.h"
 #include "palpate/io/internal/plane_fit.h"
 #include "palpate/io/internal/row_reader.h"
+#include "palpate/io/internal/second_derivatives.h"
 #include "palpate/io/internal/slice_kernel.h"
 #include "palpate/io/internal/straight_block.h"
 
@@ -31,8 +31,6 @@ using internal::RowReader;
 using internal::space_sums;
 
 constexpr int cell_lanes = 4;
-/// What a few hundred additions in single precision may leave of a sum that should cancel.
-constexpr double single_rounding = 3e-6;
 constexpr int block_lanes = 8;
 
 /// What a single cell may need, at the largest radius: on the stack, since the tick may not allocate.
@@ -42,12 +40,6 @@ constexpr int cell_floats = [] {
   return row + reach * 3 * cell_lanes + reach * internal::plane_sums(2) * 2 * cell_lanes +
          2 * (space_sums(1) + space_sums(2)) * 2 * cell_lanes;
 }();
-
-/// The sums of second order as a matrix.
-template <typename SumAt>
-glm::dmat3 second_order(const SumAt& sum) noexcept {
-  return {sum(4), sum(5), sum(7), sum(5), sum(6), sum(8), sum(7), sum(8), sum(9)};
-}
 
 /// The whole volume in blocks whose sums stay in a second-level cache.
 std::vector<Block> blocks_of(const glm::ivec3& size) {
@@ -67,49 +59,6 @@ std::vector<Block> blocks_of(const glm::ivec3& size) {
 GradientTarget packed(const Block& block, glm::vec3* gradients) {
   return {gradients, block.size.x, static_cast<std::ptrdiff_t>(block.size.x) * block.size.y};
 }
-
-using Hessian = GradientKernel::Hessian;
-
-Hessian unknown_hessian() noexcept {
-  Hessian unknown;
-  unknown.fill(std::numeric_limits<float>::quiet_NaN());
-  return unknown;
-}
-
-/// From the sums of second order of a complete neighbourhood to its Hessian: the second derivative of a Gaussian of
-/// covariance C is C^-1 (x x^T - C) C^-1 times it.
-class SecondDerivatives {
- public:
-  SecondDerivatives(const internal::Fits::Sums& whole, double scale_mm, const glm::dmat3& to_patient) noexcept
-      : total_(static_cast<double>(whole[0])), rounding_(single_rounding * scale_mm * scale_mm) {
-    const auto weight = [&](std::size_t n) { return static_cast<double>(whole[n]) / total_; };
-    covariance_ = second_order(weight);
-    known_ = glm::determinant(covariance_) > 0;  // a single slice has no curvature across
-    inverse_ = known_ ? to_patient * glm::inverse(covariance_) : glm::dmat3(0);
-  }
-
-  Hessian operator()(const float* sums, std::size_t stride) const noexcept {
-    if (!known_) {
-      return unknown_hessian();
-    }
-    const auto sum = [&](std::size_t n) { return static_cast<double>(sums[n * stride]) / total_; };
-    const glm::dmat3 excess = second_order(sum) - sum(0) * covariance_;
-    const double largest = std::max(glm::length(excess[0]), std::max(glm::length(excess[1]), glm::length(excess[2])));
-    if (largest <= rounding_ * std::abs(sum(0))) {
-      return {};
-    }
-    const glm::dmat3 h = inverse_ * excess * glm::transpose(inverse_);
-    return {static_cast<float>(h[0][0]), static_cast<float>(h[1][0]), static_cast<float>(h[1][1]),
-            static_cast<float>(h[2][0]), static_cast<float>(h[2][1]), static_cast<float>(h[2][2])};
-  }
-
- private:
-  double total_;
-  double rounding_;
-  glm::dmat3 covariance_{0};
-  glm::dmat3 inverse_{0};
-  bool known_ = false;
-};
 
 }  // namespace
 
@@ -190,7 +139,7 @@ struct GradientKernel::Weights {
     }
     for (int k = 0; k < layout.block.size.z; ++k) {
       const int slice = layout.block.first.z + k;
-      const SecondDerivatives second(fits.whole_sums(slice), scale_mm, to_patient);
+      const internal::SecondDerivatives second(fits.whole_sums(slice), scale_mm, to_patient);
       const bool all_slices = slice >= slices.radius.z && slice + slices.radius.z < volume->geometry.dimensions.z;
       for (int j = 0; j < layout.block.size.y; ++j) {
         const float* const sums = scratch + layout.at(2, 0, j, k);
@@ -198,7 +147,7 @@ struct GradientKernel::Weights {
         for (int i = 0; i < layout.block.size.x; ++i) {
           // Every weight that is missing is missing from the sum, and the sum is taken in the same order.
           const bool is_whole = all_slices && (complete || weight[i] == fits.whole_sums(slice)[0]);
-          *out++ = is_whole ? second(sums + i, layout.plane()) : unknown_hessian();
+          *out++ = is_whole ? second(sums + i, layout.plane()) : internal::unknown_hessian();
         }
       }
     }
@@ -273,7 +222,7 @@ void GradientKernel::at_cell(const Block& cell, std::span<glm::vec3> gradients) 
 
 void GradientKernel::hessians_at_cell(const Block& cell, std::span<Hessian> hessians) const noexcept {
   if (weights_->differences) {
-    std::fill_n(hessians.begin(), cell.voxels(), unknown_hessian());
+    std::fill_n(hessians.begin(), cell.voxels(), internal::unknown_hessian());
     return;
   }
   alignas(64) std::array<float, cell_floats> scratch;
@@ -282,7 +231,7 @@ void GradientKernel::hessians_at_cell(const Block& cell, std::span<Hessian> hess
 
 void GradientKernel::hessians_at_block(const Block& block, std::span<Hessian> hessians) const {
   if (weights_->differences) {
-    std::fill_n(hessians.begin(), block.voxels(), unknown_hessian());
+    std::fill_n(hessians.begin(), block.voxels(), internal::unknown_hessian());
     return;
   }
   const BlockLayout layout(block, weights_->slices, block_lanes);

@@ -94,4 +94,14 @@ void make_multi_frame(DcmDataset& dataset, const std::vector<double>& heights,
   }
 }
 
+void repeat_pixels(DcmDataset& dataset, std::size_t frames) {
+  const Uint16* pixels = nullptr;
+  unsigned long count = 0;
+  succeed(dataset.findAndGetUint16Array(DCM_PixelData, pixels, &count));
+  const std::vector<Uint16> one(pixels, pixels + count);
+  std::vector<Uint16> all;
+  for (std::size_t n = 0; n < frames; ++n) all.insert(all.end(), one.begin(), one.end());
+  succeed(dataset.putAndInsertUint16Array(DCM_PixelData, all.data(), static_cast<unsigned long>(all.size())));
+}
+
 }  // namespace palpate::io::internal

@@ -70,6 +70,8 @@ void write_stack(
 void make_multi_frame(
     DcmDataset& dataset, const std::vector<double>& heights,
     const std::function<void(std::size_t, DcmItem&)>& frame = [](std::size_t, DcmItem&) {});
+/// The dataset's pixels once for each frame.
+void repeat_pixels(DcmDataset& dataset, std::size_t frames);
 /// The item of a functional group, made where it is not there.
 DcmItem& group(DcmItem& item, const DcmTagKey& sequence);
 
