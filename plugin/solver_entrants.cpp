@@ -170,11 +170,16 @@ WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, 
     problem.probe = center + reach * Vec3(std::sin(4.1 * t), std::sin(3.3 * t + 1), 0.5 * std::sin(5.3 * t + 2));
     problem.primitives = place_in_flow(flow, problem.previous_proxy, surface);
     std::vector<Vec3> forces(problem.primitives.size(), Vec3(0));
-    entrant.prepare(problem, forces);
     const solver::Balance balance = problem.balance();
-    const auto start = Clock::now();
-    const Solution solution = entrant.solve(balance, forces);
-    const std::chrono::duration<double, std::micro> time = Clock::now() - start;
+    constexpr int runs = 3;  // the fastest counts: what else the machine did is not the solver's
+    double fastest_us = std::numeric_limits<double>::infinity();
+    Solution solution;
+    for (int run = 0; run < runs; ++run) {
+      entrant.prepare(problem, forces);
+      const auto start = Clock::now();
+      solution = entrant.solve(balance, forces);
+      fastest_us = std::min(fastest_us, std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+    }
     if (solution.outcome != solver::Outcome::solved && solution.outcome != solver::Outcome::capped) {
       ++result.declined;
       // The walk goes on from where the proxy is.
@@ -183,7 +188,7 @@ WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, 
       continue;
     }
     ++solved;
-    time_us += time.count();
+    time_us += fastest_us;
     if (!is_held(problem.primitives, solution.proxy)) {
       const double missing = glm::length(residual(balance, solution.proxy)) / problem.stiffness;
       ++result.free;
