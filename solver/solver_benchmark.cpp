@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <string>
+#include <iterator>
 #include <vector>
 
 #include "palpate/solver/analytical.h"
@@ -37,7 +37,9 @@ std::vector<Case> cases_of(Family family, ExactScratch& scratch) {
 }
 
 template <typename Solve>
-void run(benchmark::State& state, Family family, const Solve& solve) {
+void run(benchmark::State& state, const Solve& solve) {
+  const Family family = all_families[static_cast<std::size_t>(state.range(0))];
+  state.SetLabel(name_of(family));
   ExactScratch scratch(128);
   std::vector<Case> cases = cases_of(family, scratch);
   std::size_t next = 0;
@@ -63,23 +65,27 @@ Solution by_descent(Case& each, ExactScratch&) {
   return solve_descent(each.problem.balance(), {}, each.forces);
 }
 
-const bool registered = [] {
-  for (const Family family : all_families) {
-    const auto add = [family](const char* solver, auto solve) {
-      benchmark::RegisterBenchmark((std::string(name_of(family)) + "/" + solver).c_str(), [family, solve](
-                                                                                              benchmark::State& state) {
-        run(state, family, solve);
-      })->Unit(benchmark::kMicrosecond);
-    };
-    add("analytical", analytically);
-    add("exact_cold", exactly_cold);
-    add("exact_warm", exactly_warm);
-    if (family != Family::many) {  // 10 000 steps each, and no answer
-      add("descent", by_descent);
-    }
-  }
-  return true;
-}();
+void analytical(benchmark::State& state) {
+  run(state, analytically);
+}
+void exact_cold(benchmark::State& state) {
+  run(state, exactly_cold);
+}
+void exact_warm(benchmark::State& state) {
+  run(state, exactly_warm);
+}
+void descent(benchmark::State& state) {
+  run(state, by_descent);
+}
+
+constexpr auto last = static_cast<std::int64_t>(std::size(all_families)) - 1;
+static_assert(all_families[last] == Family::many);
+
+BENCHMARK(analytical)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
+BENCHMARK(exact_cold)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
+BENCHMARK(exact_warm)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
+// Not `many`: 10 000 steps each, and no answer.
+BENCHMARK(descent)->DenseRange(0, last - 1)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace palpate::solver
