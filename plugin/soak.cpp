@@ -74,8 +74,9 @@ std::vector<device::Waypoint> probing(double seconds) {
   const device::Vec3 places[] = {{0, 0.03, 0},          {0, 0.023, 0}, {0.012, 0.017, 0.004}, {0, 0.012, 0},
                                  {0.008, 0.011, 0.004}, {0, 0.02, 0},  {0.02, 0.022, 0.01}};
   std::vector<device::Waypoint> path;
-  for (double time = 0; time < seconds; time += 0.7) {
-    path.push_back({.time = time, .position = places[path.size() % std::size(places)]});
+  const auto count = static_cast<std::size_t>(seconds / 0.7) + 1;
+  for (std::size_t n = 0; n < count; ++n) {
+    path.push_back({.time = 0.7 * static_cast<double>(n), .position = places[n % std::size(places)]});
   }
   return path;
 }
@@ -307,10 +308,11 @@ SoakResult soak(const SoakOptions& options) {
   Judge judge(limits.force_n, limits.slew_n_per_ms * 1e3, probing.result);
   judge.rate_hz = options.rate_hz;
   const double end_s = 60 * options.minutes;
+  const int scenes_of_scan = static_cast<int>(std::ceil(options.seconds_of_scan / options.seconds_of_scene));
   for (int scene = 0; probing.now_s() < end_s;) {
     for (const char* scan : scan_names) {
       ++probing.result.scans;
-      for (double s = 0; s < options.seconds_of_scan; s += options.seconds_of_scene) {
+      for (int n = 0; n < scenes_of_scan; ++n) {
         probing.publish(scene_names[scene++ % std::size(scene_names)], scan);
         probing.go_on_to(probing.now_s() + options.seconds_of_scene);
       }
