@@ -31,9 +31,9 @@ class StraightBlock {
         along_j_(pairs_of(kernel.taps_j[0])),
         width_(static_cast<std::ptrdiff_t>(block.size.x + 7) / 8 * 8),
         plane_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(block.size.y) + apart),
-        rows_(block.size.y + 2 * kernel.radius.y),
+        rows_(block.size.y + std::ptrdiff_t{2} * kernel.radius.y),
         ring_(2 * kernel.radius.z + 1),
-        row_(static_cast<std::size_t>(width_ + 2 * kernel.radius.x), 0.0F),
+        row_(static_cast<std::size_t>(width_ + std::ptrdiff_t{2} * kernel.radius.x), 0.0F),
         filtered_(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(2 * width_ * rows_))),
         planes_(std::make_unique_for_overwrite<float[]>(3 * plane_ * static_cast<std::size_t>(ring_))),
         sums_(std::make_unique_for_overwrite<float[]>(4 * plane_)) {}
