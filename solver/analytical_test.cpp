@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "palpate/solver/problems.h"
+
 namespace palpate::solver {
 namespace {
 
@@ -184,6 +186,25 @@ TEST(Analytical, SolvesWhereFrictionIsAboutToSlip) {
   const Answer answer = solve(rest, {0.00564, 0, -0.00282});
   EXPECT_EQ(answer.solution.outcome, Outcome::solved);
   EXPECT_LT(answer.solution.error_bound, 1e-14);
+}
+
+TEST(Analytical, SolvesEveryFrameOfAStylusThatComesToRestOnFriction) {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Random random(seed);
+    const Vec3 probe = 5 * mm * random.normal_vector(1);
+    Vec3 at = probe + 3 * mm * random.normal_vector(1);
+    // The surface curves away beneath a proxy that creeps: its normal turns with the place.
+    const Vec3 centre = probe + 30 * mm * random.unit_vector();
+    const double friction = random.uniform(0.02, 0.3);
+    for (int frame = 0; frame < 200; ++frame) {
+      const Vec3 normal = glm::normalize(at - centre);
+      const std::array rest{make_plane(2, at, normal), make_point(friction, at)};
+      std::array<Vec3, 2> forces{};
+      const Solution solution = solve_analytical({k, probe, at, rest}, forces);
+      ASSERT_EQ(solution.outcome, Outcome::solved) << "seed " << seed << ", frame " << frame;
+      at = solution.proxy;
+    }
+  }
 }
 
 }  // namespace

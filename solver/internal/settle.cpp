@@ -132,14 +132,19 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
   Holding held;
   Holding inside;  // those of the held whose force is not at its limit
   std::uint32_t slipping = 0;
+  int slips = 0;
   Placed room;
   for (std::size_t i = 0; i < primitives.size() && !held.is_full(); ++i) {
     const Placed& primitive = primitives.at(i, room);
-    if (share_of(primitive, z, forces[i], stiffness).held) {
+    const Share share = share_of(primitive, z, forces[i], stiffness);
+    const bool is_slipping = share.slack > 0 && has_full_size(primitive, forces[i]);
+    if (is_slipping) {
+      slipping = static_cast<std::uint32_t>(i);
+      ++slips;
+    }
+    if (share.held) {
       held.add(primitive, i);
-      if (has_full_size(primitive, forces[i])) {
-        slipping = static_cast<std::uint32_t>(i);
-      } else {
+      if (!is_slipping) {
         inside.add(primitive, i);
       }
     }
@@ -147,7 +152,7 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
   Settled settled{z, {}};
   const Flat flat = settle(held, settled.z);
   settled.bound = law_at(primitives, stiffness, settled.z, flat, forces);
-  if (inside.count + 1 == held.count) {
+  if (slips == 1) {
     // Between sticking and slipping, where friction rests for as long as the probe does, the proxy is nearly but not
     // quite on one attractor, which pulls with all its strength.
     Settled free{z, {}};
