@@ -17,6 +17,7 @@
 
 #include "palpate/plugin/chart.h"
 #include "palpate/plugin/solver_entrants.h"
+#include "palpate/plugin/whole_tick_study.h"
 #include "palpate/solver/certify.h"
 #include "palpate/solver/reference.h"
 #include "palpate/testdata/fresh_folder.h"
@@ -259,6 +260,7 @@ void run_all(const SolversArguments& arguments, const std::filesystem::path& fol
   }
   run_counts(entrants, folder);
   run_wind_tunnel(entrants, folder);
+  run_whole_tick(folder);
   if (folder.empty()) return;
   write(folder / "solvers.csv", csv_of(all));
   draw(all, entrants, folder / "error-time.png");

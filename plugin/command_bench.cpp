@@ -9,6 +9,7 @@
 #include "palpate/plugin/bench_subdivision.h"
 #include "palpate/plugin/bench_tick.h"
 #include "palpate/plugin/command.h"
+#include "palpate/plugin/extremes_study.h"
 #include "palpate/plugin/loop_studies.h"
 #include "palpate/testdata/fresh_folder.h"
 
@@ -22,10 +23,12 @@ struct StabilityArguments {
 
 void run_stability(const StabilityArguments& arguments) {
   if (arguments.output.empty()) {
+    run_extremes("");
     run_loop_studies(arguments.options, "");
     return;
   }
   testdata::FreshFolder folder(arguments.output);
+  run_extremes(folder.path());
   run_loop_studies(arguments.options, folder.path());
   folder.commit();
 }
@@ -33,7 +36,7 @@ void run_stability(const StabilityArguments& arguments) {
 void add_stability(CLI::App& bench) {
   auto arguments = std::make_shared<StabilityArguments>();
   CLI::App* command = bench.add_subcommand(
-      "stability", "Solvers over frames and in the hand: creep, drift, chatter, and the stiffness that holds.");
+      "stability", "Solvers at extremes, over frames and in the hand: errors, creep, drift, chatter, and the stiffness that holds.");
   command->add_option("--seconds", arguments->options.seconds, "of each study over frames")->capture_default_str();
   command->add_option("--hands", arguments->options.hands, "seeded hands")->capture_default_str();
   command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");

@@ -201,7 +201,7 @@ TEST(SolveJson, NamesPrimitiveAndFieldOfEveryFlaw) {
   EXPECT_THAT(error(R"({"stiffness":400,"probe":[0,0,0],"primitives":[)"
                     R"({"type":"point","strength":"inf","position":[0,0,0]},)"
                     R"({"type":"point","strength":"inf","position":[0,0,1]}]})"),
-              testing::MatchesRegex("primitive [01]: has infinite strength, but .* hard constraints .*"));
+              testing::MatchesRegex("primitive [01]: has infinite strength, but .* hard constraints.*"));
 }
 
 TEST(SolveJson, AnswersWhatIsNotABalance) {

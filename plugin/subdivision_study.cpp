@@ -1,100 +1,32 @@
 #include "palpate/plugin/subdivision_study.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 
 #include "palpate/io/volume_fields.h"
-#include "palpate/modes/haptic_step.h"
-#include "palpate/modes/plan.h"
-#include "palpate/modes/scene_json.h"
-#include "palpate/modes/stopwatch.h"
 #include "palpate/plugin/summary.h"
-#include "palpate/solver/chain.h"
 #include "palpate/testdata/analytic.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::plugin {
-namespace {
-
-using glm::dvec3;
-
-constexpr double depth_mm = 1.5;
-constexpr double frame_s = 1e-3;
-
-double radius_of(Wall wall) {
-  return wall == Wall::convex ? 25 : 12;
-}
-
-testdata::Phantom phantom_of(Wall wall) {
-  return wall == Wall::convex ? testdata::make_sphere(25) : testdata::make_shell(12, 26);
-}
-
-/// What a turn on a source felt like.
-struct Turn {
-  SubdivisionRow row;
-  std::vector<double> frames_us;
-};
-
-Turn turn(Wall wall, const io::FieldSource& source, double speed_mm_per_s, int most_sub_steps) {
-  modes::Scene scene = modes::scene_from_json(R"({"version": 1, "modes": [{"type": "surface",
-      "strength_n": {"of": "value", "nodes": [[-490, 0], [-470, 3]]}}]})",
-                                              "subdivision");
-  scene.subdivision.most = most_sub_steps;
-  scene.subdivision.most_halts = 0;  // the sub-steps alone
-  const modes::Plan plan = modes::make_plan(scene, source.available(), {});
-  solver::Chain chain;
-  modes::Touch touch;
-  const auto scratch = std::make_unique<modes::StepScratch>();
-  Turn result{.row = {.wall = wall, .speed_mm_per_s = speed_mm_per_s, .most_sub_steps = most_sub_steps},
-              .frames_us = {}};
-  double sub_steps = 0;
-  const auto move_to = [&](const dvec3& at_mm) {
-    const std::uint64_t begun = modes::clock_count();
-    const modes::StepResult step = modes::step(plan, source, plan.workspace.to_device(at_mm), touch, chain, *scratch);
-    result.frames_us.push_back(1e-3 * static_cast<double>(modes::clock_count() - begun) / modes::counts_per_ns());
-    sub_steps += step.sub_steps + step.halts;
-  };
-  // Outwards from the wall towards where it pushes.
-  const double outward = wall == Wall::convex ? 1 : -1;
-  const double pressed = radius_of(wall) - outward * depth_mm;
-  const dvec3 a = glm::normalize(dvec3(0.2, 0.5, 0.9));
-  const dvec3 b = glm::normalize(glm::cross(a, dvec3(0.7, -0.1, 0.4)));
-  for (double away = 5; away > 0; away -= 0.01) move_to((pressed + outward * away) * a);
-  move_to(pressed * a);
-  const auto proxy_mm = [&] { return plan.workspace.to_patient(touch.proxy_m); };
-  const double held = glm::length(proxy_mm());
-  const double force_n = plan.stiffness_n_per_m * 1e-3 * std::abs(held - pressed);
-  const double angle_step = speed_mm_per_s * frame_s / pressed;
-  const auto frames = static_cast<int>(4 * std::numbers::pi / angle_step);
-  result.frames_us.clear();
-  sub_steps = 0;
-  for (int n = 1; n <= frames; ++n) {
-    const dvec3 normal = std::cos(angle_step * n) * a + std::sin(angle_step * n) * b;
-    move_to(pressed * normal);
-    const dvec3 force = plan.workspace.direction_to_patient(touch.force_n);
-    const double angle = std::atan2(glm::length(glm::cross(force, normal)), outward * glm::dot(force, normal));
-    result.row.worst_deg = std::max(result.row.worst_deg, angle * 180 / std::numbers::pi);
-    result.row.worst_force_n = std::max(result.row.worst_force_n, glm::length(force - outward * force_n * normal));
-  }
-  result.row.drift_mm = std::abs(glm::length(proxy_mm()) - held);
-  result.row.sub_steps = sub_steps / std::max(1, frames);
-  return result;
-}
-
-}  // namespace
 
 SubdivisionRow study_subdivision(Wall wall, double speed_mm_per_s, int most_sub_steps) {
+  modes::Scene scene = wall_scene();
+  scene.subdivision.most = most_sub_steps;
+  scene.subdivision.most_halts = 0;  // the sub-steps alone
   const testdata::AnalyticSource exact(phantom_of(wall), 1.0);
-  SubdivisionRow row = turn(wall, exact, speed_mm_per_s, most_sub_steps).row;
+  const Slide slide = slide_on(wall, exact, scene, speed_mm_per_s);
   auto volume = std::make_shared<const io::Volume>(testdata::scan(phantom_of(wall), testdata::make_geometry({})));
   const double scale_mm = io::default_gradient_scale_mm(volume->geometry);
   const io::VolumeFields scanned(volume, io::FieldSet::value | io::FieldSet::gradient, scale_mm);
   scanned.prepare({0, 0, 0}, 30);
-  row.frame_us = percentiles_of(turn(wall, scanned, speed_mm_per_s, most_sub_steps).frames_us).median;
-  return row;
+  return {.wall = wall,
+          .speed_mm_per_s = speed_mm_per_s,
+          .most_sub_steps = most_sub_steps,
+          .sub_steps = slide.sub_steps,
+          .worst_deg = slide.worst_deg,
+          .worst_force_n = slide.worst_force_n,
+          .drift_mm = slide.drift_mm,
+          .frame_us = percentiles_of(slide_on(wall, scanned, scene, speed_mm_per_s).frames_us).median};
 }
 
 }  // namespace palpate::plugin

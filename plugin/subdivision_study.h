@@ -1,18 +1,11 @@
 #pragma once
 
-/// A probe that slides along a wall whose place is known, faster and faster, with fewer or more sub-steps a frame
-/// (modes/haptic_step.h).
+/// A probe that slides along a wall faster and faster, with fewer or more sub-steps a frame (modes/haptic_step.h). The
+/// walls have Gaussian edges, value and gradient exact: what is measured is the movement, not the voxels.
 
-#include <span>
-#include <vector>
+#include "palpate/plugin/wall_slide.h"
 
 namespace palpate::plugin {
-
-/// Walls of Gaussian edges, value and gradient exact: what is measured is the movement, not the voxels.
-enum class Wall {
-  convex,  ///< a ball of 25 mm, from outside
-  concave  ///< a cavity of 12 mm, from inside
-};
 
 struct SubdivisionRow {
   Wall wall = Wall::convex;
