@@ -154,7 +154,8 @@ std::vector<FrameStudyRow> study_frames(double seconds, const std::function<void
     add(solvers, "creep", "cavity of 10 mm, 1.39 N, 0.02 mm rms of noise", creep(solvers.options, seconds), "% lost",
         "0");
     add(solvers, "drift", "flat slab, slide at 50 mm/s", drift(solvers.options, seconds), "m", "0");
-    add(solvers, "hysteresis", "flat slab, 2 mm in and out", hysteresis(solvers.options), "N", "0");
+    add(solvers, "hysteresis", "flat slab, 2 mm in and out", hysteresis(solvers.options), "N",
+        "that of the yielding flank");
     add(solvers, "pop-through", "flat slab of 1 N, pushed through at 5 mm/s", pop_through(solvers.options), "N",
         "1, less at most k v dt = 0.002");
     add(solvers, "rest chatter", "sphere of 25 mm, probe perfectly still", rest_chatter(solvers.options, seconds), "N",
