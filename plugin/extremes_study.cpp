@@ -152,7 +152,9 @@ std::vector<Extreme> extremes() {
       {"pull equal to the strength", changed(Family::edge, [](Problem&) {})}};
   for (const std::size_t count : {0, 1, 2, 10, 100, 10000}) all.push_back(count_of(count));
   all.push_back(rubbish("NaN strength", [](Problem& p) { p.primitives[0].strength = not_a_number; }));
-  all.push_back(rubbish("infinite position", [](Problem& p) { p.primitives[0].position.y = infinity; }));
+  all.push_back(rubbish("infinite position", [](Problem& p) {
+    p.primitives[0] = solver::make_plane(1, Vec3(0, infinity, 0), Vec3(0, 1, 0));
+  }));
   all.push_back(rubbish("NaN probe", [](Problem& p) { p.probe.z = not_a_number; }));
   all.push_back(rubbish("negative strength", [](Problem& p) { p.primitives[0].strength = -1; }));
   all.push_back(rubbish("zero direction", [](Problem& p) {
