@@ -36,7 +36,8 @@ void run_stability(const StabilityArguments& arguments) {
 void add_stability(CLI::App& bench) {
   auto arguments = std::make_shared<StabilityArguments>();
   CLI::App* command = bench.add_subcommand(
-      "stability", "Solvers at extremes, over frames and in the hand: errors, creep, drift, chatter, and the stiffness that holds.");
+      "stability",
+      "Solvers at extremes, over frames and in the hand: errors, creep, drift, chatter, and the stiffness that holds.");
   command->add_option("--seconds", arguments->options.seconds, "of each study over frames")->capture_default_str();
   command->add_option("--hands", arguments->options.hands, "seeded hands")->capture_default_str();
   command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");

@@ -1,8 +1,8 @@
 #pragma once
 
 /// The priority chain of section 5: the first solver that can solve the balance does. A solver known not to be needed
-/// can be switched off. Where only the analytical one is left and its bound just misses the promise (within 1e-9 m), its
-/// answer is given as Outcome::capped: the best there is, with its true bound.
+/// can be switched off. Where only the analytical one is left and its bound just misses the promise (within 1e-9 m),
+/// its answer is given as Outcome::capped: the best there is, with its true bound.
 
 #include <cstddef>
 #include <span>
