@@ -80,6 +80,7 @@ Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry
   const auto anywhere = [&] {
     return g.to_patient(Vec3(part(random), part(random), part(random)) * Vec3(g.dimensions - 1));
   };
+  const bool had_failed = ::testing::Test::HasFailure();
   Walk result;
   Vec3 probe = anywhere();
   for (int i = 0; i < frames(); ++i) {
@@ -95,7 +96,7 @@ Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry
       most += primitive.strength;
     }
     EXPECT_TRUE(frame.outcome == solver::Outcome::solved || frame.outcome == solver::Outcome::capped) << i;
-    EXPECT_TRUE(std::isfinite(frame.error_bound)) << i;
+    EXPECT_LT(frame.error_bound, 1e-6) << i;
     // The spring pulls no harder than all primitives together can hold, but for rounding and the certified error.
     EXPECT_LE(glm::length(frame.force_n), most + hand.plan.stiffness_n_per_m * frame.error_bound + 1e-9) << i;
     if (!frame.sample.inside) {
@@ -105,7 +106,7 @@ Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry
     }
     result.capped += frame.capped;
     result.forces.push_back(frame.force_n);
-    if (::testing::Test::HasFailure()) {
+    if (::testing::Test::HasFailure() && !had_failed) {
       break;
     }
   }
@@ -136,7 +137,9 @@ TEST(Walk, through_every_shared_scan_with_every_mode_on_stays_finite_bounded_cer
       without_bricks.brick_bytes = 0;
       const io::VolumeFields again(volume, fields, io::default_gradient_scale_mm(g), without_bricks);
       const Walk first = walk(scene, source, g, 7);
-      EXPECT_EQ(first.capped, 0);
+      // A dozen primitives at once, as here, may exhaust the exact solver's work now and then; the bound is true then
+      // too.
+      EXPECT_LE(first.capped, frames() / 1000);
       EXPECT_EQ(first.forces, walk(scene, again, g, 7).forces);
       ++scans;
     }
