@@ -87,7 +87,8 @@ bool BrickCache::read(const Block& cell, std::span<float> corners) const noexcep
   auto corner = corners.begin();
   for (int k = 0; k < cell.size.z; ++k) {
     for (int j = 0; j < cell.size.y; ++j) {
-      float* next = numbers + floats * (((from.z + k) * edge + from.y + j) * edge + from.x);
+      const int voxel = ((from.z + k) * edge + from.y + j) * edge + from.x;
+      float* next = numbers + static_cast<std::ptrdiff_t>(floats) * voxel;
       for (int n = 0; n < floats * cell.size.x; ++n) {
         *corner++ = std::atomic_ref<float>(*next++).load(std::memory_order_acquire);
       }

@@ -105,6 +105,7 @@ FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slic
   const auto telling = telling_labels(source, positions);
 
   std::vector<std::vector<std::string>> values;
+  values.reserve(telling.size());
   for (const std::size_t label : telling) values.push_back(ordered_values(source, positions, label));
   // A frame's key: the place of its value of each telling label, then its rank among images that these do not tell
   // apart.

@@ -147,6 +147,7 @@ Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, s
 void group_one_uid(std::vector<FileHeader> headers, std::vector<Series>& result, std::vector<SkippedFile>& skipped) {
   SeriesSource source;
   std::vector<std::filesystem::path> all_paths;
+  all_paths.reserve(headers.size());
   for (FileHeader& header : headers) all_paths.push_back(header.path);
   source.files = std::make_shared<const std::vector<FileHeader>>(drop_copies(std::move(headers), skipped));
   std::vector<std::vector<Slice>> stacks;
@@ -166,6 +167,7 @@ void group_one_uid(std::vector<FileHeader> headers, std::vector<Series>& result,
   if (stacks.empty()) return;
 
   std::vector<Series> found;
+  found.reserve(stacks.size());
   for (const auto& stack : stacks) found.push_back(make_series(source, stack, skipped));
   const auto first_unusable =
       std::stable_partition(found.begin(), found.end(), [](const Series& s) { return s.usable; });
