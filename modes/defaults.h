@@ -39,7 +39,7 @@ inline constexpr double sub_step_mm = 0.1;
 inline constexpr int most_sub_steps = 8;
 /// Farthest that the proxy jumps unsampled when a surface gives way, mm of patient: thin beside a boundary that a CT
 /// can show. And the most halts of a frame.
-inline constexpr double proxy_step_mm = 0.25;
-inline constexpr int most_halts = 16;
+inline constexpr double proxy_step_mm = 0.125;
+inline constexpr int most_halts = 32;
 
 }  // namespace palpate::modes::defaults

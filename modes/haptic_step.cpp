@@ -161,14 +161,17 @@ void follow_workspace(const Workspace& workspace, Touch& touch) {
   }
 }
 
-/// Brings a proxy that has jumped farther than the step back to where it has gone that far.
+/// Brings a proxy that nothing holds, and that has jumped farther than the step, back to where it has gone that far.
+/// The level starts anew there from the scan's value: what the smoothed gradient adds up to along a jump falls behind
+/// at a sharp edge, and the next boundary would be felt inside its own.
 bool halt(const Vec3& old_proxy_m, double step_m, Touch& touch) {
   const Vec3 jump = touch.proxy_m - old_proxy_m;
   const double length = glm::length(jump);
-  if (length <= step_m) {
+  if (length <= step_m || touch.contact.hold == Hold::held || touch.leaving.hold == Hold::held) {
     return false;
   }
   touch.proxy_m = old_proxy_m + jump * (step_m / length);
+  touch.contact.hold = touch.leaving.hold = Hold::none;
   return true;
 }
 
