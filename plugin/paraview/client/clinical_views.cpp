@@ -87,8 +87,8 @@ ClinicalViews::~ClinicalViews() = default;
 void ClinicalViews::close() {
   slices_.clear();
   auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
-  for (const auto& view : views_) {
-    if (view) builder->destroy(view);
+  for (const auto& open : views_) {
+    if (open.view) builder->destroy(open.view);
   }
   views_.clear();
 }
@@ -98,8 +98,22 @@ void ClinicalViews::refresh() {
     if (!slice) continue;
     slice->refresh_text();
   }
-  for (const auto& view : views_) {
-    if (view) view->render();
+  for (const auto& open : views_) {
+    if (open.view) open.view->render();
+  }
+}
+
+std::vector<ClinicalView> ClinicalViews::views() const {
+  std::vector<ClinicalView> open;
+  for (const auto& [kind, view] : views_) {
+    if (view) open.push_back({kind, view});
+  }
+  return open;
+}
+
+void ClinicalViews::show_point(const glm::dvec3& place) {
+  for (const auto& slice : slices_) {
+    if (slice) slice->show_point(place);
   }
 }
 
@@ -136,9 +150,12 @@ void ClinicalViews::show(pqPipelineSource& source) {
 
   constexpr struct {
     Plane plane;
+    ViewKind kind;
     int cell;
-  } places[] = {{Plane::axial, 3}, {Plane::sagittal, 5}, {Plane::coronal, 4}};
-  for (const auto& [plane, cell] : places) {
+  } places[] = {{Plane::axial, ViewKind::axial, 3},
+                {Plane::sagittal, ViewKind::sagittal, 5},
+                {Plane::coronal, ViewKind::coronal, 4}};
+  for (const auto& [plane, kind, cell] : places) {
     pqRenderView& view = *make_view(server, true);
     layout->AssignView(cell, view.getViewProxy());
     vtkSMProxy& shown = show_as("Slice", image, view, lattice.array.c_str());
@@ -150,16 +167,19 @@ void ClinicalViews::show(pqPipelineSource& source) {
     shown.UpdateVTKObjects();
     const glm::dvec3 right = glm::cross(sight.along, sight.up);
     const int slices = lattice.dimensions[sight.index_axis];
+    const glm::dvec3& to_next = lattice.directions[static_cast<std::size_t>(sight.index_axis)];
     slices_.emplace_back(new SliceView(view, shown,
                                        {.plane = plane,
                                         .sight = sight,
                                         .slices = slices,
                                         .slice = slices / 2,
+                                        .first_mm = glm::dot(lattice.origin, sight.along),
+                                        .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
                                         .center_mm = lattice.center(),
                                         .half_height_mm = half_extent(lattice, sight.up),
                                         .half_width_mm = half_extent(lattice, right)},
                                        window_));
-    views_.emplace_back(&view);
+    views_.push_back({kind, &view});
   }
 
   pqRenderView& volume_view = *make_view(server, false);
@@ -176,7 +196,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
   vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
   camera.UpdateVTKObjects();
   volume_view.getRenderViewProxy()->ResetCamera(true);
-  views_.emplace_back(&volume_view);
+  views_.push_back({ViewKind::volume, &volume_view});
   pqActiveObjects::instance().setActiveView(&volume_view);
   refresh();
 }

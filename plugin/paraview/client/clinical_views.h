@@ -13,6 +13,12 @@ class pqPipelineSource;
 
 namespace palpate::plugin {
 
+enum class ViewKind { axial, sagittal, coronal, volume };
+struct ClinicalView {
+  ViewKind kind = ViewKind::volume;
+  pqRenderView* view = nullptr;
+};
+
 class ClinicalViews {
  public:
   ClinicalViews() = default;
@@ -27,12 +33,21 @@ class ClinicalViews {
   void set_window(const Window& window);
   const Window& window() const { return window_->window; }
 
+  /// Those that are open, the slices first.
+  std::vector<ClinicalView> views() const;
+  /// Moves every slice view to the slice nearest to a place in the patient, mm. Cheap where none changes.
+  void show_point(const glm::dvec3& place);
+
  private:
   void refresh();
 
   std::shared_ptr<SharedWindow> window_ = std::make_shared<SharedWindow>();
   std::vector<QPointer<SliceView>> slices_;
-  std::vector<QPointer<pqRenderView>> views_;
+  struct OpenView {
+    ViewKind kind;
+    QPointer<pqRenderView> view;
+  };
+  std::vector<OpenView> views_;
 };
 
 }  // namespace palpate::plugin

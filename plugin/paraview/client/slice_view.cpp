@@ -210,6 +210,12 @@ void SliceView::show_slice(int slice) {
   view_.render();
 }
 
+void SliceView::show_point(const glm::dvec3& place) {
+  const double slice = std::round((glm::dot(place, setup_.sight.along) - setup_.first_mm) / setup_.pitch_mm);
+  const int nearest = static_cast<int>(std::clamp(slice, 0.0, setup_.slices - 1.0));
+  if (nearest != setup_.slice) show_slice(nearest);
+}
+
 void SliceView::refresh_text() {
   overlay_->set_corner(QStringLiteral("%1  %2 / %3\nW %4  L %5")
                            .arg(name_of(setup_.plane))

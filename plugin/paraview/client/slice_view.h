@@ -30,6 +30,8 @@ struct SliceSetup {
   Sight sight;
   int slices = 1;
   int slice = 0;
+  double first_mm = 0;      ///< of the first slice along `sight.along`, in patient space
+  double pitch_mm = 1;      ///< from slice to slice along `sight.along`; negative where they run towards the eye
   glm::dvec3 center_mm{0};  ///< of the volume
   double half_height_mm = 100;
   double half_width_mm = 100;
@@ -43,6 +45,8 @@ class SliceView : public QObject {
   ~SliceView() override;
 
   void show_slice(int slice);
+  /// The slice nearest to a place in the patient, mm; drawn anew only where it is another one.
+  void show_point(const glm::dvec3& place);
   void refresh_text();
 
  private:
