@@ -53,6 +53,58 @@ TEST(FindSeries, OrderOfFilesAndNumbersDoesNotMatter) {
   EXPECT_EQ(volume.geometry.spacing_j, 0.5);
 }
 
+TEST(FindSeries, TellsTheWindowThatTheMiddleSliceAsksFor) {
+  const TestFolder folder;
+  write_stack(folder.path(), 3, [](int k, TestImage& image) {
+    image.edit = [k](DcmDataset& d) {
+      put(d, DCM_WindowCenter, std::to_string(40 + k) + "\\300");
+      put(d, DCM_WindowWidth, "400.5\\2000");
+    };
+  });
+  const Catalogue found = find_in(folder);
+  ASSERT_TRUE(found.series.at(0).window);
+  EXPECT_EQ(found.series[0].window->level, 41);
+  EXPECT_EQ(found.series[0].window->width, 400.5);
+}
+
+TEST(FindSeries, AWindowWithoutAWidthIsNone) {
+  for (const char* width : {"0", "-5", ""}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 2, [&](int, TestImage& image) {
+      image.edit = [&](DcmDataset& d) {
+        put(d, DCM_WindowCenter, "40");
+        put(d, DCM_WindowWidth, width);
+      };
+    });
+    EXPECT_FALSE(find_in(folder).series.at(0).window) << width;
+  }
+}
+
+TEST(Load, SomeSlicesAreThoseOfTheWhole) {
+  const TestFolder folder;
+  write_stack(folder.path(), 9, [](int k, TestImage& image) {
+    image.z = k < 6 ? 2.0 * k : 2.0 * k + 4;                                            // a gap behind slice 5
+    image.edit = [k](DcmDataset& d) { put(d, DCM_RescaleSlope, k == 0 ? "2" : "1"); };  // so the whole is of floats
+  });
+  const Series series = find_in(folder).series.at(0);
+  const Volume whole = load(series);
+  ASSERT_THAT(whole.geometry.gaps, ElementsAre(5));
+  LoadOptions some;
+  some.slices = {4, 3};
+  const Volume part = load(series, some);
+  EXPECT_EQ(part.geometry.dimensions, glm::ivec3(whole.geometry.dimensions.x, whole.geometry.dimensions.y, 3));
+  EXPECT_EQ(part.geometry.step, whole.geometry.step);
+  EXPECT_THAT(part.geometry.gaps, ElementsAre(1));
+  EXPECT_EQ(part.voxels.index(), whole.voxels.index());
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(part.geometry.slice_positions[static_cast<std::size_t>(k)],
+              whole.geometry.slice_positions[static_cast<std::size_t>(k + 4)]);
+    EXPECT_EQ(part.value_at(3, 2, k), whole.value_at(3, 2, k + 4));
+  }
+  some.slices = {7, 3};
+  EXPECT_THROW(load(series, some), DicomError);
+}
+
 TEST(FindSeries, EchoesBecomeFramesInTheirOrder) {
   const TestFolder folder;
   for (const int echo : {2, 0, 1}) {

@@ -214,25 +214,50 @@ void drop_slices(const std::vector<std::size_t>& failed, std::size_t size, Volum
       voxels);
 }
 
+/// Throws DicomError where there are no such slices.
+LoadOptions::Range checked_range(const SeriesSource::Frame& frame, const std::string& name,
+                                 const LoadOptions& options) {
+  const int all = static_cast<int>(frame.slices.size());
+  const LoadOptions::Range range = options.slices.value_or(LoadOptions::Range{0, all});
+  if (range.first < 0 || range.count < 1 || range.count > all - range.first) {
+    throw DicomError(name + " has slices 0 to " + std::to_string(all - 1) + ", not " + std::to_string(range.count) +
+                     " from " + std::to_string(range.first));
+  }
+  return range;
+}
+
+Geometry geometry_of_slices(Geometry whole, int first, int count) {
+  const auto begin = whole.slice_positions.begin() + first;
+  whole.slice_positions = std::vector<Vec3>(begin, begin + count);
+  whole.dimensions.z = count;
+  for (int& gap : whole.gaps) gap -= first;
+  std::erase_if(whole.gaps, [&](int gap) { return gap < 0 || gap >= count - 1; });
+  return whole;
+}
+
 /// `name` is for errors.
-Volume read_frame(const Reading& reading, const std::string& name, const LoadOptions& options) {
+Volume read_frame(const Reading& whole, const std::string& name, const LoadOptions& options) {
+  const LoadOptions::Range range = checked_range(whole.frame, name, options);
+  const auto begin = whole.frame.slices.begin() + range.first;
+  const SeriesSource::Frame part{Slices(begin, begin + range.count), {}};
+  const Reading reading{whole.source, part, whole.as_velocity};
   const SeriesSource& source = reading.source;
-  const Slices& slices = reading.frame.slices;
+  const Slices& slices = part.slices;
   const internal::FileHeader& first = source.file_of(slices.front());
   const std::size_t size = static_cast<std::size_t>(first.columns) * static_cast<std::size_t>(first.rows);
 
   Volume volume;
   volume.unit = reading.as_velocity ? "m/s" : first.unit;
   volume.modality = first.modality;
-  const Storage storage = storage_for(reading);
+  const Storage storage = storage_for(whole);
   try {
     volume.voxels = allocate(storage, size * slices.size(), options.threads);
   } catch (const std::bad_alloc&) {
     throw DicomError(name + " needs more memory than there is: " + std::to_string(size * slices.size() >> 19) + " MiB");
   }
   if (storage == Storage::as_float) {
-    const bool any_padding =
-        std::any_of(slices.begin(), slices.end(), [&](const auto& slice) { return source.file_of(slice).padding; });
+    const bool any_padding = std::ranges::any_of(
+        whole.frame.slices, [&](const auto& slice) { return source.file_of(slice).padding.has_value(); });
     if (any_padding) volume.padding = {float_padding, float_padding};
   } else {
     const Reading::Rescale by = reading.rescale_of(slices.front());
@@ -260,13 +285,17 @@ Volume read_frame(const Reading& reading, const std::string& name, const LoadOpt
   drop_slices(failed, size, volume.voxels);
 
   std::vector<Vec3> positions;
-  std::vector<Vec3> lost = reading.frame.lost;
-  for (std::size_t k = 0; k < slices.size(); ++k) {
-    const bool is_lost = std::binary_search(failed.begin(), failed.end(), k);
-    (is_lost ? lost : positions).push_back(source.plane_of(slices[k]).placement->position);
+  std::vector<Vec3> lost = whole.frame.lost;
+  for (std::size_t k = 0; k < whole.frame.slices.size(); ++k) {
+    const bool is_lost = std::ranges::binary_search(failed, k - static_cast<std::size_t>(range.first));
+    (is_lost ? lost : positions).push_back(source.plane_of(whole.frame.slices[k]).placement->position);
   }
   volume.geometry = internal::stack_geometry(first.columns, first.rows, *source.plane_of(slices.front()).placement,
                                              std::move(positions), lost, first.thickness);
+  if (options.slices) {
+    volume.geometry =
+        geometry_of_slices(std::move(volume.geometry), range.first, range.count - static_cast<int>(failed.size()));
+  }
   return volume;
 }
 
@@ -279,6 +308,7 @@ Volume read_velocity(const std::array<SeriesSource::Component, 3>& along, const 
     const SeriesSource::Frame& frame = source.frames[along[n].frame];
     directions[n] = source.plane_of(frame.slices.front()).velocity->direction;
     LoadOptions third = options;
+    third.slices.reset();
     if (options.progress) {
       third.progress = [&, n](double done) { return options.progress((static_cast<double>(n) + done) / 3); };
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "palpate/io/progress.h"
 #include "palpate/io/series.h"
 #include "palpate/io/volume.h"
@@ -10,6 +12,13 @@ struct LoadOptions {
   int frame = 0;      ///< which of frames_per_position
   Progress progress;  ///< may be empty
   int threads = 0;    ///< 0: all cores
+  /// Some slices only, counted along the geometry of the frame: its step, and its values in the same form as of the
+  /// whole. Not for velocity fields, which are loaded whole.
+  struct Range {
+    int first = 0;
+    int count = 0;
+  };
+  std::optional<Range> slices;
 };
 
 /// The voxels of one frame of a series, rescaled as Volume says; of a velocity field (Catalogue::velocity_fields), the

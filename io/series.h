@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,14 @@ struct Series {
   int frames_per_position = 1;
   std::vector<std::string>
       frame_names;  ///< what each frame is, such as "b = 1000 s/mm2"; one a frame, empty where unknown
+
+  /// How its makers would have it shown: rescaled values below level - width / 2 black, above level + width / 2 white
+  /// (WindowCenter and WindowWidth, the first of several, of the middle slice of the first frame).
+  struct Window {
+    double level = 0;
+    double width = 1;
+  };
+  std::optional<Window> window;
 
   /// Whether it is a volume: placed in the patient, scalar, at least two slices, no localizer. load() may still read
   /// what is not usable (one slice, a localizer), and says what it cannot.

@@ -60,6 +60,7 @@ struct Plane {
   double slope = 1;  ///< RescaleSlope
   double intercept = 0;
   Labels labels;
+  std::optional<Series::Window> window;
   std::optional<VelocityEncoding> velocity;
 };
 

@@ -135,6 +135,9 @@ Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, s
     series.warnings.push_back("frame " + std::to_string(f) + " has " + std::to_string(source->frames[f].slices.size()) +
                               " slices, not " + std::to_string(source->frames.front().slices.size()));
   }
+  if (const auto& slices = source->frames.front().slices; !slices.empty()) {
+    series.window = source->plane_of(slices[slices.size() / 2]).window;
+  }
   const std::string why = why_unusable(*source);
   series.usable = why.empty();
   if (!series.usable) series.warnings.insert(series.warnings.begin(), why);

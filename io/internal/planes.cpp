@@ -6,6 +6,7 @@
 #include <dcmtk/dcmdata/dcsequen.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "palpate/io/internal/dicom_value.h"
 #include "palpate/io/internal/velocity.h"
@@ -70,6 +71,11 @@ Labels labels_of(const FunctionalGroups& groups) {
   return labels;
 }
 
+std::optional<Series::Window> window_of(std::optional<double> level, std::optional<double> width) {
+  const bool sound = level && width && std::isfinite(*level) && std::isfinite(*width) && *width > 0;
+  return sound ? std::optional(Series::Window{*level, *width}) : std::nullopt;
+}
+
 Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, const FileHeader& header) {
   Plane plane;
   plane.frame = frame;
@@ -78,6 +84,8 @@ Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, const FileHe
                                    groups.numbers(DCM_PixelMeasuresSequence, DCM_PixelSpacing));
   plane.slope = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleSlope).value_or(1);
   plane.intercept = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleIntercept).value_or(0);
+  plane.window = window_of(groups.number(DCM_FrameVOILUTSequence, DCM_WindowCenter),
+                           groups.number(DCM_FrameVOILUTSequence, DCM_WindowWidth));
   plane.labels = labels_of(groups);
   std::string& type = at(plane.labels, Label::image_type);
   if (type.empty()) type = header.image_type;
@@ -101,6 +109,7 @@ Plane classic_plane(DcmItem& dataset, const FileHeader& header) {
                      numbers_of(dataset, DCM_PixelSpacing));
   plane.slope = number_of(dataset, DCM_RescaleSlope).value_or(1);
   plane.intercept = number_of(dataset, DCM_RescaleIntercept).value_or(0);
+  plane.window = window_of(number_of(dataset, DCM_WindowCenter), number_of(dataset, DCM_WindowWidth));
   at(plane.labels, Label::image_type) = header.image_type;
   at(plane.labels, Label::echo_time) = label_of(number_of(dataset, DCM_EchoTime));
   at(plane.labels, Label::b_value) = label_of(number_of(dataset, DCM_DiffusionBValue));
