@@ -28,11 +28,7 @@ SnapshotMaker on_scan(const std::shared_ptr<const io::Volume>& volume) {
       throw InputRefused(
           fmt::format("the recording was made on another scan: its hash is {}, this one's {}", record.scan_hash, hash));
     }
-    const modes::Scene scene = modes::scene_from_json(record.scene, "the recording's scene");
-    device::Specification stylus;
-    stylus.workspace_half_extent = record.half_extent_m;
-    stylus.maximum_force = record.maximum_force_n;
-    return snapshot_of(scene, prepare(scene, volume, record.half_extent_m), stylus);
+    return snapshot_of(record, volume);
   };
 }
 

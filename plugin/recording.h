@@ -37,6 +37,7 @@ struct SceneRecord {
   std::string scan_hash;
   glm::dvec3 half_extent_m{0};   ///< of the stylus that the workspace was placed for
   double maximum_force_n = 1e9;  ///< of that stylus
+  double change_s = 0.5;         ///< how long the change to it took
 };
 
 struct StylusRecord {

@@ -83,6 +83,7 @@ std::string to_line(const SceneRecord& scene) {
                   {"scan_hash", scene.scan_hash},
                   {"half_extent_m", {scene.half_extent_m.x, scene.half_extent_m.y, scene.half_extent_m.z}},
                   {"maximum_force_n", scene.maximum_force_n},
+                  {"change_s", scene.change_s},
                   {"scene", scene.scene}};
   return json.dump() + "\n";
 }
@@ -113,7 +114,8 @@ void read_events(std::string_view lines, Recording& recording) {
            .scene = json.at("scene"),
            .scan_hash = json.at("scan_hash"),
            .half_extent_m = {extent.at(0).get<double>(), extent.at(1).get<double>(), extent.at(2).get<double>()},
-           .maximum_force_n = json.at("maximum_force_n")});
+           .maximum_force_n = json.at("maximum_force_n"),
+           .change_s = json.value("change_s", SceneRecord{}.change_s)});
     } else if (kind == "stylus") {
       recording.styluses.push_back({.epoch = json.at("epoch"),
                                     .name = json.at("name"),

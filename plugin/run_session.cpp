@@ -129,6 +129,16 @@ Snapshot snapshot_of(const modes::Scene& scene, const Felt& felt, const device::
           .change_s = scene.limits.ramp_s};
 }
 
+Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume) {
+  const modes::Scene scene = modes::scene_from_json(record.scene, "the recording's scene");
+  device::Specification stylus;
+  stylus.workspace_half_extent = record.half_extent_m;
+  stylus.maximum_force = record.maximum_force_n;
+  Snapshot snapshot = snapshot_of(scene, prepare(scene, volume, record.half_extent_m), stylus);
+  snapshot.change_s = record.change_s;
+  return snapshot;
+}
+
 bool stderr_is_terminal() {
   return isatty(STDERR_FILENO) != 0;
 }

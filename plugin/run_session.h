@@ -46,6 +46,10 @@ modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
 /// The snapshot of a scene on a scan for a stylus.
 Snapshot snapshot_of(const modes::Scene& scene, const Felt& felt, const device::Specification& stylus);
 
+/// The snapshot that a recording tells of, of the scan that it was recorded on. Throws std::invalid_argument for a
+/// scene that is none.
+Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume);
+
 /// Whether stderr is a terminal.
 bool stderr_is_terminal();
 

@@ -96,7 +96,17 @@ std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io:
 
 Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
              const glm::dvec3& device_half_extent_m) {
+  return prepare(scene, volume, device_half_extent_m, {});
+}
+
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m, const Prepared& before) {
   Felt felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
+  if (before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
+      before.scene.gradient_scale_mm == scene.gradient_scale_mm) {
+    felt.source = before.felt.source;
+    return felt;
+  }
   felt.source = std::make_shared<const io::VolumeFields>(
       volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)));
   return felt;

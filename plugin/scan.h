@@ -48,4 +48,15 @@ struct Felt {
 Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
              const glm::dvec3& device_half_extent_m);
 
+/// What was prepared before.
+struct Prepared {
+  Felt felt;
+  modes::Scene scene;
+  std::shared_ptr<const io::Volume> volume;
+};
+/// The same, with the fields that were prepared before where the scene still needs just these of that scan: a scene
+/// that is being edited is then there at once.
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m, const Prepared& before);
+
 }  // namespace palpate::plugin

@@ -51,13 +51,12 @@ class Scans {
       name_ = record.scan_hash;
       volume_ = name_ == nothing ? nullptr : make_scan(name_);
     }
+    if (volume_) {
+      return snapshot_of(record, volume_);
+    }
     const modes::Scene scene = modes::scene_from_json(record.scene, "soak");
     device::Specification stylus;
     stylus.maximum_force = record.maximum_force_n;
-    stylus.workspace_half_extent = record.half_extent_m;
-    if (volume_) {
-      return snapshot_of(scene, prepare(scene, volume_, record.half_extent_m), stylus);
-    }
     const auto air = std::make_shared<testdata::AnalyticSource>(testdata::make_sphere(1), 1.0);
     const Felt felt{.plan = std::make_shared<const modes::Plan>(modes::make_plan(scene, air->available(), {})),
                     .source = air};
