@@ -301,9 +301,12 @@ TEST(FindSeries, DecimalCommaOfTheLocaleChangesNothing) {
   const Series before = find_in(folder).series.at(0);
   const TestFolder locales;
   const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8").string() + " >/dev/null 2>&1";
-  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "localedef cannot make de_DE here";  // NOLINT(cert-env33-c)
+  if (std::system(make.c_str()) != 0)
+    GTEST_SKIP()
+        << "needs a locale that writes 0,75, and localedef (Debian's locales) cannot make de_DE here";  // NOLINT(cert-env33-c)
   ::setenv("LOCPATH", locales.path().c_str(), 1);
-  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "de_DE cannot be used here";
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr)
+    GTEST_SKIP() << "needs a locale that writes 0,75, and setlocale() does not take de_DE here";
   ASSERT_STREQ(std::localeconv()->decimal_point, ",");
   const Series after = find_in(folder).series.at(0);
   std::setlocale(LC_ALL, "C");

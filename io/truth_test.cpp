@@ -22,6 +22,9 @@ using testing::HasSubstr;
 using Json = nlohmann::json;
 
 const fs::path data = PALPATE_SHARED_DATA;
+constexpr const char* no_data =
+    "needs the shared series, real scans and what pydicom read in them, which are not beside this checkout "
+    "at " PALPATE_SHARED_DATA;
 
 Vec3 vector_of(const Json& json) {
   return {json.at(0), json.at(1), json.at(2)};
@@ -57,7 +60,7 @@ class Truth : public testing::TestWithParam<const char*> {};
 
 TEST_P(Truth, GeometryAndVoxelsAgree) {
   const std::string folder = GetParam();
-  if (!fs::exists(data / folder)) GTEST_SKIP() << "no " << data / folder;
+  if (!fs::exists(data / folder)) GTEST_SKIP() << no_data;
   const Json truth = truth_of(folder).at("series").at(0);
   const Catalogue found = find_in(data / folder);
   ASSERT_EQ(found.series.size(), 1U);
@@ -105,14 +108,14 @@ INSTANTIATE_TEST_SUITE_P(OneSeries, Truth,
 // Folders where the truth lists files as they lie there, and a reader has to judge.
 
 TEST(TruthWithJudgement, MissingSliceIsNamedAndKeptAsAGap) {
-  if (!fs::exists(data / "ct_missing_slice_4")) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data / "ct_missing_slice_4")) GTEST_SKIP() << no_data;
   const Series series = find_in(data / "ct_missing_slice_4").series.at(0);
   EXPECT_EQ(series.geometry.gaps, std::vector<int>({2}));
   EXPECT_THAT(series.warnings, ElementsAre(HasSubstr("1 slice is missing between slices 2 and 3")));
 }
 
 TEST(TruthWithJudgement, CopyOfASliceIsDropped) {
-  if (!fs::exists(data / "derived_duplicate_slice")) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data / "derived_duplicate_slice")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("derived_duplicate_slice").at("series").at(0);
   const Catalogue found = find_in(data / "derived_duplicate_slice");
   ASSERT_EQ(found.series.size(), 1U);
@@ -130,7 +133,7 @@ TEST(TruthWithJudgement, CopyOfASliceIsDropped) {
 
 // Seven slices can be read: they are offered, in their places, with a gap where the eighth would be.
 TEST(TruthWithJudgement, TruncatedSliceCostsThatSliceAlone) {
-  if (!fs::exists(data / "derived_one_truncated")) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data / "derived_one_truncated")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("derived_one_truncated").at("series").at(0);
   const Catalogue found = find_in(data / "derived_one_truncated");
   ASSERT_EQ(found.series.size(), 1U);
@@ -153,7 +156,7 @@ TEST(TruthWithJudgement, TruncatedSliceCostsThatSliceAlone) {
 }
 
 TEST(TruthWithJudgement, EnhancedFieldMapIsTwoFramesOfTheirOwnRescale) {
-  if (!fs::exists(data / "mr_enh_philips_fieldmap_64f")) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data / "mr_enh_philips_fieldmap_64f")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("mr_enh_philips_fieldmap_64f").at("series").at(0);
   const Catalogue found = find_in(data / "mr_enh_philips_fieldmap_64f");
   ASSERT_EQ(found.series.size(), 1U);
@@ -184,7 +187,7 @@ TEST(TruthWithJudgement, EnhancedFieldMapIsTwoFramesOfTheirOwnRescale) {
 
 // The truth gives the mosaic as the file holds it: 7 x 7 tiles of 82 x 82.
 TEST(TruthWithJudgement, MosaicIsTakenApart) {
-  if (!fs::exists(data / "mr_dwi_mosaic_3")) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data / "mr_dwi_mosaic_3")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("mr_dwi_mosaic_3").at("series").at(0);
   const Catalogue found = find_in(data / "mr_dwi_mosaic_3");
   ASSERT_EQ(found.series.size(), 1U);
@@ -214,7 +217,7 @@ TEST(TruthWithJudgement, MosaicIsTakenApart) {
 }
 
 TEST(TruthWithJudgement, MixedFolderGivesItsSevenSeries) {
-  if (!fs::exists(data / "mixed_folder_junk")) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data / "mixed_folder_junk")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("mixed_folder_junk");
   const Catalogue found = find_in(data / "mixed_folder_junk");
   ASSERT_EQ(found.series.size(), 7U);

@@ -59,7 +59,8 @@ double felt_mm(const Suggestion& found, const FoundBoundary& alone, const io::Fi
 
 TEST(SuggestHead, offers_skin_and_skull_as_two_boundaries_each_felt_without_the_other_where_it_is) {
   if (!std::filesystem::exists(testdata::invesalius_cranium)) {
-    GTEST_SKIP() << "needs Debian's invesalius-examples: " << testdata::invesalius_cranium;
+    GTEST_SKIP() << "needs the real head of Debian's invesalius-examples, which is not at "
+                 << testdata::invesalius_cranium;
   }
   const auto head = std::make_shared<const io::Volume>(testdata::read_invesalius(testdata::invesalius_cranium));
   const Suggestion found = suggest(head);
@@ -88,7 +89,7 @@ TEST(SuggestHead, offers_skin_and_skull_as_two_boundaries_each_felt_without_the_
 TEST(SuggestHead, offers_the_scalp_and_the_surface_of_the_brain_of_an_mr) {
   const std::filesystem::path folder = std::filesystem::path(PALPATE_SHARED_DATA) / "mr_t1_ax_384";
   if (!std::filesystem::exists(folder)) {
-    GTEST_SKIP() << "needs the shared series " << folder;
+    GTEST_SKIP() << "needs the shared MR head, a real brain to be suggested boundaries of, which is not at " << folder;
   }
   const io::Catalogue catalogue = io::find_series(std::array{folder});
   ASSERT_FALSE(catalogue.series.empty());

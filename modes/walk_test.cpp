@@ -115,7 +115,8 @@ Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry
 
 TEST(Walk, through_every_shared_scan_with_every_mode_on_stays_finite_bounded_certified_and_repeatable) {
   if (!std::filesystem::exists(PALPATE_SHARED_DATA)) {
-    GTEST_SKIP() << "needs the shared series in " << PALPATE_SHARED_DATA;
+    GTEST_SKIP() << "needs the shared series, all of which are walked through, which are not at "
+                 << PALPATE_SHARED_DATA;
   }
   int scans = 0;
   for (const auto& folder : std::filesystem::directory_iterator(PALPATE_SHARED_DATA)) {

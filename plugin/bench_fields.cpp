@@ -228,16 +228,6 @@ void run_all(const FieldsArguments& arguments, const std::filesystem::path& fold
   }
 }
 
-void run(const FieldsArguments& arguments) {
-  if (arguments.output.empty()) {
-    run_all(arguments, {});
-    return;
-  }
-  testdata::FreshFolder folder(arguments.output);
-  run_all(arguments, folder.path());
-  folder.commit();
-}
-
 }  // namespace
 
 void add_bench_fields(CLI::App& bench) {
@@ -248,7 +238,10 @@ void add_bench_fields(CLI::App& bench) {
   command->add_option("--series", arguments->series.series, "Which series, by number or UID");
   command->add_option("-o,--output", arguments->output, "Also write CSV to this folder; new or empty");
   command->add_flag("--quick", arguments->quick, "Times on an eighth of the volume");
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments] {
+    testdata::write_all_or_none(arguments->output,
+                                [&](const std::filesystem::path& folder) { run_all(*arguments, folder); });
+  });
 }
 
 }  // namespace palpate::plugin

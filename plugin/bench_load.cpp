@@ -23,6 +23,7 @@
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/scan.h"
 #include "palpate/plugin/series_option.h"
+#include "palpate/testdata/fresh_folder.h"
 
 extern char** environ;  // NOLINT: POSIX's
 
@@ -48,27 +49,6 @@ struct Run {
   double seconds = 0;
   double cpu_seconds = 0;
   long peak_mib = 0;
-};
-
-/// A folder under the temporary one, removed with its owner.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "palpate_bench_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw InputRefused("cannot make a folder in " + fs::temp_directory_path().string());
-    path_ = name;
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 std::string own_program() {
@@ -138,7 +118,7 @@ struct Fastest {
 };
 
 void compare(const std::string& title, const std::string& folder, int rounds) {
-  const Scratch output;
+  const testdata::FreshFolder output = testdata::temporary_folder();
   const std::vector<Loader> all = loaders(output.path());
   std::vector<std::vector<Run>> runs(all.size());
   for (int round = -1; round < rounds; ++round) {  // the first warms the page cache
@@ -218,7 +198,7 @@ void run(const LoadOptions& options) {
   for (const std::string& folder : options.folders) {
     compare(folder, folder, options.rounds);
     if (options.jpeg_lossless) {
-      const Scratch compressed;
+      const testdata::FreshFolder compressed = testdata::temporary_folder();
       compress(folder, compressed.path());
       compare(folder + " in JPEG lossless", compressed.path().string(), options.rounds);
     }

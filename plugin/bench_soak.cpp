@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/run_session.h"
 #include "palpate/plugin/soak.h"
+#include "palpate/testdata/fresh_folder.h"
 
 namespace palpate::plugin {
 namespace {
@@ -56,15 +56,11 @@ void start_again_without_thread_caches() {
 void run(SoakOptions options) {
   start_again_without_thread_caches();
   const bool show = stderr_is_terminal();
-  options.folder = std::filesystem::temp_directory_path() / fmt::format("palpate-soak-{}", getpid());
-  std::filesystem::create_directory(options.folder);
+  const testdata::FreshFolder folder = testdata::temporary_folder();
+  options.folder = folder.path();
   options.progress = [show](double done) {
     if (show) fmt::print(stderr, "\rsoaking {:3.0f} %{}", 100 * done, done < 1 ? "" : "\r\033[K");
   };
-  const std::shared_ptr<void> remove(nullptr, [&](void*) {
-    std::error_code ignored;
-    std::filesystem::remove_all(options.folder, ignored);
-  });
   const SoakResult result = soak(options);
   print(result);
   if (result.over_limit + result.not_finite + result.unaccounted + result.lost + result.replay.different +

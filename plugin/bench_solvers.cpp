@@ -266,16 +266,6 @@ void run_all(const SolversArguments& arguments, const std::filesystem::path& fol
   draw(all, entrants, folder / "error-time.png");
 }
 
-void run(const SolversArguments& arguments) {
-  if (arguments.output.empty()) {
-    run_all(arguments, {});
-    return;
-  }
-  testdata::FreshFolder folder(arguments.output);
-  run_all(arguments, folder.path());
-  folder.commit();
-}
-
 }  // namespace
 
 void add_bench_solvers(CLI::App& bench) {
@@ -285,7 +275,10 @@ void add_bench_solvers(CLI::App& bench) {
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments] {
+    testdata::write_all_or_none(arguments->output,
+                                [&](const std::filesystem::path& folder) { run_all(*arguments, folder); });
+  });
 }
 
 }  // namespace palpate::plugin

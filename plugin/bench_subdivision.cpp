@@ -58,7 +58,7 @@ void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem:
   write_png(panels, folder / "subdivision.png");
 }
 
-void run(const std::string& output) {
+void run(const std::filesystem::path& folder) {
   fmt::print(
       "Sliding 1.5 mm deep at k = 400 N/m, a frame a millisecond, at most so many sub-steps of 0.1 mm a frame.\n"
       "Force: against k times the depth, along the normal at the probe. Errors on exact fields, times on voxels of 1 "
@@ -76,11 +76,7 @@ void run(const std::string& output) {
       }
     }
   }
-  if (!output.empty()) {
-    testdata::FreshFolder folder(output);
-    write_files(rows, folder.path());
-    folder.commit();
-  }
+  if (!folder.empty()) write_files(rows, folder);
 }
 
 }  // namespace
@@ -90,7 +86,7 @@ void add_bench_subdivision(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand(
       "subdivision", "What cutting a frame into sub-steps buys, in error against run time, over stylus speeds.");
   command->add_option("-o,--output", *output, "also write CSV and a picture to this folder; new or empty");
-  command->callback([output] { run(*output); });
+  command->callback([output] { testdata::write_all_or_none(*output, run); });
 }
 
 }  // namespace palpate::plugin

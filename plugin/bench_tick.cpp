@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <random>
 
 #include "palpate/device/simulated_stylus.h"
@@ -200,14 +199,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   }
 }
 
-void run(const Arguments& arguments) {
-  if (arguments.series.path.empty() && !arguments.sphere) {
-    throw WrongUsage("bench tick needs a SERIES, or --sphere");
-  }
-  std::optional<testdata::FreshFolder> folder;
-  if (!arguments.output.empty()) {
-    folder.emplace(arguments.output);
-  }
+void run(const Arguments& arguments, const std::filesystem::path& folder) {
   std::string csv;
   if (arguments.sphere) {
     csv = run_sphere_study();
@@ -218,10 +210,7 @@ void run(const Arguments& arguments) {
     fmt::print("\nCHAI3D's voxel haptics, measured elsewhere and not run here: 4.8 to 28 us a tick.\n");
     csv = rows.csv();
   }
-  if (folder) {
-    write(folder->path() / (arguments.sphere ? "sphere.csv" : "tick.csv"), csv);
-    folder->commit();
-  }
+  if (!folder.empty()) write(folder / (arguments.sphere ? "sphere.csv" : "tick.csv"), csv);
 }
 
 }  // namespace
@@ -241,7 +230,13 @@ void add_bench_tick(CLI::App& bench) {
       ->check(CLI::Range(128, 1024))
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "also write a CSV file to this folder; new or empty");
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments] {
+    if (arguments->series.path.empty() && !arguments->sphere) {
+      throw WrongUsage("bench tick needs a SERIES, or --sphere");
+    }
+    testdata::write_all_or_none(arguments->output,
+                                [&](const std::filesystem::path& folder) { run(*arguments, folder); });
+  });
 }
 
 }  // namespace palpate::plugin

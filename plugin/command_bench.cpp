@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -21,18 +22,6 @@ struct StabilityArguments {
   std::string output;
 };
 
-void run_stability(const StabilityArguments& arguments) {
-  if (arguments.output.empty()) {
-    run_extremes("");
-    run_loop_studies(arguments.options, "");
-    return;
-  }
-  testdata::FreshFolder folder(arguments.output);
-  run_extremes(folder.path());
-  run_loop_studies(arguments.options, folder.path());
-  folder.commit();
-}
-
 void add_stability(CLI::App& bench) {
   auto arguments = std::make_shared<StabilityArguments>();
   CLI::App* command = bench.add_subcommand(
@@ -41,7 +30,12 @@ void add_stability(CLI::App& bench) {
   command->add_option("--seconds", arguments->options.seconds, "of each study over frames")->capture_default_str();
   command->add_option("--hands", arguments->options.hands, "seeded hands")->capture_default_str();
   command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");
-  command->callback([arguments] { run_stability(*arguments); });
+  command->callback([arguments] {
+    testdata::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) {
+      run_extremes(folder);
+      run_loop_studies(arguments->options, folder);
+    });
+  });
 }
 
 }  // namespace

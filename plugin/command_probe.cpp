@@ -5,13 +5,9 @@
 #include <fstream>
 #include <memory>
 
-#include "palpate/device/simulated_stylus.h"
 #include "palpate/plugin/command.h"
-#include "palpate/plugin/probe_path.h"
-#include "palpate/plugin/run_session.h"
-#include "palpate/plugin/series_option.h"
+#include "palpate/plugin/session_option.h"
 #include "palpate/plugin/session_pictures.h"
-#include "palpate/plugin/stylus_option.h"
 #include "palpate/plugin/summary.h"
 #include "palpate/testdata/fresh_folder.h"
 
@@ -19,13 +15,9 @@ namespace palpate::plugin {
 namespace {
 
 struct Arguments {
-  SeriesOption series;
-  StylusOption stylus;
-  ProbePathOption path;
-  std::string scene;
+  SessionOption session;
   std::filesystem::path output = "palpate-session";
-  double seconds = 0;
-  bool at_clock_pace = false, live = false, json = false;
+  bool at_clock_pace = false, json = false;
 };
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
@@ -38,26 +30,10 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 
 void run(const Arguments& arguments) {
   // Everything that can be refused is refused before anything is loaded or written.
-  const std::shared_ptr<device::Stylus> stylus = make_stylus(arguments.stylus);
+  const std::shared_ptr<device::Stylus> stylus = make_stylus(arguments.session.stylus);
   testdata::FreshFolder folder(arguments.output);
-  const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
-  const device::Specification specification = stylus->specification();
-  SessionRun session{.scene = suited_to(scene_for(arguments.scene, *volume), specification),
-                     .felt = {},
-                     .scan_hash = hash_of(*volume),
-                     .unit = volume->unit,
-                     .stylus = stylus,
-                     .seed = arguments.stylus.seed,
-                     .seconds = arguments.seconds,
-                     .at_clock_pace = arguments.at_clock_pace,
-                     .live = arguments.live || stderr_is_terminal()};
-  session.felt = prepare(session.scene, volume, specification.workspace_half_extent);
-  if (auto* simulated = dynamic_cast<device::SimulatedStylus*>(stylus.get())) {
-    const double end = follow_probe_path(arguments.path, *volume, session.scene, session.felt, *simulated);
-    session.seconds = arguments.seconds > 0 ? arguments.seconds : end;
-  } else {
-    session.at_clock_pace = true;
-  }
+  auto [volume, session, simulated] = prepare_session(arguments.session, stylus);
+  session.at_clock_pace = arguments.at_clock_pace || !simulated;
   const SessionRunResult result = run_session(session, folder.path() / "recording.h5");
   if (result.recorder.stopped) {
     throw InputRefused(result.recorder.why);
@@ -65,7 +41,7 @@ void run(const Arguments& arguments) {
 
   const Recording recording = read_recording(folder.path() / "recording.h5");
   const Summary summary = summarize(recording, *session.felt.plan);
-  const std::string words = to_text(summary, session.scene, describe_scan(*volume), specification.name);
+  const std::string words = to_text(summary, session.scene, describe_scan(*volume), stylus->specification().name);
   write_text(folder.path() / "summary.txt", words);
   const auto pictures = write_session_pictures(recording, summary, session.scene, *session.felt.plan,
                                                *session.felt.source, volume->unit, folder.path());
@@ -88,16 +64,9 @@ void add_probe(CLI::App& program) {
       "The main job: feel a scan with a stylus, and leave its recording, a summary and pictures.\n"
       "Without --path a simulated hand presses on the first boundary between --from and --to, slides along it, pushes\n"
       "through to the next ones and lifts off; it is as fast as the arithmetic, or at --clock's pace.");
-  add_series_option(*command, arguments->series);
-  command->add_option("--scene", arguments->scene,
-                      "a scene's file or the name of a starting scene (default: one that suits the modality)");
-  add_probe_path_option(*command, arguments->path);
-  add_stylus_option(*command, arguments->stylus);
+  add_session_option(*command, arguments->session);
   command->add_flag("--clock", arguments->at_clock_pace,
                     "the simulated stylus, too, at the clock's pace on the servo thread");
-  command->add_option("--seconds", arguments->seconds,
-                      "how long (default: a simulated hand's path; with another stylus until Ctrl-C)");
-  command->add_flag("--live", arguments->live, "show what is felt, also where stderr is no terminal");
   command->add_option("-o,--output", arguments->output, "folder for the results; new or empty")->capture_default_str();
   command->add_flag("--json", arguments->json, "the summary for machines");
   command->callback([arguments] { run(*arguments); });

@@ -89,7 +89,7 @@ TEST(Command, RefusesBadInputAndLeavesNothing) {
   std::filesystem::create_directory(empty);
   const std::string scan = "probe " + phantom().string() + forehead;
   refused("probe /no/such/folder", 1, "/no/such/folder");
-  refused("probe " + empty.string(), 1, "_empty_folder");
+  refused("probe " + empty.string(), 1, "empty_folder");
   refused(scan + "--scene no-such-scene", 1, "no-such-scene");
   refused(scan + "--scene " +
               write_scene("mode.json", R"({"version":1,"name":"x","modes":[{"type":"surfce","strength_n":1}]})"),

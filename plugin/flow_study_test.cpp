@@ -1,15 +1,12 @@
 // The wind tunnel out of a scanner: a 4D-flow study on disk, felt through the program, against the flow itself.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "palpate/plugin/internal/command_rig.h"
 #include "palpate/testdata/write_flow.h"
 
 namespace palpate::plugin {
@@ -20,16 +17,13 @@ using Json = nlohmann::json;
 using testdata::Vec3;
 
 std::string output_of(const std::string& arguments) {
-  FILE* pipe = popen((std::string(PALPATE_PROGRAM) + " " + arguments).c_str(), "r");  // NOLINT: the test's own words
-  std::string output;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) output.append(buffer.data(), count);
-  EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0) << arguments;
-  return output;
+  const testing::Outcome outcome = testing::palpate(arguments, false);
+  EXPECT_EQ(outcome.exit, 0) << arguments;
+  return outcome.output;
 }
 
 TEST(FlowStudy, IsFeltAsTheFlowItWasMadeOf) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("palpate_flow_study_" + std::to_string(getpid()));
+  const fs::path folder = testing::fresh_path("flow_study");
   testdata::FlowStudy study;
   study.grid.size = {52, 44, 20};
   study.grid.spacing = Vec3(2);
@@ -46,7 +40,6 @@ TEST(FlowStudy, IsFeltAsTheFlowItWasMadeOf) {
   // Past the sphere, at the second time point: the free stream is at its strongest there.
   const Json felt = Json::parse(output_of("profile " + folder.string() +
                                           " --series 5 --frame 1 --scene flow --from=-45,25,3 --to=45,38,3 --json"));
-  fs::remove_all(folder);
   testdata::FlowPastSphere now = study.flow;
   now.free_stream = free_stream_at(study, 1);
   const testdata::FlowSource exact(now);

@@ -1,7 +1,6 @@
 // Who was scanned, and where the scan lies, stay out of everything that a session leaves behind.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "palpate/plugin/internal/test_files.h"
 #include "palpate/testdata/scan.h"
 #include "palpate/testdata/write_series.h"
 
@@ -28,7 +28,7 @@ std::string content_of(const fs::path& path) {
 }
 
 TEST(Identity, IsNeitherInRecordingNorPicturesNorReports) {
-  const fs::path work = fs::path(testing::TempDir()) / ("palpate_identity_" + std::to_string(getpid()));
+  const fs::path work = testing::fresh_path("identity");
   fs::create_directories(work);
   const fs::path scan = work / "Zaphodsmith";
   testdata::Grid grid;
@@ -45,7 +45,6 @@ TEST(Identity, IsNeitherInRecordingNorPicturesNorReports) {
       0)
       << content_of(work / "err.txt");
   ASSERT_EQ(run("info --json " + scan.string() + " >" + (work / "info.json").string()), 0);
-  fs::remove(work / "info_patient.txt");
   ASSERT_EQ(run("info --patient " + scan.string() + " >" + (work / "info_patient.txt").string()), 0);
 
   int files = 0;
@@ -64,7 +63,6 @@ TEST(Identity, IsNeitherInRecordingNorPicturesNorReports) {
   }
   // On request it is shown, or this test would look for what is nowhere.
   EXPECT_NE(content_of(work / "info_patient.txt").find("Beeblebrox"), std::string::npos);
-  fs::remove_all(work);
 }
 
 }  // namespace

@@ -3,16 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <fstream>
 #include <stdexcept>
+
+#include "palpate/plugin/internal/test_files.h"
 
 namespace palpate::plugin {
 namespace {
 
 std::filesystem::path write(const std::string& name, const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name);
+  const auto file = testing::fresh_path(name);
   std::ofstream(file) << text;
   return file;
 }
@@ -34,12 +34,13 @@ TEST(PathCsv, ReadsPointsWithHeaderCommentsAndCarriageReturns) {
 }
 
 TEST(PathCsv, RefusesNamingFileAndLine) {
-  EXPECT_THAT(refusal("0,1,2\n"), testing::AllOf(testing::HasSubstr("refused.csv"), testing::HasSubstr("line 1")));
-  EXPECT_THAT(refusal("0,1,2,3\n1,2,3,nan\n"), testing::HasSubstr("line 2"));
-  EXPECT_THAT(refusal("0,1,2,3\n0,2,3,4\n"), testing::HasSubstr("line 2: time_s 0"));
-  EXPECT_THAT(refusal("0,1,2,3,4\n"), testing::HasSubstr("line 1"));
-  EXPECT_THAT(refusal("0,1,2,3\n"), testing::HasSubstr("at least two points"));
-  EXPECT_THAT(refusal(""), testing::HasSubstr("at least two points"));
+  EXPECT_THAT(refusal("0,1,2\n"),
+              ::testing::AllOf(::testing::HasSubstr("refused.csv"), ::testing::HasSubstr("line 1")));
+  EXPECT_THAT(refusal("0,1,2,3\n1,2,3,nan\n"), ::testing::HasSubstr("line 2"));
+  EXPECT_THAT(refusal("0,1,2,3\n0,2,3,4\n"), ::testing::HasSubstr("line 2: time_s 0"));
+  EXPECT_THAT(refusal("0,1,2,3,4\n"), ::testing::HasSubstr("line 1"));
+  EXPECT_THAT(refusal("0,1,2,3\n"), ::testing::HasSubstr("at least two points"));
+  EXPECT_THAT(refusal(""), ::testing::HasSubstr("at least two points"));
   EXPECT_THROW(read_path_csv("/no/such/path.csv"), std::runtime_error);
 }
 

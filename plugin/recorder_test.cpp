@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -34,7 +35,7 @@ void push(FrameRing& ring, std::uint64_t first, std::uint64_t count) {
 const RecordingHeader header{.palpate_version = "1.2.3", .device = "simulated", .scan_hash = "0123456789abcdef"};
 
 TEST(Recorder, WritesEveryFrameInOrderWithWhatTheSessionWasGiven) {
-  const auto file = fresh("all.h5");
+  const auto file = fresh_path("all.h5");
   FrameRing ring(1024);
   Recorder recorder(ring, file, header);
   recorder.note(SceneRecord{.epoch = 0, .scene = R"({"a":"ü\n"})", .scan_hash = "x", .half_extent_m = {1, 2, 0.1}});
@@ -62,7 +63,7 @@ TEST(Recorder, WritesEveryFrameInOrderWithWhatTheSessionWasGiven) {
 }
 
 TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
-  const auto file = fresh("slow.h5");
+  const auto file = fresh_path("slow.h5");
   FrameRing ring(1024);
   std::atomic<bool> held{true};
   Recorder recorder(ring, file, header, {.before_write = [&] {
@@ -97,7 +98,7 @@ TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
 }
 
 TEST(Recorder, LittleRoomOnTheDiskEndsTheRecordingInGoodOrder) {
-  const auto file = fresh("room.h5");
+  const auto file = fresh_path("room.h5");
   FrameRing ring(1024);
   Recorder recorder(ring, file, header, {.spare_bytes = std::uintmax_t{1} << 62U});
   push(ring, 0, 100);
@@ -110,7 +111,7 @@ TEST(Recorder, LittleRoomOnTheDiskEndsTheRecordingInGoodOrder) {
 
 /// In a process of its own whose files may not grow beyond a megabyte: the disk refuses in the middle of a write.
 TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
-  const auto file = fresh("full.h5");
+  const auto file = fresh_path("full.h5");
   const pid_t child = fork();
   if (child == 0) {
     signal(SIGXFSZ, SIG_IGN);
@@ -132,7 +133,7 @@ TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     const RecorderStatus status = recorder.finish();
-    std::exit(status.stopped && status.lost > 0 && status.why.find("disk full") != std::string::npos ? 0 : 1);
+    _exit(status.stopped && status.lost > 0 && status.why.find("disk full") != std::string::npos ? 0 : 1);
   }
   int exit_status = 0;
   waitpid(child, &exit_status, 0);
@@ -144,7 +145,7 @@ TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
 }
 
 TEST(Recorder, AfterACrashWhatWasFlushedCanBeRead) {
-  const auto file = fresh("crash.h5");
+  const auto file = fresh_path("crash.h5");
   int ready[2];
   ASSERT_EQ(pipe(ready), 0);
   const pid_t child = fork();

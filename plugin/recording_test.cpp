@@ -3,20 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
 #include <cstring>
 
 #include <fstream>
 #include <random>
 
+#include "palpate/plugin/internal/test_files.h"
+
 namespace palpate::plugin {
 namespace {
 
-std::filesystem::path fresh(const std::string& name) {
-  const auto file = std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name);
-  std::filesystem::remove(file);
-  return file;
-}
+using testing::fresh_path;
 
 Recording random_recording(std::size_t frames) {
   std::mt19937_64 random(7);
@@ -45,7 +42,7 @@ Recording random_recording(std::size_t frames) {
 }
 
 TEST(Recording, ReadsBackToTheLastBit) {
-  const auto file = fresh("round_trip.h5");
+  const auto file = fresh_path("round_trip.h5");
   const Recording written = random_recording(10000);
   write_recording(written, file);
   const Recording read = read_recording(file);
@@ -59,28 +56,27 @@ TEST(Recording, ReadsBackToTheLastBit) {
 }
 
 TEST(Recording, AnEmptySessionIsARecordingToo) {
-  const auto file = fresh("empty.h5");
+  const auto file = fresh_path("empty.h5");
   write_recording({}, file);
   EXPECT_TRUE(read_recording(file).frames.empty());
 }
 
 TEST(Recording, LeavesNothingBehindWhereItCannotWrite) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "no_such_folder";
-  std::filesystem::remove_all(folder);
+  const auto folder = fresh_path("no_such_folder");
   EXPECT_THROW(write_recording(random_recording(1), folder / "r.h5"), std::runtime_error);
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
 TEST(Recording, RefusesWhatIsNotOneNamingTheFile) {
-  const auto file = fresh("text.h5");
+  const auto file = fresh_path("text.h5");
   std::ofstream(file) << "not HDF5";
   try {
     read_recording(file);
     FAIL() << "accepted";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("text.h5"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("text.h5"));
   }
-  EXPECT_THROW(read_recording(fresh("absent.h5")), std::runtime_error);
+  EXPECT_THROW(read_recording(fresh_path("absent.h5")), std::runtime_error);
 }
 
 }  // namespace

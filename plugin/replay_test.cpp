@@ -78,7 +78,7 @@ Recording eventful_session(const std::filesystem::path& file) {
 }
 
 TEST(Replay, AnEventfulSessionIsTheSameToTheLastBit) {
-  const Recording recording = eventful_session(fresh("eventful.h5"));
+  const Recording recording = eventful_session(fresh_path("eventful.h5"));
   ASSERT_EQ(recording.frames.size(), 8000U);
   std::map<std::uint32_t, int> faults, scenes, styluses;
   for (const Frame& frame : recording.frames) {
@@ -96,7 +96,7 @@ TEST(Replay, AnEventfulSessionIsTheSameToTheLastBit) {
 }
 
 TEST(Replay, FindsTheFrameThatDiffers) {
-  Recording recording = eventful_session(fresh("differs.h5"));
+  Recording recording = eventful_session(fresh_path("differs.h5"));
   recording.frames[3000].proxy_m[1] += 1e-9;
   const Replay result = replay(recording, make_again);
   EXPECT_EQ(result.different, 1U);
@@ -109,7 +109,7 @@ TEST(Replay, FindsTheFrameThatDiffers) {
 }
 
 TEST(Replay, StopsAtTheFirstGapAndSaysHowManyCameAfter) {
-  Recording recording = eventful_session(fresh("gap.h5"));
+  Recording recording = eventful_session(fresh_path("gap.h5"));
   recording.frames.erase(recording.frames.begin() + 1000, recording.frames.begin() + 1200);
   const Replay result = replay(recording, make_again);
   EXPECT_EQ(result.frames, 1000U);
@@ -118,7 +118,7 @@ TEST(Replay, StopsAtTheFirstGapAndSaysHowManyCameAfter) {
 }
 
 TEST(Replay, RefusesARecordingThatLacksItsScene) {
-  Recording recording = eventful_session(fresh("lacks.h5"));
+  Recording recording = eventful_session(fresh_path("lacks.h5"));
   recording.scenes.pop_back();
   EXPECT_THROW(replay(recording, make_again), std::runtime_error);
 }

@@ -25,7 +25,7 @@ void sleep_s(double seconds) {
 /// At the clock's pace, recorded, with scenes changed meanwhile: every deadline accounted for, nothing lost, and the
 /// replay is the same.
 void run_at(double rate_hz) {
-  const auto file = fresh("servo.h5");
+  const auto file = fresh_path("servo.h5");
   device::SimulatedDevice model;
   model.rate = rate_hz;
   const auto held = std::make_shared<device::SimulatedStylus>(model);

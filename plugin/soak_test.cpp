@@ -3,17 +3,17 @@
 #include "palpate/plugin/soak.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+
+#include "palpate/plugin/internal/test_files.h"
 
 namespace palpate::plugin {
 namespace {
 
 SoakResult soak_in_a_folder_of_its_own(SoakOptions options) {
-  options.folder = std::filesystem::path(::testing::TempDir()) / ("soak_" + std::to_string(getpid()));
+  options.folder = testing::fresh_path("soak");
   std::filesystem::create_directory(options.folder);
   SoakResult result = soak(options);
   EXPECT_TRUE(std::filesystem::is_empty(options.folder)) << "parts are removed once replayed";
-  std::filesystem::remove_all(options.folder);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "palpate/solver/analytical.h"
@@ -27,8 +28,16 @@ std::uint64_t cases(std::uint64_t usual, std::uint64_t slowness = 1) {
   return std::max<std::uint64_t>(1, all / std::size(all_families));
 }
 
-std::uint64_t cases_of(Family family, std::uint64_t each) {
-  return family == Family::many ? std::max<std::uint64_t>(1, each / 100) : each;
+// Has the law hold on so many balances of each family; fewer of many primitives, which take long.
+template <typename Law>
+void expect_of_all(std::span<const Family> families, std::uint64_t each, const Law& law) {
+  for (const Family family : families) {
+    const std::uint64_t count = family == Family::many ? std::max<std::uint64_t>(1, each / 100) : each;
+    for (std::uint64_t seed = 0; seed < count && !testing::Test::HasFatalFailure(); ++seed) {
+      SCOPED_TRACE(testing::Message() << name_of(family) << " " << seed);
+      law(make_problem(family, seed), seed);
+    }
+  }
 }
 
 struct Answer {
@@ -50,10 +59,10 @@ Answer solve(const Problem& problem) {
 }
 
 // Two answers to what is the same balance but for rounding.
-void expect_same(const Answer& a, const Answer& b, const Vec3& apart, Family family, std::uint64_t seed) {
-  ASSERT_EQ(a.solution.outcome, Outcome::solved) << name_of(family) << " " << seed;
-  ASSERT_EQ(b.solution.outcome, Outcome::solved) << name_of(family) << " " << seed;
-  EXPECT_LE(glm::length(apart), 4 * (a.promise + b.promise)) << name_of(family) << " " << seed;
+void expect_same(const Answer& a, const Answer& b, const Vec3& apart) {
+  ASSERT_EQ(a.solution.outcome, Outcome::solved);
+  ASSERT_EQ(b.solution.outcome, Outcome::solved);
+  EXPECT_LE(glm::length(apart), 4 * (a.promise + b.promise));
 }
 
 // Where an ulp of the data moves the proxy by about an ulp.
@@ -61,15 +70,12 @@ constexpr Family well_conditioned[] = {Family::allowed, Family::oblique, Family:
                                        Family::many};
 
 TEST(Laws, EveryBalanceIsSolvedAndNoCapIsHit) {
-  for (const Family family : all_families) {
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(40000)); ++seed) {
-      const Problem problem = make_problem(family, seed);
-      const Answer answer = solve(problem);
-      ASSERT_EQ(answer.solution.outcome, Outcome::solved)
-          << name_of(family) << " " << seed << " of " << problem.primitives.size() << ", bound " << answer.bound();
-      ASSERT_TRUE(std::isfinite(answer.bound())) << name_of(family) << " " << seed;
-    }
-  }
+  expect_of_all(all_families, cases(40000), [&](const Problem& problem, std::uint64_t) {
+    const Answer answer = solve(problem);
+    ASSERT_EQ(answer.solution.outcome, Outcome::solved)
+        << "of " << problem.primitives.size() << ", bound " << answer.bound();
+    ASSERT_TRUE(std::isfinite(answer.bound()));
+  });
 }
 
 TEST(Laws, NoBoundIsBelowTheTrueErrorAndTheAccuracyIsThatPromised) {
@@ -104,18 +110,15 @@ TEST(Laws, NoBoundIsBelowTheTrueErrorAndTheAccuracyIsThatPromised) {
 }
 
 TEST(Laws, OrderDoesNotMatter) {
-  for (const Family family : well_conditioned) {
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
-      Problem problem = make_problem(family, seed);
-      const Answer forwards = solve(problem);
-      Random random(seed);
-      for (std::size_t i = problem.primitives.size(); i > 1; --i) {
-        std::swap(problem.primitives[i - 1], problem.primitives[random.below(i)]);
-      }
-      const Answer shuffled = solve(problem);
-      expect_same(forwards, shuffled, forwards.solution.proxy - shuffled.solution.proxy, family, seed);
+  expect_of_all(well_conditioned, cases(10000), [&](Problem problem, std::uint64_t seed) {
+    const Answer forwards = solve(problem);
+    Random random(seed);
+    for (std::size_t i = problem.primitives.size(); i > 1; --i) {
+      std::swap(problem.primitives[i - 1], problem.primitives[random.below(i)]);
     }
-  }
+    const Answer shuffled = solve(problem);
+    expect_same(forwards, shuffled, forwards.solution.proxy - shuffled.solution.proxy);
+  });
 }
 
 struct Motion {
@@ -127,96 +130,81 @@ struct Motion {
 };
 
 TEST(Laws, ARigidMotionMovesTheProxyAlong) {
-  for (const Family family : well_conditioned) {
-    // Turned and rounded, what was orthogonal is no longer, but by an ulp: 'allowed' stays well-conditioned all the
-    // same.
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
-      Problem problem = make_problem(family, seed);
-      const Answer here = solve(problem);
-      Random random(seed);
-      Motion motion;
-      motion.axis[0] = random.unit_vector();
-      motion.axis[1] = glm::normalize(glm::cross(motion.axis[0], random.unit_vector()));
-      motion.axis[2] = glm::cross(motion.axis[0], motion.axis[1]);
-      motion.shift = random.normal_vector(0.05);
-      problem.probe = motion.move(problem.probe);
-      problem.previous_proxy = motion.move(problem.previous_proxy);
-      for (Primitive& primitive : problem.primitives) {
-        primitive.position = motion.move(primitive.position);
-        primitive.direction = motion.turn(primitive.direction);
-      }
-      const Answer there = solve(problem);
-      expect_same(here, there, motion.move(here.solution.proxy) - there.solution.proxy, family, seed);
+  // Turned and rounded, what was orthogonal is no longer, but by an ulp: 'allowed' stays well-conditioned all the
+  // same.
+  expect_of_all(well_conditioned, cases(10000), [&](Problem problem, std::uint64_t seed) {
+    const Answer here = solve(problem);
+    Random random(seed);
+    Motion motion;
+    motion.axis[0] = random.unit_vector();
+    motion.axis[1] = glm::normalize(glm::cross(motion.axis[0], random.unit_vector()));
+    motion.axis[2] = glm::cross(motion.axis[0], motion.axis[1]);
+    motion.shift = random.normal_vector(0.05);
+    problem.probe = motion.move(problem.probe);
+    problem.previous_proxy = motion.move(problem.previous_proxy);
+    for (Primitive& primitive : problem.primitives) {
+      primitive.position = motion.move(primitive.position);
+      primitive.direction = motion.turn(primitive.direction);
     }
-  }
+    const Answer there = solve(problem);
+    expect_same(here, there, motion.move(here.solution.proxy) - there.solution.proxy);
+  });
 }
 
 TEST(Laws, StiffnessAndStrengthsTogetherDoNotMatter) {
-  for (const Family family : all_families) {
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
-      Problem problem = make_problem(family, seed);
-      const Answer weak = solve(problem);
-      problem.stiffness *= 8;  // a power of two, so that the balance is the same to the last bit
-      for (Primitive& primitive : problem.primitives) {
-        primitive.strength *= 8;
-      }
-      const Answer strong = solve(problem);
-      expect_same(weak, strong, weak.solution.proxy - strong.solution.proxy, family, seed);
+  expect_of_all(all_families, cases(10000), [&](Problem problem, std::uint64_t) {
+    const Answer weak = solve(problem);
+    problem.stiffness *= 8;  // a power of two, so that the balance is the same to the last bit
+    for (Primitive& primitive : problem.primitives) {
+      primitive.strength *= 8;
     }
-  }
+    const Answer strong = solve(problem);
+    expect_same(weak, strong, weak.solution.proxy - strong.solution.proxy);
+  });
 }
 
 TEST(Laws, APrimitiveMayBeSplitIntoTwoHalves) {
-  for (const Family family : well_conditioned) {
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
-      Problem problem = make_problem(family, seed);
-      const Answer whole = solve(problem);
-      if (problem.primitives.empty()) {
-        continue;
-      }
-      Random random(seed);
-      Primitive& half = problem.primitives[random.below(problem.primitives.size())];
-      half.strength /= 2;
-      const Primitive other = half;
-      problem.primitives.push_back(other);
-      const Answer halves = solve(problem);
-      expect_same(whole, halves, whole.solution.proxy - halves.solution.proxy, family, seed);
+  expect_of_all(well_conditioned, cases(10000), [&](Problem problem, std::uint64_t seed) {
+    const Answer whole = solve(problem);
+    if (problem.primitives.empty()) {
+      return;
     }
-  }
+    Random random(seed);
+    Primitive& half = problem.primitives[random.below(problem.primitives.size())];
+    half.strength /= 2;
+    const Primitive other = half;
+    problem.primitives.push_back(other);
+    const Answer halves = solve(problem);
+    expect_same(whole, halves, whole.solution.proxy - halves.solution.proxy);
+  });
 }
 
 TEST(Laws, TheProxyMovesNoFasterThanTheProbe) {
-  for (const Family family : all_families) {
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
-      Problem problem = make_problem(family, seed);
-      const Answer before = solve(problem);
-      const Vec3 probe = problem.probe;
-      Random random(seed);
-      problem.probe += random.unit_vector() * random.log_uniform(1e-9, 1e-2);
-      const Answer after = solve(problem);
-      const double moved = glm::length(after.solution.proxy - before.solution.proxy);
-      const double probe_moved = glm::length(problem.probe - probe) * (1 + 1e-14);
-      EXPECT_LE(moved, probe_moved + before.bound() + after.bound()) << name_of(family) << " " << seed;
-    }
-  }
+  expect_of_all(all_families, cases(10000), [&](Problem problem, std::uint64_t seed) {
+    const Answer before = solve(problem);
+    const Vec3 probe = problem.probe;
+    Random random(seed);
+    problem.probe += random.unit_vector() * random.log_uniform(1e-9, 1e-2);
+    const Answer after = solve(problem);
+    const double moved = glm::length(after.solution.proxy - before.solution.proxy);
+    const double probe_moved = glm::length(problem.probe - probe) * (1 + 1e-14);
+    EXPECT_LE(moved, probe_moved + before.bound() + after.bound());
+  });
 }
 
 TEST(Laws, AtRestTheForceIsConstantToTheLastBit) {
-  for (const Family family : all_families) {
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(2000, 10)); ++seed) {
-      const Problem problem = make_problem(family, seed);
-      Chain chain({.capacity = 128});
-      std::vector<Vec3> forces(problem.primitives.size());
-      Problem moving = problem;
-      moving.probe += Vec3(1e-5, -2e-5, 0.5e-5);
-      chain.solve(moving.balance(), forces);
-      const Vec3 first = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
-      for (int frame = 0; frame < 10; ++frame) {
-        const Vec3 force = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
-        ASSERT_EQ(force, first) << name_of(family) << " " << seed << " frame " << frame;
-      }
+  expect_of_all(all_families, cases(2000, 10), [&](const Problem& problem, std::uint64_t) {
+    Chain chain({.capacity = 128});
+    std::vector<Vec3> forces(problem.primitives.size());
+    Problem moving = problem;
+    moving.probe += Vec3(1e-5, -2e-5, 0.5e-5);
+    chain.solve(moving.balance(), forces);
+    const Vec3 first = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
+    for (int frame = 0; frame < 10; ++frame) {
+      const Vec3 force = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
+      ASSERT_EQ(force, first) << "frame " << frame;
     }
-  }
+  });
 }
 
 // Puts one thing wrong; returns what has to be said about it.
@@ -259,23 +247,20 @@ Rejection spoil(Problem& problem, Random& random) {
 }
 
 TEST(Laws, WhateverIsWrongIsNamed) {
-  for (const Family family : all_families) {
-    Chain chain({.capacity = 128});
-    for (std::uint64_t seed = 0; seed < cases_of(family, cases(10000)); ++seed) {
-      Problem problem = make_problem(family, seed);
-      if (problem.primitives.empty()) {
-        continue;
-      }
-      Random random(seed);
-      const Rejection expected = spoil(problem, random);
-      std::vector<Vec3> forces(problem.primitives.size());
-      const Solution solution = chain.solve(problem.balance(), forces);
-      ASSERT_EQ(solution.outcome, Outcome::refused) << name_of(family) << " " << seed;
-      EXPECT_EQ(solution.rejection->primitive, expected.primitive) << name_of(family) << " " << seed;
-      EXPECT_EQ(solution.rejection->field, expected.field) << name_of(family) << " " << seed;
-      EXPECT_EQ(solution.rejection->flaw, expected.flaw) << name_of(family) << " " << seed;
+  Chain chain({.capacity = 128});
+  expect_of_all(all_families, cases(10000), [&](Problem problem, std::uint64_t seed) {
+    if (problem.primitives.empty()) {
+      return;
     }
-  }
+    Random random(seed);
+    const Rejection expected = spoil(problem, random);
+    std::vector<Vec3> forces(problem.primitives.size());
+    const Solution solution = chain.solve(problem.balance(), forces);
+    ASSERT_EQ(solution.outcome, Outcome::refused);
+    EXPECT_EQ(solution.rejection->primitive, expected.primitive);
+    EXPECT_EQ(solution.rejection->field, expected.field);
+    EXPECT_EQ(solution.rejection->flaw, expected.flaw);
+  });
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "palpate/testdata/fresh_folder.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <stdexcept>
@@ -40,6 +42,20 @@ FreshFolder::~FreshFolder() {
 void FreshFolder::commit() {
   fs::rename(working_, final_);
   working_.clear();
+}
+
+FreshFolder temporary_folder() {
+  return FreshFolder(fs::temp_directory_path() / ("palpate-" + std::to_string(getpid())));
+}
+
+void write_all_or_none(const fs::path& final_path, const std::function<void(const fs::path&)>& write) {
+  if (final_path.empty()) {
+    write({});
+    return;
+  }
+  FreshFolder folder(final_path);
+  write(folder.path());
+  folder.commit();
 }
 
 }  // namespace palpate::testdata

@@ -3,6 +3,7 @@
 /// All of a folder's files or none: they are written beside it and moved to their place at the end.
 
 #include <filesystem>
+#include <functional>
 
 namespace palpate::testdata {
 
@@ -24,5 +25,13 @@ class FreshFolder {
   std::filesystem::path final_;
   std::filesystem::path working_;
 };
+
+/// A folder in the system's temporary one, gone with the object: it is never committed.
+FreshFolder temporary_folder();
+
+/// Has `write` fill a fresh folder, which is committed when it returns. An empty `final_path` is handed on as it is:
+/// nothing is to be written.
+void write_all_or_none(const std::filesystem::path& final_path,
+                       const std::function<void(const std::filesystem::path& folder)>& write);
 
 }  // namespace palpate::testdata

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "palpate/testdata/fresh_folder.h"
+
 namespace palpate::testdata {
 namespace {
 
@@ -16,7 +18,7 @@ class Cranium : public testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(invesalius_cranium)) {
-      GTEST_SKIP() << "needs Debian's invesalius-examples: " << invesalius_cranium;
+      GTEST_SKIP() << "needs the real head of Debian's invesalius-examples, which is not at " << invesalius_cranium;
     }
     volume_ = read_invesalius(invesalius_cranium);
   }
@@ -107,7 +109,8 @@ TEST_F(Cranium, NoseIsAnterior) {
 
 TEST(Invesalius, RefusesWhatIsNoProject) {
   EXPECT_THROW(read_invesalius("/nowhere/Cranium.inv3"), std::runtime_error);
-  const auto file = std::filesystem::temp_directory_path() / "palpate-not-a-project.inv3";
+  const FreshFolder folder = temporary_folder();
+  const auto file = folder.path() / "not-a-project.inv3";
   std::ofstream(file) << "not a tar";
   try {
     read_invesalius(file);
@@ -115,7 +118,6 @@ TEST(Invesalius, RefusesWhatIsNoProject) {
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos);
   }
-  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "palpate/testdata/write_flow.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <glm/geometric.hpp>
 
 #include "palpate/io/load.h"
 #include "palpate/io/volume_fields.h"
+#include "palpate/testdata/fresh_folder.h"
 
 namespace palpate::testdata {
 namespace {
@@ -16,14 +16,13 @@ namespace fs = std::filesystem;
 
 class FlowFolder : public testing::Test {
  protected:
-  FlowFolder() { fs::remove_all(folder_); }
-  ~FlowFolder() override { fs::remove_all(folder_); }
   io::Catalogue write(const FlowStudy& study) {
     write_flow_study(study, folder_);
     return io::find_series(std::array{folder_});
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / ("palpate_flow_" + std::to_string(getpid()));
+  const FreshFolder scratch_ = temporary_folder();
+  const fs::path folder_ = scratch_.path() / "flow";
 };
 
 FlowStudy small_study() {

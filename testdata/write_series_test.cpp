@@ -4,13 +4,13 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <set>
 #include <stdexcept>
 
+#include "palpate/testdata/fresh_folder.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::testdata {
@@ -21,23 +21,20 @@ namespace fs = std::filesystem;
 class WriteSeries : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "palpate-write-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    root_ = pattern;
     Grid grid;
     grid.size = {12, 10, 4};
     grid.spacing = {0.7, 0.9, 2.5};
     grid.tilt_degrees = 12;
     volume_ = scan(make_sphere(4), make_geometry(rotated(grid, {1, 1, 0}, 20)), {.noise = 20, .circle_radius = 5});
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   std::vector<fs::path> entries() const {
     std::vector<fs::path> found(fs::directory_iterator(root_), fs::directory_iterator{});
     return found;
   }
 
-  fs::path root_;
+  const FreshFolder folder_ = temporary_folder();
+  const fs::path root_ = folder_.path();
   io::Volume volume_;
 };
 

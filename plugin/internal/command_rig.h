@@ -1,15 +1,15 @@
 #pragma once
 
-/// What tests of the program share: running it, a phantom to run it on, and places of their own.
+/// What tests of the program share: running it, and a phantom to run it on.
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 
+#include "palpate/plugin/internal/test_files.h"
 #include "palpate/testdata/scan.h"
 #include "palpate/testdata/write_series.h"
 
@@ -30,14 +30,6 @@ inline Outcome palpate(const std::string& arguments, bool with_errors = true) {
   }
   outcome.exit = WEXITSTATUS(pclose(pipe));
   return outcome;
-}
-
-/// Each test is a process of its own, and they run side by side.
-inline std::filesystem::path fresh_path(const std::string& name) {
-  const auto path =
-      std::filesystem::path(::testing::TempDir()) / ("command_test_" + std::to_string(getpid()) + "_" + name);
-  std::filesystem::remove_all(path);
-  return path;
 }
 
 /// A ball of soft tissue with a core of bone, 60 mm wide, as a DICOM series.

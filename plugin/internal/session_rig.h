@@ -1,16 +1,14 @@
 #pragma once
 
-/// What tests of the session share: a slab to press on, a press, and a place for files.
+/// What tests of the session share: a slab to press on, and a press.
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "palpate/device/simulated_stylus.h"
 #include "palpate/modes/scene_json.h"
+#include "palpate/plugin/internal/test_files.h"
 #include "palpate/plugin/replay.h"
 #include "palpate/plugin/session.h"
 #include "palpate/testdata/analytic.h"
@@ -59,14 +57,6 @@ inline std::shared_ptr<device::SimulatedStylus> stylus(const std::vector<device:
 
 inline glm::dvec3 vector_of(const double (&from)[3]) {
   return {from[0], from[1], from[2]};
-}
-
-/// A file of this test process that is not there.
-inline std::filesystem::path fresh(const std::string& name) {
-  const auto file = std::filesystem::path(::testing::TempDir()) / (std::to_string(getpid()) + "_" + name);
-  std::filesystem::remove(file);
-  std::filesystem::remove(file.string() + ".partial");
-  return file;
 }
 
 }  // namespace palpate::plugin::testing
