@@ -4,6 +4,11 @@ add_executable(device_client internal/fakes/client_main.cpp)
 target_link_libraries(device_client PRIVATE palpate::device palpate_compile_options)
 add_dependencies(device_client palpate_guardian)
 
+# The same in a virtual machine with the kernel's own USB and HID stack: device/guest/boot runs it there.
+add_executable(device_guest internal/fakes/guest_main.cpp internal/fakes/fake_usb.cpp internal/fakes/usbip_mount.cpp
+  internal/fakes/uhid_mount.cpp)
+target_link_libraries(device_guest PRIVATE palpate_fake_devices palpate_compile_options)
+
 pkg_check_modules(umockdev umockdev-1.0)
 find_program(UMOCKDEV_WRAPPER umockdev-wrapper)
 if(PALPATE_SANITIZE)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 namespace palpate::device {
@@ -131,6 +132,7 @@ void FakeFalcon::run(const FalconCommand& command, double now) {
   for (int i = 0; i < 3; ++i) torques[i] = -command.motors[static_cast<std::size_t>(i)] / options_.motor_gain;
   const auto jacobian = falcon_jacobian(geometry_, hand_.body().position + Vec3(0, 0, geometry_.centre));
   force_ = jacobian ? glm::transpose(*jacobian) * torques : Vec3(0);
+  if (glm::length(force_) > glm::length(strongest_)) strongest_ = force_;
 
   const std::array<double, 3> counts = true_counts();
   FalconCommand answer;  // a reply is coded like a command

@@ -49,7 +49,8 @@ class FakeFalcon {
 
   // What the arms feel. A real Falcon's own watchdog is not known: this one holds its last command for ever.
   const std::array<int, 3>& motors() const noexcept { return motors_; }
-  const Vec3& force() const noexcept { return force_; }  ///< N on the grip
+  const Vec3& force() const noexcept { return force_; }                ///< N on the grip
+  const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the longest force there was
   bool is_pushing() const noexcept { return motors_ != std::array<int, 3>{}; }
   double pushed_until() const noexcept { return pushed_until_; }  ///< s: the last command that was not zero
   const FakeHand& hand() const noexcept { return hand_; }
@@ -86,6 +87,7 @@ class FakeFalcon {
   std::vector<std::uint8_t> command_bytes_;
   std::array<int, 3> motors_{};
   Vec3 force_{0};
+  Vec3 strongest_{0};
   std::array<bool, 3> homed_{};
   std::array<bool, 3> was_out_{};
   std::uint64_t commands_ = 0;

@@ -6,10 +6,21 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "palpate/device/internal/link.h"
 
 namespace palpate::device {
+
+/// What a host learns of a device when it is plugged in.
+struct HidIdentity {
+  std::uint16_t vendor = 0;
+  std::uint16_t product = 0;
+  std::string name;
+  std::vector<std::uint8_t> report_descriptor;
+  bool numbers_reports = false;  ///< every report begins with its number
+};
 
 class FakeHid {
  public:
@@ -18,6 +29,7 @@ class FakeHid {
   FakeHid& operator=(const FakeHid&) = delete;
   virtual ~FakeHid() = default;
 
+  virtual HidIdentity identity() const = 0;
   /// The input report that is there by now, its number first where it has one.
   virtual std::optional<std::size_t> read(std::span<std::uint8_t> report, double now) = 0;
   /// An output report, without the number.

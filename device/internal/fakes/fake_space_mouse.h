@@ -18,9 +18,12 @@ class FakeSpaceMouse final : public FakeHid {
   void deflect(const Vec3& counts) { deflection_ = counts; }
   void press(std::uint32_t buttons) { buttons_ = buttons; }
 
+  HidIdentity identity() const override;
   std::optional<std::size_t> read(std::span<std::uint8_t> report, double now) override;
   void write(std::span<const std::uint8_t> /*report*/, double /*now*/) override {}
   bool is_pushing(double /*now*/) const override { return false; }
+
+  std::uint64_t reports() const noexcept { return report_count_; }
 
  private:
   bool together_;
@@ -29,6 +32,7 @@ class FakeSpaceMouse final : public FakeHid {
   std::uint32_t buttons_ = 0;
   std::uint32_t reported_buttons_ = 0;
   double next_ = 0;
+  std::uint64_t report_count_ = 0;
 };
 
 }  // namespace palpate::device

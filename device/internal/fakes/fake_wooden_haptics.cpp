@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
+#include <utility>
 
 namespace palpate::device {
 
@@ -62,6 +64,16 @@ FakeWoodenHaptics::FakeWoodenHaptics(const FakeWoodenHapticsOptions& options)
   zero_ = true_counts();  // incremental encoders read 0 when they are switched on
 }
 
+HidIdentity FakeWoodenHaptics::identity() const {
+  const auto size = static_cast<std::uint8_t>(options_.report_size);
+  // The maker's page; one input and one output report of bytes, without numbers.
+  std::vector<std::uint8_t> descriptor{0x06, 0xab, 0xff, 0x0a, 0x00, 0x02, 0xa1, 0x01, 0x75, 0x08,
+                                       0x15, 0x00, 0x26, 0xff, 0x00, 0x95, size, 0x09, 0x01, 0x81,
+                                       0x02, 0x95, size, 0x09, 0x02, 0x91, 0x02, 0xc0};
+  if (size == 64) return {0x16c0, 0x0486, "Teensy Haptics", std::move(descriptor), false};
+  return {0x1234, 0x0006, "WoodenHaptics", std::move(descriptor), false};
+}
+
 Vec3 FakeWoodenHaptics::angles() const {
   return wooden_haptics_inverse(options_.arm, hand_.body().position);
 }
@@ -102,7 +114,11 @@ std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> repor
 }
 
 void FakeWoodenHaptics::write(std::span<const std::uint8_t> report, double now) {
-  if (faults.silent || report.size() != options_.report_size) return;
+  if (faults.silent) return;
+  if (report.size() != options_.report_size) {
+    ++odd_outputs_;
+    return;
+  }
   ++outputs_;
   hand_.advance(now, force_);
   last_output_ = now;
@@ -130,6 +146,7 @@ void FakeWoodenHaptics::write(std::span<const std::uint8_t> report, double now) 
     torques_of_unit_forces[axis] = wooden_haptics_torques(options_.arm, angles(), unit);
   }
   force_ = glm::inverse(torques_of_unit_forces) * torques;
+  if (glm::length(force_) > glm::length(strongest_)) strongest_ = force_;
   if (waits_for_output_) next_report_ = std::max(next_report_ + 1e-3, now);
   waits_for_output_ = false;
 }

@@ -33,6 +33,7 @@ class FakeWoodenHaptics final : public FakeHid {
  public:
   explicit FakeWoodenHaptics(const FakeWoodenHapticsOptions& options);
 
+  HidIdentity identity() const override;
   std::optional<std::size_t> read(std::span<std::uint8_t> report, double now) override;
   void write(std::span<const std::uint8_t> report, double now) override;
   bool is_pushing(double now) const override;
@@ -40,10 +41,13 @@ class FakeWoodenHaptics final : public FakeHid {
   FakeWoodenHapticsFaults faults;
 
   const std::array<int, 3>& milliamperes() const noexcept { return milliamperes_; }
-  const Vec3& force() const noexcept { return force_; }           ///< N on the stylus
-  double pushed_until() const noexcept { return pushed_until_; }  ///< s: the last report with a current in it
+  const Vec3& force() const noexcept { return force_; }                ///< N on the stylus
+  const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the longest force there was
+  double pushed_until() const noexcept { return pushed_until_; }       ///< s: the last report with a current in it
   const FakeHand& hand() const noexcept { return hand_; }
+  std::uint64_t reports() const noexcept { return reports_; }
   std::uint64_t outputs() const noexcept { return outputs_; }
+  std::uint64_t odd_outputs() const noexcept { return odd_outputs_; }  ///< of another size than its reports have
 
  private:
   Vec3 angles() const;
@@ -61,8 +65,10 @@ class FakeWoodenHaptics final : public FakeHid {
   double pushed_until_ = 0;
   std::array<int, 3> milliamperes_{};
   Vec3 force_{0};
+  Vec3 strongest_{0};
   std::uint64_t reports_ = 0;
   std::uint64_t outputs_ = 0;
+  std::uint64_t odd_outputs_ = 0;
 };
 
 /// The angles of a position above the arm's lower body ("elbow up"); m in the device's frame. The position must be

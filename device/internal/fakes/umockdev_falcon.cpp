@@ -42,16 +42,14 @@ struct Urb {
 }  // namespace
 
 struct UmockdevFalcon::Parts {
-  Parts(const FakeFalconOptions& options, double unplug) : falcon(options), unplug_after(unplug) {}
+  explicit Parts(Play& p) : play(p), falcon(*p.falcon) {}
 
-  mutable std::mutex mutex;
-  FakeFalcon falcon;
-  double unplug_after;
-  double first_packet = -1;
+  Play& play;
+  FakeFalcon& falcon;
   UMockdevIoctlBase* handler = nullptr;
   std::list<Urb> urbs;  // submitted, not yet reaped
 
-  bool unplugged() const { return first_packet >= 0 && monotonic_time() - first_packet > unplug_after; }
+  bool unplugged() const { return play.unplugged(monotonic_time()); }
 
   /// False where the client died in the middle of it: its memory can no longer be read.
   bool submit(UMockdevIoctlData* argument) {
@@ -68,7 +66,7 @@ struct UmockdevFalcon::Parts {
       if (bytes[0] == 0x40) falcon.control(bytes[1], static_cast<std::uint16_t>(bytes[2] | bytes[3] << 8), now);
       urb.actual_length = 0;
     } else if ((urb.endpoint & 0x80) == 0) {
-      if (first_packet < 0) first_packet = now;
+      play.touch(now);
       falcon.write(bytes, now);
       urb.actual_length = urb.buffer_length;
     }
@@ -151,7 +149,7 @@ namespace {
 
 gboolean on_ioctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, void* parts) {
   auto& self = *static_cast<UmockdevFalcon::Parts*>(parts);
-  const std::lock_guard lock(self.mutex);
+  const std::lock_guard lock(self.play.mutex);
   const int result = self.answer(umockdev_ioctl_client_get_request(client), umockdev_ioctl_client_get_arg(client));
   umockdev_ioctl_client_complete(client, result < 0 ? -1 : 0, result < 0 ? -result : 0);
   return TRUE;
@@ -159,8 +157,7 @@ gboolean on_ioctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, void
 
 }  // namespace
 
-UmockdevFalcon::UmockdevFalcon(const FakeFalconOptions& options, double unplug_after)
-    : parts_(std::make_unique<Parts>(options, unplug_after)) {}
+UmockdevFalcon::UmockdevFalcon(Play& play) : parts_(std::make_unique<Parts>(play)) {}
 
 UmockdevFalcon::~UmockdevFalcon() = default;
 
@@ -169,16 +166,6 @@ void UmockdevFalcon::attach(UMockdevTestbed* testbed, GError** error) {
   g_signal_connect_after(parts_->handler, "handle-ioctl", G_CALLBACK(on_ioctl), parts_.get());
   if (umockdev_testbed_attach_ioctl(testbed, node, parts_->handler, error) == 0) return;
   umockdev_testbed_add_from_string(testbed, record, error);
-}
-
-bool UmockdevFalcon::is_pushing() const {
-  const std::lock_guard lock(parts_->mutex);
-  return parts_->falcon.is_pushing();
-}
-
-unsigned long long UmockdevFalcon::commands() const {
-  const std::lock_guard lock(parts_->mutex);
-  return parts_->falcon.commands();
 }
 
 }  // namespace palpate::device

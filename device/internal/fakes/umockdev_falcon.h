@@ -6,20 +6,17 @@
 
 #include <memory>
 
-#include "palpate/device/internal/fakes/fake_falcon.h"
+#include "palpate/device/internal/fakes/play.h"
 
 namespace palpate::device {
 
 class UmockdevFalcon {
  public:
-  /// Unplugged `unplug_after` s after the first packet.
-  UmockdevFalcon(const FakeFalconOptions& options, double unplug_after);
+  /// The play has a Falcon and outlives this.
+  explicit UmockdevFalcon(Play& play);
   ~UmockdevFalcon();
 
   void attach(UMockdevTestbed* testbed, GError** error);
-  // From any thread.
-  bool is_pushing() const;
-  unsigned long long commands() const;
 
   struct Parts;
 

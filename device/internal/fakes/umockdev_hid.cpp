@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <mutex>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "palpate/device/realtime.h"
@@ -16,30 +18,18 @@
 namespace palpate::device {
 
 struct UmockdevHid::Parts {
-  Parts(FakeHid& fake, const UmockdevHidIdentity& who, double unplug)
-      : device(fake), identity(who), unplug_after(unplug) {}
+  explicit Parts(Play& p) : play(p), device(*p.hid), identity(p.hid->identity()) {}
 
-  mutable std::mutex mutex;
+  Play& play;
   FakeHid& device;
-  UmockdevHidIdentity identity;
-  double unplug_after;
-  double first_output = -1;
-  unsigned long long reports = 0;
+  HidIdentity identity;
 
-  bool unplugged() const { return first_output >= 0 && monotonic_time() - first_output > unplug_after; }
-
-  std::vector<std::uint8_t> descriptor() const {
-    std::vector<std::uint8_t> bytes;
-    for (std::size_t i = 0; i + 1 < identity.report_descriptor.size(); i += 2) {
-      bytes.push_back(static_cast<std::uint8_t>(std::stoi(identity.report_descriptor.substr(i, 2), nullptr, 16)));
-    }
-    return bytes;
-  }
+  bool unplugged() const { return play.unplugged(monotonic_time()); }
 
   // Each returns the result of the call, or -errno.
   int ioctl(unsigned long request, UMockdevIoctlData* argument) const {
     if (unplugged()) return -ENODEV;
-    const std::vector<std::uint8_t> bytes = descriptor();
+    const std::vector<std::uint8_t>& bytes = identity.report_descriptor;
     if (request == HIDIOCGRDESCSIZE) {
       UMockdevIoctlData* size = umockdev_ioctl_data_resolve(argument, 0, sizeof(int), nullptr);
       if (size == nullptr) return -EFAULT;
@@ -57,11 +47,12 @@ struct UmockdevHid::Parts {
 
   int read(std::span<std::uint8_t> into) {
     if (unplugged()) return -EIO;
+    const double now = monotonic_time();
+    play.touch(now);
     std::array<std::uint8_t, 64> report{};
     // poll() always finds this node readable; a kernel's would wait.
-    const auto size = device.read(report, monotonic_time());
+    const auto size = device.read(report, now);
     if (!size) return -EAGAIN;
-    ++reports;
     const std::size_t fits = std::min(*size, into.size());
     std::copy_n(report.begin(), fits, into.begin());
     return static_cast<int>(fits);
@@ -70,10 +61,8 @@ struct UmockdevHid::Parts {
   int write(std::span<const std::uint8_t> bytes) {
     if (unplugged()) return -EIO;
     if (bytes.empty()) return -EINVAL;
-    const double now = monotonic_time();
-    if (first_output < 0) first_output = now;
     // The kernel takes the report's number off where reports have none.
-    device.write(bytes.subspan(bytes.front() == 0 ? 1 : 0), now);
+    device.write(bytes.subspan(identity.numbers_reports ? 0 : 1), monotonic_time());
     return static_cast<int>(bytes.size());
   }
 };
@@ -83,7 +72,7 @@ namespace {
 template <typename Answer>
 gboolean complete(UMockdevIoctlClient* client, void* parts, Answer answer) {
   auto& self = *static_cast<UmockdevHid::Parts*>(parts);
-  const std::lock_guard lock(self.mutex);
+  const std::lock_guard lock(self.play.mutex);
   const int result = answer(self, umockdev_ioctl_client_get_arg(client));
   umockdev_ioctl_client_complete(client, result < 0 ? -1 : result, result < 0 ? -result : 0);
   return TRUE;
@@ -109,28 +98,37 @@ gboolean on_write(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, void
                   [](UmockdevHid::Parts& self, UMockdevIoctlData* data) { return self.write(bytes_of(data)); });
 }
 
+std::string hexadecimal(unsigned value, int digits) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%0*x", digits, value);
+  return text.data();
+}
+
 /// The chain that hidapi follows: USB device, interface, HID device, hidraw node (a regular file: a terminal would
 /// never be readable).
-std::string record_of(const UmockdevHidIdentity& who) {
+std::string record_of(const HidIdentity& who) {
+  const std::string vendor = hexadecimal(who.vendor, 4);
+  const std::string product = hexadecimal(who.product, 4);
+  std::string descriptor;
+  for (const std::uint8_t byte : who.report_descriptor) descriptor += hexadecimal(byte, 2);
   const std::string usb = "/devices/usb1/1-2";
-  const std::string hid_name = "0003:" + who.vendor + ":" + who.product + ".0001";
+  const std::string hid_name = "0003:" + vendor + ":" + product + ".0001";
   const std::string hid = usb + "/1-2:1.0/" + hid_name;
   return "P: " + usb +
          "\nN: bus/usb/001/003\nE: DEVNAME=/dev/bus/usb/001/003\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\n" +
-         "E: BUSNUM=001\nE: DEVNUM=003\nA: idVendor=" + who.vendor + "\\n\nA: idProduct=" + who.product +
+         "E: BUSNUM=001\nE: DEVNUM=003\nA: idVendor=" + vendor + "\\n\nA: idProduct=" + product +
          "\\n\nA: product=" + who.name +
          "\\n\nA: manufacturer=fake\\n\nA: bcdDevice=0100\\n\nA: busnum=1\\n\nA: devnum=3\\n\n\n" + "P: " + usb +
          "/1-2:1.0\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_interface\nA: bInterfaceNumber=00\\n\n\n" + "P: " + hid +
-         "\nE: SUBSYSTEM=hid\nE: HID_ID=0003:0000" + who.vendor + ":0000" + who.product + "\nE: HID_NAME=" + who.name +
-         "\nE: HID_UNIQ=1\nE: HID_PHYS=fake\nH: report_descriptor=" + who.report_descriptor + "\n\nP: " + hid +
+         "\nE: SUBSYSTEM=hid\nE: HID_ID=0003:0000" + vendor + ":0000" + product + "\nE: HID_NAME=" + who.name +
+         "\nE: HID_UNIQ=1\nE: HID_PHYS=fake\nH: report_descriptor=" + descriptor + "\n\nP: " + hid +
          "/hidraw/hidraw0\nN: hidraw0=00\nE: SUBSYSTEM=hidraw\nL: device=../../../" + hid_name +
          "\nE: DEVNAME=/dev/hidraw0\nE: MAJOR=246\nE: MINOR=0\n\n";
 }
 
 }  // namespace
 
-UmockdevHid::UmockdevHid(FakeHid& device, const UmockdevHidIdentity& identity, double unplug_after)
-    : parts_(std::make_unique<Parts>(device, identity, unplug_after)) {}
+UmockdevHid::UmockdevHid(Play& play) : parts_(std::make_unique<Parts>(play)) {}
 
 UmockdevHid::~UmockdevHid() = default;
 
@@ -141,16 +139,6 @@ void UmockdevHid::attach(UMockdevTestbed* testbed, GError** error) {
   g_signal_connect_after(handler, "handle-write", G_CALLBACK(on_write), parts_.get());
   if (umockdev_testbed_attach_ioctl(testbed, "/dev/hidraw0", handler, error) == 0) return;
   umockdev_testbed_add_from_string(testbed, record_of(parts_->identity).c_str(), error);
-}
-
-bool UmockdevHid::is_pushing() const {
-  const std::lock_guard lock(parts_->mutex);
-  return parts_->device.is_pushing(monotonic_time());
-}
-
-unsigned long long UmockdevHid::reports() const {
-  const std::lock_guard lock(parts_->mutex);
-  return parts_->reports;
 }
 
 }  // namespace palpate::device
