@@ -31,6 +31,7 @@ struct PhantomRequest {
   double noise = 0;
   double circle = 0;
   std::vector<int> missing;
+  std::vector<double> window;
   std::uint64_t seed = 1;
 };
 
@@ -67,7 +68,9 @@ void write_phantom(const PhantomRequest& request) {
   acquisition.slice_thickness = request.spacing[2];
   acquisition.circle_radius = request.circle;
   const io::Volume volume = testdata::scan(make_phantom(request), testdata::make_geometry(grid), acquisition);
-  testdata::write_series(volume, request.folder, {"phantom: " + request.kind, "PHANTOM", "", 1});
+  testdata::SeriesLabel label{.description = "phantom: " + request.kind};
+  if (!request.window.empty()) label.window = {request.window[0], request.window[1]};
+  testdata::write_series(volume, request.folder, label);
   std::printf("%s: %d slices of a %s\n", request.folder.c_str(), volume.geometry.dimensions.z, request.kind.c_str());
 }
 
@@ -100,6 +103,9 @@ void add_phantom(CLI::App& program, PhantomRequest& request) {
   command.add_option("--noise", request.noise, "Standard deviation, HU")->check(CLI::NonNegativeNumber);
   command.add_option("--circle", request.circle, "mm: radius of the reconstruction circle; 0: none")
       ->check(CLI::NonNegativeNumber);
+  command.add_option("--window", request.window, "Level and width that the series asks for, HU")
+      ->delimiter(',')
+      ->expected(2);
   command.add_option("--seed", request.seed, "Of the noise");
   command.callback([&request] { write_phantom(request); });
 }

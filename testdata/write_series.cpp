@@ -195,6 +195,10 @@ void put_image(DcmItem& item, const io::Volume& volume, const SeriesLabel& label
   put(item, DCM_RescaleIntercept, decimal(volume.intercept));
   put(item, DCM_RescaleSlope, decimal(volume.slope));
   put(item, DCM_RescaleType, label.modality == "CT" ? "HU" : "US");
+  if (label.window) {
+    put(item, DCM_WindowCenter, decimal(label.window->level));
+    put(item, DCM_WindowWidth, decimal(label.window->width));
+  }
   if (label.trigger_time_ms) {
     put(item, DCM_TriggerTime, decimal(*label.trigger_time_ms));
   }

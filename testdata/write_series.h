@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "palpate/io/series.h"
 #include "palpate/io/volume.h"
 #include "palpate/testdata/shape.h"
 
@@ -29,7 +30,8 @@ struct SeriesLabel {
   std::string modality = "CT";  ///< or "MR"
   /// Where not empty, volumes of the same study text belong to one study, those of the same number to one series.
   std::string study;
-  std::optional<double> trigger_time_ms;  ///< TriggerTime: when in the heart's cycle
+  std::optional<io::Series::Window> window;  ///< WindowCenter and WindowWidth
+  std::optional<double> trigger_time_ms;     ///< TriggerTime: when in the heart's cycle
   std::optional<PhaseContrast> phase_contrast;
 };
 

@@ -5,6 +5,7 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -15,6 +16,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -23,6 +26,7 @@
 #include "palpate/io/errors.h"
 #include "scan_choice.h"
 #include "scan_store.h"
+#include "value_shares.h"
 
 using namespace palpate;
 
@@ -30,10 +34,32 @@ struct PalpateDicomReader::Scan {
   std::shared_ptr<const io::Catalogue> catalogue;
   std::size_t chosen = 0;
   plugin::DisplayGrid grid;
-  std::shared_ptr<const io::Volume> volume;  // of the frame shown last
+  int frame = 0;                                  // shown last
+  std::shared_ptr<const io::Volume> volume;       // of that frame, or of the slices that this rank shows
+  std::optional<std::array<int, 6>> part_extent;  // of the volume on the grid
+  std::optional<std::vector<double>> shares;
+  std::shared_ptr<const io::Volume> probed;  // the slice that was probed last, where the volume does not have it
+  int probed_slice = -1;
 
   const io::Series& series() const { return catalogue->series[chosen]; }
+  plugin::Part load(int wanted_frame, const std::array<int, 6>& extent, const io::Progress& progress) const;
 };
+
+// One process has the whole scan, whatever part of it is asked for, and so shares it with the stylus. A rank of several
+// holds its own part and its neighbours' voxels around it, no more: all ranks together hold the scan once.
+plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const std::array<int, 6>& extent,
+                                            const io::Progress& progress) const {
+  vtkMultiProcessController* const ranks = vtkMultiProcessController::GetGlobalController();
+  const auto& size = grid.dimensions;
+  const bool all = extent == std::array<int, 6>{0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1};
+  const bool in_parts = ranks && ranks->GetNumberOfProcesses() > 1 && !grid.resampled && !all &&
+                        series().frames_per_position == 1 && extent[4] <= extent[5];
+  if (!in_parts) return plugin::whole_part(plugin::load_scan(series(), wanted_frame, progress), grid);
+  if (const auto whole = plugin::held_scan(series(), wanted_frame)) return plugin::whole_part(whole, grid);
+  if (volume && part_extent && plugin::contains(*part_extent, extent)) return {volume, *part_extent, true};
+  const auto part = plugin::load_part(series(), extent, progress);
+  return {part, extent, part->geometry.dimensions.z == extent[5] - extent[4] + 1};
+}
 
 vtkStandardNewMacro(PalpateDicomReader);
 
@@ -93,6 +119,44 @@ double* PalpateDicomReader::GetLattice() {
     for (std::size_t n = 0; n < lattice_.size(); ++n) lattice_[n] = rows[n / 3][static_cast<int>(n % 3)];
   }
   return lattice_.data();
+}
+
+const char* PalpateDicomReader::GetModality() {
+  return scan_ ? scan_->series().modality.c_str() : "";
+}
+
+double* PalpateDicomReader::GetWindow() {
+  const auto window = scan_ ? scan_->series().window : std::nullopt;
+  window_ = window ? std::array{window->level, window->width} : std::array{0.0, 0.0};
+  return window_.data();
+}
+
+double* PalpateDicomReader::GetValueShares() {
+  shares_.fill(0);
+  if (!scan_) return shares_.data();
+  try {
+    if (!scan_->shares) scan_->shares = plugin::value_shares(scan_->series());
+    std::copy_n(scan_->shares->begin(), std::min(scan_->shares->size(), shares_.size()), shares_.begin());
+  } catch (const std::exception& error) {
+    vtkErrorMacro(<< error.what());
+  }
+  return shares_.data();
+}
+
+double PalpateDicomReader::ValueAt(double x, double y, double z) {
+  if (!scan_) return std::numeric_limits<double>::quiet_NaN();
+  const glm::dvec3 place(x, y, z);
+  if (const auto value = scan_->volume ? plugin::nearest_value(*scan_->volume, place) : std::nullopt) return *value;
+  try {
+    const io::Series& series = scan_->series();
+    const int slice = plugin::nearest_slice(series.geometry, place);
+    if (slice < 0 || series.frames_per_position > 1) return std::numeric_limits<double>::quiet_NaN();
+    if (slice != scan_->probed_slice) scan_->probed = plugin::load_slice(series, slice);
+    scan_->probed_slice = slice;
+    return plugin::nearest_value(*scan_->probed, place).value_or(std::numeric_limits<double>::quiet_NaN());
+  } catch (const std::exception&) {  // a slice that cannot be read has been told of when it was loaded
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 int PalpateDicomReader::GetStoredScans() {
@@ -201,17 +265,19 @@ int PalpateDicomReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
       const double time = info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
       frame = static_cast<int>(std::clamp(std::round(time), 0.0, series.frames_per_position - 1.0));
     }
-    const auto volume = plugin::load_scan(series, frame, [this](double done) {
+    std::array<int, 6> extent{};
+    info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
+    const plugin::Part part = scan_->load(frame, extent, [this](double done) {
       UpdateProgress(done);
       return GetAbortExecute() == 0;
     });
-    if (volume != scan_->volume) {
-      for (const std::string& warning : volume->warnings) tell(warning);
+    if (part.volume != scan_->volume) {
+      for (const std::string& warning : part.volume->warnings) tell(warning);
     }
-    scan_->volume = volume;
-    std::array<int, 6> extent{};
-    info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
-    plugin::show_volume(volume, scan_->grid, extent, series.unit.empty() ? "Value" : series.unit, image);
+    scan_->volume = part.volume;
+    scan_->part_extent = part.on_grid ? std::optional(part.extent) : std::nullopt;
+    scan_->frame = frame;
+    plugin::show_volume(part, scan_->grid, extent, series.unit.empty() ? "Value" : series.unit, image);
     image.GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), frame);
     add_note(image, "Modality", series.modality);
     if (static_cast<std::size_t>(frame) < series.frame_names.size()) {

@@ -4,7 +4,8 @@
 ///
 /// The voxels are the process's own copy (scan_store.h) and are shown without another one. Several images at a position
 /// (time, b-value, echo) are time steps 0, 1, ... Oblique scans and gantry tilt are in the DirectionMatrix; unevenly
-/// spaced slices are resampled for display. Every rank of a parallel server reads the series and shows its part.
+/// spaced slices are resampled for display. A rank of a parallel server reads the slices of its part and no others (of
+/// uneven slices and of several images a position, all).
 
 #include <vtkImageAlgorithm.h>
 #include <vtkSmartPointer.h>
@@ -42,6 +43,17 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   /// only the bounds otherwise. Zeros before UpdateInformation().
   double* GetLattice() VTK_SIZEHINT(18);
 
+  /// DICOM Modality of the series: "CT", "MR", ... Empty before UpdateInformation().
+  const char* GetModality();
+  /// Level and width of the window that the series asks for; width 0 where it asks for none.
+  double* GetWindow() VTK_SIZEHINT(2);
+  /// The values below which 0, 1, ... 100 percent of the voxels are, from slices spread over the whole scan: the same
+  /// on every server. Zeros before UpdateInformation().
+  double* GetValueShares() VTK_SIZEHINT(101);
+  /// The value of the voxel nearest to a place in the patient, mm, in the frame shown last; NaN outside and in gaps. On
+  /// a rank that does not hold it, its slice is read.
+  double ValueAt(double x, double y, double z);
+
   /// Of all scans in this process: how many, bytes of voxels, VTK arrays that view them.
   int GetStoredScans();
   vtkIdType GetStoredBytes();
@@ -70,5 +82,7 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   vtkSmartPointer<vtkStringArray> series_labels_;
   vtkSmartPointer<vtkStringArray> messages_;
   std::array<double, 18> lattice_{};
+  std::array<double, 2> window_{};
+  std::array<double, 101> shares_{};
   std::unique_ptr<Scan> scan_;  ///< what was found; empty until then
 };

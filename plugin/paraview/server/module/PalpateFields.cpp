@@ -15,6 +15,7 @@
 #include <exception>
 
 #include "image_fields.h"
+#include "pieces.h"
 #include "scan_of_image.h"
 
 using namespace palpate;
@@ -74,12 +75,16 @@ int PalpateFields::RequestUpdateExtent(vtkInformation*, vtkInformationVector** i
   image.Get(Pipeline::WHOLE_EXTENT(), whole.data());
   output->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), wanted.data());
   // A part needs its neighbours' voxels as far as the gradient reaches.
-  const int reach = plugin::furthest_reach(image.Get(vtkDataObject::SPACING()), scale_mm_);
+  const double scale = scale_mm_ > 0 ? scale_mm_ : plugin::gradient_scale_of(scene_);
+  const int reach = plugin::furthest_reach(image.Get(vtkDataObject::SPACING()), scale);
   for (std::size_t axis = 0; axis < 3 && wanted[0] <= wanted[1]; ++axis) {
     wanted[2 * axis] = std::max(wanted[2 * axis] - reach, whole[2 * axis]);
     wanted[2 * axis + 1] = std::min(wanted[2 * axis + 1] + reach, whole[2 * axis + 1]);
   }
   image.Set(Pipeline::UPDATE_EXTENT(), wanted.data(), 6);
+  // A rank of several is asked for a piece; what extent that is, its source works out from the piece and its ghosts.
+  vtkInformation& asked = *output->GetInformationObject(0);
+  if (plugin::pieces_of(asked) > 1) plugin::ask_for_ghosts(image, asked, reach);
   return 1;
 }
 
@@ -111,8 +116,10 @@ int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vt
                                           : make_magnitude_ ? plugin::magnitude_name
                                                             : nullptr);
   if (!make_felt_ && !make_magnitude_) result.GetPointData()->SetScalars(image.GetPointData()->GetScalars());
+  vtkInformation& asked = *output->GetInformationObject(0);
   std::array<int, 6> wanted{};
-  output->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), wanted.data());
+  asked.Get(Pipeline::UPDATE_EXTENT(), wanted.data());
+  if (plugin::pieces_of(asked) > 1) wanted = plugin::own_extent(image, plugin::ghosts_of(asked));
   result.Crop(wanted.data());
   return 1;
 }

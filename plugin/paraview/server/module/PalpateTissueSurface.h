@@ -24,6 +24,7 @@ class PALPATESERVER_EXPORT PalpateTissueSurface : public vtkPolyDataAlgorithm {
  protected:
   PalpateTissueSurface() = default;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
  private:

@@ -27,44 +27,43 @@ double median_pitch(const io::Geometry& geometry) {
   return *middle;
 }
 
-bool has_whole_slices(const std::array<int, 6>& extent, const io::Volume& volume) {
-  return extent[0] == 0 && extent[1] == volume.geometry.dimensions.x - 1 && extent[2] == 0 &&
-         extent[3] == volume.geometry.dimensions.y - 1;
+/// Offset in the part's voxels of a point of the grid.
+std::size_t offset_in(const Part& part, int i, int j, int k) {
+  return part.volume->offset(i - part.extent[0], j - part.extent[2], k - part.extent[4]);
 }
 
-void copy_voxels(const io::Volume& volume, const std::array<int, 6>& extent, vtkDataArray& array) {
+void copy_voxels(const Part& part, const std::array<int, 6>& extent, vtkDataArray& array) {
   std::visit(
       [&](const auto& voxels) {
         using Stored = typename std::decay_t<decltype(voxels)>::value_type;
         auto* out = static_cast<Stored*>(array.GetVoidPointer(0));
         for (int k = extent[4]; k <= extent[5]; ++k) {
           for (int j = extent[2]; j <= extent[3]; ++j) {
-            const auto row = voxels.begin() + static_cast<std::ptrdiff_t>(volume.offset(extent[0], j, k));
+            const auto row = voxels.begin() + static_cast<std::ptrdiff_t>(offset_in(part, extent[0], j, k));
             out = std::copy_n(row, extent[1] - extent[0] + 1, out);
           }
         }
       },
-      volume.voxels);
+      part.volume->voxels);
 }
 
-vtkSmartPointer<vtkDataArray> array_of(const std::shared_ptr<const io::Volume>& volume, const DisplayGrid& grid,
-                                       const std::array<int, 6>& extent) {
+vtkSmartPointer<vtkDataArray> array_of(const Part& part, const DisplayGrid& grid, const std::array<int, 6>& extent) {
   const auto length = [&](std::size_t axis) {
     return static_cast<std::size_t>(extent[2 * axis + 1] - extent[2 * axis] + 1);
   };
   const std::size_t count = length(0) * length(1) * length(2);
-  const bool voxels_grid = !grid.resampled && grid == display_grid(volume->geometry);
-  if (voxels_grid && has_whole_slices(extent, *volume)) {
-    return share_voxels(volume, volume->offset(0, 0, extent[4]), count);
+  const bool whole_slices = std::equal(extent.begin(), extent.begin() + 4, part.extent.begin());
+  if (part.on_grid && whole_slices) {
+    return share_voxels(part.volume, offset_in(part, extent[0], extent[2], extent[4]), count);
   }
-  const auto own = vtkSmartPointer<vtkDataArray>::Take(share_voxels(volume, 0, 0)->NewInstance());
+  const auto own = vtkSmartPointer<vtkDataArray>::Take(share_voxels(part.volume, 0, 0)->NewInstance());
   own->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  if (voxels_grid) {
-    copy_voxels(*volume, extent, *own);
+  if (part.on_grid) {
+    copy_voxels(part, extent, *own);
   } else {
-    copy_evenly(*volume, grid, extent, *own);
+    copy_evenly(*part.volume, grid, extent, *own);
   }
-  tie_to_volume(*own, volume);
+  tie_to_volume(*own, part.volume);
   return own;
 }
 
@@ -104,14 +103,26 @@ bool is_straight(const DisplayGrid& grid) {
                     [](double a, double b) { return std::abs(a - b) < visible; });
 }
 
-void show_volume(const std::shared_ptr<const io::Volume>& volume, const DisplayGrid& grid,
-                 const std::array<int, 6>& extent, const std::string& name, vtkImageData& image) {
+Part whole_part(const std::shared_ptr<const io::Volume>& volume, const DisplayGrid& grid) {
+  const auto& size = grid.dimensions;
+  return {volume,
+          {0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1},
+          !grid.resampled && grid == display_grid(volume->geometry)};
+}
+
+bool contains(const std::array<int, 6>& outer, const std::array<int, 6>& inner) {
+  return outer[0] <= inner[0] && inner[1] <= outer[1] && outer[2] <= inner[2] && inner[3] <= outer[3] &&
+         outer[4] <= inner[4] && inner[5] <= outer[5];
+}
+
+void show_volume(const Part& part, const DisplayGrid& grid, const std::array<int, 6>& extent, const std::string& name,
+                 vtkImageData& image) {
   image.SetExtent(std::array<int, 6>(extent).data());
   image.SetSpacing(grid.spacing_mm.data());
   image.SetOrigin(grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z);
   image.SetDirectionMatrix(direction_matrix(grid).data());
   if (image.GetNumberOfPoints() == 0) return;  // an MPI rank without a part
-  const auto array = array_of(volume, grid, extent);
+  const auto array = array_of(part, grid, extent);
   array->SetName(name.c_str());
   image.GetPointData()->SetScalars(array);
 }

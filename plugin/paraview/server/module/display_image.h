@@ -36,10 +36,20 @@ bool is_straight(const DisplayGrid& grid);
 /// For vtkImageData::SetDirectionMatrix: by rows, its columns the three directions.
 std::array<double, 9> direction_matrix(const DisplayGrid& grid);
 
-/// Fills `image` with the part of the volume within `extent` (inclusive i, j, k ranges, as of vtkImageData) as the
+/// A volume, or a part of one, and where it lies on the grid.
+struct Part {
+  std::shared_ptr<const io::Volume> volume;
+  std::array<int, 6> extent{};  ///< inclusive i, j, k ranges of the grid
+  bool on_grid = true;  ///< whether every voxel is a point of the grid: not where slices are uneven or were lost
+};
+Part whole_part(const std::shared_ptr<const io::Volume>& volume, const DisplayGrid& grid);
+
+bool contains(const std::array<int, 6>& outer, const std::array<int, 6>& inner);
+
+/// Fills `image` with what of the part lies within `extent` (inclusive i, j, k ranges, as of vtkImageData) as the
 /// active point scalars `name`. Views the volume's own voxels where the grid is theirs and they lie together in memory
 /// (whole slices); copies them, resampled where the grid is another, as of slices that could not be decoded.
-void show_volume(const std::shared_ptr<const io::Volume>& volume, const DisplayGrid& grid,
-                 const std::array<int, 6>& extent, const std::string& name, vtkImageData& image);
+void show_volume(const Part& part, const DisplayGrid& grid, const std::array<int, 6>& extent, const std::string& name,
+                 vtkImageData& image);
 
 }  // namespace palpate::plugin

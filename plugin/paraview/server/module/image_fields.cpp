@@ -169,7 +169,7 @@ int furthest_reach(const double* spacing_mm, double scale_mm) {
   constexpr double most_default = 2;  // default_gradient_scale_mm() is at most this many voxels, or 1.5 mm
   const auto [least, most] = std::minmax({spacing_mm[0], spacing_mm[1], spacing_mm[2]});
   const double scale = scale_mm > 0 ? scale_mm : std::max(1.5, most_default * most);
-  return static_cast<int>(std::ceil(cut_off * scale / (leaning * least))) + 1;
+  return static_cast<int>(std::ceil(cut_off * scale / (leaning * least))) + 2;
 }
 
 }  // namespace palpate::plugin

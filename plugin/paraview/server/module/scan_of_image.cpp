@@ -88,6 +88,14 @@ VoxelBlock block_of(vtkImageData& image, const io::Volume& volume) {
   return {aligned, {static_cast<int>(start.x), static_cast<int>(start.y), static_cast<int>(start.z)}};
 }
 
+double gradient_scale_of(const std::string& text) {
+  try {
+    return scene_of(text, io::Volume()).gradient_scale_mm.value_or(0);
+  } catch (const std::invalid_argument&) {
+    return 0;  // told when the scene is used
+  }
+}
+
 modes::Scene scene_of(const std::string& text, const io::Volume& volume) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return scene_for("", volume);

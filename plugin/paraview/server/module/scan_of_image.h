@@ -29,4 +29,7 @@ VoxelBlock block_of(vtkImageData& image, const io::Volume& volume);
 /// empty. Throws std::invalid_argument as modes::scene_from_json() and modes::load_scene() do.
 modes::Scene scene_of(const std::string& text, const io::Volume& volume);
 
+/// The gradient's scale (mm) that a scene asks for; 0 where it leaves it to the scan, or is no scene.
+double gradient_scale_of(const std::string& text);
+
 }  // namespace palpate::plugin

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "palpate/io/load.h"
+#include "read_part.h"
 #include "shared_voxels.h"
 
 namespace palpate::plugin {
@@ -26,6 +27,14 @@ class Shelf {
     auto made = std::make_shared<const Value>(make());
     slot->value = made;
     return made;
+  }
+
+  std::shared_ptr<const Value> held(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    const auto slot = slots_.find(key);
+    if (slot == slots_.end() || !slot->second->mutex.try_lock()) return nullptr;
+    const std::lock_guard reading(slot->second->mutex, std::adopt_lock);
+    return slot->second->value.lock();
   }
 
   template <typename Visit>
@@ -57,7 +66,12 @@ class Shelf {
   std::map<Key, std::shared_ptr<Slot>> slots_;
 };
 
-using ScanKey = std::tuple<std::filesystem::path, std::string, int>;  // first file, series UID, frame
+// First file, series UID, frame, extent (of a part).
+using ScanKey = std::tuple<std::filesystem::path, std::string, int, std::array<int, 6>>;
+
+ScanKey key_of(const io::Series& series, int frame, const std::array<int, 6>& extent = {}) {
+  return {series.files.empty() ? std::filesystem::path() : series.files.front(), series.uid, frame, extent};
+}
 
 Shelf<std::filesystem::path, io::Catalogue>& catalogues() {
   static Shelf<std::filesystem::path, io::Catalogue> shelf;
@@ -77,13 +91,27 @@ std::shared_ptr<const io::Catalogue> find_scans(const std::filesystem::path& pat
 }
 
 std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame, const io::Progress& progress) {
-  const ScanKey key(series.files.empty() ? std::filesystem::path() : series.files.front(), series.uid, frame);
-  return scans().get(key, [&] {
+  return scans().get(key_of(series, frame), [&] {
     io::LoadOptions how;
     how.frame = frame;
     how.progress = progress;
     return scan_values(io::load(series, how));
   });
+}
+
+std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std::array<int, 6>& extent,
+                                            const io::Progress& progress) {
+  return scans().get(key_of(series, 0, extent), [&] { return scan_values(read_part(series, extent, progress)); });
+}
+
+std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice) {
+  io::LoadOptions how;
+  how.slices = {slice, 1};
+  return std::make_shared<const io::Volume>(scan_values(io::load(series, how)));
+}
+
+std::shared_ptr<const io::Volume> held_scan(const io::Series& series, int frame) {
+  return scans().held(key_of(series, frame));
 }
 
 StoreUse store_use() {

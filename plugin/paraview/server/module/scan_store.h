@@ -3,6 +3,7 @@
 /// The process's scans: whoever wants the voxels of a series (the reader, a filter, the panel) gets the same ones,
 /// loaded once. The store itself keeps nothing alive: a scan goes when its last user lets go.
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -23,6 +24,17 @@ PALPATESERVER_EXPORT std::shared_ptr<const io::Catalogue> find_scans(const std::
 /// cancels, the second loads. Throws as io::load(). From any thread.
 PALPATESERVER_EXPORT std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
                                                                  const io::Progress& progress = {});
+
+/// A part of the first frame: inclusive i, j, k ranges. What a rank of a parallel server holds of a scan that may not
+/// fit one machine; needs little more memory than the part. Fewer slices where some cannot be decoded.
+std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std::array<int, 6>& extent,
+                                            const io::Progress& progress = {});
+
+/// One slice of the first frame.
+std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice);
+
+/// The whole frame where somebody holds it; none otherwise, also while it is being loaded.
+std::shared_ptr<const io::Volume> held_scan(const io::Series& series, int frame);
 
 /// What is held in this process at the moment.
 struct StoreUse {

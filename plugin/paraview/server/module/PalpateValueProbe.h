@@ -1,0 +1,37 @@
+#pragma once
+
+/// A client's questions for values of a scan, which is on the server. Not part of the pipeline: asking changes
+/// nothing, and is in no state file.
+
+#include <vtkObject.h>
+#include <vtkWeakPointer.h>
+
+#include <array>
+
+#include "PalpateDicomReader.h"
+#include "PalpateServerModule.h"
+
+class PALPATESERVER_EXPORT PalpateValueProbe : public vtkObject {
+ public:
+  static PalpateValueProbe* New();
+  vtkTypeMacro(PalpateValueProbe, vtkObject) void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  void SetReader(vtkObject* reader) { reader_ = PalpateDicomReader::SafeDownCast(reader); }
+  /// Patient space, mm.
+  void SetPosition(double x, double y, double z) { position_ = {x, y, z}; }
+  /// As PalpateDicomReader::ValueAt().
+  double GetValue();
+  /// As PalpateDicomReader::GetValueShares().
+  double* GetShares() VTK_SIZEHINT(101);
+
+  PalpateValueProbe(const PalpateValueProbe&) = delete;
+  PalpateValueProbe& operator=(const PalpateValueProbe&) = delete;
+
+ protected:
+  PalpateValueProbe() = default;
+
+ private:
+  vtkWeakPointer<PalpateDicomReader> reader_;
+  std::array<double, 3> position_{};
+  std::array<double, 101> none_{};
+};

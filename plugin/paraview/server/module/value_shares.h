@@ -1,0 +1,25 @@
+#pragma once
+
+/// Single values of a scan, and how they are spread.
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "palpate/io/series.h"
+#include "palpate/io/volume.h"
+
+namespace palpate::plugin {
+
+/// 101 values, ascending: below the n-th are n percent of the voxels, padding left out. From a few slices spread evenly
+/// over the first frame, taken from the store where it holds the scan and read where not: the same values on every
+/// server, in a tenth of a second. Throws as io::load().
+std::vector<double> value_shares(const io::Series& series);
+
+/// Of the voxel nearest to a place (patient space, mm); none outside, in a gap and in padding.
+std::optional<double> nearest_value(const io::Volume& volume, const glm::dvec3& place);
+
+/// Index of the slice nearest to a place; -1 outside the scan.
+int nearest_slice(const io::Geometry& geometry, const glm::dvec3& place);
+
+}  // namespace palpate::plugin
