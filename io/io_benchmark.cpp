@@ -48,7 +48,7 @@ BENCHMARK_CAPTURE(sample, gradient_hot, both, gaussian, true, 5.0);
 BENCHMARK_CAPTURE(sample, gradient_cold, both, gaussian, true, 30.0);
 BENCHMARK_CAPTURE(sample, gradient_missing, both, gaussian, false, 5.0);
 BENCHMARK_CAPTURE(sample, central_missing, both, GradientMethod::central_differences, false, 5.0);
-BENCHMARK_CAPTURE(sample, b_spline, both, GradientMethod::cubic_b_spline, false, 5.0);
+BENCHMARK_CAPTURE(sample, b_spline, both, GradientMethod::cubic, false, 5.0);
 BENCHMARK_CAPTURE(sample, low_high_hot, FieldSet::low_high, gaussian, true, 5.0);
 BENCHMARK_CAPTURE(sample, tube_hot, FieldSet::tube, gaussian, true, 5.0);
 BENCHMARK_CAPTURE(sample, tube_missing, FieldSet::tube, gaussian, false, 5.0);

@@ -147,10 +147,11 @@ FieldSet fields_of(const Volume& volume) noexcept {
 
 VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                            const FieldOptions& options)
-    : volume_(std::move(volume)), available_(wanted), method_(options.gradient) {
+    : volume_(std::move(volume)), available_(wanted), gradient_(options.gradient), value_(options.value) {
   if (!volume_) {
     throw std::invalid_argument("fields need a volume");
   }
+  b_spline_part_ = b_spline_part(volume_->geometry);
   if (!contains(fields_of(*volume_), wanted)) {
     throw std::invalid_argument(
         "a scan offers its value, its gradient, the values on both sides of a boundary and the direction of tubes, and "
@@ -158,9 +159,9 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
   }
   const bool tube = contains(wanted, FieldSet::tube);
   // The spline needs no gradients of voxels; the values on both sides of a boundary do.
-  const FieldSet by_voxel = method_ == GradientMethod::cubic_b_spline ? FieldSet::low_high : from_gradients;
+  const FieldSet by_voxel = gradient_ == GradientMethod::cubic ? FieldSet::low_high : from_gradients;
   const bool gradients = (wanted & by_voxel) != FieldSet::none;
-  if (gradients && method_ == GradientMethod::central_differences) {
+  if (gradients && gradient_ == GradientMethod::central_differences) {
     kernel_ = std::make_unique<GradientKernel>(volume_, GradientKernel::CentralDifferences{});
     if (tube) hessian_kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
   } else if (gradients || tube) {
@@ -224,13 +225,14 @@ Sample VolumeFields::sample(const Vec3& position_mm, FieldSet wanted) const noex
     return s;
   }
   s.inside = true;
-  if (method_ == GradientMethod::cubic_b_spline && (wanted & (FieldSet::value | given)) != FieldSet::none) {
-    const ValueAndGradient spline = cubic_b_spline(*volume_, cell);
+  if (gradient_ == GradientMethod::cubic && (wanted & (FieldSet::value | given)) != FieldSet::none) {
+    const ValueAndGradient spline = cubic_spline(*volume_, cell, b_spline_part_);
     if (contains(wanted, FieldSet::value)) s.value = spline.value;
     if (contains(given, FieldSet::gradient)) s.gradient = spline.gradient;
     given = given & (FieldSet::low_high | FieldSet::tube | FieldSet::vector);
   } else if (contains(wanted, FieldSet::value)) {
-    s.value = internal::trilinear_value(*volume_, cell);
+    s.value = value_ == ValueMethod::cubic ? cubic_spline_value(*volume_, cell, b_spline_part_)
+                                           : internal::trilinear_value(*volume_, cell);
   }
   if (contains(given, FieldSet::vector)) s.vector = interpolated_vector(*volume_->vectors, cell);
   if (contains(given, FieldSet::tube)) s.tube = sample_tube(cell);

@@ -5,24 +5,12 @@
 #include <cstddef>
 #include <memory>
 
+#include "palpate/io/field_options.h"
 #include "palpate/io/field_source.h"
 #include "palpate/io/gradient.h"
 #include "palpate/io/volume.h"
 
 namespace palpate::io {
-
-/// Where the gradient comes from.
-enum class GradientMethod {
-  gaussian,             ///< derivative of Gaussian at a scale
-  central_differences,  ///< sharper, noisier, without a scale
-  cubic_b_spline        ///< with the value, from one stencil (cubic_spline.h); the value is blurred a little
-};
-
-struct FieldOptions {
-  GradientMethod gradient = GradientMethod::gaussian;
-  std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
-  bool background = true;                           ///< whether a worker fills bricks ahead
-};
 
 namespace internal {
 class BrickCache;
@@ -32,7 +20,7 @@ struct Cell;
 /// What a volume's fields can be: the value and what is derived from it, and vectors where it holds them.
 FieldSet fields_of(const Volume& volume) noexcept;
 
-/// Value: trilinear between voxel centres, exact at them, in `Volume::unit`. Gradient: trilinear between the voxels'
+/// Value: between voxel centres by FieldOptions::value, in `Volume::unit`. Gradient: trilinear between the voxels'
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
 ///
@@ -71,7 +59,9 @@ class VolumeFields : public FieldSource {
  private:
   std::shared_ptr<const Volume> volume_;
   FieldSet available_;
-  GradientMethod method_;
+  GradientMethod gradient_;
+  ValueMethod value_;
+  Vec3 b_spline_part_;
   std::unique_ptr<const GradientKernel> kernel_;          ///< of gradients
   std::unique_ptr<const GradientKernel> hessian_kernel_;  ///< of tubes, where it is another
   std::unique_ptr<internal::BrickCache> bricks_;

@@ -41,7 +41,7 @@ Grid small() {
   return grid;
 }
 
-TEST(VolumeFields, ValueIsExactAtEveryVoxelOfATiltedObliqueUnevenScan) {
+TEST(VolumeFields, TrilinearValueIsExactAtEveryVoxelOfATiltedObliqueUnevenScan) {
   Grid grid = small();
   grid.spacing = {0.7, 0.9, 2.3};
   grid.tilt_degrees = 17;
@@ -49,7 +49,7 @@ TEST(VolumeFields, ValueIsExactAtEveryVoxelOfATiltedObliqueUnevenScan) {
   grid.missing = {5};
   const auto volume = share(
       testdata::scan(testdata::make_sphere(5), testdata::make_geometry(rotated(grid, {3, 1, 2}, 40)), {.noise = 50}));
-  const VolumeFields fields(volume, FieldSet::value, 0);
+  const VolumeFields fields(volume, FieldSet::value, 0, {.value = ValueMethod::trilinear});
   const glm::ivec3 size = volume->geometry.dimensions;
   for (int k = 0; k < size.z; ++k) {
     for (int j = 0; j < size.y; ++j) {
@@ -195,7 +195,7 @@ TEST(VolumeFields, CubicSplineIsExactOnLinearFieldsUpToTheEdgeAndBesidePadding) 
   for (const Grid& grid : {plain, tilted, thick}) {
     const auto volume = linear_volume(grid);
     std::get<std::vector<float>>(volume->voxels)[volume->offset(8, 7, 6)] = std::numeric_limits<float>::quiet_NaN();
-    const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic_b_spline});
+    const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic});
     const Vec3 last(volume->geometry.dimensions - 1);
     for (const Vec3& at : {Vec3(0), last, Vec3(0.5), last - 0.25, Vec3(6.5, 7, 6), Vec3(9, 7, 6), Vec3(9.4, 6.3, 5.2),
                            Vec3(8, 8.5, 6)}) {
@@ -213,7 +213,7 @@ TEST(VolumeFields, CubicSplineGivesTheGradientOfItsOwnValue) {
   Grid tilted = rotated(small(), {1, 2, 3}, 50);
   tilted.tilt_degrees = 20;
   const auto volume = share(testdata::scan(testdata::make_sphere(5), testdata::make_geometry(tilted), {.noise = 100}));
-  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic_b_spline});
+  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic});
   for (int n = 0; n < 50; ++n) {
     const Vec3 at(0.07 * n - 2, 0.05 * n - 1.5, 0.03 * n - 1);
     constexpr double h = 1e-4;
@@ -233,7 +233,7 @@ TEST(VolumeFields, CubicSplineDoesNotReachAcrossMissingSlices) {
   auto volume = linear_volume(grid);
   auto& voxels = std::get<std::vector<float>>(volume->voxels);
   for (std::size_t n = volume->offset(0, 0, 6); n < voxels.size(); ++n) voxels[n] += 1000;  // beyond the gap
-  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic_b_spline});
+  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic});
   for (const double k : {4.6, 5.0, 6.0, 6.3}) {
     const Vec3 at = volume->geometry.to_patient({8, 7, k});
     const Sample s = fields.sample(at, both);

@@ -30,10 +30,15 @@ std::optional<FoundBoundary> between(const Suggestion& found, const std::array<d
   return std::nullopt;
 }
 
+/// The scan as it is, between its voxels as simply as can be: what is held to be true.
+io::VolumeFields truth_of(const std::shared_ptr<const io::Volume>& volume) {
+  return {volume, io::FieldSet::value, 0, {.value = io::ValueMethod::trilinear}};
+}
+
 /// Where a ray inwards first reaches a value, mm along it.
-double crossing_mm(const io::FieldSource& source, const Vec3& from, const Vec3& inward, double value, double begin) {
+double crossing_mm(const io::FieldSource& truth, const Vec3& from, const Vec3& inward, double value, double begin) {
   for (double along = begin; along < 90; along += 0.02) {
-    if (source.sample(from + along * inward, io::FieldSet::value).value >= value) {
+    if (truth.sample(from + along * inward, io::FieldSet::value).value >= value) {
       return along;
     }
   }
@@ -71,13 +76,14 @@ TEST(SuggestHead, offers_skin_and_skull_as_two_boundaries_each_felt_without_the_
   EXPECT_NE(found.scene.modes[skin->mode].color, found.scene.modes[skull->mode].color);
   const io::VolumeFields source(head, io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::low_high,
                                 io::default_gradient_scale_mm(head->geometry));
+  const io::VolumeFields truth = truth_of(head);
   const Vec3 inward(0, 1, 0);  // to the back: the rays meet the forehead above the sinuses
   for (const double x : {-20.0, -10.0, 0.0, 10.0, 20.0}) {
     for (const double z : {35.0, 40.0, 45.0, 50.0}) {
       SCOPED_TRACE(::testing::Message() << "L " << x << " H " << z << " mm");
       const Vec3 from(x, -110, z);
-      const double skin_mm = crossing_mm(source, from, inward, -300, 0);
-      const double skull_mm = crossing_mm(source, from, inward, 300, skin_mm);
+      const double skin_mm = crossing_mm(truth, from, inward, -300, 0);
+      const double skull_mm = crossing_mm(truth, from, inward, 300, skin_mm);
       ASSERT_GT(skin_mm, 0);
       ASSERT_GT(skull_mm, skin_mm + 1);
       EXPECT_NEAR(felt_mm(found, *skin, source, from, inward, skin_mm + 20), skin_mm, 1);
@@ -101,21 +107,22 @@ TEST(SuggestHead, offers_the_scalp_and_the_surface_of_the_brain_of_an_mr) {
   EXPECT_TRUE(between(found, {30, 50}, {60, 85}));
   const io::VolumeFields source(head, io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::low_high,
                                 io::default_gradient_scale_mm(head->geometry));
+  const io::VolumeFields truth = truth_of(head);
   // From the left, level with the middle of the scan: the scalp, and beneath it and the skull the brain.
   const io::Geometry& g = head->geometry;
   const Vec3 middle = g.to_patient(0.5 * Vec3(g.dimensions - 1));
   const Vec3 inward(-1, 0, 0);
   const Vec3 from = middle - 115.0 * inward;
-  const double scalp_mm = crossing_mm(source, from, inward, scalp_and_brain->middle, 0);
+  const double scalp_mm = crossing_mm(truth, from, inward, scalp_and_brain->middle, 0);
   ASSERT_GT(scalp_mm, 0);
   EXPECT_NEAR(felt_mm(found, *scalp_and_brain, source, from, inward, scalp_mm + 20), scalp_mm, 1);
   // From within the skull, which is dark: the next that is felt is the brain.
   double skull_mm = scalp_mm + 2;
-  while (source.sample(from + skull_mm * inward, io::FieldSet::value).value > 10) {
+  while (truth.sample(from + skull_mm * inward, io::FieldSet::value).value > 10) {
     skull_mm += 0.02;
     ASSERT_LT(skull_mm, scalp_mm + 15);
   }
-  const double brain_mm = crossing_mm(source, from, inward, scalp_and_brain->middle, skull_mm);
+  const double brain_mm = crossing_mm(truth, from, inward, scalp_and_brain->middle, skull_mm);
   EXPECT_GT(brain_mm, scalp_mm + 4);
   EXPECT_NEAR(felt_mm(found, *scalp_and_brain, source, from + skull_mm * inward, inward, 25) + skull_mm, brain_mm, 1);
 }

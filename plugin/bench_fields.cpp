@@ -177,7 +177,7 @@ void tabulate_samples(const std::shared_ptr<const io::Volume>& volume, const std
   for (const auto& [name, wanted, method] :
        {Row{"value", io::FieldSet::value}, Row{"value and gradient", both},
         Row{"value; central differences", both, io::GradientMethod::central_differences},
-        Row{"value and gradient by b-spline", both, io::GradientMethod::cubic_b_spline},
+        Row{"value and gradient by b-spline", both, io::GradientMethod::cubic},
         Row{"low and high", io::FieldSet::low_high}, Row{"tube", io::FieldSet::tube}}) {
     const io::VolumeFields hot(volume, wanted, scale, {.gradient = method, .background = false});
     hot.prepare(Vec3(0), 20);

@@ -61,7 +61,8 @@ void run(const SampleOptions& options) {
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   constexpr io::FieldSet wanted = io::FieldSet::value | io::FieldSet::gradient;
   const double scale = options.scale_mm > 0 ? options.scale_mm : io::default_gradient_scale_mm(volume->geometry);
-  const io::VolumeFields fields(volume, wanted, scale);
+  // Of a voxel its own value is asked for.
+  const io::VolumeFields fields(volume, wanted, scale, {.value = io::ValueMethod::trilinear});
 
   Json all = Json::array();
   for (const glm::dvec3& point : points) {

@@ -65,7 +65,7 @@ struct Method {
 std::vector<Method> methods() {
   return {{"gaussian", io::GradientMethod::gaussian, 1.0},      {"gaussian", io::GradientMethod::gaussian, 1.5},
           {"gaussian", io::GradientMethod::gaussian, 2.0},      {"gaussian", io::GradientMethod::gaussian, 3.0},
-          {"central", io::GradientMethod::central_differences}, {"b-spline", io::GradientMethod::cubic_b_spline}};
+          {"central", io::GradientMethod::central_differences}, {"b-spline", io::GradientMethod::cubic}};
 }
 
 /// What voxels do to a Gaussian's width along a normal: averaging over a voxel adds a twelfth of its edge's square, and

@@ -36,7 +36,7 @@ const std::array solver_choices{SolverChoice{"analytical", {true, false, false},
 
 std::vector<Fields> all_fields() {
   std::vector<Fields> fields{{"central differences", io::GradientMethod::central_differences},
-                             {"cubic B-spline", io::GradientMethod::cubic_b_spline}};
+                             {"cubic B-spline", io::GradientMethod::cubic}};
   for (const double scale_mm : {1.0, 1.5, 2.0, 3.0}) {
     fields.push_back({fmt::format("Gaussian, {} mm", scale_mm), io::GradientMethod::gaussian, scale_mm});
   }

@@ -1,0 +1,30 @@
+#pragma once
+
+/// How the fields of a scan are made between its voxels.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace palpate::io {
+
+/// The value between voxels.
+enum class ValueMethod : std::uint8_t {
+  cubic,     ///< smooth, from 64 voxels (cubic_spline.h): a boundary is felt where it is; blurred by 0.58 voxels
+  trilinear  ///< exact at the voxels' centres, from 8 voxels; its iso-surfaces are flatter than a round body
+};
+
+/// Where the gradient comes from.
+enum class GradientMethod : std::uint8_t {
+  gaussian,             ///< derivative of Gaussian at a scale
+  central_differences,  ///< sharper, noisier, without a scale
+  cubic                 ///< of the cubic value (cubic_spline.h), which is then the value whatever ValueMethod says
+};
+
+struct FieldOptions {
+  GradientMethod gradient = GradientMethod::gaussian;
+  ValueMethod value = ValueMethod::cubic;
+  std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
+  bool background = true;                           ///< whether a worker fills bricks ahead
+};
+
+}  // namespace palpate::io
