@@ -25,6 +25,8 @@ struct FieldOptions {
   ValueMethod value = ValueMethod::cubic;
   std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
   bool background = true;                           ///< whether a worker fills bricks ahead
+
+  bool operator==(const FieldOptions&) const = default;
 };
 
 }  // namespace palpate::io

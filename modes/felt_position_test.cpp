@@ -1,6 +1,5 @@
 // Where boundaries are felt, and which way they push: the same bodies scanned straight, in thick slices, obliquely and
-// under gantry tilt. The position is that of the held iso-value half-way between the two materials. On round bodies the
-// trilinear value misses a tenth of a voxel by a little: its iso-surfaces are flatter than the body between voxels.
+// under gantry tilt. The position is that of the held iso-value half-way between the two materials.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -130,7 +129,8 @@ Felt feel(const Body& body, const Grid& grid) {
                                             Datum::value)},
                           8),
         source);
-    hand.stroke(spot.at + 6.0 * spot.outward, spot.at - 1.0 * spot.outward, 200);
+    // 5 mm/s: what a frame's travel adds to where it is held is less than what is asked.
+    hand.stroke(spot.at + 6.0 * spot.outward, spot.at - 1.0 * spot.outward, 1400);
     const double extent = std::abs(glm::dot(g.direction_i, spot.outward)) * g.spacing_i +
                           std::abs(glm::dot(g.direction_j, spot.outward)) * g.spacing_j +
                           std::abs(glm::dot(g.step, spot.outward));
@@ -145,12 +145,13 @@ Felt feel(const Body& body, const Grid& grid) {
 TEST(FeltPosition, is_within_a_tenth_of_a_voxel_and_the_force_along_the_normal_however_the_body_was_scanned) {
   for (const Body& body : {slab(), sphere(), tube(), wedge()}) {
     for (const Sampling& sampling : samplings()) {
-      // Slices of 5 mm do not show the caps of a round body: what is missing there no interpolation brings back.
+      // Slices of 5 mm do not show how a round body bends between them: from one to the next a sphere's edge moves
+      // farther than it is wide.
       const bool is_round = body.name == "sphere" || body.name == "tube";
       const bool is_undersampled = sampling.name == "thick" && is_round;
       const Felt felt = feel(body, sampling.grid);
       SCOPED_TRACE(body.name + ", " + sampling.name);
-      EXPECT_LE(felt.worst_position, is_undersampled ? 0.21 : (is_round ? 0.12 : 0.1));
+      EXPECT_LE(felt.worst_position, is_undersampled && body.name == "sphere" ? 0.15 : 0.1);
       EXPECT_LE(felt.worst_degrees, is_undersampled ? 6 : 1);
     }
   }

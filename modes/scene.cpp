@@ -170,6 +170,13 @@ void validate(const Scene& scene) {
   check_unique_names("modes", scene.modes);
 }
 
+io::FieldOptions field_options(const Sampling& sampling) {
+  io::FieldOptions options;
+  options.value = sampling.value;
+  options.gradient = sampling.gradient;
+  return options;
+}
+
 Workspace place_workspace(const WorkspaceSettings& settings, const Vec3& box_low_mm, const Vec3& box_high_mm,
                           const Vec3& half_extent_m) {
   Workspace workspace;

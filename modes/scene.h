@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "palpate/io/field_options.h"
 #include "palpate/modes/defaults.h"
 #include "palpate/modes/transfer_function.h"
 #include "palpate/modes/workspace.h"
@@ -100,6 +101,14 @@ struct WorkspaceSettings {
   bool fit = false;                            ///< scale chosen so that the whole scan fits the device instead
 };
 
+/// How the scan is read between its voxels (io/field_options.h).
+struct Sampling {
+  io::ValueMethod value = io::ValueMethod::cubic;
+  io::GradientMethod gradient = io::GradientMethod::gaussian;
+
+  bool operator==(const Sampling&) const = default;
+};
+
 struct Scene {
   static constexpr int version = 1;  ///< of the text form
   static constexpr std::size_t most_modes = 32;
@@ -111,6 +120,7 @@ struct Scene {
   WorkspaceSettings workspace;
   SolverSwitches solvers;
   Subdivision subdivision;
+  Sampling sampling;
   std::optional<double> gradient_scale_mm;  ///< by default io::default_gradient_scale_mm() of the scan
   std::vector<Tissue> tissues;
   std::vector<Mode> modes;
@@ -119,6 +129,9 @@ struct Scene {
 /// Throws std::invalid_argument whose message starts with the path of the bad key: "modes[1].strength_n.nodes[0][1]: -2
 /// is negative; a strength is in newtons, 0 or more".
 void validate(const Scene& scene);
+
+/// What a scene asks of io::VolumeFields.
+io::FieldOptions field_options(const Sampling& sampling);
 
 /// The workspace for a scan whose voxels' bounding box (patient space, mm) is given, held with a device that reaches
 /// half_extent_m from its origin along each of its own axes.

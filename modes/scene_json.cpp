@@ -183,6 +183,16 @@ Subdivision read_subdivision(const At& at) {
   return subdivision;
 }
 
+Sampling read_sampling(const At& at) {
+  Members members(at);
+  Sampling sampling;
+  members.optional("value", sampling.value, [](const At& value) { return choice(value, value_method_names); });
+  members.optional("gradient", sampling.gradient,
+                   [](const At& gradient) { return choice(gradient, gradient_method_names); });
+  members.done();
+  return sampling;
+}
+
 template <typename Item>
 std::vector<Item> read_list(const At& at, Item (*read)(const At&)) {
   std::vector<Item> items;
@@ -206,6 +216,7 @@ Scene read_scene(const nlohmann::json& json) {
   members.optional("workspace", scene.workspace, read_workspace);
   members.optional("solvers", scene.solvers, read_solvers);
   members.optional("subdivision", scene.subdivision, read_subdivision);
+  members.optional("sampling", scene.sampling, read_sampling);
   members.optional("gradient_scale_mm", scene.gradient_scale_mm, number);
   members.optional("tissues", scene.tissues, [](const At& at) { return read_list(at, read_tissue); });
   scene.modes = read_list(members.get("modes"), read_mode);

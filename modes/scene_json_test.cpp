@@ -39,6 +39,7 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
     "limits": {"force_limit_n": 2, "slew_limit_n_per_ms": 0.7, "ramp_s": 0.3, "speed_limit_m_per_s": 0.30000000000000004},
     "workspace": {"center_mm": [1, 2e-3, -3], "rotation": [[0, 1, 0], [0, 0, 1], [1, 0, 0]], "scale": 2.5, "fit": true},
     "solvers": {"analytical": false, "exact": true, "descent": true}, "subdivision": {"step_mm": 0.2, "most": 3},
+    "sampling": {"value": "trilinear", "gradient": "central_differences"},
     "tissues": [{"name": "air", "high": -400, "softness": 100, "color": "#56b4e9"},
                 {"name": "soft tissue", "low": -400, "high": 200, "softness": 100}],
     "modes": [{"type": "surface", "from": "air", "to": "soft tissue", "strength_n": 1},
@@ -52,6 +53,8 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
   EXPECT_EQ(to_json(scene_from_json(to_json(scene), "again")), to_json(scene));
   EXPECT_EQ(scene.limits.speed_m_per_s, 0.30000000000000004);
   EXPECT_EQ(scene.workspace.rotation[0].y, 1.0);
+  EXPECT_EQ(scene.sampling.value, io::ValueMethod::trilinear);
+  EXPECT_EQ(scene.sampling.gradient, io::GradientMethod::central_differences);
   EXPECT_FALSE(scene.modes[1].enabled);
   EXPECT_EQ(scene.modes[1].gates[0].factor.interpolation(), Interpolation::monotone_cubic);
   EXPECT_EQ(scene.modes[3].direction, Vec3(0.1, 0, 2));
@@ -64,6 +67,8 @@ TEST(SceneJson, what_is_not_said_takes_the_default) {
   EXPECT_EQ(scene.limits.force_n, 3.0);
   EXPECT_FALSE(scene.gradient_scale_mm.has_value());
   EXPECT_TRUE(scene.solvers.analytical && scene.solvers.exact && !scene.solvers.descent);
+  EXPECT_EQ(scene.sampling.value, io::ValueMethod::cubic);
+  EXPECT_EQ(scene.sampling.gradient, io::GradientMethod::gaussian);
 }
 
 TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
@@ -105,6 +110,8 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
               StartsWith("mine.json: workspace.rotation:"));
   EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "workspace": {"rotation": [[0, 1, 0], [1, 0, 0], [0, 0, 1]]}})"),
               HasSubstr("mirror"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "sampling": {"value": "linear"}})"),
+              StartsWith("mine.json: sampling.value: there is no \"linear\"; there are: cubic, trilinear"));
   EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "limits": {"force_limit_n": 1e999}})"),
               StartsWith("mine.json: "));
   EXPECT_THAT(

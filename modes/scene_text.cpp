@@ -119,6 +119,8 @@ Json json_of(const Scene& scene) {
                          {"most", scene.subdivision.most},
                          {"proxy_step_mm", scene.subdivision.proxy_step_mm},
                          {"most_halts", scene.subdivision.most_halts}};
+  json["sampling"] = {{"value", name_in(value_method_names, scene.sampling.value)},
+                      {"gradient", name_in(gradient_method_names, scene.sampling.gradient)}};
   if (scene.gradient_scale_mm) {
     json["gradient_scale_mm"] = *scene.gradient_scale_mm;
   }

@@ -73,25 +73,11 @@ modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume
   return modes::load_scene(volume.modality == "CT" ? "ct-skin-and-bone" : "mr-brain");
 }
 
-namespace {
-
-std::shared_ptr<const modes::Plan> make_shared_plan(const modes::Scene& scene, io::FieldSet available,
-                                                    const io::Geometry& geometry, const glm::dvec3& half_extent_m) {
-  const Box box = bounding_box(geometry);
-  return std::make_shared<const modes::Plan>(
-      modes::make_plan(scene, available, modes::place_workspace(scene.workspace, box.low, box.high, half_extent_m)));
-}
-
-}  // namespace
-
-std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Geometry& geometry,
-                                            const glm::dvec3& device_half_extent_m) {
-  return make_shared_plan(scene, io::fields_of(io::Volume()), geometry, device_half_extent_m);
-}
-
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m) {
-  return make_shared_plan(scene, io::fields_of(volume), volume.geometry, device_half_extent_m);
+  const Box box = bounding_box(volume.geometry);
+  return std::make_shared<const modes::Plan>(modes::make_plan(
+      scene, io::fields_of(volume), modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m)));
 }
 
 Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
@@ -103,12 +89,13 @@ Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>&
              const glm::dvec3& device_half_extent_m, const Prepared& before) {
   Felt felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
   if (before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
-      before.scene.gradient_scale_mm == scene.gradient_scale_mm) {
+      before.scene.gradient_scale_mm == scene.gradient_scale_mm && before.scene.sampling == scene.sampling) {
     felt.source = before.felt.source;
     return felt;
   }
   felt.source = std::make_shared<const io::VolumeFields>(
-      volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)));
+      volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)),
+      modes::field_options(scene.sampling));
   return felt;
 }
 

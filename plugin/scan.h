@@ -32,11 +32,8 @@ std::string hash_of(const io::Volume& volume);
 /// std::invalid_argument as modes::load_scene() does.
 modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume);
 
-/// The plan of a scene on a scalar scan of that geometry, held with a device of that reach.
-std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Geometry& geometry,
-                                            const glm::dvec3& device_half_extent_m);
-
-/// The plan of a scene on a scan, with the fields that this scan has: also vectors where it is a velocity field.
+/// The plan of a scene on a scan, with the fields that this scan has (vectors where it is a velocity field), held with
+/// a device of that reach.
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m);
 

@@ -29,6 +29,13 @@ inline constexpr std::array shape_names{Named<Shape>{Shape::point, "point"}, Nam
 inline constexpr std::array interpolation_names{Named<Interpolation>{Interpolation::linear, "linear"},
                                                 Named<Interpolation>{Interpolation::monotone_cubic, "monotone_cubic"}};
 
+inline constexpr std::array value_method_names{Named<io::ValueMethod>{io::ValueMethod::cubic, "cubic"},
+                                               Named<io::ValueMethod>{io::ValueMethod::trilinear, "trilinear"}};
+inline constexpr std::array gradient_method_names{
+    Named<io::GradientMethod>{io::GradientMethod::gaussian, "gaussian"},
+    Named<io::GradientMethod>{io::GradientMethod::central_differences, "central_differences"},
+    Named<io::GradientMethod>{io::GradientMethod::cubic, "cubic"}};
+
 template <typename Names, typename Enum>
 std::string name_in(const Names& names, Enum value) {
   for (const auto& entry : names) {

@@ -142,7 +142,7 @@ std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
                                                       const std::shared_ptr<const io::Volume>& volume,
                                                       const FieldChoice& choice, const io::Progress& progress) {
   const double scale = choice.scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry));
-  const auto plan = plan_for(choice.scene, volume->geometry, glm::dvec3(0.1));
+  const auto plan = plan_for(choice.scene, *volume, glm::dvec3(0.1));
   const auto modes = felt_modes(*plan, choice);
   FieldSet wanted = FieldSet::value;
   for (const modes::ActiveMode* mode : modes) wanted = wanted | mode->strength.reads();
@@ -150,7 +150,8 @@ std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
 
   const Fields fields(choice, modes, image.GetNumberOfPoints());
   const VoxelBlock block = block_of(image, *volume);
-  const bool of_voxels = block.aligned && io::contains(FieldSet::value | FieldSet::gradient, wanted);
+  const bool of_voxels = block.aligned && io::contains(FieldSet::value | FieldSet::gradient, wanted) &&
+                         choice.scene.sampling.gradient == io::GradientMethod::gaussian;
   if (of_voxels) {
     std::optional<io::GradientKernel> kernel;
     if (io::contains(wanted, FieldSet::gradient)) kernel.emplace(volume, scale);
@@ -158,7 +159,8 @@ std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
     image.GetDimensions(&size.x);
     fill_from_voxels(*volume, kernel ? &*kernel : nullptr, block.first, size, progress, fields);
   } else {
-    fill_from_samples(image, io::VolumeFields(volume, wanted, scale), wanted, progress, fields);
+    const io::VolumeFields source(volume, wanted, scale, modes::field_options(choice.scene.sampling));
+    fill_from_samples(image, source, wanted, progress, fields);
   }
   return fields.arrays();
 }
