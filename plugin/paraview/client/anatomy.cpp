@@ -1,7 +1,10 @@
 #include "anatomy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace palpate::plugin {
@@ -55,6 +58,14 @@ std::string letters_of(const glm::dvec3& direction) {
     if (shown) letters += names[static_cast<std::size_t>(axis)][direction[axis] < 0];
   }
   return letters;
+}
+
+std::string place_text(const glm::dvec3& place_mm, Coordinates coordinates) {
+  const glm::dvec3 tenths = glm::round(10.0 * place_mm) + 0.0;  // + 0: no "-0.0", and no "R 0.0"
+  const glm::dvec3 p = tenths / 10.0;
+  if (coordinates == Coordinates::ras) return fmt::format("RAS {:.1f} {:.1f} {:.1f} mm", 0 - p.x, 0 - p.y, p.z);
+  return fmt::format("{} {:.1f} {} {:.1f} {} {:.1f} mm", p.x < 0 ? 'R' : 'L', std::abs(p.x), p.y < 0 ? 'A' : 'P',
+                     std::abs(p.y), p.z < 0 ? 'F' : 'H', std::abs(p.z));
 }
 
 Sight sight_of(Plane plane, const std::array<glm::dvec3, 3>& directions) {

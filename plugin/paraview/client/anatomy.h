@@ -12,6 +12,11 @@ namespace palpate::plugin {
 /// first, where it is more than 10 degrees off.
 std::string letters_of(const glm::dvec3& direction);
 
+/// How places are written. DICOM's and radiology's own, "L 12.3 P 4.0 H 88.1 mm": how far to the left (or right, R),
+/// to the back (or front, A), to the head (or feet, F). Or that of NIfTI and neuronavigation, "RAS -12.3 -4.0 88.1 mm".
+enum class Coordinates { letters, ras };
+std::string place_text(const glm::dvec3& place_mm, Coordinates coordinates = Coordinates::letters);
+
 enum class Plane { axial, coronal, sagittal };
 
 /// How a slice is looked at.

@@ -45,6 +45,17 @@ TEST(Letters, AreTwoFromTenDegreesOffOnTheNearerFirst) {
   EXPECT_EQ(leaning(85), "F");
 }
 
+TEST(PlaceText, SaysHowFarToWhichSideOfThePatient) {
+  EXPECT_EQ(place_text({12.34, 4, 88.06}), "L 12.3 P 4.0 H 88.1 mm");
+  EXPECT_EQ(place_text({-12.34, -4, -88.06}), "R 12.3 A 4.0 F 88.1 mm");
+  EXPECT_EQ(place_text({-0.04, 0.04, -0.0}), "L 0.0 P 0.0 H 0.0 mm");
+}
+
+TEST(PlaceText, TurnsLeftAndPosteriorRoundForRas) {
+  EXPECT_EQ(place_text({12.34, 4, 88.06}, Coordinates::ras), "RAS -12.3 -4.0 88.1 mm");
+  EXPECT_EQ(place_text({-0.01, 0, -5}, Coordinates::ras), "RAS 0.0 0.0 -5.0 mm");
+}
+
 TEST(Sight, ShowsEveryPlaneAsRadiologyDoesHoweverTheScanWasAcquired) {
   for (const auto& scan : {axial_scan, coronal_scan, sagittal_scan}) {
     EXPECT_THAT(edges(sight_of(Plane::axial, scan)), testing::ElementsAre("L", "R", "A", "P"));

@@ -10,6 +10,7 @@
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkPVDataSetAttributesInformation.h>
+#include <vtkPVRenderView.h>
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMParaViewPipelineControllerWithRendering.h>
 #include <vtkSMPropertyHelper.h>
@@ -20,6 +21,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkStructuredData.h>
 
+#include <QCoreApplication>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -29,18 +32,35 @@
 namespace palpate::plugin {
 namespace {
 
-pqRenderView* make_view(pqServer& server, bool flat) {
+QString name_of(ViewKind kind) {
+  const auto translated = [](const char* text) { return QCoreApplication::translate("ClinicalViews", text); };
+  switch (kind) {
+    case ViewKind::axial:
+      return translated("Axial");
+    case ViewKind::sagittal:
+      return translated("Sagittal");
+    case ViewKind::coronal:
+      return translated("Coronal");
+    case ViewKind::volume:
+      break;
+  }
+  return translated("Volume");
+}
+
+pqRenderView* make_view(pqServer& server, ViewKind kind) {
+  const bool flat = kind != ViewKind::volume;
   auto* const view = qobject_cast<pqRenderView*>(
       pqApplicationCore::instance()->getObjectBuilder()->createView(pqRenderView::renderViewType(), &server));
   vtkSMProxy& proxy = *view->getProxy();
   const auto set = [&](const char* name, int value) { vtkSMPropertyHelper(&proxy, name, true).Set(value); };
   set("UseColorPaletteForBackground", 0);
-  set("OrientationAxesVisibility", flat ? 0 : 1);
+  set("OrientationAxesVisibility", 0);  // X, Y, Z
   set("CenterAxesVisibility", 0);
   if (flat) set("InteractionMode", 1);
   const double black[3] = {0, 0, 0};
   vtkSMPropertyHelper(&proxy, "Background").Set(black, 3);
   proxy.UpdateVTKObjects();
+  view->rename(name_of(kind));
   return view;
 }
 
@@ -76,16 +96,15 @@ double half_extent(const ImageLattice& lattice, const glm::dvec3& direction) {
   return half;
 }
 
-Window first_window(bool hounsfield, double low, double high) {
-  return hounsfield ? ct_windows[0].window : Window{(low + high) / 2, std::max(high - low, 1e-3)};
-}
-
 }  // namespace
 
 ClinicalViews::~ClinicalViews() = default;
 
 void ClinicalViews::close() {
   slices_.clear();
+  marker_.reset();
+  windows_.clear();
+  window_->value_at = {};
   auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
   for (const auto& open : views_) {
     if (open.view) builder->destroy(open.view);
@@ -143,7 +162,12 @@ void ClinicalViews::show(pqPipelineSource& source) {
   layout->SplitVertical(1, 0.5);
   layout->SplitVertical(2, 0.5);
 
-  window_->window = first_window(lattice.hounsfield, lattice.low, lattice.high);
+  windows_ = windows_for(lattice.values);
+  window_->window = windows_.front().window;
+  window_->unit = lattice.values.hounsfield ? QStringLiteral("HU") : QString();
+  window_->value_at = [probe = std::make_shared<ValueProbe>(image)](const glm::dvec3& place) {
+    return probe->at(place);
+  };
   window_->grey_map = grey_map(server);
   plugin::set_window(*window_->grey_map, window_->window);
   window_->changed = [this] { refresh(); };
@@ -156,7 +180,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
                 {Plane::sagittal, ViewKind::sagittal, 5},
                 {Plane::coronal, ViewKind::coronal, 4}};
   for (const auto& [plane, kind, cell] : places) {
-    pqRenderView& view = *make_view(server, true);
+    pqRenderView& view = *make_view(server, kind);
     layout->AssignView(cell, view.getViewProxy());
     vtkSMProxy& shown = show_as("Slice", image, view, lattice.array.c_str());
     const Sight sight = sight_of(plane, lattice.directions);
@@ -182,10 +206,10 @@ void ClinicalViews::show(pqPipelineSource& source) {
     views_.push_back({kind, &view});
   }
 
-  pqRenderView& volume_view = *make_view(server, false);
+  pqRenderView& volume_view = *make_view(server, ViewKind::volume);
   layout->AssignView(6, volume_view.getViewProxy());
   vtkSMProxy& volume = show_as("Volume", image, volume_view, lattice.array.c_str());
-  set_volume_colours(volume, lattice.hounsfield, lattice.low, lattice.high);
+  set_volume_look(volume, volume_look_for(lattice.values));
   // From the front and a little from the patient's left and above; the head up.
   const glm::dvec3 eye = lattice.center() + glm::dvec3(500, -900, 300);
   const glm::dvec3 head(0, 0, 1);
@@ -196,6 +220,10 @@ void ClinicalViews::show(pqPipelineSource& source) {
   vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
   camera.UpdateVTKObjects();
   volume_view.getRenderViewProxy()->ResetCamera(true);
+  marker_ = std::make_unique<OrientationMarker>(
+      *vtkPVRenderView::SafeDownCast(volume_view.getRenderViewProxy()->GetClientSideView()));
+  // The view may also be closed by hand, and its renderer with it.
+  QObject::connect(&volume_view, &QObject::destroyed, &lifetime_, [this] { marker_.reset(); });
   views_.push_back({ViewKind::volume, &volume_view});
   pqActiveObjects::instance().setActiveView(&volume_view);
   refresh();

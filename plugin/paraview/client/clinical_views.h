@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "orientation_marker.h"
 #include "slice_view.h"
 
 class pqPipelineSource;
@@ -32,6 +33,10 @@ class ClinicalViews {
   void close();
   void set_window(const Window& window);
   const Window& window() const { return window_->window; }
+  /// What is offered for the scan shown, the one that it is first shown with first; empty where none is.
+  const std::vector<NamedWindow>& windows() const { return windows_; }
+  /// How places under the pointer are written from now on.
+  void set_coordinates(Coordinates coordinates) { window_->coordinates = coordinates; }
 
   /// Those that are open, the slices first.
   std::vector<ClinicalView> views() const;
@@ -42,12 +47,15 @@ class ClinicalViews {
   void refresh();
 
   std::shared_ptr<SharedWindow> window_ = std::make_shared<SharedWindow>();
+  std::vector<NamedWindow> windows_;
   std::vector<QPointer<SliceView>> slices_;
+  std::unique_ptr<OrientationMarker> marker_;  ///< of the volume's view; before that goes
   struct OpenView {
     ViewKind kind;
     QPointer<pqRenderView> view;
   };
   std::vector<OpenView> views_;
+  QObject lifetime_;  // its end ends what is connected to the views
 };
 
 }  // namespace palpate::plugin

@@ -8,6 +8,7 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDragEnterEvent>
 #include <QFileDialog>
@@ -17,6 +18,7 @@
 #include <QMimeData>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -84,13 +86,17 @@ void ScanSection::build() {
   window_ = new QComboBox(this);
   window_->setObjectName(QStringLiteral("palpateWindow"));
   window_->setToolTip(tr("Also: drag in a slice, to the right for a wider window, up for a brighter one."));
-  for (const NamedWindow& named : ct_windows) {
-    window_->addItem(
-        QStringLiteral("%1 (%2 / %3)").arg(tr(named.name)).arg(named.window.level).arg(named.window.width));
-  }
   connect(window_, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) { apply_window(choice); });
   window->addWidget(window_, 1);
   column->addLayout(window);
+
+  auto* const ras = new QCheckBox(tr("Places under the pointer in RAS"), this);
+  ras->setObjectName(QStringLiteral("palpateRas"));
+  ras->setToolTip(
+      tr("Instead of L/R, P/A, H/F as DICOM and radiology count: right, anterior and superior are positive."));
+  connect(ras, &QCheckBox::toggled, this,
+          [this](bool on) { views_.set_coordinates(on ? Coordinates::ras : Coordinates::letters); });
+  column->addWidget(ras);
 
   message_ = new QLabel(this);
   message_->setObjectName(QStringLiteral("palpateMessage"));
@@ -198,9 +204,17 @@ void ScanSection::show(std::size_t series) {
     vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*catalogue_, series).c_str());
     proxy.UpdateVTKObjects();
     source_->updatePipeline();
-    source_->setModifiedState(pqProxy::UNMODIFIED);  // there is nothing left for an Apply button to do
+    // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
+    // takes that for a change.
+    QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
     views_.show(*source_);
-    window_->setCurrentIndex(0);
+    window_->clear();
+    for (const NamedWindow& named : views_.windows()) {
+      window_->addItem(QStringLiteral("%1 (%2 / %3)")
+                           .arg(tr(named.name))
+                           .arg(named.window.level, 0, 'g', 4)
+                           .arg(named.window.width, 0, 'g', 4));
+    }
     const io::Series& shown = catalogue_->series[series];
     QStringList notes;
     for (const std::string& warning : shown.warnings) notes << text(warning);
@@ -216,8 +230,8 @@ void ScanSection::show(std::size_t series) {
 }
 
 void ScanSection::apply_window(int choice) {
-  if (choice >= 0 && choice < static_cast<int>(ct_windows.size())) {
-    views_.set_window(ct_windows[static_cast<std::size_t>(choice)].window);
+  if (choice >= 0 && choice < static_cast<int>(views_.windows().size())) {
+    views_.set_window(views_.windows()[static_cast<std::size_t>(choice)].window);
   }
 }
 

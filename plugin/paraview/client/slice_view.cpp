@@ -10,8 +10,6 @@
 #include <vtkRenderer.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
-#include <vtkTextActor.h>
-#include <vtkTextProperty.h>
 
 #include <QCoreApplication>
 #include <QWidget>
@@ -20,6 +18,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
+
+#include "slice_overlay.h"
 
 namespace palpate::plugin {
 namespace {
@@ -40,69 +40,11 @@ QString name_of(Plane plane) {
   return translated("Sagittal");
 }
 
-vtkPVRenderView* client_view(pqRenderView& view) {
+vtkPVRenderView* client_view(const pqRenderView& view) {
   return vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
 }
 
 }  // namespace
-
-/// The text over the slice. The letters follow the camera, whoever turns it.
-class SliceView::Overlay {
- public:
-  explicit Overlay(vtkPVRenderView& view) : renderer_(view.GetNonCompositedRenderer()), camera_(view) {
-    constexpr struct {
-      double x, y;
-      int horizontal, vertical;
-    } places[5] = {{0.99, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
-                   {0.01, 0.5, VTK_TEXT_LEFT, VTK_TEXT_CENTERED},
-                   {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
-                   {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
-                   {0.01, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP}};
-    for (std::size_t n = 0; n < texts_.size(); ++n) {
-      vtkTextActor& text = *texts_[n];
-      text.GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-      text.SetPosition(places[n].x, places[n].y);
-      vtkTextProperty& style = *text.GetTextProperty();
-      style.SetFontSize(n < 4 ? 18 : 13);
-      style.SetBold(n < 4);
-      style.SetColor(1, 0.85, 0.35);
-      style.SetShadow(1);
-      style.SetJustification(places[n].horizontal);
-      style.SetVerticalJustification(places[n].vertical);
-      renderer_->AddActor(texts_[n]);
-    }
-    before_render_->SetClientData(this);
-    before_render_->SetCallback(
-        [](vtkObject*, unsigned long, void* self, void*) { static_cast<Overlay*>(self)->update_letters(); });
-    observer_ = renderer_->AddObserver(vtkCommand::StartEvent, before_render_);
-  }
-  Overlay(const Overlay&) = delete;
-  Overlay& operator=(const Overlay&) = delete;
-  ~Overlay() {
-    renderer_->RemoveObserver(observer_);
-    for (const auto& text : texts_) renderer_->RemoveActor(text);
-  }
-
-  void set_corner(const QString& text) { texts_[4]->SetInput(text.toUtf8().constData()); }
-
- private:
-  void update_letters() {
-    vtkCamera& camera = *camera_.GetActiveCamera();
-    glm::dvec3 along, up;
-    camera.GetDirectionOfProjection(&along.x);
-    camera.GetViewUp(&up.x);
-    const glm::dvec3 right = glm::normalize(glm::cross(along, up));
-    const glm::dvec3 upright = glm::cross(right, along);  // the camera's own up need not be perpendicular
-    const std::array<glm::dvec3, 4> edges{right, -right, upright, -upright};
-    for (std::size_t n = 0; n < edges.size(); ++n) texts_[n]->SetInput(letters_of(edges[n]).c_str());
-  }
-
-  vtkSmartPointer<vtkRenderer> renderer_;
-  vtkPVRenderView& camera_;
-  std::array<vtkNew<vtkTextActor>, 5> texts_;
-  vtkNew<vtkCallbackCommand> before_render_;
-  unsigned long observer_ = 0;
-};
 
 /// Takes what it uses before ParaView's own interaction sees it, and leaves the rest (zoom, pan) alone.
 class SliceView::Mouse {
@@ -114,7 +56,7 @@ class SliceView::Mouse {
     constexpr float before_paraview = 10;
     for (const auto event :
          {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
-          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent}) {
+          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::LeaveEvent}) {
       observers_.push_back(interactor_->AddObserver(event, command_, before_paraview));
     }
   }
@@ -139,9 +81,15 @@ class SliceView::Mouse {
         if (!std::exchange(dragging_, false)) return;
         break;
       case vtkCommand::MouseMoveEvent:
-        if (!dragging_) return;
+        if (!dragging_) {
+          owner_.tell_of(at[0], at[1]);
+          return;
+        }
         drag_to(at[0], at[1]);
         break;
+      case vtkCommand::LeaveEvent:
+        owner_.set_pointer_text({});
+        return;
       case vtkCommand::MouseWheelForwardEvent:
         owner_.show_slice(owner_.setup_.slice + 1);
         break;
@@ -179,7 +127,7 @@ SliceView::SliceView(pqRenderView& view, vtkSMProxy& representation, const Slice
                      std::shared_ptr<SharedWindow> window)
     : QObject(&view), view_(view), representation_(representation), setup_(setup), window_(std::move(window)) {
   vtkPVRenderView& client = *client_view(view);
-  overlay_ = std::make_unique<Overlay>(client);
+  overlay_ = std::make_unique<SliceOverlay>(client);
   if (client.GetInteractor()) mouse_ = std::make_unique<Mouse>(*this, *client.GetInteractor());
   place_camera();
   show_slice(setup_.slice);
@@ -214,6 +162,31 @@ void SliceView::show_point(const glm::dvec3& place) {
   const double slice = std::round((glm::dot(place, setup_.sight.along) - setup_.first_mm) / setup_.pitch_mm);
   const int nearest = static_cast<int>(std::clamp(slice, 0.0, setup_.slices - 1.0));
   if (nearest != setup_.slice) show_slice(nearest);
+}
+
+glm::dvec3 SliceView::place_under(int x, int y) const {
+  vtkRenderer& renderer = *client_view(view_)->GetRenderer();
+  renderer.SetDisplayPoint(x, y, 0);
+  renderer.DisplayToWorld();
+  const double* const world = renderer.GetWorldPoint();
+  const glm::dvec3 seen = glm::dvec3(world[0], world[1], world[2]) / world[3];
+  glm::dvec3 along;
+  renderer.GetActiveCamera()->GetDirectionOfProjection(&along.x);
+  const double height = setup_.first_mm + setup_.slice * setup_.pitch_mm;
+  return seen + along * ((height - glm::dot(seen, setup_.sight.along)) / glm::dot(along, setup_.sight.along));
+}
+
+void SliceView::tell_of(int x, int y) {
+  const glm::dvec3 place = place_under(x, y);
+  QString text = QString::fromStdString(place_text(place, window_->coordinates));
+  if (const auto value = window_->value_at ? window_->value_at(place) : std::nullopt) {
+    text += QStringLiteral("   %1 %2").arg(*value, 0, 'g', 6).arg(window_->unit);
+  }
+  set_pointer_text(text.trimmed());
+}
+
+void SliceView::set_pointer_text(const QString& text) {
+  if (overlay_->set_pointer(text)) view_.render();
 }
 
 void SliceView::refresh_text() {

@@ -1,14 +1,16 @@
 #pragma once
 
-/// One slice on the screen: letters at its edges, what it shows in a corner, and a radiologist's mouse: left drag for
-/// the window, the wheel for the slice.
+/// One slice on the screen: letters at its edges, what it shows in a corner, and what is under the
+/// pointer in another, and a radiologist's mouse: left drag for the window, the wheel for the slice.
 
 #include <QObject>
 #include <QPointer>
+#include <QString>
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "anatomy.h"
 #include "colour_maps.h"
@@ -18,11 +20,17 @@ class vtkSMProxy;
 
 namespace palpate::plugin {
 
+class SliceOverlay;
+
 /// What the slice views of a scan have in common.
 struct SharedWindow {
   vtkSMProxy* grey_map = nullptr;
   Window window;
   std::function<void()> changed;  ///< after the window has been changed by hand
+  Coordinates coordinates = Coordinates::letters;
+  /// Of the voxel nearest to a place in the patient, mm; may be empty.
+  std::function<std::optional<double>(const glm::dvec3& place)> value_at;
+  QString unit;
 };
 
 struct SliceSetup {
@@ -50,15 +58,17 @@ class SliceView : public QObject {
   void refresh_text();
 
  private:
-  class Overlay;
   class Mouse;
   void place_camera();
+  glm::dvec3 place_under(int x, int y) const;
+  void tell_of(int x, int y);
+  void set_pointer_text(const QString& text);
 
   pqRenderView& view_;
   vtkSMProxy& representation_;
   SliceSetup setup_;
   std::shared_ptr<SharedWindow> window_;
-  std::unique_ptr<Overlay> overlay_;
+  std::unique_ptr<SliceOverlay> overlay_;
   std::unique_ptr<Mouse> mouse_;
 };
 

@@ -1,6 +1,7 @@
 #include "PalpateDicomReader.h"
 
 #include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -37,7 +38,7 @@ struct PalpateDicomReader::Scan {
   int frame = 0;                                  // shown last
   std::shared_ptr<const io::Volume> volume;       // of that frame, or of the slices that this rank shows
   std::optional<std::array<int, 6>> part_extent;  // of the volume on the grid
-  std::optional<std::vector<double>> shares;
+  vtkSmartPointer<vtkDoubleArray> shares;
   std::shared_ptr<const io::Volume> probed;  // the slice that was probed last, where the volume does not have it
   int probed_slice = -1;
 
@@ -131,16 +132,18 @@ double* PalpateDicomReader::GetWindow() {
   return window_.data();
 }
 
-double* PalpateDicomReader::GetValueShares() {
-  shares_.fill(0);
-  if (!scan_) return shares_.data();
+vtkDoubleArray* PalpateDicomReader::GetValueShares() {
+  if (!scan_) return nullptr;
+  if (scan_->shares) return scan_->shares;
   try {
-    if (!scan_->shares) scan_->shares = plugin::value_shares(scan_->series());
-    std::copy_n(scan_->shares->begin(), std::min(scan_->shares->size(), shares_.size()), shares_.begin());
+    const auto found = plugin::value_shares(scan_->series());
+    const auto shares = vtkSmartPointer<vtkDoubleArray>::New();
+    for (const double value : found) shares->InsertNextValue(value);
+    scan_->shares = shares;
   } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());
   }
-  return shares_.data();
+  return scan_->shares;
 }
 
 double PalpateDicomReader::ValueAt(double x, double y, double z) {

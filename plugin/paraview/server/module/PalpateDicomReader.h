@@ -16,6 +16,7 @@
 
 #include "PalpateServerModule.h"
 
+class vtkDoubleArray;
 class vtkStringArray;
 
 class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
@@ -48,8 +49,8 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   /// Level and width of the window that the series asks for; width 0 where it asks for none.
   double* GetWindow() VTK_SIZEHINT(2);
   /// The values below which 0, 1, ... 100 percent of the voxels are, from slices spread over the whole scan: the same
-  /// on every server. Zeros before UpdateInformation().
-  double* GetValueShares() VTK_SIZEHINT(101);
+  /// on every server. Null before UpdateInformation() and where they cannot be read.
+  vtkDoubleArray* GetValueShares();
   /// The value of the voxel nearest to a place in the patient, mm, in the frame shown last; NaN outside and in gaps. On
   /// a rank that does not hold it, its slice is read.
   double ValueAt(double x, double y, double z);
@@ -83,6 +84,5 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   vtkSmartPointer<vtkStringArray> messages_;
   std::array<double, 18> lattice_{};
   std::array<double, 2> window_{};
-  std::array<double, 101> shares_{};
   std::unique_ptr<Scan> scan_;  ///< what was found; empty until then
 };

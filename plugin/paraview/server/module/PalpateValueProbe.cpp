@@ -16,6 +16,7 @@ double PalpateValueProbe::GetValue() {
                  : std::numeric_limits<double>::quiet_NaN();
 }
 
-double* PalpateValueProbe::GetShares() {
-  return reader_ ? reader_->GetValueShares() : none_.data();
+vtkDoubleArray* PalpateValueProbe::GetShares() {
+  vtkDoubleArray* const shares = reader_ ? reader_->GetValueShares() : nullptr;
+  return shares ? shares : none_.Get();
 }

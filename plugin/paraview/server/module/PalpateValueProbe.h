@@ -3,6 +3,8 @@
 /// A client's questions for values of a scan, which is on the server. Not part of the pipeline: asking changes
 /// nothing, and is in no state file.
 
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkWeakPointer.h>
 
@@ -21,8 +23,8 @@ class PALPATESERVER_EXPORT PalpateValueProbe : public vtkObject {
   void SetPosition(double x, double y, double z) { position_ = {x, y, z}; }
   /// As PalpateDicomReader::ValueAt().
   double GetValue();
-  /// As PalpateDicomReader::GetValueShares().
-  double* GetShares() VTK_SIZEHINT(101);
+  /// As PalpateDicomReader::GetValueShares(), empty where that is null.
+  vtkDoubleArray* GetShares();
 
   PalpateValueProbe(const PalpateValueProbe&) = delete;
   PalpateValueProbe& operator=(const PalpateValueProbe&) = delete;
@@ -33,5 +35,5 @@ class PALPATESERVER_EXPORT PalpateValueProbe : public vtkObject {
  private:
   vtkWeakPointer<PalpateDicomReader> reader_;
   std::array<double, 3> position_{};
-  std::array<double, 101> none_{};
+  vtkNew<vtkDoubleArray> none_;
 };

@@ -1,0 +1,40 @@
+#pragma once
+
+/// Which way the patient lies in a view of the volume: a cross with R, L, A, P, H and F at its ends. ParaView's own
+/// says X, Y and Z, and cannot be told otherwise.
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+
+class vtkActor2D;
+class vtkCallbackCommand;
+class vtkPVRenderView;
+class vtkPoints;
+class vtkRenderer;
+class vtkTextActor;
+
+namespace palpate::plugin {
+
+/// In the view's lower left corner; turns with the camera, whoever turns it. What points away is dim.
+class OrientationMarker {
+ public:
+  explicit OrientationMarker(vtkPVRenderView& view);
+  OrientationMarker(const OrientationMarker&) = delete;
+  OrientationMarker& operator=(const OrientationMarker&) = delete;
+  ~OrientationMarker();
+
+ private:
+  void turn();
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkPVRenderView& view_;
+  std::array<vtkNew<vtkTextActor>, 6> letters_;
+  vtkNew<vtkPoints> ends_;
+  vtkNew<vtkActor2D> arms_;
+  vtkNew<vtkCallbackCommand> before_render_;
+  unsigned long observer_ = 0;
+};
+
+}  // namespace palpate::plugin
