@@ -10,6 +10,7 @@
 
 #include "palpate/modes/scene_json.h"
 #include "palpate/plugin/internal/session_rig.h"
+#include "palpate/plugin/internal/test_files.h"
 #include "palpate/plugin/run_session.h"
 #include "palpate/testdata/scan.h"
 
@@ -58,7 +59,7 @@ TEST(LiveSession, NeedsAScanBeforeAStylus) {
   live.set_scene(modes::load_scene("ct-skin-and-bone"));
   EXPECT_EQ(live.plan(), nullptr);
   EXPECT_THROW(live.connect(pressing()), std::runtime_error);
-  EXPECT_THROW(live.record(fresh("nothing.h5")), std::runtime_error);
+  EXPECT_THROW(live.record(fresh_path("nothing.h5")), std::runtime_error);
   EXPECT_FALSE(live.is_connected());
   live.set_scan(ball());
   ASSERT_NE(live.plan(), nullptr);
@@ -119,7 +120,7 @@ TEST(LiveSession, GoesOverToAnotherScanAndLetsGoWithoutOne) {
 }
 
 TEST(LiveSession, ARecordingIsRepeatedToTheLastBit) {
-  const auto file = fresh("live.h5");
+  const auto file = fresh_path("live.h5");
   LiveSession live;
   const auto volume = ball();
   live.set_scan(volume);
