@@ -1,4 +1,5 @@
 #include "palpate/device/internal/falcon_driver.h"
+#include "palpate/device/internal/fakes/test_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -55,10 +55,8 @@ struct Bench {
 };
 
 std::string write_image(const std::vector<std::uint8_t>& image) {
-  std::string path = testing::TempDir() + "falcon_image_" + std::to_string(image.size());
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(image.data()), static_cast<long>(image.size()));
-  return path;
+  static const TestFiles files;
+  return files.write("image_" + std::to_string(image.size()), {image.begin(), image.end()});
 }
 
 std::vector<std::uint8_t> some_image() {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -16,6 +15,7 @@
 #include <string>
 
 #include "palpate/device/internal/fakes/fake_wooden_haptics.h"
+#include "palpate/device/internal/fakes/test_files.h"
 #include "palpate/device/internal/wooden_haptics_driver.h"
 
 namespace palpate::device {
@@ -218,9 +218,8 @@ TEST(WoodenHapticsDriver, ADeviceThatDoesNotAnswerIsRefused) {
 }
 
 std::string write_settings(const std::string& json) {
-  std::string path = testing::TempDir() + "wooden.json";
-  std::ofstream(path) << json;
-  return path;
+  static const TestFiles files;
+  return files.write("wooden.json", json);
 }
 
 TEST(WoodenHapticsSettings, AreReadFromJson) {

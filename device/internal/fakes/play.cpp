@@ -8,9 +8,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <thread>
@@ -29,12 +26,6 @@ std::string firmware() {
   std::string image(1500, 0);
   for (std::size_t i = 0; i < image.size(); ++i) image[i] = static_cast<char>(i * 7 + i / 251);
   return image;
-}
-
-void write_file(const std::string& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  // The client may be another user.
-  std::filesystem::permissions(file, std::filesystem::perms::all);
 }
 
 /// How a child ended, as the shell has it: 128 + the signal for one that died of it. -1: there is no such child.
@@ -69,19 +60,19 @@ struct Play::Outcome {
 };
 
 Play::Play(const Scenario& scenario) : scenario_(scenario) {
-  file_ = "play_" + scenario.kind + "_" + scenario.name;
   if (scenario.kind == "falcon") {
     FakeFalconOptions options;
     options.firmware_loaded = scenario.name != "run";
     const std::string image = firmware();
     options.image.assign(image.begin(), image.end());
     falcon = std::make_unique<FakeFalcon>(options);
-    write_file(file_, image);
+    file_ = files_.write("firmware", image);
   } else if (scenario.kind == "wooden_haptics") {
     FakeWoodenHapticsOptions options;
     const std::array<int, 3>& home = options.arm.home_counts;
-    write_file(file_, "{\"address\": \"" + scenario.address + "\", \"home_counts\": [" + std::to_string(home[0]) +
-                          ", " + std::to_string(home[1]) + ", " + std::to_string(home[2]) + "]}");
+    file_ = files_.write("settings.json", "{\"address\": \"" + scenario.address + "\", \"home_counts\": [" +
+                                              std::to_string(home[0]) + ", " + std::to_string(home[1]) + ", " +
+                                              std::to_string(home[2]) + "]}");
     options.button_time = monotonic_time() + 0.3;
     hid = std::make_unique<FakeWoodenHaptics>(options);
   } else if (scenario.kind == "space_mouse") {
@@ -91,10 +82,6 @@ Play::Play(const Scenario& scenario) : scenario_(scenario) {
   } else {
     throw std::invalid_argument("there is no fake of '" + scenario.kind + "'");
   }
-}
-
-Play::~Play() {
-  std::remove(file_.c_str());
 }
 
 void Play::touch(double now) noexcept {

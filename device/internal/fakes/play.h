@@ -9,6 +9,7 @@
 
 #include "palpate/device/internal/fakes/fake_falcon.h"
 #include "palpate/device/internal/fakes/fake_hid.h"
+#include "palpate/device/internal/fakes/test_files.h"
 
 namespace palpate::device {
 
@@ -29,12 +30,10 @@ constexpr unsigned plugdev_group = 46;
 /// The fake of a scenario's device, for a mount to play.
 class Play {
  public:
-  /// Throws std::invalid_argument for a kind that there is no fake of. Leaves a file for the client, which goes with
-  /// this, in the folder where the process runs.
+  /// Throws std::invalid_argument for a kind that there is no fake of.
   explicit Play(const Scenario& scenario);
   Play(const Play&) = delete;
   Play& operator=(const Play&) = delete;
-  ~Play();
 
   // For the mount, which holds the lock while it plays. One of the two is there; times are of CLOCK_MONOTONIC, s.
   std::mutex mutex;
@@ -53,6 +52,7 @@ class Play {
   Outcome look();
 
   Scenario scenario_;
+  TestFiles files_;
   std::string file_;  // for the client: firmware or settings
   double first_touch_ = -1;
 };
