@@ -1,7 +1,5 @@
 #include "palpate/io/load.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <cstring>
 #include <functional>
@@ -14,6 +12,7 @@
 #include <type_traits>
 
 #include "palpate/io/errors.h"
+#include "palpate/io/internal/pages.h"
 #include "palpate/io/internal/parallel.h"
 #include "palpate/io/internal/pixels.h"
 #include "palpate/io/internal/series_source.h"
@@ -70,23 +69,11 @@ Storage storage_for(const Reading& reading) {
   return any_large ? Storage::as_float : Storage::as_signed;
 }
 
-/// Has the kernel hand out and clear the pages on all cores, before the vector does it on one. Only a hint.
 template <typename Stored>
 std::vector<Stored> allocated(std::size_t count, int threads) {
   std::vector<Stored> voxels;
   voxels.reserve(count);
-#ifdef MADV_POPULATE_WRITE
-  constexpr std::size_t page = 4096;
-  constexpr std::size_t piece = 512 * page;
-  const auto start = (reinterpret_cast<std::uintptr_t>(voxels.data()) + page - 1) / page * page;
-  const auto end = reinterpret_cast<std::uintptr_t>(voxels.data()) + count * sizeof(Stored);
-  const auto populate = [&](std::size_t n) {
-    const auto from = start + n * piece;
-    ::madvise(reinterpret_cast<void*>(from), std::min<std::size_t>(piece, (end - from) / page * page),  // NOLINT
-              MADV_POPULATE_WRITE);
-  };
-  if (end > start + 4 * piece) internal::parallel_for((end - start) / piece, populate, {}, threads);
-#endif
+  internal::hand_out_pages(voxels.data(), count * sizeof(Stored), threads);
   voxels.resize(count);
   return voxels;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <type_traits>
 
+#include "palpate/io/internal/for_processor.h"
 #include "palpate/io/internal/parallel.h"
 
 namespace palpate::io {
@@ -23,6 +24,35 @@ bool Volume::is_padding(int i, int j, int k) const noexcept {
 
 namespace {
 
+/// Of at most 2^15 whole numbers.
+template <typename Stored>
+struct Extent {
+  Stored low = std::numeric_limits<Stored>::max();
+  Stored high = std::numeric_limits<Stored>::lowest();
+  std::conditional_t<std::is_signed_v<Stored>, std::int32_t, std::uint32_t> sum = 0;
+};
+
+template <typename Stored>
+[[gnu::always_inline]] inline Extent<Stored> extent_in(std::span<const Stored> voxels) {
+  Extent<Stored> extent;
+  for (const Stored v : voxels) {
+    extent.low = std::min(extent.low, v);
+    extent.high = std::max(extent.high, v);
+    extent.sum += v;
+  }
+  return extent;
+}
+
+PALPATE_FOR_PROCESSOR
+Extent<std::int16_t> extent_of(std::span<const std::int16_t> voxels) {
+  return extent_in(voxels);
+}
+
+PALPATE_FOR_PROCESSOR
+Extent<std::uint16_t> extent_of(std::span<const std::uint16_t> voxels) {
+  return extent_in(voxels);
+}
+
 /// Of stored values: exact where they are whole numbers.
 template <typename Stored>
 struct Tally {
@@ -33,16 +63,28 @@ struct Tally {
   std::uint64_t count = 0;
 
   void add(std::span<const Stored> voxels, const Volume& volume) {
-    for (const Stored v : voxels) {
-      if constexpr (!is_whole) {
+    if constexpr (is_whole) {
+      add_whole(voxels);
+    } else {
+      for (const Stored v : voxels) {
         if (volume.padding && v >= volume.padding->first && v <= volume.padding->second) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+        sum += v;
         ++count;
       }
-      low = std::min(low, v);
-      high = std::max(high, v);
-      sum += v;
     }
-    if constexpr (is_whole) count += voxels.size();
+  }
+  void add_whole(std::span<const Stored> voxels) {
+    constexpr std::size_t most = 1U << 15;  // whose sum is a 32-bit number
+    for (std::size_t first = 0; first < voxels.size(); first += most) {
+      const auto block = voxels.subspan(first, std::min(most, voxels.size() - first));
+      const Extent<Stored> extent = extent_of(block);
+      low = std::min(low, extent.low);
+      high = std::max(high, extent.high);
+      sum += extent.sum;
+    }
+    count += voxels.size();
   }
   void add(const Tally& other) {
     low = std::min(low, other.low);

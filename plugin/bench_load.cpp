@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "palpate/io/load.h"
@@ -40,7 +42,12 @@ struct LoadOptions {
   bool first_force = false;
 };
 
+/// What a program's time is compared with: the reader alone with its peers, which are as small; and what a person waits
+/// for, the whole program, with the same up to a force.
+enum class Role { reader, program, force, peer };
+
 struct Loader {
+  Role role;
   std::string name;
   std::vector<std::string> call;  // the folder is appended
 };
@@ -96,12 +103,21 @@ std::optional<Run> time_program(const std::vector<std::string>& call) {
 }
 
 std::vector<Loader> loaders(const fs::path& scratch) {
-  std::vector<Loader> all{{"palpate", {own_program(), "bench", "load", "--once"}},
-                          {"to a force", {own_program(), "bench", "load", "--once", "--first-force"}}};
-  if (const auto program = find_program("load_by_dcmtk")) all.push_back({"DCMTK", {*program}});
-  if (const auto program = find_program("load_by_gdcm")) all.push_back({"GDCM", {*program}});
-  if (const auto program = find_program("dcm2niix")) {
-    all.push_back({"dcm2niix", {*program, "-z", "n", "-b", "n", "-w", "1", "-f", "x", "-o", scratch.string()}});
+  const auto reader = find_program("load_by_palpate");
+  const std::vector<std::string> program{own_program(), "bench", "load", "--once"};
+  std::vector<Loader> all{{Role::reader, "palpate's io", reader ? std::vector{*reader} : program},
+                          {Role::program, "palpate", program},
+                          {Role::force, "to a force", {own_program(), "bench", "load", "--once", "--first-force"}}};
+  for (const auto& [name, file] :
+       {std::pair{"DCMTK", "load_by_dcmtk"}, {"GDCM", "load_by_gdcm"}, {"ITK", "load_by_itk"}}) {
+    if (const auto peer = find_program(file)) all.push_back({Role::peer, name, {*peer}});
+  }
+  if (const auto peer = find_program("dcm2niix")) {
+    all.push_back(
+        {Role::peer, "dcm2niix", {*peer, "-z", "n", "-b", "n", "-w", "1", "-f", "x", "-o", scratch.string()}});
+  }
+  if (const auto peer = find_program("dicomtonifti")) {
+    all.push_back({Role::peer, "vtk-dicom", {*peer, "-s", "-r", "-o", (scratch / "v.nii").string()}});
   }
   return all;
 }
@@ -130,13 +146,11 @@ void compare(const std::string& title, const std::string& folder, int rounds) {
     }
   }
   fmt::print("\n{}: median of {} alternating runs, {} cores\n", title, rounds, std::thread::hardware_concurrency());
-  fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9}   call\n", "", "wall s", "best s", "CPU s", "peak MiB");
-  Fastest own;
-  Fastest force;
-  Fastest peer;
+  fmt::print("{:<12} {:>9} {:>9} {:>9} {:>9}   call\n", "", "wall s", "best s", "CPU s", "peak MiB");
+  std::array<Fastest, 4> fastest;  // by role
   for (std::size_t l = 0; l < all.size(); ++l) {
     if (runs[l].empty()) {
-      fmt::print("{:<10} failed   {} {}\n", all[l].name, fmt::join(all[l].call, " "), folder);
+      fmt::print("{:<12} failed   {} {}\n", all[l].name, fmt::join(all[l].call, " "), folder);
       continue;
     }
     std::vector<double> wall;
@@ -148,20 +162,23 @@ void compare(const std::string& title, const std::string& folder, int rounds) {
       peak.push_back(run.peak_mib);
     }
     const Fastest times{median(wall), *std::min_element(wall.begin(), wall.end())};
-    fmt::print("{:<10} {:>9.3f} {:>9.3f} {:>9.3f} {:>9}   {} {}\n", all[l].name, times.typical, times.best, median(cpu),
+    fmt::print("{:<12} {:>9.3f} {:>9.3f} {:>9.3f} {:>9}   {} {}\n", all[l].name, times.typical, times.best, median(cpu),
                median(peak), fmt::join(all[l].call, " "), folder);
-    Fastest& of = l == 0 ? own : l == 1 ? force : peer;
+    Fastest& of = fastest[static_cast<std::size_t>(all[l].role)];
     of.typical = std::min(of.typical, times.typical);
     of.best = std::min(of.best, times.best);
   }
   // Other work on the machine hurts what uses all cores more than what uses one: the best runs saw least of it.
-  const auto ratio = [](const char* what, const Fastest& a, const Fastest& b) {
+  const auto ratio = [&](const char* what, Role role, Role to) {
+    const Fastest& a = fastest[static_cast<std::size_t>(role)];
+    const Fastest& b = fastest[static_cast<std::size_t>(to)];
     if (a.best < 1e300 && b.best < 1e300) {
       fmt::print("{}: {:.2f} (best runs {:.2f})\n", what, a.typical / b.typical, a.best / b.best);
     }
   };
-  ratio("palpate / fastest peer", own, peer);
-  ratio("first force / load", force, own);
+  ratio("palpate's io / fastest peer", Role::reader, Role::peer);
+  ratio("palpate / fastest peer", Role::program, Role::peer);
+  ratio("first force / load", Role::force, Role::program);
 }
 
 // The same series in JPEG lossless, by DCMTK's dcmcjpeg.
@@ -204,14 +221,16 @@ void run(const LoadOptions& options) {
     }
   }
   fmt::print(
-      "\nPeers found beside this program or on the PATH are run; load_by_dcmtk and load_by_gdcm are built with "
-      "-DPALPATE_PEERS=ON.\n");
+      "\nWhat is found beside this program or on the PATH is run; load_by_palpate, load_by_dcmtk, load_by_gdcm and "
+      "load_by_itk are built with -DPALPATE_PEERS=ON, dcm2niix and dicomtonifti are Debian's dcm2niix and "
+      "vtk-dicom-tools.\n");
 }
 
 }  // namespace
 
 void add_bench_load(CLI::App& bench) {
-  CLI::App* command = bench.add_subcommand("load", "From a folder to a volume, against DCMTK, GDCM and dcm2niix");
+  CLI::App* command =
+      bench.add_subcommand("load", "From a folder to a volume, against DCMTK, GDCM, ITK, vtk-dicom and dcm2niix");
   const auto options = std::make_shared<LoadOptions>();
   command->add_option("FOLDER", options->folders, "Folders that hold one series each")->required();
   command->add_option("--rounds", options->rounds, "Runs of each, in turn")

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "palpate/io/errors.h"
+#include "palpate/io/internal/asked_for.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -172,17 +173,23 @@ std::optional<PixelElement> parse_header(const InputFile& file, const std::files
   // The syntax is given, so that DCMTK never guesses another one than was checked.
   dataset.transferInit();
   if (start.deflated) {
-    shape = check_structure(*inflated(path, start), start.encoding);
+    shape = check_structure(*inflated(path, start), start.encoding, is_asked_for);
     DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(start.at));
     read = dataset.readUntilTag(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
   } else {
     FileBytes bytes(file, start.at);
-    shape = check_structure(bytes, start.encoding);
+    shape = check_structure(bytes, start.encoding, is_asked_for);
     constexpr std::uint64_t longest = 1U << 28;  // five times the header of 10 000 enhanced frames
     if (shape.header_end > longest) throw DicomError("its header is larger than 256 MiB");
-    // The pixels stay out: what DCMTK sees ends before them.
+    // Pixels, and what nobody asks for, stay out: DCMTK takes a microsecond an element.
     std::vector<std::byte> before(shape.header_end);
     file.read(start.at, before);
+    std::size_t kept = 0;
+    for (const DatasetShape::Stretch& stretch : shape.wanted) {
+      std::memmove(before.data() + kept, before.data() + stretch.begin, stretch.end - stretch.begin);
+      kept += stretch.end - stretch.begin;
+    }
+    before.resize(kept);
     DcmInputBufferStream stream;
     stream.setBuffer(before.data(), static_cast<offile_off_t>(before.size()));
     stream.setEos();

@@ -29,8 +29,9 @@ DatasetStart find_dataset(const InputFile& file);
 /// A deflated dataset, inflated as it is read.
 std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start);
 
-/// Reads all before the pixel data into `dataset`, having checked that this is safe. Returns where the pixel data is
-/// (in the inflated dataset, where it is deflated); nothing where there is none. Throws DicomError.
+/// Reads what is_asked_for() of all before the pixel data into `dataset`, having checked that this is safe. Returns
+/// where the pixel data is (in the inflated dataset, where it is deflated); nothing where there is none. Throws
+/// DicomError.
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
                                          const DatasetStart& start, DcmDataset& dataset);
 

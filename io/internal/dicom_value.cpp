@@ -10,12 +10,24 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <stdexcept>
 #include <string_view>
+
+#include "palpate/io/internal/asked_for.h"
 
 namespace palpate::io::internal {
 namespace {
 
+// A dataset holds only what is asked for: what is missing from that list must not seem to be missing from the file.
+void check_asked_for(const DcmItem& item, const DcmTagKey& tag) {
+  if (item.ident() == EVR_dataset && !is_asked_for(std::uint32_t{tag.getGroup()} << 16 | tag.getElement())) {
+    throw std::logic_error(std::string(tag.toString().c_str()) + " has to be added to is_asked_for()");
+  }
+}
+
 DcmElement* element_of(DcmItem& item, const DcmTagKey& tag) {
+  check_asked_for(item, tag);
   DcmElement* element = nullptr;
   return item.findAndGetElement(tag, element).good() ? element : nullptr;
 }
@@ -132,6 +144,7 @@ std::optional<double> number_of(DcmItem& item, const DcmTagKey& tag) {
 }
 
 DcmItem* first_item(DcmItem& item, const DcmTagKey& sequence) {
+  check_asked_for(item, sequence);
   DcmItem* found = nullptr;
   return item.findAndGetSequenceItem(sequence, found, 0).good() ? found : nullptr;
 }

@@ -34,11 +34,14 @@ struct Level {
 
 class Walk {
  public:
-  Walk(ByteSource& in, Encoding encoding) : in_(in) { levels_.push_back({Holds::elements, std::nullopt, encoding, 0}); }
+  Walk(ByteSource& in, Encoding encoding, bool (*wants)(std::uint32_t)) : in_(in), wants_(wants) {
+    levels_.push_back({Holds::elements, std::nullopt, encoding, 0});
+  }
 
   DatasetShape run() {
     while (step()) {
     }
+    end_stretch(shape_.header_end);
     return shape_;
   }
 
@@ -89,6 +92,11 @@ class Walk {
     return {name, number(4)};
   }
 
+  void end_stretch(std::uint64_t at) {
+    if (stretch_) shape_.wanted.push_back({*stretch_, at});
+    stretch_.reset();
+  }
+
   bool step() {
     if (levels_.back().end && at_ >= *levels_.back().end) {
       levels_.pop_back();
@@ -122,6 +130,9 @@ class Walk {
         shape_.pixels = PixelElement{at_, is.length, is.vr};
       }
       return false;
+    }
+    if (levels_.size() == 1 && wants_(tag) != stretch_.has_value()) {
+      stretch_ ? end_stretch(start) : void(stretch_ = start);
     }
     Level& level = levels_.back();
     if (tag <= level.last_tag && ++disorder_ > most_disorder) throw DicomError("damaged: its header is in disorder");
@@ -168,6 +179,8 @@ class Walk {
   }
 
   ByteSource& in_;
+  bool (*wants_)(std::uint32_t);
+  std::optional<std::uint64_t> stretch_;  // where one of wanted elements began
   std::uint64_t at_ = 0;
   std::vector<Level> levels_;
   std::size_t elements_ = 0;
@@ -177,8 +190,8 @@ class Walk {
 
 }  // namespace
 
-DatasetShape check_structure(ByteSource& dataset, Encoding encoding) {
-  return Walk(dataset, encoding).run();
+DatasetShape check_structure(ByteSource& dataset, Encoding encoding, bool (*wants)(std::uint32_t)) {
+  return Walk(dataset, encoding, wants).run();
 }
 
 }  // namespace palpate::io::internal

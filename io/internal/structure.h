@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace palpate::io::internal {
 
@@ -38,12 +39,18 @@ struct PixelElement {
 struct DatasetShape {
   std::uint64_t header_end = 0;  ///< bytes before the pixel data, or before whatever is behind its place, or all
   std::optional<PixelElement> pixels;
+  /// Where the outermost elements before the pixels are that somebody wants; what adjoins is one stretch.
+  struct Stretch {
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+  };
+  std::vector<Stretch> wanted;
 };
 
 /// Walks over a dataset up to the place of its pixel data without building anything. Throws DicomError where a parser
 /// that does build would overflow its stack (sequences nested deeper than any object defined), run for hours (elements
 /// in no order, which is quadratic in DCMTK) or fill the memory (millions of elements), or where the bytes are no
-/// elements or end early.
-DatasetShape check_structure(ByteSource& dataset, Encoding encoding);
+/// elements or end early. `wants` says of a tag (group << 16 | element) whether somebody wants it.
+DatasetShape check_structure(ByteSource& dataset, Encoding encoding, bool (*wants)(std::uint32_t tag));
 
 }  // namespace palpate::io::internal
