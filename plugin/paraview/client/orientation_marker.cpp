@@ -46,7 +46,8 @@ OrientationMarker::OrientationMarker(vtkPVRenderView& view) : renderer_(view.Get
     vtkTextProperty& style = *letters_[n]->GetTextProperty();
     style.SetFontSize(14);
     style.SetBold(1);
-    style.SetShadow(1);
+    style.SetBackgroundColor(0, 0, 0);
+    style.SetBackgroundOpacity(0.5);
     style.SetJustificationToCentered();
     style.SetVerticalJustificationToCentered();
     renderer_->AddActor(letters_[n]);

@@ -40,7 +40,7 @@ SliceOverlay::SliceOverlay(vtkPVRenderView& view) : renderer_(view.GetNonComposi
     style.SetColor(1, 0.85, 0.35);
     // Bright bone lies under it as often as dark air.
     style.SetBackgroundColor(0, 0, 0);
-    style.SetBackgroundOpacity(0.45);
+    style.SetBackgroundOpacity(0.6);
     style.SetJustification(places[n].horizontal);
     style.SetVerticalJustification(places[n].vertical);
     renderer_->AddActor(texts_[n]);

@@ -21,6 +21,7 @@ PHANTOMS = {
                 "--orientation", "0.8,0.6,0,-0.48,0.64,0.6"],
     "tilted": ["sphere", "--radius", "18", "--spacing", "1,0.8,1.5", "--size", "60,80,40", "--tilt", "20"],
     "uneven": ["sphere", "--radius", "18", "--spacing", "1,0.8,1.5", "--size", "60,70,40", "--uneven", "0.2"],
+    "noisy": ["sphere", "--radius", "18", "--spacing", "1,0.8,1.5", "--size", "60,70,40", "--noise", "60", "--window", "35,80"],
     "missing": ["sphere", "--radius", "18", "--spacing", "1,0.8,1.5", "--size", "60,70,40", "--missing", "19,20"],
 }
 
@@ -63,6 +64,35 @@ def fetch(proxy):
     """What a source or filter gives, in this process, so that tests also hold for a remote server."""
     proxy.UpdatePipeline()
     return servermanager.Fetch(proxy)
+
+
+def texts(proxy, name):
+    """A list of texts that a proxy tells; ParaView gives a list of one as its text."""
+    value = proxy.GetPropertyValue(name)
+    return [value] if isinstance(value, str) else list(value or [])
+
+
+class Probe:
+    """What the program asks the server for: single values, and how they are spread."""
+
+    def __init__(self, reader):
+        self.proxy = servermanager.ProxyManager().SMProxyManager.NewProxy("misc", "PalpateValueProbe")
+        self.proxy.GetProperty("Reader").AddProxy(reader.SMProxy)
+        self.proxy.UpdateVTKObjects()
+
+    def numbers(self, name):
+        told = self.proxy.GetProperty(name)
+        self.proxy.UpdatePropertyInformation(told)
+        return [told.GetElement(n) for n in range(told.GetNumberOfElements())]
+
+    def value_at(self, place):
+        for axis, x in enumerate(place):
+            self.proxy.GetProperty("Position").SetElement(axis, x)
+        self.proxy.UpdateVTKObjects()
+        return self.numbers("Value")[0]
+
+    def shares(self):
+        return self.numbers("Shares")
 
 
 def expect(condition, message):

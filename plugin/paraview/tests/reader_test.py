@@ -1,10 +1,12 @@
 """The reader against the core: geometry, values, series, frames."""
 
+import bisect
+import math
 import os
 import random
 import shutil
 
-from palpate_test import (SCRATCH, core_info, core_samples, expect, expect_all_near, expect_near, fetch, main,
+from palpate_test import (SCRATCH, Probe, core_info, core_samples, expect, expect_all_near, expect_near, fetch, main,
                           open_series, phantom)
 from paraview import simple
 
@@ -81,16 +83,46 @@ def what_cannot_be_read_is_refused():
     expect(reader.GetDataInformation().GetNumberOfPoints() == 0, "a series that is not there gave an image")
 
 
-def a_state_file_brings_the_scan_back():
-    reader = open_series(phantom("oblique"), core_info(phantom("oblique"))["uid"])
-    before = fetch(reader).GetPointData().GetScalars().GetRange()
-    state = os.path.join(SCRATCH, "state.pvsm")
-    simple.SaveState(state)
-    simple.ResetSession()
-    simple.LoadState(state)
-    restored = list(simple.GetSources().values())[0]
-    expect(fetch(restored).GetPointData().GetScalars().GetRange() == before, "the state gave other values")
+def single_values_are_the_cores():
+    for name in ("straight", "tilted", "missing"):
+        reader = open_series(phantom(name))
+        reader.UpdatePipeline()
+        probe, image = Probe(reader), fetch(reader)
+        places = [image.GetPoint(random.randrange(image.GetNumberOfPoints())) for _ in range(30)]
+        told = 0
+        for place, sample in zip(places, core_samples(phantom(name), places)):
+            value = probe.value_at(place)
+            if name != "missing":  # the copy that is shown has voxels between those of the scan
+                expect_near(value, sample["value"], 0, f"{name} at {place}")
+            expect(math.isnan(value) == ("value" not in sample), f"{name} at {place}: {value}, core {sample}")
+            told += not math.isnan(value)
+        expect(told > 20, f"{name}: {told} values")
+        expect(math.isnan(probe.value_at((500, 0, 0))), "a value outside the scan")
+
+
+def the_spread_of_values_is_that_of_the_voxels():
+    reader = open_series(phantom("noisy"))
+    reader.UpdatePipeline()
+    shares, scalars = Probe(reader).shares(), fetch(reader).GetPointData().GetScalars()
+    values = sorted(scalars.GetValue(n) for n in range(scalars.GetNumberOfTuples()))
+    expect(len(shares) == 101, f"{len(shares)} shares")
+    for percent in range(5, 100, 5):
+        below = bisect.bisect_left(values, shares[percent]) / len(values)
+        expect_near(below, percent / 100, 0.03, f"voxels below {shares[percent]}")
+    lean = open_series(phantom("noisy"))  # before it has been loaded: from some slices on disk
+    lean.UpdatePipelineInformation()
+    simple.Delete(reader)
+    expect(Probe(lean).shares() == shares, "other shares from the files than from the voxels")
+
+
+def the_window_of_the_series_is_told():
+    for name, wanted in (("noisy", [35, 80]), ("straight", [0, 0])):
+        reader = open_series(phantom(name))
+        reader.UpdatePipelineInformation()
+        expect(list(reader.GetPropertyValue("Window")) == wanted, f"{name}: {list(reader.GetPropertyValue('Window'))}")
+        expect(reader.GetPropertyValue("Modality") == "CT", f"{name}: modality")
 
 
 main([geometry_is_the_cores, voxels_are_the_cores, uneven_slices_are_shown_where_they_are, a_series_is_chosen,
-      what_cannot_be_read_is_refused, a_state_file_brings_the_scan_back])
+      what_cannot_be_read_is_refused, single_values_are_the_cores, the_spread_of_values_is_that_of_the_voxels,
+      the_window_of_the_series_is_told])

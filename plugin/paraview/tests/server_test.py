@@ -5,7 +5,7 @@ import socket
 import subprocess
 import sys
 
-from palpate_test import PLUGIN, expect, expect_all_near, fetch, open_series, phantom
+from palpate_test import PLUGIN, Probe, expect, expect_all_near, fetch, open_series, phantom
 from paraview import servermanager, simple
 
 MPIEXEC, PVSERVER = sys.argv[4:6]
@@ -41,6 +41,10 @@ def numbers():
         reader.UpdatePipeline()
         found[f"{name}: bounds"] = reader.GetDataInformation().GetBounds()
         found[f"{name}: range"] = reader.PointData["HU"].GetRange()
+        if name != "uneven":
+            probe = Probe(reader)
+            found[f"{name}: shares"] = probe.shares()
+            found[f"{name}: values"] = [probe.value_at(p) for p in ((0, 0, 0), (5, -16, 20), (-3, 4, -25), (10, 10, 17))]
         fields = simple.PalpateFields(Input=reader, Gradient=1, Scene=SCENE)
         fields.UpdatePipeline()
         for array in ("Gradient magnitude", "Felt strength"):
