@@ -37,6 +37,7 @@ void open_first_folder(ScanSection& scan) {
   auto* const waiting = new QTimer(&scan);
   QObject::connect(waiting, &QTimer::timeout, &scan, [waiting, &scan, folder] {
     if (!pqActiveObjects::instance().activeServer() || !pqActiveObjects::instance().activeView()) return;
+    waiting->stop();  // its end may be long in coming where a script runs the event loop
     waiting->deleteLater();
     scan.open(folder.toStdString());
   });
