@@ -36,7 +36,8 @@ class StraightBlock {
         row_(static_cast<std::size_t>(width_ + std::ptrdiff_t{2} * kernel.radius.x), 0.0F),
         filtered_(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(2 * width_ * rows_))),
         planes_(std::make_unique_for_overwrite<float[]>(3 * plane_ * static_cast<std::size_t>(ring_))),
-        sums_(std::make_unique_for_overwrite<float[]>(4 * plane_)) {}
+        sum_(static_cast<std::size_t>(width_) + 16),
+        sums_(4 * sum_) {}
 
   bool run(const GradientTarget& target) {
     int next = std::max(block_.first.z - kernel_.radius.z, 0);
@@ -50,8 +51,9 @@ class StraightBlock {
         if (reader_.met_padding() || (!reader_.complete() && !fits_.knows_edges())) return false;
       }
       balanced_ = fits_.whole(slice).constant == glm::vec3(0);
-      sum(contributions);
+      find_pairs(contributions);
       for (int j = 0; j < block_.size.y; ++j) {
+        sum_row();
         fit_row(j, slice, target.first + k * target.slice + j * target.row);
       }
     }
@@ -83,8 +85,8 @@ class StraightBlock {
     }
   }
 
-  void sum(const std::vector<Contribution>& contributions) {
-    std::vector<SlicePair> pairs;
+  void find_pairs(const std::vector<Contribution>& contributions) {
+    pairs_.clear();
     for (std::size_t n = 0; n < contributions.size(); ++n) {
       // Of a pair the weight is that of the slice above, which comes second.
       const Contribution& c = contributions[n + (contributions[n].paired ? 1 : 0)];
@@ -93,12 +95,20 @@ class StraightBlock {
         pair.above = plane_of(c.slice);
         ++n;
       }
-      pairs.push_back(pair);
+      pairs_.push_back(pair);
     }
-    float* const s = sums_.get();
+  }
+
+  // The row after the one that the pairs point at is theirs next.
+  void sum_row() {
+    float* const s = sums_.data();
     const bool needs_total = !balanced_ || !reader_.complete();
-    sum_slices(pairs.data(), static_cast<int>(pairs.size()), plane_, needs_total ? s : nullptr, s + plane_,
-               s + 2 * plane_, s + 3 * plane_, plane_ - apart);
+    sum_slices(pairs_.data(), static_cast<int>(pairs_.size()), plane_, needs_total ? s : nullptr, s + sum_,
+               s + 2 * sum_, s + 3 * sum_, static_cast<std::size_t>(width_));
+    for (SlicePair& pair : pairs_) {
+      pair.below += width_;
+      if (pair.above != nullptr) pair.above += width_;
+    }
   }
 
   void fit_row(int j, int slice, glm::vec3* gradients) {
@@ -111,11 +121,11 @@ class StraightBlock {
       first = inner_row ? std::clamp(kernel_.radius.x - block_.first.x, 0, last) : last;
       last = inner_row ? std::clamp(size.x - kernel_.radius.x - block_.first.x, first, last) : last;
     }
-    const float* const s = sums_.get() + width_ * j;
+    const float* const s = sums_.data();
     for (int i = 0; i < first; ++i) fit_voxel(fits_.at(block_.first.x + i, y, slice), s + i, gradients[i]);
     const PlaneFit& whole = fits_.whole(slice);
     if (balanced_) {
-      fit_balanced_row(whole.slope, s + plane_ + first, s + 2 * plane_ + first, s + 3 * plane_ + first, last - first,
+      fit_balanced_row(whole.slope, s + sum_ + first, s + 2 * sum_ + first, s + 3 * sum_ + first, last - first,
                        gradients + first);
     } else {
       for (int i = first; i < last; ++i) fit_voxel(whole, s + i, gradients[i]);
@@ -126,7 +136,7 @@ class StraightBlock {
   }
 
   void fit_voxel(const PlaneFit& fit, const float* s, glm::vec3& gradient) const {
-    gradient = gradient_of(fit, s, plane_);
+    gradient = gradient_of(fit, s, sum_);
   }
 
   const Volume& volume_;
@@ -143,7 +153,9 @@ class StraightBlock {
   std::vector<float> row_;
   std::unique_ptr<float[]> filtered_;
   std::unique_ptr<float[]> planes_;
-  std::unique_ptr<float[]> sums_;
+  std::vector<SlicePair> pairs_;
+  std::size_t sum_;  ///< floats from one of a row's sums to the next
+  std::vector<float> sums_;
   bool balanced_ = true;
 };
 

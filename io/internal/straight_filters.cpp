@@ -5,16 +5,16 @@
 namespace palpate::io::internal {
 namespace {
 
-// Several pairs in one pass over the row, so that the sums stay in registers meanwhile.
-constexpr int at_once = 4;
+// Several pairs in one pass, so that the sums stay in registers meanwhile; the first pass starts them.
 
-[[gnu::always_inline]] inline void add_row_pairs(const float* __restrict in, const TapPair* pairs, int count, int width,
-                                                 float* __restrict one, float* __restrict p) {
+template <int Count, bool First>
+[[gnu::always_inline]] inline void add_row_pairs(const float* __restrict in, float middle, const TapPair* pairs,
+                                                 int width, float* __restrict one, float* __restrict p) {
   PALPATE_INDEPENDENT
   for (int i = 0; i < width; ++i) {
-    float even = one[i];
-    float odd = p[i];
-    for (int n = 0; n < count; ++n) {
+    float even = First ? middle * in[i] : one[i];
+    float odd = First ? 0 : p[i];
+    for (int n = 0; n < Count; ++n) {
       const float right = in[i + pairs[n].offset];
       const float left = in[i - pairs[n].offset];
       even += pairs[n].even * (right + left);
@@ -25,15 +25,16 @@ constexpr int at_once = 4;
   }
 }
 
-[[gnu::always_inline]] inline void add_column_pairs(const float* __restrict rows, std::ptrdiff_t stride,
-                                                    const TapPair* pairs, int count, int width, float* __restrict one,
+template <int Count, bool First>
+[[gnu::always_inline]] inline void add_column_pairs(const float* __restrict rows, std::ptrdiff_t stride, float middle,
+                                                    const TapPair* pairs, int width, float* __restrict one,
                                                     float* __restrict p, float* __restrict q) {
   PALPATE_INDEPENDENT
   for (int i = 0; i < width; ++i) {
-    float s0 = one[i];
-    float s1 = p[i];
-    float s2 = q[i];
-    for (int n = 0; n < count; ++n) {
+    float s0 = First ? middle * rows[i] : one[i];
+    float s1 = First ? middle * rows[i + width] : p[i];
+    float s2 = First ? 0 : q[i];
+    for (int n = 0; n < Count; ++n) {
       const float* const right = rows + pairs[n].offset * stride;
       const float* const left = rows - pairs[n].offset * stride;
       s0 += pairs[n].even * (right[i] + left[i]);
@@ -46,11 +47,26 @@ constexpr int at_once = 4;
   }
 }
 
-/// A piece of the voxels, so small that its sums stay in the nearest cache.
-struct Piece {
-  std::size_t first;
-  std::size_t count;
-  std::size_t plane;
+/// Calls pass<Count, First>(pairs) with as many pairs at once as there are registers for.
+template <typename Pass>
+[[gnu::always_inline]] inline void in_passes(const TapPair* pairs, int count, const Pass& pass) {
+  const auto at_most = [&]<bool First>(const TapPair* from, int rest) __attribute__((always_inline)) {
+    switch (rest) {
+      case 0:
+        return pass.template operator()<0, First>(from);
+      case 1:
+        return pass.template operator()<1, First>(from);
+      case 2:
+        return pass.template operator()<2, First>(from);
+      default:
+        return pass.template operator()<3, First>(from);
+    }
+  };
+  at_most.template operator()<true>(pairs, count);
+  for (int n = 3; n < count; n += 3) at_most.template operator()<false>(pairs + n, count - n);
+}
+
+struct Sums {
   float* s0;  ///< null: not wanted
   float* p;
   float* q;
@@ -58,23 +74,12 @@ struct Piece {
 };
 
 template <int Count, bool Total>
-[[gnu::always_inline]] inline void add_slice_pairs(const SlicePair* pairs, const Piece& piece) {
-  float* __restrict const s0 = piece.s0;
-  float* __restrict const p = piece.p;
-  float* __restrict const q = piece.q;
-  float* __restrict const w = piece.w;
-  const std::size_t plane = piece.plane;
-  const float* a[Count];
-  const float* b[Count];
-  float weight[Count];
-  float weight_w[Count];
-  for (int c = 0; c < Count; ++c) {
-    a[c] = pairs[c].above + piece.first;
-    b[c] = pairs[c].below + piece.first;
-    weight[c] = pairs[c].weight;
-    weight_w[c] = pairs[c].weight_w;
-  }
-  const std::size_t count = piece.count;
+[[gnu::always_inline]] inline void add_slice_pairs(const SlicePair* pairs, std::size_t plane, const Sums& sums,
+                                                   std::size_t count) {
+  float* __restrict const s0 = sums.s0;
+  float* __restrict const p = sums.p;
+  float* __restrict const q = sums.q;
+  float* __restrict const w = sums.w;
   PALPATE_INDEPENDENT
   for (std::size_t n = 0; n < count; ++n) {
     float sum0 = Total ? s0[n] : 0;
@@ -82,10 +87,12 @@ template <int Count, bool Total>
     float sum2 = q[n];
     float sum3 = w[n];
     for (int c = 0; c < Count; ++c) {
-      if constexpr (Total) sum0 += weight[c] * (a[c][n] + b[c][n]);
-      sum1 += weight[c] * (a[c][n + plane] + b[c][n + plane]);
-      sum2 += weight[c] * (a[c][n + 2 * plane] + b[c][n + 2 * plane]);
-      sum3 += weight_w[c] * (a[c][n] - b[c][n]);
+      const float* const a = pairs[c].above;
+      const float* const b = pairs[c].below;
+      if constexpr (Total) sum0 += pairs[c].weight * (a[n] + b[n]);
+      sum1 += pairs[c].weight * (a[n + plane] + b[n + plane]);
+      sum2 += pairs[c].weight * (a[n + 2 * plane] + b[n + 2 * plane]);
+      sum3 += pairs[c].weight_w * (a[n] - b[n]);
     }
     if constexpr (Total) s0[n] = sum0;
     p[n] = sum1;
@@ -94,37 +101,39 @@ template <int Count, bool Total>
   }
 }
 
-template <bool Total>
-[[gnu::always_inline]] inline void add_slice(const SlicePair& slice, const Piece& piece) {
-  float* __restrict const s0 = piece.s0;
-  float* __restrict const p = piece.p;
-  float* __restrict const q = piece.q;
-  float* __restrict const w = piece.w;
-  const float* __restrict const b = slice.below + piece.first;
-  const std::size_t plane = piece.plane;
+template <bool Total, bool First>
+[[gnu::always_inline]] inline void add_slice(const SlicePair& slice, std::size_t plane, const Sums& sums,
+                                             std::size_t count) {
+  float* __restrict const s0 = sums.s0;
+  float* __restrict const p = sums.p;
+  float* __restrict const q = sums.q;
+  float* __restrict const w = sums.w;
+  const float* __restrict const b = slice.below;
   const float weight = slice.weight;
   const float weight_w = slice.weight_w;
-  const std::size_t count = piece.count;
   PALPATE_INDEPENDENT
   for (std::size_t n = 0; n < count; ++n) {
-    if constexpr (Total) s0[n] += weight * b[n];
-    p[n] += weight * b[n + plane];
-    q[n] += weight * b[n + 2 * plane];
-    w[n] += weight_w * b[n];
+    if constexpr (Total) s0[n] = (First ? 0 : s0[n]) + weight * b[n];
+    p[n] = (First ? 0 : p[n]) + weight * b[n + plane];
+    q[n] = (First ? 0 : q[n]) + weight * b[n + 2 * plane];
+    w[n] = (First ? 0 : w[n]) + weight_w * b[n];
   }
 }
 
 template <bool Total>
-[[gnu::always_inline]] inline void add_all_slices(const SlicePair* pairs, int pair_count, const Piece& piece) {
-  for (int c = 0; c < pair_count;) {
+[[gnu::always_inline]] inline void add_all_slices(const SlicePair* pairs, int pair_count, std::size_t plane,
+                                                  const Sums& sums, std::size_t count) {
+  // From itself outwards: the first is always one slice.
+  add_slice<Total, true>(pairs[0], plane, sums, count);
+  for (int c = 1; c < pair_count;) {
     if (pairs[c].above == nullptr) {
-      add_slice<Total>(pairs[c], piece);
+      add_slice<Total, false>(pairs[c], plane, sums, count);
       ++c;
     } else if (c + 1 < pair_count && pairs[c + 1].above != nullptr) {
-      add_slice_pairs<2, Total>(pairs + c, piece);
+      add_slice_pairs<2, Total>(pairs + c, plane, sums, count);
       c += 2;
     } else {
-      add_slice_pairs<1, Total>(pairs + c, piece);
+      add_slice_pairs<1, Total>(pairs + c, plane, sums, count);
       ++c;
     }
   }
@@ -134,44 +143,29 @@ template <bool Total>
 
 PALPATE_FOR_PROCESSOR
 void filter_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* one, float* p) {
-  PALPATE_INDEPENDENT
-  for (int i = 0; i < width; ++i) {
-    one[i] = middle * in[i];
-    p[i] = 0;
-  }
-  int n = 0;
-  for (; n + at_once <= count; n += at_once) add_row_pairs(in, pairs + n, at_once, width, one, p);
-  for (; n < count; ++n) add_row_pairs(in, pairs + n, 1, width, one, p);
+  in_passes(
+      pairs, count, [=]<int Count, bool First>(const TapPair* from) __attribute__((always_inline)) {
+        add_row_pairs<Count, First>(in, middle, from, width, one, p);
+      });
 }
 
 PALPATE_FOR_PROCESSOR
 void filter_column(const float* rows, std::ptrdiff_t stride, float middle, const TapPair* pairs, int count, int width,
                    float* one, float* p, float* q) {
-  PALPATE_INDEPENDENT
-  for (int i = 0; i < width; ++i) {
-    one[i] = middle * rows[i];
-    p[i] = middle * rows[i + width];
-    q[i] = 0;
-  }
-  int n = 0;
-  for (; n + at_once <= count; n += at_once) add_column_pairs(rows, stride, pairs + n, at_once, width, one, p, q);
-  for (; n < count; ++n) add_column_pairs(rows, stride, pairs + n, 1, width, one, p, q);
+  in_passes(
+      pairs, count, [=]<int Count, bool First>(const TapPair* from) __attribute__((always_inline)) {
+        add_column_pairs<Count, First>(rows, stride, middle, from, width, one, p, q);
+      });
 }
 
 PALPATE_FOR_PROCESSOR
 void sum_slices(const SlicePair* pairs, int pair_count, std::size_t plane, float* s0, float* p, float* q, float* w,
                 std::size_t count) {
-  constexpr std::size_t longest = 512;
-  for (std::size_t first = 0; first < count; first += longest) {
-    const std::size_t length = count - first < longest ? count - first : longest;
-    const Piece piece{first, length, plane, s0 != nullptr ? s0 + first : nullptr, p + first, q + first, w + first};
-    for (std::size_t n = 0; n < length; ++n) piece.p[n] = piece.q[n] = piece.w[n] = 0;
-    if (s0 == nullptr) {
-      add_all_slices<false>(pairs, pair_count, piece);
-    } else {
-      for (std::size_t n = 0; n < length; ++n) piece.s0[n] = 0;
-      add_all_slices<true>(pairs, pair_count, piece);
-    }
+  const Sums sums{s0, p, q, w};
+  if (s0 == nullptr) {
+    add_all_slices<false>(pairs, pair_count, plane, sums, count);
+  } else {
+    add_all_slices<true>(pairs, pair_count, plane, sums, count);
   }
 }
 

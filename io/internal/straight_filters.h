@@ -33,7 +33,8 @@ struct SlicePair {
   float weight = 0;
   float weight_w = 0;  ///< times the offset along the normal
 };
-/// Sums in space of `count` voxels: 1 (unless null), p, q, w. A slice's planes lie `plane` floats apart.
+/// Sums in space of `count` voxels: 1 (unless null), p, q, w. The first pair is a single slice. A slice's planes lie
+/// `plane` floats apart. A row at a time, so that the sums stay in the nearest cache.
 void sum_slices(const SlicePair* pairs, int pair_count, std::size_t plane, float* s0, float* p, float* q, float* w,
                 std::size_t count);
 
