@@ -13,6 +13,7 @@
 #include "palpate/io/internal/central_differences.h"
 #include "palpate/io/internal/fits.h"
 #include "palpate/io/internal/moments.h"
+#include "palpate/io/internal/pages.h"
 #include "palpate/io/internal/parallel.h"
 #include "palpate/io/internal/plane_fit.h"
 #include "palpate/io/internal/row_reader.h"
@@ -257,6 +258,7 @@ void GradientKernel::for_each_block(const std::function<void(const Block&, std::
 
 void GradientKernel::whole_into(std::span<glm::vec3> gradients, const Progress& progress, int threads) const {
   const Volume& volume = *weights_->volume;
+  internal::prefer_large_pages(gradients.data(), gradients.size_bytes());
   const std::vector<Block> blocks = blocks_of(volume.geometry.dimensions);
   const auto row = static_cast<std::ptrdiff_t>(volume.offset(0, 1, 0));
   const auto slice = static_cast<std::ptrdiff_t>(volume.offset(0, 0, 1));
@@ -268,7 +270,11 @@ void GradientKernel::whole_into(std::span<glm::vec3> gradients, const Progress& 
 }
 
 std::vector<glm::vec3> GradientKernel::whole(const Progress& progress, int threads) const {
-  std::vector<glm::vec3> gradients(weights_->volume->offset(0, 0, weights_->volume->geometry.dimensions.z));
+  std::vector<glm::vec3> gradients;
+  const std::size_t count = weights_->volume->offset(0, 0, weights_->volume->geometry.dimensions.z);
+  gradients.reserve(count);
+  internal::hand_out_pages(gradients.data(), count * sizeof(glm::vec3), threads);
+  gradients.resize(count);
   whole_into(gradients, progress, threads);
   return gradients;
 }

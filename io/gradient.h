@@ -78,7 +78,8 @@ class GradientKernel {
                       const Progress& progress = {}, int threads = 0) const;
   /// The whole volume's gradients: 12 bytes a voxel. Throws Cancelled.
   std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
-  /// The same into memory of the caller's: one for each voxel, i fastest.
+  /// The same into memory of the caller's: one for each voxel, i fastest. Fresh memory is best left untouched: it is
+  /// asked for in large pages and first touched on all threads.
   void whole_into(std::span<glm::vec3> gradients, const Progress& progress = {}, int threads = 0) const;
 
  private:
