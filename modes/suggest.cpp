@@ -209,7 +209,8 @@ std::vector<FoundBoundary> boundaries_of(const Found& found, const io::LowHighHi
       const double share =
           static_cast<double>(counts[low * tissues + high]) / static_cast<double>(std::max<std::uint64_t>(all, 1));
       if (share >= boundary_share) {
-        boundaries.push_back({0, low, high, 0.5 * (found.typical[low] + found.typical[high]), share});
+        boundaries.push_back(
+            {.low = low, .high = high, .middle = 0.5 * (found.typical[low] + found.typical[high]), .share = share});
       }
     }
   }
@@ -219,22 +220,31 @@ std::vector<FoundBoundary> boundaries_of(const Found& found, const io::LowHighHi
   return boundaries;
 }
 
-Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, double scale_mm, bool is_ct) {
+/// Factors that set in at the boundary's middle, on the way up or on the way down.
+TransferFunction beyond_the_middle(const FoundBoundary& boundary, double step, double factor, bool up) {
+  const double way = up ? step : -step;
+  std::vector<Node> nodes{{readable(boundary.middle - 0.08 * way), 0},
+                          {readable(boundary.middle + 0.02 * way), factor}};
+  if (!up) std::swap(nodes[0], nodes[1]);
+  return TransferFunction(std::move(nodes));
+}
+
+Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, double scale_mm, bool is_ct, bool up) {
   const double step = suggestion.typical[boundary.high] - suggestion.typical[boundary.low];
   // Steepest gradient of a step at a scale.
   const double peak = step / (scale_mm * std::sqrt(2 * std::numbers::pi));
   const bool is_hard = is_ct && suggestion.typical[boundary.high] > 150;
   Mode mode;
   mode.type = "surface";
-  mode.from = suggestion.scene.tissues[boundary.low].name;
-  mode.to = suggestion.scene.tissues[boundary.high].name;
+  mode.from = suggestion.scene.tissues[up ? boundary.low : boundary.high].name;
+  mode.to = suggestion.scene.tissues[up ? boundary.high : boundary.low].name;
+  mode.enabled = up;
   mode.name = mode.from + " to " + mode.to;
   mode.strength_of = Datum::gradient_magnitude;
   mode.strength_n =
       TransferFunction({{readable(0.15 * peak), 0},
                         {readable(0.4 * peak), is_hard ? defaults::bone_strength_n : defaults::skin_strength_n}});
-  mode.gates = {{Datum::value, TransferFunction({{readable(boundary.middle - 0.08 * step), 0},
-                                                 {readable(boundary.middle + 0.02 * step), 1}})}};
+  mode.gates = {{Datum::value, beyond_the_middle(boundary, step, 1, up)}};
   return mode;
 }
 
@@ -244,8 +254,7 @@ Mode friction_above(const FoundBoundary& boundary, const Suggestion& suggestion)
   mode.type = "friction";
   mode.name = "friction";
   mode.strength_of = Datum::value;
-  mode.strength_n = TransferFunction({{readable(boundary.middle - 0.08 * step), 0},
-                                      {readable(boundary.middle + 0.02 * step), defaults::friction_strength_n}});
+  mode.strength_n = beyond_the_middle(boundary, step, defaults::friction_strength_n, true);
   return mode;
 }
 
@@ -274,11 +283,17 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   for (std::size_t b = 0; b < suggestion.boundaries.size(); ++b) {
     FoundBoundary& boundary = suggestion.boundaries[b];
     boundary.mode = b;
-    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, scale_mm, volume->unit == "HU"));
+    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, scale_mm, volume->unit == "HU", true));
     suggestion.scene.modes.back().color = colors[b];
     if (outermost == nullptr || boundary.middle < outermost->middle) {
       outermost = &boundary;
     }
+  }
+  for (std::size_t b = 0; b < suggestion.boundaries.size(); ++b) {
+    FoundBoundary& boundary = suggestion.boundaries[b];
+    boundary.way_back = suggestion.scene.modes.size();
+    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, scale_mm, volume->unit == "HU", false));
+    suggestion.scene.modes.back().color = colors[b];
   }
   if (outermost != nullptr) {
     suggestion.scene.modes.push_back(friction_above(*outermost, suggestion));

@@ -18,7 +18,8 @@ namespace palpate::modes {
 
 /// A boundary as it was found: modes[mode] of the scene.
 struct FoundBoundary {
-  std::size_t mode = 0;
+  std::size_t mode = 0;           ///< crossed from the lower to the higher values
+  std::size_t way_back = 0;       ///< the mode that is crossed the other way; switched off
   std::size_t low = 0, high = 0;  ///< its two tissues in the scene
   double middle = 0;              ///< half-way from the one's typical value to the other's, scan's unit
   double share = 0;               ///< of all voxels at boundaries
@@ -33,8 +34,9 @@ struct Suggestion {
 
 /// For CT tissues are named by their HU (air, lung, fat, soft tissue, bone, metal), else by their rank. Every boundary
 /// is a surface with a name, a colour that the colour-blind can tell from the others, and a switch; its strength rises
-/// with the gradient and sets in at the boundary's middle, so that this is where it is felt. The scene has no mode for
-/// a scan without boundaries. Throws io::Cancelled.
+/// with the gradient and sets in at the boundary's middle, so that this is where it is felt. The way back, from the
+/// higher to the lower values, is a surface of its own in the same colour, switched off: a hand that comes from outside
+/// meets what it enters. The scene has no mode for a scan without boundaries. Throws io::Cancelled.
 Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress = {}, int threads = 0);
 
 }  // namespace palpate::modes

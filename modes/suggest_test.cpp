@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -70,6 +71,36 @@ std::shared_ptr<const io::Volume> scanned(const testdata::Phantom& phantom, cons
   return std::make_shared<const io::Volume>(testdata::scan(phantom, testdata::make_geometry(grid), acquisition));
 }
 
+/// Of the voxels at boundaries: the largest part that lies between two tissues which have no boundary in the phantom.
+double share_of_others(const Suggestion& found, const Case& phantom) {
+  const io::Bins& values = found.edges.values;
+  const auto tissue_of = [&](double value) {
+    std::size_t t = 0;
+    while (t + 1 < found.scene.tissues.size() && value >= found.scene.tissues[t].high) ++t;
+    return t;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, double> counts;
+  double all = 0;
+  for (int high = 0; high < values.count; ++high) {
+    for (int low = 0; low < high; ++low) {
+      const auto count = static_cast<double>(found.edges.at(low, high));
+      all += count;
+      counts[{tissue_of(values.middle(low)), tissue_of(values.middle(high))}] += count;
+    }
+  }
+  double largest = 0;
+  for (const auto& [pair, count] : counts) {
+    const auto is_true = [&, tissues = pair](const Pair& truth) {
+      return std::abs(found.typical[tissues.first] - truth.low) < 20 &&
+             std::abs(found.typical[tissues.second] - truth.high) < 20;
+    };
+    if (pair.first != pair.second && std::none_of(phantom.boundaries.begin(), phantom.boundaries.end(), is_true)) {
+      largest = std::max(largest, count / all);
+    }
+  }
+  return largest;
+}
+
 TEST(Suggest, finds_the_tissues_and_the_boundaries_of_every_phantom_and_no_other) {
   testdata::Grid oblique = rotated(testdata::Grid{}, {1, 2, 3}, 40);
   oblique.tilt_degrees = 15;
@@ -91,6 +122,7 @@ TEST(Suggest, finds_the_tissues_and_the_boundaries_of_every_phantom_and_no_other
           };
           EXPECT_TRUE(std::any_of(found.boundaries.begin(), found.boundaries.end(), is_it)) << pair.low;
         }
+        EXPECT_LE(share_of_others(found, phantom), 0.01);
       }
     }
   }
@@ -104,16 +136,26 @@ TEST(Suggest, makes_a_scene_that_can_be_saved_and_read_and_names_tissues_by_thei
   EXPECT_EQ(read.tissues[0].name, "air");
   EXPECT_EQ(read.tissues[1].name, "soft tissue");
   EXPECT_EQ(read.tissues[2].name, "bone");
-  ASSERT_EQ(read.modes.size(), 3U);
+  ASSERT_EQ(read.modes.size(), 5U);  // two boundaries, the way back of each, friction
   EXPECT_NE(read.modes[0].color, read.modes[1].color);
+  for (const FoundBoundary& boundary : found.boundaries) {
+    const Mode& up = read.modes[boundary.mode];
+    const Mode& back = read.modes[boundary.way_back];
+    EXPECT_TRUE(up.enabled);
+    EXPECT_FALSE(back.enabled);
+    EXPECT_EQ(back.from, up.to);
+    EXPECT_EQ(back.to, up.from);
+    EXPECT_EQ(back.color, up.color);
+  }
   EXPECT_EQ(read.modes.back().type, "friction");
 }
 
 /// Feels a stroke through a slab of skin and bone with one boundary of the suggested scene alone.
-std::vector<double> depths_of_contact(const Suggestion& found, const io::FieldSource& source, std::size_t boundary) {
+std::vector<double> depths_of_contact(const Suggestion& found, const io::FieldSource& source, std::size_t mode,
+                                      bool inwards) {
   Scene scene = found.scene;
   for (std::size_t m = 0; m < scene.modes.size(); ++m) {
-    scene.modes[m].enabled = m == found.boundaries[boundary].mode;
+    scene.modes[m].enabled = m == mode;
   }
   scene.subdivision.most = 8;
   const Vec3 inward = glm::normalize(Vec3(0.3, 1, 0.2));
@@ -121,7 +163,7 @@ std::vector<double> depths_of_contact(const Suggestion& found, const io::FieldSo
   std::vector<double> depths;
   bool held = false;
   for (double depth = -25; depth < 25; depth += 0.02) {
-    hand.move_to(depth * inward);
+    hand.move_to((inwards ? depth : -depth) * inward);
     const bool holds = hand.result.hold == Hold::held && glm::length(hand.force()) > 0.2;
     if (holds && !held) {
       depths.push_back(glm::dot(hand.proxy_mm(), inward));
@@ -138,11 +180,17 @@ TEST(Suggest, lets_each_boundary_be_felt_where_it_is_and_without_the_others) {
   const io::VolumeFields source(volume, io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::low_high,
                                 io::default_gradient_scale_mm(volume->geometry));
   for (std::size_t b = 0; b < 2; ++b) {
-    const std::vector<double> depths = depths_of_contact(found, source, b);
+    const std::vector<double> depths = depths_of_contact(found, source, found.boundaries[b].mode, true);
     ASSERT_FALSE(depths.empty()) << found.scene.modes[b].name;
     EXPECT_NEAR(depths[0], found.boundaries[b].middle < 0 ? -10 : 6, 0.5) << found.scene.modes[b].name;
     // It yields bit by bit as far as the gradient's scale reaches, and not at the other boundary, 16 mm away.
     EXPECT_LT(depths.back(), depths.front() + 6) << found.scene.modes[b].name;
+    // From within, nothing resists but the way back; and that is met at the same place.
+    EXPECT_TRUE(depths_of_contact(found, source, found.boundaries[b].mode, false).empty());
+    EXPECT_TRUE(depths_of_contact(found, source, found.boundaries[b].way_back, true).empty());
+    const std::vector<double> back = depths_of_contact(found, source, found.boundaries[b].way_back, false);
+    ASSERT_FALSE(back.empty()) << found.scene.modes[b].name;
+    EXPECT_NEAR(back[0], depths[0], 0.5) << found.scene.modes[b].name;
   }
 }
 
