@@ -106,6 +106,34 @@ TEST(FalconDriver, TheGripFeelsTheForceAskedFor) {
   }
 }
 
+/// Presses on a wall of this stiffness (N/m) at y = 0 and returns how far the grip still moves after two seconds, m.
+double ringing(double stiffness, double friction) {
+  FakeFalconOptions options;
+  options.friction = friction;
+  options.path = {{0.05, {0, 0, 0}}, {0.30, {0, 0, 0.039}}, {0.60, {0, 0.005, 0}}, {1.2, {0, -0.002, 0}}};
+  Bench bench(options);
+  bench.home();
+  const auto wall = [&](const Reading& reading) { return Vec3(0, std::max(0.0, -stiffness * reading.position.y), 0); };
+  bench.run(2, wall);
+  double lowest = 1;
+  double highest = -1;
+  bench.run(0.5, [&](const Reading& reading) {
+    lowest = std::min(lowest, bench.fake.falcon.hand().body().position.y);
+    highest = std::max(highest, bench.fake.falcon.hand().body().position.y);
+    return wall(reading);
+  });
+  return highest - lowest;
+}
+
+TEST(FalconDriver, AWallAtItsStiffnessLimitIsQuiet) {
+  const double limit = Bench().stylus->specification().stiffness_limit;
+  EXPECT_LT(ringing(limit, 0.06), 0.15e-3) << "tremor alone";
+  // Whatever a real one's friction: without any, a stiffer wall lets less of the tremor through, until it rings.
+  EXPECT_LT(ringing(limit, 0), ringing(limit / 2, 0));
+  EXPECT_LT(ringing(1.5 * limit, 0), ringing(limit, 0)) << "and there is a margin";
+  EXPECT_GT(ringing(2 * limit, 0), 3 * ringing(limit, 0)) << "or nothing could be seen here";
+}
+
 TEST(FalconDriver, AHugeForceSaturatesInItsDirection) {
   Bench bench;
   bench.home();

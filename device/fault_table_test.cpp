@@ -72,7 +72,7 @@ Rig wooden_haptics() {
           [bench] { bench->unplugged = true; },
           [faults] { faults->silent = true; },
           [faults] { faults->short_every = 10; },
-          {},
+          [faults] { faults->garble_every = 2; },
           [faults] { faults->impossible_pose = true; },
           [faults](double delay) { faults->report_delay = delay; }};
 }

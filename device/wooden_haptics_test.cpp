@@ -159,6 +159,34 @@ TEST(WoodenHapticsDriver, TheHandFeelsTheForceAskedFor) {
   }
 }
 
+/// Presses on a wall of this stiffness (N/m) at y = 0 and returns how far the tip still moves after two seconds, m.
+double ringing(double stiffness, double friction) {
+  FakeWoodenHapticsOptions options;
+  options.friction = friction;
+  options.path = {{0.3, {0, 0, 0}}, {0.5, {0, 0.005, 0}}, {1.0, {0, -0.002, 0}}};
+  Bench bench(options);
+  bench.home();
+  const auto wall = [&](const Reading& reading) { return Vec3(0, std::max(0.0, -stiffness * reading.position.y), 0); };
+  bench.run(2, wall);
+  double lowest = 1;
+  double highest = -1;
+  bench.run(0.5, [&](const Reading& reading) {
+    lowest = std::min(lowest, bench.arm.hand().body().position.y);
+    highest = std::max(highest, bench.arm.hand().body().position.y);
+    return wall(reading);
+  });
+  return highest - lowest;
+}
+
+TEST(WoodenHapticsDriver, AWallAtItsStiffnessLimitIsQuiet) {
+  const double limit = Bench().stylus->specification().stiffness_limit;
+  EXPECT_LT(ringing(limit, 0.06), 0.15e-3) << "tremor alone";
+  // Whatever a real one's friction: without any, a stiffer wall lets less of the tremor through, until it rings.
+  EXPECT_LT(ringing(limit, 0), ringing(limit / 2, 0));
+  EXPECT_LT(ringing(1.5 * limit, 0), ringing(limit, 0)) << "and there is a margin";
+  EXPECT_GT(ringing(4 * limit, 0), 3 * ringing(limit, 0)) << "or nothing could be seen here";
+}
+
 TEST(WoodenHapticsDriver, StartsAFirmwareThatWaits) {
   Bench bench;
   bench.home();

@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <ctime>
 #include <exception>
+#include <vector>
 
 #include "palpate/device/falcon_protocol.h"
 #include "palpate/device/internal/falcon_usb.h"
@@ -17,7 +19,7 @@ namespace palpate::device {
 namespace {
 
 /// The homing bit stays set: dropping it would make the Falcon forget where it is.
-bool send_zeros_to_falcon(const std::string& address) {
+bool send_zeros_to_one_falcon(const std::string& address) {
   const auto link = open_falcon_usb(address);
   const auto zero = encode(FalconCommand{});
   // A command cut short when the session died takes the first of these to its end; the next ones are whole.
@@ -25,6 +27,20 @@ bool send_zeros_to_falcon(const std::string& address) {
     if (!link->send(zero) || !link->flush(0.1)) return false;
   }
   return true;
+}
+
+/// The usual case first, since it is a matter of milliseconds. Without an address the session had the only Falcon;
+/// where another was plugged in since, opening "the" Falcon is refused, and each of them gets its zeros.
+bool send_zeros_to_falcon(const std::string& address) {
+  try {
+    return send_zeros_to_one_falcon(address);
+  } catch (const std::exception&) {
+    if (!address.empty()) return false;
+  }
+  const std::vector<FoundDevice> all = find_falcons();
+  return all.size() > 1 && std::all_of(all.begin(), all.end(), [](const FoundDevice& falcon) {
+           return send_zeros_to_one_falcon(falcon.address);
+         });
 }
 
 /// Straight to the hidraw node, which several may hold at once: a report number and zeros, in each of the lengths that

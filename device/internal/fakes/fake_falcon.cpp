@@ -24,8 +24,9 @@ const std::vector<Waypoint>& homing_path() {
   return path;
 }
 
-ArmModel falcon_arm() {
+ArmModel falcon_arm(double friction) {
   ArmModel arm;
+  arm.coulomb_friction = friction;
   arm.mass = 0.1;
   arm.half_extent = Vec3(0.04);
   return arm;
@@ -35,7 +36,7 @@ ArmModel falcon_arm() {
 
 FakeFalcon::FakeFalcon(const FakeFalconOptions& options)
     : options_(options),
-      hand_(falcon_arm(), HandModel{}, options.path.empty() ? homing_path() : options.path),
+      hand_(falcon_arm(options.friction), HandModel{}, options.path.empty() ? homing_path() : options.path),
       firmware_loaded_(options.firmware_loaded) {
   homed_.fill(options.homed);
 }

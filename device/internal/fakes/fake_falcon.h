@@ -22,6 +22,7 @@ struct FakeFalconOptions {
   std::vector<std::uint8_t> image;   ///< the only firmware that runs
   bool greeting_after_zero = false;  ///< a 00 in front of the greeting, as some stacks see it
   double motor_gain = 10000;
+  double friction = 0.06;      ///< N, of the arms
   std::vector<Waypoint> path;  ///< of the hand, m in the device's frame; empty: out, in and then at rest
 };
 

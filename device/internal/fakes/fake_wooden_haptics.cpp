@@ -12,8 +12,9 @@ namespace palpate::device {
 
 namespace {
 
-ArmModel wooden_arm() {
+ArmModel wooden_arm(double friction) {
   ArmModel arm;
+  arm.coulomb_friction = friction;
   arm.mass = 0.15;
   arm.half_extent = Vec3(0.06);
   return arm;
@@ -60,7 +61,7 @@ WoodenHapticsSettings arm_with_home_at(const Vec3& position) {
 }
 
 FakeWoodenHaptics::FakeWoodenHaptics(const FakeWoodenHapticsOptions& options)
-    : options_(options), hand_(wooden_arm(), HandModel{}, path_of(options)) {
+    : options_(options), hand_(wooden_arm(options.friction), HandModel{}, path_of(options)) {
   zero_ = true_counts();  // incremental encoders read 0 when they are switched on
 }
 
@@ -110,6 +111,9 @@ std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> repor
   ++reports_;
   const auto nth = [&](int every) { return every > 0 && reports_ % static_cast<std::uint64_t>(every) == 0; };
   if (nth(faults.drop_every)) return std::nullopt;
+  if (nth(faults.garble_every)) {
+    for (std::uint8_t& byte : report.first(size)) byte ^= 0x5a;
+  }
   return nth(faults.short_every) ? 5 : size;
 }
 

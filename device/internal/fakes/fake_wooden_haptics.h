@@ -17,6 +17,7 @@ WoodenHapticsSettings arm_with_home_at(const Vec3& position);
 struct FakeWoodenHapticsOptions {
   WoodenHapticsSettings arm = arm_with_home_at(Vec3(0));
   std::size_t report_size = 14;  ///< 14, 64 (Teensy) or 8 (firmware of 2016, without a button)
+  double friction = 0.06;        ///< N, of the arm
   double button_time = 0.2;      ///< s: when the user has the arm in its home pose and presses the button
   std::vector<Waypoint> path;    ///< of the hand, m in the device's frame; empty: at rest at the origin, the home pose
 };
@@ -26,6 +27,7 @@ struct FakeWoodenHapticsFaults {
   double report_delay = 0;  ///< s on top of the millisecond between reports
   int short_every = 0;      ///< each n-th report is cut to 5 bytes
   int drop_every = 0;       ///< each n-th report is lost on the way
+  int garble_every = 0;     ///< each n-th report has its bytes turned over
   bool impossible_pose = false;
 };
 
