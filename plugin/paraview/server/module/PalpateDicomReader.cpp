@@ -58,8 +58,14 @@ plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const std::array<i
   if (!in_parts) return plugin::whole_part(plugin::load_scan(series(), wanted_frame, progress), grid);
   if (const auto whole = plugin::held_scan(series(), wanted_frame)) return plugin::whole_part(whole, grid);
   if (volume && part_extent && plugin::contains(*part_extent, extent)) return {volume, *part_extent, true};
-  const auto part = plugin::load_part(series(), extent, progress);
-  return {part, extent, part->geometry.dimensions.z == extent[5] - extent[4] + 1};
+  std::array<int, 6> read = extent;
+  if (extent[1] - extent[0] + 1 == size[0] && extent[3] - extent[2] + 1 == size[1]) {
+    // With the slices next to it: a surface asks for them after the picture has not, and would have all read again.
+    read[4] = std::max(extent[4] - 1, 0);
+    read[5] = std::min(extent[5] + 1, size[2] - 1);
+  }
+  const auto part = plugin::load_part(series(), read, progress);
+  return {part, read, part->geometry.dimensions.z == read[5] - read[4] + 1};
 }
 
 vtkStandardNewMacro(PalpateDicomReader);
@@ -152,11 +158,12 @@ double PalpateDicomReader::ValueAt(double x, double y, double z) {
   if (const auto value = scan_->volume ? plugin::nearest_value(*scan_->volume, place) : std::nullopt) return *value;
   try {
     const io::Series& series = scan_->series();
-    const int slice = plugin::nearest_slice(series.geometry, place);
-    if (slice < 0 || series.frames_per_position > 1) return std::numeric_limits<double>::quiet_NaN();
-    if (slice != scan_->probed_slice) scan_->probed = plugin::load_slice(series, slice);
-    scan_->probed_slice = slice;
-    return plugin::nearest_value(*scan_->probed, place).value_or(std::numeric_limits<double>::quiet_NaN());
+    const auto at = plugin::nearest_voxel(series.geometry, place);
+    if (!at || series.frames_per_position > 1) return std::numeric_limits<double>::quiet_NaN();
+    if (at->z != scan_->probed_slice) scan_->probed = plugin::load_slice(series, at->z);
+    scan_->probed_slice = at->z;
+    const bool padded = scan_->probed->is_padding(at->x, at->y, 0);
+    return padded ? std::numeric_limits<double>::quiet_NaN() : scan_->probed->value_at(at->x, at->y, 0);
   } catch (const std::exception&) {  // a slice that cannot be read has been told of when it was loaded
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -68,7 +68,7 @@ void keep_within(const std::array<int, 6>& extent, vtkImageData& image, vtkPolyD
     glm::dvec3 index;
     image.TransformPhysicalPointToContinuousIndex(&middle.x, &index.x);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto low = static_cast<std::size_t>(2 * axis);
+      const std::size_t low = 2 * static_cast<std::size_t>(axis);
       if (index[axis] < extent[low] || index[axis] >= extent[low + 1]) {
         surface.DeleteCell(cell);
         break;

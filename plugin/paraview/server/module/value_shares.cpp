@@ -24,12 +24,6 @@ void gather(const io::Volume& volume, int k, std::int64_t stride, std::vector<fl
   }
 }
 
-bool is_inside(const io::Geometry& geometry, const glm::dvec3& index) {
-  const bool near = geometry.contains(glm::round(index));
-  const int below = static_cast<int>(std::floor(index.z));
-  return near && (index.z == below || !std::ranges::binary_search(geometry.gaps, below));
-}
-
 }  // namespace
 
 std::vector<double> value_shares(const io::Series& series) {
@@ -42,7 +36,7 @@ std::vector<double> value_shares(const io::Series& series) {
   const std::int64_t stride = (std::int64_t{size.x} * size.y * slices / most_values) | 1;
   std::vector<float> values;
   for (int n = 0; n < slices; ++n) {
-    const int k = static_cast<int>((2 * n + 1) * std::int64_t{size.z} / (2 * slices));
+    const int k = static_cast<int>((2 * std::int64_t{n} + 1) * size.z / (2 * std::int64_t{slices}));
     if (volume) {
       gather(*volume, k, stride, values);
     } else {
@@ -58,17 +52,18 @@ std::vector<double> value_shares(const io::Series& series) {
   return shares;
 }
 
-std::optional<double> nearest_value(const io::Volume& volume, const glm::dvec3& place) {
-  const glm::dvec3 index = volume.geometry.to_index(place);
-  if (!is_inside(volume.geometry, index)) return std::nullopt;
-  const glm::ivec3 at(glm::round(index));
-  if (volume.is_padding(at.x, at.y, at.z)) return std::nullopt;
-  return volume.value_at(at.x, at.y, at.z);
+std::optional<glm::ivec3> nearest_voxel(const io::Geometry& geometry, const glm::dvec3& place) {
+  const glm::dvec3 index = geometry.to_index(place);
+  const int below = static_cast<int>(std::floor(index.z));
+  const bool in_gap = index.z != below && std::ranges::binary_search(geometry.gaps, below);
+  const bool inside = geometry.contains(glm::round(index)) && !in_gap;
+  return inside ? std::optional(glm::ivec3(glm::round(index))) : std::nullopt;
 }
 
-int nearest_slice(const io::Geometry& geometry, const glm::dvec3& place) {
-  const glm::dvec3 index = geometry.to_index(place);
-  return is_inside(geometry, index) ? static_cast<int>(std::lround(index.z)) : -1;
+std::optional<double> nearest_value(const io::Volume& volume, const glm::dvec3& place) {
+  const auto at = nearest_voxel(volume.geometry, place);
+  if (!at || volume.is_padding(at->x, at->y, at->z)) return std::nullopt;
+  return volume.value_at(at->x, at->y, at->z);
 }
 
 }  // namespace palpate::plugin

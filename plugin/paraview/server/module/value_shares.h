@@ -16,10 +16,8 @@ namespace palpate::plugin {
 /// server, in a tenth of a second. Throws as io::load().
 std::vector<double> value_shares(const io::Series& series);
 
-/// Of the voxel nearest to a place (patient space, mm); none outside, in a gap and in padding.
+/// The voxel nearest to a place (patient space, mm), and its value; none outside and in a gap, no value in padding.
+std::optional<glm::ivec3> nearest_voxel(const io::Geometry& geometry, const glm::dvec3& place);
 std::optional<double> nearest_value(const io::Volume& volume, const glm::dvec3& place);
-
-/// Index of the slice nearest to a place; -1 outside the scan.
-int nearest_slice(const io::Geometry& geometry, const glm::dvec3& place);
 
 }  // namespace palpate::plugin
