@@ -17,6 +17,7 @@
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/scan.h"
 #include "palpate/plugin/series_option.h"
+#include "palpate/solver/chain.h"
 
 namespace palpate::plugin {
 namespace {
@@ -44,6 +45,17 @@ double sample_ns(const io::VolumeFields& fields, io::FieldSet field, const Box& 
 
 std::string size_of(std::size_t bytes) {
   return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024 * 1024));
+}
+
+/// What leaving out the exact solver saves.
+void measure_left_out_solver(std::vector<modes::LeftOut>& left_out) {
+  for (modes::LeftOut& entry : left_out) {
+    if (entry.what == "exact solver") {
+      const std::size_t with = solver::Chain().memory_bytes();
+      entry.saves = fmt::format("{:.1f} KiB of scratch memory; it would not be called",
+                                static_cast<double>(with - solver::Chain({.exact = false}).memory_bytes()) / 1024);
+    }
+  }
 }
 
 /// Says in measured numbers what leaving out a field of this scan saves.
@@ -104,6 +116,7 @@ void run(const PlanOptions& options) {
   std::vector<modes::LeftOut> left_out = plan->left_out;
   measure_left_out_fields(volume, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)),
                           left_out);
+  measure_left_out_solver(left_out);
   for (const auto& [first, last] :
        modes::slices_out_of_reach(volume->geometry, plan->workspace, device.workspace_half_extent)) {
     left_out.push_back({fmt::format("slices {}-{}", first, last), "outside the workspace",

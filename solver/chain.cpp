@@ -43,9 +43,14 @@ Solution solve_in_order(const Balance& balance, const ChainOptions& options, Exa
 
 }  // namespace
 
-Chain::Chain(const ChainOptions& options) : options_(options), scratch_(options.capacity) {
+Chain::Chain(const ChainOptions& options) : options_(options), scratch_(options.exact ? options.capacity : 0) {
   last_forces_.reserve(options.capacity);
   last_primitives_.reserve(options.capacity);
+}
+
+std::size_t Chain::memory_bytes() const noexcept {
+  return scratch_.memory_bytes() + last_forces_.capacity() * sizeof(Vec3) +
+         last_primitives_.capacity() * sizeof(Primitive);
 }
 
 void Chain::forget() noexcept {

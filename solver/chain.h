@@ -36,6 +36,9 @@ class Chain {
   /// that a force at rest is constant to the last bit in spite of the warm start.
   Solution solve(const Balance& balance, std::span<Vec3> forces) noexcept;
 
+  /// What it holds beyond itself; for the exact solver only where it is switched on.
+  std::size_t memory_bytes() const noexcept;
+
   /// The next balance starts cold.
   void forget() noexcept;
 

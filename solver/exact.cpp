@@ -39,6 +39,11 @@ ExactScratch::ExactScratch(std::size_t capacity) : arrays_(std::make_unique<Arra
   arrays_->fit(capacity);
 }
 ExactScratch::~ExactScratch() = default;
+std::size_t ExactScratch::memory_bytes() const noexcept {
+  const auto size = [](const auto& array) { return array.capacity() * sizeof array[0]; };
+  return sizeof(Arrays) + size(arrays_->placed) + size(arrays_->moved) + size(arrays_->forces) + size(arrays_->hold) +
+         size(arrays_->met);
+}
 ExactScratch::ExactScratch(ExactScratch&&) noexcept = default;
 ExactScratch& ExactScratch::operator=(ExactScratch&&) noexcept = default;
 

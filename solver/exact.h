@@ -47,6 +47,8 @@ class ExactScratch {
   ExactScratch(ExactScratch&&) noexcept;
   ExactScratch& operator=(ExactScratch&&) noexcept;
 
+  std::size_t memory_bytes() const noexcept;  ///< what it holds beyond itself
+
   struct Arrays;
   Arrays& arrays() { return *arrays_; }
 
