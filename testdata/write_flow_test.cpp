@@ -59,7 +59,7 @@ TEST_F(FlowFolder, ThreeDirectionsComeBackAsTheVelocityTheyWereMadeOf) {
     const FlowSource exact(now);
     const auto volume = std::make_shared<const io::Volume>(load_time(field, time));
     constexpr io::FieldSet wanted = io::FieldSet::vector | io::FieldSet::value;
-    const io::VolumeFields fields(volume, wanted, 0);
+    const io::VolumeFields fields(volume, wanted, 0, {.value = io::ValueMethod::trilinear});
     int inside = 0;
     for (int k = 0; k < 32; ++k) {
       for (int j = 0; j < 36; ++j) {
