@@ -49,7 +49,8 @@ Creep hold(const Wall& wall, double speed_mm_per_ms, double noise_mm) {
   for (int frame = 1; frame <= frames; ++frame) {
     angle += speed_mm_per_ms / wall.radius_mm;
     const Vec3 radial{std::sin(angle), 0, std::cos(angle)};
-    hand.move_to(radial * pressed_radius + Vec3(noise(random), noise(random), noise(random)));
+    const double x = noise(random), y = noise(random), z = noise(random);  // in this order with every compiler
+    hand.move_to(radial * pressed_radius + Vec3(x, y, z));
     sum += glm::dot(hand.force(), radial) * outward;
     if (frame % 100 == 0) {
       creep.least_n = std::min(creep.least_n, sum / 100);

@@ -95,7 +95,8 @@ TEST(ForceLaw, increments_are_exact_while_held_on_a_flat_slab) {
     std::uniform_real_distribution<double> any(-1, 1);
     Vec3 offset(0);
     for (int i = 0; i < 2000; ++i) {
-      offset += 0.05 * Vec3(any(random), any(random), any(random));
+      const double x = any(random), y = any(random), z = any(random);  // in this order with every compiler
+      offset += 0.05 * Vec3(x, y, z);
       // Held: between lift-off and yielding.
       const double depth = std::clamp(glm::dot(offset, inward), -2.5, 1.0);
       offset += (depth - glm::dot(offset, inward)) * inward;
@@ -153,7 +154,8 @@ TEST(ForceLaw, friction_resists_by_its_strength_in_every_direction_and_lets_go_o
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 50; ++trial) {
     const Vec3 start = hand.proxy_mm();
-    const Vec3 along = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+    const double x = normal(random), y = normal(random), z = normal(random);
+    const Vec3 along = glm::normalize(Vec3(x, y, z));
     hand.move_to(start + 0.2499 * along);  // 0.09996 N: sticks
     EXPECT_LE(glm::length(hand.proxy_mm() - start), 1e-12);
     hand.stroke(start + 0.2499 * along, start + 2.0 * along, 100);
