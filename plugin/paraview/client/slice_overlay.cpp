@@ -24,7 +24,7 @@ constexpr std::array<Place, 6> places{{{0.985, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CEN
                                        {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
                                        {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
                                        {0.015, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP},
-                                       {0.015, 0.015, VTK_TEXT_LEFT, VTK_TEXT_BOTTOM}}};
+                                       {0.015, 0.87, VTK_TEXT_LEFT, VTK_TEXT_TOP}}};
 constexpr std::size_t letters = 4, corner = 4, pointer = 5;
 
 }  // namespace

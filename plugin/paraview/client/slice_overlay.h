@@ -17,7 +17,7 @@ class vtkTextActor;
 namespace palpate::plugin {
 
 /// Letters at the four edges, which follow the camera whoever turns it; what is shown in the upper left corner, what is
-/// under the pointer in the lower left one.
+/// under the pointer below it.
 class SliceOverlay {
  public:
   explicit SliceOverlay(vtkPVRenderView& view);

@@ -34,6 +34,7 @@ using namespace palpate;
 struct PalpateDicomReader::Scan {
   std::shared_ptr<const io::Catalogue> catalogue;
   std::size_t chosen = 0;
+  bool loaded_elsewhere = false;  // before this reader was asked
   plugin::DisplayGrid grid;
   int frame = 0;                                  // shown last
   std::shared_ptr<const io::Volume> volume;       // of that frame, or of the slices that this rank shows
@@ -188,6 +189,8 @@ int PalpateDicomReader::CanReadFile(const char* name) {
 
 void PalpateDicomReader::tell(const std::string& message) {
   messages_->InsertNextValue(message);
+  // Where the panel loaded the scan, it has told so itself, and a window of messages would cover the slices.
+  if (scan_ && scan_->loaded_elsewhere) return;
   // Not vtkWarningMacro: it wraps a sentence for a radiologist in source lines and addresses.
   vtkOutputWindow::GetInstance()->DisplayWarningText(("Palpate: " + message + "\n").c_str());
 }
@@ -212,6 +215,7 @@ void PalpateDicomReader::find() {
     throw io::DicomError(plugin::scan_label(series) + ": its images have no position in the patient");
   }
   found->grid = plugin::display_grid(series.geometry);
+  found->loaded_elsewhere = plugin::held_scan(series, 0) != nullptr;
   scan_ = std::move(found);
   for (const std::string& warning : series.warnings) tell(warning);
   if (scan_->grid.resampled) tell("slices are unevenly spaced: the display is resampled, touch is not");
