@@ -90,16 +90,20 @@ VoxelBlock block_of(vtkImageData& image, const io::Volume& volume) {
 
 double gradient_scale_of(const std::string& text) {
   try {
-    return scene_of(text, io::Volume()).gradient_scale_mm.value_or(0);
+    return scene_of(text).gradient_scale_mm.value_or(0);
   } catch (const std::invalid_argument&) {
     return 0;  // told when the scene is used
   }
 }
 
-modes::Scene scene_of(const std::string& text, const io::Volume& volume) {
+modes::Scene scene_of(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return scene_for("", volume);
+  if (first == std::string::npos) return {};
   return text[first] == '{' ? modes::scene_from_json(text, "scene") : modes::load_scene(text);
+}
+
+modes::Scene scene_of(const std::string& text, const io::Volume& volume) {
+  return text.find_first_not_of(" \t\r\n") == std::string::npos ? scene_for("", volume) : scene_of(text);
 }
 
 }  // namespace palpate::plugin

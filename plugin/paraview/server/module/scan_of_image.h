@@ -25,8 +25,10 @@ struct VoxelBlock {
 };
 VoxelBlock block_of(vtkImageData& image, const io::Volume& volume);
 
-/// A scene given as JSON, as the name of a starting scene or as a file; the one that suits the modality where it is
-/// empty. Throws std::invalid_argument as modes::scene_from_json() and modes::load_scene() do.
+/// A scene given as JSON, as the name of a starting scene or as a file; without modes where it is empty. Throws
+/// std::invalid_argument as modes::scene_from_json() and modes::load_scene() do.
+modes::Scene scene_of(const std::string& text);
+/// The same; the one that suits the modality where it is empty.
 modes::Scene scene_of(const std::string& text, const io::Volume& volume);
 
 /// The gradient's scale (mm) that a scene asks for; 0 where it leaves it to the scan, or is no scene.
