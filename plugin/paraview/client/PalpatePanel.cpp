@@ -1,68 +1,208 @@
 #include "PalpatePanel.h"
 
 #include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqServerManagerModel.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
 
-#include <QDialog>
-#include <QEvent>
-#include <QGroupBox>
-#include <QScrollArea>
-#include <QTimer>
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
 #include <QVBoxLayout>
 
+#include "boundary_colours.h"
+#include "column_scroll.h"
+#include "curves_section.h"
+#include "first_folder.h"
+#include "fold.h"
+#include "footer.h"
+#include "image_lattice.h"
+#include "mapping.h"
+#include "modes_section.h"
+#include "palpate/plugin/scan.h"
 #include "scan_section.h"
+#include "stylus_section.h"
+#include "stylus_views.h"
+#include "tissues_section.h"
 
-using palpate::plugin::ScanSection;
+using namespace palpate;
+using namespace palpate::plugin;
 
-namespace {
+/// In the order in which they lean on each other.
+struct PalpatePanel::Parts {
+  explicit Parts(PalpatePanel& panel) : dock(panel), touching(model), views(touching, model) {}
 
-/// ParaView's welcome stands in front of a scan that was asked for.
-class NoWelcome : public QObject {
- public:
-  using QObject::QObject;
+  void build();
+  void show_scan(const std::shared_ptr<const io::Volume>& volume);
+  void study(const std::shared_ptr<const io::Volume>& volume);
+  void colour_views();
+  void look(const Look& seen);
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() == QEvent::Show && watched->inherits("pqWelcomeDialog")) {
-      QTimer::singleShot(0, static_cast<QDialog*>(watched), &QDialog::reject);
-    }
-    return false;
-  }
+  PalpatePanel& dock;
+  SceneModel model;
+  Touching touching;
+  StylusViews views;
+  Fold* scan_fold = nullptr;
+  ScanSection* scan = nullptr;
+  TissuesSection* tissues = nullptr;
+  StylusSection* stylus = nullptr;
+  CurvesSection* curves = nullptr;
+  ModesSection* modes = nullptr;
+  QProgressBar* studying = nullptr;
+  bool edited = false;     // since the scan was shown
+  bool proposing = false;  // what is being edited is the panel's own doing
+  double low = 0, high = 1;
+  ScanLoader studies;  // last: its thread is to end before all that its callbacks use
 };
 
-/// A folder named on the command line of `plugin/run view`, once ParaView has a server to show it with.
-void open_first_folder(ScanSection& scan) {
-  const QByteArray folder = qgetenv("PALPATE_OPEN");
-  if (folder.isEmpty()) return;
-  QCoreApplication::instance()->installEventFilter(new NoWelcome(&scan));
-  auto* const waiting = new QTimer(&scan);
-  QObject::connect(waiting, &QTimer::timeout, &scan, [waiting, &scan, folder] {
-    if (!pqActiveObjects::instance().activeServer() || !pqActiveObjects::instance().activeView()) return;
-    waiting->stop();  // its end may be long in coming where a script runs the event loop
-    waiting->deleteLater();
-    scan.open(folder.toStdString());
+void PalpatePanel::Parts::build() {
+  auto* const content = new QWidget(&dock);
+  auto* const column = new QVBoxLayout(content);
+  column->setContentsMargins(6, 2, 6, 2);
+  column->setSpacing(4);
+  scan = new ScanSection;
+  scan_fold = new Fold(tr("Scan"), QStringLiteral("palpateScanSection"), scan, true, content);
+  column->addWidget(scan_fold);
+  auto* const tissues_box = new QWidget;
+  auto* const tissues_column = new QVBoxLayout(tissues_box);
+  tissues_column->setContentsMargins(0, 0, 0, 0);
+  tissues = new TissuesSection(model, tissues_box);
+  tissues_column->addWidget(tissues);
+  studying = new QProgressBar(tissues_box);
+  studying->setObjectName(QStringLiteral("palpateStudying"));
+  studying->setFormat(tr("Looking for tissues %p%"));
+  studying->hide();
+  tissues_column->addWidget(studying);
+  column->addWidget(new Fold(tr("Tissues"), QStringLiteral("palpateTissuesSection"), tissues_box, true, content));
+  stylus = new StylusSection(touching, model, [this] { return views.eye(); });
+  column->addWidget(new Fold(tr("Stylus"), QStringLiteral("palpateStylusSection"), stylus, true, content));
+  curves = new CurvesSection(model);
+  column->addWidget(new Fold(tr("Transfer function"), QStringLiteral("palpateCurvesSection"), curves, false, content));
+  modes = new ModesSection(model, touching);
+  column->addWidget(new Fold(tr("Modes"), QStringLiteral("palpateModesSection"), modes, false, content));
+  auto* const about = new QLabel(
+      tr("Palpate %1. Research software, not a medical device.").arg(QStringLiteral(PALPATE_VERSION)), content);
+  about->setObjectName(QStringLiteral("palpateAbout"));
+  about->setWordWrap(true);
+  about->setEnabled(false);
+  column->addWidget(about);
+  column->addStretch(1);
+
+  auto* const whole = new QWidget(&dock);
+  auto* const halves = new QVBoxLayout(whole);
+  halves->setContentsMargins(0, 0, 0, 0);
+  halves->setSpacing(0);
+  halves->addWidget(new ColumnScroll(QStringLiteral("palpateScroll"), content, whole), 1);
+  halves->addWidget(new Footer(touching, model, whole));
+  dock.setWidget(whole);
+
+  QObject::connect(scan, &ScanSection::closing, &dock, [this] { views.set_views({}); });
+  QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const auto& volume) { show_scan(volume); });
+  QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
+    if (!proposing) edited = true;
+    if (pace == Pace::stepped) colour_views();
   });
-  constexpr int poll_ms = 100;
-  waiting->start(poll_ms);
+  QObject::connect(&touching, &Touching::looked, &dock, [this](const Look& seen) { look(seen); });
+  QObject::connect(&touching, &Touching::connection_changed, &dock, [this] { modes->refresh(); });
+  // The threads end before ParaView goes, and before a server takes the views away.
+  QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
+    studies.cancel();
+    touching.disconnect_stylus();
+  });
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::aboutToRemoveServer,
+                   &dock, [this] {
+                     views.set_views({});
+                     touching.set_scan(nullptr);
+                   });
+  open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
 }
 
-}  // namespace
+void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& volume) {
+  pqServer* const server = pqActiveObjects::instance().activeServer();
+  if (!server) return;
+  proposing = true;
+  modes::Scene scene = scene_for("", *volume);
+  scene.workspace.fit = true;
+  if (!touching.live().is_connected()) touching.set_scan(nullptr);
+  model.open(*server, scene);
+  touching.set_scan(volume);
+  views.set_views(scan->views().views());
+  const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
+  low = lattice.low;
+  high = lattice.high;
+  proposing = false;
+  edited = false;
+  scan_fold->set_note(QString::fromStdString(describe_scan(*volume)));
+  scan_fold->set_open(scan->has_notes());
+  study(volume);
+}
 
-PalpatePanel::PalpatePanel(QWidget* parent) : QDockWidget(tr("Palpate"), parent) {
+void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume) {
+  studying->setValue(0);
+  studying->show();
+  studies.study(
+      volume, [this](double done) { studying->setValue(static_cast<int>(100 * done)); },
+      [this, unit = QString::fromStdString(volume->unit)](const auto& study, const std::string& error) {
+        studying->hide();
+        if (!study) {
+          if (!error.empty()) emit model.refused(QString::fromStdString(error));
+          return;
+        }
+        modes::Scene proposed = study->suggested;
+        proposed.workspace = model.scene().workspace;
+        tissues->set_proposed(proposed);
+        curves->set_study(study, unit);
+        // What is felt or was edited already is not taken away from under the hand.
+        if (edited || touching.live().is_connected()) return;
+        proposing = true;
+        model.propose(proposed);
+        proposing = false;
+      });
+}
+
+void PalpatePanel::Parts::colour_views() {
+  if (!scan->source()) return;
+  for (const ClinicalView& one : scan->views().views()) {
+    if (one.kind != ViewKind::volume) continue;
+    pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
+    if (!shown) continue;
+    if (auto opacity = colour_volume(*shown->getProxy(), model.scene(), low, high); !opacity.empty()) {
+      views.set_opacity(std::move(opacity));
+    }
+    one.view->render();
+  }
+}
+
+void PalpatePanel::Parts::look(const Look& seen) {
+  if (seen.connected && seen.fresh && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
+  views.show(seen);
+}
+
+PalpatePanel::PalpatePanel(QWidget* parent)
+    : QDockWidget(tr("Palpate"), parent), parts_(std::make_unique<Parts>(*this)) {
   setObjectName(QStringLiteral("PalpatePanel"));
-  auto* const content = new QWidget(this);
-  auto* const column = new QVBoxLayout(content);
-  auto* const scan_box = new QGroupBox(tr("Scan"), content);
-  auto* const scan = new ScanSection(scan_box);
-  (new QVBoxLayout(scan_box))->addWidget(scan);
-  column->addWidget(scan_box);
-  column->addStretch(1);
-  auto* const scroll = new QScrollArea(this);
-  scroll->setObjectName(QStringLiteral("palpateScroll"));
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setWidget(content);
-  scroll->setMinimumWidth(280);
-  setWidget(scroll);
-  open_first_folder(*scan);
+  parts_->build();
+  QCoreApplication::instance()->installEventFilter(this);
+}
+
+PalpatePanel::~PalpatePanel() = default;
+
+bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
+  const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
+  if (pressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) parts_->touching.release();
+  // The wheel scrolls the column: a force limit that the pointer happens to pass over is not to change.
+  if (event->type() == QEvent::Wheel && isAncestorOf(qobject_cast<QWidget*>(watched)) &&
+      (qobject_cast<QAbstractSpinBox*>(watched) || qobject_cast<QComboBox*>(watched)) &&
+      !static_cast<QWidget*>(watched)->hasFocus()) {
+    event->ignore();
+    return true;
+  }
+  return QDockWidget::eventFilter(watched, event);  // Esc means what it always does, too
 }

@@ -2,12 +2,22 @@
 
 /// The dock panel.
 
-#include <QCoreApplication>
 #include <QDockWidget>
 
+#include <memory>
+
 class PalpatePanel : public QDockWidget {
-  Q_DECLARE_TR_FUNCTIONS(PalpatePanel)
+  Q_OBJECT
 
  public:
   explicit PalpatePanel(QWidget* parent = nullptr);
+  ~PalpatePanel() override;
+
+ protected:
+  /// Esc, wherever it is pressed, releases the force.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };

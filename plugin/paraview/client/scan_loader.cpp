@@ -68,4 +68,12 @@ void ScanLoader::load(const io::Series& series, int frame, Progress progress, Lo
       std::move(loaded));
 }
 
+void ScanLoader::study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied) {
+  start<std::shared_ptr<const ScanStudy>>(
+      [volume = std::move(volume)](const io::Progress& tell) {
+        return std::make_shared<const ScanStudy>(study_scan(volume, tell));
+      },
+      std::move(progress), std::move(studied));
+}
+
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Finding and loading scans in the background, so that the panel stays alive and a scan can be given up.
+/// Finding, loading and studying scans in the background, so that the panel stays alive and a scan can be given up.
 
 #include <QObject>
 
@@ -12,6 +12,7 @@
 
 #include "palpate/io/series.h"
 #include "palpate/io/volume.h"
+#include "scan_study.h"
 
 namespace palpate::plugin {
 
@@ -21,6 +22,7 @@ class ScanLoader {
   /// Empty where the job failed or was cancelled; then `error` says why, or is empty if it was cancelled.
   using Found = std::function<void(std::shared_ptr<const io::Catalogue>, const std::string& error)>;
   using Loaded = std::function<void(std::shared_ptr<const io::Volume>, const std::string& error)>;
+  using Studied = std::function<void(std::shared_ptr<const ScanStudy>, const std::string& error)>;
   using Progress = std::function<void(double done)>;
 
   ScanLoader() = default;
@@ -30,6 +32,7 @@ class ScanLoader {
 
   void find(const std::string& path, Progress progress, Found found);
   void load(const io::Series& series, int frame, Progress progress, Loaded loaded);
+  void study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied);
   void cancel();
   bool is_busy() const { return busy_; }
 

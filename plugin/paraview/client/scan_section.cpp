@@ -5,6 +5,7 @@
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
 #include <pqServer.h>
+#include <pqUndoStack.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
@@ -59,8 +60,7 @@ void ScanSection::build() {
   series_ = new QListWidget(this);
   series_->setObjectName(QStringLiteral("palpateSeries"));
   series_->setWordWrap(true);
-  series_->setMinimumHeight(90);
-  series_->setMaximumHeight(160);
+  series_->setFixedHeight(76);
   connect(series_, &QListWidget::itemActivated, this,
           [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
   connect(series_, &QListWidget::itemClicked, this,
@@ -85,6 +85,8 @@ void ScanSection::build() {
   window->addWidget(new QLabel(tr("Window"), this));
   window_ = new QComboBox(this);
   window_->setObjectName(QStringLiteral("palpateWindow"));
+  window_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  window_->setMinimumContentsLength(10);
   window_->setToolTip(tr("Also: drag in a slice, to the right for a wider window, up for a brighter one."));
   connect(window_, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) { apply_window(choice); });
   window->addWidget(window_, 1);
@@ -117,6 +119,10 @@ void ScanSection::tell(const QString& message, bool problem) {
   message_->setText(message);
   message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
   message_->setVisible(!message.isEmpty());
+}
+
+bool ScanSection::has_notes() const {
+  return !message_->text().isEmpty();
 }
 
 void ScanSection::ask_folder() {
@@ -196,6 +202,8 @@ void ScanSection::show(std::size_t series) {
     return;
   }
   try {
+    SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
+    emit closing();
     views_.close();
     if (source_) builder.destroy(source_);
     source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
@@ -224,6 +232,7 @@ void ScanSection::show(std::size_t series) {
       notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
     }
     tell(notes.join(QStringLiteral("\n")));
+    emit scan_shown(volume_);
   } catch (const std::exception& error) {
     tell(text(error.what()), true);
   }

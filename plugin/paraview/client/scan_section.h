@@ -2,7 +2,8 @@
 
 /// The panel's first section: from a folder to a scan on the screen.
 
-#include <QCoreApplication>
+#include <pqPipelineSource.h>
+
 #include <QPointer>
 #include <QWidget>
 
@@ -18,12 +19,11 @@ class QLabel;
 class QListWidget;
 class QProgressBar;
 class QPushButton;
-class pqPipelineSource;
 
 namespace palpate::plugin {
 
 class ScanSection : public QWidget {
-  Q_DECLARE_TR_FUNCTIONS(ScanSection)
+  Q_OBJECT
 
  public:
   explicit ScanSection(QWidget* parent = nullptr);
@@ -31,6 +31,16 @@ class ScanSection : public QWidget {
 
   /// Finds the series of a folder or file; where one alone is a volume, shows it.
   void open(const std::string& path);
+  /// Whether there is something to be read about the scan that is shown.
+  bool has_notes() const;
+  ClinicalViews& views() { return views_; }
+  pqPipelineSource* source() const { return source_; }
+
+ signals:
+  /// The views of the scan that is shown are about to go.
+  void closing();
+  /// Another scan is in the views.
+  void scan_shown(const std::shared_ptr<const palpate::io::Volume>& volume);
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;

@@ -1,0 +1,91 @@
+#include "boundary_colours.h"
+
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double closest = 1e-3;  // of the whole range: nodes nearer to each other take tables that are too large
+
+struct Coat {
+  double value = 0;
+  glm::dvec3 colour{1};
+  double opacity = 0;
+};
+
+glm::dvec3 colour_of(const modes::Mode& mode) {
+  if (mode.color.size() != 7) return glm::dvec3(0.7);
+  const long rgb = std::strtol(mode.color.c_str() + 1, nullptr, 16);
+  return glm::dvec3((rgb >> 16) & 0xff, (rgb >> 8) & 0xff, rgb & 0xff) / 255.0;
+}
+
+}  // namespace
+
+double felt_value(const modes::Mode& mode) {
+  for (const modes::Gate& gate : mode.gates) {
+    if (gate.of != modes::Datum::value) continue;
+    const auto nodes = gate.factor.nodes();
+    for (std::size_t n = 1; n < nodes.size(); ++n) {
+      const double a = nodes[n - 1].value, b = nodes[n].value;
+      if (a < 0.5 && b >= 0.5) return nodes[n - 1].at + (0.5 - a) / (b - a) * (nodes[n].at - nodes[n - 1].at);
+    }
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high) {
+  std::vector<Coat> coats;
+  for (const modes::Mode& mode : scene.modes) {
+    const double value = felt_value(mode);
+    if (mode.type != "surface" || !mode.enabled || !(value > low && value < high)) continue;
+    coats.push_back({value, colour_of(mode), 0});
+  }
+  vtkSMProxy* const colours = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
+  vtkSMProxy* const opacity = vtkSMPropertyHelper(&representation, "ScalarOpacityFunction").GetAsProxy();
+  if (coats.empty() || !colours || !opacity) return {};
+  std::sort(coats.begin(), coats.end(), [](const Coat& a, const Coat& b) { return a.value < b.value; });
+  // The outermost is a veil, the innermost solid, so that each is seen through those before it.
+  for (std::size_t n = 0; n < coats.size(); ++n) {
+    coats[n].opacity = n + 1 == coats.size() ? 0.8 : 0.04 + 0.06 * static_cast<double>(n);
+  }
+  const double ramp = 0.02 * (high - low);
+  std::vector<double> points, rgb;
+  std::vector<OpacityNode> nodes;
+  const auto add = [&](double value, double part) {
+    if (!nodes.empty() && value <= nodes.back().value) value = nodes.back().value + closest * (high - low);
+    nodes.push_back({value, part});
+    points.insert(points.end(), {value, part, 0.5, 0.0});
+  };
+  add(low, 0);
+  for (std::size_t n = 0; n < coats.size(); ++n) {
+    const Coat& coat = coats[n];
+    const bool last = n + 1 == coats.size();
+    const double end = last ? high : std::min(coat.value + 3 * ramp, coats[n + 1].value - ramp);
+    add(coat.value - ramp, 0);
+    add(coat.value + ramp, coat.opacity);
+    if (!last) {
+      add(std::max(end, coat.value + 1.5 * ramp), coat.opacity * 0.2);
+    } else {
+      add(high, coat.opacity);
+    }
+    const double from = n == 0 ? low : coat.value - ramp;
+    for (const double at : {from, last ? high : coats[n + 1].value - 1.1 * ramp}) {
+      if (!rgb.empty() && at <= rgb[rgb.size() - 4]) continue;
+      rgb.insert(rgb.end(), {at, coat.colour.x, coat.colour.y, coat.colour.z});
+    }
+  }
+  vtkSMPropertyHelper(colours, "RGBPoints").Set(rgb.data(), static_cast<unsigned>(rgb.size()));
+  vtkSMPropertyHelper(opacity, "Points").Set(points.data(), static_cast<unsigned>(points.size()));
+  colours->UpdateVTKObjects();
+  opacity->UpdateVTKObjects();
+  return nodes;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,22 @@
+#pragma once
+
+/// The boundaries' colours in the volume's rendering: each as a thin coat where it is felt.
+
+#include <vector>
+
+#include "palpate/modes/scene.h"
+#include "sight_line.h"
+
+class vtkSMProxy;
+
+namespace palpate::plugin {
+
+/// The value at which a boundary begins to be felt: where its gate over value opens half. Not a number where it has no
+/// such gate.
+double felt_value(const modes::Mode& mode);
+
+/// Colours and opacity of the volume's representation for those boundaries of the scene that are switched on; leaves
+/// them as they are where there is none. Returns the opacity, for each mm of the patient.
+std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,29 @@
+#pragma once
+
+/// A strip chart of the last seconds' force.
+
+#include <QWidget>
+
+#include <deque>
+
+namespace palpate::plugin {
+
+class ForceStrip : public QWidget {
+ public:
+  explicit ForceStrip(QWidget* parent = nullptr);
+
+  /// N: the largest force since the last call.
+  void add(double force_n);
+  /// N: a line that the force cannot pass.
+  void set_limit(double limit_n) { limit_n_ = limit_n; }
+  QSize sizeHint() const override { return {200, 56}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  std::deque<double> forces_;
+  double limit_n_ = 3;
+};
+
+}  // namespace palpate::plugin

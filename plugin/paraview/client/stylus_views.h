@@ -1,0 +1,50 @@
+#pragma once
+
+/// The stylus in all views of a scan: drawn as it moves, held by the mouse.
+
+#include <QElapsedTimer>
+#include <QPointer>
+
+#include <memory>
+#include <vector>
+
+#include "clinical_views.h"
+#include "sight_line.h"
+#include "stylus_glyphs.h"
+#include "stylus_hand.h"
+#include "touching.h"
+
+namespace palpate::plugin {
+
+struct Eye;
+
+class StylusViews {
+ public:
+  StylusViews(Touching& touching, const SceneModel& model);
+  StylusViews(const StylusViews&) = delete;
+  StylusViews& operator=(const StylusViews&) = delete;
+  ~StylusViews();
+
+  /// The views of a scan that has just been shown; empty: none.
+  void set_views(const std::vector<ClinicalView>& views);
+  /// What the volume's rendering hides.
+  void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
+  /// Draws those views anew in which something has moved, none so often that the program would stand still.
+  void show(const Look& look);
+  /// What the 3D view looks at.
+  Eye eye() const;
+
+ private:
+  struct OneView;
+
+  Touching& touching_;
+  const SceneModel& model_;
+  std::vector<std::unique_ptr<OneView>> views_;
+  std::vector<OpacityNode> opacity_;
+  std::shared_ptr<const io::FieldSource> values_;  // of the scan
+  std::shared_ptr<const io::Volume> values_of_;
+  QElapsedTimer clock_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,100 @@
+#pragma once
+
+/// The panel's session: runs while a stylus is held, and tells thirty times a second what is felt.
+
+#include <QObject>
+#include <QTimer>
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "palpate/device/simulated_stylus.h"
+#include "palpate/modes/workspace.h"
+#include "palpate/plugin/live_session.h"
+#include "scene_model.h"
+
+namespace palpate::plugin {
+
+/// What has been felt since the last look, and the last frame.
+struct Look {
+  bool connected = false;
+  bool fresh = false;  ///< whether there is a frame
+  Frame frame;
+  std::vector<Share> shares;
+  modes::Workspace workspace;           ///< of the frame
+  glm::dvec3 probe_mm{0}, proxy_mm{0};  ///< patient space
+  std::string tissue;
+  double force_n = 0;        ///< that the device was fed, in the last frame
+  double peak_n = 0;         ///< the largest since the last look
+  double tick_us = 0;        ///< median since the last look
+  std::uint64_t missed = 0;  ///< since the stylus was connected
+  bool clutched = false;
+};
+
+/// Which stylus is meant.
+struct StylusChoice {
+  std::string device;    ///< "simulated", "falcon", ..., perhaps @ADDRESS
+  std::string firmware;  ///< file of the Falcon's firmware
+  std::string settings;  ///< file of a WoodenHaptics' geometry
+};
+
+class Touching : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Touching(SceneModel& model, QObject* parent = nullptr);
+  ~Touching() override;
+
+  void set_scan(std::shared_ptr<const io::Volume> volume);
+  const LiveSession& live() const { return live_; }
+  /// What was seen last.
+  const Look& last() const { return look_; }
+
+  void connect_stylus(const StylusChoice& choice);
+  void disconnect_stylus();
+  void feel();
+  void release();
+  void clear_fault();
+  void record(const std::string& file);
+  void stop_recording();
+
+  /// The hand and the patient part: no force, and on unclutching the stylus is where it was in the patient, however the
+  /// hand has moved meanwhile. `rotation`: the device's axes in the patient from then on.
+  void clutch();
+  void unclutch(const glm::dmat3& rotation);
+  bool is_clutched() const { return clutched_; }
+  /// Whether the mapping may change: a hand that feels something would be thrown.
+  bool may_remap() const;
+
+  // The simulated stylus' hand, for mouse and keyboard.
+  bool has_simulated() const { return simulated_ != nullptr && live_.is_connected(); }
+  void move_hand(const glm::dvec3& patient_mm);
+  /// The hand gives way until nothing pushes it.
+  void let_go();
+
+ signals:
+  void looked(const palpate::plugin::Look& look);
+  void connection_changed();
+  void told(const QString& message, bool problem);
+
+ private:
+  void follow_scene(Pace pace);
+  void look();
+  void obey_buttons(std::uint32_t buttons);
+  glm::dvec3 first_place() const;
+
+  SceneModel& model_;
+  LiveSession live_;
+  std::shared_ptr<device::SimulatedStylus> simulated_;
+  modes::Workspace before_, now_;  // of the last two scenes
+  std::uint64_t next_frame_ = 0;
+  std::uint32_t buttons_ = 0;
+  bool clutched_ = false;
+  glm::dvec3 clutched_at_mm_{0};
+  Look look_;
+  QTimer heart_, looks_;
+};
+
+}  // namespace palpate::plugin
