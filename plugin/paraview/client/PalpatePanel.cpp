@@ -5,6 +5,7 @@
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
@@ -168,6 +169,7 @@ void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume)
 }
 
 void PalpatePanel::Parts::colour_views() {
+  SCOPED_UNDO_EXCLUDE();  // follows from the scene
   if (!scan->source()) return;
   for (const ClinicalView& one : scan->views().views()) {
     if (one.kind != ViewKind::volume) continue;
@@ -181,6 +183,7 @@ void PalpatePanel::Parts::colour_views() {
 }
 
 void PalpatePanel::Parts::look(const Look& seen) {
+  SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
   if (seen.connected && seen.fresh && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
   views.show(seen);
 }

@@ -115,9 +115,11 @@ void Footer::show_look(const Look& look) {
   tissue_->setText(std::isfinite(frame.value)
                        ? tr("%1 %2, %3").arg(frame.value, 0, 'f', 0).arg(QString::fromStdString(unit), tissue)
                        : tr("outside the scan"));
-  solver_->setText(tr("%1 solver, error at most %2 mm")
+  const double error_mm = 1e3 * frame.error_bound_m;
+  constexpr double small_mm = 1e-9;
+  solver_->setText(tr("%1 solver, error below %2 mm")
                        .arg(QString::fromLatin1(solver::name_of(static_cast<solver::SolverKind>(frame.solver))))
-                       .arg(1e3 * frame.error_bound_m, 0, 'g', 1));
+                       .arg(error_mm < small_mm ? small_mm : error_mm, 0, 'g', 2));
   tick_->setText(tr("tick %1 µs, %2 missed").arg(look.tick_us, 0, 'f', 1).arg(look.missed));
 }
 

@@ -151,18 +151,20 @@ void StylusGlyphs::hide() {
   }
 }
 
-void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel) {
+void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel,
+                        const glm::dvec3& lift_mm) {
   hide();
+  const glm::dvec3 probe_mm = look.probe_mm + lift_mm, proxy_mm = look.proxy_mm + lift_mm;
   const double opacity = 1 - (1 - seen_faintly) * faint;
   const glm::dmat3 upright(1);
   const auto sized = [&](double pixels) { return glm::dvec3(pixels * mm_per_pixel); };
-  stylus_->place(look.probe_mm, upright, sized(stylus_pixels));
+  stylus_->place(probe_mm, upright, sized(stylus_pixels));
   stylus_->colour({1, 1, 1}, opacity);
-  proxy_->place(look.proxy_mm, upright, sized(proxy_pixels));
+  proxy_->place(proxy_mm, upright, sized(proxy_pixels));
   proxy_->colour({1, 0.85, 0.2}, opacity);
-  if (const glm::dvec3 spring = look.proxy_mm - look.probe_mm; glm::length(spring) > mm_per_pixel) {
+  if (const glm::dvec3 spring = proxy_mm - probe_mm; glm::length(spring) > mm_per_pixel) {
     const double thin = spring_pixels * mm_per_pixel;
-    spring_->place((look.proxy_mm + look.probe_mm) / 2.0, standing_along(glm::normalize(spring)),
+    spring_->place((proxy_mm + probe_mm) / 2.0, standing_along(glm::normalize(spring)),
                    {thin, glm::length(spring), thin});
     spring_->colour({1, 1, 1}, opacity);
   }
@@ -171,8 +173,8 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
     const glm::dvec3 along = force_n / newtons;
     const double length = newtons * newton_pixels * mm_per_pixel, thick = 2 * spring_pixels * mm_per_pixel;
     const glm::dmat3 axes = standing_along(along);
-    force_->place(look.proxy_mm + along * length / 2.0, axes, {thick, length, thick});
-    tip_->place(look.proxy_mm + along * length, axes, sized(cone_pixels));
+    force_->place(proxy_mm + along * length / 2.0, axes, {thick, length, thick});
+    tip_->place(proxy_mm + along * length, axes, sized(cone_pixels));
     force_->colour({0.25, 0.8, 1}, opacity);
     tip_->colour({0.25, 0.8, 1}, opacity);
   }
@@ -187,14 +189,14 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
         if (planes < planes_.size()) {
           const glm::dmat3 axes = standing_along(acts / newtons);
           Part& plane = *planes_[planes++];
-          plane.place(look.proxy_mm, {axes[0], axes[2], axes[1]}, sized(disc_pixels));
+          plane.place(proxy_mm, {axes[0], axes[2], axes[1]}, sized(disc_pixels));
           plane.colour(colour, 0.55 * opacity);
         }
         break;
       case solver::PrimitiveType::point:
         if (balls < balls_.size()) {
           Part& point = *balls_[balls++];
-          point.place(look.proxy_mm, upright, sized(proxy_pixels * 1.6));
+          point.place(proxy_mm, upright, sized(proxy_pixels * 1.6));
           point.colour(colour, 0.4 * opacity);
         }
         break;
@@ -204,7 +206,7 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
           // A line pulls across itself, a force along: both are drawn as what they do to the proxy.
           const double thick = 2 * spring_pixels * mm_per_pixel;
           Part& line = *rods_[rods++];
-          line.place(look.proxy_mm, standing_along(acts / newtons), {thick, rod_pixels * mm_per_pixel, thick});
+          line.place(proxy_mm, standing_along(acts / newtons), {thick, rod_pixels * mm_per_pixel, thick});
           line.colour(colour, 0.8 * opacity);
         }
         break;

@@ -21,8 +21,10 @@ class StylusGlyphs {
   StylusGlyphs& operator=(const StylusGlyphs&) = delete;
   ~StylusGlyphs();
 
-  /// `faint`: 0 to 1, how much of it is hidden; `mm_per_pixel` keeps their size on the screen.
-  void show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel);
+  /// `faint`: 0 to 1, how much of it is hidden; `mm_per_pixel` keeps their size on the screen; `lift_mm` moves them, so
+  /// that they stand before a slice.
+  void show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel,
+            const glm::dvec3& lift_mm = glm::dvec3(0));
   void hide();
 
  private:

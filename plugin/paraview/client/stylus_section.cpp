@@ -8,7 +8,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalBlocker>
@@ -50,21 +49,6 @@ Lamp lamp_of(const Look& look) {
       break;
   }
   return {"#d55e00", tr("the stylus does not answer")};
-}
-
-/// At the first force of a program's run.
-void say_what_it_is(QWidget* parent) {
-  static bool said = false;
-  if (std::exchange(said, true)) return;
-  auto* const box =
-      new QMessageBox(QMessageBox::Information, StylusSection::tr("Palpate"),
-                      StylusSection::tr("Research software, not a medical device.\n\nIt must not guide a "
-                                        "diagnosis or a treatment. Esc takes the force away at any time."),
-                      QMessageBox::Ok, parent);
-  box->setObjectName(QStringLiteral("palpateNotice"));
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setModal(false);  // nothing may stand between the hand and the way out
-  box->show();
 }
 
 }  // namespace
@@ -257,7 +241,13 @@ void StylusSection::connect_or_not() {
   touching_.connect_stylus({.device = device.toStdString(),
                             .firmware = kind == QLatin1String("falcon") ? file : std::string(),
                             .settings = kind == QLatin1String("wooden_haptics") ? file : std::string()});
-  if (touching_.live().is_connected()) say_what_it_is(window());
+  if (static bool said = false; touching_.live().is_connected() && !std::exchange(said, true)) {
+    message_->setText(
+        tr("Research software, not a medical device: it must not guide a diagnosis or a treatment. "
+           "Esc takes the force away at any time."));
+    message_->setStyleSheet({});
+    message_->show();
+  }
 }
 
 void StylusSection::show_connection() {
