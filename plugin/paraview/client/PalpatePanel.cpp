@@ -136,8 +136,8 @@ void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& vol
   touching.set_scan(volume);
   views.set_views(scan->views().views());
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
-  low = lattice.low;
-  high = lattice.high;
+  low = lattice.values.low;
+  high = lattice.values.high;
   proposing = false;
   edited = false;
   scan_fold->set_note(QString::fromStdString(describe_scan(*volume)));

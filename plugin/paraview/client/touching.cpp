@@ -168,11 +168,21 @@ bool Touching::may_remap() const {
 }
 
 void Touching::move_hand(const glm::dvec3& patient_mm) {
+  letting_go_ = false;
   if (simulated_) simulated_->move_target(now_.to_device(patient_mm));
 }
 
 void Touching::let_go() {
-  if (simulated_ && look_.fresh) simulated_->move_target(vector_of(look_.frame.proxy_m));
+  letting_go_ = simulated_ != nullptr;
+}
+
+/// To the proxy and a little beyond: the arm's own friction keeps a hand that goes no farther inside.
+void Touching::give_way() {
+  constexpr double nothing_n = 0.02, beyond = 0.5;
+  if (!letting_go_ || !simulated_) return;
+  const glm::dvec3 proxy_m = vector_of(look_.frame.proxy_m);
+  simulated_->move_target(proxy_m + beyond * (proxy_m - vector_of(look_.frame.probe_m)));
+  if (look_.force_n < nothing_n) letting_go_ = false;
 }
 
 void Touching::obey_buttons(std::uint32_t buttons) {
@@ -217,6 +227,7 @@ void Touching::look() {
   look_.missed = live_.missed();
   look_.tissue = tissue_name(model_.scene(), live_.scan() ? live_.scan()->unit : std::string(), frame.value);
   obey_buttons(frame.buttons);
+  give_way();
   emit looked(look_);
 }
 

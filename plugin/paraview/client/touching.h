@@ -80,6 +80,7 @@ class Touching : public QObject {
   void told(const QString& message, bool problem);
 
  private:
+  void give_way();
   void follow_scene(Pace pace);
   void look();
   void obey_buttons(std::uint32_t buttons);
@@ -91,6 +92,7 @@ class Touching : public QObject {
   modes::Workspace before_, now_;  // of the last two scenes
   std::uint64_t next_frame_ = 0;
   std::uint32_t buttons_ = 0;
+  bool letting_go_ = false;
   bool clutched_ = false;
   glm::dvec3 clutched_at_mm_{0};
   Look look_;
