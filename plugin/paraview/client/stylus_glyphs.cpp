@@ -1,6 +1,9 @@
 #include "stylus_glyphs.h"
 
 #include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
 #include <vtkConeSource.h>
 #include <vtkCylinderSource.h>
 #include <vtkDiskSource.h>
@@ -9,6 +12,7 @@
 #include <vtkPVRenderView.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
@@ -50,6 +54,42 @@ glm::dvec3 colour_of(const modes::Scene& scene, std::uint32_t mode) {
 }
 
 }  // namespace
+
+/// Drawn after all others, with depths of its own: neither a slice nor a surface covers it.
+class StylusGlyphs::Layer {
+ public:
+  explicit Layer(vtkPVRenderView& view) : window_(view.GetRenderWindow()), camera_(view.GetActiveCamera()) {
+    const int layer = window_->GetNumberOfLayers();
+    window_->SetNumberOfLayers(layer + 1);
+    renderer_->SetLayer(layer);
+    renderer_->InteractiveOff();
+    window_->AddRenderer(renderer_);
+    follow_->SetClientData(this);
+    follow_->SetCallback(
+        [](vtkObject*, unsigned long, void* self, void*) { static_cast<Layer*>(self)->follow_camera(); });
+    observer_ = window_->AddObserver(vtkCommand::StartEvent, follow_);
+  }
+  Layer(const Layer&) = delete;
+  Layer& operator=(const Layer&) = delete;
+  ~Layer() {
+    window_->RemoveObserver(observer_);
+    window_->RemoveRenderer(renderer_);
+  }
+  vtkRenderer& renderer() { return *renderer_; }
+
+ private:
+  /// Seen as the view is, but from as near and as far as its own things need.
+  void follow_camera() {
+    renderer_->GetActiveCamera()->DeepCopy(camera_);
+    renderer_->ResetCameraClippingRange();
+  }
+
+  vtkSmartPointer<vtkRenderWindow> window_;
+  vtkSmartPointer<vtkCamera> camera_;
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkCallbackCommand> follow_;
+  unsigned long observer_ = 0;
+};
 
 /// One actor of unit size.
 struct StylusGlyphs::Part {
@@ -115,11 +155,11 @@ std::unique_ptr<StylusGlyphs::Part> StylusGlyphs::add(int shape) {
     }
   }
   auto part = std::make_unique<Part>(source->GetOutputPort());
-  view_.GetNonCompositedRenderer()->AddActor(part->actor);
+  layer_->renderer().AddActor(part->actor);
   return part;
 }
 
-StylusGlyphs::StylusGlyphs(vtkPVRenderView& view) : view_(view) {
+StylusGlyphs::StylusGlyphs(vtkPVRenderView& view) : layer_(std::make_unique<Layer>(view)) {
   for (std::size_t n = 0; n < most_primitives_shown; ++n) {
     planes_.push_back(add(disc));
     rods_.push_back(add(rod));
@@ -132,15 +172,7 @@ StylusGlyphs::StylusGlyphs(vtkPVRenderView& view) : view_(view) {
   proxy_ = add(ball);
 }
 
-StylusGlyphs::~StylusGlyphs() {
-  vtkRenderer& renderer = *view_.GetNonCompositedRenderer();
-  for (const Part* part : {stylus_.get(), proxy_.get(), spring_.get(), force_.get(), tip_.get()}) {
-    renderer.RemoveActor(part->actor);
-  }
-  for (const auto* parts : {&planes_, &rods_, &balls_}) {
-    for (const auto& part : *parts) renderer.RemoveActor(part->actor);
-  }
-}
+StylusGlyphs::~StylusGlyphs() = default;
 
 void StylusGlyphs::hide() {
   for (const Part* part : {stylus_.get(), proxy_.get(), spring_.get(), force_.get(), tip_.get()}) {
@@ -151,20 +183,18 @@ void StylusGlyphs::hide() {
   }
 }
 
-void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel,
-                        const glm::dvec3& lift_mm) {
+void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel) {
   hide();
-  const glm::dvec3 probe_mm = look.probe_mm + lift_mm, proxy_mm = look.proxy_mm + lift_mm;
   const double opacity = 1 - (1 - seen_faintly) * faint;
   const glm::dmat3 upright(1);
   const auto sized = [&](double pixels) { return glm::dvec3(pixels * mm_per_pixel); };
-  stylus_->place(probe_mm, upright, sized(stylus_pixels));
+  stylus_->place(look.probe_mm, upright, sized(stylus_pixels));
   stylus_->colour({1, 1, 1}, opacity);
-  proxy_->place(proxy_mm, upright, sized(proxy_pixels));
+  proxy_->place(look.proxy_mm, upright, sized(proxy_pixels));
   proxy_->colour({1, 0.85, 0.2}, opacity);
-  if (const glm::dvec3 spring = proxy_mm - probe_mm; glm::length(spring) > mm_per_pixel) {
+  if (const glm::dvec3 spring = look.proxy_mm - look.probe_mm; glm::length(spring) > mm_per_pixel) {
     const double thin = spring_pixels * mm_per_pixel;
-    spring_->place((proxy_mm + probe_mm) / 2.0, standing_along(glm::normalize(spring)),
+    spring_->place((look.proxy_mm + look.probe_mm) / 2.0, standing_along(glm::normalize(spring)),
                    {thin, glm::length(spring), thin});
     spring_->colour({1, 1, 1}, opacity);
   }
@@ -173,8 +203,8 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
     const glm::dvec3 along = force_n / newtons;
     const double length = newtons * newton_pixels * mm_per_pixel, thick = 2 * spring_pixels * mm_per_pixel;
     const glm::dmat3 axes = standing_along(along);
-    force_->place(proxy_mm + along * length / 2.0, axes, {thick, length, thick});
-    tip_->place(proxy_mm + along * length, axes, sized(cone_pixels));
+    force_->place(look.proxy_mm + along * length / 2.0, axes, {thick, length, thick});
+    tip_->place(look.proxy_mm + along * length, axes, sized(cone_pixels));
     force_->colour({0.25, 0.8, 1}, opacity);
     tip_->colour({0.25, 0.8, 1}, opacity);
   }
@@ -189,14 +219,14 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
         if (planes < planes_.size()) {
           const glm::dmat3 axes = standing_along(acts / newtons);
           Part& plane = *planes_[planes++];
-          plane.place(proxy_mm, {axes[0], axes[2], axes[1]}, sized(disc_pixels));
+          plane.place(look.proxy_mm, {axes[0], axes[2], axes[1]}, sized(disc_pixels));
           plane.colour(colour, 0.55 * opacity);
         }
         break;
       case solver::PrimitiveType::point:
         if (balls < balls_.size()) {
           Part& point = *balls_[balls++];
-          point.place(proxy_mm, upright, sized(proxy_pixels * 1.6));
+          point.place(look.proxy_mm, upright, sized(proxy_pixels * 1.6));
           point.colour(colour, 0.4 * opacity);
         }
         break;
@@ -206,7 +236,7 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
           // A line pulls across itself, a force along: both are drawn as what they do to the proxy.
           const double thick = 2 * spring_pixels * mm_per_pixel;
           Part& line = *rods_[rods++];
-          line.place(proxy_mm, standing_along(acts / newtons), {thick, rod_pixels * mm_per_pixel, thick});
+          line.place(look.proxy_mm, standing_along(acts / newtons), {thick, rod_pixels * mm_per_pixel, thick});
           line.colour(colour, 0.8 * opacity);
         }
         break;

@@ -21,17 +21,16 @@ class StylusGlyphs {
   StylusGlyphs& operator=(const StylusGlyphs&) = delete;
   ~StylusGlyphs();
 
-  /// `faint`: 0 to 1, how much of it is hidden; `mm_per_pixel` keeps their size on the screen; `lift_mm` moves them, so
-  /// that they stand before a slice.
-  void show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel,
-            const glm::dvec3& lift_mm = glm::dvec3(0));
+  /// `faint`: 0 to 1, how much of it is hidden; `mm_per_pixel` keeps their size on the screen.
+  void show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel);
   void hide();
 
  private:
   struct Part;
+  class Layer;
   std::unique_ptr<Part> add(int shape);
 
-  vtkPVRenderView& view_;
+  std::unique_ptr<Layer> layer_;
   std::unique_ptr<Part> stylus_, proxy_, spring_, force_, tip_;
   std::vector<std::unique_ptr<Part>> planes_, rods_, balls_;
 };

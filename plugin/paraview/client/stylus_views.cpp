@@ -19,9 +19,8 @@ namespace palpate::plugin {
 namespace {
 
 constexpr qint64 shortest_ms = 30;
-constexpr qint64 rest_of = 2;            // times as long as a view took to draw it is left alone
-constexpr qint64 settled_ms = 400;       // after that long at rest the volume is drawn in full
-constexpr double before_slice_mm = 400;  // the projection is parallel: it is not seen to be moved
+constexpr qint64 rest_of = 2;       // times as long as a view took to draw it is left alone
+constexpr qint64 settled_ms = 400;  // after that long at rest the volume is drawn in full
 constexpr double moved_pixels = 0.5;
 
 vtkPVRenderView* client_view(pqRenderView& view) {
@@ -112,10 +111,7 @@ void StylusViews::show(const Look& look) {
         camera.GetPosition(&eye.x);
         const bool volume = one.kind == ViewKind::volume;
         const double faint = volume && values_ ? hidden_part(*values_, opacity_, eye, look.proxy_mm) : 0;
-        glm::dvec3 into_the_screen;
-        camera.GetDirectionOfProjection(&into_the_screen.x);
-        const glm::dvec3 lift_mm = volume ? glm::dvec3(0) : -before_slice_mm * into_the_screen;
-        one.glyphs.show(look, model_.scene(), faint, mm_per_pixel, lift_mm);
+        one.glyphs.show(look, model_.scene(), faint, mm_per_pixel);
       } else {
         one.glyphs.hide();
       }

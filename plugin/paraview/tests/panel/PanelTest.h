@@ -1,0 +1,13 @@
+#pragma once
+
+#include <QObject>
+
+/// Runs the scenario named by PALPATE_PANEL_TEST and ends the program: 0 where it passed.
+class PanelTest : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit PanelTest(QObject* parent = nullptr) : QObject(parent) {}
+  void on_startup();
+  void on_shutdown() {}
+};

@@ -1,0 +1,158 @@
+#include "panel_rig.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqRenderView.h>
+#include <pqServerManagerModel.h>
+
+#include <QApplication>
+#include <QImage>
+#include <QLabel>
+#include <QPixmap>
+#include <QProcess>
+#include <QRegularExpression>
+#include <QScreen>
+#include <QScrollArea>
+#include <QtTest/QTest>
+
+#include <stdexcept>
+
+namespace {
+
+int clicked = 0;
+
+QWidget& main_window() {
+  return *pqCoreUtilities::mainWidget();
+}
+
+/// What is under the fold is brought into sight, as a user scrolls.
+void bring_into_sight(QWidget& of) {
+  for (QWidget* above = of.parentWidget(); above; above = above->parentWidget()) {
+    if (auto* const scroll = qobject_cast<QScrollArea*>(above)) scroll->ensureWidgetVisible(&of);
+  }
+  QTest::qWait(30);
+}
+
+/// The views are windows of their own: they get what the display's own pointer does.
+void xdotool(const QStringList& arguments) {
+  expect(QProcess::execute(QStringLiteral("xdotool"), arguments) == 0, "xdotool works");
+  QTest::qWait(80);
+}
+
+void move_pointer(const QWidget& in, const QPoint& at) {
+  const QPoint place = in.mapToGlobal(at);
+  xdotool({QStringLiteral("mousemove"), QString::number(place.x()), QString::number(place.y())});
+}
+
+}  // namespace
+
+void save_screen(const std::string& name) {
+  const QString folder = qEnvironmentVariable("PALPATE_PICTURES");
+  if (folder.isEmpty()) return;
+  QGuiApplication::primaryScreen()->grabWindow(0).save(folder + QStringLiteral("/panel-") +
+                                                       QString::fromStdString(name) + QStringLiteral(".png"));
+}
+
+void expect(bool holds, const std::string& what) {
+  if (!holds) throw std::runtime_error("it does not hold that " + what);
+}
+
+void wait_for(const std::string& what, const std::function<bool()>& holds, int seconds) {
+  if (!QTest::qWaitFor(holds, seconds * 1000)) {
+    throw std::runtime_error("after " + std::to_string(seconds) + " s still not: " + what);
+  }
+}
+
+void wait_ms(int ms) {
+  QTest::qWait(ms);
+}
+
+QWidget* widget(const char* name) {
+  for (QWidget* const top : QApplication::topLevelWidgets()) {
+    if (top->objectName() == QLatin1String(name)) return top;
+    if (auto* const found = top->findChild<QWidget*>(QString::fromLatin1(name))) return found;
+  }
+  return nullptr;
+}
+
+QString label(const char* name) {
+  return find<QLabel>(name).text();
+}
+
+double number(const char* name) {
+  const auto match = QRegularExpression(QStringLiteral("^-?[0-9.]+")).match(label(name));
+  return match.hasMatch() ? match.captured().toDouble() : 0;
+}
+
+int clicks() {
+  return clicked;
+}
+
+void click(QWidget& on, const QPoint& at) {
+  ++clicked;
+  QTest::mouseClick(&on, Qt::LeftButton, {}, at);
+}
+
+void click(const char* name) {
+  QWidget& on = find<QWidget>(name);
+  bring_into_sight(on);
+  expect(on.isVisible() && on.isEnabled(), std::string(name) + " can be clicked");
+  click(on, on.rect().center());
+}
+
+void press_key(int key) {
+  QWidget* const focus =
+      QApplication::activeModalWidget() ? QApplication::activeModalWidget() : QApplication::focusWidget();
+  QTest::keyClick(focus ? focus : &main_window(), static_cast<Qt::Key>(key));
+}
+
+QWidget& view(const char* name) {
+  for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    if (one->getSMName() == QLatin1String(name)) return *one->widget();
+  }
+  throw std::runtime_error(std::string("there is no view ") + name);
+}
+
+QPoint proxy_in(QWidget& view) {
+  const QImage picture = QGuiApplication::primaryScreen()
+                             ->grabWindow(main_window().winId(), view.mapTo(&main_window(), QPoint(0, 0)).x(),
+                                          view.mapTo(&main_window(), QPoint(0, 0)).y(), view.width(), view.height())
+                             .toImage();
+  // The largest patch of its yellow: letters are of another, and thin.
+  QPoint best;
+  int most = 0;
+  constexpr int half = 5;
+  for (int y = half; y < picture.height() - half; y += 2) {
+    for (int x = half; x < picture.width() - half; x += 2) {
+      int yellow = 0;
+      for (int j = -half; j <= half; ++j) {
+        for (int i = -half; i <= half; ++i) {
+          const QColor colour = picture.pixelColor(x + i, y + j);
+          if (colour.red() > 120 && colour.green() > 0.7 * colour.red() && colour.blue() < 0.45 * colour.red())
+            ++yellow;
+        }
+      }
+      if (yellow > most) {
+        most = yellow;
+        best = {x, y};
+      }
+    }
+  }
+  constexpr int enough = 60;
+  if (most < enough) throw std::runtime_error("the proxy is not seen in the view");
+  return best;
+}
+
+void drag(QWidget& view, const QPoint& from, const QPoint& to, bool release) {
+  ++clicked;
+  move_pointer(view, from);
+  xdotool({QStringLiteral("mousedown"), QStringLiteral("1")});
+  constexpr int steps = 12;
+  for (int n = 1; n <= steps; ++n) move_pointer(view, from + (to - from) * n / steps);
+  if (release) let_go();
+}
+
+void let_go() {
+  xdotool({QStringLiteral("mouseup"), QStringLiteral("1")});
+}

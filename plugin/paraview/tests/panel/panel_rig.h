@@ -1,0 +1,48 @@
+#pragma once
+
+/// A user of the panel, in the real program: finds widgets by name, clicks, drags, types, waits and looks. Everything
+/// throws std::runtime_error saying what was expected where it does not come.
+
+#include <QPoint>
+#include <QString>
+#include <QWidget>
+
+#include <functional>
+#include <string>
+
+/// Runs one of the scenarios.
+void run_scenario(const std::string& name);
+
+/// The main window as a picture in the folder that PALPATE_PICTURES names.
+void save_screen(const std::string& name);
+
+void expect(bool holds, const std::string& what);
+/// Events are handled meanwhile.
+void wait_for(const std::string& what, const std::function<bool()>& holds, int seconds = 60);
+void wait_ms(int ms);
+
+QWidget* widget(const char* name);
+template <typename Widget>
+Widget& find(const char* name) {
+  auto* const found = qobject_cast<Widget*>(widget(name));
+  expect(found != nullptr, std::string("there is a widget ") + name);
+  return *found;
+}
+/// Text of a label.
+QString label(const char* name);
+/// The number that a label begins with.
+double number(const char* name);
+
+/// Clicks so far: what a user's finger does.
+int clicks();
+void click(const char* name);
+void click(QWidget& on, const QPoint& at);
+void press_key(int key);
+
+/// The widget of a clinical view: "Axial", "Sagittal", "Coronal", "Volume".
+QWidget& view(const char* name);
+/// The middle of the stylus' yellow proxy in a view's picture, pixels.
+QPoint proxy_in(QWidget& view);
+/// Presses at `from` and moves to `to` in steps; lets go only where asked to.
+void drag(QWidget& view, const QPoint& from, const QPoint& to, bool let_go);
+void let_go();

@@ -1,0 +1,248 @@
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QThread>
+#include <QTimer>
+#include <QToolButton>
+
+#include <map>
+#include <stdexcept>
+
+#include "panel_rig.h"
+
+namespace {
+
+std::string scene_text() {
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+    if (source->getProxy()->GetXMLName() == std::string("PalpateScene")) {
+      return vtkSMPropertyHelper(source->getProxy(), "Scene").GetAsString();
+    }
+  }
+  return {};
+}
+
+void scan_is_shown() {
+  wait_for("the scan is in the views", [] { return find<QPushButton>("palpateConnect").isEnabled(); });
+  wait_for("its tissues are found", [] { return !find<QWidget>("palpateStudying").isVisible(); });
+  wait_ms(1500);
+}
+
+void connect_stylus() {
+  click("palpateConnect");
+  wait_for("forces are on", [] { return label("palpateState").startsWith("active"); });
+  wait_ms(1500);
+}
+
+/// Into the phantom's middle from the front, as far as asked for; the button stays down.
+QPoint press(int pixels) {
+  QWidget& sagittal = view("Sagittal");
+  const QPoint from = proxy_in(sagittal);
+  const QPoint to = from + QPoint(pixels, 0);  // the front is on the left
+  drag(sagittal, from, to, false);
+  return to;
+}
+
+constexpr int into_the_skin = 30;
+
+void feel() {
+  scan_is_shown();
+  connect_stylus();
+  press(into_the_skin);
+  wait_for("a force is felt", [] { return number("palpateForce") > 0.2; });
+  wait_ms(500);
+}
+
+void four_clicks() {
+  feel();
+  expect(clicks() <= 4, "it took at most four clicks");
+  save_screen("four-clicks");
+  expect(label("palpateDepth").contains("past the boundary"), "the depth is told");
+  expect(label("palpateTissue").contains("HU"), "the value is told");
+  expect(label("palpateSolver").contains("error below"), "the error is told");
+}
+
+void letting_go() {
+  feel();
+  let_go();
+  wait_for("the hand gives way", [] { return number("palpateForce") < 0.05; });
+}
+
+void escape_releases() {
+  feel();
+  press_key(Qt::Key_Escape);
+  wait_for(
+      "the force is zero", [] { return number("palpateForce") == 0; }, 5);
+  wait_for(
+      "it says so", [] { return label("palpateState").startsWith("released"); }, 5);
+  save_screen("released");
+  click("palpateFeel");
+  wait_for(
+      "forces are on again", [] { return label("palpateState").startsWith("active"); }, 10);
+}
+
+void escape_releases_under_a_dialog() {
+  feel();
+  bool released = false;
+  QTimer::singleShot(1500, [&] {
+    expect(QApplication::activeModalWidget() != nullptr, "a dialog is open");
+    press_key(Qt::Key_Escape);
+    released = true;
+  });
+  click("palpateOpenScene");
+  expect(released, "the dialog has been there");
+  wait_for(
+      "the force is zero", [] { return number("palpateForce") == 0; }, 5);
+}
+
+void a_tissue_is_switched() {
+  feel();
+  const double felt = number("palpateForce");
+  int switched = 0;
+  for (int row = 0; row < 8; ++row) {
+    const std::string name = "palpateOn" + std::to_string(row);
+    if (!widget(name.c_str())) break;
+    auto& box = find<QCheckBox>(name.c_str());
+    if (box.isChecked()) {
+      box.click();
+      ++switched;
+    }
+  }
+  expect(switched > 0, "there are tissues to switch");
+  wait_for(
+      "nothing is held any more", [&] { return number("palpateForce") < 0.3 * felt; }, 10);
+  find<QCheckBox>("palpateOn0").click();
+  wait_for(
+      "the switch is in the scene", [] { return scene_text().find("\"enabled\": true") != std::string::npos; }, 5);
+}
+
+void a_curve_is_edited_and_undone() {
+  scan_is_shown();
+  click("palpateCurvesSectionFold");
+  wait_ms(500);
+  const std::string before = scene_text();
+  expect(!before.empty(), "the scene is in the pipeline");
+  QWidget& chart = find<QWidget>("palpateStrengthCurveChart");
+  auto& value = find<QDoubleSpinBox>("palpateStrengthCurveValue");
+  // The node at the right end.
+  click(chart, {chart.width() - 6, 6});
+  for (int y = 4; y < chart.height() && !value.isEnabled(); y += 4) click(chart, {chart.width() - 6, y});
+  save_screen("curve");
+  expect(value.isEnabled(), "a node is chosen");
+  value.setValue(value.value() / 2);
+  wait_for(
+      "the edit is in the scene", [&] { return scene_text() != before; }, 5);
+  const std::string edited = scene_text();
+  click("palpateUndo");
+  wait_for(
+      "undone", [&] { return scene_text() == before; }, 5);
+  click("palpateRedo");
+  wait_for(
+      "done again", [&] { return scene_text() == edited; }, 5);
+}
+
+void a_fault_is_cleared() {
+  feel();
+  QThread::msleep(3000);  // the program does nothing: nobody could release
+  wait_for(
+      "the fault is told",
+      [] {
+        return label("palpateState").contains("program") || find<QPushButton>("palpateFeel").text() == "Clear fault";
+      },
+      10);
+  save_screen("fault");
+  expect(number("palpateForce") == 0, "the force was taken away");
+  click("palpateFeel");
+  wait_for(
+      "forces are on again", [] { return label("palpateState").startsWith("active"); }, 10);
+}
+
+void the_view_is_clutched() {
+  feel();
+  expect(!find<QToolButton>("palpateFitView").isEnabled(), "the mapping stays while something is held");
+  click("palpateClutch");
+  wait_for(
+      "no force", [] { return number("palpateForce") == 0; }, 5);
+  expect(find<QToolButton>("palpateFitView").isEnabled(), "clutched, the mapping may change");
+  find<QCheckBox>("palpateTurn").setChecked(true);
+  const std::string before = scene_text();
+  click("palpateClutch");
+  wait_for(
+      "forces are on again", [] { return label("palpateState").startsWith("active"); }, 10);
+  expect(scene_text() != before, "the mapping is turned as the view is");
+}
+
+void the_scan_changes_in_mid_contact() {
+  feel();
+  auto& series = find<QListWidget>("palpateSeries");
+  expect(series.count() > 1, "there are several series");
+  click("palpateScanSectionFold");
+  wait_ms(200);
+  const QRect other = series.visualItemRect(series.item(1));
+  click(*series.viewport(), other.center());
+  wait_for("the other scan is shown",
+           [] { return !label("palpateState").isEmpty() && find<QPushButton>("palpateConnect").isEnabled(); });
+  wait_ms(3000);
+  expect(number("palpateForce") < 3.1, "the force keeps its limit");
+  expect(find<QPushButton>("palpateConnect").text() == "Disconnect", "the stylus is still held");
+}
+
+void a_series_is_picked() {
+  wait_for("the series are listed", [] { return find<QListWidget>("palpateSeries").count() > 1; });
+  wait_ms(1000);
+  save_screen("mixed");
+  auto& series = find<QListWidget>("palpateSeries");
+  for (int n = 0; n < series.count(); ++n) {
+    if (!series.item(n)->text().startsWith("MR")) continue;
+    series.scrollToItem(series.item(n));
+    click(*series.viewport(), series.visualItemRect(series.item(n)).center());
+    scan_is_shown();
+    save_screen("mr");
+    return;
+  }
+  throw std::runtime_error("no MR series is listed");
+}
+
+void a_bad_folder() {
+  wait_for("it is said what is wrong", [] { return !label("palpateMessage").isEmpty(); });
+  save_screen("bad-folder");
+  expect(!find<QPushButton>("palpateConnect").isEnabled(), "there is nothing to connect to");
+}
+
+/// The program ends with the button down and the stylus pressed: by itself, with exit code 0.
+void closed_in_mid_contact() {
+  feel();
+}
+
+const std::map<std::string, void (*)()> scenarios{
+    {"four_clicks", four_clicks},
+    {"letting_go", letting_go},
+    {"escape_releases", escape_releases},
+    {"escape_releases_under_a_dialog", escape_releases_under_a_dialog},
+    {"a_tissue_is_switched", a_tissue_is_switched},
+    {"a_curve_is_edited_and_undone", a_curve_is_edited_and_undone},
+    {"a_fault_is_cleared", a_fault_is_cleared},
+    {"the_view_is_clutched", the_view_is_clutched},
+    {"the_scan_changes_in_mid_contact", the_scan_changes_in_mid_contact},
+    {"a_series_is_picked", a_series_is_picked},
+    {"a_bad_folder", a_bad_folder},
+    {"closed_in_mid_contact", closed_in_mid_contact},
+};
+
+}  // namespace
+
+void run_scenario(const std::string& name) {
+  const auto found = scenarios.find(name);
+  expect(found != scenarios.end(), "there is a scenario " + name);
+  found->second();
+}
