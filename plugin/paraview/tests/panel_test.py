@@ -80,8 +80,12 @@ def run(scenario):
     os.makedirs(home)
     environment = dict(os.environ, PALPATE_OPEN=folder, PV_PLUGIN_CONFIG_FILE=plugin_list(), HOME=home,
                        PALPATE_PANEL_TEST=scenario, PALPATE_PICTURES=SCRATCH, LIBGL_ALWAYS_SOFTWARE="1")
-    result = subprocess.run(["paraview"], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                            timeout=100)
+    try:
+        result = subprocess.run(["paraview"], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                text=True, timeout=150)
+    except subprocess.TimeoutExpired as late:
+        print(f"{scenario}: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}", flush=True)
+        return False
     said = [line for line in result.stdout.splitlines() if line.startswith(scenario)]
     print("\n".join(said) or result.stdout[-3000:], flush=True)
     if result.returncode != 0 and said and "passed" in said[-1]:

@@ -23,6 +23,6 @@ void PanelTest::on_startup() {
       std::printf("%s: FAILED: %s\n", name.c_str(), failure.what());
     }
     std::fflush(stdout);
-    QCoreApplication::exit(result);
+    QTimer::singleShot(0, QCoreApplication::instance(), [result] { QCoreApplication::exit(result); });
   });
 }

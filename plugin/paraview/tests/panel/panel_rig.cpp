@@ -26,14 +26,6 @@ QWidget& main_window() {
   return *pqCoreUtilities::mainWidget();
 }
 
-/// What is under the fold is brought into sight, as a user scrolls.
-void bring_into_sight(QWidget& of) {
-  for (QWidget* above = of.parentWidget(); above; above = above->parentWidget()) {
-    if (auto* const scroll = qobject_cast<QScrollArea*>(above)) scroll->ensureWidgetVisible(&of);
-  }
-  QTest::qWait(30);
-}
-
 /// The views are windows of their own: they get what the display's own pointer does.
 void xdotool(const QStringList& arguments) {
   expect(QProcess::execute(QStringLiteral("xdotool"), arguments) == 0, "xdotool works");
@@ -46,6 +38,13 @@ void move_pointer(const QWidget& in, const QPoint& at) {
 }
 
 }  // namespace
+
+void scroll_to(QWidget& to) {
+  for (QWidget* above = to.parentWidget(); above; above = above->parentWidget()) {
+    if (auto* const scroll = qobject_cast<QScrollArea*>(above)) scroll->ensureWidgetVisible(&to);
+  }
+  QTest::qWait(30);
+}
 
 void save_screen(const std::string& name) {
   const QString folder = qEnvironmentVariable("PALPATE_PICTURES");
@@ -96,7 +95,7 @@ void click(QWidget& on, const QPoint& at) {
 
 void click(const char* name) {
   QWidget& on = find<QWidget>(name);
-  bring_into_sight(on);
+  scroll_to(on);
   expect(on.isVisible() && on.isEnabled(), std::string(name) + " can be clicked");
   click(on, on.rect().center());
 }

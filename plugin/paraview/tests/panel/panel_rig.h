@@ -43,6 +43,8 @@ void press_key(int key);
 QWidget& view(const char* name);
 /// The middle of the stylus' yellow proxy in a view's picture, pixels.
 QPoint proxy_in(QWidget& view);
+/// Brings it into sight, as a user scrolls.
+void scroll_to(QWidget& to);
 /// Presses at `from` and moves to `to` in steps; lets go only where asked to.
 void drag(QWidget& view, const QPoint& from, const QPoint& to, bool let_go);
 void let_go();

@@ -128,27 +128,36 @@ void a_tissue_is_switched() {
 
 void a_curve_is_edited_and_undone() {
   scan_is_shown();
+  connect_stylus();
   click("palpateCurvesSectionFold");
   wait_ms(500);
   const std::string before = scene_text();
   expect(!before.empty(), "the scene is in the pipeline");
   QWidget& chart = find<QWidget>("palpateStrengthCurveChart");
-  auto& value = find<QDoubleSpinBox>("palpateStrengthCurveValue");
-  // The node at the right end.
-  click(chart, {chart.width() - 6, 6});
-  for (int y = 4; y < chart.height() && !value.isEnabled(); y += 4) click(chart, {chart.width() - 6, y});
+  scroll_to(find<QWidget>("palpateStrengthCurveValue"));
+  wait_ms(500);
+  const QPoint middle = chart.rect().center();
+  drag(chart, middle, middle, true);  // where there is no node a click makes one
+  wait_for(
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
+  drag(chart, middle, middle - QPoint(0, 25), true);
   save_screen("curve");
-  expect(value.isEnabled(), "a node is chosen");
-  value.setValue(value.value() / 2);
   wait_for(
       "the edit is in the scene", [&] { return scene_text() != before; }, 5);
+  wait_ms(600);
   const std::string edited = scene_text();
+  auto& value = find<QDoubleSpinBox>("palpateStrengthCurveValue");
+  value.setValue(value.value() / 2);
+  wait_for(
+      "the number is in the scene", [&] { return scene_text() != edited; }, 5);
   click("palpateUndo");
   wait_for(
-      "undone", [&] { return scene_text() == before; }, 5);
+      "undone", [&] { return scene_text() == edited; }, 5);
   click("palpateRedo");
   wait_for(
-      "done again", [&] { return scene_text() == edited; }, 5);
+      "done again", [&] { return scene_text() != edited; }, 5);
+  for (int n = 0; n < 10 && scene_text() != before; ++n) click("palpateUndo");
+  expect(scene_text() == before, "undo leads back to the scene as it was");
 }
 
 void a_fault_is_cleared() {
@@ -183,9 +192,10 @@ void the_view_is_clutched() {
 }
 
 void the_scan_changes_in_mid_contact() {
-  feel();
   auto& series = find<QListWidget>("palpateSeries");
-  expect(series.count() > 1, "there are several series");
+  wait_for("the series are listed", [&] { return series.count() > 1; });
+  click(*series.viewport(), series.visualItemRect(series.item(0)).center());
+  feel();
   click("palpateScanSectionFold");
   wait_ms(200);
   const QRect other = series.visualItemRect(series.item(1));
@@ -244,5 +254,7 @@ const std::map<std::string, void (*)()> scenarios{
 void run_scenario(const std::string& name) {
   const auto found = scenarios.find(name);
   expect(found != scenarios.end(), "there is a scenario " + name);
+  wait_for("the panel is there", [] { return widget("PalpatePanel") && widget("PalpatePanel")->isVisible(); });
+  wait_ms(1000);
   found->second();
 }
