@@ -32,6 +32,7 @@ void open_first_folder(QObject& parent, const std::function<void(const std::stri
   auto* const waiting = new QTimer(&parent);
   QObject::connect(waiting, &QTimer::timeout, &parent, [waiting, open, folder] {
     if (!pqActiveObjects::instance().activeServer() || !pqActiveObjects::instance().activeView()) return;
+    waiting->stop();
     waiting->deleteLater();
     open(folder.toStdString());
   });

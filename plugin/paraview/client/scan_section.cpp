@@ -112,7 +112,7 @@ void ScanSection::set_busy(bool busy, const QString& what) {
   progress_->setFormat(what + QStringLiteral(" %p%"));
   progress_->setValue(0);
   cancel_->setVisible(busy);
-  window_->setEnabled(!busy && volume_ == nullptr && source_ != nullptr);
+  window_->setEnabled(!busy && source_ != nullptr);
 }
 
 void ScanSection::tell(const QString& message, bool problem) {
@@ -185,16 +185,25 @@ void ScanSection::load(std::size_t series) {
   tell({});
   loader_.load(
       catalogue_->series[series], 0, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
-      [this, series](auto volume, const std::string& error) {
-        volume_ = std::move(volume);
-        if (volume_) show(series);
-        volume_.reset();
+      [this, catalogue = catalogue_, path = path_, series](const auto& volume, const std::string& error) {
+        if (volume) show({catalogue, path, series, volume});
         set_busy(false);
         if (!error.empty()) tell(text(error), true);
       });
 }
 
-void ScanSection::show(std::size_t series) {
+void ScanSection::show(const Loaded& loaded) {
+  // ParaView handles events while it makes a layout: another scan may be asked for meanwhile, and comes after this one.
+  if (showing_) {
+    QTimer::singleShot(100, this, [this, loaded] { show(loaded); });
+    return;
+  }
+  showing_ = true;
+  show_now(loaded);
+  showing_ = false;
+}
+
+void ScanSection::show_now(const Loaded& loaded) {
   pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
   pqServer* const server = pqActiveObjects::instance().activeServer();
   if (!server) {
@@ -208,8 +217,8 @@ void ScanSection::show(std::size_t series) {
     if (source_) builder.destroy(source_);
     source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
     vtkSMProxy& proxy = *source_->getProxy();
-    vtkSMPropertyHelper(&proxy, "FileName").Set(path_.c_str());
-    vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*catalogue_, series).c_str());
+    vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
+    vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*loaded.catalogue, loaded.series).c_str());
     proxy.UpdateVTKObjects();
     source_->updatePipeline();
     // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
@@ -223,16 +232,16 @@ void ScanSection::show(std::size_t series) {
                            .arg(named.window.level, 0, 'g', 4)
                            .arg(named.window.width, 0, 'g', 4));
     }
-    const io::Series& shown = catalogue_->series[series];
+    const io::Series& shown = loaded.catalogue->series[loaded.series];
     QStringList notes;
     for (const std::string& warning : shown.warnings) notes << text(warning);
-    for (const std::string& warning : volume_->warnings) notes << text(warning);
+    for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
     if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");
     if (!is_straight(display_grid(shown.geometry))) {
       notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
     }
     tell(notes.join(QStringLiteral("\n")));
-    emit scan_shown(volume_);
+    emit scan_shown(loaded.volume);
   } catch (const std::exception& error) {
     tell(text(error.what()), true);
   }

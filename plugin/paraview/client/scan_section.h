@@ -51,7 +51,14 @@ class ScanSection : public QWidget {
   void ask_folder();
   void list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error);
   void load(std::size_t series);
-  void show(std::size_t series);
+  struct Loaded {
+    std::shared_ptr<const io::Catalogue> catalogue;
+    std::string path;
+    std::size_t series = 0;
+    std::shared_ptr<const io::Volume> volume;  ///< held until the reader has it
+  };
+  void show(const Loaded& loaded);
+  void show_now(const Loaded& loaded);
   void apply_window(int choice);
   void set_busy(bool busy, const QString& what = {});
   void tell(const QString& message, bool problem = false);
@@ -65,7 +72,7 @@ class ScanSection : public QWidget {
 
   std::string path_;
   std::shared_ptr<const io::Catalogue> catalogue_;
-  std::shared_ptr<const io::Volume> volume_;  // held from loading until the reader has it
+  bool showing_ = false;
   QPointer<pqPipelineSource> source_;
   ClinicalViews views_;
   ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
