@@ -32,11 +32,6 @@ void xdotool(const QStringList& arguments) {
   QTest::qWait(80);
 }
 
-void move_pointer(const QWidget& in, const QPoint& at) {
-  const QPoint place = in.mapToGlobal(at);
-  xdotool({QStringLiteral("mousemove"), QString::number(place.x()), QString::number(place.y())});
-}
-
 }  // namespace
 
 void scroll_to(QWidget& to) {
@@ -141,6 +136,11 @@ QPoint proxy_in(QWidget& view) {
   constexpr int enough = 60;
   if (most < enough) throw std::runtime_error("the proxy is not seen in the view");
   return best;
+}
+
+void move_pointer(const QWidget& in, const QPoint& at) {
+  const QPoint place = in.mapToGlobal(at);
+  xdotool({QStringLiteral("mousemove"), QString::number(place.x()), QString::number(place.y())});
 }
 
 void drag(QWidget& view, const QPoint& from, const QPoint& to, bool release) {

@@ -45,6 +45,7 @@ QWidget& view(const char* name);
 QPoint proxy_in(QWidget& view);
 /// Brings it into sight, as a user scrolls.
 void scroll_to(QWidget& to);
+void move_pointer(const QWidget& in, const QPoint& at);
 /// Presses at `from` and moves to `to` in steps; lets go only where asked to.
 void drag(QWidget& view, const QPoint& from, const QPoint& to, bool let_go);
 void let_go();

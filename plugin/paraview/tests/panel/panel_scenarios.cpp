@@ -44,22 +44,18 @@ void connect_stylus() {
   wait_ms(1500);
 }
 
-/// Into the phantom's middle from the front, as far as asked for; the button stays down.
-QPoint press(int pixels) {
-  QWidget& sagittal = view("Sagittal");
-  const QPoint from = proxy_in(sagittal);
-  const QPoint to = from + QPoint(pixels, 0);  // the front is on the left
-  drag(sagittal, from, to, false);
-  return to;
-}
-
-constexpr int into_the_skin = 30;
-
+/// From the front, slowly, until something is felt; the button stays down.
 void feel() {
   scan_is_shown();
   connect_stylus();
-  press(into_the_skin);
-  wait_for("a force is felt", [] { return number("palpateForce") > 0.2; });
+  QWidget& sagittal = view("Sagittal");
+  const QPoint from = proxy_in(sagittal);
+  drag(sagittal, from, from + QPoint(4, 0), false);  // the front is on the left
+  for (int pixels = 8; pixels < 120 && number("palpateForce") < 0.3; pixels += 4) {
+    move_pointer(sagittal, from + QPoint(pixels, 0));
+  }
+  wait_for(
+      "a force is felt", [] { return number("palpateForce") > 0.2; }, 10);
   wait_ms(500);
 }
 
