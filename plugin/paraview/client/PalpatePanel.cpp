@@ -6,7 +6,9 @@
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
+#include <vtkPVXMLElement.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMProxyLocator.h>
 #include <vtkSMSourceProxy.h>
 
 #include <QAbstractSpinBox>
@@ -17,6 +19,8 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QVBoxLayout>
+
+#include <utility>
 
 #include "boundary_colours.h"
 #include "column_scroll.h"
@@ -41,6 +45,7 @@ struct PalpatePanel::Parts {
   explicit Parts(PalpatePanel& panel) : dock(panel), touching(model), views(touching, model) {}
 
   void build();
+  void adopt_state();
   void show_scan(const std::shared_ptr<const io::Volume>& volume);
   void study(const std::shared_ptr<const io::Volume>& volume);
   void colour_views();
@@ -57,6 +62,7 @@ struct PalpatePanel::Parts {
   CurvesSection* curves = nullptr;
   ModesSection* modes = nullptr;
   QProgressBar* studying = nullptr;
+  bool restoring = false;  // the scan to come is a state file's
   bool edited = false;     // since the scan was shown
   bool proposing = false;  // what is being edited is the panel's own doing
   double low = 0, high = 1;
@@ -122,24 +128,42 @@ void PalpatePanel::Parts::build() {
                      views.set_views({});
                      touching.set_scan(nullptr);
                    });
+  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
   open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
+}
+
+/// What a state file has restored is taken over: scan, scene and views.
+void PalpatePanel::Parts::adopt_state() {
+  const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  pqPipelineSource* reader = nullptr;
+  for (pqPipelineSource* const source : sources) {
+    const std::string kind = source->getProxy()->GetXMLName();
+    if (kind == "PalpateDicomReader") reader = source;
+    if (kind == "PalpateScene") model.adopt(*source);
+  }
+  if (!reader || reader == scan->source()) return;
+  restoring = true;
+  scan->adopt(*reader);
 }
 
 void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& volume) {
   pqServer* const server = pqActiveObjects::instance().activeServer();
   if (!server) return;
   proposing = true;
-  modes::Scene scene = scene_for("", *volume);
-  scene.workspace.fit = true;
-  if (!touching.live().is_connected()) touching.set_scan(nullptr);
-  model.open(*server, scene);
+  const bool restored = std::exchange(restoring, false) && model.source();
+  if (!restored) {
+    modes::Scene scene = scene_for("", *volume);
+    scene.workspace.fit = true;
+    if (!touching.live().is_connected()) touching.set_scan(nullptr);
+    model.open(*server, scene);
+  }
   touching.set_scan(volume);
-  views.set_views(scan->views().views());
+  views.set_views(find_clinical_views());
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
   low = lattice.values.low;
   high = lattice.values.high;
   proposing = false;
-  edited = false;
+  edited = restored;
   scan_fold->set_note(QString::fromStdString(describe_scan(*volume)));
   scan_fold->set_open(scan->has_notes());
   study(volume);
@@ -171,7 +195,7 @@ void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume)
 void PalpatePanel::Parts::colour_views() {
   SCOPED_UNDO_EXCLUDE();  // follows from the scene
   if (!scan->source()) return;
-  for (const ClinicalView& one : scan->views().views()) {
+  for (const ClinicalView& one : find_clinical_views()) {
     if (one.kind != ViewKind::volume) continue;
     pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
     if (!shown) continue;

@@ -2,10 +2,12 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServer.h>
+#include <pqServerManagerModel.h>
 #include <vtkNew.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
@@ -96,7 +98,24 @@ double half_extent(const ImageLattice& lattice, const glm::dvec3& direction) {
   return half;
 }
 
+constexpr struct {
+  Plane plane;
+  ViewKind kind;
+  int cell;
+} places[] = {{Plane::axial, ViewKind::axial, 3},
+              {Plane::sagittal, ViewKind::sagittal, 5},
+              {Plane::coronal, ViewKind::coronal, 4}};
 }  // namespace
+
+std::vector<ClinicalView> find_clinical_views() {
+  std::vector<ClinicalView> found;
+  for (pqRenderView* const view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    for (const ViewKind kind : {ViewKind::axial, ViewKind::sagittal, ViewKind::coronal, ViewKind::volume}) {
+      if (view->getSMName() == name_of(kind)) found.push_back({kind, view});
+    }
+  }
+  return found;
+}
 
 ClinicalViews::~ClinicalViews() = default;
 
@@ -162,23 +181,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
   layout->SplitVertical(1, 0.5);
   layout->SplitVertical(2, 0.5);
 
-  windows_ = windows_for(lattice.values);
-  window_->window = windows_.front().window;
-  window_->unit = lattice.values.hounsfield ? QStringLiteral("HU") : QString();
-  window_->value_at = [probe = std::make_shared<ValueProbe>(image)](const glm::dvec3& place) {
-    return probe->at(place);
-  };
-  window_->grey_map = grey_map(server);
-  plugin::set_window(*window_->grey_map, window_->window);
-  window_->changed = [this] { refresh(); };
-
-  constexpr struct {
-    Plane plane;
-    ViewKind kind;
-    int cell;
-  } places[] = {{Plane::axial, ViewKind::axial, 3},
-                {Plane::sagittal, ViewKind::sagittal, 5},
-                {Plane::coronal, ViewKind::coronal, 4}};
+  prepare(image, lattice);
   for (const auto& [plane, kind, cell] : places) {
     pqRenderView& view = *make_view(server, kind);
     layout->AssignView(cell, view.getViewProxy());
@@ -189,21 +192,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
     vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
         .Set(vtkSMPropertyHelper(window_->grey_map, "ScalarOpacityFunction").GetAsProxy());
     shown.UpdateVTKObjects();
-    const glm::dvec3 right = glm::cross(sight.along, sight.up);
-    const int slices = lattice.dimensions[sight.index_axis];
-    const glm::dvec3& to_next = lattice.directions[static_cast<std::size_t>(sight.index_axis)];
-    slices_.emplace_back(new SliceView(view, shown,
-                                       {.plane = plane,
-                                        .sight = sight,
-                                        .slices = slices,
-                                        .slice = slices / 2,
-                                        .first_mm = glm::dot(lattice.origin, sight.along),
-                                        .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
-                                        .center_mm = lattice.center(),
-                                        .half_height_mm = half_extent(lattice, sight.up),
-                                        .half_width_mm = half_extent(lattice, right)},
-                                       window_));
-    views_.push_back({kind, &view});
+    add_slice(lattice, plane, kind, view, shown, lattice.dimensions[sight.index_axis] / 2);
   }
 
   pqRenderView& volume_view = *make_view(server, ViewKind::volume);
@@ -220,12 +209,69 @@ void ClinicalViews::show(pqPipelineSource& source) {
   vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
   camera.UpdateVTKObjects();
   volume_view.getRenderViewProxy()->ResetCamera(true);
+  add_volume(volume_view);
+  refresh();
+}
+
+void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice) {
+  windows_ = windows_for(lattice.values);
+  window_->window = windows_.front().window;
+  window_->unit = lattice.values.hounsfield ? QStringLiteral("HU") : QString();
+  window_->value_at = [probe = std::make_shared<ValueProbe>(image)](const glm::dvec3& place) {
+    return probe->at(place);
+  };
+  window_->grey_map = grey_map(*pqActiveObjects::instance().activeServer());
+  plugin::set_window(*window_->grey_map, window_->window);
+  window_->changed = [this] { refresh(); };
+}
+
+void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view,
+                              vtkSMProxy& shown, int slice) {
+  const Sight sight = sight_of(plane, lattice.directions);
+  const glm::dvec3 right = glm::cross(sight.along, sight.up);
+  const int slices = lattice.dimensions[sight.index_axis];
+  const glm::dvec3& to_next = lattice.directions[static_cast<std::size_t>(sight.index_axis)];
+  slices_.emplace_back(new SliceView(view, shown,
+                                     {.plane = plane,
+                                      .sight = sight,
+                                      .slices = slices,
+                                      .slice = slice,
+                                      .first_mm = glm::dot(lattice.origin, sight.along),
+                                      .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
+                                      .center_mm = lattice.center(),
+                                      .half_height_mm = half_extent(lattice, sight.up),
+                                      .half_width_mm = half_extent(lattice, right)},
+                                     window_));
+  views_.push_back({kind, &view});
+}
+
+void ClinicalViews::add_volume(pqRenderView& volume_view) {
   marker_ = std::make_unique<OrientationMarker>(
       *vtkPVRenderView::SafeDownCast(volume_view.getRenderViewProxy()->GetClientSideView()));
   // The view may also be closed by hand, and its renderer with it.
   QObject::connect(&volume_view, &QObject::destroyed, &lifetime_, [this] { marker_.reset(); });
   views_.push_back({ViewKind::volume, &volume_view});
   pqActiveObjects::instance().setActiveView(&volume_view);
+}
+
+void ClinicalViews::adopt(pqPipelineSource& source) {
+  auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
+  const ImageLattice lattice = lattice_of(image);
+  slices_.clear();
+  marker_.reset();
+  views_.clear();
+  prepare(image, lattice);
+  for (const ClinicalView& open : find_clinical_views()) {
+    pqDataRepresentation* const shown = source.getRepresentation(open.view);
+    if (!shown) continue;
+    if (open.kind == ViewKind::volume) {
+      add_volume(*open.view);
+      continue;
+    }
+    const auto* const place = std::ranges::find_if(places, [&](const auto& of) { return of.kind == open.kind; });
+    add_slice(lattice, place->plane, open.kind, *open.view, *shown->getProxy(),
+              vtkSMPropertyHelper(shown->getProxy(), "Slice").GetAsInt());
+  }
   refresh();
 }
 

@@ -7,10 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "image_lattice.h"
 #include "orientation_marker.h"
 #include "slice_view.h"
 
 class pqPipelineSource;
+class vtkSMSourceProxy;
 
 namespace palpate::plugin {
 
@@ -19,6 +21,9 @@ struct ClinicalView {
   ViewKind kind = ViewKind::volume;
   pqRenderView* view = nullptr;
 };
+
+/// The clinical views among all that are open, by their names: also those that a state file has restored.
+std::vector<ClinicalView> find_clinical_views();
 
 class ClinicalViews {
  public:
@@ -29,6 +34,8 @@ class ClinicalViews {
 
   /// Shows an image in a layout of its own, the first slices in the middle. The source has to be up to date.
   void show(pqPipelineSource& source);
+  /// Takes over the clinical views of an image as they stand: a state file has restored them.
+  void adopt(pqPipelineSource& source);
   /// Views of the layout shown last are taken away again.
   void close();
   void set_window(const Window& window);
@@ -44,6 +51,10 @@ class ClinicalViews {
   void show_point(const glm::dvec3& place);
 
  private:
+  void prepare(vtkSMSourceProxy& image, const ImageLattice& lattice);
+  void add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view, vtkSMProxy& shown,
+                 int slice);
+  void add_volume(pqRenderView& volume_view);
   void refresh();
 
   std::shared_ptr<SharedWindow> window_ = std::make_shared<SharedWindow>();

@@ -225,26 +225,66 @@ void ScanSection::show_now(const Loaded& loaded) {
     // takes that for a change.
     QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
     views_.show(*source_);
-    window_->clear();
-    for (const NamedWindow& named : views_.windows()) {
-      window_->addItem(QStringLiteral("%1 (%2 / %3)")
-                           .arg(tr(named.name))
-                           .arg(named.window.level, 0, 'g', 4)
-                           .arg(named.window.width, 0, 'g', 4));
-    }
-    const io::Series& shown = loaded.catalogue->series[loaded.series];
-    QStringList notes;
-    for (const std::string& warning : shown.warnings) notes << text(warning);
-    for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
-    if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");
-    if (!is_straight(display_grid(shown.geometry))) {
-      notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
-    }
-    tell(notes.join(QStringLiteral("\n")));
+    list_windows();
+    say_what_to_know(loaded);
     emit scan_shown(loaded.volume);
   } catch (const std::exception& error) {
     tell(text(error.what()), true);
   }
+}
+
+void ScanSection::list_windows() {
+  window_->clear();
+  for (const NamedWindow& named : views_.windows()) {
+    window_->addItem(QStringLiteral("%1 (%2 / %3)")
+                         .arg(tr(named.name))
+                         .arg(named.window.level, 0, 'g', 4)
+                         .arg(named.window.width, 0, 'g', 4));
+  }
+}
+
+void ScanSection::say_what_to_know(const Loaded& loaded) {
+  const io::Series& shown = loaded.catalogue->series[loaded.series];
+  QStringList notes;
+  for (const std::string& warning : shown.warnings) notes << text(warning);
+  for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
+  if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");
+  if (!is_straight(display_grid(shown.geometry))) {
+    notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
+  }
+  tell(notes.join(QStringLiteral("\n")));
+}
+
+void ScanSection::adopt(pqPipelineSource& reader) {
+  source_ = &reader;
+  const std::string path = vtkSMPropertyHelper(reader.getProxy(), "FileName").GetAsString();
+  const std::string name = vtkSMPropertyHelper(reader.getProxy(), "SeriesUid").GetAsString();
+  path_ = path;
+  set_busy(true, tr("Finding series"));
+  loader_.find(
+      path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      [this, path, name](const auto& catalogue, const std::string& error) {
+        set_busy(false);
+        if (!catalogue) {
+          tell(text(error), true);
+          return;
+        }
+        const std::size_t series = choose_scan(*catalogue, name, path);
+        loader_.load(
+            catalogue->series[series], 0, [](double) {},
+            [this, catalogue, path, series](const auto& volume, const std::string& why) {
+              if (!volume) {
+                tell(text(why), true);
+                return;
+              }
+              const Loaded loaded{catalogue, path, series, volume};
+              source_->updatePipeline();
+              views_.adopt(*source_);
+              list_windows();
+              say_what_to_know(loaded);
+              emit scan_shown(volume);
+            });
+      });
 }
 
 void ScanSection::apply_window(int choice) {

@@ -31,6 +31,8 @@ class ScanSection : public QWidget {
 
   /// Finds the series of a folder or file; where one alone is a volume, shows it.
   void open(const std::string& path);
+  /// Takes over a reader that stands in the pipeline and its views as they are: a state file has restored them.
+  void adopt(pqPipelineSource& reader);
   /// Whether there is something to be read about the scan that is shown.
   bool has_notes() const;
   ClinicalViews& views() { return views_; }
@@ -59,6 +61,8 @@ class ScanSection : public QWidget {
   };
   void show(const Loaded& loaded);
   void show_now(const Loaded& loaded);
+  void list_windows();
+  void say_what_to_know(const Loaded& loaded);
   void apply_window(int choice);
   void set_busy(bool busy, const QString& what = {});
   void tell(const QString& message, bool problem = false);
