@@ -7,6 +7,7 @@
 
 #include "palpate/io/errors.h"
 #include "palpate/plugin/paraview/server/module/scan_store.h"
+#include "thumbnail.h"
 
 namespace palpate::plugin {
 
@@ -74,6 +75,21 @@ void ScanLoader::study(std::shared_ptr<const io::Volume> volume, Progress progre
         return std::make_shared<const ScanStudy>(study_scan(volume, tell));
       },
       std::move(progress), std::move(studied));
+}
+
+void ScanLoader::draw_thumbnails(std::shared_ptr<const io::Catalogue> catalogue,
+                                 std::function<void(const std::vector<QImage>&)> drawn) {
+  start<std::vector<QImage>>(
+      [catalogue = std::move(catalogue)](const io::Progress& tell) {
+        std::vector<QImage> images;
+        for (const io::Series& series : catalogue->series) {
+          if (!tell(0)) throw io::Cancelled();
+          images.push_back(series.usable ? thumbnail_of(series) : QImage());
+        }
+        return images;
+      },
+      [](double) {},
+      [drawn = std::move(drawn)](const std::vector<QImage>& images, const std::string&) { drawn(images); });
 }
 
 }  // namespace palpate::plugin

@@ -2,6 +2,7 @@
 
 /// Finding, loading and studying scans in the background, so that the panel stays alive and a scan can be given up.
 
+#include <QImage>
 #include <QObject>
 
 #include <atomic>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "palpate/io/series.h"
 #include "palpate/io/volume.h"
@@ -33,6 +35,9 @@ class ScanLoader {
   void find(const std::string& path, Progress progress, Found found);
   void load(const io::Series& series, int frame, Progress progress, Loaded loaded);
   void study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied);
+  /// One for each series, in their order; empty ones where there is nothing to be shown.
+  void draw_thumbnails(std::shared_ptr<const io::Catalogue> catalogue,
+                       std::function<void(const std::vector<QImage>&)> drawn);
   void cancel();
   bool is_busy() const { return busy_; }
 

@@ -14,6 +14,8 @@
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QHBoxLayout>
+#include <QIcon>
+#include <QImage>
 #include <QLabel>
 #include <QListWidget>
 #include <QMimeData>
@@ -60,7 +62,8 @@ void ScanSection::build() {
   series_ = new QListWidget(this);
   series_->setObjectName(QStringLiteral("palpateSeries"));
   series_->setWordWrap(true);
-  series_->setFixedHeight(76);
+  series_->setFixedHeight(130);
+  series_->setIconSize({40, 40});
   connect(series_, &QListWidget::itemActivated, this,
           [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
   connect(series_, &QListWidget::itemClicked, this,
@@ -166,6 +169,12 @@ void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std
                               text(series.identity.study_date)));
     if (!series.usable) item->setForeground(palette().brush(QPalette::Disabled, QPalette::Text));
   }
+  thumbnails_.draw_thumbnails(catalogue_, [this](const std::vector<QImage>& images) {
+    for (int row = 0; row < series_->count(); ++row) {
+      const auto n = static_cast<std::size_t>(series_->item(row)->data(Qt::UserRole).toULongLong());
+      if (n < images.size() && !images[n].isNull()) series_->item(row)->setIcon(QIcon(QPixmap::fromImage(images[n])));
+    }
+  });
   const auto usable = std::ranges::count_if(catalogue_->series, [](const io::Series& s) { return s.usable; });
   if (catalogue_->series.empty()) {
     tell(tr("No image series in this folder (%n file(s) looked at).", nullptr,

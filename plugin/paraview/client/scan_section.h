@@ -79,6 +79,7 @@ class ScanSection : public QWidget {
   bool showing_ = false;
   QPointer<pqPipelineSource> source_;
   ClinicalViews views_;
+  ScanLoader thumbnails_;
   ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
 };
 

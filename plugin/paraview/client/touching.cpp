@@ -87,7 +87,15 @@ void Touching::connect_stylus(const StylusChoice& choice) {
     before_ = now_ = live_.plan()->workspace;
     next_frame_ = 0;
     clutched_ = false;
-    if (simulated_) move_hand(first_place());
+    if (simulated_) {
+      // Its hand begins in the middle of the patient: nothing is felt before it has come to its place.
+      live_.release();
+      move_hand(first_place());
+      constexpr int there_ms = 900;
+      QTimer::singleShot(there_ms, this, [this, held = std::weak_ptr(simulated_)] {
+        if (held.lock() == simulated_ && simulated_ && !clutched_) live_.feel();
+      });
+    }
     emit told({}, false);
   } catch (const std::exception& error) {
     simulated_.reset();

@@ -12,7 +12,12 @@
 void PanelTest::on_startup() {
   const std::string name = qgetenv("PALPATE_PANEL_TEST").toStdString();
   if (name.empty()) return;
-  QTimer::singleShot(1000, this, [name] {
+  // Not before the panel is there: ParaView handles events while it starts, and must not be held up in one of them.
+  auto* const waiting = new QTimer(this);
+  connect(waiting, &QTimer::timeout, this, [waiting, name] {
+    QWidget* const panel = widget("PalpatePanel");
+    if (!panel || !panel->isVisible()) return;
+    waiting->stop();
     int result = 1;
     try {
       run_scenario(name);
@@ -25,4 +30,6 @@ void PanelTest::on_startup() {
     std::fflush(stdout);
     QTimer::singleShot(0, QCoreApplication::instance(), [result] { QCoreApplication::exit(result); });
   });
+  constexpr int poll_ms = 1000;
+  waiting->start(poll_ms);
 }

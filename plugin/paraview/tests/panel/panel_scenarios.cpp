@@ -276,7 +276,6 @@ const std::map<std::string, void (*)()> scenarios{
 void run_scenario(const std::string& name) {
   const auto found = scenarios.find(name);
   expect(found != scenarios.end(), "there is a scenario " + name);
-  wait_for("the panel is there", [] { return widget("PalpatePanel") && widget("PalpatePanel")->isVisible(); });
   wait_ms(1000);
   found->second();
 }
