@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <glm/vec3.hpp>
 #include <limits>
+
+#include "mode_words.h"
 
 namespace palpate::plugin {
 namespace {
@@ -16,15 +16,9 @@ constexpr double closest = 1e-3;  // of the whole range: nodes nearer to each ot
 
 struct Coat {
   double value = 0;
-  glm::dvec3 colour{1};
+  QColor colour;
   double opacity = 0;
 };
-
-glm::dvec3 colour_of(const modes::Mode& mode) {
-  if (mode.color.size() != 7) return glm::dvec3(0.7);
-  const long rgb = std::strtol(mode.color.c_str() + 1, nullptr, 16);
-  return glm::dvec3((rgb >> 16) & 0xff, (rgb >> 8) & 0xff, rgb & 0xff) / 255.0;
-}
 
 }  // namespace
 
@@ -78,7 +72,7 @@ std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::
     const double from = n == 0 ? low : coat.value - ramp;
     for (const double at : {from, last ? high : coats[n + 1].value - 1.1 * ramp}) {
       if (!rgb.empty() && at <= rgb[rgb.size() - 4]) continue;
-      rgb.insert(rgb.end(), {at, coat.colour.x, coat.colour.y, coat.colour.z});
+      rgb.insert(rgb.end(), {at, coat.colour.redF(), coat.colour.greenF(), coat.colour.blueF()});
     }
   }
   vtkSMPropertyHelper(colours, "RGBPoints").Set(rgb.data(), static_cast<unsigned>(rgb.size()));

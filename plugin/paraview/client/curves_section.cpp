@@ -9,7 +9,8 @@
 
 #include <algorithm>
 
-#include "palpate/plugin/summary.h"
+#include "mode_words.h"
+#include "tool_button.h"
 
 namespace palpate::plugin {
 namespace {
@@ -40,16 +41,8 @@ CurvesSection::CurvesSection(SceneModel& model, QWidget* parent) : QWidget(paren
   modes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(modes_, QOverload<int>::of(&QComboBox::activated), this, [this] { show_mode(); });
   row->addWidget(modes_, 1);
-  const auto add_button = [&](const char* name, const QString& text, const QString& tip, auto act) {
-    auto* const button = new QToolButton(this);
-    button->setObjectName(QString::fromLatin1(name));
-    button->setText(text);
-    button->setToolTip(tip);
-    connect(button, &QToolButton::clicked, this, act);
-    row->addWidget(button);
-  };
-  add_button("palpateUndo", QStringLiteral("↶"), tr("Undo"), [this] { model_.undo(); });
-  add_button("palpateRedo", QStringLiteral("↷"), tr("Redo"), [this] { model_.redo(); });
+  add_tool_button(*row, *this, "palpateUndo", QStringLiteral("↶"), tr("Undo"), [this] { model_.undo(); });
+  add_tool_button(*row, *this, "palpateRedo", QStringLiteral("↷"), tr("Redo"), [this] { model_.redo(); });
   column->addLayout(row);
   strength_ = new CurveEditor(QStringLiteral("palpateStrengthCurve"), tr("gradient"), tr("strength, N"), this);
   column->addWidget(strength_);
@@ -71,7 +64,7 @@ CurvesSection::CurvesSection(SceneModel& model, QWidget* parent) : QWidget(paren
     });
     connect(editor, &CurveEditor::finished, this, [this] {
       if (mode() < model_.scene().modes.size()) {
-        model_.finish_drag(tr("Curve of %1").arg(QString::fromStdString(display_name(model_.scene(), mode()))));
+        model_.finish_drag(tr("Curve of %1").arg(name_of(model_.scene(), mode())));
       }
     });
   };
@@ -108,7 +101,7 @@ modes::Gate* CurvesSection::gate_of(modes::Scene& scene) const {
 void CurvesSection::list_modes() {
   QStringList names;
   for (std::size_t n = 0; n < model_.scene().modes.size(); ++n) {
-    names << QString::fromStdString(display_name(model_.scene(), n));
+    names << name_of(model_.scene(), n);
   }
   const int was = modes_->currentIndex();
   modes_->clear();
@@ -130,7 +123,7 @@ void CurvesSection::show_mode() {
   gate_->setVisible(gate != nullptr);
   if (!any) return;
   const modes::Mode& shown = scene.modes[mode()];
-  const QColor colour(shown.color.empty() ? QStringLiteral("#808080") : QString::fromStdString(shown.color));
+  const QColor colour = colour_of(shown);
   const QString value = unit_.isEmpty() ? tr("value") : unit_;
   const QString gradient = unit_.isEmpty() ? tr("gradient per mm") : tr("%1 per mm").arg(unit_);
   const double top_n = std::max({scene.limits.force_n, shown.strength_n.maximum(), 0.1});

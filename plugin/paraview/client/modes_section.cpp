@@ -13,8 +13,8 @@
 
 #include <algorithm>
 
+#include "mode_words.h"
 #include "palpate/modes/mode_type.h"
-#include "palpate/plugin/summary.h"
 #include "tissues_section.h"
 
 namespace palpate::plugin {
@@ -148,7 +148,7 @@ std::size_t ModesSection::mode() const {
 void ModesSection::set(const QString& what, const std::function<void(modes::Mode&)>& change) {
   const std::size_t n = mode();
   if (n >= model_.scene().modes.size()) return;
-  model_.edit(tr("%1 of %2").arg(what, QString::fromStdString(display_name(model_.scene(), n))),
+  model_.edit(tr("%1 of %2").arg(what, name_of(model_.scene(), n)),
               [&](modes::Scene& scene) { change(scene.modes[n]); });
 }
 
@@ -168,7 +168,7 @@ void ModesSection::add_mode(const std::string& type) {
 void ModesSection::remove_mode() {
   const std::size_t n = mode();
   if (n >= model_.scene().modes.size()) return;
-  model_.edit(tr("Remove %1").arg(QString::fromStdString(display_name(model_.scene(), n))),
+  model_.edit(tr("Remove %1").arg(name_of(model_.scene(), n)),
               [&](modes::Scene& scene) { scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(n)); });
 }
 
@@ -181,8 +181,7 @@ void ModesSection::list_modes() {
     const int row = static_cast<int>(n);
     if (row >= list_->count()) list_->addItem(QString());
     QListWidgetItem& item = *list_->item(row);
-    item.setText(
-        tr("%1 (%2)").arg(QString::fromStdString(display_name(scene, n)), QString::fromStdString(scene.modes[n].type)));
+    item.setText(tr("%1 (%2)").arg(name_of(scene, n), QString::fromStdString(scene.modes[n].type)));
     item.setFlags(item.flags() | Qt::ItemIsUserCheckable);
     item.setCheckState(scene.modes[n].enabled ? Qt::Checked : Qt::Unchecked);
   }

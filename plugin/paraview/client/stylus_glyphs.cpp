@@ -19,10 +19,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "mode_words.h"
 #include "palpate/modes/haptic_step.h"
 #include "palpate/solver/primitive.h"
 
@@ -47,10 +47,9 @@ glm::dmat3 standing_along(const glm::dvec3& direction) {
   return {across, direction, glm::cross(across, direction)};
 }
 
-glm::dvec3 colour_of(const modes::Scene& scene, std::uint32_t mode) {
-  if (mode >= scene.modes.size() || scene.modes[mode].color.size() != 7) return {0.7, 0.7, 0.7};
-  const long rgb = std::strtol(scene.modes[mode].color.c_str() + 1, nullptr, 16);
-  return glm::dvec3((rgb >> 16) & 0xff, (rgb >> 8) & 0xff, rgb & 0xff) / 255.0;
+glm::dvec3 rgb_of(const modes::Scene& scene, std::uint32_t mode) {
+  const QColor colour = mode < scene.modes.size() ? colour_of(scene.modes[mode]) : QColor(Qt::gray);
+  return {colour.redF(), colour.greenF(), colour.blueF()};
 }
 
 }  // namespace
@@ -213,7 +212,7 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
     const glm::dvec3 acts = look.workspace.direction_to_patient(vector_of(share.force_n));
     const double newtons = glm::length(acts);
     if (newtons < 0.01 || share.mode >= modes::of_scene_left) continue;
-    const glm::dvec3 colour = colour_of(scene, share.mode);
+    const glm::dvec3 colour = rgb_of(scene, share.mode);
     switch (static_cast<solver::PrimitiveType>(share.type)) {
       case solver::PrimitiveType::plane:
         if (planes < planes_.size()) {

@@ -19,21 +19,14 @@
 #include <vector>
 
 #include "column_scroll.h"
+#include "mode_words.h"
 #include "palpate/modes/scene_json.h"
-#include "palpate/plugin/summary.h"
+#include "tool_button.h"
 
 namespace palpate::plugin {
 namespace {
 
 constexpr double strongest_n = 20;
-
-QString name_of(const modes::Scene& scene, std::size_t mode) {
-  return QString::fromStdString(display_name(scene, mode));
-}
-
-QString colour_of(const modes::Mode& mode) {
-  return mode.color.empty() ? QStringLiteral("#808080") : QString::fromStdString(mode.color);
-}
 
 }  // namespace
 
@@ -69,16 +62,9 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   scenes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   scenes_->setMinimumContentsLength(10);
   top->addWidget(scenes_, 1);
-  const auto add_button = [&](const char* name, const QString& text, const QString& tip, auto act) {
-    auto* const button = new QToolButton(this);
-    button->setObjectName(QString::fromLatin1(name));
-    button->setText(text);
-    button->setToolTip(tip);
-    connect(button, &QToolButton::clicked, this, act);
-    top->addWidget(button);
-  };
-  add_button("palpateOpenScene", tr("Open…"), tr("A scene's file"), [this] { open_file(); });
-  add_button("palpateSaveScene", tr("Save…"), tr("Keeps this scene in a file"), [this] { save_file(); });
+  add_tool_button(*top, *this, "palpateOpenScene", tr("Open…"), tr("A scene's file"), [this] { open_file(); });
+  add_tool_button(*top, *this, "palpateSaveScene", tr("Save…"), tr("Keeps this scene in a file"),
+                  [this] { save_file(); });
   column->addLayout(top);
   rows_ = new QWidget(this);
   scroll_ = new ColumnScroll(QStringLiteral("palpateBoundaries"), rows_, this);
@@ -171,8 +157,8 @@ void TissuesSection::build_rows() {
     colour->setFixedSize(18, 18);
     colour->setToolTip(tr("Its colour, here and in the views"));
     connect(colour, &QToolButton::clicked, this, [this, n] {
-      const QColor chosen = QColorDialog::getColor(QColor(colour_of(model_.scene().modes[n])), this,
-                                                   name_of(model_.scene(), n), QColorDialog::DontUseNativeDialog);
+      const QColor chosen = QColorDialog::getColor(colour_of(model_.scene().modes[n]), this, name_of(model_.scene(), n),
+                                                   QColorDialog::DontUseNativeDialog);
       if (!chosen.isValid()) return;
       model_.edit(tr("Colour %1").arg(name_of(model_.scene(), n)),
                   [&](modes::Scene& s) { s.modes[n].color = chosen.name().toStdString(); });
@@ -229,7 +215,7 @@ void TissuesSection::show_values() {
     const QString number = QString::number(row);
     rows_->findChild<QCheckBox*>(QStringLiteral("palpateOn") + number)->setChecked(mode.enabled);
     rows_->findChild<QToolButton*>(QStringLiteral("palpateColour") + number)
-        ->setStyleSheet(QStringLiteral("background: %1; border: 1px solid palette(dark)").arg(colour_of(mode)));
+        ->setStyleSheet(QStringLiteral("background: %1; border: 1px solid palette(dark)").arg(colour_of(mode).name()));
     auto* const name = rows_->findChild<QLineEdit*>(QStringLiteral("palpateName") + number);
     if (!name->hasFocus() || name->text().isEmpty()) {
       name->setText(name_of(scene, shown_[row]));
