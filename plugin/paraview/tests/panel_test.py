@@ -1,7 +1,8 @@
 """ParaView with the panel, on a virtual display, driven by the test plug-in: each scenario in a program of its own.
 
 Runs in plain Python 3 under xvfb-run with the folder of the built programs, the plug-ins' list, the test plug-in's
-list and a scratch folder as arguments, then scenarios (default: all). Pictures are left in the scratch folder for a
+list and a scratch folder as arguments, then scenarios (default: all
+that are tests; main_thread is a measurement). Pictures are left in the scratch folder for a
 person to look at.
 """
 
@@ -71,7 +72,7 @@ def plugin_list():
 
 
 def run(scenario):
-    folder = FOLDERS.get(scenario, ball)()
+    folder = os.environ.get("PALPATE_FOLDER") or FOLDERS.get(scenario, ball)()
     if folder is None:
         print(f"{scenario}: skipped: needs the shared folder of mixed series, which is not beside this checkout")
         return True

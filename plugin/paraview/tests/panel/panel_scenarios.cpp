@@ -18,9 +18,11 @@
 #include <QTimer>
 #include <QToolButton>
 
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 
+#include "busy_watch.h"
 #include "panel_rig.h"
 
 namespace {
@@ -250,6 +252,25 @@ void a_state_is_restored() {
   feel();
 }
 
+/// Not a test but a measurement: how long the main thread is busy at a stretch while one probes. ParaView updates its
+/// slices before it renders them: that is only left out where they do not follow.
+void main_thread() {
+  feel();
+  QWidget& sagittal = view("Sagittal");
+  const QPoint from = proxy_in(sagittal);
+  for (const bool follow : {true, false}) {
+    find<QCheckBox>("palpateFollow").setChecked(follow);
+    const BusyWatch watch;
+    for (int n = 0; n < 60; ++n) move_pointer(sagittal, from + QPoint(10, n - 30));
+    const std::vector<double> stretches = watch.without_rendering();
+    std::printf(
+        "main_thread: probing, slices %s: %zu stretches of events; without rendering the longest took %.1f ms, one in "
+        "a hundred %.1f ms or more; with ParaView's rendering the longest took %.1f ms\n",
+        follow ? "follow" : "stay", stretches.size(), stretches.at(0), stretches.at(stretches.size() / 100),
+        watch.longest_with_rendering_ms());
+  }
+}
+
 /// The program ends with the button down and the stylus pressed: by itself, with exit code 0.
 void closed_in_mid_contact() {
   feel();
@@ -268,6 +289,7 @@ const std::map<std::string, void (*)()> scenarios{
     {"a_series_is_picked", a_series_is_picked},
     {"a_bad_folder", a_bad_folder},
     {"a_state_is_restored", a_state_is_restored},
+    {"main_thread", main_thread},
     {"closed_in_mid_contact", closed_in_mid_contact},
 };
 
