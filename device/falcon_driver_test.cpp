@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "palpate/device/internal/fakes/fake_falcon_link.h"
+#include "palpate/device/internal/wall_ringing.h"
 
 namespace palpate::device {
 namespace {
@@ -106,23 +107,14 @@ TEST(FalconDriver, TheGripFeelsTheForceAskedFor) {
   }
 }
 
-/// Presses on a wall of this stiffness (N/m) at y = 0 and returns how far the grip still moves after two seconds, m.
+/// How far the hand still moves on a wall of this stiffness (N/m), m.
 double ringing(double stiffness, double friction) {
   FakeFalconOptions options;
   options.friction = friction;
   options.path = {{0.05, {0, 0, 0}}, {0.30, {0, 0, 0.039}}, {0.60, {0, 0.005, 0}}, {1.2, {0, -0.002, 0}}};
   Bench bench(options);
   bench.home();
-  const auto wall = [&](const Reading& reading) { return Vec3(0, std::max(0.0, -stiffness * reading.position.y), 0); };
-  bench.run(2, wall);
-  double lowest = 1;
-  double highest = -1;
-  bench.run(0.5, [&](const Reading& reading) {
-    lowest = std::min(lowest, bench.fake.falcon.hand().body().position.y);
-    highest = std::max(highest, bench.fake.falcon.hand().body().position.y);
-    return wall(reading);
-  });
-  return highest - lowest;
+  return ringing_of_wall(bench, bench.fake.falcon.hand(), stiffness);
 }
 
 TEST(FalconDriver, AWallAtItsStiffnessLimitIsQuiet) {

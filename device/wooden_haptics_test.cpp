@@ -16,6 +16,7 @@
 
 #include "palpate/device/internal/fakes/fake_wooden_haptics.h"
 #include "palpate/device/internal/fakes/test_files.h"
+#include "palpate/device/internal/wall_ringing.h"
 #include "palpate/device/internal/wooden_haptics_driver.h"
 
 namespace palpate::device {
@@ -159,23 +160,14 @@ TEST(WoodenHapticsDriver, TheHandFeelsTheForceAskedFor) {
   }
 }
 
-/// Presses on a wall of this stiffness (N/m) at y = 0 and returns how far the tip still moves after two seconds, m.
+/// How far the hand still moves on a wall of this stiffness (N/m), m.
 double ringing(double stiffness, double friction) {
   FakeWoodenHapticsOptions options;
   options.friction = friction;
   options.path = {{0.3, {0, 0, 0}}, {0.5, {0, 0.005, 0}}, {1.0, {0, -0.002, 0}}};
   Bench bench(options);
   bench.home();
-  const auto wall = [&](const Reading& reading) { return Vec3(0, std::max(0.0, -stiffness * reading.position.y), 0); };
-  bench.run(2, wall);
-  double lowest = 1;
-  double highest = -1;
-  bench.run(0.5, [&](const Reading& reading) {
-    lowest = std::min(lowest, bench.arm.hand().body().position.y);
-    highest = std::max(highest, bench.arm.hand().body().position.y);
-    return wall(reading);
-  });
-  return highest - lowest;
+  return ringing_of_wall(bench, bench.arm.hand(), stiffness);
 }
 
 TEST(WoodenHapticsDriver, AWallAtItsStiffnessLimitIsQuiet) {
