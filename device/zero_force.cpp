@@ -37,10 +37,16 @@ bool send_zeros_to_falcon(const std::string& address) {
   } catch (const std::exception&) {
     if (!address.empty()) return false;
   }
+  // One that cannot be opened does not keep the zeros from the next.
   const std::vector<FoundDevice> all = find_falcons();
-  return all.size() > 1 && std::all_of(all.begin(), all.end(), [](const FoundDevice& falcon) {
-           return send_zeros_to_one_falcon(falcon.address);
-         });
+  const auto reached = std::count_if(all.begin(), all.end(), [](const FoundDevice& falcon) {
+    try {
+      return send_zeros_to_one_falcon(falcon.address);
+    } catch (const std::exception&) {
+      return false;
+    }
+  });
+  return all.size() > 1 && reached == static_cast<std::ptrdiff_t>(all.size());
 }
 
 /// Straight to the hidraw node, which several may hold at once: a report number and zeros, in each of the lengths that

@@ -89,7 +89,21 @@ TEST(LiveSession, LetsGoInMidContact) {
   EXPECT_EQ(sent_n(live), 0);
 }
 
-TEST(LiveSession, AnEditIsInTheLoopWithTheSameFields) {
+TEST(LiveSession, AnEditedStrengthNeedsNoNewFields) {
+  const auto volume = ball();
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  const glm::dvec3 half_extent_m{0.08, 0.06, 0.06};
+  const Prepared before{prepare(scene, volume, half_extent_m), scene, volume};
+  scene.modes[0].strength_n = modes::TransferFunction(0.5);
+  const Felt edited = prepare(scene, volume, half_extent_m, before);
+  EXPECT_EQ(edited.source, before.felt.source);
+  EXPECT_NE(edited.plan, before.felt.plan);
+  EXPECT_NE(prepare(scene, ball(), half_extent_m, before).source, before.felt.source) << "of another scan";
+  scene.gradient_scale_mm = 3;
+  EXPECT_NE(prepare(scene, volume, half_extent_m, before).source, before.felt.source) << "at another scale";
+}
+
+TEST(LiveSession, AnEditIsInTheLoop) {
   LiveSession live;
   live.set_scan(ball());
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");

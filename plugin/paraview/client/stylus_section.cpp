@@ -73,6 +73,7 @@ StylusSection::StylusSection(Touching& touching, SceneModel& model, std::functio
     message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
     message_->setVisible(!text.isEmpty());
   });
+  connect(&touching, &Touching::clutch_button_let_go, this, [this] { clutch(false); });
   connect(&touching, &Touching::connection_changed, this, [this] { show_connection(); });
   connect(&touching, &Touching::looked, this, [this](const Look& look) { show_look(look); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { show_scene(); });

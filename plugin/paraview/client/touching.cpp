@@ -199,7 +199,7 @@ void Touching::obey_buttons(std::uint32_t buttons) {
   buttons_ = buttons;
   if ((pressed & release_button) != 0) release();
   if ((pressed & clutch_button) != 0) clutch();
-  if ((let & clutch_button) != 0) unclutch(now_.rotation);
+  if ((let & clutch_button) != 0) emit clutch_button_let_go();
 }
 
 void Touching::look() {

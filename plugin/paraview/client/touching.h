@@ -75,6 +75,8 @@ class Touching : public QObject {
   void let_go();
 
  signals:
+  /// The stylus' clutch button was let go: whoever knows how the views are turned unclutches.
+  void clutch_button_let_go();
   void looked(const palpate::plugin::Look& look);
   void connection_changed();
   void told(const QString& message, bool problem);
