@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -21,6 +22,17 @@ Canvas::Canvas(int width, int height, const Colour& background)
   cairo_select_font_face(pen_.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_line_join(pen_.get(), CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(pen_.get(), CAIRO_LINE_CAP_ROUND);
+}
+
+Colour colour_from(const std::string& hexadecimal, const Colour& otherwise) {
+  unsigned rgb = 0;
+  const char* const end = hexadecimal.data() + hexadecimal.size();
+  if (hexadecimal.size() != 7 || hexadecimal[0] != '#' ||
+      std::from_chars(hexadecimal.data() + 1, end, rgb, 16).ptr != end) {
+    return otherwise;
+  }
+  const auto part = [&](unsigned shift) { return (rgb >> shift & 0xFFU) / 255.0; };
+  return {part(16), part(8), part(0)};
 }
 
 void Canvas::set(const Colour& colour) {
@@ -143,6 +155,12 @@ void Canvas::image(std::span<const std::array<unsigned char, 3>> pixels, int col
   cairo_pattern_set_filter(cairo_get_source(pen_.get()), CAIRO_FILTER_NEAREST);
   cairo_paint(pen_.get());
   cairo_restore(pen_.get());
+}
+
+std::span<const unsigned char> Canvas::pixels() const {
+  cairo_surface_flush(surface_.get());
+  // Cairo's rows of 32-bit pixels have no padding.
+  return {cairo_image_surface_get_data(surface_.get()), 4 * static_cast<std::size_t>(width_) * height_};
 }
 
 void Canvas::clip(const Point& corner, const Point& size) {

@@ -21,6 +21,9 @@ struct Colour {
   double red = 0, green = 0, blue = 0, alpha = 1;
 };
 
+/// Of "#rrggbb"; `otherwise` for any other text.
+Colour colour_from(const std::string& hexadecimal, const Colour& otherwise);
+
 /// Okabe and Ito's palette, told apart by colour-blind eyes.
 namespace colours {
 constexpr Colour black{0, 0, 0}, white{1, 1, 1}, grey{0.45, 0.45, 0.45}, light{0.88, 0.88, 0.88};
@@ -55,6 +58,8 @@ class Canvas {
   void clip(const Point& corner, const Point& size);
   void unclip();
 
+  /// Row by row, 32 bits a pixel: blue, green, red, unused. Valid until something is drawn.
+  std::span<const unsigned char> pixels() const;
   /// Throws std::runtime_error naming the file.
   void write_png(const std::filesystem::path& file) const;
 

@@ -131,9 +131,21 @@ void draw_legend(Canvas& canvas, const Chart& chart, double right, double baseli
   }
 }
 
-void draw_panel(Canvas& canvas, const Chart& chart, double top, double height) {
-  const Point corner{84, top + 34};
-  const Point size{canvas.width() - corner.x - 24, height - 34 - 50};
+void draw_bands(Canvas& canvas, const Chart& chart, const Scale& x, const Scale& y, double text) {
+  for (const Band& band : chart.bands) {
+    const double from = std::max(x.position(band.from), x.from), to = std::min(x.position(band.to), x.to);
+    if (!(to > from)) continue;
+    canvas.rectangle({from, y.to}, {to - from, y.from - y.to}, band.colour);
+    if (canvas.text_width(band.label, text - 2) < to - from - 4) {
+      canvas.text({(from + to) / 2, y.from - 4}, band.label, text - 2, colours::grey, Anchor::centre);
+    }
+  }
+}
+
+void draw_panel(Canvas& canvas, const Chart& chart, double top, double height, const ChartStyle& style) {
+  const Point corner{style.left, top + style.top};
+  const Point size{canvas.width() - corner.x - style.right, height - style.top - style.bottom};
+  const double small = style.text - 1;
   Scale x = make_scale(chart.x, chart.curves, true);
   Scale y = make_scale(chart.y, chart.curves, false);
   x.from = corner.x;
@@ -141,47 +153,57 @@ void draw_panel(Canvas& canvas, const Chart& chart, double top, double height) {
   y.from = corner.y + size.y;
   y.to = corner.y;
 
-  canvas.text({corner.x, top + 22}, chart.title, 15);
-  for (const double tick : ticks_of(x, 90)) {
+  if (style.titled) canvas.text({corner.x, corner.y - 12}, chart.title, style.text + 2);
+  draw_bands(canvas, chart, x, y, style.text);
+  for (const double tick : ticks_of(x, 7 * style.text)) {
     const double at = x.position(tick);
     canvas.line(std::array{Point{at, y.from}, Point{at, y.to}}, colours::light, 1);
-    canvas.text({at, y.from + 17}, tick_label(x, tick), 12, colours::black, Anchor::centre);
+    canvas.text({at, y.from + style.text + 4}, tick_label(x, tick), small, colours::black, Anchor::centre);
   }
-  for (const double tick : ticks_of(y, 45)) {
+  for (const double tick : ticks_of(y, 3.5 * style.text)) {
     const double at = y.position(tick);
     canvas.line(std::array{Point{x.from, at}, Point{x.to, at}}, colours::light, 1);
-    canvas.text({x.from - 8, at + 4}, tick_label(y, tick), 12, colours::black, Anchor::right);
+    canvas.text({x.from - 5, at + 4}, tick_label(y, tick), small, colours::black, Anchor::right);
   }
   canvas.clip(corner, size);
   for (const Curve& curve : chart.curves) {
     draw_curve(canvas, curve, x, y);
   }
-  double label_height = corner.y + 14;
+  double label_height = corner.y + style.text + 1;
   for (const Mark& mark : chart.marks) {
     const double at = mark.vertical ? x.position(mark.at) : y.position(mark.at);
     if (mark.vertical) {
       canvas.line(std::array{Point{at, y.from}, Point{at, y.to}}, mark.colour, 1.2, true);
-      canvas.text({at + 4, label_height}, mark.label, 12, mark.colour);
-      label_height += 15;
+      const bool fits = at + 4 + canvas.text_width(mark.label, small) < x.to;
+      canvas.text({fits ? at + 4 : at - 4, label_height}, mark.label, small, mark.colour,
+                  fits ? Anchor::left : Anchor::right);
+      label_height += style.text + 2;
     } else {
       canvas.line(std::array{Point{x.from, at}, Point{x.to, at}}, mark.colour, 1.2, true);
-      canvas.text({x.from + 6, at - 4}, mark.label, 12, mark.colour);
+      canvas.text({x.from + 6, at - 4}, mark.label, small, mark.colour);
     }
   }
   canvas.unclip();
-  draw_legend(canvas, chart, corner.x + size.x, top + 22);
+  if (style.titled) draw_legend(canvas, chart, corner.x + size.x, corner.y - 12);
   canvas.rectangle(corner, size, colours::black, false);
-  canvas.text({corner.x + size.x / 2, y.from + 38}, chart.x.label, 13, colours::black, Anchor::centre);
-  canvas.text({20, corner.y + size.y / 2}, chart.y.label, 13, colours::black, Anchor::centre, true);
+  canvas.text({corner.x + size.x / 2, top + height - 0.8 * style.text}, chart.x.label, style.text, colours::black,
+              Anchor::centre);
+  canvas.text({1.3 * style.text, corner.y + size.y / 2}, chart.y.label, style.text, colours::black, Anchor::centre,
+              true);
 }
 
 }  // namespace
 
+void draw(Canvas& canvas, std::span<const Chart> panels, const ChartStyle& style) {
+  const double height = static_cast<double>(canvas.height()) / static_cast<double>(panels.size());
+  for (std::size_t n = 0; n < panels.size(); ++n) {
+    draw_panel(canvas, panels[n], static_cast<double>(n) * height, height, style);
+  }
+}
+
 void write_png(std::span<const Chart> panels, const std::filesystem::path& file, int width, int height) {
   Canvas canvas(width, height * static_cast<int>(panels.size()), colours::white);
-  for (std::size_t n = 0; n < panels.size(); ++n) {
-    draw_panel(canvas, panels[n], static_cast<double>(n) * height, height);
-  }
+  draw(canvas, panels);
   canvas.write_png(file);
 }
 

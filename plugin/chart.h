@@ -36,13 +36,30 @@ struct Mark {
   bool vertical = true;
 };
 
+/// A stretch of the x axis behind the curves, with a word at its foot where there is room.
+struct Band {
+  double from = 0, to = 0;
+  std::string label;
+  Colour colour = colours::light;
+};
+
 struct Chart {
   std::string title;
   Axis x, y;
   std::vector<Curve> curves;
   std::vector<Mark> marks;
+  std::vector<Band> bands = {};
 };
 
+/// Room around the axes, pixels, and how large the text is.
+struct ChartStyle {
+  double left = 84, right = 24, top = 34, bottom = 50;
+  double text = 13;
+  bool titled = true;  ///< title and legend above the axes
+};
+
+/// Draws the panels below one another over the whole canvas.
+void draw(Canvas& canvas, std::span<const Chart> panels, const ChartStyle& style = {});
 /// Draws the panels below one another, each `height` pixels high. Throws std::runtime_error naming the file.
 void write_png(std::span<const Chart> panels, const std::filesystem::path& file, int width = 960, int height = 420);
 void write_png(const Chart& chart, const std::filesystem::path& file, int width = 960, int height = 540);

@@ -33,6 +33,7 @@ void add_profile(CLI::App& program);
 void add_probe(CLI::App& program);
 void add_record(CLI::App& program);
 void add_replay(CLI::App& program);
+void add_compare(CLI::App& program);
 void add_solve(CLI::App& program);
 void add_devices(CLI::App& program);
 void add_bench(CLI::App& program);

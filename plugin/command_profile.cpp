@@ -6,11 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "palpate/plugin/chart.h"
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/scan.h"
 #include "palpate/plugin/series_option.h"
-#include "palpate/plugin/stroke.h"
+#include "palpate/plugin/stroke_picture.h"
 #include "palpate/plugin/summary.h"
 #include "palpate/plugin/vector_text.h"
 
@@ -21,7 +20,7 @@ struct Arguments {
   SeriesOption series;
   std::string scene, from, to;
   double speed = 50;
-  std::filesystem::path picture;
+  std::filesystem::path picture, table;
   bool json = false;
 };
 
@@ -67,38 +66,12 @@ void print_text(const std::vector<StrokePoint>& stroke, const modes::Plan& plan,
     }
   }
   fmt::print("\n");
-  for (const Contact& contact : contacts_of(stroke, plan, 0.05)) {
+  for (const Contact& contact : contacts_of(stroke, plan, met_n)) {
     const StrokePoint& first = stroke[contact.first];
     fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N\n", display_name(scene, contact.boundary),
                glm::dot(first.proxy_mm - from, along), patient_coordinates(first.proxy_mm), first.value,
                contact.peak_n);
   }
-}
-
-void draw(const std::vector<StrokePoint>& stroke, const modes::Plan& plan, const modes::Scene& scene,
-          const std::string& unit, const std::filesystem::path& file) {
-  Curve force{.label = "force felt", .x = {}, .y = {}, .colour = colours::vermilion};
-  Curve value{.label = "value at the probe's proxy", .x = {}, .y = {}, .colour = colours::blue};
-  Curve lag{.label = "probe ahead of proxy", .x = {}, .y = {}, .colour = colours::green};
-  for (const StrokePoint& point : stroke) {
-    const double depth = glm::distance(point.position_mm, stroke.front().position_mm);
-    force.x.push_back(depth);
-    force.y.push_back(glm::length(point.force_n));
-    value.x.push_back(depth);
-    value.y.push_back(point.value);
-    lag.x.push_back(depth);
-    lag.y.push_back(glm::distance(point.position_mm, point.proxy_mm));
-  }
-  std::vector<Mark> marks;
-  for (const Contact& contact : contacts_of(stroke, plan, 0.05)) {
-    marks.push_back({.at = glm::distance(stroke[contact.first].position_mm, stroke.front().position_mm),
-                     .label = display_name(scene, contact.boundary)});
-  }
-  const std::vector<Chart> panels{
-      {"Force along the stroke: " + scene.name, {"distance along the stroke (mm)"}, {"force (N)"}, {force}, marks},
-      {"Value", {"distance along the stroke (mm)"}, {unit.empty() ? "value" : "value (" + unit + ")"}, {value}, marks},
-      {"Distance from proxy to probe", {"distance along the stroke (mm)"}, {"distance (mm)"}, {lag}, marks}};
-  write_png(panels, file, 960, 330);
 }
 
 void run(const Arguments& arguments) {
@@ -110,14 +83,16 @@ void run(const Arguments& arguments) {
   const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
   const modes::Scene scene = scene_for(arguments.scene, *volume);
   const Felt felt = prepare(scene, volume, glm::dvec3(0.1));
-  const std::vector<StrokePoint> stroke = run_stroke(*felt.plan, *felt.source, from, to, arguments.speed);
-  if (!arguments.picture.empty()) {
-    draw(stroke, *felt.plan, scene, volume->unit, arguments.picture);
-  }
+  const Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, arguments.speed),
+                        .plan = felt.plan,
+                        .scene = scene,
+                        .unit = volume->unit};
+  if (!arguments.picture.empty()) write_png(charts_of(profile), arguments.picture, 960, 330);
+  if (!arguments.table.empty()) write_csv(profile, arguments.table);
   if (arguments.json) {
-    fmt::print("{}\n", to_json(stroke, scene));
+    fmt::print("{}\n", to_json(profile.stroke, scene));
   } else {
-    print_text(stroke, *felt.plan, scene);
+    print_text(profile.stroke, *felt.plan, scene);
   }
 }
 
@@ -137,6 +112,7 @@ void add_profile(CLI::App& program) {
                       "a scene's file or the name of a starting scene (default: one that suits the modality)");
   command->add_option("--speed", arguments->speed, "of the probe, mm/s; a frame is 1 ms")->capture_default_str();
   command->add_option("-o,--picture", arguments->picture, "also draw the stroke: a PNG file");
+  command->add_option("--table", arguments->table, "also write every frame as a line of a CSV file");
   command->add_flag("--json", arguments->json, "every frame, for machines");
   command->callback([arguments] { run(*arguments); });
 }

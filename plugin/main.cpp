@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
     add_probe(program);
     add_record(program);
     add_replay(program);
+    add_compare(program);
     add_devices(program);
     add_bench(program);
     program.parse(argc, argv);

@@ -17,6 +17,7 @@ namespace {
 constexpr double frames_per_s = 1000;
 constexpr double most_frames = 1e7;
 
+/// The primitive that pushes most, if any does.
 std::optional<std::size_t> pushes_most(const modes::StepResult& result) {
   std::optional<std::size_t> most;
   double largest = 0;
@@ -24,10 +25,15 @@ std::optional<std::size_t> pushes_most(const modes::StepResult& result) {
     const double force = glm::length(result.shares[n]);
     if (force > largest) {
       largest = force;
-      most = result.mode_of[n];
+      most = n;
     }
   }
   return most;
+}
+
+double value_at(const io::FieldSource& source, const glm::dvec3& place) {
+  const io::Sample sample = source.sample(place, io::FieldSet::value);
+  return sample.inside ? sample.value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -58,14 +64,16 @@ std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSour
                       position.x, position.y, position.z));
     }
     const glm::dvec3 proxy = plan.workspace.to_patient(result.proxy_m);
-    const io::Sample at_proxy = source.sample(proxy, io::FieldSet::value);
+    const std::optional<std::size_t> most = pushes_most(result);
     stroke.push_back({.position_mm = position,
                       .proxy_mm = proxy,
                       .force_n = plan.workspace.direction_to_patient(result.force_n),
-                      .value = at_proxy.inside ? at_proxy.value : std::numeric_limits<double>::quiet_NaN(),
+                      .value = value_at(source, proxy),
+                      .value_passed = value_at(source, position),
                       .solver = result.solver,
                       .error_bound_m = result.error_bound,
-                      .boundary = pushes_most(result)});
+                      .boundary = most ? std::optional<std::size_t>(result.mode_of[*most]) : std::nullopt,
+                      .primitive = most ? std::optional(result.primitives[*most].type) : std::nullopt});
   }
   return stroke;
 }

@@ -11,6 +11,7 @@
 
 #include "palpate/io/field_source.h"
 #include "palpate/modes/plan.h"
+#include "palpate/solver/primitive.h"
 #include "palpate/solver/solution.h"
 
 namespace palpate::plugin {
@@ -20,10 +21,12 @@ struct StrokePoint {
   glm::dvec3 position_mm{0};  ///< of the probe
   glm::dvec3 proxy_mm{0};
   glm::dvec3 force_n{0};
-  double value = 0;  ///< of the scan at the proxy; NaN outside it
+  double value = 0;         ///< of the scan at the proxy; NaN outside it
+  double value_passed = 0;  ///< of the scan at the probe; NaN outside it
   solver::SolverKind solver = solver::SolverKind::none;
   double error_bound_m = 0;
-  std::optional<std::size_t> boundary;  ///< the scene's mode that pushes most, if any does
+  std::optional<std::size_t> boundary;             ///< the scene's mode that pushes most, if any does
+  std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with
 };
 
 /// Throws std::runtime_error where the stroke has no length or more than 10 000 000 frames.
@@ -37,6 +40,9 @@ struct Contact {
   std::size_t last = 0;      ///< last point before it yielded or let go
   double peak_n = 0;
 };
+
+/// N: a boundary that pushes less is not worth telling of.
+constexpr double met_n = 0.05;
 
 /// The surfaces met along a stroke, in order: where a surface mode pushes with more than threshold_n.
 std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const modes::Plan& plan, double threshold_n);

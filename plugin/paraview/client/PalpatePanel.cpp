@@ -32,6 +32,7 @@
 #include "mapping.h"
 #include "modes_section.h"
 #include "palpate/plugin/scan.h"
+#include "profile_section.h"
 #include "scan_section.h"
 #include "stylus_section.h"
 #include "stylus_views.h"
@@ -47,6 +48,7 @@ struct PalpatePanel::Parts {
   void build();
   void adopt_state();
   void show_scan(const std::shared_ptr<const io::Volume>& volume);
+  void leave_views();
   void study(const std::shared_ptr<const io::Volume>& volume);
   void colour_views();
   void look(const Look& seen);
@@ -61,6 +63,7 @@ struct PalpatePanel::Parts {
   StylusSection* stylus = nullptr;
   CurvesSection* curves = nullptr;
   ModesSection* modes = nullptr;
+  ProfileSection* profile = nullptr;
   QProgressBar* studying = nullptr;
   bool restoring = false;  // the scan to come is a state file's
   bool edited = false;     // since the scan was shown
@@ -94,6 +97,8 @@ void PalpatePanel::Parts::build() {
   column->addWidget(new Fold(tr("Transfer function"), QStringLiteral("palpateCurvesSection"), curves, false, content));
   modes = new ModesSection(model, touching);
   column->addWidget(new Fold(tr("Modes"), QStringLiteral("palpateModesSection"), modes, false, content));
+  profile = new ProfileSection(touching, model);
+  column->addWidget(new Fold(tr("Force profile"), QStringLiteral("palpateProfileSection"), profile, false, content));
   auto* const about = new QLabel(
       tr("Palpate %1. Research software, not a medical device.").arg(QStringLiteral(PALPATE_VERSION)), content);
   about->setObjectName(QStringLiteral("palpateAbout"));
@@ -110,8 +115,13 @@ void PalpatePanel::Parts::build() {
   halves->addWidget(new Footer(touching, model, whole));
   dock.setWidget(whole);
 
-  QObject::connect(scan, &ScanSection::closing, &dock, [this] { views.set_views({}); });
+  QObject::connect(scan, &ScanSection::closing, &dock, [this] { leave_views(); });
   QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const auto& volume) { show_scan(volume); });
+  QObject::connect(profile, &ProfileSection::picking, &dock, [this](bool on) {
+    touching.keep_mouse_off(on);
+    scan->views().set_pick(on ? [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); }
+                              : std::function<void(Pick, const glm::dvec3&)>{});
+  });
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
     if (!proposing) edited = true;
     if (pace == Pace::stepped) colour_views();
@@ -125,7 +135,7 @@ void PalpatePanel::Parts::build() {
   });
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::aboutToRemoveServer,
                    &dock, [this] {
-                     views.set_views({});
+                     leave_views();
                      touching.set_scan(nullptr);
                    });
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
@@ -158,7 +168,9 @@ void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& vol
     model.open(*server, scene);
   }
   touching.set_scan(volume);
-  views.set_views(find_clinical_views());
+  const std::vector<ClinicalView> shown = find_clinical_views();
+  views.set_views(shown);
+  profile->set_views(shown);
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
   low = lattice.values.low;
   high = lattice.values.high;
@@ -167,6 +179,11 @@ void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& vol
   scan_fold->set_note(QString::fromStdString(describe_scan(*volume)));
   scan_fold->set_open(scan->has_notes());
   study(volume);
+}
+
+void PalpatePanel::Parts::leave_views() {
+  views.set_views({});
+  profile->set_views({});
 }
 
 void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume) {

@@ -4,6 +4,7 @@
 
 #include <QPointer>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -44,6 +45,8 @@ class ClinicalViews {
   const std::vector<NamedWindow>& windows() const { return windows_; }
   /// How places under the pointer are written from now on.
   void set_coordinates(Coordinates coordinates) { window_->coordinates = coordinates; }
+  /// Gets the left button in the slices from now on; empty: it sets the window again.
+  void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { window_->pick = std::move(pick); }
 
   /// Those that are open, the slices first.
   std::vector<ClinicalView> views() const;

@@ -73,15 +73,24 @@ class SliceView::Mouse {
     switch (event) {
       case vtkCommand::LeftButtonPressEvent:
         if (interactor_->GetControlKey() || interactor_->GetShiftKey()) return;
+        if (pick(Pick::pressed)) {
+          picking_ = true;
+          break;
+        }
         dragging_ = true;
         from_ = {at[0], at[1]};
         start_ = owner_.window_->window;
         break;
       case vtkCommand::LeftButtonReleaseEvent:
+        if (std::exchange(picking_, false)) {
+          pick(Pick::let_go);
+          break;
+        }
         if (!std::exchange(dragging_, false)) return;
         break;
       case vtkCommand::MouseMoveEvent:
         if (!dragging_) {
+          if (picking_) pick(Pick::moved);
           owner_.tell_of(at[0], at[1]);
           return;
         }
@@ -102,6 +111,14 @@ class SliceView::Mouse {
     command_->SetAbortFlag(1);
   }
 
+  /// Whether places are being picked.
+  bool pick(Pick what) {
+    if (!owner_.window_->pick) return false;
+    const int* const at = interactor_->GetEventPosition();
+    owner_.window_->pick(what, owner_.place_under(at[0], at[1]));
+    return true;
+  }
+
   // To the right wider, up brighter; a drag over the view's width doubles the window or halves it.
   void drag_to(int x, int y) {
     const int* const size = interactor_->GetSize();
@@ -118,7 +135,7 @@ class SliceView::Mouse {
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkCallbackCommand> command_;
   std::vector<unsigned long> observers_;
-  bool dragging_ = false;
+  bool dragging_ = false, picking_ = false;
   std::array<int, 2> from_{};
   Window start_;
 };

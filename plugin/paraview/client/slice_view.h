@@ -22,6 +22,9 @@ namespace palpate::plugin {
 
 class SliceOverlay;
 
+/// What the left button does while places are being picked.
+enum class Pick { pressed, moved, let_go };
+
 /// What the slice views of a scan have in common.
 struct SharedWindow {
   vtkSMProxy* grey_map = nullptr;
@@ -31,6 +34,8 @@ struct SharedWindow {
   /// Of the voxel nearest to a place in the patient, mm; may be empty.
   std::function<std::optional<double>(const glm::dvec3& place)> value_at;
   QString unit;
+  /// Gets the left button instead of the window while it is set.
+  std::function<void(Pick, const glm::dvec3& place)> pick;
 };
 
 struct SliceSetup {

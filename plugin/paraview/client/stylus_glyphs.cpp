@@ -1,9 +1,6 @@
 #include "stylus_glyphs.h"
 
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkCommand.h>
 #include <vtkConeSource.h>
 #include <vtkCylinderSource.h>
 #include <vtkDiskSource.h>
@@ -12,7 +9,6 @@
 #include <vtkPVRenderView.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
@@ -23,6 +19,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "mode_words.h"
+#include "overlay_layer.h"
 #include "palpate/modes/haptic_step.h"
 #include "palpate/solver/primitive.h"
 
@@ -53,42 +50,6 @@ glm::dvec3 rgb_of(const modes::Scene& scene, std::uint32_t mode) {
 }
 
 }  // namespace
-
-/// Drawn after all others, with depths of its own: neither a slice nor a surface covers it.
-class StylusGlyphs::Layer {
- public:
-  explicit Layer(vtkPVRenderView& view) : window_(view.GetRenderWindow()), camera_(view.GetActiveCamera()) {
-    const int layer = window_->GetNumberOfLayers();
-    window_->SetNumberOfLayers(layer + 1);
-    renderer_->SetLayer(layer);
-    renderer_->InteractiveOff();
-    window_->AddRenderer(renderer_);
-    follow_->SetClientData(this);
-    follow_->SetCallback(
-        [](vtkObject*, unsigned long, void* self, void*) { static_cast<Layer*>(self)->follow_camera(); });
-    observer_ = window_->AddObserver(vtkCommand::StartEvent, follow_);
-  }
-  Layer(const Layer&) = delete;
-  Layer& operator=(const Layer&) = delete;
-  ~Layer() {
-    window_->RemoveObserver(observer_);
-    window_->RemoveRenderer(renderer_);
-  }
-  vtkRenderer& renderer() { return *renderer_; }
-
- private:
-  /// Seen as the view is, but from as near and as far as its own things need.
-  void follow_camera() {
-    renderer_->GetActiveCamera()->DeepCopy(camera_);
-    renderer_->ResetCameraClippingRange();
-  }
-
-  vtkSmartPointer<vtkRenderWindow> window_;
-  vtkSmartPointer<vtkCamera> camera_;
-  vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkCallbackCommand> follow_;
-  unsigned long observer_ = 0;
-};
 
 /// One actor of unit size.
 struct StylusGlyphs::Part {
@@ -158,7 +119,7 @@ std::unique_ptr<StylusGlyphs::Part> StylusGlyphs::add(int shape) {
   return part;
 }
 
-StylusGlyphs::StylusGlyphs(vtkPVRenderView& view) : layer_(std::make_unique<Layer>(view)) {
+StylusGlyphs::StylusGlyphs(vtkPVRenderView& view) : layer_(std::make_unique<OverlayLayer>(view)) {
   for (std::size_t n = 0; n < most_primitives_shown; ++n) {
     planes_.push_back(add(disc));
     rods_.push_back(add(rod));

@@ -14,6 +14,8 @@ class vtkPVRenderView;
 
 namespace palpate::plugin {
 
+class OverlayLayer;
+
 class StylusGlyphs {
  public:
   explicit StylusGlyphs(vtkPVRenderView& view);
@@ -27,10 +29,9 @@ class StylusGlyphs {
 
  private:
   struct Part;
-  class Layer;
   std::unique_ptr<Part> add(int shape);
 
-  std::unique_ptr<Layer> layer_;
+  std::unique_ptr<OverlayLayer> layer_;
   std::unique_ptr<Part> stylus_, proxy_, spring_, force_, tip_;
   std::vector<std::unique_ptr<Part>> planes_, rods_, balls_;
 };

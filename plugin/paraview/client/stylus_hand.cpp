@@ -88,7 +88,7 @@ struct StylusHand::State {
   }
 
   bool handle(unsigned long event) {
-    if (!touching.has_simulated() || touching.is_clutched() || !touching.last().fresh) {
+    if (!touching.takes_mouse() || touching.is_clutched() || !touching.last().fresh) {
       dragging = false;
       return false;
     }

@@ -73,6 +73,9 @@ class Touching : public QObject {
   void move_hand(const glm::dvec3& patient_mm);
   /// The hand gives way until nothing pushes it.
   void let_go();
+  /// While the mouse means something else, it does not take the stylus.
+  void keep_mouse_off(bool off) { mouse_off_ = off; }
+  bool takes_mouse() const { return has_simulated() && !mouse_off_; }
 
  signals:
   /// The stylus' clutch button was let go: whoever knows how the views are turned unclutches.
@@ -96,6 +99,7 @@ class Touching : public QObject {
   std::uint32_t buttons_ = 0;
   bool letting_go_ = false;
   bool clutched_ = false;
+  bool mouse_off_ = false;
   glm::dvec3 clutched_at_mm_{0};
   Look look_;
   QTimer heart_, looks_;

@@ -53,9 +53,22 @@ FOLDERS = {
     "a_series_is_picked": mixed,
     "a_bad_folder": bad,
 }
-SCENARIOS = ["four_clicks", "letting_go", "escape_releases", "escape_releases_under_a_dialog", "a_tissue_is_switched",
-             "a_curve_is_edited_and_undone", "a_fault_is_cleared", "the_view_is_clutched",
-             "the_scan_changes_in_mid_contact", "a_series_is_picked", "a_bad_folder", "a_state_is_restored", "closed_in_mid_contact"]
+SCENARIOS = [
+    "four_clicks",
+    "letting_go",
+    "escape_releases",
+    "escape_releases_under_a_dialog",
+    "a_tissue_is_switched",
+    "a_curve_is_edited_and_undone",
+    "a_fault_is_cleared",
+    "the_view_is_clutched",
+    "the_scan_changes_in_mid_contact",
+    "a_series_is_picked",
+    "a_bad_folder",
+    "a_state_is_restored",
+    "profile_follows_an_edit",
+    "closed_in_mid_contact",
+]
 
 
 def plugin_list():

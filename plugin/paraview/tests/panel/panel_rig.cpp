@@ -7,13 +7,17 @@
 #include <pqServerManagerModel.h>
 
 #include <QApplication>
+#include <QFile>
+#include <QFileDialog>
 #include <QImage>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPixmap>
 #include <QProcess>
 #include <QRegularExpression>
 #include <QScreen>
 #include <QScrollArea>
+#include <QTimer>
 #include <QtTest/QTest>
 
 #include <stdexcept>
@@ -99,6 +103,19 @@ void press_key(int key) {
   QWidget* const focus =
       QApplication::activeModalWidget() ? QApplication::activeModalWidget() : QApplication::focusWidget();
   QTest::keyClick(focus ? focus : &main_window(), static_cast<Qt::Key>(key));
+}
+
+void save_as(const char* button, const QString& file) {
+  QFile::remove(file);
+  constexpr int open_ms = 800;
+  QTimer::singleShot(open_ms, [&file] {
+    auto* const dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    if (!dialog) return;  // what is missing then is the file
+    dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->setText(file);
+    QMetaObject::invokeMethod(dialog, "accept");
+  });
+  click(button);
+  expect(QFile::exists(file), file.toStdString() + " is written");
 }
 
 QWidget& view(const char* name) {

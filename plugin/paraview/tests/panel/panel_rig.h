@@ -38,6 +38,8 @@ int clicks();
 void click(const char* name);
 void click(QWidget& on, const QPoint& at);
 void press_key(int key);
+/// Clicks on a button that asks for a file, and names it.
+void save_as(const char* button, const QString& file);
 
 /// The widget of a clinical view: "Axial", "Sagittal", "Coronal", "Volume".
 QWidget& view(const char* name);

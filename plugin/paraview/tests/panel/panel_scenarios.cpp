@@ -256,8 +256,10 @@ const Scenarios scenarios{
 }  // namespace
 
 void run_scenario(const std::string& name) {
-  const auto found = scenarios.find(name);
-  expect(found != scenarios.end(), "there is a scenario " + name);
+  Scenarios all = scenarios;
+  for (const Scenarios& more : {profile_scenarios()}) all.insert(more.begin(), more.end());
+  const auto found = all.find(name);
+  expect(found != all.end(), "there is a scenario " + name);
   wait_ms(1000);
   found->second();
 }

@@ -15,3 +15,6 @@ void scan_is_shown();
 void connect_stylus();
 /// Waits for the scan, connects, and presses from the front, slowly, until something is felt; the button stays down.
 void feel();
+
+/// Of the files of that name.
+const Scenarios& profile_scenarios();

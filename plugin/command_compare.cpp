@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "palpate/plugin/command.h"
+#include "palpate/plugin/compare_strokes.h"
+#include "palpate/plugin/series_option.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct Arguments {
+  std::filesystem::path first, second, picture, table;
+  SeriesOption series;
+  bool json = false;
+};
+
+RecordedSession read_session(const std::filesystem::path& file, const io::Volume& volume) try {
+  return RecordedSession(read_recording(file), volume);
+} catch (const std::exception& error) {
+  const std::string name = file.string();
+  throw InputRefused(std::string(error.what()).starts_with(name) ? error.what() : name + ": " + error.what());
+}
+
+void run(const Arguments& arguments) {
+  const io::Volume volume = load_series(arguments.series);
+  const Comparison comparison =
+      compare_strokes(read_session(arguments.first, volume), read_session(arguments.second, volume));
+  if (!arguments.picture.empty()) {
+    constexpr int width = 960, height = 330;
+    write_png(charts_of(comparison, arguments.first.stem().string(), arguments.second.stem().string()),
+              arguments.picture, width, height);
+  }
+  if (!arguments.table.empty()) write_csv(comparison, arguments.table);
+  if (arguments.json) {
+    const nlohmann::ordered_json json{{"along_mm", comparison.along_mm},
+                                      {"first_n", comparison.first_n},
+                                      {"second_n", comparison.second_n},
+                                      {"apart_mm", comparison.apart_mm},
+                                      {"most_apart_mm", comparison.most_apart_mm},
+                                      {"largest_difference_n", comparison.largest_difference_n},
+                                      {"largest_difference_at_mm", comparison.largest_difference_at_mm},
+                                      {"mean_difference_n", comparison.mean_difference_n}};
+    fmt::print("{}\n", json.dump());
+  } else {
+    fmt::print("{}\n", in_words(comparison));
+  }
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand(
+      "compare",
+      "What two recordings felt on the same stroke through a scan, place by place along it, however fast each was.");
+  command->add_option("FIRST", arguments->first, "a recording")->required()->check(CLI::ExistingFile);
+  command->add_option("SECOND", arguments->second, "another, made on the same scan")
+      ->required()
+      ->check(CLI::ExistingFile);
+  add_series_option(*command, arguments->series);
+  command->add_option("-o,--picture", arguments->picture, "also draw both: a PNG file");
+  command->add_option("--table", arguments->table, "also write a line every step of the stroke: a CSV file");
+  command->add_flag("--json", arguments->json, "for machines");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace palpate::plugin

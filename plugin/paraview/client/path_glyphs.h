@@ -1,0 +1,29 @@
+#pragma once
+
+/// A path through the patient in one view: a line with a ball at its ends, over all else.
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+class QColor;
+class vtkPVRenderView;
+
+namespace palpate::plugin {
+
+class PathGlyphs {
+ public:
+  PathGlyphs(vtkPVRenderView& view, const QColor& colour);
+  PathGlyphs(const PathGlyphs&) = delete;
+  PathGlyphs& operator=(const PathGlyphs&) = delete;
+  ~PathGlyphs();
+
+  /// mm, patient space; empty hides it. The view has to be drawn anew.
+  void show(const std::vector<glm::dvec3>& path);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,249 @@
+#include "profile_section.h"
+
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "chart_picture.h"
+#include "palpate/device/simulated_stylus.h"
+#include "palpate/plugin/summary.h"
+#include "palpate/plugin/vector_text.h"
+#include "tool_button.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr int chart_pixels = 150;
+
+QString text_of(const glm::dvec3& place) {
+  return QStringLiteral("%1, %2, %3").arg(place.x, 0, 'f', 1).arg(place.y, 0, 'f', 1).arg(place.z, 0, 'f', 1);
+}
+
+}  // namespace
+
+ProfileSection::ProfileSection(Touching& touching, SceneModel& model, QWidget* parent)
+    : QWidget(parent),
+      touching_(touching),
+      path_(QColor(230, 80, 210)),
+      job_([this](auto profile, const QString& error) { show_profile(std::move(profile), error); }) {
+  setObjectName(QStringLiteral("palpateProfile"));
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(3);
+  column->addWidget(build_points());
+  chart_ = new ChartPicture(chart_pixels, this);
+  chart_->setObjectName(QStringLiteral("palpateProfileChart"));
+  connect(chart_, &ChartPicture::pointed, this, [this](double depth_mm) { point_at(depth_mm); });
+  column->addWidget(chart_);
+  readout_ = new QLabel(this);
+  readout_->setObjectName(QStringLiteral("palpateProfileReadout"));
+  readout_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  readout_->setTextFormat(Qt::PlainText);
+  readout_->setWordWrap(true);
+  column->addWidget(readout_);
+  auto* const row = new QHBoxLayout;
+  const auto add = [&](const char* name, const QString& text, bool table) {
+    auto* const button = new QPushButton(text, this);
+    button->setObjectName(QString::fromLatin1(name));
+    connect(button, &QPushButton::clicked, this, [this, table] { save(table); });
+    row->addWidget(button);
+    return button;
+  };
+  save_picture_ = add("palpateProfilePicture", tr("Save picture…"), false);
+  save_table_ = add("palpateProfileTable", tr("Save table…"), true);
+  column->addLayout(row);
+  connect(&model, &SceneModel::changed, this, [this](Pace) { run(); });
+  connect(&touching, &Touching::connection_changed, this, [this] { run(); });
+  show_profile(nullptr, {});
+}
+
+ProfileSection::~ProfileSection() = default;
+
+QWidget* ProfileSection::build_points() {
+  auto* const box = new QWidget(this);
+  auto* const grid = new QGridLayout(box);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(2);
+  pick_ = new QPushButton(tr("Pick two points in a slice"), box);
+  pick_->setObjectName(QStringLiteral("palpateProfilePick"));
+  pick_->setCheckable(true);
+  pick_->setToolTip(tr("Drag from one point to the other, or click on both."));
+  connect(pick_, &QPushButton::toggled, this, [this](bool on) { emit picking(on); });
+  grid->addWidget(pick_, 0, 0, 1, 2);
+  speed_ = new QDoubleSpinBox(box);
+  speed_->setObjectName(QStringLiteral("palpateProfileSpeed"));
+  speed_->setRange(5, 500);
+  speed_->setValue(50);
+  speed_->setDecimals(0);
+  speed_->setSuffix(tr(" mm/s"));
+  speed_->setKeyboardTracking(false);
+  speed_->setToolTip(tr("How fast the stylus goes along the stroke"));
+  connect(speed_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this] { run(); });
+  grid->addWidget(speed_, 0, 2, 1, 2);
+  const auto add = [&](int row, const char* name, const QString& label, std::optional<glm::dvec3> Stroke::*point) {
+    auto* const field = new QLineEdit(box);
+    field->setObjectName(QString::fromLatin1(name));
+    field->setPlaceholderText(tr("x, y, z"));
+    field->setToolTip(tr("mm in the patient: to the left, to the back, to the head"));
+    connect(field, &QLineEdit::editingFinished, this, [this, point, field] { read_point(point, *field); });
+    grid->addWidget(new QLabel(label, box), row, 0);
+    grid->addWidget(field, row, 1, 1, 2);
+    auto* const cell = new QHBoxLayout;
+    const std::string button = std::string(name) + "Stylus";
+    add_tool_button(*cell, *this, button.c_str(), tr("Stylus"), tr("Where the stylus is now"), [this, point] {
+      if (touching_.last().connected) set_point(point, touching_.last().probe_mm);
+    });
+    grid->addLayout(cell, row, 3);
+    return field;
+  };
+  from_ = add(1, "palpateProfileFrom", tr("From"), &Stroke::from);
+  to_ = add(2, "palpateProfileTo", tr("To"), &Stroke::to);
+  grid->setColumnStretch(1, 1);
+  return box;
+}
+
+void ProfileSection::set_views(const std::vector<ClinicalView>& views) {
+  pick_->setChecked(false);
+  stroke_ = {};
+  path_.set_views(views);
+  show_points();
+}
+
+void ProfileSection::pick(Pick what, const glm::dvec3& place) {
+  constexpr double same_mm = 1;  // a click, not a drag
+  switch (what) {
+    case Pick::pressed:
+      if (!stroke_.from || stroke_.to) stroke_ = {.from = place, .to = {}};
+      break;
+    case Pick::moved:
+      if (glm::distance(*stroke_.from, place) > same_mm) stroke_.to = place;
+      break;
+    case Pick::let_go:
+      if (glm::distance(*stroke_.from, place) > same_mm) {
+        stroke_.to = place;
+        pick_->setChecked(false);
+      }
+      break;
+  }
+  show_points(what != Pick::let_go);
+}
+
+void ProfileSection::set_point(std::optional<glm::dvec3> Stroke::*point, const glm::dvec3& place) {
+  stroke_.*point = place;
+  show_points();
+}
+
+void ProfileSection::read_point(std::optional<glm::dvec3> Stroke::*point, const QLineEdit& field) {
+  try {
+    if (const glm::dvec3 place = parse_vector(field.text().remove(' ').toStdString(), "the point");
+        !(stroke_.*point) || text_of(*(stroke_.*point)) != text_of(place)) {
+      set_point(point, place);
+    }
+  } catch (const std::exception& error) {
+    if (!field.text().isEmpty()) tell(QString::fromUtf8(error.what()), true);
+  }
+}
+
+void ProfileSection::show_points(bool passing) {
+  from_->setText(stroke_.from ? text_of(*stroke_.from) : QString());
+  to_->setText(stroke_.to ? text_of(*stroke_.to) : QString());
+  path_.show(stroke_.is_whole() ? std::vector{*stroke_.from, *stroke_.to} : std::vector<glm::dvec3>{}, passing);
+  run();
+}
+
+void ProfileSection::run() {
+  const LiveSession& live = touching_.live();
+  if (!stroke_.is_whole() || !live.plan()) {
+    show_profile(nullptr, {});
+    return;
+  }
+  const bool same_scan = prepared_.volume == live.scan();
+  try {
+    const glm::dvec3 reach = live.is_connected() ? live.specification().workspace_half_extent
+                                                 : device::SimulatedStylus().specification().workspace_half_extent;
+    prepared_ = {.felt = prepare(live.scene(), live.scan(), reach, same_scan ? prepared_ : Prepared{}),
+                 .scene = live.scene(),
+                 .volume = live.scan()};
+  } catch (const std::exception& error) {
+    show_profile(nullptr, QString::fromUtf8(error.what()));
+    return;
+  }
+  // The plan is the one that is felt: as stiff as the stylus stands, placed as it is held.
+  job_.ask([plan = live.plan(), source = prepared_.felt.source, scene = live.scene(), unit = live.scan()->unit,
+            from = *stroke_.from, to = *stroke_.to, speed = speed_->value()] {
+    return Profile{.stroke = run_stroke(*plan, *source, from, to, speed), .plan = plan, .scene = scene, .unit = unit};
+  });
+}
+
+void ProfileSection::show_profile(std::shared_ptr<const Profile> profile, const QString& error) {
+  if (!stroke_.is_whole()) profile.reset();  // taken back while it was made
+  profile_ = std::move(profile);
+  for (QPushButton* const button : {save_picture_, save_table_}) button->setEnabled(profile_ != nullptr);
+  if (!profile_) {
+    chart_->show_charts({}, 0, tr("Force against depth along a stroke through the scan, as it would be felt now"));
+    tell(error, !error.isEmpty());
+    return;
+  }
+  std::vector<Chart> charts = charts_of(*profile_);
+  charts.pop_back();  // how far the probe is ahead of the proxy follows from the force
+  chart_->show_charts(std::move(charts), depth_of(*profile_, profile_->stroke.size() - 1));
+  const auto contacts = contacts_of(profile_->stroke, *profile_->plan, met_n);
+  QStringList met;
+  for (const Contact& contact : contacts) {
+    met << tr("%1 at %2 mm, up to %3 N")
+               .arg(QString::fromStdString(display_name(profile_->scene, contact.boundary)))
+               .arg(depth_of(*profile_, contact.first), 0, 'f', 1)
+               .arg(contact.peak_n, 0, 'f', 2);
+  }
+  tell(met.isEmpty() ? tr("No boundary is met.") : met.join(QStringLiteral("\n")), false);
+}
+
+void ProfileSection::point_at(double depth_mm) {
+  if (!profile_ || std::isnan(depth_mm)) {
+    chart_->set_cursor({});
+    if (profile_) show_profile(profile_, {});
+    return;
+  }
+  const std::size_t last = profile_->stroke.size() - 1;
+  const auto point = static_cast<std::size_t>(
+      std::lround(std::clamp(depth_mm / depth_of(*profile_, last), 0.0, 1.0) * static_cast<double>(last)));
+  chart_->set_cursor(depth_of(*profile_, point));
+  tell(QString::fromStdString(point_in_words(*profile_, point)), false);
+}
+
+void ProfileSection::save(bool table) {
+  const std::shared_ptr<const Profile> profile = profile_;
+  const QString file = table ? QFileDialog::getSaveFileName(this, tr("Save the profile's table"),
+                                                            QStringLiteral("profile.csv"), tr("Tables (*.csv)"))
+                             : QFileDialog::getSaveFileName(this, tr("Save the profile's picture"),
+                                                            QStringLiteral("profile.png"), tr("Pictures (*.png)"));
+  if (file.isEmpty() || !profile) return;
+  try {
+    if (table) {
+      write_csv(*profile, file.toStdString());
+    } else {
+      constexpr int width = 960, height = 330;
+      write_png(charts_of(*profile), file.toStdString(), width, height);
+    }
+  } catch (const std::exception& error) {
+    tell(QString::fromUtf8(error.what()), true);
+  }
+}
+
+void ProfileSection::tell(const QString& text, bool problem) {
+  readout_->setText(text);
+  readout_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,76 @@
+#pragma once
+
+/// The force along a stroke between two points, as it would be felt now: it follows every edit.
+
+#include <QWidget>
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "latest_job.h"
+#include "palpate/plugin/stroke_picture.h"
+#include "path_views.h"
+#include "slice_view.h"
+#include "touching.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace palpate::plugin {
+
+class ChartPicture;
+
+class ProfileSection : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ProfileSection(Touching& touching, SceneModel& model, QWidget* parent = nullptr);
+  ~ProfileSection() override;
+
+  /// The views of a scan that has just been shown; empty: none, and the points are forgotten.
+  void set_views(const std::vector<ClinicalView>& views);
+
+ signals:
+  /// Places are to be picked in the slices from now on, or no more.
+  void picking(bool on);
+
+ public slots:
+  void pick(palpate::plugin::Pick what, const glm::dvec3& place);
+
+ private:
+  struct Stroke {
+    std::optional<glm::dvec3> from, to;
+    bool is_whole() const { return from && to && *from != *to; }
+  };
+
+  QWidget* build_points();
+  void set_point(std::optional<glm::dvec3> Stroke::*point, const glm::dvec3& place);
+  void read_point(std::optional<glm::dvec3> Stroke::*point, const QLineEdit& field);
+  void show_points(bool passing = false);
+  void run();
+  void show_profile(std::shared_ptr<const Profile> profile, const QString& error);
+  void point_at(double depth_mm);
+  void save(bool table);
+  void tell(const QString& text, bool problem);
+
+  Touching& touching_;
+  QPushButton* pick_ = nullptr;
+  QLineEdit* from_ = nullptr;
+  QLineEdit* to_ = nullptr;
+  QDoubleSpinBox* speed_ = nullptr;
+  ChartPicture* chart_ = nullptr;
+  QLabel* readout_ = nullptr;
+  QPushButton* save_picture_ = nullptr;
+  QPushButton* save_table_ = nullptr;
+  Stroke stroke_;
+  PathViews path_;
+  std::shared_ptr<const Profile> profile_;
+  Prepared prepared_;  // fields of its own: the servo's stay where the stylus is
+  LatestJob<Profile> job_;
+};
+
+}  // namespace palpate::plugin

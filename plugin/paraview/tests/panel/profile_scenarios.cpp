@@ -1,0 +1,74 @@
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QImage>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QRegularExpression>
+
+#include "panel_rig.h"
+#include "panel_steps.h"
+
+namespace {
+
+/// The largest force at the first boundary that the profile tells of, N; 0 where it tells of none.
+double largest_told() {
+  const auto match = QRegularExpression(QStringLiteral("up to ([0-9.]+) N")).match(label("palpateProfileReadout"));
+  return match.hasMatch() ? match.captured(1).toDouble() : 0;
+}
+
+void profile_follows_an_edit() {
+  scan_is_shown();
+  click("palpateProfileSectionFold");
+  click("palpateProfilePick");
+  QWidget& sagittal = view("Sagittal");
+  const QPoint middle = sagittal.rect().center();
+  drag(sagittal, QPoint(sagittal.width() / 8, middle.y()), middle, true);  // the front is on the left
+  wait_for(
+      "a boundary is met", [] { return largest_told() > 0; }, 10);
+  expect(!find<QPushButton>("palpateProfilePick").isChecked(), "picking has ended");
+  scroll_to(find<QPushButton>("palpateProfilePicture"));
+  wait_ms(1000);
+  save_screen("profile");
+  const double before = largest_told();
+
+  auto& strength = find<QDoubleSpinBox>("palpateStrength0");
+  strength.setValue(strength.value() / 2);
+  wait_for(
+      "the profile follows the edit", [&] { return largest_told() > 0 && largest_told() < 0.8 * before; }, 10);
+  const double halved = largest_told();
+  click("palpateCurvesSectionFold");
+  click("palpateUndo");
+  wait_for(
+      "and its undoing", [&] { return largest_told() == before; }, 10);
+  expect(halved < before, "less is felt of a boundary half as strong");
+
+  QWidget& chart = find<QWidget>("palpateProfileChart");
+  scroll_to(chart);
+  move_pointer(chart, chart.rect().center());
+  move_pointer(chart, chart.rect().center() + QPoint(3, 0));
+  wait_for(
+      "what is under the pointer is told",
+      [] { return label("palpateProfileReadout").contains(QRegularExpression("^[0-9.]+ mm: .* N.*HU")); }, 5);
+
+  const QString folder = qEnvironmentVariable("PALPATE_PICTURES");
+  save_as("palpateProfilePicture", folder + "/profile.png");
+  expect(QImage(folder + "/profile.png").width() > 500, "there is a picture of the profile");
+  save_as("palpateProfileTable", folder + "/profile.csv");
+  QFile table(folder + "/profile.csv");
+  expect(table.open(QIODevice::ReadOnly) && table.readLine().startsWith("depth_mm,probe_x_mm") &&
+             table.readAll().contains("plane"),
+         "there is a table, and a plane pushes in it");
+
+  auto& from = find<QLineEdit>("palpateProfileFrom");
+  from.setText(QStringLiteral("0, -40 0"));
+  emit from.editingFinished();
+  expect(label("palpateProfileReadout").contains("not a point"), "what is no point is refused in words");
+}
+
+}  // namespace
+
+const Scenarios& profile_scenarios() {
+  static const Scenarios all{{"profile_follows_an_edit", profile_follows_an_edit}};
+  return all;
+}

@@ -1,0 +1,170 @@
+#include "palpate/plugin/stroke_picture.h"
+
+#include <fmt/os.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "palpate/plugin/live_view.h"
+#include "palpate/plugin/summary.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+Colour colour_of(const modes::Scene& scene, std::size_t mode) {
+  return colour_from(scene.modes[mode].color, colours::vermilion);
+}
+
+std::vector<double> depths_of(const Profile& profile) {
+  std::vector<double> depths;
+  depths.reserve(profile.stroke.size());
+  for (std::size_t n = 0; n < profile.stroke.size(); ++n) depths.push_back(depth_of(profile, n));
+  return depths;
+}
+
+/// A curve for each boundary that pushes, and one for where none does.
+std::vector<Curve> force_curves(const Profile& profile, const std::vector<double>& depths) {
+  Curve none{.label = "", .x = depths, .y = std::vector<double>(depths.size(), not_a_number), .colour = colours::grey};
+  std::map<std::size_t, Curve> by_boundary;
+  for (std::size_t n = 0; n < depths.size(); ++n) {
+    const StrokePoint& point = profile.stroke[n];
+    Curve* curve = &none;
+    if (point.boundary) {
+      curve = &by_boundary
+                   .try_emplace(*point.boundary, Curve{.label = display_name(profile.scene, *point.boundary),
+                                                       .x = depths,
+                                                       .y = std::vector<double>(depths.size(), not_a_number),
+                                                       .colour = colour_of(profile.scene, *point.boundary)})
+                   .first->second;
+    }
+    curve->y[n] = glm::length(point.force_n);
+    // The next stretch begins where this one ends, so that the line has no gaps.
+    if (n > 0) curve->y[n - 1] = glm::length(profile.stroke[n - 1].force_n);
+  }
+  std::vector<Curve> curves{std::move(none)};
+  for (auto& [mode, curve] : by_boundary) curves.push_back(std::move(curve));
+  return curves;
+}
+
+/// What has a name: the scene's tissues, or CT's.
+std::string tissue_of(const Profile& profile, double value) {
+  if (!std::isfinite(value)) return {};
+  if (profile.scene.tissues.empty() && profile.unit != "HU") return {};
+  return tissue_name(profile.scene, profile.unit, value);
+}
+
+std::vector<Band> tissues_crossed(const Profile& profile, const std::vector<double>& depths) {
+  constexpr Colour darker{0.93, 0.93, 0.93}, lighter{0.98, 0.98, 0.98};
+  std::vector<Band> bands;
+  std::string last;
+  for (std::size_t n = 0; n < depths.size(); ++n) {
+    const std::string name = tissue_of(profile, profile.stroke[n].value_passed);
+    if (name == last && !bands.empty()) {
+      bands.back().to = depths[n];
+    } else if (!name.empty()) {
+      bands.push_back({depths[n], depths[n], name, bands.size() % 2 == 0 ? darker : lighter});
+    }
+    last = name;
+  }
+  return bands;
+}
+
+}  // namespace
+
+double depth_of(const Profile& profile, std::size_t point) {
+  return glm::distance(profile.stroke[point].position_mm, profile.stroke.front().position_mm);
+}
+
+std::vector<Chart> charts_of(const Profile& profile) {
+  const std::vector<double> depths = depths_of(profile);
+  Curve passed{.label = "at the probe", .x = depths, .y = {}, .colour = colours::blue};
+  Curve held{.label = "at the proxy", .x = depths, .y = {}, .colour = colours::orange, .width = 1.2};
+  Curve ahead{.label = "", .x = depths, .y = {}, .colour = colours::green};
+  for (const StrokePoint& point : profile.stroke) {
+    passed.y.push_back(point.value_passed);
+    held.y.push_back(point.value);
+    ahead.y.push_back(glm::distance(point.position_mm, point.proxy_mm));
+  }
+  std::vector<Mark> marks;
+  for (const Contact& contact : contacts_of(profile.stroke, *profile.plan, met_n)) {
+    marks.push_back({.at = depths[contact.first], .label = display_name(profile.scene, contact.boundary)});
+  }
+  const auto chart = [&](const std::string& title, const std::string& label, std::vector<Curve> curves) {
+    Chart made;
+    made.title = title;
+    made.x.label = "distance along the stroke (mm)";
+    made.y.label = label;
+    made.curves = std::move(curves);
+    made.marks = marks;
+    return made;
+  };
+  std::vector<Chart> charts;
+  charts.push_back(chart("Force along the stroke: " + profile.scene.name, "force (N)", force_curves(profile, depths)));
+  charts.push_back(
+      chart("Value and tissues", profile.unit.empty() ? "value" : "value (" + profile.unit + ")", {passed, held}));
+  charts.back().bands = tissues_crossed(profile, depths);
+  charts.push_back(chart("Distance from proxy to probe", "distance (mm)", {ahead}));
+  // Rounding alone does not fill a chart.
+  constexpr double least_mm = 0.5, least_n = 0.2, room = 1.08;
+  const auto reach = [&](Chart& drawn, double least) {
+    double most = least;
+    for (const Curve& curve : drawn.curves) {
+      for (const double y : curve.y) most = std::max(most, std::isfinite(y) ? room * y : most);
+    }
+    drawn.y.minimum = 0;
+    drawn.y.maximum = most;
+  };
+  reach(charts.front(), least_n);
+  reach(charts.back(), least_mm);
+  return charts;
+}
+
+void write_csv(const Profile& profile, const std::filesystem::path& file) try {
+  fmt::ostream out = fmt::output_file(file.string());
+  out.print(
+      "depth_mm,probe_x_mm,probe_y_mm,probe_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,"
+      "force_n,value_at_probe,value_at_proxy,tissue,boundary,primitive,solver,error_bound_m\n");
+  const auto quoted = [](const std::string& text) {
+    std::string out_text = "\"";
+    for (const char c : text) {
+      if (c == '"') out_text += '"';
+      out_text += c;
+    }
+    return out_text + '"';
+  };
+  for (std::size_t n = 0; n < profile.stroke.size(); ++n) {
+    const StrokePoint& point = profile.stroke[n];
+    out.print("{}", depth_of(profile, n));
+    for (const glm::dvec3& v : {point.position_mm, point.proxy_mm, point.force_n}) {
+      out.print(",{},{},{}", v.x, v.y, v.z);
+    }
+    out.print(",{},{},{},{},{},{},{},{}\n", glm::length(point.force_n), point.value_passed, point.value,
+              quoted(tissue_of(profile, point.value_passed)),
+              quoted(point.boundary ? display_name(profile.scene, *point.boundary) : ""),
+              point.primitive ? solver::name_of(*point.primitive) : "", solver::name_of(point.solver),
+              point.error_bound_m);
+  }
+  out.close();
+} catch (const std::exception& error) {
+  throw std::runtime_error(fmt::format("{}: the table cannot be written: {}", file.string(), error.what()));
+}
+
+std::string point_in_words(const Profile& profile, std::size_t point) {
+  const StrokePoint& at = profile.stroke[point];
+  std::string words = fmt::format("{:.1f} mm: {:.2f} N", depth_of(profile, point), glm::length(at.force_n));
+  if (at.boundary && at.primitive) {
+    words += fmt::format(" by {} ({})", display_name(profile.scene, *at.boundary), solver::name_of(*at.primitive));
+  }
+  if (!std::isfinite(at.value_passed)) return words + ", outside the scan";
+  words += fmt::format(", {:.0f}{}{}", at.value_passed, profile.unit.empty() ? "" : " ", profile.unit);
+  const std::string tissue = tissue_of(profile, at.value_passed);
+  return tissue.empty() ? words : words + ", " + tissue;
+}
+
+}  // namespace palpate::plugin
