@@ -33,6 +33,7 @@
 #include "modes_section.h"
 #include "palpate/plugin/scan.h"
 #include "profile_section.h"
+#include "recordings_section.h"
 #include "scan_section.h"
 #include "stylus_section.h"
 #include "stylus_views.h"
@@ -64,6 +65,7 @@ struct PalpatePanel::Parts {
   CurvesSection* curves = nullptr;
   ModesSection* modes = nullptr;
   ProfileSection* profile = nullptr;
+  RecordingsSection* recordings = nullptr;
   QProgressBar* studying = nullptr;
   bool restoring = false;  // the scan to come is a state file's
   bool edited = false;     // since the scan was shown
@@ -99,6 +101,8 @@ void PalpatePanel::Parts::build() {
   column->addWidget(new Fold(tr("Modes"), QStringLiteral("palpateModesSection"), modes, false, content));
   profile = new ProfileSection(touching, model);
   column->addWidget(new Fold(tr("Force profile"), QStringLiteral("palpateProfileSection"), profile, false, content));
+  recordings = new RecordingsSection(touching);
+  column->addWidget(new Fold(tr("Recordings"), QStringLiteral("palpateRecordingsSection"), recordings, false, content));
   auto* const about = new QLabel(
       tr("Palpate %1. Research software, not a medical device.").arg(QStringLiteral(PALPATE_VERSION)), content);
   about->setObjectName(QStringLiteral("palpateAbout"));
@@ -169,8 +173,9 @@ void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& vol
   }
   touching.set_scan(volume);
   const std::vector<ClinicalView> shown = find_clinical_views();
-  views.set_views(shown);
   profile->set_views(shown);
+  recordings->set_views(shown);
+  views.set_views(shown);  // last: the stylus is drawn over the paths
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
   low = lattice.values.low;
   high = lattice.values.high;
@@ -184,6 +189,7 @@ void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& vol
 void PalpatePanel::Parts::leave_views() {
   views.set_views({});
   profile->set_views({});
+  recordings->set_views({});
 }
 
 void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume) {
@@ -225,7 +231,7 @@ void PalpatePanel::Parts::colour_views() {
 
 void PalpatePanel::Parts::look(const Look& seen) {
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
-  if (seen.connected && seen.fresh && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
+  if (seen.is_seen() && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
   views.show(seen);
 }
 

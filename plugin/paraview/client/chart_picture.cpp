@@ -61,10 +61,19 @@ void ChartPicture::paintEvent(QPaintEvent*) {
   }
 }
 
+double ChartPicture::x_at(const QMouseEvent& event) const {
+  const double part = (event.x() - axes_style.left) / (width() - axes_style.left - axes_style.right);
+  return std::clamp(part, 0.0, 1.0) * length_;
+}
+
+void ChartPicture::mousePressEvent(QMouseEvent* event) {
+  if (!charts_.empty() && event->button() == Qt::LeftButton) emit picked(x_at(*event));
+}
+
 void ChartPicture::mouseMoveEvent(QMouseEvent* event) {
   if (charts_.empty()) return;
-  const double part = (event->x() - axes_style.left) / (width() - axes_style.left - axes_style.right);
-  emit pointed(std::clamp(part, 0.0, 1.0) * length_);
+  emit pointed(x_at(*event));
+  if ((event->buttons() & Qt::LeftButton) != 0) emit picked(x_at(*event));
 }
 
 void ChartPicture::leaveEvent(QEvent*) {

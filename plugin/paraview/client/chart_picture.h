@@ -27,14 +27,19 @@ class ChartPicture : public QWidget {
  signals:
   /// The x under the pointer; NaN where it has left.
   void pointed(double x);
+  /// The x where the left button is down.
+  void picked(double x);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  double x_at(const QMouseEvent& event) const;
+
   int panel_height_;
   std::vector<Chart> charts_;
   double length_ = 0;

@@ -96,7 +96,7 @@ void Footer::toggle_recording() {
 }
 
 void Footer::show_look(const Look& look) {
-  if (!look.connected) {
+  if (!look.connected && !look.replayed) {
     force_->setText(QStringLiteral("–"));
     depth_->setText(tr("no stylus"));
     tissue_->setText(QStringLiteral("–"));
@@ -120,7 +120,8 @@ void Footer::show_look(const Look& look) {
   solver_->setText(tr("%1 solver, error below %2 mm")
                        .arg(QString::fromLatin1(solver::name_of(static_cast<solver::SolverKind>(frame.solver))))
                        .arg(error_mm < small_mm ? small_mm : error_mm, 0, 'g', 2));
-  tick_->setText(tr("tick %1 µs, %2 missed").arg(look.tick_us, 0, 'f', 1).arg(look.missed));
+  tick_->setText(look.replayed ? tr("recorded: tick %1 µs").arg(look.tick_us, 0, 'f', 1)
+                               : tr("tick %1 µs, %2 missed").arg(look.tick_us, 0, 'f', 1).arg(look.missed));
 }
 
 }  // namespace palpate::plugin

@@ -225,6 +225,10 @@ void ScanSection::show_now(const Loaded& loaded) {
     views_.close();
     if (source_) builder.destroy(source_);
     source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
+    if (!source_) {
+      throw std::runtime_error(
+          "the server has not loaded Palpate: in Tools > Manage Plugins, load the plug-in Palpate on the server");
+    }
     vtkSMProxy& proxy = *source_->getProxy();
     vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
     vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*loaded.catalogue, loaded.series).c_str());

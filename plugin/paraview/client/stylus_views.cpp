@@ -43,7 +43,7 @@ struct StylusViews::OneView {
     const auto moved = [&](const glm::dvec3& a, const glm::dvec3& b) {
       return glm::length(a - b) > moved_pixels * mm_per_pixel;
     };
-    return look.connected != drawn.connected || look.clutched != drawn.clutched ||
+    return look.is_seen() != drawn.is_seen() || look.clutched != drawn.clutched ||
            moved(look.probe_mm, drawn.probe_mm) || moved(look.proxy_mm, drawn.proxy_mm) ||
            std::abs(look.force_n - drawn.force_n) > 0.02 || look.shares.size() != drawn.shares.size();
   }
@@ -106,12 +106,12 @@ void StylusViews::show(const Look& look) {
     if (moved) {
       one.drawn = look;
       one.moved_ms = now_ms;
-      if (look.connected && look.fresh) {
+      if (look.is_seen()) {
         glm::dvec3 eye;
         camera.GetPosition(&eye.x);
         const bool volume = one.kind == ViewKind::volume;
         const double faint = volume && values_ ? hidden_part(*values_, opacity_, eye, look.proxy_mm) : 0;
-        one.glyphs.show(look, model_.scene(), faint, mm_per_pixel);
+        one.glyphs.show(look, look.scene ? *look.scene : model_.scene(), faint, mm_per_pixel);
       } else {
         one.glyphs.hide();
       }

@@ -105,11 +105,13 @@ void Touching::connect_stylus(const StylusChoice& choice) {
 }
 
 void Touching::disconnect_stylus() {
+  const bool recording = live_.recording().has_value();
   live_.disconnect();
   simulated_.reset();
   clutched_ = false;
   look();
   emit connection_changed();
+  if (recording) emit recorded(recording_to_);
 }
 
 void Touching::feel() {
@@ -130,6 +132,7 @@ void Touching::record(const std::string& file) {
   const glm::dvec3 hand = look_.probe_mm;
   try {
     live_.record(file);
+    recording_to_ = QString::fromStdString(file);
     next_frame_ = 0;
     if (simulated_) move_hand(hand);
     emit told(tr("Recording: the session began anew, so that it can be repeated to the last bit."), false);
@@ -145,6 +148,7 @@ void Touching::stop_recording() {
       emit told(status->stopped ? QString::fromStdString(status->why)
                                 : tr("Recorded: %1 frames, %2 lost.").arg(status->written).arg(status->lost),
                 status->stopped);
+      emit recorded(recording_to_);
     }
   } catch (const std::exception& error) {
     emit told(QString::fromUtf8(error.what()), true);
@@ -208,7 +212,7 @@ void Touching::look() {
   look_.clutched = clutched_;
   look_.peak_n = 0;
   if (!look_.connected) {
-    look_ = {};
+    look_ = instead_ ? instead_() : Look{};
     emit looked(look_);
     return;
   }

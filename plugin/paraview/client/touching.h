@@ -3,8 +3,10 @@
 /// The panel's session: runs while a stylus is held, and tells thirty times a second what is felt.
 
 #include <QObject>
+#include <QString>
 #include <QTimer>
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -20,7 +22,8 @@ namespace palpate::plugin {
 /// What has been felt since the last look, and the last frame.
 struct Look {
   bool connected = false;
-  bool fresh = false;  ///< whether there is a frame
+  bool replayed = false;  ///< of a recording: nothing is felt
+  bool fresh = false;     ///< whether there is a frame
   Frame frame;
   std::vector<Share> shares;
   modes::Workspace workspace;           ///< of the frame
@@ -31,6 +34,9 @@ struct Look {
   double tick_us = 0;        ///< median since the last look
   std::uint64_t missed = 0;  ///< since the stylus was connected
   bool clutched = false;
+  std::shared_ptr<const modes::Scene> scene;  ///< that was felt; null: the panel's
+
+  bool is_seen() const { return fresh && (connected || replayed); }
 };
 
 /// Which stylus is meant.
@@ -68,6 +74,9 @@ class Touching : public QObject {
   /// Whether the mapping may change: a hand that feels something would be thrown.
   bool may_remap() const;
 
+  /// What is looked at while no stylus is held.
+  void show_instead(std::function<Look()> look) { instead_ = std::move(look); }
+
   // The simulated stylus' hand, for mouse and keyboard.
   bool has_simulated() const { return simulated_ != nullptr && live_.is_connected(); }
   void move_hand(const glm::dvec3& patient_mm);
@@ -83,6 +92,8 @@ class Touching : public QObject {
   void looked(const palpate::plugin::Look& look);
   void connection_changed();
   void told(const QString& message, bool problem);
+  /// A recording has been written.
+  void recorded(const QString& file);
 
  private:
   void give_way();
@@ -102,6 +113,8 @@ class Touching : public QObject {
   bool mouse_off_ = false;
   glm::dvec3 clutched_at_mm_{0};
   Look look_;
+  std::function<Look()> instead_;
+  QString recording_to_;
   QTimer heart_, looks_;
 };
 

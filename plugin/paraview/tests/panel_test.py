@@ -67,6 +67,7 @@ SCENARIOS = [
     "a_bad_folder",
     "a_state_is_restored",
     "profile_follows_an_edit",
+    "recordings_are_replayed_and_compared",
     "closed_in_mid_contact",
 ]
 

@@ -1,6 +1,7 @@
 #include "PanelTest.h"
 
 #include <QCoreApplication>
+#include <QListWidget>
 #include <QTimer>
 
 #include <cstdio>
@@ -9,6 +10,17 @@
 
 #include "panel_rig.h"
 
+namespace {
+
+/// The folder that the program began with is on its way: what handles events then is not to be held up either.
+bool is_opening() {
+  if (qEnvironmentVariableIsEmpty("PALPATE_OPEN")) return false;
+  const bool known = find<QListWidget>("palpateSeries").count() > 0 || !label("palpateMessage").isEmpty();
+  return !known || find<QWidget>("palpateProgress").isVisible();
+}
+
+}  // namespace
+
 void PanelTest::on_startup() {
   const std::string name = qgetenv("PALPATE_PANEL_TEST").toStdString();
   if (name.empty()) return;
@@ -16,7 +28,7 @@ void PanelTest::on_startup() {
   auto* const waiting = new QTimer(this);
   connect(waiting, &QTimer::timeout, this, [waiting, name] {
     QWidget* const panel = widget("PalpatePanel");
-    if (!panel || !panel->isVisible()) return;
+    if (!panel || !panel->isVisible() || is_opening()) return;
     waiting->stop();
     int result = 1;
     try {

@@ -105,16 +105,23 @@ void press_key(int key) {
   QTest::keyClick(focus ? focus : &main_window(), static_cast<Qt::Key>(key));
 }
 
-void save_as(const char* button, const QString& file) {
-  QFile::remove(file);
+void name_file(const char* button, const QString& file) {
   constexpr int open_ms = 800;
-  QTimer::singleShot(open_ms, [&file] {
+  bool named = false;
+  QTimer::singleShot(open_ms, [&] {
     auto* const dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;  // what is missing then is the file
+    if (!dialog) return;
     dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->setText(file);
     QMetaObject::invokeMethod(dialog, "accept");
+    named = true;
   });
   click(button);
+  expect(named, std::string(button) + " asks for a file");
+}
+
+void save_as(const char* button, const QString& file) {
+  QFile::remove(file);
+  name_file(button, file);
   expect(QFile::exists(file), file.toStdString() + " is written");
 }
 

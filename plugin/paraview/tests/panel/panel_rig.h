@@ -39,6 +39,8 @@ void click(const char* name);
 void click(QWidget& on, const QPoint& at);
 void press_key(int key);
 /// Clicks on a button that asks for a file, and names it.
+void name_file(const char* button, const QString& file);
+/// The same where it is to be written at once.
 void save_as(const char* button, const QString& file);
 
 /// The widget of a clinical view: "Axial", "Sagittal", "Coronal", "Volume".

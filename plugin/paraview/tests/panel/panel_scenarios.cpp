@@ -257,7 +257,7 @@ const Scenarios scenarios{
 
 void run_scenario(const std::string& name) {
   Scenarios all = scenarios;
-  for (const Scenarios& more : {profile_scenarios()}) all.insert(more.begin(), more.end());
+  for (const Scenarios& more : {profile_scenarios(), recording_scenarios()}) all.insert(more.begin(), more.end());
   const auto found = all.find(name);
   expect(found != all.end(), "there is a scenario " + name);
   wait_ms(1000);

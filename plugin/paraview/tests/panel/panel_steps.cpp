@@ -31,9 +31,7 @@ void connect_stylus() {
   wait_ms(1500);
 }
 
-void feel() {
-  scan_is_shown();
-  connect_stylus();
+void press() {
   QWidget& sagittal = view("Sagittal");
   const QPoint from = proxy_in(sagittal);
   drag(sagittal, from, from + QPoint(4, 0), false);  // the front is on the left
@@ -43,4 +41,10 @@ void feel() {
   wait_for(
       "a force is felt", [] { return number("palpateForce") > 0.2; }, 10);
   wait_ms(500);
+}
+
+void feel() {
+  scan_is_shown();
+  connect_stylus();
+  press();
 }

@@ -13,8 +13,11 @@ std::string scene_text();
 /// Waits for the scan and its tissues.
 void scan_is_shown();
 void connect_stylus();
-/// Waits for the scan, connects, and presses from the front, slowly, until something is felt; the button stays down.
+/// Drags the stylus from the front, slowly, until something is felt; the button stays down.
+void press();
+/// Waits for the scan, connects and presses.
 void feel();
 
 /// Of the files of that name.
 const Scenarios& profile_scenarios();
+const Scenarios& recording_scenarios();

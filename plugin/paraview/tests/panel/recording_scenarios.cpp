@@ -1,0 +1,99 @@
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QPushButton>
+#include <QSlider>
+#include <QToolButton>
+
+#include <algorithm>
+
+#include "panel_rig.h"
+#include "panel_steps.h"
+
+namespace {
+
+/// A press, recorded.
+void record_a_press(const QString& file) {
+  QFile::remove(file);
+  name_file("palpateRecord", file);
+  wait_for(
+      "it is being recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 10);
+  wait_for(
+      "forces are on", [] { return label("palpateState").startsWith("active"); }, 20);
+  wait_ms(1500);
+  press();
+  let_go();
+  wait_for(
+      "the hand gives way", [] { return number("palpateForce") < 0.05; }, 10);
+  click("palpateRecord");
+  wait_for(
+      "the recording is written and open",
+      [&] { return QFile::exists(file) && file.endsWith("/" + label("palpateRecordingName")); }, 20);
+}
+
+void recordings_are_replayed_and_compared() {
+  const QString folder = qEnvironmentVariable("PALPATE_PICTURES");
+  scan_is_shown();
+  connect_stylus();
+  click("palpateRecordingsSectionFold");
+  record_a_press(folder + "/first.h5");
+  expect(!find<QToolButton>("palpatePlay").isEnabled(), "the views show what is felt, not what was");
+  auto& strength = find<QDoubleSpinBox>("palpateStrength0");
+  strength.setValue(strength.value() / 2);
+  record_a_press(folder + "/second.h5");
+  click("palpateConnect");
+  wait_for(
+      "the stylus is let go", [] { return label("palpateState") == "not connected"; }, 10);
+
+  auto& slider = find<QSlider>("palpateScrub");
+  double most = 0;
+  int most_ms = 0;
+  for (int n = 0; n <= 40; ++n) {
+    slider.setValue(slider.maximum() * n / 40);
+    wait_ms(80);
+    if (number("palpateForce") > most) {
+      most = number("palpateForce");
+      most_ms = slider.value();
+    }
+  }
+  expect(most > 0.1, "the recorded force is seen while one scrubs");
+  slider.setValue(most_ms);
+  wait_ms(1500);
+  proxy_in(view("Sagittal"));  // throws where it is not seen
+  expect(label("palpateTick").startsWith("recorded"), "it is said that this is a recording");
+  scroll_to(find<QWidget>("palpateCloseRecording"));
+  wait_ms(300);
+  save_screen("replay");
+
+  slider.setValue(0);
+  find<QComboBox>("palpateReplaySpeed").setCurrentIndex(5);  // fastest
+  emit find<QComboBox>("palpateReplaySpeed").activated(5);
+  click("palpatePlay");
+  wait_for(
+      "it plays to its end by itself", [&] { return slider.value() == slider.maximum(); }, 60);
+
+  name_file("palpateCompare", folder + "/first.h5");
+  wait_for(
+      "the two are compared", [] { return label("palpateRecordingMessage").contains("Forces differ by at most"); }, 20);
+  scroll_to(find<QWidget>("palpateRecordingMessage"));
+  wait_ms(1000);
+  save_screen("comparison");
+  save_as("palpateComparisonTable", folder + "/comparison.csv");
+  save_as("palpateComparisonPicture", folder + "/comparison.png");
+
+  name_file("palpateCompare", folder + "/comparison.csv");
+  wait_for(
+      "what is no recording is refused in words",
+      [] { return label("palpateRecordingMessage").contains("recording comparison.csv"); }, 10);
+  click("palpateCloseRecording");
+  expect(!find<QSlider>("palpateScrub").isVisible(), "the recordings are closed");
+  wait_for(
+      "nothing is shown any more", [] { return label("palpateDepth") == "no stylus"; }, 5);
+}
+
+}  // namespace
+
+const Scenarios& recording_scenarios() {
+  static const Scenarios all{{"recordings_are_replayed_and_compared", recordings_are_replayed_and_compared}};
+  return all;
+}
