@@ -45,6 +45,31 @@ TEST(CommandSession, WhatProbeRecordsReplaysToTheLastBitAndExports) {
   EXPECT_EQ(palpate("replay " + recording).exit, 2) << "neither a scan nor an export";
 }
 
+TEST(CommandSession, ComparesTwoRecordingsOfOneStroke) {
+  const auto first = fresh_path("once"), second = fresh_path("twice"), other = fresh_path("elsewhere");
+  for (const auto& [out, seed] : {std::pair{first, "1"}, std::pair{second, "2"}}) {
+    ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seed " + seed + " -o " + out.string()).exit, 0);
+  }
+  const std::string both = (first / "recording.h5").string() + " " + (second / "recording.h5").string() + " ";
+  const auto picture = fresh_path("both.png"), table = fresh_path("both.csv");
+  const Outcome words =
+      palpate("compare " + both + phantom().string() + " -o " + picture.string() + " --table " + table.string());
+  EXPECT_EQ(words.exit, 0) << words.output;
+  EXPECT_THAT(words.output, HasSubstr("Forces differ by at most"));
+  EXPECT_TRUE(std::filesystem::exists(picture));
+  EXPECT_TRUE(std::filesystem::exists(table));
+  const auto json = nlohmann::json::parse(palpate("compare " + both + phantom().string() + " --json", false).output);
+  EXPECT_EQ(json["first_n"].size(), json["along_mm"].size());
+  EXPECT_GT(json["largest_difference_n"], 0) << "another tremor is another press";
+  EXPECT_LT(json["most_apart_mm"], 1) << "and yet the same stroke";
+
+  testdata::write_series(testdata::scan(testdata::make_sphere(24), testdata::make_geometry({.size = glm::ivec3(60)})),
+                         other);
+  const Outcome refused = palpate("compare " + both + other.string());
+  EXPECT_EQ(refused.exit, 1);
+  EXPECT_THAT(refused.output, ::testing::AllOf(HasSubstr("recording.h5"), HasSubstr("another scan")));
+}
+
 TEST(CommandSession, AnotherScanIsNotTheOneThatWasFelt) {
   const auto out = fresh_path("felt");
   const auto other = fresh_path("other");
