@@ -61,7 +61,7 @@ struct ChartStyle {
 /// Draws the panels below one another over the whole canvas.
 void draw(Canvas& canvas, std::span<const Chart> panels, const ChartStyle& style = {});
 /// Draws the panels below one another, each `height` pixels high. Throws std::runtime_error naming the file.
-void write_png(std::span<const Chart> panels, const std::filesystem::path& file, int width = 960, int height = 420);
+void write_png(std::span<const Chart> panels, const std::filesystem::path& file, int width = 960, int height = 330);
 void write_png(const Chart& chart, const std::filesystem::path& file, int width = 960, int height = 540);
 
 }  // namespace palpate::plugin

@@ -30,9 +30,8 @@ void run(const Arguments& arguments) {
   const Comparison comparison =
       compare_strokes(read_session(arguments.first, volume), read_session(arguments.second, volume));
   if (!arguments.picture.empty()) {
-    constexpr int width = 960, height = 330;
     write_png(charts_of(comparison, arguments.first.stem().string(), arguments.second.stem().string()),
-              arguments.picture, width, height);
+              arguments.picture);
   }
   if (!arguments.table.empty()) write_csv(comparison, arguments.table);
   if (arguments.json) {

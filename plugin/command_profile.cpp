@@ -87,7 +87,7 @@ void run(const Arguments& arguments) {
                         .plan = felt.plan,
                         .scene = scene,
                         .unit = volume->unit};
-  if (!arguments.picture.empty()) write_png(charts_of(profile), arguments.picture, 960, 330);
+  if (!arguments.picture.empty()) write_png(charts_of(profile), arguments.picture);
   if (!arguments.table.empty()) write_csv(profile, arguments.table);
   if (arguments.json) {
     fmt::print("{}\n", to_json(profile.stroke, scene));

@@ -1,9 +1,7 @@
 #include "profile_section.h"
 
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -52,17 +50,14 @@ ProfileSection::ProfileSection(Touching& touching, SceneModel& model, QWidget* p
   readout_->setTextFormat(Qt::PlainText);
   readout_->setWordWrap(true);
   column->addWidget(readout_);
-  auto* const row = new QHBoxLayout;
-  const auto add = [&](const char* name, const QString& text, bool table) {
-    auto* const button = new QPushButton(text, this);
-    button->setObjectName(QString::fromLatin1(name));
-    connect(button, &QPushButton::clicked, this, [this, table] { save(table); });
-    row->addWidget(button);
-    return button;
-  };
-  save_picture_ = add("palpateProfilePicture", tr("Save picture…"), false);
-  save_table_ = add("palpateProfileTable", tr("Save table…"), true);
-  column->addLayout(row);
+  save_ = add_save_buttons(
+      *column, *this, QStringLiteral("Profile"),
+      [this](bool table) -> std::function<void(const std::string&)> {
+        return [profile = profile_, table](const std::string& file) {
+          table ? write_csv(*profile, file) : write_png(charts_of(*profile), file);
+        };
+      },
+      [this](const QString& problem) { tell(problem, true); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { run(); });
   connect(&touching, &Touching::connection_changed, this, [this] { run(); });
   show_profile(nullptr, {});
@@ -116,6 +111,7 @@ QWidget* ProfileSection::build_points() {
 void ProfileSection::set_views(const std::vector<ClinicalView>& views) {
   pick_->setChecked(false);
   stroke_ = {};
+  prepared_ = {};  // a scan that is closed is not to be held
   path_.set_views(views);
   show_points();
 }
@@ -189,7 +185,7 @@ void ProfileSection::run() {
 void ProfileSection::show_profile(std::shared_ptr<const Profile> profile, const QString& error) {
   if (!stroke_.is_whole()) profile.reset();  // taken back while it was made
   profile_ = std::move(profile);
-  for (QPushButton* const button : {save_picture_, save_table_}) button->setEnabled(profile_ != nullptr);
+  for (QPushButton* const button : save_.both) button->setEnabled(profile_ != nullptr);
   if (!profile_) {
     chart_->show_charts({}, 0, tr("Force against depth along a stroke through the scan, as it would be felt now"));
     tell(error, !error.isEmpty());
@@ -220,25 +216,6 @@ void ProfileSection::point_at(double depth_mm) {
       std::lround(std::clamp(depth_mm / depth_of(*profile_, last), 0.0, 1.0) * static_cast<double>(last)));
   chart_->set_cursor(depth_of(*profile_, point));
   tell(QString::fromStdString(point_in_words(*profile_, point)), false);
-}
-
-void ProfileSection::save(bool table) {
-  const std::shared_ptr<const Profile> profile = profile_;
-  const QString file = table ? QFileDialog::getSaveFileName(this, tr("Save the profile's table"),
-                                                            QStringLiteral("profile.csv"), tr("Tables (*.csv)"))
-                             : QFileDialog::getSaveFileName(this, tr("Save the profile's picture"),
-                                                            QStringLiteral("profile.png"), tr("Pictures (*.png)"));
-  if (file.isEmpty() || !profile) return;
-  try {
-    if (table) {
-      write_csv(*profile, file.toStdString());
-    } else {
-      constexpr int width = 960, height = 330;
-      write_png(charts_of(*profile), file.toStdString(), width, height);
-    }
-  } catch (const std::exception& error) {
-    tell(QString::fromUtf8(error.what()), true);
-  }
 }
 
 void ProfileSection::tell(const QString& text, bool problem) {

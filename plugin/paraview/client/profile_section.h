@@ -12,13 +12,13 @@
 #include "latest_job.h"
 #include "palpate/plugin/stroke_picture.h"
 #include "path_views.h"
+#include "save_buttons.h"
 #include "slice_view.h"
 #include "touching.h"
 
 class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
-class QPushButton;
 
 namespace palpate::plugin {
 
@@ -54,7 +54,6 @@ class ProfileSection : public QWidget {
   void run();
   void show_profile(std::shared_ptr<const Profile> profile, const QString& error);
   void point_at(double depth_mm);
-  void save(bool table);
   void tell(const QString& text, bool problem);
 
   Touching& touching_;
@@ -64,8 +63,7 @@ class ProfileSection : public QWidget {
   QDoubleSpinBox* speed_ = nullptr;
   ChartPicture* chart_ = nullptr;
   QLabel* readout_ = nullptr;
-  QPushButton* save_picture_ = nullptr;
-  QPushButton* save_table_ = nullptr;
+  SaveButtons save_;
   Stroke stroke_;
   PathViews path_;
   std::shared_ptr<const Profile> profile_;

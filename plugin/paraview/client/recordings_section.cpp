@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "chart_picture.h"
+#include "save_buttons.h"
 #include "tool_button.h"
 
 namespace palpate::plugin {
@@ -170,15 +171,15 @@ QWidget* RecordingsSection::build_comparison() {
   chart_ = new ChartPicture(chart_pixels, box);
   chart_->setObjectName(QStringLiteral("palpateComparisonChart"));
   column->addWidget(chart_);
-  auto* const row = new QHBoxLayout;
-  for (const bool table : {false, true}) {
-    auto* const button = new QPushButton(table ? tr("Save table…") : tr("Save picture…"), box);
-    button->setObjectName(table ? QStringLiteral("palpateComparisonTable")
-                                : QStringLiteral("palpateComparisonPicture"));
-    connect(button, &QPushButton::clicked, this, [this, table] { save(table); });
-    row->addWidget(button);
-  }
-  column->addLayout(row);
+  add_save_buttons(
+      *column, *box, QStringLiteral("Comparison"),
+      [this](bool table) -> std::function<void(const std::string&)> {
+        return [both = both_, first = first_.name.toStdString(), second = second_.name.toStdString(),
+                table](const std::string& file) {
+          table ? write_csv(*both, file) : write_png(charts_of(*both, first, second), file);
+        };
+      },
+      [this](const QString& problem) { tell(problem, true); });
   return box;
 }
 
@@ -286,26 +287,6 @@ void RecordingsSection::show_comparison(std::shared_ptr<const Comparison> both, 
 void RecordingsSection::show_paths() {
   first_path_.show(path_of(first_.session.get()));
   second_path_.show(path_of(second_.session.get()));
-}
-
-void RecordingsSection::save(bool table) {
-  const std::shared_ptr<const Comparison> both = both_;
-  const QString first = first_.name, second = second_.name;
-  const QString file = table ? QFileDialog::getSaveFileName(this, tr("Save the comparison's table"),
-                                                            QStringLiteral("comparison.csv"), tr("Tables (*.csv)"))
-                             : QFileDialog::getSaveFileName(this, tr("Save the comparison's picture"),
-                                                            QStringLiteral("comparison.png"), tr("Pictures (*.png)"));
-  if (file.isEmpty() || !both) return;
-  try {
-    if (table) {
-      write_csv(*both, file.toStdString());
-    } else {
-      constexpr int width = 960, height = 330;
-      write_png(charts_of(*both, first.toStdString(), second.toStdString()), file.toStdString(), width, height);
-    }
-  } catch (const std::exception& error) {
-    tell(QString::fromUtf8(error.what()), true);
-  }
 }
 
 void RecordingsSection::tell(const QString& text, bool problem) {

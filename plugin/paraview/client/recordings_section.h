@@ -51,7 +51,6 @@ class RecordingsSection : public QWidget {
   void show_force();
   void show_comparison(std::shared_ptr<const Comparison> both, const QString& error);
   void show_paths();
-  void save(bool table);
   void tell(const QString& text, bool problem = false);
 
   Touching& touching_;
