@@ -26,7 +26,7 @@ struct StrokePoint {
   solver::SolverKind solver = solver::SolverKind::none;
   double error_bound_m = 0;
   std::optional<std::size_t> boundary;             ///< the scene's mode that pushes most, if any does
-  std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with
+  std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with; there where a boundary is
 };
 
 /// Throws std::runtime_error where the stroke has no length or more than 10 000 000 frames.

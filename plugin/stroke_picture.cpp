@@ -28,27 +28,32 @@ std::vector<double> depths_of(const Profile& profile) {
   return depths;
 }
 
-/// A curve for each boundary that pushes, and one for where none does.
+/// "skin (plane)"
+std::string who_pushes(const Profile& profile, const StrokePoint& point) {
+  return fmt::format("{} ({})", display_name(profile.scene, *point.boundary), solver::name_of(*point.primitive));
+}
+
+/// A curve for each boundary and kind of primitive that pushes, and one for where none does.
 std::vector<Curve> force_curves(const Profile& profile, const std::vector<double>& depths) {
-  Curve none{.label = "", .x = depths, .y = std::vector<double>(depths.size(), not_a_number), .colour = colours::grey};
-  std::map<std::size_t, Curve> by_boundary;
+  const auto empty = [&](const std::string& label, const Colour& colour) {
+    return Curve{.label = label, .x = depths, .y = std::vector<double>(depths.size(), not_a_number), .colour = colour};
+  };
+  std::map<std::string, Curve> by_pusher;
+  by_pusher.emplace("", empty("", colours::grey));
   for (std::size_t n = 0; n < depths.size(); ++n) {
     const StrokePoint& point = profile.stroke[n];
-    Curve* curve = &none;
+    std::string pusher;
     if (point.boundary) {
-      curve = &by_boundary
-                   .try_emplace(*point.boundary, Curve{.label = display_name(profile.scene, *point.boundary),
-                                                       .x = depths,
-                                                       .y = std::vector<double>(depths.size(), not_a_number),
-                                                       .colour = colour_of(profile.scene, *point.boundary)})
-                   .first->second;
+      pusher = who_pushes(profile, point);
+      by_pusher.try_emplace(pusher, empty(pusher, colour_of(profile.scene, *point.boundary)));
     }
-    curve->y[n] = glm::length(point.force_n);
+    Curve& curve = by_pusher.at(pusher);
+    curve.y[n] = glm::length(point.force_n);
     // The next stretch begins where this one ends, so that the line has no gaps.
-    if (n > 0) curve->y[n - 1] = glm::length(profile.stroke[n - 1].force_n);
+    if (n > 0) curve.y[n - 1] = glm::length(profile.stroke[n - 1].force_n);
   }
-  std::vector<Curve> curves{std::move(none)};
-  for (auto& [mode, curve] : by_boundary) curves.push_back(std::move(curve));
+  std::vector<Curve> curves;
+  for (auto& [pusher, curve] : by_pusher) curves.push_back(std::move(curve));
   return curves;
 }
 
@@ -158,9 +163,7 @@ void write_csv(const Profile& profile, const std::filesystem::path& file) try {
 std::string point_in_words(const Profile& profile, std::size_t point) {
   const StrokePoint& at = profile.stroke[point];
   std::string words = fmt::format("{:.1f} mm: {:.2f} N", depth_of(profile, point), glm::length(at.force_n));
-  if (at.boundary && at.primitive) {
-    words += fmt::format(" by {} ({})", display_name(profile.scene, *at.boundary), solver::name_of(*at.primitive));
-  }
+  if (at.boundary) words += " by " + who_pushes(profile, at);
   if (!std::isfinite(at.value_passed)) return words + ", outside the scan";
   words += fmt::format(", {:.0f}{}{}", at.value_passed, profile.unit.empty() ? "" : " ", profile.unit);
   const std::string tissue = tissue_of(profile, at.value_passed);
