@@ -123,8 +123,10 @@ void PalpatePanel::Parts::build() {
   QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const auto& volume) { show_scan(volume); });
   QObject::connect(profile, &ProfileSection::picking, &dock, [this](bool on) {
     touching.keep_mouse_off(on);
-    scan->views().set_pick(on ? [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); }
-                              : std::function<void(Pick, const glm::dvec3&)>{});
+    const auto pick = on ? [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); }
+                         : std::function<void(Pick, const glm::dvec3&)>{};
+    scan->views().set_pick(pick);
+    views.set_pick(pick);
   });
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
     if (!proposing) edited = true;

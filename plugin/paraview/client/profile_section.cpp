@@ -70,10 +70,10 @@ QWidget* ProfileSection::build_points() {
   auto* const grid = new QGridLayout(box);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(2);
-  pick_ = new QPushButton(tr("Pick two points in a slice"), box);
+  pick_ = new QPushButton(tr("Pick two points"), box);
   pick_->setObjectName(QStringLiteral("palpateProfilePick"));
   pick_->setCheckable(true);
-  pick_->setToolTip(tr("Drag from one point to the other, or click on both."));
+  pick_->setToolTip(tr("In the slices or on what the 3D view shows: drag from one to the other, or click on both."));
   connect(pick_, &QPushButton::toggled, this, [this](bool on) { emit picking(on); });
   grid->addWidget(pick_, 0, 0, 1, 2);
   speed_ = new QDoubleSpinBox(box);

@@ -39,4 +39,20 @@ double hidden_part(const io::FieldSource& source, std::span<const OpacityNode> o
   return 1 - passes;
 }
 
+std::optional<glm::dvec3> first_seen(const io::FieldSource& source, std::span<const OpacityNode> opacity,
+                                     const glm::dvec3& from, const glm::dvec3& to) {
+  constexpr double fine_mm = 0.5, half = 0.5;
+  const double distance = glm::length(to - from);
+  if (!(distance > 0)) return {};
+  const glm::dvec3 along = (to - from) / distance;
+  double passes = 1;
+  for (double at = 0; at < distance; at += fine_mm) {
+    const io::Sample sample = source.sample(from + at * along, io::FieldSet::value);
+    if (!sample.inside) continue;
+    passes *= std::pow(1 - std::clamp(opacity_of(opacity, sample.value), 0.0, 1.0), fine_mm);
+    if (passes < half) return from + at * along;
+  }
+  return {};
+}
+
 }  // namespace palpate::plugin

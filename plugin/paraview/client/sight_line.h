@@ -3,6 +3,7 @@
 /// Whether something in the patient is hidden behind what the volume rendering shows.
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 
 #include "palpate/io/field_source.h"
@@ -19,5 +20,10 @@ struct OpacityNode {
 /// the place do not count, for it lies on the surface that it feels.
 double hidden_part(const io::FieldSource& source, std::span<const OpacityNode> opacity, const glm::dvec3& eye,
                    const glm::dvec3& place);
+
+/// What is seen on the way from one place to another: where half of the light is taken, to half a millimetre; none
+/// where less is. Patient space, mm.
+std::optional<glm::dvec3> first_seen(const io::FieldSource& source, std::span<const OpacityNode> opacity,
+                                     const glm::dvec3& from, const glm::dvec3& to);
 
 }  // namespace palpate::plugin

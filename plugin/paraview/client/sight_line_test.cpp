@@ -10,7 +10,7 @@
 namespace palpate::plugin {
 namespace {
 
-const std::vector<OpacityNode> bone_is_opaque{{300, 0}, {500, 0.5}};
+const std::vector<OpacityNode> bone_is_opaque{{300, 0}, {500, 0.5}}, almost_nothing{{-2000, 0.001}};
 
 TEST(SightLine, BehindABallOfBoneItIsHidden) {
   const testdata::AnalyticSource ball(testdata::make_sphere(20, testdata::bone_hu), 1);
@@ -30,6 +30,17 @@ TEST(SightLine, WhatIsFaintHidesByItsThickness) {
   // 40 mm of one part in a hundred each.
   EXPECT_NEAR(hidden_part(ball, faint, {0, -500, 0}, {0, 30, 0}), 1 - std::pow(0.99, 40), 0.02);
   EXPECT_EQ(hidden_part(ball, {}, {0, -500, 0}, {0, 30, 0}), 0);
+}
+
+TEST(SightLine, WhatIsSeenIsTheSurfaceBehindWhatIsFaint) {
+  const testdata::AnalyticSource ball(testdata::make_sphere(20, testdata::bone_hu), 0.5);
+  const auto seen = first_seen(ball, bone_is_opaque, {3, -500, 0}, {3, 500, 0});
+  ASSERT_TRUE(seen);
+  EXPECT_NEAR(seen->y, -std::sqrt(20 * 20 - 3 * 3), 2) << "half of the light is taken by the first millimetres";
+  EXPECT_EQ(seen->x, 3);
+  EXPECT_FALSE(first_seen(ball, bone_is_opaque, {30, -500, 0}, {30, 500, 0})) << "beside it";
+  EXPECT_FALSE(first_seen(ball, almost_nothing, {0, -60, 0}, {0, 60, 0})) << "air is not seen";
+  EXPECT_FALSE(first_seen(ball, bone_is_opaque, {0, 0, 0}, {0, 0, 0}));
 }
 
 }  // namespace

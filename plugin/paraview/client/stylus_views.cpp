@@ -14,6 +14,7 @@
 
 #include "mapping.h"
 #include "palpate/io/volume_fields.h"
+#include "volume_pick.h"
 
 namespace palpate::plugin {
 namespace {
@@ -53,6 +54,7 @@ struct StylusViews::OneView {
   vtkSmartPointer<vtkPVRenderView> client;
   StylusGlyphs glyphs;
   StylusHand hand;
+  std::unique_ptr<VolumePick> pick;
   Look drawn;
   qint64 next_ms = 0;
   qint64 moved_ms = 0;
@@ -65,7 +67,12 @@ StylusViews::~StylusViews() = default;
 
 void StylusViews::set_views(const std::vector<ClinicalView>& views) {
   views_.clear();
-  for (const ClinicalView& view : views) views_.push_back(std::make_unique<OneView>(touching_, view));
+  for (const ClinicalView& view : views) {
+    OneView& one = *views_.emplace_back(std::make_unique<OneView>(touching_, view));
+    if (one.kind != ViewKind::volume) continue;
+    one.pick = std::make_unique<VolumePick>(
+        *one.client, [this](Pick what, const auto& near, const auto& far) { return pick(what, near, far); });
+  }
   clock_.start();
 }
 
@@ -83,16 +90,28 @@ Eye StylusViews::eye() const {
   return {};
 }
 
+void StylusViews::follow_scan() {
+  if (touching_.live().scan() == values_of_) return;
+  values_of_ = touching_.live().scan();
+  values_ = values_of_
+                ? std::make_shared<const io::VolumeFields>(values_of_, io::FieldSet::value, 1,
+                                                           io::FieldOptions{.brick_bytes = 0, .background = false})
+                : nullptr;
+}
+
+bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far) {
+  if (!pick_) return false;
+  follow_scan();
+  if (!values_) return false;
+  const auto seen = first_seen(*values_, opacity_, near, far);
+  if (seen) pick_(what, *seen);
+  return seen || what != Pick::pressed;
+}
+
 void StylusViews::show(const Look& look) {
   std::erase_if(views_, [](const auto& one) { return !one->view; });
   if (views_.empty()) return;
-  if (touching_.live().scan() != values_of_) {
-    values_of_ = touching_.live().scan();
-    values_ = values_of_
-                  ? std::make_shared<const io::VolumeFields>(values_of_, io::FieldSet::value, 1,
-                                                             io::FieldOptions{.brick_bytes = 0, .background = false})
-                  : nullptr;
-  }
+  follow_scan();
   const qint64 now_ms = clock_.elapsed();
   // One view a look: the panel and the mouse have their turn between.
   for (std::size_t turn = 0; turn < views_.size(); ++turn) {

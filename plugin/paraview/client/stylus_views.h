@@ -5,7 +5,9 @@
 #include <QElapsedTimer>
 #include <QPointer>
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "clinical_views.h"
@@ -31,16 +33,22 @@ class StylusViews {
   void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
   /// Draws those views anew in which something has moved, none so often that the program would stand still.
   void show(const Look& look);
+  /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
+  /// again.
+  void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { pick_ = std::move(pick); }
   /// What the 3D view looks at.
   Eye eye() const;
 
  private:
   struct OneView;
+  void follow_scan();
+  bool pick(Pick what, const glm::dvec3& near, const glm::dvec3& far);
 
   Touching& touching_;
   const SceneModel& model_;
   std::vector<std::unique_ptr<OneView>> views_;
   std::vector<OpacityNode> opacity_;
+  std::function<void(Pick, const glm::dvec3&)> pick_;
   std::shared_ptr<const io::FieldSource> values_;  // of the scan
   std::shared_ptr<const io::Volume> values_of_;
   QElapsedTimer clock_;

@@ -6,6 +6,8 @@
 #include <QPushButton>
 #include <QRegularExpression>
 
+#include <cmath>
+
 #include "panel_rig.h"
 #include "panel_steps.h"
 
@@ -61,6 +63,19 @@ void profile_follows_an_edit() {
          "there is a table, and a plane pushes in it");
 
   auto& from = find<QLineEdit>("palpateProfileFrom");
+  click("palpateProfilePick");
+  QWidget& volume = view("Volume");
+  drag(volume, volume.rect().center(), volume.rect().center(), true);
+  wait_for(
+      "a point is picked in the 3D view",
+      [&] { return !from.text().isEmpty() && find<QLineEdit>("palpateProfileTo").text().isEmpty(); }, 5);
+  const QStringList place = from.text().split(',');
+  const double radius = std::hypot(place[0].toDouble(), place[1].toDouble(), place[2].toDouble());
+  expect(radius > 22 && radius < 26, "it is on the ball's surface, not " + std::to_string(radius) + " mm out");
+  drag(sagittal, middle, middle, true);
+  wait_for(
+      "and another in a slice", [] { return !find<QPushButton>("palpateProfilePick").isChecked(); }, 5);
+
   from.setText(QStringLiteral("0, -40 0"));
   emit from.editingFinished();
   expect(label("palpateProfileReadout").contains("not a point"), "what is no point is refused in words");
