@@ -82,7 +82,7 @@ TEST(CommandFuzz, AnswersWhateverItIsAskedWithAnExitCodeAndAReason) {
   ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 0.1 -o " + recorded).exit, 0);
   const auto& all = commands(phantom().string(), recorded + "/recording.h5");
   const char* const wanted = std::getenv("PALPATE_FUZZ_COMMANDS");
-  const int count = wanted ? std::atoi(wanted) : 120;
+  const int count = wanted ? std::atoi(wanted) : 80;
   std::mt19937_64 random(20261121);
   const auto one_of = [&](const auto& words) {
     auto at = words.begin();

@@ -76,9 +76,8 @@ RecordingsSection::RecordingsSection(Touching& touching, QWidget* parent)
       touching_(touching),
       first_path_(QColor(86, 180, 233)),
       second_path_(QColor(230, 159, 0)),
-      first_job_([this](const auto& opened, const QString& error) { opened ? set_first(*opened) : tell(error, true); }),
-      second_job_(
-          [this](const auto& opened, const QString& error) { opened ? set_second(*opened) : tell(error, true); }),
+      first_job_([this](const auto& opened, const QString& error) { take(opened, error, false); }),
+      second_job_([this](const auto& opened, const QString& error) { take(opened, error, true); }),
       compare_job_([this](const auto& both, const QString& error) { show_comparison(both, error); }) {
   setObjectName(QStringLiteral("palpateRecordings"));
   auto* const column = new QVBoxLayout(this);
@@ -202,7 +201,7 @@ void RecordingsSection::read(const QString& file, bool second) {
   (second ? second_job_ : first_job_).ask([file, volume] {
     const QString name = QFileInfo(file).fileName();
     try {
-      return Opened{name, std::make_shared<const RecordedSession>(read_recording(file.toStdString()), *volume)};
+      return Opened{name, std::make_shared<const RecordedSession>(read_recording(file.toStdString()), *volume), volume};
     } catch (const std::exception& error) {
       // The file's name without its folders, which may hold a patient's.
       const std::string what = error.what();
@@ -212,6 +211,14 @@ void RecordingsSection::read(const QString& file, bool second) {
                                    : std::string(what).replace(path, file.toStdString().size(), name.toStdString()));
     }
   });
+}
+
+void RecordingsSection::take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second) {
+  if (!opened) {
+    tell(error, true);
+  } else if (opened->scan.lock() == touching_.live().scan()) {  // else another is shown by now
+    second ? set_second(*opened) : set_first(*opened);
+  }
 }
 
 void RecordingsSection::set_first(Opened opened) {

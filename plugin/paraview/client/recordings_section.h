@@ -38,11 +38,13 @@ class RecordingsSection : public QWidget {
   struct Opened {
     QString name;
     std::shared_ptr<const RecordedSession> session;
+    std::weak_ptr<const io::Volume> scan;  ///< that it is of
   };
 
   QWidget* build_player();
   QWidget* build_comparison();
   void read(const QString& file, bool second);
+  void take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second);
   void set_first(Opened opened);
   void set_second(Opened opened);
   void play_or_pause();
