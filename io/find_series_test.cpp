@@ -150,7 +150,10 @@ TEST(FindSeries, FrameThatLacksASliceHasAGap) {
     if (n == 7) continue;
     TestImage image;
     image.z = 2.0 * (n % 5);
-    image.edit = [n](DcmDataset& d) { put(d, DCM_TemporalPositionIdentifier, std::to_string(n / 5 + 1)); };
+    image.edit = [n](DcmDataset& d) {
+      put(d, DCM_Modality, "MR");
+      put(d, DCM_TemporalPositionIdentifier, std::to_string(n / 5 + 1));
+    };
     write(image, folder / std::to_string(n));
   }
   const Series series = find_in(folder).series.at(0);
@@ -278,26 +281,36 @@ TEST(FindSeries, WhatCannotBeFeltIsRefusedWithAReason) {
 }
 
 TEST(FindSeries, DescriptionBecomesUtf8) {
-  const std::array<std::array<std::string, 3>, 4> cases{{{"ISO_IR 100", "T\xEAte", "T\xC3\xAAte"},
-                                                         {"ISO_IR 192", "\xE9\xA0\xAD", "\xE9\xA0\xAD"},
-                                                         {"ISO_IR 144", "\xB3\xDE\xDB\xDE\xD2\xD0", "Голова"},
-                                                         {"", "T\xEAte", "T\xC3\xAAte"}}};
+  const std::array<std::array<std::string, 3>, 7> cases{
+      {{"ISO_IR 100", "T\xEAte", "T\xC3\xAAte"},
+       {"ISO_IR 192", "\xE9\xA0\xAD", "\xE9\xA0\xAD"},
+       {"ISO_IR 144", "\xB3\xDE\xDB\xDE\xD2\xD0", "Голова"},
+       {"\\ISO 2022 IR 87", "\x1B$B;3ED\x1B(B^\x1B$BB@O:\x1B(B", "山田^太郎"},
+       {"ISO 2022 IR 13\\ISO 2022 IR 87", "\xD4\xCF\xC0\xDE=\x1B$B;3ED\x1B(J", "ﾔﾏﾀﾞ=山田"},
+       {"GB18030", "\xCD\xF5\xD0\xA1\xB6\xAB", "王小东"},
+       {"", "T\xEAte", "T\xC3\xAAte"}}};
   for (const auto& texts : cases) {  // character set, as stored, expected
     const TestFolder folder;
     write_stack(folder.path(), 2, [&](int, TestImage& image) {
       image.edit = [&](DcmDataset& d) {
         if (!texts[0].empty()) put(d, DCM_SpecificCharacterSet, texts[0]);
         put(d, DCM_SeriesDescription, texts[1]);
+        put(d, DCM_PatientName, texts[1]);
       };
     });
-    EXPECT_EQ(find_in(folder).series.at(0).description, texts[2]) << texts[0];
+    const Series series = find_in(folder).series.at(0);
+    EXPECT_EQ(series.description, texts[2]) << texts[0];
+    EXPECT_EQ(series.identity.patient_name, texts[2]) << texts[0];
   }
 }
 
 // A host program may run in a country that writes 0,75: neither attributes nor words may change.
 TEST(FindSeries, DecimalCommaOfTheLocaleChangesNothing) {
   const TestFolder folder;
-  write_stack(folder.path(), 6, [](int k, TestImage& image) { image.z = k == 5 ? 13.75 : 2.25 * k; });
+  write_stack(folder.path(), 6, [](int k, TestImage& image) {
+    image.z = k == 5 ? 13.75 : 2.25 * k;
+    image.edit = [](DcmDataset& d) { put(d, DCM_RescaleIntercept, "-0.5"); };
+  });
   const Series before = find_in(folder).series.at(0);
   const TestFolder locales;
   const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8").string() + " >/dev/null 2>&1";

@@ -63,6 +63,8 @@ bool is_asked_for(std::uint32_t tag) {
                                  DCM_PerFrameFunctionalGroupsSequence}) {
       tags.push_back(std::uint32_t{key.getGroup()} << 16 | key.getElement());
     }
+    // b-values of Siemens, GE and Philips, with who reserved their blocks (b_value.h).
+    tags.insert(tags.end(), {0x00190010, 0x0019100C, 0x00430010, 0x00431039, 0x20010010, 0x20011003});
     std::sort(tags.begin(), tags.end());
     return tags;
   }();

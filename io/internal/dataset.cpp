@@ -127,10 +127,12 @@ class InflatedBytes final : public ByteSource {
   DcmInputFileStream stream_;
 };
 
-// What DCMTK is to parse by: the file's own syntax, or one written alike where DCMTK does not know that.
+// What DCMTK is to parse by: the file's own syntax, or one written alike where DCMTK does not know that, or where the
+// file is not written as it says.
 E_TransferSyntax syntax_of(const DatasetStart& start) {
-  const E_TransferSyntax known = DcmXfer(start.transfer_syntax.c_str()).getXfer();
-  if (!start.transfer_syntax.empty() && known != EXS_Unknown) return known;
+  const DcmXfer known(start.transfer_syntax.c_str());
+  const bool as_it_says = (known.isExplicitVR() == OFTrue) == start.encoding.explicit_vr;
+  if (!start.transfer_syntax.empty() && known.getXfer() != EXS_Unknown && as_it_says) return known.getXfer();
   if (!start.encoding.explicit_vr) return EXS_LittleEndianImplicit;
   return start.encoding.big_endian ? EXS_BigEndianExplicit : EXS_LittleEndianExplicit;
 }
@@ -153,6 +155,10 @@ DatasetStart find_dataset(const InputFile& file) {
   if (!start.transfer_syntax.empty() && syntax.getXfer() != EXS_Unknown) {
     start.encoding = {syntax.getByteOrder() == EBO_BigEndian, syntax.isExplicitVR() == OFTrue};
     start.deflated = syntax.getStreamCompression() != ESC_none;
+    if (start.deflated || file.size() - start.at < sizeof(FirstBytes)) return start;
+    // Some archives rewrite the dataset and not what is said of it.
+    const auto shown = guess_encoding(FirstBytes(file, start.at));
+    if (shown && shown->big_endian == start.encoding.big_endian) start.encoding = *shown;
     return start;
   }
   const auto guess = guess_encoding(FirstBytes(file, start.at));

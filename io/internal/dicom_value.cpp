@@ -1,10 +1,9 @@
 #include "palpate/io/internal/dicom_value.h"
 
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dcchrstr.h>
+#include <dcmtk/dcmdata/dcbytstr.h>
 #include <dcmtk/dcmdata/dcelem.h>
 #include <dcmtk/dcmdata/dcitem.h>
-#include <dcmtk/dcmdata/dcspchrs.h>
 #include <dcmtk/dcmdata/dctagkey.h>
 
 #include <algorithm>
@@ -30,6 +29,10 @@ DcmElement* element_of(DcmItem& item, const DcmTagKey& tag) {
   check_asked_for(item, tag);
   DcmElement* element = nullptr;
   return item.findAndGetElement(tag, element).good() ? element : nullptr;
+}
+
+bool is_unknown(DcmElement& element) {
+  return element.getVR() == EVR_UN || element.getVR() == EVR_UNKNOWN;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -61,41 +64,6 @@ std::vector<double> parsed_list(std::string_view text) {
   }
 }
 
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t more = lead < 0x80                   ? 0
-                             : lead >= 0xC2 && lead < 0xE0 ? 1
-                             : (lead >> 4) == 0xE          ? 2
-                             : lead >= 0xF0 && lead < 0xF5 ? 3
-                                                           : 9;
-    if (more == 9 || i + more >= text.size()) return false;
-    for (std::size_t k = 1; k <= more; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) >> 6) != 2) return false;
-    }
-    if (lead == 0xE0 && static_cast<unsigned char>(text[i + 1]) < 0xA0) return false;  // longer than needed
-    if (lead == 0xED && static_cast<unsigned char>(text[i + 1]) > 0x9F) return false;  // a surrogate
-    if (lead == 0xF0 && static_cast<unsigned char>(text[i + 1]) < 0x90) return false;
-    if (lead == 0xF4 && static_cast<unsigned char>(text[i + 1]) > 0x8F) return false;
-    i += more;
-  }
-  return true;
-}
-
-std::string latin1_to_utf8(std::string_view text) {
-  std::string utf8;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      utf8 += c;
-    } else {
-      utf8 += static_cast<char>(0xC0 | (byte >> 6));
-      utf8 += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
-  return utf8;
-}
-
 }  // namespace
 
 std::string text_of(DcmItem& item, const DcmTagKey& tag) {
@@ -109,6 +77,10 @@ std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag) {
   DcmElement* element = element_of(item, tag);
   if (element == nullptr || element->isEmpty()) return {};
   if (dynamic_cast<DcmByteString*>(element) != nullptr) return parsed_list(text_of(item, tag));
+  if (Uint8* bytes = nullptr; is_unknown(*element) && element->getUint8Array(bytes).good()) {
+    return parsed_list(
+        {reinterpret_cast<const char*>(bytes), element->getLength()});  // private, and not in a dictionary
+  }
   std::vector<double> values;
   const unsigned long count = std::min<unsigned long>(element->getNumberOfValues(), 1UL << 16);
   for (unsigned long i = 0; i < count; ++i) {
@@ -147,20 +119,6 @@ DcmItem* first_item(DcmItem& item, const DcmTagKey& sequence) {
   check_asked_for(item, sequence);
   DcmItem* found = nullptr;
   return item.findAndGetSequenceItem(sequence, found, 0).good() ? found : nullptr;
-}
-
-std::string utf8_of(const std::string& text, const std::string& character_set) {
-  const bool plain = std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20; });
-  if (plain) return text;
-  if (!character_set.empty()) {
-    DcmSpecificCharacterSet converter;
-    OFString utf8;
-    if (converter.selectCharacterSet(character_set.c_str()).good() &&
-        converter.convertString(text.c_str(), utf8, "\\^=").good() && is_utf8({utf8.c_str(), utf8.length()})) {
-      return {utf8.c_str(), utf8.length()};
-    }
-  }
-  return is_utf8(text) ? text : latin1_to_utf8(text);
 }
 
 }  // namespace palpate::io::internal

@@ -24,8 +24,4 @@ std::optional<double> number_of(DcmItem& item, const DcmTagKey& tag);
 /// The first item of a sequence; null where absent or empty.
 DcmItem* first_item(DcmItem& item, const DcmTagKey& sequence);
 
-/// Text in the item's character set (SpecificCharacterSet, given) as UTF-8. What cannot be converted is taken for
-/// Latin-1.
-std::string utf8_of(const std::string& text, const std::string& character_set);
-
 }  // namespace palpate::io::internal

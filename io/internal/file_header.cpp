@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "palpate/io/errors.h"
+#include "palpate/io/internal/character_set.h"
 #include "palpate/io/internal/dataset.h"
 #include "palpate/io/internal/decode.h"
 #include "palpate/io/internal/dicom_value.h"
@@ -60,12 +61,14 @@ void read_format(DcmItem& item, FileHeader& header) {
   header.rows = format.rows;
 
   const std::string photometric = text_of(item, DCM_PhotometricInterpretation);
-  if (whole(DCM_SamplesPerPixel, 1) != 1 || (photometric != "MONOCHROME1" && photometric != "MONOCHROME2")) {
+  const bool grey = photometric.empty() || photometric == "MONOCHROME1" || photometric == "MONOCHROME2";
+  if (whole(DCM_SamplesPerPixel, 1) != 1 || !grey) {
     header.unfit = "colour image (" + photometric + "): it has no values to feel";
   } else if ((format.bits_allocated != 8 && format.bits_allocated != 16) || format.bits_stored < 1 ||
              format.high_bit < format.bits_stored - 1 || format.high_bit >= format.bits_allocated) {
     header.unfit = "pixels of " + std::to_string(format.bits_stored) + " bits in " +
-                   std::to_string(format.bits_allocated) + " cannot be read";
+                   std::to_string(format.bits_allocated) + ", the highest of them bit " +
+                   std::to_string(format.high_bit) + ", cannot be read";
   }
 }
 
@@ -79,15 +82,23 @@ std::optional<std::pair<double, double>> padding_of(DcmItem& item, const FileHea
   return std::minmax(signed_value(*value), signed_value(limit));
 }
 
+void remark_on_lost_frames(double frames, FileHeader& header) {
+  const auto placed = std::count_if(header.planes.begin(), header.planes.end(),
+                                    [](const Plane& plane) { return plane.placement.has_value(); });
+  if (placed == 0 || static_cast<double>(placed) >= frames) return;
+  header.remarks.push_back(header.path.filename().string() + " says where " + std::to_string(placed) + " of its " +
+                           std::to_string(std::llround(frames)) + " frames lie: the others are left out");
+}
+
 void read_planes(DcmItem& item, FileHeader& header) {
   const double frames = number_of(item, DCM_NumberOfFrames).value_or(1);
   header.padding = padding_of(item, header);
-  header.unit = unit_of(header.modality, text_of(item, DCM_RescaleType));
   if (first_item(item, DCM_ModalityLUTSequence) != nullptr && header.unfit.empty()) {
     header.unfit = "its values need a modality look-up table, which is not applied here";
   }
   if (first_item(item, DCM_PerFrameFunctionalGroupsSequence) != nullptr) {
     header.planes = functional_group_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
+    remark_on_lost_frames(frames, header);
   } else if (header.image_type.find("MOSAIC") != std::string::npos) {
     header.planes = mosaic_planes(item, header);
     if (header.planes.empty() && header.unfit.empty()) {
@@ -99,6 +110,9 @@ void read_planes(DcmItem& item, FileHeader& header) {
   }
   const bool placed =
       std::any_of(header.planes.begin(), header.planes.end(), [](const Plane& p) { return p.placement; });
+  if (header.modality == "CT" && header.unit.empty()) {
+    header.remarks.emplace_back("its values are not said to be Hounsfield units");
+  }
   if (!placed && header.unfit.empty()) {
     header.unfit = "no position in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing)";
   }
@@ -121,6 +135,10 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
   header.swapped_words = header.big_endian && header.format.bits_allocated == 8 && pixels.vr == "OW";
   header.pixels_at = header.start.deflated ? pixels.value_at : header.start.at + pixels.value_at;
   const bool encapsulated = pixels.length == PixelElement::undefined_length;
+  if (pixels.is_float) {
+    if (header.unfit.empty()) header.unfit = "pixels that are floating-point numbers cannot be read";
+    return;
+  }
   if (encapsulated && !can_decode(header.transfer_syntax)) {
     if (header.unfit.empty()) header.unfit = "its compression is unknown here: " + header.transfer_syntax;
     return;
@@ -163,6 +181,13 @@ std::optional<Placement> make_placement(const std::vector<double>& position, con
     return std::nullopt;
   }
   return place;
+}
+
+bool FileHeader::padding_is_wide() const {
+  if (!padding || format.bits_allocated != 16) return false;
+  const double least = format.is_signed ? -std::ldexp(1.0, format.bits_stored - 1) : 0;
+  const double most = std::ldexp(1.0, format.is_signed ? format.bits_stored - 1 : format.bits_stored) - 1;
+  return padding->second < least || padding->first > most;
 }
 
 FileHeader read_file_header(const std::filesystem::path& path) {

@@ -100,6 +100,8 @@ struct FileHeader {
   int columns = 0;  ///< of one image (of a tile of a mosaic)
   int rows = 0;
   std::optional<std::pair<double, double>> padding;  ///< stored values, both ends included
+  /// Whether that is no value that BitsStored can hold, but a word of BitsAllocated that stands for none.
+  bool padding_is_wide() const;
 
   PixelCoding coding = PixelCoding::native;
   bool big_endian = false;
@@ -109,6 +111,7 @@ struct FileHeader {
   std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
 
   std::vector<Plane> planes;
+  std::vector<std::string> remarks;  ///< what a user should know of its series, in words that all of its files share
   std::string unfit;   ///< why its images cannot be part of a volume (colour, no position); empty where they can
   std::string defect;  ///< why its pixels cannot be read (truncated); empty where they can
 };

@@ -81,15 +81,49 @@ std::vector<std::size_t> telling_labels(const SeriesSource& source, const Positi
   return telling;
 }
 
-std::string name_of(const std::vector<std::size_t>& telling, const std::vector<std::string>& values, std::size_t rank,
-                    bool ranked) {
+// Images of a position that have different keys, over all positions.
+std::size_t told_apart(const SeriesSource& source, const Positions& positions, const std::vector<std::size_t>& labels) {
+  std::size_t count = 0;
+  for (const auto& position : positions) {
+    std::set<std::vector<std::string>> keys;
+    for (const Slice& slice : position) {
+      std::vector<std::string> key;
+      for (const std::size_t label : labels) key.push_back(source.plane_of(slice).labels[label]);
+      keys.insert(std::move(key));
+    }
+    count += keys.size();
+  }
+  return count;
+}
+
+// Only labels that tell more than those before them: acquisition numbers that alternate from slice to slice would
+// divide what an echo time has told apart.
+std::vector<std::size_t> dividing_labels(const SeriesSource& source, const Positions& positions,
+                                         const std::vector<std::size_t>& telling) {
+  std::vector<std::size_t> dividing;
+  std::size_t count = positions.size();
+  for (const std::size_t label : telling) {
+    dividing.push_back(label);
+    const std::size_t with_it = told_apart(source, positions, dividing);
+    if (with_it == count) dividing.pop_back();
+    count = with_it;
+  }
+  return dividing;
+}
+
+// What all of a frame has in common and other frames have not.
+std::string name_of(const SeriesSource& source, const std::vector<Slice>& frame,
+                    const std::vector<std::size_t>& telling, std::size_t rank, bool ranked) {
   static constexpr std::array before{
       "", "echo time ", "b = ", "direction ", "velocity along ", "time point ", "trigger delay ", "acquisition "};
   static constexpr std::array after{"", " ms", " s/mm2", "", "", "", " ms", ""};
   std::string name;
-  for (std::size_t i = 0; i < telling.size(); ++i) {
-    if (values[i].empty()) continue;
-    name += (name.empty() ? "" : ", ") + std::string(before[telling[i]]) + values[i] + after[telling[i]];
+  for (const std::size_t label : telling) {
+    const auto value_of = [&](const Slice& slice) { return source.plane_of(slice).labels[label]; };
+    const std::string value = value_of(frame.front());
+    const bool common = std::all_of(frame.begin(), frame.end(), [&](const Slice& s) { return value_of(s) == value; });
+    if (value.empty() || !common) continue;
+    name += (name.empty() ? "" : ", ") + std::string(before[label]) + value + after[label];
   }
   if (ranked) name += (name.empty() ? "image " : ", image ") + std::to_string(rank + 1);
   std::replace(name.begin(), name.end(), '\\', ' ');
@@ -103,19 +137,20 @@ FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slic
   if (slices.empty()) return split;
   const Positions positions = gather_positions(source, std::move(slices));
   const auto telling = telling_labels(source, positions);
+  const auto dividing = dividing_labels(source, positions, telling);
 
   std::vector<std::vector<std::string>> values;
-  values.reserve(telling.size());
-  for (const std::size_t label : telling) values.push_back(ordered_values(source, positions, label));
-  // A frame's key: the place of its value of each telling label, then its rank among images that these do not tell
+  values.reserve(dividing.size());
+  for (const std::size_t label : dividing) values.push_back(ordered_values(source, positions, label));
+  // A frame's key: the place of its value of each dividing label, then its rank among images that these do not tell
   // apart.
   std::map<std::vector<std::size_t>, std::vector<Slice>> frames;
   for (const auto& position : positions) {
     std::map<std::vector<std::size_t>, std::size_t> seen;
     for (const Slice& slice : position) {
       std::vector<std::size_t> key;
-      for (std::size_t i = 0; i < telling.size(); ++i) {
-        const auto value = std::find(values[i].begin(), values[i].end(), source.plane_of(slice).labels[telling[i]]);
+      for (std::size_t i = 0; i < dividing.size(); ++i) {
+        const auto value = std::find(values[i].begin(), values[i].end(), source.plane_of(slice).labels[dividing[i]]);
         key.push_back(static_cast<std::size_t>(value - values[i].begin()));
       }
       const std::size_t rank = seen[key]++;
@@ -131,9 +166,7 @@ FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slic
       std::any_of(frames.begin(), frames.end(), [&](const auto& f) { return f.first.back() > 0 && is_frame(f); });
   for (auto& entry : frames) {
     if (is_frame(entry)) {
-      std::vector<std::string> own;
-      for (std::size_t i = 0; i < telling.size(); ++i) own.push_back(values[i][entry.first[i]]);
-      split.names.push_back(name_of(telling, own, entry.first.back(), ranked));
+      split.names.push_back(name_of(source, entry.second, telling, entry.first.back(), ranked));
       split.frames.push_back(std::move(entry.second));
     } else {
       split.left_over.insert(split.left_over.end(), entry.second.begin(), entry.second.end());

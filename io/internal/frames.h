@@ -17,8 +17,8 @@ struct FrameSplit {
 
 /// Images of one orientation and size -> frames. Two images are at one position where they are closer along the normal
 /// than 2 % of a pixel. Frames are told apart by the labels (b-value, echo, ...) that take the same few values all over
-/// the stack; where these do not tell, by order of acquisition. What would make a frame of less than half of the slices
-/// is left over.
+/// the stack, each of which tells more than those before it; where these do not tell, by order of acquisition. What
+/// would make a frame of less than half of the slices is left over.
 FrameSplit split_into_frames(const SeriesSource& source, std::vector<SeriesSource::Slice> slices);
 
 }  // namespace palpate::io::internal

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "palpate/io/internal/copies.h"
 #include "palpate/io/internal/frames.h"
 #include "palpate/io/internal/series_source.h"
 #include "palpate/io/internal/stacking.h"
@@ -35,25 +36,6 @@ bool fit_together(const SeriesSource& source, const Slice& a, const Slice& b) {
          std::abs(x.spacing_j - y.spacing_j) < spacing_tolerance * x.spacing_j;
 }
 
-// The same image sent twice: the readable copy is kept.
-std::vector<FileHeader> drop_copies(std::vector<FileHeader> files, std::vector<SkippedFile>& skipped) {
-  std::stable_sort(files.begin(), files.end(), [](const FileHeader& a, const FileHeader& b) {
-    return a.defect.empty() == b.defect.empty() ? a.path < b.path : a.defect.empty();
-  });
-  std::map<std::string, std::string> seen;
-  std::vector<FileHeader> kept;
-  for (FileHeader& file : files) {
-    const auto [first, is_new] = seen.emplace(file.sop_instance, name_of(file));
-    if (is_new || file.sop_instance.empty()) {
-      kept.push_back(std::move(file));
-    } else {
-      const std::string why = file.defect.empty() ? "" : " (" + file.defect + ")";
-      skipped.push_back({file.path, "a copy of " + first->second + ": the same SOP instance" + why});
-    }
-  }
-  return kept;
-}
-
 void describe(const FileHeader& file, Series& series) {
   series.uid = file.series;
   series.study_uid = file.study;
@@ -61,6 +43,18 @@ void describe(const FileHeader& file, Series& series) {
   series.description = file.description;
   series.unit = file.unit;
   series.identity = file.identity;
+}
+
+// What files say alike is said once.
+void add_remarks(const SeriesSource& source, const std::vector<Slice>& slices, Series& series) {
+  std::set<std::uint32_t> seen;
+  for (const Slice& slice : slices) {
+    if (!seen.insert(slice.file).second) continue;
+    for (const std::string& remark : source.file_of(slice).remarks) {
+      const bool is_new = std::find(series.warnings.begin(), series.warnings.end(), remark) == series.warnings.end();
+      if (is_new) series.warnings.push_back(remark);
+    }
+  }
 }
 
 void list_files(const SeriesSource& source, const std::vector<Slice>& slices, Series& series) {
@@ -125,6 +119,7 @@ Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, s
     series.warnings.push_back(name_of(file) + " is left out: another image lies at its position");
   }
 
+  add_remarks(*source, stack, series);
   list_files(*source, read, series);
   series.frames_per_position = static_cast<int>(source->frames.size());
   series.frame_names = split.names;
@@ -146,8 +141,8 @@ Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, s
   return series;
 }
 
-// All files of one series UID.
-void group_one_uid(std::vector<FileHeader> headers, std::vector<Series>& result, std::vector<SkippedFile>& skipped) {
+// All files of one series.
+void group_one_series(std::vector<FileHeader> headers, std::vector<Series>& result, std::vector<SkippedFile>& skipped) {
   SeriesSource source;
   std::vector<std::filesystem::path> all_paths;
   all_paths.reserve(headers.size());
@@ -193,15 +188,21 @@ void group_one_uid(std::vector<FileHeader> headers, std::vector<Series>& result,
 }  // namespace
 
 std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped) {
+  // Anonymised scans may share a series UID, or have none: patients, studies and folders are never mixed.
+  const auto key_of = [](const FileHeader& file) {
+    std::string key = file.series + '\n' + file.study + '\n' + file.identity.patient_id;
+    if (file.series.empty()) key += '\n' + file.description + '\n' + file.path.parent_path().string();
+    return key;
+  };
   std::vector<std::string> order;
-  std::map<std::string, std::vector<FileHeader>> by_uid;
+  std::map<std::string, std::vector<FileHeader>> by_series;
   for (FileHeader& header : headers) {
-    auto& files = by_uid[header.series];
-    if (files.empty()) order.push_back(header.series);
+    auto& files = by_series[key_of(header)];
+    if (files.empty()) order.push_back(key_of(header));
     files.push_back(std::move(header));
   }
   std::vector<Series> series;
-  for (const std::string& uid : order) group_one_uid(std::move(by_uid[uid]), series, skipped);
+  for (const std::string& key : order) group_one_series(std::move(by_series[key]), series, skipped);
   return series;
 }
 

@@ -9,8 +9,8 @@
 
 namespace palpate::io::internal {
 
-/// Groups the images of all files by series UID, orientation, size and pixel spacing, sorts them by position, and
-/// describes the result. Files that end up in no series are named in `skipped`.
+/// Groups the images of all files by series UID (of one study and patient), orientation, size and pixel spacing, sorts
+/// them by position, and describes the result. Files that end up in no series are named in `skipped`.
 std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped);
 
 }  // namespace palpate::io::internal

@@ -16,16 +16,28 @@ void swap_bytes(std::span<std::uint16_t> values) {
 }
 
 // Brings the stored bits down to bit 0 and extends the sign.
-void clean_bits(const PixelFormat& format, std::span<std::uint16_t> values) {
+std::uint16_t cleaned(std::uint16_t v, int above, int unused, bool is_signed) {
+  v = static_cast<std::uint16_t>(v << above);
+  return is_signed ? static_cast<std::uint16_t>(static_cast<std::int16_t>(v) >> unused)
+                   : static_cast<std::uint16_t>(v >> unused);
+}
+
+void clean_bits(const FileHeader& header, std::span<std::uint16_t> values) {
+  const PixelFormat& format = header.format;
   if (format.bits_stored == 16) return;
   const int above = 15 - format.high_bit;
   const int unused = 16 - format.bits_stored;
-  if (format.is_signed) {
+  if (header.padding_is_wide()) {
+    // A word of 16 bits that means no value: without its upper bits it would be one (-32768 in 12 bits: 0).
     for (auto& v : values) {
-      v = static_cast<std::uint16_t>(static_cast<std::int16_t>(static_cast<std::uint16_t>(v << above)) >> unused);
+      const double word = format.is_signed ? static_cast<std::int16_t>(v) : v;
+      const bool is_padding = word >= header.padding->first && word <= header.padding->second;
+      if (!is_padding) v = cleaned(v, above, unused, format.is_signed);
     }
+  } else if (format.is_signed) {
+    for (auto& v : values) v = cleaned(v, above, unused, true);
   } else {
-    for (auto& v : values) v = static_cast<std::uint16_t>(static_cast<std::uint16_t>(v << above) >> unused);
+    for (auto& v : values) v = cleaned(v, above, unused, false);
   }
 }
 
@@ -66,7 +78,7 @@ void PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) con
     for (std::size_t i = 0; header_.swapped_words && i + 1 < bytes.size(); i += 2) std::swap(bytes[i], bytes[i + 1]);
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(lead), values.size(), values.begin());
   }
-  clean_bits(format, values);
+  clean_bits(header_, values);
 }
 
 }  // namespace palpate::io::internal

@@ -16,8 +16,8 @@ class PixelReader {
   explicit PixelReader(const FileHeader& header);
 
   /// The stored values of a frame as the file holds it (all of a mosaic), rows * columns of them, sign extended; bits
-  /// outside BitsStored, such as overlays, are removed. Signed ones are to be read as int16. Throws DicomError with a
-  /// reason that does not name the file.
+  /// outside BitsStored, such as overlays, are removed, but for padding that needs them. Signed ones are to be read as
+  /// int16. Throws DicomError with a reason that does not name the file.
   void read(std::uint32_t frame, std::span<std::uint16_t> values) const;
 
  private:

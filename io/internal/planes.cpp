@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "palpate/io/internal/b_value.h"
 #include "palpate/io/internal/dicom_value.h"
 #include "palpate/io/internal/velocity.h"
 
@@ -76,14 +77,33 @@ std::optional<Series::Window> window_of(std::optional<double> level, std::option
   return sound ? std::optional(Series::Window{*level, *width}) : std::nullopt;
 }
 
-Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, const FileHeader& header) {
+// What is written but is no number (a decimal comma) must not pass for an attribute that is absent.
+double rescale_number(DcmItem* item, const DcmTagKey& tag, double otherwise, FileHeader& header) {
+  if (item == nullptr) return otherwise;
+  const auto value = number_of(*item, tag);
+  if (value) return *value;
+  if (!text_of(*item, tag).empty()) header.unfit = "its rescale slope or intercept is no number";
+  return otherwise;
+}
+
+// Of the dataset, or of a frame's functional group; null where there is none.
+void read_rescale(DcmItem* item, FileHeader& header, Plane& plane) {
+  plane.slope = rescale_number(item, DCM_RescaleSlope, 1, header);
+  plane.intercept = rescale_number(item, DCM_RescaleIntercept, 0, header);
+  if (plane.slope == 0) header.unfit = "its rescale slope is 0: it says that all values are the same";
+  if (header.modality != "CT") return;
+  const bool rescaled = item != nullptr && !text_of(*item, DCM_RescaleIntercept).empty();
+  const std::string type = item != nullptr ? text_of(*item, DCM_RescaleType) : std::string();
+  header.unit = rescaled && (type.empty() || type == "HU") ? "HU" : "";
+}
+
+Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, FileHeader& header) {
   Plane plane;
   plane.frame = frame;
   plane.placement = make_placement(groups.numbers(DCM_PlanePositionSequence, DCM_ImagePositionPatient),
                                    groups.numbers(DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient),
                                    groups.numbers(DCM_PixelMeasuresSequence, DCM_PixelSpacing));
-  plane.slope = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleSlope).value_or(1);
-  plane.intercept = groups.number(DCM_PixelValueTransformationSequence, DCM_RescaleIntercept).value_or(0);
+  read_rescale(groups.group(DCM_PixelValueTransformationSequence), header, plane);
   plane.window = window_of(groups.number(DCM_FrameVOILUTSequence, DCM_WindowCenter),
                            groups.number(DCM_FrameVOILUTSequence, DCM_WindowWidth));
   plane.labels = labels_of(groups);
@@ -98,30 +118,25 @@ Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, const FileHe
 
 }  // namespace
 
-std::string unit_of(const std::string& modality, const std::string& rescale_type) {
-  return modality == "CT" && (rescale_type.empty() || rescale_type == "HU") ? "HU" : "";
-}
-
-Plane classic_plane(DcmItem& dataset, const FileHeader& header) {
+Plane classic_plane(DcmItem& dataset, FileHeader& header) {
   Plane plane;
   plane.placement =
       make_placement(numbers_of(dataset, DCM_ImagePositionPatient), numbers_of(dataset, DCM_ImageOrientationPatient),
                      numbers_of(dataset, DCM_PixelSpacing));
-  plane.slope = number_of(dataset, DCM_RescaleSlope).value_or(1);
-  plane.intercept = number_of(dataset, DCM_RescaleIntercept).value_or(0);
+  read_rescale(&dataset, header, plane);
   plane.window = window_of(number_of(dataset, DCM_WindowCenter), number_of(dataset, DCM_WindowWidth));
   at(plane.labels, Label::image_type) = header.image_type;
   at(plane.labels, Label::echo_time) = label_of(number_of(dataset, DCM_EchoTime));
-  at(plane.labels, Label::b_value) = label_of(number_of(dataset, DCM_DiffusionBValue));
+  at(plane.labels, Label::b_value) = label_of(b_value_of(dataset));
   at(plane.labels, Label::diffusion_direction) = text_of(dataset, DCM_DiffusionGradientOrientation);
   at(plane.labels, Label::time_point) = label_of(number_of(dataset, DCM_TemporalPositionIdentifier));
   at(plane.labels, Label::trigger_time) = label_of(number_of(dataset, DCM_TriggerTime));
   at(plane.labels, Label::acquisition) = label_of(number_of(dataset, DCM_AcquisitionNumber));
-  read_classic_velocity(dataset, header.format, plane);
+  read_classic_velocity(dataset, header, plane);
   return plane;
 }
 
-std::vector<Plane> functional_group_planes(DcmItem& dataset, const FileHeader& header, std::size_t frames) {
+std::vector<Plane> functional_group_planes(DcmItem& dataset, FileHeader& header, std::size_t frames) {
   std::vector<Plane> planes;
   DcmSequenceOfItems* per_frame = nullptr;
   if (dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, per_frame).bad()) return planes;

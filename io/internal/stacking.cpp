@@ -96,8 +96,10 @@ std::vector<std::string> geometry_warnings(const Geometry& geometry) {
   }
   if (!geometry.uniform && geometry.gaps.empty()) {
     const auto [least, most] = std::minmax_element(intervals.begin(), intervals.end());
-    warnings.push_back("slices are unevenly spaced, " + millimetres(*least) + " to " + millimetres(*most) +
-                       " apart: each is used where it is");
+    const bool even = *most - *least < uniform_tolerance * median;
+    warnings.push_back(even ? "slices are displaced sideways against each other: each is used where it is"
+                            : "slices are unevenly spaced, " + millimetres(*least) + " to " + millimetres(*most) +
+                                  " apart: each is used where it is");
   }
   return warnings;
 }

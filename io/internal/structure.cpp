@@ -19,6 +19,8 @@ constexpr std::uint32_t undefined_length = PixelElement::undefined_length;
 constexpr std::uint32_t item_tag = 0xFFFEE000;
 constexpr std::uint32_t item_end = 0xFFFEE00D;
 constexpr std::uint32_t sequence_end = 0xFFFEE0DD;
+constexpr std::uint32_t float_pixel_data = 0x7FE00008;
+constexpr std::uint32_t double_pixel_data = 0x7FE00009;
 constexpr std::uint32_t pixel_data = 0x7FE00010;
 
 constexpr const char* too_deep = "damaged: its sequences are nested too deeply";
@@ -123,11 +125,12 @@ class Walk {
       levels_.pop_back();
       return true;
     }
-    if (levels_.size() == 1 && tag >= pixel_data) {
+    if (levels_.size() == 1 && tag >= float_pixel_data) {
       shape_.header_end = start;
-      if (tag == pixel_data) {
+      const bool is_float = tag == float_pixel_data || tag == double_pixel_data;
+      if (tag == pixel_data || is_float) {
         const Head is = head();
-        shape_.pixels = PixelElement{at_, is.length, is.vr};
+        shape_.pixels = PixelElement{at_, is.length, is_float, is.vr};
       }
       return false;
     }

@@ -33,6 +33,7 @@ struct PixelElement {
   static constexpr std::uint32_t undefined_length = 0xFFFFFFFF;  ///< compressed pixels, in fragments
   std::uint64_t value_at = 0;                                    ///< bytes of the dataset before its value
   std::uint32_t length = 0;                                      ///< of its value, as claimed
+  bool is_float = false;                                         ///< FloatPixelData or DoubleFloatPixelData
   std::string vr;                                                ///< empty where the dataset has none
 };
 

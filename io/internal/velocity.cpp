@@ -124,7 +124,10 @@ Series joined(const Group& group) {
     series.uid += (series.uid.empty() ? "" : "+") + part->uid;
     series.description += (part == group.series.front() ? " " : ", ") + part->description;
     series.files.insert(series.files.end(), part->files.begin(), part->files.end());
-    series.warnings.insert(series.warnings.end(), part->warnings.begin(), part->warnings.end());
+    for (const std::string& warning : part->warnings) {
+      const bool is_new = std::find(series.warnings.begin(), series.warnings.end(), warning) == series.warnings.end();
+      if (is_new) series.warnings.push_back(warning);
+    }
   }
   series.frames_per_position = static_cast<int>(group.directions[0].times.size());
   series.frame_names = group.directions[0].names;
@@ -162,16 +165,21 @@ std::optional<VelocityEncoding> velocity_of(const std::vector<double>& direction
   return velocity;
 }
 
-void read_classic_velocity(DcmItem& dataset, const PixelFormat& format, Plane& plane) {
+void read_classic_velocity(DcmItem& dataset, FileHeader& header, Plane& plane) {
   std::string& label = plane.labels[static_cast<std::size_t>(Label::velocity_encoding)];
   const std::string unit = text_of(dataset, DCM_RescaleType);
   plane.velocity = velocity_of(numbers_of(dataset, DCM_VelocityEncodingDirection),
-                               number_of(dataset, DCM_VelocityEncodingMaximumValue), unit, plane, format);
+                               number_of(dataset, DCM_VelocityEncodingMaximumValue), unit, plane, header.format);
   if (plane.velocity) {
     label = text_of(dataset, DCM_VelocityEncodingDirection);
   } else if (const auto named = encoding_in(text_of(dataset, DCM_SequenceName))) {
-    plane.velocity = velocity_of(named->direction, named->venc, unit, plane, format);
-    if (plane.velocity) label = text_of(dataset, DCM_SequenceName);
+    plane.velocity = velocity_of(named->direction, named->venc, unit, plane, header.format);
+    if (!plane.velocity) return;
+    label = text_of(dataset, DCM_SequenceName);
+    header.remarks.emplace_back(
+        "which way its velocities point is read from the sequence's name and not confirmed: the flow may be reversed, "
+        "so "
+        "check it in a vessel where it is known");
   }
 }
 

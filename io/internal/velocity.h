@@ -22,8 +22,9 @@ std::optional<VelocityEncoding> velocity_of(const std::vector<double>& direction
                                             const PixelFormat& format);
 
 /// The velocity encoding of a single-frame image: by the standard's attributes, or by the sequence's name as Siemens
-/// writes it (..._v150fh: 150 cm/s, feet to head), which also becomes the plane's label.
-void read_classic_velocity(DcmItem& dataset, const PixelFormat& format, Plane& plane);
+/// writes it (..._v150fh: 150 cm/s, feet to head), which also becomes the plane's label. No public document says which
+/// sign Siemens gives to a flow along these letters: it is taken as they read, and `header` remarks on it.
+void read_classic_velocity(DcmItem& dataset, FileHeader& header, Plane& plane);
 
 /// Series (or frames of one) of one study and one grid that hold velocities along three independent directions, as
 /// often each, joined: one frame a time.

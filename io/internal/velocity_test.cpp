@@ -71,6 +71,11 @@ TEST(Velocity, NamedByTheSequenceIsJoined) {
   const Catalogue found = find_in(folder);
   EXPECT_THAT(found.series, SizeIs(3));
   ASSERT_THAT(found.velocity_fields, SizeIs(1));
+  // What cannot be known from public documents is said: once of the field, and of each series.
+  EXPECT_THAT(found.velocity_fields[0].warnings, testing::Contains(testing::HasSubstr("may be reversed")).Times(1));
+  for (const Series& series : found.series) {
+    EXPECT_THAT(series.warnings, testing::Contains(testing::HasSubstr("may be reversed")));
+  }
   const VectorComponents vectors = *load(found.velocity_fields[0]).vectors;
   Vec3 along;
   for (int n = 0; n < 3; ++n) along[n] = vectors.along[static_cast<std::size_t>(n)]->value_at(2, 2, 1);
