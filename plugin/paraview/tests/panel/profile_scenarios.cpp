@@ -45,6 +45,21 @@ void profile_follows_an_edit() {
       "and its undoing", [&] { return largest_told() == before; }, 10);
   expect(halved < before, "less is felt of a boundary half as strong");
 
+  QWidget& curve = find<QWidget>("palpateStrengthCurveChart");
+  scroll_to(find<QWidget>("palpateStrengthCurveValue"));
+  wait_ms(500);
+  const QPoint node = curve.rect().center();
+  drag(curve, node, node, true);  // where there is none a click makes one
+  wait_for(
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
+  wait_ms(500);
+  const QString at_rest = label("palpateProfileReadout");
+  drag(curve, node, node + QPoint(0, curve.height() / 4), false);
+  wait_for(
+      "the profile follows a node that is being dragged", [&] { return label("palpateProfileReadout") != at_rest; },
+      10);
+  let_go();
+
   QWidget& chart = find<QWidget>("palpateProfileChart");
   scroll_to(chart);
   move_pointer(chart, chart.rect().center());
