@@ -1,46 +1,22 @@
 #include "palpate/io/load.h"
 
 #include <algorithm>
-#include <cstring>
-#include <functional>
-#include <limits>
 #include <mutex>
-#include <numeric>
 #include <optional>
-#include <span>
-#include <tuple>
-#include <type_traits>
 
 #include "palpate/io/errors.h"
 #include "palpate/io/internal/pages.h"
 #include "palpate/io/internal/parallel.h"
-#include "palpate/io/internal/pixels.h"
 #include "palpate/io/internal/series_source.h"
+#include "palpate/io/internal/slice_reader.h"
 #include "palpate/io/internal/stacking.h"
 #include "palpate/io/internal/velocity.h"
 
 namespace palpate::io {
 namespace {
 
-using Slices = std::vector<SeriesSource::Slice>;
-
-/// What is to be read: the rescaled values of a frame, or the velocities (m/s) that they stand for.
-struct Reading {
-  const SeriesSource& source;
-  const SeriesSource::Frame& frame;
-  bool as_velocity = false;
-
-  struct Rescale {
-    double slope = 1;
-    double intercept = 0;
-    bool operator==(const Rescale&) const = default;
-  };
-  Rescale rescale_of(const SeriesSource::Slice& slice) const {
-    const internal::Plane& plane = source.plane_of(slice);
-    if (as_velocity) return {plane.velocity->slope, plane.velocity->intercept};
-    return {plane.slope, plane.intercept};
-  }
-};
+using internal::Reading;
+using internal::Slices;
 
 std::string name_of(const Series& series) {
   return "series " + series.uid + (series.description.empty() ? "" : " (" + series.description + ")");
@@ -61,9 +37,9 @@ Storage storage_for(const Reading& reading) {
   bool any_signed = false;
   bool any_large = false;
   for (const auto& slice : reading.frame.slices) {
-    const internal::PixelFormat& format = reading.source.file_of(slice).format;
-    any_signed |= format.is_signed;
-    any_large |= !format.is_signed && format.bits_stored == 16;
+    const internal::FileHeader& file = reading.source.file_of(slice);
+    any_signed |= file.format.is_signed;
+    any_large |= !file.format.is_signed && (file.format.bits_stored == 16 || file.padding_is_wide());
   }
   if (!any_signed) return Storage::as_unsigned;
   return any_large ? Storage::as_float : Storage::as_signed;
@@ -86,106 +62,6 @@ Volume::Voxels allocate(Storage storage, std::size_t count, int threads) {
       return allocated<std::uint16_t>(count, threads);
     default:
       return allocated<float>(count, threads);
-  }
-}
-
-// Padding of a volume of floats: far below any value, so that one range holds for slices of any rescale.
-constexpr float float_padding = std::numeric_limits<float>::lowest();
-
-void rescale(const internal::FileHeader& file, const Reading::Rescale& by, std::span<const std::uint16_t> stored,
-             std::span<float> values) {
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    const double v = file.format.is_signed ? static_cast<std::int16_t>(stored[i]) : stored[i];
-    const bool padded = file.padding && v >= file.padding->first && v <= file.padding->second;
-    values[i] = padded ? float_padding : static_cast<float>(by.slope * v + by.intercept);
-  }
-}
-
-// Stored values of a slice -> its place in the volume, rescaled where the volume is of floats.
-void place_slice(const Reading& reading, const SeriesSource::Slice& slice, std::span<const std::uint16_t> frame,
-                 std::size_t at, Volume::Voxels& voxels) {
-  const internal::FileHeader& file = reading.source.file_of(slice);
-  const internal::Plane& plane = reading.source.plane_of(slice);
-  const auto columns = static_cast<std::size_t>(file.columns);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(file.rows); ++row) {
-    const auto stored = frame.subspan(
-        (plane.tile_row + row) * static_cast<std::size_t>(file.format.columns) + plane.tile_column, columns);
-    std::visit(
-        [&](auto& v) {
-          const auto target = std::span(v).subspan(at + row * columns, columns);
-          if constexpr (std::is_same_v<std::decay_t<decltype(v[0])>, float>) {
-            rescale(file, reading.rescale_of(slice), stored, target);
-          } else {
-            std::memcpy(target.data(), stored.data(), target.size_bytes());
-          }
-        },
-        voxels);
-  }
-}
-
-// Where a whole frame is one slice of 16-bit voxels, it is decoded in place.
-std::span<std::uint16_t> in_place(const internal::FileHeader& file, std::size_t at, Volume::Voxels& voxels) {
-  if (file.columns != file.format.columns || file.rows != file.format.rows) return {};
-  return std::visit(
-      [&](auto& v) -> std::span<std::uint16_t> {
-        if constexpr (sizeof(v[0]) != 2) return {};
-        const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
-        return {reinterpret_cast<std::uint16_t*>(v.data() + at), size};  // signed and unsigned shorts may alias
-      },
-      voxels);
-}
-
-// Slices that come from one file, by frame: the file is opened once and a mosaic is decoded once.
-struct Unit {
-  std::vector<std::size_t> slices;  // indices into the frame's slices
-};
-
-std::vector<Unit> units_of(const SeriesSource& source, const Slices& slices) {
-  constexpr std::size_t most = 16;  // slices a unit, so that all cores share a multi-frame file
-  std::vector<std::size_t> order(slices.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::tuple(slices[a].file, slices[a].plane) < std::tuple(slices[b].file, slices[b].plane);
-  });
-  std::vector<Unit> units;
-  for (const std::size_t k : order) {
-    const bool same_file = !units.empty() && slices[units.back().slices.front()].file == slices[k].file;
-    const bool same_frame =
-        same_file && source.plane_of(slices[units.back().slices.back()]).frame == source.plane_of(slices[k]).frame;
-    if (!same_frame && !(same_file && units.back().slices.size() < most)) units.emplace_back();
-    units.back().slices.push_back(k);
-  }
-  return units;
-}
-
-// Reads a unit's slices; failed(k, reason) for those that cannot be read.
-void read_unit(const Reading& reading, const Unit& unit, Volume::Voxels& voxels,
-               const std::function<void(std::size_t, const char*)>& failed) {
-  const SeriesSource& source = reading.source;
-  const Slices& slices = reading.frame.slices;
-  const internal::FileHeader& file = source.file_of(slices[unit.slices.front()]);
-  const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
-  std::optional<internal::PixelReader> reader;
-  std::vector<std::uint16_t> frame;
-  std::optional<std::uint32_t> held;
-  for (const std::size_t k : unit.slices) {
-    try {
-      if (!reader) reader.emplace(file);
-      const std::uint32_t wanted = source.plane_of(slices[k]).frame;
-      if (const auto target = in_place(file, k * size, voxels); !target.empty()) {
-        reader->read(wanted, target);
-        continue;
-      }
-      if (held != wanted) {
-        held.reset();
-        frame.resize(static_cast<std::size_t>(file.format.columns) * static_cast<std::size_t>(file.format.rows));
-        reader->read(wanted, frame);
-        held = wanted;
-      }
-      place_slice(reading, slices[k], frame, k * size, voxels);
-    } catch (const std::exception& error) {
-      failed(k, error.what());
-    }
   }
 }
 
@@ -245,7 +121,7 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   if (storage == Storage::as_float) {
     const bool any_padding = std::ranges::any_of(
         whole.frame.slices, [&](const auto& slice) { return source.file_of(slice).padding.has_value(); });
-    if (any_padding) volume.padding = {float_padding, float_padding};
+    if (any_padding) volume.padding = {internal::float_padding, internal::float_padding};
   } else {
     const Reading::Rescale by = reading.rescale_of(slices.front());
     volume.slope = by.slope;
@@ -260,10 +136,10 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
     failed.push_back(k);
     volume.warnings.push_back(source.file_of(slices[k]).path.filename().string() + " is left out: " + why);
   };
-  const std::vector<Unit> units = units_of(source, slices);
+  const std::vector<internal::SliceUnit> units = internal::slice_units(reading);
   internal::parallel_for(
-      units.size(), [&](std::size_t u) { read_unit(reading, units[u], volume.voxels, note_failure); }, options.progress,
-      options.threads);
+      units.size(), [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure); },
+      options.progress, options.threads);
   if (failed.size() == slices.size()) throw DicomError(name + " cannot be read: " + volume.warnings.front());
 
   std::sort(failed.begin(), failed.end());
