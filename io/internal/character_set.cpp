@@ -5,6 +5,7 @@
 #include <iconv.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -51,7 +52,7 @@ std::string latin1_to_utf8(std::string_view text) {
 // The C library's converter, which keeps the escape sequences' state.
 std::optional<std::string> converted(std::string text, const char* from) {
   const iconv_t converter = ::iconv_open("UTF-8", from);
-  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
+  if (reinterpret_cast<std::intptr_t>(converter) == -1) return std::nullopt;
   std::string utf8(4 * text.size() + 4, '\0');
   char* in = text.data();
   char* out = utf8.data();

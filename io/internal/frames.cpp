@@ -88,6 +88,7 @@ std::size_t told_apart(const SeriesSource& source, const Positions& positions, c
     std::set<std::vector<std::string>> keys;
     for (const Slice& slice : position) {
       std::vector<std::string> key;
+      key.reserve(labels.size());
       for (const std::size_t label : labels) key.push_back(source.plane_of(slice).labels[label]);
       keys.insert(std::move(key));
     }
