@@ -94,7 +94,7 @@ void draw_curve(Canvas& canvas, const Curve& curve, const Scale& x, const Scale&
   }
   switch (curve.style) {
     case Curve::Style::line:
-      canvas.line(points, curve.colour, curve.width);
+      canvas.line(points, curve.colour, curve.width, curve.dashed);
       break;
     case Curve::Style::points:
       for (const Point& point : points) {
@@ -115,17 +115,20 @@ void draw_curve(Canvas& canvas, const Curve& curve, const Scale& x, const Scale&
 }
 
 /// In the title's line, from the right: nothing of the curves is hidden.
-void draw_legend(Canvas& canvas, const Chart& chart, double right, double baseline) {
+/// What does not fit beside the title is left out: the marks name it.
+void draw_legend(Canvas& canvas, const Chart& chart, double left, double right, double baseline) {
   for (auto curve = chart.curves.rbegin(); curve != chart.curves.rend(); ++curve) {
     if (curve->label.empty()) {
       continue;
     }
+    if (right - canvas.text_width(curve->label, 12) - 26 < left) return;
     canvas.text({right, baseline}, curve->label, 12, colours::black, Anchor::right);
     right -= canvas.text_width(curve->label, 12) + 6;
     if (curve->style == Curve::Style::points) {
       canvas.disc({right - 8, baseline - 4}, 4, curve->colour);
     } else {
-      canvas.line(std::array{Point{right - 20, baseline - 4}, Point{right, baseline - 4}}, curve->colour, 3);
+      canvas.line(std::array{Point{right - 20, baseline - 4}, Point{right, baseline - 4}}, curve->colour, 3,
+                  curve->dashed);
     }
     right -= 38;
   }
@@ -184,7 +187,10 @@ void draw_panel(Canvas& canvas, const Chart& chart, double top, double height, c
     }
   }
   canvas.unclip();
-  if (style.titled) draw_legend(canvas, chart, corner.x + size.x, corner.y - 12);
+  if (style.titled) {
+    const double title = canvas.text_width(chart.title, style.text + 2);
+    draw_legend(canvas, chart, corner.x + title + 12, corner.x + size.x, corner.y - 12);
+  }
   canvas.rectangle(corner, size, colours::black, false);
   canvas.text({corner.x + size.x / 2, top + height - 0.8 * style.text}, chart.x.label, style.text, colours::black,
               Anchor::centre);

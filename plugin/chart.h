@@ -26,6 +26,7 @@ struct Curve {
   Colour colour = colours::blue;
   Style style = Style::line;
   double width = 1.8;  ///< of the line, or radius of the points: pixels
+  bool dashed = false;
 };
 
 /// A dashed line across the panel with a word beside it.

@@ -86,7 +86,8 @@ void run(const Arguments& arguments) {
   const Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, arguments.speed),
                         .plan = felt.plan,
                         .scene = scene,
-                        .unit = volume->unit};
+                        .unit = volume->unit,
+                        .limit_n = scene.limits.force_n};
   if (!arguments.picture.empty()) write_png(charts_of(profile), arguments.picture);
   if (!arguments.table.empty()) write_csv(profile, arguments.table);
   if (arguments.json) {

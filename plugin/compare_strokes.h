@@ -19,10 +19,11 @@ struct Comparison {
   double most_apart_mm = 0;               ///< of all
   double largest_difference_n = 0;        ///< of the forces
   double largest_difference_at_mm = 0;    ///< where
-  double mean_difference_n = 0;           ///< root of the mean square
+  double mean_difference_n = 0;           ///< mean of its size over the way
 };
 
-/// The two ways are cut into steps of their length, so that neither speed nor rest counts, and coupled in their order
+/// The two ways are cut into steps of half a millimetre of the hand, which is more than it trembles, so that neither
+/// speed nor rest counts, and coupled in their order
 /// so that the sum of the squared distances of what is coupled is least (dynamic time warping: Sakoe and Chiba, IEEE
 /// Trans. ASSP 26, 1978). The force of a step is the mean over its frames; of several steps of the second that are
 /// coupled with one of the first, their mean.

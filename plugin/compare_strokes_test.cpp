@@ -26,8 +26,9 @@ std::shared_ptr<const io::Volume> ball(double radius_mm) {
 
 struct Press {
   double strength_n = 1;
-  double slower = 1;   ///< times as long
-  double aside_m = 0;  ///< to the right, in the hand
+  double slower = 1;    ///< times as long
+  double rest_s = 0.5;  ///< pressed
+  double aside_m = 0;   ///< to the right, in the hand
 };
 
 /// Down on to the top of the ball and up again.
@@ -39,8 +40,8 @@ Recording record(const std::shared_ptr<const io::Volume>& volume, const Press& p
   stylus->follow(std::vector<device::Waypoint>{{.time = 0, .position = {x, 0.034, 0}},
                                                {.time = 0.5 * s, .position = {x, 0.034, 0}},
                                                {.time = 1.5 * s, .position = {x, 0.022, 0}},
-                                               {.time = 2 * s, .position = {x, 0.022, 0}},
-                                               {.time = 3 * s, .position = {x, 0.034, 0}}});
+                                               {.time = 1.5 * s + press.rest_s, .position = {x, 0.022, 0}},
+                                               {.time = 2.5 * s + press.rest_s, .position = {x, 0.034, 0}}});
   const device::Specification specification = stylus->specification();
   const auto file = fresh_path("press.h5");
   run_session({.scene = scene,
@@ -48,7 +49,7 @@ Recording record(const std::shared_ptr<const io::Volume>& volume, const Press& p
                .scan_hash = hash_of(*volume),
                .unit = volume->unit,
                .stylus = stylus,
-               .seconds = 3 * s,
+               .seconds = 2.5 * s + press.rest_s,
                .at_clock_pace = false},
               file);
   return read_recording(file);
@@ -139,6 +140,20 @@ TEST(CompareStrokes, SpeedDoesNotCount) {
   // The simulated hand is a spring: it lags by what its speed and the force ask of it.
   EXPECT_LT(comparison.most_apart_mm, 2);
   EXPECT_LT(comparison.mean_difference_n, 0.15 * largest(comparison.first_n));
+}
+
+TEST(CompareStrokes, RestDoesNotCount) {
+  const auto volume = ball(25);
+  const RecordedSession once(record(volume, {}), *volume), resting(record(volume, {.rest_s = 10}), *volume);
+  const double way_mm = compare_strokes(once, once).along_mm.back();
+  const Comparison comparison = compare_strokes(resting, once);
+  EXPECT_NEAR(comparison.along_mm.back(), way_mm, 0.1 * way_mm) << "ten seconds of tremor make no way";
+  double deepest_mm = 0;
+  for (std::size_t n = 0; n < once.size(); ++n) {
+    deepest_mm = std::max(deepest_mm, glm::distance(once.probe_mm(n), once.probe_mm(0)));
+  }
+  EXPECT_NEAR(way_mm, 2 * deepest_mm, 0.15 * way_mm) << "down and up";
+  EXPECT_LT(comparison.mean_difference_n, 0.1 * largest(comparison.first_n));
 }
 
 TEST(CompareStrokes, AStrongerBoundaryShowsWhereItIs) {

@@ -109,14 +109,15 @@ void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optio
   }
 }
 
-void LiveSession::end() noexcept {
+std::optional<RecorderStatus> LiveSession::end() noexcept {
   servo_.reset();
   session_.reset();
-  recorder_.reset();  // writes what is left
+  auto recorded = stop_recording();  // writes what is left
   stylus_.reset();
+  return recorded;
 }
 
-void LiveSession::disconnect() noexcept {
+std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
   if (servo_) {
     release();
     Frame frame;
@@ -129,7 +130,7 @@ void LiveSession::disconnect() noexcept {
       if (zero && ms > 2) break;  // the release has been heard
     }
   }
-  end();
+  return end();
 }
 
 void LiveSession::feel() noexcept {

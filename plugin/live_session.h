@@ -47,8 +47,9 @@ class LiveSession {
   /// Opens the stylus; the force is ramped up. Throws what Stylus::open() throws, and std::runtime_error without a
   /// scan.
   void connect(std::shared_ptr<device::Stylus> stylus);
-  /// The force falls to zero, then the stylus is closed and the recording ends. Blocks for a tenth of a second.
-  void disconnect() noexcept;
+  /// The force falls to zero, then the stylus is closed and the recording ends, if there is one: its status is
+  /// returned. Blocks for a tenth of a second.
+  std::optional<RecorderStatus> disconnect() noexcept;
   bool is_connected() const noexcept { return servo_ != nullptr; }
   const device::Specification& specification() const noexcept { return specification_; }
 
@@ -76,7 +77,7 @@ class LiveSession {
   SceneRecord record_of_scene(std::uint32_t epoch, double change_s) const;
   void publish(double change_s);
   void begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file);
-  void end() noexcept;
+  std::optional<RecorderStatus> end() noexcept;
 
   std::shared_ptr<const io::Volume> volume_;
   modes::Scene scene_;

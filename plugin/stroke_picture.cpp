@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/plugin/live_view.h"
 #include "palpate/plugin/summary.h"
@@ -33,26 +34,34 @@ std::string who_pushes(const Profile& profile, const StrokePoint& point) {
   return fmt::format("{} ({})", display_name(profile.scene, *point.boundary), solver::name_of(*point.primitive));
 }
 
-/// A curve for each boundary and kind of primitive that pushes, and one for where none does.
+/// A curve for each boundary and kind of primitive that pushes, and one for where none does. Of one boundary the second
+/// kind is dashed.
 std::vector<Curve> force_curves(const Profile& profile, const std::vector<double>& depths) {
   const auto empty = [&](const std::string& label, const Colour& colour) {
     return Curve{.label = label, .x = depths, .y = std::vector<double>(depths.size(), not_a_number), .colour = colour};
   };
-  std::map<std::string, Curve> by_pusher;
-  by_pusher.emplace("", empty("", colours::grey));
+  Curve none = empty("", colours::grey);
+  std::map<std::pair<std::size_t, solver::PrimitiveType>, Curve> by_pusher;
   for (std::size_t n = 0; n < depths.size(); ++n) {
     const StrokePoint& point = profile.stroke[n];
-    std::string pusher;
+    Curve* curve = &none;
     if (point.boundary) {
-      pusher = who_pushes(profile, point);
-      by_pusher.try_emplace(pusher, empty(pusher, colour_of(profile.scene, *point.boundary)));
+      const std::pair pusher{*point.boundary, *point.primitive};
+      auto found = by_pusher.find(pusher);
+      if (found == by_pusher.end()) {
+        const bool second = std::any_of(by_pusher.begin(), by_pusher.end(),
+                                        [&](const auto& other) { return other.first.first == pusher.first; });
+        found =
+            by_pusher.emplace(pusher, empty(who_pushes(profile, point), colour_of(profile.scene, pusher.first))).first;
+        found->second.dashed = second;
+      }
+      curve = &found->second;
     }
-    Curve& curve = by_pusher.at(pusher);
-    curve.y[n] = glm::length(point.force_n);
+    curve->y[n] = glm::length(point.force_n);
     // The next stretch begins where this one ends, so that the line has no gaps.
-    if (n > 0) curve.y[n - 1] = glm::length(profile.stroke[n - 1].force_n);
+    if (n > 0) curve->y[n - 1] = glm::length(profile.stroke[n - 1].force_n);
   }
-  std::vector<Curve> curves;
+  std::vector<Curve> curves{std::move(none)};
   for (auto& [pusher, curve] : by_pusher) curves.push_back(std::move(curve));
   return curves;
 }
@@ -60,7 +69,10 @@ std::vector<Curve> force_curves(const Profile& profile, const std::vector<double
 /// What has a name: the scene's tissues, or CT's.
 std::string tissue_of(const Profile& profile, double value) {
   if (!std::isfinite(value)) return {};
-  if (profile.scene.tissues.empty() && profile.unit != "HU") return {};
+  const bool held =
+      std::any_of(profile.scene.tissues.begin(), profile.scene.tissues.end(),
+                  [&](const modes::Tissue& tissue) { return value >= tissue.low && value <= tissue.high; });
+  if (!held && profile.unit != "HU") return {};
   return tissue_name(profile.scene, profile.unit, value);
 }
 
@@ -84,6 +96,14 @@ std::vector<Band> tissues_crossed(const Profile& profile, const std::vector<doub
 
 double depth_of(const Profile& profile, std::size_t point) {
   return glm::distance(profile.stroke[point].position_mm, profile.stroke.front().position_mm);
+}
+
+Profile thinned(const Profile& profile, std::size_t most) {
+  const std::size_t stride = std::max<std::size_t>(1, profile.stroke.size() / most);
+  Profile thin{
+      .stroke = {}, .plan = profile.plan, .scene = profile.scene, .unit = profile.unit, .limit_n = profile.limit_n};
+  for (std::size_t n = 0; n < profile.stroke.size(); n += stride) thin.stroke.push_back(profile.stroke[n]);
+  return thin;
 }
 
 std::vector<Chart> charts_of(const Profile& profile) {

@@ -2,6 +2,7 @@
 
 /// A stroke for people: as charts, as a table, and a point of it in words.
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,7 +20,11 @@ struct Profile {
   std::shared_ptr<const modes::Plan> plan;
   modes::Scene scene;
   std::string unit;
+  double limit_n = 0;  ///< that the stylus is never fed more than: drawn across the forces
 };
+
+/// Every so many points, that at most about `most` are left: what a chart on a screen can show.
+Profile thinned(const Profile& profile, std::size_t most);
 
 /// How far the probe has come along the stroke, mm.
 double depth_of(const Profile& profile, std::size_t point);

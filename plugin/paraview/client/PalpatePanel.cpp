@@ -50,6 +50,7 @@ struct PalpatePanel::Parts {
   void adopt_state();
   void show_scan(const std::shared_ptr<const io::Volume>& volume);
   void leave_views();
+  void read_opacity();
   void study(const std::shared_ptr<const io::Volume>& volume);
   void colour_views();
   void look(const Look& seen);
@@ -59,6 +60,7 @@ struct PalpatePanel::Parts {
   Touching touching;
   StylusViews views;
   Fold* scan_fold = nullptr;
+  Fold* recordings_fold = nullptr;
   ScanSection* scan = nullptr;
   TissuesSection* tissues = nullptr;
   StylusSection* stylus = nullptr;
@@ -71,7 +73,8 @@ struct PalpatePanel::Parts {
   bool edited = false;     // since the scan was shown
   bool proposing = false;  // what is being edited is the panel's own doing
   double low = 0, high = 1;
-  ScanLoader studies;  // last: its thread is to end before all that its callbacks use
+  std::uint64_t followed = 0;  // last frame of a recording that the slices followed
+  ScanLoader studies;          // last: its thread is to end before all that its callbacks use
 };
 
 void PalpatePanel::Parts::build() {
@@ -102,7 +105,8 @@ void PalpatePanel::Parts::build() {
   profile = new ProfileSection(touching, model);
   column->addWidget(new Fold(tr("Force profile"), QStringLiteral("palpateProfileSection"), profile, false, content));
   recordings = new RecordingsSection(touching);
-  column->addWidget(new Fold(tr("Recordings"), QStringLiteral("palpateRecordingsSection"), recordings, false, content));
+  recordings_fold = new Fold(tr("Recordings"), QStringLiteral("palpateRecordingsSection"), recordings, false, content);
+  column->addWidget(recordings_fold);
   auto* const about = new QLabel(
       tr("Palpate %1. Research software, not a medical device.").arg(QStringLiteral(PALPATE_VERSION)), content);
   about->setObjectName(QStringLiteral("palpateAbout"));
@@ -121,8 +125,13 @@ void PalpatePanel::Parts::build() {
 
   QObject::connect(scan, &ScanSection::closing, &dock, [this] { leave_views(); });
   QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const auto& volume) { show_scan(volume); });
+  QObject::connect(&touching, &Touching::recorded, recordings, [this](const QString& file) {
+    recordings_fold->set_open(true);
+    recordings->open(file);
+  });
   QObject::connect(profile, &ProfileSection::picking, &dock, [this](bool on) {
     touching.keep_mouse_off(on);
+    if (on) read_opacity();  // it may have been edited in ParaView since
     const auto pick = on ? [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); }
                          : std::function<void(Pick, const glm::dvec3&)>{};
     scan->views().set_pick(pick);
@@ -137,6 +146,7 @@ void PalpatePanel::Parts::build() {
   // The threads end before ParaView goes, and before a server takes the views away.
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
     studies.cancel();
+    QObject::disconnect(&touching, &Touching::recorded, recordings, nullptr);  // nobody looks at it any more
     touching.disconnect_stylus();
   });
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::aboutToRemoveServer,
@@ -178,6 +188,7 @@ void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& vol
   profile->set_views(shown);
   recordings->set_views(shown);
   views.set_views(shown);  // last: the stylus is drawn over the paths
+  read_opacity();
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
   low = lattice.values.low;
   high = lattice.values.high;
@@ -217,6 +228,17 @@ void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume)
       });
 }
 
+/// What is seen of the volume, as it is shown now.
+void PalpatePanel::Parts::read_opacity() {
+  if (!scan->source()) return;
+  for (const ClinicalView& one : find_clinical_views()) {
+    if (one.kind != ViewKind::volume) continue;
+    if (pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view)) {
+      views.set_opacity(opacity_of(*shown->getProxy()));
+    }
+  }
+}
+
 void PalpatePanel::Parts::colour_views() {
   SCOPED_UNDO_EXCLUDE();  // follows from the scene
   if (!scan->source()) return;
@@ -224,16 +246,17 @@ void PalpatePanel::Parts::colour_views() {
     if (one.kind != ViewKind::volume) continue;
     pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
     if (!shown) continue;
-    if (auto opacity = colour_volume(*shown->getProxy(), model.scene(), low, high); !opacity.empty()) {
-      views.set_opacity(std::move(opacity));
-    }
+    colour_volume(*shown->getProxy(), model.scene(), low, high);
     one.view->render();
   }
+  read_opacity();
 }
 
 void PalpatePanel::Parts::look(const Look& seen) {
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
-  if (seen.is_seen() && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
+  // A recording that stands still does not keep the slices from being leafed through.
+  const bool moved = seen.connected || std::exchange(followed, seen.frame.index) != seen.frame.index;
+  if (seen.is_seen() && moved && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
   views.show(seen);
 }
 
@@ -244,7 +267,9 @@ PalpatePanel::PalpatePanel(QWidget* parent)
   QCoreApplication::instance()->installEventFilter(this);
 }
 
-PalpatePanel::~PalpatePanel() = default;
+PalpatePanel::~PalpatePanel() {
+  delete widget();  // the sections lean on the parts
+}
 
 bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
   const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;

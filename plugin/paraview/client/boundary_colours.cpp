@@ -34,7 +34,7 @@ double felt_value(const modes::Mode& mode) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high) {
+void colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high) {
   std::vector<Coat> coats;
   for (const modes::Mode& mode : scene.modes) {
     const double value = felt_value(mode);
@@ -43,7 +43,7 @@ std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::
   }
   vtkSMProxy* const colours = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
   vtkSMProxy* const opacity = vtkSMPropertyHelper(&representation, "ScalarOpacityFunction").GetAsProxy();
-  if (coats.empty() || !colours || !opacity) return {};
+  if (coats.empty() || !colours || !opacity) return;
   std::sort(coats.begin(), coats.end(), [](const Coat& a, const Coat& b) { return a.value < b.value; });
   // The outermost is a veil, the innermost solid, so that each is seen through those before it.
   for (std::size_t n = 0; n < coats.size(); ++n) {
@@ -51,10 +51,10 @@ std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::
   }
   const double ramp = 0.02 * (high - low);
   std::vector<double> points, rgb;
-  std::vector<OpacityNode> nodes;
   const auto add = [&](double value, double part) {
-    if (!nodes.empty() && value <= nodes.back().value) value = nodes.back().value + closest * (high - low);
-    nodes.push_back({value, part});
+    if (!points.empty() && value <= points[points.size() - 4]) {
+      value = points[points.size() - 4] + closest * (high - low);
+    }
     points.insert(points.end(), {value, part, 0.5, 0.0});
   };
   add(low, 0);
@@ -79,6 +79,19 @@ std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::
   vtkSMPropertyHelper(opacity, "Points").Set(points.data(), static_cast<unsigned>(points.size()));
   colours->UpdateVTKObjects();
   opacity->UpdateVTKObjects();
+}
+
+std::vector<OpacityNode> opacity_of(vtkSMProxy& representation) {
+  vtkSMProxy* const opacity = vtkSMPropertyHelper(&representation, "ScalarOpacityFunction").GetAsProxy();
+  if (!opacity) return {};
+  // Four numbers a node: value, opacity over the unit distance, and two of how the curve bends.
+  const std::vector<double> points = vtkSMPropertyHelper(opacity, "Points").GetDoubleArray();
+  const double unit_mm = vtkSMPropertyHelper(&representation, "ScalarOpacityUnitDistance", true).GetAsDouble();
+  std::vector<OpacityNode> nodes;
+  for (std::size_t n = 0; n + 3 < points.size(); n += 4) {
+    const double passes = std::clamp(1 - points[n + 1], 0.0, 1.0);
+    nodes.push_back({points[n], 1 - std::pow(passes, unit_mm > 0 ? 1 / unit_mm : 1)});
+  }
   return nodes;
 }
 

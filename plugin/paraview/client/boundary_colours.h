@@ -16,7 +16,10 @@ namespace palpate::plugin {
 double felt_value(const modes::Mode& mode);
 
 /// Colours and opacity of the volume's representation for those boundaries of the scene that are switched on; leaves
-/// them as they are where there is none. Returns the opacity, for each mm of the patient.
-std::vector<OpacityNode> colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high);
+/// them as they are where there is none.
+void colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high);
+
+/// The opacity of a volume's representation as it is shown now, for each mm of the patient.
+std::vector<OpacityNode> opacity_of(vtkSMProxy& representation);
 
 }  // namespace palpate::plugin

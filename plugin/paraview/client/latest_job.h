@@ -35,12 +35,16 @@ class LatestJob {
       start(std::move(work));
     }
   }
-  bool is_busy() const { return running_; }
+  /// What was asked for is not wanted any more.
+  void drop() {
+    next_.reset();
+    ++generation_;
+  }
 
  private:
   void start(Work work) {
     running_ = true;
-    pool_.start([this, work = std::move(work)] {
+    pool_.start([this, generation = generation_, work = std::move(work)] {
       std::shared_ptr<const Result> result;
       QString error;
       try {
@@ -49,17 +53,18 @@ class LatestJob {
         error = QString::fromUtf8(failure.what());
       }
       QMetaObject::invokeMethod(
-          &receiver_, [this, result, error] { finish(result, error); }, Qt::QueuedConnection);
+          &receiver_, [this, generation, result, error] { finish(generation, result, error); }, Qt::QueuedConnection);
     });
   }
-  void finish(const std::shared_ptr<const Result>& result, const QString& error) {
+  void finish(int generation, const std::shared_ptr<const Result>& result, const QString& error) {
     running_ = false;
     if (next_) start(*std::exchange(next_, std::nullopt));
-    done_(result, error);
+    if (generation == generation_) done_(result, error);
   }
 
   Done done_;
   bool running_ = false;
+  int generation_ = 0;
   std::optional<Work> next_;
   QObject receiver_;  // its end ends what was queued
   QThreadPool pool_;  // first to go

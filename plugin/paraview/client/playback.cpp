@@ -11,19 +11,20 @@ namespace palpate::plugin {
 
 void Playback::set_session(std::shared_ptr<const RecordedSession> session) {
   session_ = std::move(session);
-  playing_ = false;
+  playing_ = seen_ = false;
   at_s_ = 0;
 }
 
 void Playback::play() {
   if (!session_) return;
   if (at_s_ >= session_->duration_s()) at_s_ = 0;
-  playing_ = true;
+  playing_ = seen_ = true;
   clock_.start();
 }
 
 void Playback::seek(double seconds) {
   if (!session_) return;
+  seen_ = true;
   at_s_ = std::clamp(seconds, 0.0, session_->duration_s());
   if (playing_) clock_.start();
 }
@@ -43,7 +44,7 @@ void Playback::advance() {
 
 Look Playback::look(const std::string& unit) {
   Look look;
-  if (!session_) return look;
+  if (!session_ || !seen_) return look;
   advance();
   const std::size_t n = session_->frame_at(at_s_);
   const auto shares = session_->shares(n);

@@ -13,7 +13,7 @@ namespace palpate::plugin {
 
 class Playback {
  public:
-  /// Null: none. At its beginning, at rest.
+  /// Null: none. At its beginning, at rest, and not to be seen before it is played or put somewhere.
   void set_session(std::shared_ptr<const RecordedSession> session);
   const std::shared_ptr<const RecordedSession>& session() const { return session_; }
 
@@ -26,7 +26,7 @@ class Playback {
   void set_speed(double speed);
   double at_s() const { return at_s_; }
 
-  /// As far as it has come by now; nothing to be seen where there is no recording.
+  /// As far as it has come by now.
   Look look(const std::string& unit);
 
  private:
@@ -34,7 +34,7 @@ class Playback {
 
   std::shared_ptr<const RecordedSession> session_;
   double at_s_ = 0, speed_ = 1;
-  bool playing_ = false;
+  bool playing_ = false, seen_ = false;
   QElapsedTimer clock_;
 };
 

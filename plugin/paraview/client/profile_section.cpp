@@ -34,7 +34,7 @@ ProfileSection::ProfileSection(Touching& touching, SceneModel& model, QWidget* p
     : QWidget(parent),
       touching_(touching),
       path_(QColor(230, 80, 210)),
-      job_([this](auto profile, const QString& error) { show_profile(std::move(profile), error); }) {
+      job_([this](auto made, const QString& error) { show_profile(std::move(made), error); }) {
   setObjectName(QStringLiteral("palpateProfile"));
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -53,14 +53,14 @@ ProfileSection::ProfileSection(Touching& touching, SceneModel& model, QWidget* p
   save_ = add_save_buttons(
       *column, *this, QStringLiteral("Profile"),
       [this](bool table) -> std::function<void(const std::string&)> {
-        return [profile = profile_, table](const std::string& file) {
-          table ? write_csv(*profile, file) : write_png(charts_of(*profile), file);
+        return [made = made_, table](const std::string& file) {
+          table ? write_csv(made->profile, file) : write_png(charts_of(made->profile), file);
         };
       },
       [this](const QString& problem) { tell(problem, true); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { run(); });
   connect(&touching, &Touching::connection_changed, this, [this] { run(); });
-  show_profile(nullptr, {});
+  show_nothing({});
 }
 
 ProfileSection::~ProfileSection() = default;
@@ -126,6 +126,7 @@ void ProfileSection::pick(Pick what, const glm::dvec3& place) {
       if (glm::distance(*stroke_.from, place) > same_mm) stroke_.to = place;
       break;
     case Pick::let_go:
+      stroke_.to.reset();
       if (glm::distance(*stroke_.from, place) > same_mm) {
         stroke_.to = place;
         pick_->setChecked(false);
@@ -158,64 +159,98 @@ void ProfileSection::show_points(bool passing) {
   run();
 }
 
+void ProfileSection::showEvent(QShowEvent*) {
+  run();
+}
+
 void ProfileSection::run() {
   const LiveSession& live = touching_.live();
   if (!stroke_.is_whole() || !live.plan()) {
-    show_profile(nullptr, {});
+    show_nothing({});
     return;
   }
-  const bool same_scan = prepared_.volume == live.scan();
+  if (!isVisible()) return;  // folded away: nobody sees it
+  const double frames = 1e3 * glm::distance(*stroke_.from, *stroke_.to) / speed_->value();
+  constexpr double most_frames = 200000;
+  if (frames > most_frames) {
+    show_nothing(
+        tr("The stroke would take %1 s: choose nearer points or a higher speed, so that it takes at most %2 s.")
+            .arg(frames / 1e3, 0, 'f', 0)
+            .arg(most_frames / 1e3, 0, 'f', 0));
+    return;
+  }
+  const device::Specification stylus =
+      live.is_connected() ? live.specification() : device::SimulatedStylus().specification();
   try {
-    const glm::dvec3 reach = live.is_connected() ? live.specification().workspace_half_extent
-                                                 : device::SimulatedStylus().specification().workspace_half_extent;
-    prepared_ = {.felt = prepare(live.scene(), live.scan(), reach, same_scan ? prepared_ : Prepared{}),
+    prepared_ = {.felt = prepare(live.scene(), live.scan(), stylus.workspace_half_extent,
+                                 prepared_.volume == live.scan() ? prepared_ : Prepared{}),
                  .scene = live.scene(),
                  .volume = live.scan()};
   } catch (const std::exception& error) {
-    show_profile(nullptr, QString::fromUtf8(error.what()));
+    show_nothing(QString::fromUtf8(error.what()));
     return;
   }
   // The plan is the one that is felt: as stiff as the stylus stands, placed as it is held.
   job_.ask([plan = live.plan(), source = prepared_.felt.source, scene = live.scene(), unit = live.scan()->unit,
-            from = *stroke_.from, to = *stroke_.to, speed = speed_->value()] {
-    return Profile{.stroke = run_stroke(*plan, *source, from, to, speed), .plan = plan, .scene = scene, .unit = unit};
+            limit_n = limits_for(live.scene().limits, stylus).force, from = *stroke_.from, to = *stroke_.to,
+            speed = speed_->value()] {
+    return make({.stroke = run_stroke(*plan, *source, from, to, speed),
+                 .plan = plan,
+                 .scene = scene,
+                 .unit = unit,
+                 .limit_n = limit_n});
   });
 }
 
-void ProfileSection::show_profile(std::shared_ptr<const Profile> profile, const QString& error) {
-  if (!stroke_.is_whole()) profile.reset();  // taken back while it was made
-  profile_ = std::move(profile);
-  for (QPushButton* const button : save_.both) button->setEnabled(profile_ != nullptr);
-  if (!profile_) {
-    chart_->show_charts({}, 0, tr("Force against depth along a stroke through the scan, as it would be felt now"));
-    tell(error, !error.isEmpty());
-    return;
-  }
-  std::vector<Chart> charts = charts_of(*profile_);
-  charts.pop_back();  // how far the probe is ahead of the proxy follows from the force
-  chart_->show_charts(std::move(charts), depth_of(*profile_, profile_->stroke.size() - 1));
-  const auto contacts = contacts_of(profile_->stroke, *profile_->plan, met_n);
+ProfileSection::Made ProfileSection::make(Profile profile) {
+  constexpr std::size_t most_points = 2000;
+  Made made;
+  made.charts = charts_of(thinned(profile, most_points));
+  made.charts.pop_back();  // how far the probe is ahead of the proxy follows from the force
   QStringList met;
-  for (const Contact& contact : contacts) {
+  for (const Contact& contact : contacts_of(profile.stroke, *profile.plan, met_n)) {
     met << tr("%1 at %2 mm, up to %3 N")
-               .arg(QString::fromStdString(display_name(profile_->scene, contact.boundary)))
-               .arg(depth_of(*profile_, contact.first), 0, 'f', 1)
+               .arg(QString::fromStdString(display_name(profile.scene, contact.boundary)))
+               .arg(depth_of(profile, contact.first), 0, 'f', 1)
                .arg(contact.peak_n, 0, 'f', 2);
   }
-  tell(met.isEmpty() ? tr("No boundary is met.") : met.join(QStringLiteral("\n")), false);
+  made.met = met.isEmpty() ? tr("No boundary is met.") : met.join(QStringLiteral("\n"));
+  made.profile = std::move(profile);
+  return made;
+}
+
+void ProfileSection::show_profile(std::shared_ptr<const Made> made, const QString& error) {
+  if (!made || !stroke_.is_whole()) {
+    show_nothing(error);
+    return;
+  }
+  made_ = std::move(made);
+  for (QPushButton* const button : save_.both) button->setEnabled(true);
+  chart_->show_charts(made_->charts, depth_of(made_->profile, made_->profile.stroke.size() - 1));
+  tell(made_->met, false);
+}
+
+void ProfileSection::show_nothing(const QString& why) {
+  job_.drop();
+  made_.reset();
+  for (QPushButton* const button : save_.both) button->setEnabled(false);
+  chart_->show_charts({}, 0, tr("Force against depth along a stroke through the scan, as it would be felt now"));
+  tell(why, !why.isEmpty());
 }
 
 void ProfileSection::point_at(double depth_mm) {
-  if (!profile_ || std::isnan(depth_mm)) {
+  if (!made_) return;
+  if (std::isnan(depth_mm)) {
     chart_->set_cursor({});
-    if (profile_) show_profile(profile_, {});
+    tell(made_->met, false);
     return;
   }
-  const std::size_t last = profile_->stroke.size() - 1;
+  const Profile& profile = made_->profile;
+  const std::size_t last = profile.stroke.size() - 1;
   const auto point = static_cast<std::size_t>(
-      std::lround(std::clamp(depth_mm / depth_of(*profile_, last), 0.0, 1.0) * static_cast<double>(last)));
-  chart_->set_cursor(depth_of(*profile_, point));
-  tell(QString::fromStdString(point_in_words(*profile_, point)), false);
+      std::lround(std::clamp(depth_mm / depth_of(profile, last), 0.0, 1.0) * static_cast<double>(last)));
+  chart_->set_cursor(depth_of(profile, point));
+  tell(QString::fromStdString(point_in_words(profile, point)), false);
 }
 
 void ProfileSection::tell(const QString& text, bool problem) {

@@ -41,18 +41,30 @@ class ProfileSection : public QWidget {
  public slots:
   void pick(palpate::plugin::Pick what, const glm::dvec3& place);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   struct Stroke {
     std::optional<glm::dvec3> from, to;
     bool is_whole() const { return from && to && *from != *to; }
   };
 
+  /// A profile, and what of it is shown.
+  struct Made {
+    Profile profile;
+    std::vector<Chart> charts;
+    QString met;  ///< where which boundary is met
+  };
+  static Made make(Profile profile);
+
   QWidget* build_points();
   void set_point(std::optional<glm::dvec3> Stroke::*point, const glm::dvec3& place);
   void read_point(std::optional<glm::dvec3> Stroke::*point, const QLineEdit& field);
   void show_points(bool passing = false);
   void run();
-  void show_profile(std::shared_ptr<const Profile> profile, const QString& error);
+  void show_profile(std::shared_ptr<const Made> made, const QString& error);
+  void show_nothing(const QString& why);
   void point_at(double depth_mm);
   void tell(const QString& text, bool problem);
 
@@ -66,9 +78,9 @@ class ProfileSection : public QWidget {
   SaveButtons save_;
   Stroke stroke_;
   PathViews path_;
-  std::shared_ptr<const Profile> profile_;
+  std::shared_ptr<const Made> made_;
   Prepared prepared_;  // fields of its own: the servo's stay where the stylus is
-  LatestJob<Profile> job_;
+  LatestJob<Made> job_;
 };
 
 }  // namespace palpate::plugin

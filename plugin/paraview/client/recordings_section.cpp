@@ -111,7 +111,6 @@ RecordingsSection::RecordingsSection(Touching& touching, QWidget* parent)
     if (touching_.live().is_connected()) playback_.pause();
     show_player();
   });
-  connect(&touching, &Touching::recorded, this, [this](const QString& file) { open(file); });
   set_first({});
 }
 
@@ -156,7 +155,7 @@ QWidget* RecordingsSection::build_player() {
   });
   last->addWidget(compare_);
   auto* const close_button = add_tool_button(*last, *box, "palpateCloseRecording", QStringLiteral("✕"),
-                                             tr("Close the recordings"), [this] { set_first({}); });
+                                             tr("Close the recordings"), [this] { close_all(); });
   close_button->setAutoRaise(true);
   column->addLayout(last);
   return box;
@@ -185,7 +184,7 @@ QWidget* RecordingsSection::build_comparison() {
 void RecordingsSection::set_views(const std::vector<ClinicalView>& views) {
   first_path_.set_views(views);
   second_path_.set_views(views);
-  set_first({});
+  close_all();
 }
 
 void RecordingsSection::open(const QString& file) {
@@ -216,12 +215,13 @@ void RecordingsSection::read(const QString& file, bool second) {
 void RecordingsSection::take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second) {
   if (!opened) {
     tell(error, true);
-  } else if (opened->scan.lock() == touching_.live().scan()) {  // else another is shown by now
+  } else if (const auto scan = touching_.live().scan(); scan && opened->scan.lock() == scan) {  // else it has gone
     second ? set_second(*opened) : set_first(*opened);
   }
 }
 
 void RecordingsSection::set_first(Opened opened) {
+  second_job_.drop();
   first_ = std::move(opened);
   playback_.set_session(first_.session);
   const bool there = first_.session != nullptr;
@@ -240,7 +240,13 @@ void RecordingsSection::set_first(Opened opened) {
   show_player();
 }
 
+void RecordingsSection::close_all() {
+  first_job_.drop();
+  set_first({});
+}
+
 void RecordingsSection::set_second(Opened opened) {
+  compare_job_.drop();
   second_ = std::move(opened);
   show_comparison(nullptr, {});
   show_paths();
@@ -280,7 +286,6 @@ void RecordingsSection::show_force() {
 }
 
 void RecordingsSection::show_comparison(std::shared_ptr<const Comparison> both, const QString& error) {
-  if (!second_.session) both.reset();  // closed meanwhile
   both_ = std::move(both);
   comparison_->setVisible(both_ != nullptr);
   if (!error.isEmpty()) tell(error, true);

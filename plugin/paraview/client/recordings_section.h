@@ -45,6 +45,7 @@ class RecordingsSection : public QWidget {
   QWidget* build_comparison();
   void read(const QString& file, bool second);
   void take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second);
+  void close_all();
   void set_first(Opened opened);
   void set_second(Opened opened);
   void play_or_pause();

@@ -115,7 +115,8 @@ class SliceView::Mouse {
   bool pick(Pick what) {
     if (!owner_.window_->pick) return false;
     const int* const at = interactor_->GetEventPosition();
-    owner_.window_->pick(what, owner_.place_under(at[0], at[1]));
+    const auto pick = owner_.window_->pick;  // picking may end in the call
+    pick(what, owner_.place_under(at[0], at[1]));
     return true;
   }
 

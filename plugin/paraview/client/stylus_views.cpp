@@ -104,8 +104,12 @@ bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far)
   follow_scan();
   if (!values_) return false;
   const auto seen = first_seen(*values_, opacity_, near, far);
-  if (seen) pick_(what, *seen);
-  return seen || what != Pick::pressed;
+  if (!seen && what == Pick::pressed) return false;
+  if (seen) picked_mm_ = *seen;
+  // Beside what is seen a drag stays where it was. A copy is called, for picking may end in the call.
+  const auto pick = pick_;
+  pick(what, picked_mm_);
+  return true;
 }
 
 void StylusViews::show(const Look& look) {

@@ -49,6 +49,7 @@ class StylusViews {
   std::vector<std::unique_ptr<OneView>> views_;
   std::vector<OpacityNode> opacity_;
   std::function<void(Pick, const glm::dvec3&)> pick_;
+  glm::dvec3 picked_mm_{0};
   std::shared_ptr<const io::FieldSource> values_;  // of the scan
   std::shared_ptr<const io::Volume> values_of_;
   QElapsedTimer clock_;

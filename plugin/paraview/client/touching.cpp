@@ -84,6 +84,8 @@ void Touching::connect_stylus(const StylusChoice& choice) {
         make_stylus({.device = choice.device, .firmware = choice.firmware, .settings = choice.settings});
     simulated_ = std::dynamic_pointer_cast<device::SimulatedStylus>(stylus);
     live_.connect(stylus);
+    look_ = {};  // of a recording, perhaps
+    buttons_ = 0;
     before_ = now_ = live_.plan()->workspace;
     next_frame_ = 0;
     clutched_ = false;
@@ -105,13 +107,12 @@ void Touching::connect_stylus(const StylusChoice& choice) {
 }
 
 void Touching::disconnect_stylus() {
-  const bool recording = live_.recording().has_value();
-  live_.disconnect();
+  const auto recorded_now = live_.disconnect();
   simulated_.reset();
   clutched_ = false;
   look();
   emit connection_changed();
-  if (recording) emit recorded(recording_to_);
+  tell_recorded(recorded_now);
 }
 
 void Touching::feel() {
@@ -144,16 +145,19 @@ void Touching::record(const std::string& file) {
 
 void Touching::stop_recording() {
   try {
-    if (const auto status = live_.stop_recording()) {
-      emit told(status->stopped ? QString::fromStdString(status->why)
-                                : tr("Recorded: %1 frames, %2 lost.").arg(status->written).arg(status->lost),
-                status->stopped);
-      emit recorded(recording_to_);
-    }
+    tell_recorded(live_.stop_recording());
   } catch (const std::exception& error) {
     emit told(QString::fromUtf8(error.what()), true);
   }
   emit connection_changed();
+}
+
+void Touching::tell_recorded(const std::optional<RecorderStatus>& status) {
+  if (!status) return;
+  emit told(status->stopped ? QString::fromStdString(status->why)
+                            : tr("Recorded: %1 frames, %2 lost.").arg(status->written).arg(status->lost),
+            status->stopped);
+  if (!status->stopped) emit recorded(recording_to_);
 }
 
 void Touching::clutch() {

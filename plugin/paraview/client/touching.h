@@ -9,6 +9,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,11 +93,12 @@ class Touching : public QObject {
   void looked(const palpate::plugin::Look& look);
   void connection_changed();
   void told(const QString& message, bool problem);
-  /// A recording has been written.
+  /// A recording has been written, whole.
   void recorded(const QString& file);
 
  private:
   void give_way();
+  void tell_recorded(const std::optional<RecorderStatus>& status);
   void follow_scene(Pace pace);
   void look();
   void obey_buttons(std::uint32_t buttons);

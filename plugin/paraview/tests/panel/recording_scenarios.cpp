@@ -35,7 +35,6 @@ void recordings_are_replayed_and_compared() {
   const QString folder = qEnvironmentVariable("PALPATE_PICTURES");
   scan_is_shown();
   connect_stylus();
-  click("palpateRecordingsSectionFold");
   record_a_press(folder + "/first.h5");
   expect(!find<QToolButton>("palpatePlay").isEnabled(), "the views show what is felt, not what was");
   auto& strength = find<QDoubleSpinBox>("palpateStrength0");
@@ -85,6 +84,11 @@ void recordings_are_replayed_and_compared() {
   wait_for(
       "what is no recording is refused in words",
       [] { return label("palpateRecordingMessage").contains("recording comparison.csv"); }, 10);
+  // What is felt is not taken for a recording, whatever was looked at before.
+  slider.setValue(most_ms);
+  connect_stylus();
+  expect(label("palpateTick").contains("missed"), "the footer tells of the stylus again");
+  click("palpateConnect");
   click("palpateCloseRecording");
   expect(!find<QSlider>("palpateScrub").isVisible(), "the recordings are closed");
   wait_for(
