@@ -42,6 +42,28 @@ TEST(Exact, SolvesAFrameOfTheWindTunnelWhereALineIsAboutToSlip) {
   EXPECT_LT(solution.error_bound, 1e-14);
 }
 
+// From a walk through a head: the proxy slides on a boundary that it is held on, 0.1 um from a tube's line which leans
+// out of that plane by 0.7 mrad, while landmarks pull. Every kink of the energy is passed within a ten-thousandth of
+// the way.
+TEST(Exact, SolvesWhereALineLeansOutOfTheHeldPlaneByLittle) {
+  const Vec3 at{0.021528415431344185, 0.76311409055387724, -0.13125558167303331};
+  const Vec3 uphill{-0.37570864068019494, -0.43711321930565178, -0.81717504295376608};
+  const Vec3 tube{-0.1420531787392866, 0.8982161041166317, -0.41596721591443314};
+  const Vec3 landmark{-0.0002255859375, 0.76371, -0.1134244140625};
+  const Vec3 across{0.2672612419124244, 0.8017837257372732, -0.5345224838248488};
+  const std::array frame{make_plane(1, at, -uphill),        make_plane(0.4, at, -uphill),
+                         make_plane(0.4, at, uphill),       make_point(0.1, at),
+                         make_line(0.3, at, tube),          make_line(0.2, at, uphill),
+                         make_directed_force(0.2, uphill),  make_point(0.15, landmark),
+                         make_line(0.15, landmark, across), make_plane(0.15, landmark, across)};
+  std::array<Vec3, 10> forces;
+  ExactScratch scratch;
+  const Vec3 probe{0.020511062153500768, 0.7609019540688479, -0.13346132977127995};
+  const Solution solution = solve_exact({400, probe, at, frame}, forces, scratch);
+  EXPECT_EQ(solution.outcome, Outcome::solved) << solution.iterations;
+  EXPECT_LT(solution.error_bound, 1e-14);
+}
+
 TEST(Exact, TellsApartPlanesThatAreParallelButForTheLastBits) {
   constexpr double angle = 0x1p-40;
   const std::array planes{make_plane(2, Vec3{0}, {1, 0, 0}), make_plane(2, Vec3{0}, {1, angle, 0})};

@@ -15,7 +15,19 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 struct Bracket {
   double low = 0;
   double high = 1;
+  double slope_low = 0;   // N m, just beyond low
+  double slope_high = 0;  // N m, just before high
 
+  void narrow(double at, double slope, bool falls) {
+    (falls ? low : high) = at;
+    (falls ? slope_low : slope_high) = slope;
+  }
+  // Where it is least were the slope a straight line, as a part of the width.
+  double least() const {
+    const double fall = std::max(0.0, -slope_low);
+    const double rise = std::max(0.0, slope_high);
+    return fall + rise > 0 ? std::clamp(fall / (fall + rise), 0.05, 0.95) : 0.5;
+  }
   bool holds(double t) const { return t > low && t < high; }
   double width() const { return high - low; }
 };
@@ -177,9 +189,7 @@ bool Walker::part(FineVec3& way) {
 // Goes along the way to where the energy is (about) least, or to what holds the proxy there.
 void Walker::advance(const FineVec3& way) {
   const double start = glm::dot(here_.gradient, way.hi());
-  Bracket bracket;
-  double slope_low = start;
-  double slope_high = 0;
+  Bracket bracket{.slope_low = start};
   double t = 1;
   FineVec3 there{};
   Local local;
@@ -190,13 +200,14 @@ void Walker::advance(const FineVec3& way) {
     const double slope_here = slope(walk_, local, walk_.frame, way);
     double at = 0;
     const bool crossing = slope_here > 0 && crossed_plane(way, {bracket.low, t}, at) != none;
-    const bool good = slope_here <= 0 ? t == 1 || slope_here >= 0.5 * start : !crossing && slope_here <= -0.3 * start;
+    // Beyond a kink the way falls less steeply than at its start: what may rise is measured by what fell last.
+    const bool good =
+        slope_here <= 0 ? t == 1 || slope_here >= 0.5 * start : !crossing && slope_here <= -0.3 * bracket.slope_low;
     if (good || looks_ >= cap_) {
       break;
     }
-    (slope_here < 0 ? bracket.low : bracket.high) = t;
-    (slope_here < 0 ? slope_low : slope_high) = slope_here;
-    const double between = tries % 3 == 2 ? 0.5 : std::clamp(slope_low / (slope_low - slope_high), 0.05, 0.95);
+    bracket.narrow(t, slope_here, slope_here < 0);
+    const double between = tries % 3 == 2 ? 0.5 : bracket.least();
     double width = 0;
     do {
       width = bracket.width();
@@ -268,7 +279,7 @@ bool Walker::lock_plane(const FineVec3& way, Bracket& bracket, double middle) {
       return true;
     }
   }
-  (after <= 0 ? bracket.low : bracket.high) = at;
+  bracket.narrow(at, after <= 0 ? after : before, after <= 0);
   return false;
 }
 
@@ -308,7 +319,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
       }
     }
     if (bracket.holds(nearest)) {
-      (slope_there < 0 ? bracket.low : bracket.high) = nearest;
+      bracket.narrow(nearest, slope_there, slope_there < 0);
     }
   }
   return false;
