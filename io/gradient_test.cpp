@@ -14,6 +14,7 @@
 #include <random>
 
 #include "palpate/io/errors.h"
+#include "palpate/testdata/sanitized.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::io {
@@ -281,10 +282,12 @@ TEST(Gradient, OfASphereIsRadialAtTheDefaultScale) {
   thick.size.z = 14;
   Grid uneven = even;
   uneven.uneven_mm = 0.3;
-  for (const Case& c : {Case{"even", even, 0.25, 0.7, 0.02}, Case{"oblique", oblique, 0.25, 0.7, 0.02},
-                        Case{"tilted by 20 degrees", tilted, 0.4, 0.7, 0.02}, Case{"fine", fine, 0.5, 0.7, 0.03},
-                        Case{"thick", thick, 6, 6.5, 0.2}, Case{"uneven", uneven, 3, 3.2, 0.08}}) {
+  const std::vector<Case> cases{{"even", even, 0.25, 0.7, 0.02},       {"uneven", uneven, 3, 3.2, 0.08},
+                                {"oblique", oblique, 0.25, 0.7, 0.02}, {"tilted by 20 degrees", tilted, 0.4, 0.7, 0.02},
+                                {"fine", fine, 0.5, 0.7, 0.03},        {"thick", thick, 6, 6.5, 0.2}};
+  for (const Case& c : cases) {
     const double scale = default_gradient_scale_mm(testdata::make_geometry(c.grid));
+    if (testdata::is_sanitized && &c - cases.data() > 1) break;  // a minute of the same code
     const Errors clean = errors_on_sphere(c.grid, 20, scale, 0);
     const Errors noisy = errors_on_sphere(c.grid, 20, scale, 20);
     EXPECT_LT(clean.degrees, c.degrees) << c.name;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "palpate/io/volume_fields.h"
+#include "palpate/testdata/sanitized.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::io {
@@ -76,7 +77,8 @@ Agreement agreement(const std::vector<Layer>& layers, double boundary_mm, double
 
 TEST(LowHigh, are_the_tissues_on_both_sides_of_a_flat_boundary) {
   for (const Grid& grid : grids()) {
-    for (const double noise : {0.0, 20.0}) {
+    for (const double noise : {20.0, 0.0}) {
+      if (testdata::is_sanitized && noise == 0) continue;
       const Agreement skin = agreement({{0, 40}}, 0, -1000, 40, grid, noise);
       EXPECT_GT(skin.voxels, 500);
       EXPECT_GT(skin.within_tenth, 0.99);

@@ -15,6 +15,7 @@
 #include "palpate/modes/internal/hills.h"
 #include "palpate/modes/internal/test_rig.h"
 #include "palpate/modes/scene_json.h"
+#include "palpate/testdata/sanitized.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::modes {
@@ -105,8 +106,11 @@ TEST(Suggest, finds_the_tissues_and_the_boundaries_of_every_phantom_and_no_other
   testdata::Grid oblique = rotated(testdata::Grid{}, {1, 2, 3}, 40);
   oblique.tilt_degrees = 15;
   for (const Case& phantom : cases()) {
-    for (const double noise : {0.0, 20.0}) {
-      for (const testdata::Grid& grid : {testdata::Grid{}, oblique}) {
+    for (const double noise : {20.0, 0.0}) {
+      for (const testdata::Grid& grid : {oblique, testdata::Grid{}}) {
+        if (testdata::is_sanitized && !(noise > 0 && grid.tilt_degrees > 0)) {
+          continue;  // the other three show no other memory
+        }
         SCOPED_TRACE(::testing::Message() << phantom.name << ", noise " << noise << ", tilt " << grid.tilt_degrees);
         const Suggestion found = suggest(scanned(phantom.phantom, grid, noise));
         ASSERT_EQ(found.typical.size(), phantom.tissues.size());

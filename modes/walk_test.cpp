@@ -20,13 +20,14 @@
 #include "palpate/io/series.h"
 #include "palpate/io/volume_fields.h"
 #include "palpate/modes/internal/test_rig.h"
+#include "palpate/testdata/sanitized.h"
 
 namespace palpate::modes {
 namespace {
 
 int frames() {
   const char* wanted = std::getenv("PALPATE_WALK_FRAMES");
-  return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 2000;
+  return wanted != nullptr ? std::max(1, std::atoi(wanted)) : testdata::repeats(2000, 200);
 }
 
 Mode mode_of(const char* type, double strength_n) {

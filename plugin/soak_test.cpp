@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/plugin/internal/test_files.h"
+#include "palpate/testdata/sanitized.h"
 
 namespace palpate::plugin {
 namespace {
@@ -28,16 +29,7 @@ void expect_sound(const SoakResult& result) {
   EXPECT_GT(result.largest_n, 0.5) << "something has to be felt";
 }
 
-// The thread sanitizer is thirty times slower: a quarter of it there.
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-constexpr double minutes = 0.25;
-#else
-constexpr double minutes = 1;
-#endif
-#else
-constexpr double minutes = 1;
-#endif
+constexpr double minutes = testdata::is_sanitized ? 0.25 : 1;
 
 TEST(Soak, AMinuteOfProbing) {
   const SoakResult result =
