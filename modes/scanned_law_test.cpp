@@ -1,6 +1,11 @@
 // Every mode's force law on scanned bodies: slab, sphere, tube and wedge as voxels show them, sampled as a session
 // samples them. A probe rests on a boundary and is then moved; what the mode's one primitive does to it has a closed
 // form (equations 2 to 6) with the body's true normal and the strength that was asked for.
+//
+// What means nothing: a tube's direction on bodies that are no tubes (it is that of least curvature, whatever that is;
+// its force law is held there all the same), and a body's normal for landmarks, whose place and direction are the
+// user's own (the body says only how strong they are). Follow and force along a vector field read none of a body's
+// shape either: a flow through the same four bodies is in scanned_flow_test.cpp, here they read the gradient.
 #include <gtest/gtest.h>
 
 #include <algorithm>
