@@ -168,11 +168,12 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
     const io::FieldSet reads = type.reads(mode) | active.strength.reads();
     const io::FieldSet missing = without(reads, available);
     if (!mode.enabled) {
-      plan.left_out.push_back({name, "it is switched off", saved_by(type)});
+      plan.left_out.push_back({name, "it is switched off", saved_by(type), io::FieldSet::none, i});
     } else if (is_zero_everywhere(mode)) {
-      plan.left_out.push_back({name, "its strength is zero everywhere", saved_by(type)});
+      plan.left_out.push_back({name, "its strength is zero everywhere", saved_by(type), io::FieldSet::none, i});
     } else if (missing != io::FieldSet::none) {
-      plan.left_out.push_back({name, "there is no " + words(missing) + " here", saved_by(type)});
+      plan.left_out.push_back(
+          {name, "there is no " + words(missing) + " here", "nothing that could be measured: it cannot be felt here"});
     } else {
       plan.fields = plan.fields | reads;
       plan.holds_iso_surface = plan.holds_iso_surface || active.holds;

@@ -4,6 +4,7 @@
 /// it.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct LeftOut {
   std::string why;                          ///< "strength is zero everywhere"
   std::string saves;                        ///< "one gradient a tick", ...
   io::FieldSet field = io::FieldSet::none;  ///< where it is a field: which
+  std::optional<std::size_t> mode = {};     ///< where it is a mode: which of the scene's
 };
 
 /// Immutable once made: sessions share it between threads by pointer.

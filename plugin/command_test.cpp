@@ -38,6 +38,32 @@ TEST(Command, HelpTeachesAndUnknownWordsAreWrongUsage) {
   EXPECT_EQ(palpate("profile " + phantom().string() + " --from 1,2 --to 0,0,0").exit, 2);
 }
 
+TEST(Command, PlanSaysWhatItLeftOutAndWhatThatSavesMeasured) {
+  const std::string scene = write_scene("plan.json", R"({"version": 1, "modes": [
+    {"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}},
+    {"type": "friction", "name": "drag", "strength_n": 0},
+    {"type": "tube", "name": "vessel", "strength_n": 0.3, "enabled": false},
+    {"type": "follow", "name": "flow", "strength_n": 0.3}]})");
+  const Outcome outcome = palpate("plan " + phantom().string() + " --json --scene " + scene, false);
+  ASSERT_EQ(outcome.exit, 0) << outcome.output;
+  const auto plan = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(plan["solvers"], nlohmann::json::array({"analytical"}));
+  const auto entry = [&plan](const std::string& what) {
+    for (const auto& left : plan["left_out"]) {
+      if (left["what"].get<std::string>().find(what) == 0) return left;
+    }
+    return nlohmann::json();
+  };
+  EXPECT_EQ(entry("friction \"drag\"")["why"], "its strength is zero everywhere");
+  for (const char* what : {"friction", "tube", "Hessian", "low and high", "exact solver"}) {
+    EXPECT_TRUE(entry(what)["saves_us_a_sub_step"].is_number()) << what;
+    EXPECT_TRUE(entry(what)["saves_bytes"].is_number()) << what;
+  }
+  EXPECT_FALSE(entry("follow").contains("saves_bytes")) << "what cannot be felt here cannot be measured";
+  EXPECT_GT(entry("Hessian")["saves_bytes"], 100'000);
+  EXPECT_GT(entry("exact solver")["saves_bytes"], 1000);
+}
+
 TEST(Command, ProbeLeavesARecordingASummaryAndPictures) {
   const auto out = fresh_path("probe");
   const Outcome outcome =

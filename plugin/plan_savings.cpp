@@ -1,0 +1,179 @@
+#include "palpate/plugin/plan_savings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "palpate/io/volume_fields.h"
+#include "palpate/modes/haptic_step.h"
+#include "palpate/modes/reach.h"
+#include "palpate/plugin/scan.h"
+#include "palpate/solver/chain.h"
+
+namespace palpate::plugin {
+namespace {
+
+using io::FieldSet;
+using Clock = std::chrono::steady_clock;
+
+template <typename Work>
+double us_of(const Work& work) {
+  const auto begun = Clock::now();
+  work();
+  return std::chrono::duration<double, std::micro>(Clock::now() - begun).count();
+}
+
+double scale_of(const modes::Scene& scene, const io::Volume& volume) {
+  return scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume.geometry));
+}
+
+io::VolumeFields fields_without_worker(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+                                       FieldSet wanted) {
+  io::FieldOptions options = modes::field_options(scene.sampling);
+  options.background = false;  // a worker would take its time while something else is measured
+  return {volume, wanted, scale_of(scene, *volume), options};
+}
+
+/// Mean time of one sample of a field, us, around the middle of the scan; the best of some rounds.
+double sample_us(const io::VolumeFields& fields, FieldSet field, const Box& box) {
+  constexpr int points = 500, rounds = 5;
+  const glm::dvec3 middle = 0.5 * (box.low + box.high);
+  fields.prepare(middle, 5);
+  double best = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    double sum = 0;  // so that nothing is optimised away
+    const double us = us_of([&] {
+      for (int i = 0; i < points; ++i) {
+        const double along = 10.0 * i / points - 5;
+        const io::Sample sample = fields.sample(middle + glm::dvec3(along, 0.3 * along, 0.1 * along), field);
+        sum += sample.value + sample.gradient.x + sample.low + sample.tube.x + sample.vector.x;
+      }
+    });
+    best = std::isfinite(sum) ? std::min(best, us / points) : best;
+  }
+  return best;
+}
+
+struct Cost {
+  double us = 0;  ///< of a frame
+  std::size_t bytes = 0;
+};
+
+/// A small movement about the middle of the scan, within half a millimetre: the same one for every plan.
+Cost cost_of(const modes::Scene& scene, const modes::Plan& plan, const std::shared_ptr<const io::Volume>& volume) {
+  constexpr int frames = 400, rounds = 7;
+  const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields);
+  const Box box = bounding_box(volume->geometry);
+  const glm::dvec3 middle = 0.5 * (box.low + box.high);
+  source.prepare(middle, 5);
+  solver::Chain chain(
+      {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
+  modes::Touch touch;
+  const auto scratch = std::make_unique<modes::StepScratch>();
+  double best = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    const double us = us_of([&] {
+      for (int i = 0; i < frames; ++i) {
+        const double angle = 6.2832 * i / frames;
+        const glm::dvec3 at = middle + 0.5 * glm::dvec3(std::cos(angle), std::sin(angle), std::sin(2 * angle));
+        modes::step(plan, source, plan.workspace.to_device(at), touch, chain, *scratch);
+      }
+    });
+    best = std::min(best, us / frames);
+  }
+  return {best, source.memory_bytes() + chain.memory_bytes()};
+}
+
+/// The same scene with a mode that it left out, switched on and felt everywhere.
+modes::Scene with_mode(modes::Scene scene, std::size_t index) {
+  modes::Mode& mode = scene.modes[index];
+  mode.enabled = true;
+  if (mode.strength_n.maximum() <= 0) mode.strength_n = modes::TransferFunction(0.1);
+  for (modes::Gate& gate : mode.gates) {
+    if (gate.factor.maximum() <= 0) gate.factor = modes::TransferFunction(1);
+  }
+  return scene;
+}
+
+std::string size_of(std::size_t bytes) {
+  const auto kib = static_cast<double>(bytes) / 1024;
+  return kib < 100 ? fmt::format("{:.1f} KiB", kib) : fmt::format("{:.1f} MiB", kib / 1024);
+}
+
+std::string per_step(double us, std::size_t bytes) {
+  return fmt::format("{:.2f} us a sub-step, {}", us, bytes > 0 ? size_of(bytes) + " of memory" : "no memory");
+}
+
+int floats_a_voxel(FieldSet fields) {
+  const int gradient = io::contains(fields, FieldSet::low_high) ? 5 : io::contains(fields, FieldSet::gradient) ? 3 : 0;
+  return gradient + (io::contains(fields, FieldSet::tube) ? 6 : 0);
+}
+
+/// What the plan's fields would cost in those slices, were they computed: from a brick of the middle.
+Saving of_slices(int first, int last, const modes::Scene& scene, const modes::Plan& plan,
+                 const std::shared_ptr<const io::Volume>& volume) {
+  Saving saving{.what = fmt::format("slices {}-{}", first, last), .why = "outside the workspace"};
+  const int floats = floats_a_voxel(plan.fields);
+  if (floats == 0) {
+    saving.saves = "nothing: this plan computes no field ahead";
+    saving.bytes = 0;
+    return saving;
+  }
+  const Box box = bounding_box(volume->geometry);
+  const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields);
+  const double us = us_of([&] { source.prepare(0.5 * (box.low + box.high), 0); });
+  constexpr double voxels_a_brick = 16.0 * 16 * 16;
+  const glm::ivec3 size = volume->geometry.dimensions;
+  const double voxels = static_cast<double>(last - first + 1) * size.x * size.y;
+  saving.ms = us * 1e-3 * voxels / voxels_a_brick;
+  saving.bytes = static_cast<std::size_t>(voxels) * static_cast<std::size_t>(floats) * sizeof(float);
+  saving.saves = fmt::format("{:.0f} ms of computing their {} ahead and {}, were they all kept", *saving.ms,
+                             floats == 3 ? "gradients" : "gradients and what goes with them", size_of(*saving.bytes));
+  return saving;
+}
+
+}  // namespace
+
+std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan& plan,
+                                    const std::shared_ptr<const io::Volume>& volume,
+                                    const glm::dvec3& device_half_extent_m) {
+  std::optional<Cost> without;
+  std::vector<Saving> savings;
+  for (const modes::LeftOut& entry : plan.left_out) {
+    Saving saving{.what = entry.what, .why = entry.why, .saves = entry.saves};
+    if (entry.field != FieldSet::none) {
+      const io::VolumeFields fields = fields_without_worker(scene, volume, entry.field);
+      saving.us = sample_us(fields, entry.field, bounding_box(volume->geometry));
+      saving.bytes = fields.memory_bytes();
+      saving.saves = per_step(*saving.us, *saving.bytes);
+    } else if (entry.mode) {
+      const modes::Scene all = with_mode(scene, *entry.mode);
+      const modes::Plan more = modes::make_plan(all, io::fields_of(*volume), plan.workspace);
+      if (more.modes.size() > plan.modes.size()) {
+        if (!without) without = cost_of(scene, plan, volume);
+        const Cost with = cost_of(all, more, volume);
+        saving.us = std::max(0.0, with.us - without->us);
+        saving.bytes = with.bytes - std::min(with.bytes, without->bytes);
+        saving.saves = per_step(*saving.us, *saving.bytes);
+      }
+    } else if (entry.what == "exact solver") {
+      saving.us = 0;  // the analytical solver answers every frame
+      saving.bytes = solver::Chain().memory_bytes() - solver::Chain({.exact = false}).memory_bytes();
+      saving.saves = size_of(*saving.bytes) + " of scratch memory; no time: it would not be called";
+    } else if (entry.what == "descent solver") {
+      saving.us = 0;
+      saving.bytes = 0;
+    }
+    savings.push_back(std::move(saving));
+  }
+  for (const auto& [first, last] : modes::slices_out_of_reach(volume->geometry, plan.workspace, device_half_extent_m)) {
+    savings.push_back(of_slices(first, last, scene, plan, volume));
+  }
+  return savings;
+}
+
+}  // namespace palpate::plugin
