@@ -150,7 +150,8 @@ void connect_falcon(FalconLink& link, const std::string& firmware_file) {
     trouble = "it does not run what was uploaded; is this the Falcon's firmware?";
   }
   if (link.lost()) trouble = "it was unplugged";
-  throw std::runtime_error("Novint Falcon: the firmware " + firmware_file + " could not be uploaded: " + trouble);
+  throw std::runtime_error("Novint Falcon: the firmware " + firmware_file + " could not be uploaded: " + trouble +
+                           "; unplug it, plug it in again and try once more");
 }
 
 }  // namespace palpate::device

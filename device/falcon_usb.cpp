@@ -86,7 +86,9 @@ Handle open_handle(libusb_context* context, const std::string& address) {
   if (failed == LIBUSB_ERROR_ACCESS) {
     throw std::runtime_error(name + ": permission denied; " + permission_advice());
   }
-  if (failed != 0) throw std::runtime_error(name + ": cannot be opened: " + libusb_strerror(failed));
+  if (failed != 0)
+    throw std::runtime_error(name + ": cannot be opened: " + libusb_strerror(failed) +
+                             "; unplug it and plug it in again");
   return handle;
 }
 

@@ -74,7 +74,8 @@ void check(const WoodenHapticsSettings& settings) {
 
 WoodenHapticsSettings read_wooden_haptics(const std::string& json_file) {
   std::ifstream stream(json_file);
-  if (!stream) throw std::runtime_error("WoodenHaptics: " + json_file + " cannot be read");
+  if (!stream)
+    throw std::runtime_error("WoodenHaptics: " + json_file + " cannot be read; name the file of the arm's geometry");
   try {
     return settings_of(Json::parse(stream));
   } catch (const std::exception& error) {

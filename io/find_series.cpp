@@ -29,7 +29,7 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths) {
   std::vector<fs::path> files;
   for (const fs::path& named : paths) {
     std::error_code error;
-    if (!fs::exists(named, error)) throw DicomError("no such file or folder: " + named.string());
+    if (!fs::exists(named, error)) throw DicomError("no such file or folder: " + named.string() + "; check its name");
     const fs::path path = fs::is_regular_file(named, error) ? meant_by(named) : named;
     const auto status = fs::status(path, error);
     if (fs::is_regular_file(status)) files.push_back(path);
@@ -39,7 +39,8 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths) {
       std::error_code ignored;
       if (entry->is_regular_file(ignored)) files.push_back(entry->path());
     }
-    if (error) throw DicomError("cannot list " + path.string() + ": " + error.message());
+    if (error)
+      throw DicomError("cannot list " + path.string() + ": " + error.message() + "; it has to be yours to read");
   }
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());

@@ -116,7 +116,8 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   try {
     volume.voxels = allocate(storage, size * slices.size(), options.threads);
   } catch (const std::bad_alloc&) {
-    throw DicomError(name + " needs more memory than there is: " + std::to_string(size * slices.size() >> 19) + " MiB");
+    throw DicomError(name + " needs more memory than there is: " + std::to_string(size * slices.size() >> 19) +
+                     " MiB; close other programs first");
   }
   if (storage == Storage::as_float) {
     const bool any_padding = std::ranges::any_of(
@@ -140,7 +141,8 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   internal::parallel_for(
       units.size(), [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure); },
       options.progress, options.threads);
-  if (failed.size() == slices.size()) throw DicomError(name + " cannot be read: " + volume.warnings.front());
+  if (failed.size() == slices.size())
+    throw DicomError(name + " cannot be read: " + volume.warnings.front() + "; send the series again");
 
   std::sort(failed.begin(), failed.end());
   std::sort(volume.warnings.begin(), volume.warnings.end());

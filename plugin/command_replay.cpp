@@ -25,8 +25,9 @@ SnapshotMaker on_scan(const std::shared_ptr<const io::Volume>& volume) {
   const std::string hash = hash_of(*volume);
   return [volume, hash](const SceneRecord& record) {
     if (record.scan_hash != hash) {
-      throw InputRefused(
-          fmt::format("the recording was made on another scan: its hash is {}, this one's {}", record.scan_hash, hash));
+      throw InputRefused(fmt::format(
+          "the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",
+          record.scan_hash, hash));
     }
     return snapshot_of(record, volume);
   };
@@ -83,7 +84,8 @@ void run(const Arguments& arguments) {
   }
   // Another build may differ by what both certify; more than that is another session.
   if (!(result.largest_proxy_m <= result.largest_bound_m)) {
-    throw InputRefused("the replay is not the session that was recorded");
+    throw InputRefused(
+        "the replay is not the session that was recorded: was the recording changed, or made by another version?");
   }
 }
 

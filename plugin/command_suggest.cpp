@@ -36,7 +36,9 @@ void run(const SuggestOptions& options) {
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   const modes::Suggestion suggestion = modes::suggest(volume, terminal_progress("looking for tissues"));
   if (suggestion.boundaries.empty()) {
-    throw InputRefused(options.series.path + ": no boundary between tissues was found in this series");
+    throw InputRefused(options.series.path +
+                       ": no boundary between tissues was found in this series; take a starting scene, such as "
+                       "ct-skin-and-bone");
   }
   const std::string text = modes::to_json(suggestion.scene);
   if (options.output.empty()) {

@@ -22,7 +22,7 @@ class CsvTable {
     if (folder.empty()) return;
     std::ofstream file(folder / name);
     file << csv_;
-    if (!file.flush()) throw std::runtime_error((folder / name).string() + ": cannot be written");
+    if (!file.flush()) throw std::runtime_error((folder / name).string() + ": cannot be written (is the disk full?)");
   }
 
  private:

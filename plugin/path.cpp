@@ -43,7 +43,8 @@ bool parse(std::string_view line, std::array<double, 4>& numbers) {
 std::vector<PathPoint> read_path_csv(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) {
-    throw std::runtime_error(fmt::format("cannot open the path file {}", file.string()));
+    throw std::runtime_error(
+        fmt::format("cannot open the path file {}; check its name, and that it is yours to read", file.string()));
   }
   std::vector<PathPoint> path;
   std::string line;
@@ -58,8 +59,9 @@ std::vector<PathPoint> read_path_csv(const std::filesystem::path& file) {
           fmt::format("{}, line {}: not four finite numbers; expected {}", file.string(), number, header));
     }
     if (cells[0] < 0 || (!path.empty() && cells[0] <= path.back().time_s)) {
-      throw std::runtime_error(fmt::format("{}, line {}: time_s {} does not come after the previous line's",
-                                           file.string(), number, cells[0]));
+      throw std::runtime_error(
+          fmt::format("{}, line {}: time_s {} does not come after the previous line's; times ascend from 0",
+                      file.string(), number, cells[0]));
     }
     path.push_back({cells[0], {cells[1], cells[2], cells[3]}});
   }

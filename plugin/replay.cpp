@@ -67,7 +67,8 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
   const auto found =
       std::find_if(records.begin(), records.end(), [&](const Record& record) { return record.epoch == epoch; });
   if (found == records.end()) {
-    throw std::runtime_error(fmt::format("the recording lacks its {} {}", what, epoch));
+    throw std::runtime_error(
+        fmt::format("the recording lacks its {} {}: the file is damaged, record anew", what, epoch));
   }
   return *found;
 }

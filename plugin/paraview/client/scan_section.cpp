@@ -8,6 +8,7 @@
 #include <pqUndoStack.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
+#include <vtkSMTrace.h>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -177,8 +178,8 @@ void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std
   });
   const auto usable = std::ranges::count_if(catalogue_->series, [](const io::Series& s) { return s.usable; });
   if (catalogue_->series.empty()) {
-    tell(tr("No image series in this folder (%n file(s) looked at).", nullptr,
-            static_cast<int>(catalogue_->skipped.size())),
+    tell(tr("No image series in this folder (%n file(s) looked at): choose the one that holds the DICOM files.",
+            nullptr, static_cast<int>(catalogue_->skipped.size())),
          true);
   } else if (usable == 1) {
     series_->setCurrentRow(0);
@@ -216,7 +217,7 @@ void ScanSection::show_now(const Loaded& loaded) {
   pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
   pqServer* const server = pqActiveObjects::instance().activeServer();
   if (!server) {
-    tell(tr("ParaView is not connected to a server."), true);
+    tell(tr("ParaView is not connected to a server: File > Connect."), true);
     return;
   }
   try {
@@ -230,9 +231,12 @@ void ScanSection::show_now(const Loaded& loaded) {
           "the server has not loaded Palpate: in Tools > Manage Plugins, load the plug-in Palpate on the server");
     }
     vtkSMProxy& proxy = *source_->getProxy();
-    vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
-    vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*loaded.catalogue, loaded.series).c_str());
-    proxy.UpdateVTKObjects();
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", &proxy);  // else a trace has a reader of nothing
+      vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
+      vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*loaded.catalogue, loaded.series).c_str());
+      proxy.UpdateVTKObjects();
+    }
     source_->updatePipeline();
     // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
     // takes that for a change.

@@ -28,7 +28,8 @@ std::vector<const modes::ActiveMode*> felt_modes(const modes::Plan& plan, const 
   const auto& all = choice.scene.modes;
   if (!choice.mode.empty() &&
       std::ranges::none_of(all, [&](const modes::Mode& mode) { return mode.name == choice.mode; })) {
-    throw std::invalid_argument("the scene has no mode named \"" + choice.mode + "\"");
+    throw std::invalid_argument("the scene has no mode named \"" + choice.mode +
+                                "\"; leave Mode empty for all that hold the stylus");
   }
   for (const modes::ActiveMode& mode : plan.modes) {
     const bool wanted = choice.mode.empty() ? mode.holds : all[mode.scene_index].name == choice.mode;

@@ -58,11 +58,12 @@ std::string note_of(vtkImageData& image, const char* name) {
 
 std::shared_ptr<const io::Volume> scan_of(vtkImageData& image) {
   vtkDataArray* const scalars = image.GetPointData()->GetScalars();
-  if (!scalars || scalars->GetNumberOfTuples() == 0) throw std::invalid_argument("the image has no point scalars");
+  if (!scalars || scalars->GetNumberOfTuples() == 0)
+    throw std::invalid_argument("the image has no point scalars: put the filter on the scan's reader");
   if (auto behind = volume_behind(*scalars)) return behind;
   if (scalars->GetNumberOfComponents() != 1) {
     throw std::invalid_argument(std::string(scalars->GetName()) +
-                                " has several components; a scan has one value a point");
+                                " has several components; a scan has one value a point: choose another array");
   }
   io::Volume volume;
   volume.geometry = geometry_of(image);
