@@ -1,8 +1,5 @@
 // libFuzzer's way into the reader: the bytes are a file; its header is read and every image in it decoded.
-//
-//   cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DPALPATE_MODULES=io -DPALPATE_FUZZ=ON
-//   ninja -C build/fuzz fuzz_reader
-//   build/fuzz/bin/fuzz_reader -max_len=100000 -rss_limit_mb=2000 -malloc_limit_mb=5000 CORPUS
+// Built and run by io/fuzz.
 //
 // DCMTK asks for as many bytes as an element claims (up to 4 GiB) before it finds that they are not there. It touches
 // none of them and takes a refusal well; that is what the second limit is for. The first one holds for memory in use.

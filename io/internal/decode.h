@@ -41,4 +41,8 @@ struct JpegFrame {
 };
 std::optional<JpegFrame> jpeg_frame(std::span<const std::byte> bytes);
 
+/// Throws DicomError where a Huffman table of a JPEG stream codes differences of more than `most_bits` (ISO 10918-1
+/// H.1.2.2 knows 16): DCMTK 3.6.7's decoders index tables of 16 or 17 numbers by them, unchecked.
+void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bits);
+
 }  // namespace palpate::io::internal

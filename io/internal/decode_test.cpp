@@ -314,6 +314,31 @@ TEST(DecodeDamaged, SliceOfNoiseIsLeftOutNamedAndAGap) {
   }
 }
 
+// Found by the fuzzer: DCMTK read beyond its tables and made pixels of what was there.
+TEST(DecodeDamaged, HuffmanTableOfImpossibleDifferencesIsRefused) {
+  register_encoders();
+  for (const bool behind_pixels : {false, true}) {  // for a second scan
+    const TestFolder folder;
+    write_noise_stack(folder, EXS_JPEGProcess14SV1, 0);
+    std::fstream file(folder / "s2.dcm", std::ios::in | std::ios::out | std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const auto table = bytes.find("\xFF\xC4");
+    ASSERT_NE(table, std::string::npos);
+    if (behind_pixels) {
+      const std::string second("\xFF\xC4\x00\x14\x00\x01\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x21", 22);
+      bytes.replace(bytes.rfind("\xFF\xD9") - second.size(), second.size(), second);
+    } else {
+      bytes[table + 21] = '\x21';
+    }
+    file.clear();
+    file.seekp(0);
+    file << bytes;
+    file.close();
+    expect_slice_2_lost(folder);
+    EXPECT_THAT(load(find_series(std::array{folder.path()}).series.at(0)).warnings.at(0), HasSubstr("Huffman"));
+  }
+}
+
 TEST(DecodeDamaged, SliceWithATruncatedStreamIsNotFilledUp) {
   for (const E_TransferSyntax syntax : {EXS_JPEGLSLossless, EXS_JPEG2000LosslessOnly}) {
     const TestFolder folder;

@@ -63,6 +63,34 @@ std::optional<JpegFrame> jpeg_frame(std::span<const std::byte> bytes) {
   return std::nullopt;
 }
 
+void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bits) {
+  const auto byte = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
+  constexpr std::size_t counts = 16;  // of codes of 1 to 16 bits
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size()) {
+    const std::size_t marker = byte(at + 1);
+    // Coded pixels, between segments, hold FF only before 0 or as a restart; fill bytes may precede a marker.
+    if (byte(at) != 0xFF || marker == 0 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD8)) {
+      ++at;
+      continue;
+    }
+    const std::size_t end = at + 2 + (byte(at + 2) << 8 | byte(at + 3));
+    if (marker == 0xC4) {
+      for (std::size_t table = at + 4; table + 1 + counts <= std::min(end, bytes.size());) {
+        std::size_t symbols = 0;
+        for (std::size_t n = 1; n <= counts; ++n) symbols += byte(table + n);
+        const std::size_t last = std::min(table + 1 + counts + symbols, bytes.size());
+        const bool differences = byte(table) >> 4 == 0;
+        for (std::size_t symbol = table + 1 + counts; differences && symbol < last; ++symbol) {
+          if (byte(symbol) > most_bits) throw DicomError("damaged: a Huffman table of its JPEG image is impossible");
+        }
+        table = last;
+      }
+    }
+    at = std::max(end, at + 2);
+  }
+}
+
 void decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   const auto frame = jpeg_frame(bytes);
   if (!frame) throw DicomError("damaged: no JPEG image in its compressed pixels");
@@ -72,6 +100,7 @@ void decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, st
                      std::to_string(frame->rows) + ", not " + std::to_string(format.columns) + " x " +
                      std::to_string(format.rows));
   }
+  check_huffman_tables(bytes, frame->precision > 12 ? 16 : 15);  // the 16-bit decoder's table is longer by one
   if (frame->precision > 12) {
     decompress<DJDecompressIJG16Bit>(bytes, std::as_writable_bytes(values));
   } else if (frame->precision > 8) {
