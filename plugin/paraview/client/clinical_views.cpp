@@ -62,7 +62,6 @@ pqRenderView* make_view(pqServer& server, ViewKind kind) {
   const double black[3] = {0, 0, 0};
   vtkSMPropertyHelper(&proxy, "Background").Set(black, 3);
   proxy.UpdateVTKObjects();
-  view->rename(name_of(kind));
   return view;
 }
 
@@ -210,6 +209,8 @@ void ClinicalViews::show(pqPipelineSource& source) {
   camera.UpdateVTKObjects();
   volume_view.getRenderViewProxy()->ResetCamera(true);
   add_volume(volume_view);
+  // Not before all are there: the next would have this one's first name again, and a trace takes them for one.
+  for (const auto& open : views_) open.view->rename(name_of(open.kind));
   refresh();
 }
 

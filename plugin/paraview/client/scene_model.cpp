@@ -11,6 +11,8 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMTrace.h>
+#include <vtkSMUndoStack.h>
+#include <vtkSMUndoStackBuilder.h>
 
 #include <exception>
 #include <utility>
@@ -18,6 +20,11 @@
 #include "palpate/modes/scene_json.h"
 
 namespace palpate::plugin {
+namespace {
+
+constexpr int undo_steps = 100;  // ParaView keeps ten: fewer than one turns at a boundary in a minute
+
+}  // namespace
 
 pqPipelineSource* SceneModel::source() const {
   return source_;
@@ -31,8 +38,11 @@ void SceneModel::open(pqServer& server, const modes::Scene& scene) {
     pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
     pqPipelineSource* const made =
         builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateScene"), &server);
-    vtkSMPropertyHelper(made->getProxy(), "Scene").Set(modes::to_json(scene).c_str());
-    made->getProxy()->UpdateVTKObjects();
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", made->getProxy());
+      vtkSMPropertyHelper(made->getProxy(), "Scene").Set(modes::to_json(scene).c_str());
+      made->getProxy()->UpdateVTKObjects();
+    }
     made->setModifiedState(pqProxy::UNMODIFIED);
     adopt(*made);
     if (scan) active.setActiveSource(scan);  // the scan stays what ParaView's own panels are about
@@ -86,7 +96,10 @@ void SceneModel::keep(const QString& what) {
   keeping_ = true;
   {
     pqUndoStack* const undo = what.isEmpty() ? nullptr : pqApplicationCore::instance()->getUndoStack();
-    if (undo) undo->beginUndoSet(what);
+    if (undo) {
+      undo->GetUndoStackBuilder()->GetUndoStack()->SetStackDepth(undo_steps);
+      undo->beginUndoSet(what);
+    }
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", source_->getProxy());
     vtkSMPropertyHelper(source_->getProxy(), "Scene").Set(text_.c_str());
     source_->getProxy()->UpdateVTKObjects();

@@ -21,6 +21,7 @@
 #include <QtTest/QTest>
 
 #include <stdexcept>
+#include <utility>
 
 namespace {
 
@@ -30,9 +31,14 @@ QWidget& main_window() {
   return *pqCoreUtilities::mainWidget();
 }
 
-/// The views are windows of their own: they get what the display's own pointer does.
+/// The views are windows of their own: they get what the display's own pointer does. Events are handled meanwhile: on a
+/// busy machine the program would else seem dead to the servo, which takes the force away.
 void xdotool(const QStringList& arguments) {
-  expect(QProcess::execute(QStringLiteral("xdotool"), arguments) == 0, "xdotool works");
+  QProcess process;
+  process.start(QStringLiteral("xdotool"), arguments);
+  constexpr int longest_ms = 120000;
+  const bool ended = QTest::qWaitFor([&] { return process.state() == QProcess::NotRunning; }, longest_ms);
+  expect(ended && process.exitStatus() == QProcess::NormalExit && process.exitCode() == 0, "xdotool works");
   QTest::qWait(80);
 }
 
@@ -178,4 +184,14 @@ void drag(QWidget& view, const QPoint& from, const QPoint& to, bool release) {
 
 void let_go() {
   xdotool({QStringLiteral("mouseup"), QStringLiteral("1")});
+}
+
+void press_key_in(QWidget& view, const char* key) {
+  static QWidget* last = nullptr;
+  if (std::exchange(last, &view) != &view) {
+    constexpr QPoint corner(12, 12);
+    move_pointer(view, corner);
+    xdotool({QStringLiteral("click"), QStringLiteral("1")});
+  }
+  xdotool({QStringLiteral("key"), QString::fromLatin1(key)});
 }

@@ -42,6 +42,8 @@ void press_key(int key);
 void name_file(const char* button, const QString& file);
 /// The same where it is to be written at once.
 void save_as(const char* button, const QString& file);
+/// In a view, by X11's name of the key: the pointer is there, and has clicked beside everything.
+void press_key_in(QWidget& view, const char* key);
 
 /// The widget of a clinical view: "Axial", "Sagittal", "Coronal", "Volume".
 QWidget& view(const char* name);

@@ -256,10 +256,10 @@ const Scenarios scenarios{
 }  // namespace
 
 void run_scenario(const std::string& name) {
-  Scenarios all = scenarios;
-  for (const Scenarios& more : {profile_scenarios(), recording_scenarios()}) all.insert(more.begin(), more.end());
-  const auto found = all.find(name);
-  expect(found != all.end(), "there is a scenario " + name);
   wait_ms(1000);
-  found->second();
+  for (const Scenarios* const some : {&scenarios, &hand_scenarios(), &heap_scenarios(), &picture_scenarios(),
+                                      &profile_scenarios(), &recording_scenarios(), &story_scenarios()}) {
+    if (const auto found = some->find(name); found != some->end()) return found->second();
+  }
+  throw std::runtime_error("there is no scenario " + name);
 }

@@ -2,11 +2,22 @@
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
+#include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <vtkCommand.h>
+#include <vtkRenderWindowInteractor.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+#include <vtkSMRenderViewProxy.h>
 
+#include <QCoreApplication>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QMimeData>
 #include <QPushButton>
+#include <QUrl>
+
+#include <stdexcept>
 
 #include "panel_rig.h"
 
@@ -31,6 +42,17 @@ void connect_stylus() {
   wait_ms(1500);
 }
 
+namespace {
+
+vtkRenderWindowInteractor& interactor(const char* name) {
+  for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    if (one->getSMName() == QLatin1String(name)) return *one->getRenderViewProxy()->GetInteractor();
+  }
+  throw std::runtime_error(std::string("there is no view ") + name);
+}
+
+}  // namespace
+
 void press() {
   QWidget& sagittal = view("Sagittal");
   const QPoint from = proxy_in(sagittal);
@@ -43,8 +65,48 @@ void press() {
   wait_ms(500);
 }
 
+void press_once() {
+  vtkRenderWindowInteractor& hand = interactor("Sagittal");
+  const auto send = [&](unsigned long event, const QPoint& at) {
+    hand.SetEventInformation(at.x(), view("Sagittal").height() - 1 - at.y());
+    hand.InvokeEvent(event);
+    wait_ms(40);
+  };
+  constexpr int tries = 5;
+  for (int n = 0; n < tries; ++n) {
+    if (find<QPushButton>("palpateFeel").isVisible()) click("palpateFeel");
+    wait_for("forces are on", [] { return label("palpateState").startsWith("active"); });
+    QPoint at = proxy_in(view("Sagittal"));
+    send(vtkCommand::LeftButtonPressEvent, at);
+    if (n > 0) {  // it went through when the force was taken away
+      at.setX(20);
+      send(vtkCommand::MouseMoveEvent, at);
+      wait_ms(2000);
+    }
+    for (int pixels = 0; pixels < 160 && number("palpateForce") < 0.3; pixels += 2) {
+      send(vtkCommand::MouseMoveEvent, at + QPoint(pixels, 0));
+    }
+    const bool felt = number("palpateForce") > 0.2;
+    wait_ms(300);
+    send(vtkCommand::LeftButtonReleaseEvent, at);
+    if (felt) return;
+  }
+  throw std::runtime_error("nothing is felt, however often one presses");
+}
+
 void feel() {
   scan_is_shown();
   connect_stylus();
   press();
+}
+
+void drop_folder(const QString& folder) {
+  QWidget& on = find<QWidget>("palpateScan");
+  QMimeData folders;
+  folders.setUrls({QUrl::fromLocalFile(folder)});
+  QDragEnterEvent enter(on.rect().center(), Qt::CopyAction, &folders, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&on, &enter);
+  expect(enter.isAccepted(), "a folder may be dropped");
+  QDropEvent drop(on.rect().center(), Qt::CopyAction, &folders, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&on, &drop);
 }

@@ -2,22 +2,33 @@
 
 /// What most scenarios begin with.
 
+#include <QString>
+
 #include <map>
 #include <string>
 
 /// A scenario by its name.
 using Scenarios = std::map<std::string, void (*)()>;
 
+/// Of the files of that name.
+const Scenarios& hand_scenarios();
+const Scenarios& heap_scenarios();
+const Scenarios& picture_scenarios();
+const Scenarios& profile_scenarios();
+const Scenarios& recording_scenarios();
+const Scenarios& story_scenarios();
+
 /// The JSON text of the scene in the pipeline; empty where there is none.
 std::string scene_text();
 /// Waits for the scan and its tissues.
 void scan_is_shown();
 void connect_stylus();
-/// Drags the stylus from the front, slowly, until something is felt; the button stays down.
+/// Presses from the front, slowly, until something is felt; the button stays down.
 void press();
-/// Waits for the scan, connects and presses.
+/// The same, and lets go, by the view's own events instead of the display's pointer, which takes long; once more where
+/// a busy machine's servo has taken the force away meanwhile.
+void press_once();
+/// Waits for the scan, connects, and presses.
 void feel();
-
-/// Of the files of that name.
-const Scenarios& profile_scenarios();
-const Scenarios& recording_scenarios();
+/// Drops a folder on the panel.
+void drop_folder(const QString& folder);

@@ -1,0 +1,146 @@
+// What the hand does with keys, colours and curves, by what is felt and seen.
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqRepresentation.h>
+#include <pqServerManagerModel.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <QApplication>
+#include <QColorDialog>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QTimer>
+#include <QWidget>
+
+#include <cmath>
+
+#include "panel_rig.h"
+#include "panel_steps.h"
+
+namespace {
+
+/// Presses the key until it is felt, with a step's time for each; how often it was pressed.
+int press_until_felt(QWidget& in, const char* key, double newtons) {
+  int presses = 0;
+  while (number("palpateForce") < newtons && presses < 60) {
+    press_key_in(in, key);
+    ++presses;
+    wait_ms(60);
+  }
+  wait_for(
+      "a force is felt", [&] { return number("palpateForce") >= 0.8 * newtons; }, 10);
+  return presses;
+}
+
+/// The stylus waits a finger's breadth in front of the patient: in the axial view, that is above.
+void keys_step_in_the_views() {
+  scan_is_shown();
+  connect_stylus();
+  QWidget& coronal = view("Coronal");
+  const QPoint before = proxy_in(coronal);
+  for (int n = 0; n < 10; ++n) press_key_in(coronal, "Right");
+  wait_for("the proxy goes to the right", [&] { return proxy_in(coronal).x() > before.x() + 4; });
+  for (int n = 0; n < 10; ++n) press_key_in(coronal, "Left");
+  wait_for("and back", [&] { return std::abs(proxy_in(coronal).x() - before.x()) <= 3; });
+  for (int n = 0; n < 8; ++n) press_key_in(coronal, "Up");
+  wait_for("it goes up", [&] { return proxy_in(coronal).y() < before.y() - 4; });
+  for (int n = 0; n < 8; ++n) press_key_in(coronal, "Down");
+  wait_for("and down again", [&] { return std::abs(proxy_in(coronal).y() - before.y()) <= 3; });
+  expect(number("palpateForce") == 0, "nothing was touched on the way");
+
+  // Away from the eye, from the front: into the patient, past the finger's breadth that it waited before him.
+  const int presses = press_until_felt(coronal, "Prior", 0.3);
+  expect(presses >= 12 && presses <= 40, "a step is a millimetre: " + std::to_string(presses) + " presses");
+  save_screen("keys");
+  for (int n = 0; n < 10; ++n) press_key_in(coronal, "Next");
+  wait_for("towards the eye it is free again", [] { return number("palpateForce") < 0.02; });
+  // The axial view's down is the same way.
+  press_until_felt(view("Axial"), "Down", 0.3);
+}
+
+/// The volume's colours are the boundaries': the dialog changes scene, swatch and view, and undo all three.
+void a_colour_is_chosen() {
+  scan_is_shown();
+  const auto shown = [] {
+    for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+      if (one->getSMName() != QLatin1String("Volume")) continue;
+      for (pqRepresentation* const shown_as : one->getRepresentations()) {
+        vtkSMProxy& proxy = *shown_as->getProxy();
+        if (!proxy.GetProperty("LookupTable") || !shown_as->isVisible()) continue;
+        const auto points =
+            vtkSMPropertyHelper(vtkSMPropertyHelper(&proxy, "LookupTable").GetAsProxy(), "RGBPoints").GetDoubleArray();
+        for (std::size_t n = 0; n + 3 < points.size(); n += 4) {
+          if (std::abs(points[n + 1] - 0x12 / 255.0) < 1e-6 && std::abs(points[n + 2] - 0x34 / 255.0) < 1e-6 &&
+              std::abs(points[n + 3] - 0x56 / 255.0) < 1e-6) {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  };
+  const std::string before = scene_text();
+  expect(!shown(), "the colour is a new one");
+  QTimer::singleShot(1500, [] {
+    auto* const dialog = qobject_cast<QColorDialog*>(QApplication::activeModalWidget());
+    expect(dialog != nullptr, "the dialog of colours is open");
+    dialog->setCurrentColor(QColor(0x12, 0x34, 0x56));
+    save_screen("colours");
+    dialog->accept();
+  });
+  click("palpateColour0");
+  wait_for(
+      "the colour is in the scene", [] { return scene_text().find("#123456") != std::string::npos; }, 10);
+  expect(find<QWidget>("palpateColour0").styleSheet().contains("#123456"), "its swatch has it");
+  wait_for("the volume has it", shown, 10);
+  click("palpateCurvesSectionFold");
+  click("palpateUndo");
+  wait_for(
+      "the scene is as it was", [&] { return scene_text() == before; }, 10);
+  wait_for(
+      "and the volume", [&] { return !shown(); }, 10);
+}
+
+/// While the button is still down: what is dragged is felt at once, and is in the undo stack as one edit after it.
+void a_dragged_node_is_felt() {
+  scan_is_shown();
+  connect_stylus();
+  find<QDoubleSpinBox>("palpateStrength0").setValue(1);
+  press_until_felt(view("Axial"), "Down", 0.6);
+  wait_ms(500);
+  const double felt = number("palpateForce");
+  click("palpateCurvesSectionFold");
+  wait_ms(500);
+  QWidget& chart = find<QWidget>("palpateStrengthCurveChart");
+  scroll_to(find<QWidget>("palpateStrengthCurveValue"));
+  wait_ms(500);
+  // As steep as the boundary is: between the middle of the scale and its end, which is as steep as can be.
+  const QPoint node(chart.width() * 4 / 5, chart.height() / 2);
+  drag(chart, node, node, true);  // where there is none a click makes one
+  wait_for(
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
+  wait_ms(600);
+  expect(number("palpateForce") > 0.7 * felt, "it is still felt");
+  const std::string before = scene_text();
+  drag(chart, node, QPoint(node.x(), chart.height() - 6), false);
+  wait_for(
+      "the force falls while the node is dragged", [&] { return number("palpateForce") < 0.6 * felt; }, 10);
+  save_screen("node-dragged");
+  let_go();
+  wait_for(
+      "the edit is in the scene", [&] { return scene_text() != before; }, 10);
+}
+
+}  // namespace
+
+const Scenarios& hand_scenarios() {
+  static const Scenarios scenarios{
+      {"keys_step_in_the_views", keys_step_in_the_views},
+      {"a_colour_is_chosen", a_colour_is_chosen},
+      {"a_dragged_node_is_felt", a_dragged_node_is_felt},
+  };
+  return scenarios;
+}

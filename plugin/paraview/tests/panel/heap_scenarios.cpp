@@ -1,0 +1,89 @@
+// What is left on the heap after rounds of opening, probing and closing, and after the same rounds of a program that
+// has no panel: an image of the same size in the same views.
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqObjectBuilder.h>
+#include <pqOutputPort.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <vtkNew.h>
+#include <vtkSMPVRepresentationProxy.h>
+#include <vtkSMParaViewPipelineControllerWithRendering.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+
+#include <QPushButton>
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+
+#include "palpate/plugin/heap_use.h"
+#include "panel_rig.h"
+#include "panel_steps.h"
+
+namespace {
+
+/// Live heap after the rounds that PALPATE_ROUNDS names, such as "10,50", each told in a line.
+void repeat(const char* name, const std::function<void()>& round) {
+  const QStringList told = qEnvironmentVariable("PALPATE_ROUNDS", "3,8").split(QLatin1Char(','));
+  for (int n = 1; n <= told.back().toInt(); ++n) {
+    round();
+    wait_ms(500);
+    if (!told.contains(QString::number(n))) continue;
+    std::printf("%s: after round %d: %llu bytes\n", name, n,
+                static_cast<unsigned long long>(palpate::plugin::live_heap_bytes()));
+    std::fflush(stdout);
+  }
+}
+
+void reset() {
+  pqApplicationCore::instance()->getObjectBuilder()->resetServer(pqActiveObjects::instance().activeServer());
+  wait_for("a fresh session is there", [] { return pqActiveObjects::instance().activeServer() != nullptr; });
+}
+
+void rounds_of_probing() {
+  repeat("rounds_of_probing", [] {
+    drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+    scan_is_shown();
+    connect_stylus();
+    press_once();
+    wait_for("nothing is held", [] { return number("palpateForce") < 0.05; });
+    click("palpateConnect");
+    reset();
+    wait_for("nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); });
+  });
+}
+
+void without_the_panel() {
+  repeat("without_the_panel", [] {
+    pqServer* const server = pqActiveObjects::instance().activeServer();
+    pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
+    pqPipelineSource* const source =
+        builder.createSource(QStringLiteral("sources"), QStringLiteral("RTAnalyticSource"), server);
+    const int extent[6] = {0, 63, 0, 63, 0, 63};  // the panel's phantom
+    vtkSMPropertyHelper(source->getProxy(), "WholeExtent").Set(extent, 6);
+    source->getProxy()->UpdateVTKObjects();
+    source->updatePipeline();
+    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+    for (const char* const shown_as : {"Slice", "Slice", "Slice", "Volume"}) {
+      auto* const view = qobject_cast<pqRenderView*>(builder.createView(pqRenderView::renderViewType(), server));
+      auto* const shown = vtkSMPVRepresentationProxy::SafeDownCast(
+          controller->Show(vtkSMSourceProxy::SafeDownCast(source->getProxy()), 0, view->getViewProxy()));
+      shown->SetRepresentationType(shown_as);
+      vtkSMPVRepresentationProxy::SetScalarColoring(shown, "RTData", 0);
+      view->resetCamera();
+      constexpr int pictures = 20;  // as many as a press takes
+      for (int n = 0; n < pictures; ++n) view->forceRender();
+    }
+    reset();
+  });
+}
+
+}  // namespace
+
+const Scenarios& heap_scenarios() {
+  static const Scenarios scenarios{{"rounds_of_probing", rounds_of_probing}, {"without_the_panel", without_the_panel}};
+  return scenarios;
+}

@@ -1,0 +1,82 @@
+"""ParaView with the panel and the test plug-in that drives it: what the tests that click share.
+
+Those run in plain Python 3 under xvfb-run with the folder of the built programs, the plug-ins' list, the test plug-in's
+list and a scratch folder as arguments, then the scenarios that are asked for (default: all that are tests). Pictures are
+left in the scratch folder for a person to look at.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+
+PROGRAMS, PLUGINS, TEST_PLUGIN, SCRATCH = (os.path.abspath(name) for name in sys.argv[1:5])
+ASKED = sys.argv[5:]
+LONGEST_S = 600  # a busy machine; on a quiet one half a minute
+
+
+os.makedirs(SCRATCH, exist_ok=True)
+
+
+def scratch(name):
+    return os.path.join(SCRATCH, name)
+
+
+def phantom(name, *arguments):
+    folder = scratch("panel-" + name)
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "phantom", *arguments, "-o", folder], check=True)
+    return folder
+
+
+def ball():
+    return phantom("ball", "sphere", "--radius", "25")
+
+
+def plugin_list(*files):
+    """One list of all plug-ins: ParaView reads one."""
+    plugins = ET.Element("Plugins")
+    for file in files:
+        for plugin in ET.parse(file).getroot():
+            name = plugin.get("name")
+            plugin.set("filename", os.path.join(os.path.dirname(file), name, name + ".so"))
+            plugins.append(plugin)
+    merged = scratch("panel-plugins.xml")
+    ET.ElementTree(plugins).write(merged)
+    return merged
+
+
+def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), longest_s=LONGEST_S, said=None, **more):
+    """The program once, with a folder opened; whether the scenario passed. Its own lines are added to `said`."""
+    home = scratch("panel-home")
+    shutil.rmtree(home, ignore_errors=True)
+    os.makedirs(os.path.join(home, ".config", "ParaView"))
+    with open(os.path.join(home, ".config", "ParaView", "ParaView5.11.0.ini"), "w") as settings:
+        settings.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
+    environment = dict(os.environ, PV_PLUGIN_CONFIG_FILE=plugin_list(*plugins), HOME=home,
+                       PALPATE_PANEL_TEST=scenario, PALPATE_PICTURES=SCRATCH, LIBGL_ALWAYS_SOFTWARE="1", **more)
+    if folder:
+        environment["PALPATE_OPEN"] = folder
+    try:
+        result = subprocess.run(["paraview", *arguments], env=environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, timeout=longest_s)
+    except subprocess.TimeoutExpired as late:
+        print(f"{scenario}: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}", flush=True)
+        return False
+    lines = [line for line in result.stdout.splitlines() if line.startswith(scenario)]
+    if said is not None:
+        said += lines
+    print("\n".join(lines) or result.stdout[-3000:], flush=True)
+    if result.returncode != 0 and lines and "passed" in lines[-1]:
+        print(f"{scenario}: FAILED: the program then ended with {result.returncode}:\n{result.stdout[-2000:]}")
+    return result.returncode == 0
+
+
+def main(tests, measurements=None):
+    """Those that are asked for, each a function that says whether it passed; fails where one failed."""
+    known = {**tests, **(measurements or {})}
+    failed = [name for name in (ASKED or tests) if not known[name]()]
+    if failed:
+        sys.exit("failed: " + ", ".join(failed))
+    print("all passed")
