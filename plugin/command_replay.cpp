@@ -9,6 +9,7 @@
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/replay.h"
 #include "palpate/plugin/run_session.h"
+#include "palpate/plugin/scan_hash.h"
 #include "palpate/plugin/series_option.h"
 
 namespace palpate::plugin {

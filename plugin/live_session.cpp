@@ -9,6 +9,7 @@
 #include "palpate/device/simulated_stylus.h"
 #include "palpate/io/gradient.h"
 #include "palpate/modes/scene_json.h"
+#include "palpate/plugin/scan_hash.h"
 
 namespace palpate::plugin {
 namespace {
@@ -44,10 +45,15 @@ Snapshot LiveSession::snapshot(double change_s) const {
 SceneRecord LiveSession::record_of_scene(std::uint32_t epoch, double change_s) const {
   return {.epoch = epoch,
           .scene = modes::to_json(suited(scene_, specification_)),
-          .scan_hash = hash_of(*volume_),
+          .scan_hash = scan_hash(),
           .half_extent_m = specification_.workspace_half_extent,
           .maximum_force_n = specification_.maximum_force,
           .change_s = change_s};
+}
+
+const std::string& LiveSession::scan_hash() const {
+  if (scan_hash_.empty()) scan_hash_ = hash_of(*volume_);
+  return scan_hash_;
 }
 
 void LiveSession::publish(double change_s) {
@@ -60,6 +66,7 @@ void LiveSession::publish(double change_s) {
 void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume) {
   if (!volume) disconnect();
   felt_ = felt_of(scene_, volume);
+  if (volume != volume_) scan_hash_.clear();
   volume_ = std::move(volume);
   publish(scene_.limits.ramp_s);
 }
@@ -91,7 +98,7 @@ void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optio
                                              RecordingHeader{.palpate_version = PALPATE_VERSION,
                                                              .scene = modes::to_json(scene_),
                                                              .device = specification_.name,
-                                                             .scan_hash = hash_of(*volume_),
+                                                             .scan_hash = scan_hash(),
                                                              .seed = 0,
                                                              .rate_hz = specification_.rate});
       recorder_->note(record_of_scene(0, scene_.limits.ramp_s));

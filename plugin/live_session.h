@@ -79,7 +79,10 @@ class LiveSession {
   void begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file);
   std::optional<RecorderStatus> end() noexcept;
 
+  const std::string& scan_hash() const;
+
   std::shared_ptr<const io::Volume> volume_;
+  mutable std::string scan_hash_;  // of the volume; empty until asked for: it reads all voxels
   modes::Scene scene_;
   Felt felt_;
   std::uint32_t last_epoch_ = 0;

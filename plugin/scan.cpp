@@ -1,14 +1,12 @@
 #include "palpate/plugin/scan.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
-#include <variant>
 
 #include "palpate/io/volume_fields.h"
 #include "palpate/modes/scene_json.h"
@@ -34,33 +32,6 @@ std::string describe_scan(const io::Volume& volume) {
   return fmt::format("{}, {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm", volume.modality, geometry.dimensions.x,
                      geometry.dimensions.y, geometry.dimensions.z, geometry.spacing_i, geometry.spacing_j,
                      glm::length(geometry.step));
-}
-
-std::string hash_of(const io::Volume& volume) {
-  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
-  XXH3_64bits_reset(state.get());
-  const auto add = [&](const void* data, std::size_t bytes) { XXH3_64bits_update(state.get(), data, bytes); };
-  const io::Geometry& geometry = volume.geometry;
-  add(&geometry.dimensions, sizeof geometry.dimensions);
-  add(&geometry.direction_i, sizeof geometry.direction_i);
-  add(&geometry.direction_j, sizeof geometry.direction_j);
-  add(&geometry.spacing_i, sizeof geometry.spacing_i);
-  add(&geometry.spacing_j, sizeof geometry.spacing_j);
-  add(geometry.slice_positions.data(), geometry.slice_positions.size() * sizeof(glm::dvec3));
-  add(&volume.slope, sizeof volume.slope);
-  add(&volume.intercept, sizeof volume.intercept);
-  const auto add_voxels = [&](const io::Volume& of) {
-    std::visit([&](const auto& voxels) { add(voxels.data(), voxels.size() * sizeof voxels[0]); }, of.voxels);
-  };
-  add_voxels(volume);
-  if (volume.vectors) {
-    add(&volume.vectors->to_patient, sizeof volume.vectors->to_patient);
-    for (const auto& component : volume.vectors->along) {
-      add(&component->slope, sizeof component->slope);
-      add_voxels(*component);
-    }
-  }
-  return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 
 modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume) {

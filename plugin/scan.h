@@ -24,9 +24,6 @@ Box bounding_box(const io::Geometry& geometry);
 /// path.
 std::string describe_scan(const io::Volume& volume);
 
-/// 16 hexadecimal digits that tell one scan from another: XXH3 of voxels, rescale and geometry.
-std::string hash_of(const io::Volume& volume);
-
 /// The scene named by --scene (a file or a starting scene); the one that suits the modality, or a velocity field,
 /// where it is empty. Throws
 /// std::invalid_argument as modes::load_scene() does.

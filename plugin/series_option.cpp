@@ -14,6 +14,7 @@
 #include "palpate/io/errors.h"
 #include "palpate/io/load.h"
 #include "palpate/plugin/command.h"
+#include "palpate/plugin/scan_values.h"
 
 namespace palpate::plugin {
 namespace {
@@ -100,7 +101,7 @@ io::Volume load_series(const SeriesOption& option) {
   io::LoadOptions how;
   how.frame = option.frame;
   how.progress = terminal_progress("reading slices");
-  io::Volume volume = io::load(series, how);
+  io::Volume volume = scan_values(io::load(series, how));
   const auto show = [](const std::string& warning) { std::fprintf(stderr, "palpate: warning: %s\n", warning.c_str()); };
   std::for_each(series.warnings.begin(), series.warnings.end(), show);
   std::for_each(volume.warnings.begin(), volume.warnings.end(), show);

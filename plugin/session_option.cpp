@@ -4,6 +4,7 @@
 
 #include "palpate/device/simulated_stylus.h"
 #include "palpate/plugin/scan.h"
+#include "palpate/plugin/scan_hash.h"
 
 namespace palpate::plugin {
 

@@ -35,6 +35,7 @@
 #include "profile_section.h"
 #include "recordings_section.h"
 #include "scan_section.h"
+#include "server_watch.h"
 #include "stylus_section.h"
 #include "stylus_views.h"
 #include "tissues_section.h"
@@ -47,6 +48,7 @@ struct PalpatePanel::Parts {
   explicit Parts(PalpatePanel& panel) : dock(panel), touching(model), views(touching, model) {}
 
   void build();
+  void leave(const QString& why);
   void adopt_state();
   void show_scan(const std::shared_ptr<const io::Volume>& volume);
   void leave_views();
@@ -59,6 +61,7 @@ struct PalpatePanel::Parts {
   SceneModel model;
   Touching touching;
   StylusViews views;
+  ServerWatch servers;
   Fold* scan_fold = nullptr;
   Fold* recordings_fold = nullptr;
   ScanSection* scan = nullptr;
@@ -124,6 +127,7 @@ void PalpatePanel::Parts::build() {
   dock.setWidget(whole);
 
   QObject::connect(scan, &ScanSection::closing, &dock, [this] { leave_views(); });
+  QObject::connect(scan, &ScanSection::out_of_reach, &dock, [this](const QString& why) { touching.set_no_scan(why); });
   QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const auto& volume) { show_scan(volume); });
   QObject::connect(&touching, &Touching::recorded, recordings, [this](const QString& file) {
     recordings_fold->set_open(true);
@@ -142,20 +146,34 @@ void PalpatePanel::Parts::build() {
     if (pace == Pace::stepped) colour_views();
   });
   QObject::connect(&touching, &Touching::looked, &dock, [this](const Look& seen) { look(seen); });
-  QObject::connect(&touching, &Touching::connection_changed, &dock, [this] { modes->refresh(); });
+  QObject::connect(&touching, &Touching::connection_changed, &dock, [this] {
+    modes->refresh();
+    servers.be_attentive(touching.live().is_connected());
+  });
   // The threads end before ParaView goes, and before a server takes the views away.
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
     studies.cancel();
     QObject::disconnect(&touching, &Touching::recorded, recordings, nullptr);  // nobody looks at it any more
     touching.disconnect_stylus();
   });
-  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::aboutToRemoveServer,
-                   &dock, [this] {
-                     leave_views();
-                     touching.set_scan(nullptr);
-                   });
+  QObject::connect(&servers, &ServerWatch::leaving, &dock,
+                   [this] { leave(tr("ParaView left the server: the stylus was let go, and a recording closed.")); });
+  QObject::connect(&servers, &ServerWatch::lost, &dock, [this] {
+    leave(
+        tr("The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without its "
+           "server: it asks whether to save the state, and ends."));
+  });
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
   open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
+}
+
+/// All that a server has goes, and what is held of it is let go: first the force, and the recording with it.
+void PalpatePanel::Parts::leave(const QString& why) {
+  const bool held = touching.live().is_connected();
+  touching.set_no_scan({});
+  leave_views();
+  scan->server_gone();
+  if (held) emit touching.told(why, true);
 }
 
 /// What a state file has restored is taken over: scan, scene and views.

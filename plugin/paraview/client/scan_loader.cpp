@@ -3,10 +3,13 @@
 #include <QMetaObject>
 
 #include <exception>
+#include <filesystem>
 #include <utility>
 
 #include "palpate/io/errors.h"
+#include "palpate/plugin/paraview/server/module/scan_choice.h"
 #include "palpate/plugin/paraview/server/module/scan_store.h"
+#include "palpate/plugin/scan_hash.h"
 #include "thumbnail.h"
 
 namespace palpate::plugin {
@@ -67,6 +70,44 @@ void ScanLoader::load(const io::Series& series, int frame, Progress progress, Lo
   start<std::shared_ptr<const io::Volume>>(
       [series, frame](const io::Progress& tell) { return load_scan(series, frame, tell); }, std::move(progress),
       std::move(loaded));
+}
+
+void ScanLoader::find_copies(std::vector<std::string> places, const std::string& name, const glm::ivec3& size,
+                             Progress progress,
+                             std::function<void(const std::vector<ScanCopy>&, const std::string& error)> found) {
+  start<std::vector<ScanCopy>>(
+      [places = std::move(places), name, size](const io::Progress& tell) {
+        std::vector<ScanCopy> copies;
+        for (const std::string& place : places) {
+          std::error_code ignored;
+          if (!std::filesystem::exists(place, ignored)) continue;
+          try {
+            const auto catalogue = find_scans(place, tell);
+            for (std::size_t n = 0; n < catalogue->series.size(); ++n) {
+              const bool same_size = catalogue->series[n].geometry.dimensions == size;
+              if (same_size && scan_name(*catalogue, n) == name) copies.push_back({catalogue, n});
+            }
+          } catch (const io::DicomError&) {  // not readable: no copy
+          }
+        }
+        return copies;
+      },
+      std::move(progress), std::move(found));
+}
+
+void ScanLoader::load_copy(std::vector<ScanCopy> copies, const std::string& hash, Progress progress, Loaded loaded) {
+  start<std::shared_ptr<const io::Volume>>(
+      [copies = std::move(copies), hash](const io::Progress& tell) -> std::shared_ptr<const io::Volume> {
+        for (const ScanCopy& copy : copies) {
+          try {
+            auto volume = load_scan(copy.catalogue->series[copy.series], 0, tell);
+            if (hash_of(*volume) == hash) return volume;
+          } catch (const io::DicomError&) {  // the next may be whole
+          }
+        }
+        return nullptr;
+      },
+      std::move(progress), std::move(loaded));
 }
 
 void ScanLoader::study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied) {

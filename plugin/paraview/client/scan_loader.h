@@ -18,6 +18,12 @@
 
 namespace palpate::plugin {
 
+/// A series here that may be the one on a server.
+struct ScanCopy {
+  std::shared_ptr<const io::Catalogue> catalogue;
+  std::size_t series = 0;
+};
+
 /// One job at a time; a new one cancels the last. All callbacks come on the UI thread, none after destruction.
 class ScanLoader {
  public:
@@ -34,6 +40,11 @@ class ScanLoader {
 
   void find(const std::string& path, Progress progress, Found found);
   void load(const io::Series& series, int frame, Progress progress, Loaded loaded);
+  /// Series of that name (as scan_name()) and size in these folders and files; what is not there is passed over.
+  void find_copies(std::vector<std::string> places, const std::string& name, const glm::ivec3& size, Progress progress,
+                   std::function<void(const std::vector<ScanCopy>&, const std::string& error)> found);
+  /// The first of them whose hash is that one; none, without an error, where none is.
+  void load_copy(std::vector<ScanCopy> copies, const std::string& hash, Progress progress, Loaded loaded);
   void study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied);
   /// One for each series, in their order; empty ones where there is nothing to be shown.
   void draw_thumbnails(std::shared_ptr<const io::Catalogue> catalogue,

@@ -2,6 +2,7 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqFileDialog.h>
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
 #include <pqServer.h>
@@ -78,12 +79,23 @@ void ScanSection::build() {
   cancel_->setObjectName(QStringLiteral("palpateCancel"));
   connect(cancel_, &QPushButton::clicked, this, [this] {
     loader_.cancel();
+    server_scan_.cancel();
     set_busy(false);
     tell(tr("Cancelled."));
+    if (remote_server() && source_) {
+      emit out_of_reach(
+          tr("The scan is on the server, and was not fetched: choose it again in the list, or name a copy here."));
+    }
   });
   work->addWidget(progress_, 1);
   work->addWidget(cancel_);
   column->addLayout(work);
+  copy_ = new QPushButton(tr("A copy on this machine…"), this);
+  copy_->setObjectName(QStringLiteral("palpateCopy"));
+  copy_->setToolTip(tr("A folder of this machine that holds the same scan: it is then not fetched from the server."));
+  copy_->hide();
+  connect(copy_, &QPushButton::clicked, this, [this] { ask_copy(); });
+  column->addWidget(copy_);
 
   auto* const window = new QHBoxLayout;
   window->addWidget(new QLabel(tr("Window"), this));
@@ -130,7 +142,16 @@ bool ScanSection::has_notes() const {
 }
 
 void ScanSection::ask_folder() {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open DICOM folder"));
+  const QString title = tr("Open DICOM folder");
+  if (pqServer* const server = remote_server()) {
+    pqFileDialog dialog(server, this, title + tr(" of the server"));
+    dialog.setFileMode(pqFileDialog::Directory);
+    if (dialog.exec() == QDialog::Accepted && !dialog.getSelectedFiles().isEmpty()) {
+      open(dialog.getSelectedFiles().first().toStdString());
+    }
+    return;
+  }
+  const QString folder = QFileDialog::getExistingDirectory(this, title);
   if (!folder.isEmpty()) open(folder.toStdString());
 }
 
@@ -145,8 +166,16 @@ void ScanSection::dropEvent(QDropEvent* event) {
 void ScanSection::open(const std::string& path) {
   path_ = path;
   catalogue_.reset();
+  on_server_.reset();
   series_->clear();
+  loader_.cancel();
+  server_scan_.cancel();
+  copy_->hide();
   tell({});
+  if (remote_server()) {
+    open_on_server();
+    return;
+  }
   set_busy(true, tr("Finding series"));
   loader_.find(
       path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
@@ -190,13 +219,18 @@ void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std
 }
 
 void ScanSection::load(std::size_t series) {
+  if (on_server_ && series < on_server_->series.size()) {
+    server_scan_.cancel();
+    show({.path = path_, .name = on_server_->series[series].name, .catalogue = {}, .volume = {}});
+    return;
+  }
   if (!catalogue_ || series >= catalogue_->series.size()) return;
   set_busy(true, tr("Loading"));
   tell({});
   loader_.load(
       catalogue_->series[series], 0, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
       [this, catalogue = catalogue_, path = path_, series](const auto& volume, const std::string& error) {
-        if (volume) show({catalogue, path, series, volume});
+        if (volume) show({path, scan_name(*catalogue, series), catalogue, series, volume});
         set_busy(false);
         if (!error.empty()) tell(text(error), true);
       });
@@ -223,6 +257,7 @@ void ScanSection::show_now(const Loaded& loaded) {
   try {
     SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
     emit closing();
+    if (!loaded.volume) emit out_of_reach({});
     views_.close();
     if (source_) builder.destroy(source_);
     source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
@@ -234,7 +269,7 @@ void ScanSection::show_now(const Loaded& loaded) {
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", &proxy);  // else a trace has a reader of nothing
       vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
-      vtkSMPropertyHelper(&proxy, "SeriesUid").Set(scan_name(*loaded.catalogue, loaded.series).c_str());
+      vtkSMPropertyHelper(&proxy, "SeriesUid").Set(loaded.name.c_str());
       proxy.UpdateVTKObjects();
     }
     source_->updatePipeline();
@@ -244,7 +279,11 @@ void ScanSection::show_now(const Loaded& loaded) {
     views_.show(*source_);
     list_windows();
     say_what_to_know(loaded);
-    emit scan_shown(loaded.volume);
+    if (loaded.volume) {
+      emit scan_shown(loaded.volume);
+    } else {
+      fetch();
+    }
   } catch (const std::exception& error) {
     tell(text(error.what()), true);
   }
@@ -261,8 +300,13 @@ void ScanSection::list_windows() {
 }
 
 void ScanSection::say_what_to_know(const Loaded& loaded) {
-  const io::Series& shown = loaded.catalogue->series[loaded.series];
   QStringList notes;
+  if (!loaded.volume) {
+    for (const std::string& message : messages_of(*source_->getSourceProxy())) notes << text(message);
+    tell(notes.join(QStringLiteral("\n")));
+    return;
+  }
+  const io::Series& shown = loaded.catalogue->series[loaded.series];
   for (const std::string& warning : shown.warnings) notes << text(warning);
   for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
   if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");
@@ -270,38 +314,6 @@ void ScanSection::say_what_to_know(const Loaded& loaded) {
     notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
   }
   tell(notes.join(QStringLiteral("\n")));
-}
-
-void ScanSection::adopt(pqPipelineSource& reader) {
-  source_ = &reader;
-  const std::string path = vtkSMPropertyHelper(reader.getProxy(), "FileName").GetAsString();
-  const std::string name = vtkSMPropertyHelper(reader.getProxy(), "SeriesUid").GetAsString();
-  path_ = path;
-  set_busy(true, tr("Finding series"));
-  loader_.find(
-      path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
-      [this, path, name](const auto& catalogue, const std::string& error) {
-        set_busy(false);
-        if (!catalogue) {
-          tell(text(error), true);
-          return;
-        }
-        const std::size_t series = choose_scan(*catalogue, name, path);
-        loader_.load(
-            catalogue->series[series], 0, [](double) {},
-            [this, catalogue, path, series](const auto& volume, const std::string& why) {
-              if (!volume) {
-                tell(text(why), true);
-                return;
-              }
-              const Loaded loaded{catalogue, path, series, volume};
-              source_->updatePipeline();
-              views_.adopt(*source_);
-              list_windows();
-              say_what_to_know(loaded);
-              emit scan_shown(volume);
-            });
-      });
 }
 
 void ScanSection::apply_window(int choice) {

@@ -13,6 +13,8 @@
 
 #include "clinical_views.h"
 #include "scan_loader.h"
+#include "server_scan.h"
+#include "server_series.h"
 
 class QComboBox;
 class QLabel;
@@ -29,8 +31,10 @@ class ScanSection : public QWidget {
   explicit ScanSection(QWidget* parent = nullptr);
   ~ScanSection() override;
 
-  /// Finds the series of a folder or file; where one alone is a volume, shows it.
+  /// Finds the series of a folder or file, as the active server knows it; where one alone is a volume, shows it.
   void open(const std::string& path);
+  /// The server has gone, and what it read.
+  void server_gone();
   /// Takes over a reader that stands in the pipeline and its views as they are: a state file has restored them.
   void adopt(pqPipelineSource& reader);
   /// Whether there is something to be read about the scan that is shown.
@@ -41,7 +45,9 @@ class ScanSection : public QWidget {
  signals:
   /// The views of the scan that is shown are about to go.
   void closing();
-  /// Another scan is in the views.
+  /// A server's scan is in the views, or on its way there, and cannot be felt: yet, or, where it is said why, at all.
+  void out_of_reach(const QString& why);
+  /// Another scan is in the views, and can be felt.
   void scan_shown(const std::shared_ptr<const palpate::io::Volume>& volume);
 
  protected:
@@ -54,13 +60,18 @@ class ScanSection : public QWidget {
   void list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error);
   void load(std::size_t series);
   struct Loaded {
-    std::shared_ptr<const io::Catalogue> catalogue;
     std::string path;
+    std::string name;  ///< of the series: scan_name()
+    std::shared_ptr<const io::Catalogue> catalogue;
     std::size_t series = 0;
-    std::shared_ptr<const io::Volume> volume;  ///< held until the reader has it
+    std::shared_ptr<const io::Volume> volume;  ///< held until the reader has it; null: the server has it
   };
   void show(const Loaded& loaded);
   void show_now(const Loaded& loaded);
+  void open_on_server();
+  void fetch();
+  void ask_copy();
+  void adopt_from_server();
   void list_windows();
   void say_what_to_know(const Loaded& loaded);
   void apply_window(int choice);
@@ -71,15 +82,19 @@ class ScanSection : public QWidget {
   QListWidget* series_ = nullptr;
   QProgressBar* progress_ = nullptr;
   QPushButton* cancel_ = nullptr;
+  QPushButton* copy_ = nullptr;
   QComboBox* window_ = nullptr;
   QLabel* message_ = nullptr;
 
   std::string path_;
   std::shared_ptr<const io::Catalogue> catalogue_;
+  std::unique_ptr<ServerSeries> on_server_;  // what the active server found; null: it is this program
+  std::vector<std::string> copies_;          // folders of this machine that were named
   bool showing_ = false;
   QPointer<pqPipelineSource> source_;
   ClinicalViews views_;
   ScanLoader thumbnails_;
+  ServerScan server_scan_;
   ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
 };
 

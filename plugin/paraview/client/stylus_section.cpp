@@ -255,7 +255,7 @@ void StylusSection::show_connection() {
   const LiveSession& live = touching_.live();
   const bool held = live.is_connected();
   connect_->setText(held ? tr("Disconnect") : tr("Connect"));
-  connect_->setEnabled(held || live.scan() != nullptr);
+  connect_->setEnabled(held || live.scan() != nullptr || !touching_.why_no_scan().isEmpty());
   connect_->setToolTip(live.scan() ? QString() : tr("Open a scan first."));
   device_->setEnabled(!held);
   file_->setEnabled(!held);

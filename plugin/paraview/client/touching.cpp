@@ -36,7 +36,17 @@ Touching::~Touching() {
   live_.disconnect();
 }
 
+void Touching::set_no_scan(const QString& why) {
+  why_no_scan_ = why;
+  live_.set_scan(nullptr);
+  simulated_.reset();
+  clutched_ = false;
+  look();
+  emit connection_changed();
+}
+
 void Touching::set_scan(std::shared_ptr<const io::Volume> volume) {
+  why_no_scan_.clear();
   try {
     live_.set_scan(std::move(volume));
   } catch (const std::exception& error) {
@@ -79,6 +89,10 @@ glm::dvec3 Touching::first_place() const {
 }
 
 void Touching::connect_stylus(const StylusChoice& choice) {
+  if (!live_.scan() && !why_no_scan_.isEmpty()) {
+    emit told(why_no_scan_, true);
+    return;
+  }
   try {
     const auto stylus =
         make_stylus({.device = choice.device, .firmware = choice.firmware, .settings = choice.settings});

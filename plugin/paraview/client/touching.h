@@ -55,6 +55,9 @@ class Touching : public QObject {
   ~Touching() override;
 
   void set_scan(std::shared_ptr<const io::Volume> volume);
+  /// There is none to be felt, and the stylus is let go; connecting is refused with `why`, where that is said.
+  void set_no_scan(const QString& why);
+  const QString& why_no_scan() const { return why_no_scan_; }
   const LiveSession& live() const { return live_; }
   /// What was seen last.
   const Look& last() const { return look_; }
@@ -106,6 +109,7 @@ class Touching : public QObject {
 
   SceneModel& model_;
   LiveSession live_;
+  QString why_no_scan_;
   std::shared_ptr<device::SimulatedStylus> simulated_;
   modes::Workspace before_, now_;  // of the last two scenes
   std::uint64_t next_frame_ = 0;

@@ -6,6 +6,7 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkIntArray.h>
 #include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -74,6 +75,7 @@ vtkStandardNewMacro(PalpateDicomReader);
 PalpateDicomReader::PalpateDicomReader()
     : series_uids_(vtkSmartPointer<vtkStringArray>::New()),
       series_labels_(vtkSmartPointer<vtkStringArray>::New()),
+      series_usable_(vtkSmartPointer<vtkIntArray>::New()),
       messages_(vtkSmartPointer<vtkStringArray>::New()) {
   SetNumberOfInputPorts(0);
 }
@@ -106,6 +108,9 @@ vtkStringArray* PalpateDicomReader::GetSeriesUids() {
 }
 vtkStringArray* PalpateDicomReader::GetSeriesLabels() {
   return series_labels_;
+}
+vtkIntArray* PalpateDicomReader::GetSeriesUsable() {
+  return series_usable_;
 }
 vtkStringArray* PalpateDicomReader::GetMessages() {
   return messages_;
@@ -170,6 +175,10 @@ double PalpateDicomReader::ValueAt(double x, double y, double z) {
   }
 }
 
+const io::Series* PalpateDicomReader::FoundSeries() const {
+  return scan_ ? &scan_->series() : nullptr;
+}
+
 int PalpateDicomReader::GetStoredScans() {
   return static_cast<int>(plugin::store_use().volumes);
 }
@@ -204,10 +213,12 @@ void PalpateDicomReader::find() {
   });
   series_uids_->Reset();
   series_labels_->Reset();
+  series_usable_->Reset();
   messages_->Reset();
   for (const std::size_t n : plugin::choices(*found->catalogue, file_name_)) {
     series_uids_->InsertNextValue(plugin::scan_name(*found->catalogue, n));
     series_labels_->InsertNextValue(plugin::scan_label(found->catalogue->series[n]));
+    series_usable_->InsertNextValue(found->catalogue->series[n].usable ? 1 : 0);
   }
   found->chosen = plugin::choose_scan(*found->catalogue, series_uid_, file_name_);
   const io::Series& series = found->series();

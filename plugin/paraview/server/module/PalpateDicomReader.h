@@ -17,7 +17,14 @@
 #include "PalpateServerModule.h"
 
 class vtkDoubleArray;
+class vtkIntArray;
 class vtkStringArray;
+
+#ifndef __VTK_WRAP__  // whose parser is older
+namespace palpate::io {
+struct Series;
+}  // namespace palpate::io
+#endif
 
 class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
  public:
@@ -35,6 +42,8 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   /// Of the series found, in the same order, the one that an empty choice means first. Filled by UpdateInformation().
   vtkStringArray* GetSeriesUids();
   vtkStringArray* GetSeriesLabels();
+  /// 1 where that series is a volume, 0 where not (a localizer, a single slice).
+  vtkIntArray* GetSeriesUsable();
   /// What a user should know of the series read, a sentence each.
   vtkStringArray* GetMessages();
   /// Whether the slices are uneven and an even copy is shown.
@@ -54,6 +63,11 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   /// The value of the voxel nearest to a place in the patient, mm, in the frame shown last; NaN outside and in gaps. On
   /// a rank that does not hold it, its slice is read.
   double ValueAt(double x, double y, double z);
+
+#ifndef __VTK_WRAP__
+  /// The series that is read, for the process itself; null before UpdateInformation().
+  const palpate::io::Series* FoundSeries() const;
+#endif
 
   /// Of all scans in this process: how many, bytes of voxels, VTK arrays that view them.
   int GetStoredScans();
@@ -81,6 +95,7 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   std::string series_uid_;
   vtkSmartPointer<vtkStringArray> series_uids_;
   vtkSmartPointer<vtkStringArray> series_labels_;
+  vtkSmartPointer<vtkIntArray> series_usable_;
   vtkSmartPointer<vtkStringArray> messages_;
   std::array<double, 18> lattice_{};
   std::array<double, 2> window_{};

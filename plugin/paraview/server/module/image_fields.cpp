@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <stdexcept>
@@ -83,34 +85,46 @@ class Fields {
   vtkSmartPointer<vtkFloatArray> felt_;
 };
 
-constexpr int slab = 8;  // slices at a time: each block computes its neighbours' sums once more
-
-/// Slabs of slices on all cores, a few at a time so that progress is told and cancelling works.
+/// work(0) ... work(count - 1) on all cores, some at a time so that progress is told and cancelling works.
 template <typename Work>
-void for_slabs(int slices, const io::Progress& progress, const Work& work) {
-  const int at_a_time = slab * std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1);
-  for (int begin = 0; begin < slices; begin += at_a_time) {
-    if (progress && !progress(static_cast<double>(begin) / slices)) throw io::Cancelled();
-    const int end = std::min(begin + at_a_time, slices);
-    vtkSMPTools::For(begin / slab, (end + slab - 1) / slab, 1, [&](vtkIdType first, vtkIdType last) {
-      for (vtkIdType n = first; n < last; ++n) {
-        work(static_cast<int>(n) * slab, std::min(static_cast<int>(n + 1) * slab, slices));
-      }
+void for_pieces(std::size_t count, const io::Progress& progress, const Work& work) {
+  const auto at_a_time = static_cast<std::size_t>(4 * std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1));
+  for (std::size_t begin = 0; begin < count; begin += at_a_time) {
+    if (progress && !progress(static_cast<double>(begin) / static_cast<double>(count))) throw io::Cancelled();
+    const std::size_t end = std::min(begin + at_a_time, count);
+    vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end), 1, [&](vtkIdType one, vtkIdType last) {
+      for (; one < last; ++one) work(static_cast<std::size_t>(one));
     });
   }
 }
 
-void fill_from_voxels(const io::Volume& volume, const io::GradientKernel* kernel, const std::array<int, 3>& first,
+/// A box of points in blocks whose sums stay in a second-level cache, as GradientKernel has its own.
+std::vector<io::Block> blocks_of(const glm::ivec3& size) {
+  constexpr glm::ivec3 longest(512, 24, 64);
+  std::vector<io::Block> blocks;
+  glm::ivec3 at(0);
+  for (at.z = 0; at.z < size.z; at.z += longest.z) {
+    for (at.y = 0; at.y < size.y; at.y += longest.y) {
+      for (at.x = 0; at.x < size.x; at.x += longest.x) blocks.push_back({at, glm::min(longest, size - at)});
+    }
+  }
+  return blocks;
+}
+
+void fill_from_voxels(const io::Volume& volume, const io::GradientKernel* kernel, const glm::ivec3& first,
                       const glm::ivec3& size, const io::Progress& progress, const Fields& fields) {
-  for_slabs(size.z, progress, [&](int begin, int end) {
-    std::vector<glm::vec3> gradients(static_cast<std::size_t>(end - begin) * size.x * size.y);
-    if (kernel) kernel->at_block({{first[0], first[1], first[2] + begin}, {size.x, size.y, end - begin}}, gradients);
+  const std::vector<io::Block> blocks = blocks_of(size);
+  for_pieces(blocks.size(), progress, [&](std::size_t one) {
+    const io::Block& block = blocks[one];
+    std::vector<glm::vec3> gradients(block.voxels());
+    if (kernel) kernel->at_block({first + block.first, block.size}, gradients);
     std::size_t n = 0;
-    vtkIdType point = vtkIdType{begin} * size.x * size.y;
-    for (int k = begin; k < end; ++k) {
-      for (int j = 0; j < size.y; ++j) {
-        for (int i = 0; i < size.x; ++i, ++n, ++point) {
-          const glm::ivec3 at(first[0] + i, first[1] + j, first[2] + k);
+    const glm::ivec3 end = block.first + block.size;
+    for (int k = block.first.z; k < end.z; ++k) {
+      for (int j = block.first.y; j < end.y; ++j) {
+        vtkIdType point = (vtkIdType{k} * size.y + j) * size.x + block.first.x;
+        for (int i = block.first.x; i < end.x; ++i, ++n, ++point) {
+          const glm::ivec3 at = first + glm::ivec3(i, j, k);
           io::Sample sample;
           sample.inside = !volume.is_padding(at.x, at.y, at.z);
           if (sample.inside) {
@@ -128,8 +142,9 @@ void fill_from_samples(vtkImageData& image, const io::FieldSource& source, Field
                        const io::Progress& progress, const Fields& fields) {
   const int* const size = image.GetDimensions();
   const vtkIdType slice = vtkIdType{size[0]} * size[1];
-  for_slabs(size[2], progress, [&](int begin, int end) {
-    for (vtkIdType point = begin * slice; point < end * slice; ++point) {
+  for_pieces(static_cast<std::size_t>(size[2]), progress, [&](std::size_t k) {
+    const auto begin = static_cast<vtkIdType>(k) * slice;
+    for (vtkIdType point = begin; point < begin + slice; ++point) {
       glm::dvec3 position;
       image.GetPoint(point, &position.x);
       fields.put(point, source.sample(position, wanted));
@@ -158,7 +173,8 @@ std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
     if (io::contains(wanted, FieldSet::gradient)) kernel.emplace(volume, scale);
     glm::ivec3 size;
     image.GetDimensions(&size.x);
-    fill_from_voxels(*volume, kernel ? &*kernel : nullptr, block.first, size, progress, fields);
+    const glm::ivec3 first(block.first[0], block.first[1], block.first[2]);
+    fill_from_voxels(*volume, kernel ? &*kernel : nullptr, first, size, progress, fields);
   } else {
     const io::VolumeFields source(volume, wanted, scale, modes::field_options(choice.scene.sampling));
     fill_from_samples(image, source, wanted, progress, fields);

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "palpate/io/load.h"
+#include "palpate/plugin/scan_values.h"
 #include "read_part.h"
 #include "shared_voxels.h"
 
@@ -104,10 +105,14 @@ std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std:
   return scans().get(key_of(series, 0, extent), [&] { return scan_values(read_part(series, extent, progress)); });
 }
 
-std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice) {
+std::shared_ptr<const io::Volume> load_slices(const io::Series& series, int first, int count) {
   io::LoadOptions how;
-  how.slices = {slice, 1};
+  how.slices = {first, count};
   return std::make_shared<const io::Volume>(scan_values(io::load(series, how)));
+}
+
+std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice) {
+  return load_slices(series, slice, 1);
 }
 
 std::shared_ptr<const io::Volume> held_scan(const io::Series& series, int frame) {

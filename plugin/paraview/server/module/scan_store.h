@@ -30,7 +30,8 @@ PALPATESERVER_EXPORT std::shared_ptr<const io::Volume> load_scan(const io::Serie
 std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std::array<int, 6>& extent,
                                             const io::Progress& progress = {});
 
-/// One slice of the first frame.
+/// Some slices of the first frame, not kept in the store. Fewer where some cannot be decoded.
+std::shared_ptr<const io::Volume> load_slices(const io::Series& series, int first, int count);
 std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice);
 
 /// The whole frame where somebody holds it; none otherwise, also while it is being loaded.
@@ -43,9 +44,5 @@ struct StoreUse {
   std::size_t shared_arrays = 0;  ///< VTK arrays that view those voxels
 };
 PALPATESERVER_EXPORT StoreUse store_use();
-
-/// The same volume with slope 1 and intercept 0, for a viewer shows what is stored: still 16 bit where every value is
-/// an integer that fits (all CT), else as floats. Takes its voxels.
-io::Volume scan_values(io::Volume volume);
 
 }  // namespace palpate::plugin

@@ -16,6 +16,7 @@ const Scenarios& heap_scenarios();
 const Scenarios& picture_scenarios();
 const Scenarios& profile_scenarios();
 const Scenarios& recording_scenarios();
+const Scenarios& remote_scenarios();
 const Scenarios& story_scenarios();
 
 /// The JSON text of the scene in the pipeline; empty where there is none.

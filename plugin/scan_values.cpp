@@ -1,3 +1,5 @@
+#include "palpate/plugin/scan_values.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,8 +7,6 @@
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include "scan_store.h"
 
 namespace palpate::plugin {
 namespace {

@@ -1,0 +1,37 @@
+#pragma once
+
+/// The series that a server finds in one of its folders.
+
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class pqServer;
+class vtkSMSourceProxy;
+
+namespace palpate::plugin {
+
+struct ServerSeries {
+  struct One {
+    std::string name;   ///< as scan_name()
+    std::string label;  ///< as scan_label()
+    bool usable = false;
+  };
+  std::vector<One> series;
+  /// Keeps what was found in the server's store, so that the reader to come need not look again.
+  vtkSmartPointer<vtkSMSourceProxy> finder;
+};
+
+/// The active server where it is another program than this one; null where not.
+pqServer* remote_server();
+
+/// Looks in a folder, or beside a file, of the server; blocks while the server reads headers. Throws std::runtime_error
+/// where the server has no Palpate plug-in, or finds nothing.
+std::unique_ptr<ServerSeries> find_on_server(pqServer& server, const std::string& path);
+
+/// What a user should know of the series that a reader shows.
+std::vector<std::string> messages_of(vtkSMSourceProxy& reader);
+
+}  // namespace palpate::plugin

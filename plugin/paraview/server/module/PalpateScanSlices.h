@@ -1,0 +1,51 @@
+#pragma once
+
+/// What a client asks a server's PalpateDicomReader of its voxels, and the answer: gathered from the first rank alone,
+/// a few slices at a time.
+
+#include <vtkPVInformation.h>
+
+#include <memory>
+
+#include "PalpateServerModule.h"
+
+#ifndef __VTK_WRAP__  // whose parser is older
+namespace palpate::plugin {
+struct SlicesAsked;
+struct SlicesAnswered;
+}  // namespace palpate::plugin
+#endif
+
+class PALPATESERVER_EXPORT PalpateScanSlices : public vtkPVInformation {
+ public:
+  static PalpateScanSlices* New();
+  vtkTypeMacro(PalpateScanSlices, vtkPVInformation) void PrintSelf(ostream& os, vtkIndent indent) override;
+
+#ifndef __VTK_WRAP__
+  palpate::plugin::SlicesAsked& Asked() {
+    return *asked_;
+  }
+  palpate::plugin::SlicesAnswered& Answered() {
+    return *answered_;
+  }
+#endif
+
+  void CopyFromObject(vtkObject* reader) override;
+  void CopyToStream(vtkClientServerStream* stream) override;
+  void CopyFromStream(const vtkClientServerStream* stream) override;
+  void CopyParametersToStream(vtkMultiProcessStream& stream) override;
+  void CopyParametersFromStream(vtkMultiProcessStream& stream) override;
+
+  PalpateScanSlices(const PalpateScanSlices&) = delete;
+  PalpateScanSlices& operator=(const PalpateScanSlices&) = delete;
+
+ protected:
+  PalpateScanSlices();
+  ~PalpateScanSlices() override;
+
+#ifndef __VTK_WRAP__
+ private:
+  std::unique_ptr<palpate::plugin::SlicesAsked> asked_;
+  std::unique_ptr<palpate::plugin::SlicesAnswered> answered_;
+#endif
+};

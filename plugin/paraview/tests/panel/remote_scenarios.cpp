@@ -1,0 +1,194 @@
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqObjectBuilder.h>
+#include <pqServer.h>
+#include <pqServerResource.h>
+
+#include <QApplication>
+#include <QDialog>
+#include <QFile>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMessageBox>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTimer>
+#include <QtTest/QTest>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "panel_rig.h"
+#include "panel_steps.h"
+
+// With a server of its own on loopback: PALPATE_SERVER is its port, PALPATE_SERVER_PID its process, PALPATE_REMOTE the
+// folder to open by the server's own name.
+
+namespace {
+
+pqServer* active_server() {
+  return pqActiveObjects::instance().activeServer();
+}
+
+void connect_server() {
+  wait_for("ParaView is ready", [] { return active_server() != nullptr; });
+  const QString port = qEnvironmentVariable("PALPATE_SERVER");
+  pqApplicationCore::instance()->getObjectBuilder()->createServer(
+      pqServerResource(QStringLiteral("cs://127.0.0.1:") + port));
+  wait_for("ParaView is connected to the server", [] { return active_server() && active_server()->isRemote(); });
+  wait_ms(1000);
+}
+
+/// What a user does in the file dialog that a click opens.
+void choose(const char* button, const char* line, const QString& path) {
+  bool chosen = false;
+  QTimer looking;
+  QObject::connect(&looking, &QTimer::timeout, [&] {
+    auto* const dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    auto* const name = dialog ? dialog->findChild<QLineEdit*>(QString::fromLatin1(line)) : nullptr;
+    if (!name || !name->isVisible()) return;
+    looking.stop();
+    name->setText(path);
+    chosen = true;
+    wait_ms(500);
+    if (dialog->isVisible()) QTest::keyClick(name, Qt::Key_Return);
+    for (int n = 0; n < 3 && dialog->isVisible(); ++n) {  // a folder is gone into first
+      wait_ms(1000);
+      for (auto* const ok : dialog->findChildren<QPushButton*>()) {
+        if (dialog->isVisible() && ok->isVisible() && ok->isDefault()) ok->click();
+      }
+    }
+  });
+  constexpr int poll_ms = 300;
+  looking.start(poll_ms);
+  click(button);
+  expect(chosen, std::string("a file dialog was opened by ") + button);
+}
+
+void open_on_server() {
+  choose("palpateOpen", "FileName", qEnvironmentVariable("PALPATE_REMOTE"));
+}
+
+void record() {
+  const QString file = qEnvironmentVariable("PALPATE_RECORDING");
+  choose("palpateRecord", "fileNameEdit", file);
+  wait_for("it records", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; });
+  wait_for(
+      "the force is back", [] { return number("palpateForce") > 0.2; }, 20);
+  wait_ms(1000);
+}
+
+void wait_for_word(const char* word) {
+  wait_for(std::string("the panel says: ") + word, [&] { return label("palpateMessage").contains(word); });
+}
+
+/// Felt from the copy on this machine; then ParaView leaves the server, and is used without one.
+void remote_probe() {
+  connect_server();
+  open_on_server();
+  wait_for_word("the same as the server's");
+  feel();
+  save_screen("remote");
+  record();
+  pqApplicationCore::instance()->getObjectBuilder()->removeServer(active_server());
+  wait_for(
+      "nothing is held", [] { return label("palpateState").startsWith("not connected"); }, 10);
+  expect(number("palpateForce") == 0, "the force was taken away");
+  expect(label("palpateStylusMessage").contains("left the server"), "it is said why");
+  expect(QFile::exists(qEnvironmentVariable("PALPATE_RECORDING")), "the recording is there");
+  let_go();
+  wait_for("ParaView has its built-in server again", [] { return active_server() && !active_server()->isRemote(); });
+  wait_ms(1000);
+  choose("palpateOpen", "fileNameEdit", qEnvironmentVariable("PALPATE_REMOTE"));
+  feel();
+}
+
+/// What was not fetched cannot be felt, and it is said why; then it is.
+void remote_fetched() {
+  connect_server();
+  auto& progress = find<QProgressBar>("palpateProgress");
+  const auto cancelling = QObject::connect(&progress, &QProgressBar::valueChanged, [&] {
+    if (progress.format().startsWith("Fetching")) find<QPushButton>("palpateCancel").click();
+  });
+  open_on_server();
+  wait_for_word("Cancelled");
+  QObject::disconnect(cancelling);
+  wait_for(
+      "connecting can be tried", [] { return find<QPushButton>("palpateConnect").isEnabled(); }, 10);
+  click("palpateConnect");
+  expect(label("palpateStylusMessage").contains("not fetched"), "connecting is refused with the reason");
+  expect(find<QPushButton>("palpateConnect").text() == "Connect", "nothing is connected");
+  auto& series = find<QListWidget>("palpateSeries");
+  click(*series.viewport(), series.visualItemRect(series.item(0)).center());
+  wait_for_word("Fetched from the server");
+  feel();
+  record();
+  click("palpateRecord");
+  wait_for(
+      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+  let_go();
+}
+
+/// A folder of this machine has the same name and series, and other voxels; and a state brings it all back.
+void remote_different() {
+  connect_server();
+  open_on_server();
+  wait_for_word("is not the server's scan");
+  feel();
+  record();
+  click("palpateRecord");
+  wait_for(
+      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+  let_go();
+  click("palpateConnect");
+  const std::string saved = scene_text();
+  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/panel-remote.pvsm");
+  pqApplicationCore& core = *pqApplicationCore::instance();
+  expect(core.saveState(file), "the state is saved");
+  core.getObjectBuilder()->resetServer(active_server());
+  wait_for(
+      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 10);
+  core.loadState(file.toUtf8().constData(), active_server());
+  wait_for_word("is not the server's scan");
+  scan_is_shown();
+  expect(scene_text() == saved, "the scene is the same text");
+  feel();
+}
+
+/// The server is killed in mid-contact. ParaView then asks whether to save its state, and ends itself with _exit(-1).
+void remote_killed() {
+  connect_server();
+  open_on_server();
+  wait_for_word("the same as the server's");
+  feel();
+  record();
+  QTimer looking;
+  QObject::connect(&looking, &QTimer::timeout, [&] {
+    auto* const asks = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!asks) return;
+    looking.stop();
+    const bool zero = number("palpateForce") == 0 && label("palpateState").startsWith("not connected");
+    const bool said = label("palpateStylusMessage").contains("The server is lost");
+    save_screen("remote-lost");
+    std::printf("remote_killed: %s\n", zero && said ? "passed" : "FAILED: the force is on, or it is not said why");
+    std::printf("remote_killed: ParaView asks: %s\n", qPrintable(asks->text().simplified()));
+    std::fflush(stdout);
+    asks->button(QMessageBox::No) ? asks->button(QMessageBox::No)->click() : asks->buttons().last()->click();
+  });
+  constexpr int poll_ms = 50;
+  looking.start(poll_ms);
+  ::kill(qEnvironmentVariableIntValue("PALPATE_SERVER_PID"), SIGKILL);
+  wait_for(
+      "ParaView ends", [] { return false; }, 60);
+}
+
+}  // namespace
+
+const Scenarios& remote_scenarios() {
+  static const Scenarios all{{"remote_probe", remote_probe},
+                             {"remote_fetched", remote_fetched},
+                             {"remote_different", remote_different},
+                             {"remote_killed", remote_killed}};
+  return all;
+}

@@ -1,0 +1,119 @@
+"""ParaView with the panel and a server of its own on loopback, serial and on two ranks.
+
+Arguments as of panel_test.py, then scenarios (default: all). What the server's folder is called, it is called for this
+program, too, unless its name goes through /proc/self/cwd: that is another folder for each.
+"""
+
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import panel_test
+from panel_test import ASKED, PLUGINS, PROGRAMS, SCRATCH
+
+# Scenario, ranks, and what is on this machine by the name of the server's folder.
+RUNS = [("remote_probe", 1, "same"), ("remote_probe", 2, "same"), ("remote_fetched", 2, "none"),
+        ("remote_different", 1, "other"), ("remote_killed", 1, "same"), ("remote_killed", 2, "same")]
+ENDED_BY_PARAVIEW = 255  # its _exit(-1) where the server is lost
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def serve(ranks, folder):
+    """A server with the plug-in that runs in `folder`; its port and the process of its last rank."""
+    listed = os.path.join(SCRATCH, "remote-plugins.xml")
+    with open(listed, "w") as file:
+        path = os.path.join(os.path.dirname(PLUGINS), "Palpate", "Palpate.so")
+        file.write(f'<Plugins><Plugin name="Palpate" filename="{path}" auto_load="1"/></Plugins>')
+    port = free_port()
+    command = ["pvserver", f"--server-port={port}", "--force-offscreen-rendering"]
+    if ranks > 1:
+        command = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), *command]
+    server = subprocess.Popen(command, cwd=folder, env=dict(os.environ, PV_PLUGIN_CONFIG_FILE=listed),
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    for line in server.stdout:
+        if "Accepting connection" in line:
+            break
+    else:
+        raise RuntimeError(f"{' '.join(command)} ended with {server.wait()}")
+    children = subprocess.run(["pgrep", "-P", str(server.pid), "pvserver"], capture_output=True, text=True).stdout.split()
+    return server, port, int(children[-1]) if children else server.pid
+
+
+def other_voxels(folder, copy):
+    """The same series, with one voxel of one slice changed."""
+    shutil.copytree(folder, copy)
+    name = os.path.join(copy, sorted(os.listdir(copy))[3])
+    with open(name, "r+b") as file:
+        file.seek(-2000, os.SEEK_END)  # pixels are at a file's end
+        byte = file.read(1)
+        file.seek(-1, os.SEEK_CUR)
+        file.write(bytes([byte[0] ^ 1]))
+
+
+def run(scenario, ranks, here):
+    scan = panel_test.ball()
+    there = os.path.join(SCRATCH, "remote-there")
+    local = os.path.join(SCRATCH, "remote-here")
+    for folder in there, local:
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+    shutil.copytree(scan, os.path.join(there, "scan"))
+    if here == "other":
+        other_voxels(scan, os.path.join(local, "scan"))
+    remote = os.path.join(there, "scan") if here == "same" else "/proc/self/cwd/scan"
+    recording = os.path.join(SCRATCH, f"{scenario}-{ranks}.h5")
+    if os.path.exists(recording):
+        os.remove(recording)
+    home = os.path.join(SCRATCH, "remote-home")
+    shutil.rmtree(home, ignore_errors=True)
+    os.makedirs(home)
+    server, port, process = serve(ranks, there)
+    environment = dict(os.environ, PV_PLUGIN_CONFIG_FILE=panel_test.plugin_list(), HOME=home, LIBGL_ALWAYS_SOFTWARE="1",
+                       PALPATE_PANEL_TEST=scenario, PALPATE_PICTURES=SCRATCH, PALPATE_SERVER=str(port),
+                       PALPATE_SERVER_PID=str(process), PALPATE_REMOTE=remote, PALPATE_RECORDING=recording)
+    environment.pop("PALPATE_OPEN", None)
+    try:
+        result = subprocess.run(["paraview"], cwd=local, env=environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, timeout=240)
+    except subprocess.TimeoutExpired as late:
+        print(f"{scenario}, {ranks} ranks: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}")
+        return False
+    finally:
+        server.send_signal(signal.SIGTERM)
+        try:
+            server.wait(20)
+        except subprocess.TimeoutExpired:
+            server.kill()
+    said = [line for line in result.stdout.splitlines() if line.startswith(scenario)]
+    print("\n".join(f"{ranks} ranks: {line}" for line in said) or result.stdout[-3000:], flush=True)
+    expected = ENDED_BY_PARAVIEW if scenario == "remote_killed" else 0
+    if not any("passed" in line for line in said) or result.returncode != expected:
+        print(f"{scenario}, {ranks} ranks: FAILED: the program ended with {result.returncode}:\n{result.stdout[-2000:]}")
+        return False
+    return repeats(recording, os.path.join(there, "scan"))
+
+
+def repeats(recording, scan):
+    """Whether the recording was closed in good order, and is the same again of the server's own files."""
+    done = subprocess.run([os.path.join(PROGRAMS, "palpate"), "replay", recording, scan], capture_output=True, text=True)
+    good = done.returncode == 0 and "to the last bit" in done.stdout and "good order" not in done.stderr
+    print(f"  {done.stdout.strip() if good else 'FAILED: ' + done.stdout + done.stderr}", flush=True)
+    return good
+
+
+if __name__ == "__main__":
+    began = time.monotonic()
+    failed = [f"{name}, {ranks} ranks" for name, ranks, here in RUNS
+              if (not ASKED or name in ASKED or f"{name}:{ranks}" in ASKED) and not run(name, ranks, here)]
+    if failed:
+        sys.exit("failed: " + "; ".join(failed))
+    print(f"all passed in {time.monotonic() - began:.0f} s")
