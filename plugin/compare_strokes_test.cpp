@@ -11,6 +11,7 @@
 #include "palpate/modes/scene_json.h"
 #include "palpate/plugin/internal/test_files.h"
 #include "palpate/plugin/run_session.h"
+#include "palpate/plugin/scan_hash.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::plugin {

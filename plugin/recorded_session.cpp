@@ -9,6 +9,7 @@
 
 #include "palpate/modes/scene_json.h"
 #include "palpate/plugin/scan.h"
+#include "palpate/plugin/scan_hash.h"
 
 namespace palpate::plugin {
 namespace {

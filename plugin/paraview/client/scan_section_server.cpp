@@ -3,6 +3,7 @@
 #include <vtkSMSourceProxy.h>
 
 #include <QFileDialog>
+#include <QLabel>
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>

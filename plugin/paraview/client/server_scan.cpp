@@ -102,12 +102,13 @@ bool ServerScan::ask(SlicesAsked asked, SlicesAnswered& answered) {
   slices->Asked() = asked;
   vtkSMProxy& proxy = *reader_->getProxy();
   const unsigned run = run_;
-  const bool told = proxy.GetSession()->GatherInformation(vtkPVSession::DATA_SERVER_ROOT, slices, proxy.GetGlobalID());
+  // What GatherInformation() returns of a remote server says nothing; an answer takes this away.
+  slices->Answered().error = tr("it does not answer, and needs the Palpate plug-in of this version").toStdString();
+  proxy.GetSession()->GatherInformation(vtkPVSession::DATA_SERVER_ROOT, slices, proxy.GetGlobalID());
   answered = std::move(slices->Answered());
   if (run != run_) return false;  // given up meanwhile: the server went
-  if (told && answered.error.empty()) return true;
-  finish(nullptr, told ? tr("The server cannot give the scan's voxels: %1").arg(QString::fromStdString(answered.error))
-                       : tr("The server does not answer: it needs the Palpate plug-in of this version."));
+  if (answered.error.empty()) return true;
+  finish(nullptr, tr("The server cannot give the scan's voxels: %1").arg(QString::fromStdString(answered.error)));
   return false;
 }
 

@@ -37,13 +37,14 @@ def serve(ranks, folder):
     command = ["pvserver", f"--server-port={port}", "--force-offscreen-rendering"]
     if ranks > 1:
         command = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), *command]
-    server = subprocess.Popen(command, cwd=folder, env=dict(os.environ, PV_PLUGIN_CONFIG_FILE=listed),
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    for line in server.stdout:
-        if "Accepting connection" in line:
-            break
-    else:
-        raise RuntimeError(f"{' '.join(command)} ended with {server.wait()}")
+    log = os.path.join(SCRATCH, "remote-server.log")
+    with open(log, "w") as out:
+        server = subprocess.Popen(command, cwd=folder, env=dict(os.environ, PV_PLUGIN_CONFIG_FILE=listed),
+                                  stdout=out, stderr=subprocess.STDOUT)
+    while "Accepting connection" not in open(log).read():
+        if server.poll() is not None:
+            raise RuntimeError(f"{' '.join(command)} ended with {server.wait()}: {open(log).read()[-1000:]}")
+        time.sleep(0.2)
     children = subprocess.run(["pgrep", "-P", str(server.pid), "pvserver"], capture_output=True, text=True).stdout.split()
     return server, port, int(children[-1]) if children else server.pid
 
@@ -83,7 +84,8 @@ def run(scenario, ranks, here):
     environment.pop("PALPATE_OPEN", None)
     try:
         result = subprocess.run(["paraview"], cwd=local, env=environment, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, text=True, timeout=240)
+                                stderr=subprocess.STDOUT, text=True,
+                                timeout=int(os.environ.get("PALPATE_PATIENCE", "240")))
     except subprocess.TimeoutExpired as late:
         print(f"{scenario}, {ranks} ranks: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}")
         return False

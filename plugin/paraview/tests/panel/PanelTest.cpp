@@ -1,8 +1,9 @@
 #include "PanelTest.h"
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QListWidget>
 #include <QTimer>
+#include <QWidget>
 
 #include <cstdio>
 #include <exception>
@@ -24,6 +25,14 @@ bool is_opening() {
 void PanelTest::on_startup() {
   const std::string name = qgetenv("PALPATE_PANEL_TEST").toStdString();
   if (name.empty()) return;
+  auto* const welcome = new QTimer(this);  // comes when it likes, in front of all else
+  connect(welcome, &QTimer::timeout, this, [] {
+    for (QWidget* const top : QApplication::topLevelWidgets()) {
+      if (top->inherits("pqWelcomeDialog") && top->isVisible()) top->close();
+    }
+  });
+  constexpr int often_ms = 200;
+  welcome->start(often_ms);
   // Not before the panel is there: ParaView handles events while it starts, and must not be held up in one of them.
   auto* const waiting = new QTimer(this);
   connect(waiting, &QTimer::timeout, this, [waiting, name] {
