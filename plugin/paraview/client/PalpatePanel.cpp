@@ -171,9 +171,9 @@ void PalpatePanel::Parts::build() {
 void PalpatePanel::Parts::leave(const QString& why) {
   const bool held = touching.live().is_connected();
   touching.set_no_scan({});
-  leave_views();
+  if (held) emit touching.told(why, true);  // before the views, which may find that their server does not answer
   scan->server_gone();
-  if (held) emit touching.told(why, true);
+  leave_views();
 }
 
 /// What a state file has restored is taken over: scan, scene and views.
