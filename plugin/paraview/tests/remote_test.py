@@ -1,6 +1,6 @@
 """ParaView with the panel and a server of its own on loopback, serial and on two ranks.
 
-Arguments as of panel_test.py, then scenarios (default: all). What the server's folder is called, it is called for this
+Arguments as of panel_program.py, then scenarios (default: all). What the server's folder is called, it is called for this
 program, too, unless its name goes through /proc/self/cwd: that is another folder for each.
 """
 
@@ -12,8 +12,8 @@ import subprocess
 import sys
 import time
 
-import panel_test
-from panel_test import ASKED, PLUGINS, PROGRAMS, SCRATCH
+import panel_program
+from panel_program import ASKED, PLUGINS, PROGRAMS, SCRATCH
 
 # Scenario, ranks, and what is on this machine by the name of the server's folder.
 RUNS = [("remote_probe", 1, "same"), ("remote_probe", 2, "same"), ("remote_fetched", 2, "none"),
@@ -61,7 +61,7 @@ def other_voxels(folder, copy):
 
 
 def run(scenario, ranks, here):
-    scan = panel_test.ball()
+    scan = panel_program.ball()
     there = os.path.join(SCRATCH, "remote-there")
     local = os.path.join(SCRATCH, "remote-here")
     for folder in there, local:
@@ -78,7 +78,8 @@ def run(scenario, ranks, here):
     shutil.rmtree(home, ignore_errors=True)
     os.makedirs(home)
     server, port, process = serve(ranks, there)
-    environment = dict(os.environ, PV_PLUGIN_CONFIG_FILE=panel_test.plugin_list(), HOME=home, LIBGL_ALWAYS_SOFTWARE="1",
+    listed = panel_program.plugin_list(PLUGINS, panel_program.TEST_PLUGIN)
+    environment = dict(os.environ, PV_PLUGIN_CONFIG_FILE=listed, HOME=home, LIBGL_ALWAYS_SOFTWARE="1",
                        PALPATE_PANEL_TEST=scenario, PALPATE_PICTURES=SCRATCH, PALPATE_SERVER=str(port),
                        PALPATE_SERVER_PID=str(process), PALPATE_REMOTE=remote, PALPATE_RECORDING=recording)
     environment.pop("PALPATE_OPEN", None)

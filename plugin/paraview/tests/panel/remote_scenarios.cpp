@@ -34,6 +34,7 @@ pqServer* active_server() {
 
 void connect_server() {
   wait_for("ParaView is ready", [] { return active_server() != nullptr; });
+  wait_ms(3000);  // ParaView still makes its own server, and must not be held up in that
   const QString port = qEnvironmentVariable("PALPATE_SERVER");
   pqApplicationCore::instance()->getObjectBuilder()->createServer(
       pqServerResource(QStringLiteral("cs://127.0.0.1:") + port));
