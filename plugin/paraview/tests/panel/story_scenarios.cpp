@@ -32,6 +32,7 @@
 #include "palpate/plugin/paraview/server/module/scan_store.h"
 #include "palpate/plugin/replay.h"
 #include "palpate/plugin/run_session.h"
+#include "palpate/plugin/scan_hash.h"
 #include "panel_rig.h"
 #include "panel_steps.h"
 
