@@ -19,6 +19,7 @@
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
+#include <vtkSMTrace.h>
 #include <vtkSMViewLayoutProxy.h>
 #include <vtkSmartPointer.h>
 #include <vtkStructuredData.h>
@@ -162,6 +163,20 @@ void ClinicalViews::set_window(const Window& window) {
 
 void ClinicalViews::show(pqPipelineSource& source) {
   close();
+  // A trace shows the scan in a view of ParaView's own: these ones are the panel's, and it is not there when a trace is
+  // replayed.
+  {
+    SM_SCOPED_TRACE(TraceText)
+        .arg(("scanView = GetActiveViewOrCreate('RenderView')\n"
+              "scanDisplay = Show(FindSource('" +
+              source.getSMName().toStdString() +
+              "'), scanView)\n"
+              "scanDisplay.SetRepresentationType('Slice')\n"
+              "scanView.ResetCamera()")
+                 .c_str())
+        .arg("comment", "the scan in a view");
+  }
+  SM_SCOPED_TRACE(BlockTraceItems);
   pqServer& server = *source.getServer();
   auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
   const ImageLattice lattice = lattice_of(image);
@@ -181,6 +196,8 @@ void ClinicalViews::show(pqPipelineSource& source) {
   layout->SplitVertical(2, 0.5);
 
   prepare(image, lattice);
+  window_->window = windows_.front().window;
+  plugin::set_window(*window_->grey_map, window_->window);
   for (const auto& [plane, kind, cell] : places) {
     pqRenderView& view = *make_view(server, kind);
     layout->AssignView(cell, view.getViewProxy());
@@ -191,7 +208,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
     vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
         .Set(vtkSMPropertyHelper(window_->grey_map, "ScalarOpacityFunction").GetAsProxy());
     shown.UpdateVTKObjects();
-    add_slice(lattice, plane, kind, view, shown, lattice.dimensions[sight.index_axis] / 2);
+    add_slice(lattice, plane, kind, view, shown, lattice.dimensions[sight.index_axis] / 2, false);
   }
 
   pqRenderView& volume_view = *make_view(server, ViewKind::volume);
@@ -209,25 +226,23 @@ void ClinicalViews::show(pqPipelineSource& source) {
   camera.UpdateVTKObjects();
   volume_view.getRenderViewProxy()->ResetCamera(true);
   add_volume(volume_view);
-  // Not before all are there: the next would have this one's first name again, and a trace takes them for one.
+  // Not before all are there: the next would have this one's first name again.
   for (const auto& open : views_) open.view->rename(name_of(open.kind));
   refresh();
 }
 
 void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice) {
   windows_ = windows_for(lattice.values);
-  window_->window = windows_.front().window;
   window_->unit = lattice.values.hounsfield ? QStringLiteral("HU") : QString();
   window_->value_at = [probe = std::make_shared<ValueProbe>(image)](const glm::dvec3& place) {
     return probe->at(place);
   };
   window_->grey_map = grey_map(*pqActiveObjects::instance().activeServer());
-  plugin::set_window(*window_->grey_map, window_->window);
   window_->changed = [this] { refresh(); };
 }
 
 void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view,
-                              vtkSMProxy& shown, int slice) {
+                              vtkSMProxy& shown, int slice, bool restored) {
   const Sight sight = sight_of(plane, lattice.directions);
   const glm::dvec3 right = glm::cross(sight.along, sight.up);
   const int slices = lattice.dimensions[sight.index_axis];
@@ -241,7 +256,8 @@ void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind
                                       .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
                                       .center_mm = lattice.center(),
                                       .half_height_mm = half_extent(lattice, sight.up),
-                                      .half_width_mm = half_extent(lattice, right)},
+                                      .half_width_mm = half_extent(lattice, right),
+                                      .keeps_camera = restored},
                                      window_));
   views_.push_back({kind, &view});
 }
@@ -262,6 +278,7 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
   marker_.reset();
   views_.clear();
   prepare(image, lattice);
+  window_->window = window_of(*window_->grey_map);
   for (const ClinicalView& open : find_clinical_views()) {
     pqDataRepresentation* const shown = source.getRepresentation(open.view);
     if (!shown) continue;
@@ -271,7 +288,7 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
     }
     const auto* const place = std::ranges::find_if(places, [&](const auto& of) { return of.kind == open.kind; });
     add_slice(lattice, place->plane, open.kind, *open.view, *shown->getProxy(),
-              vtkSMPropertyHelper(shown->getProxy(), "Slice").GetAsInt());
+              vtkSMPropertyHelper(shown->getProxy(), "Slice").GetAsInt(), true);
   }
   refresh();
 }

@@ -56,7 +56,7 @@ class ClinicalViews {
  private:
   void prepare(vtkSMSourceProxy& image, const ImageLattice& lattice);
   void add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view, vtkSMProxy& shown,
-                 int slice);
+                 int slice, bool restored);
   void add_volume(pqRenderView& volume_view);
   void refresh();
 

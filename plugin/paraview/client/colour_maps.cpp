@@ -35,6 +35,13 @@ void set_window(vtkSMProxy& grey_map, const Window& window) {
   grey_map.UpdateVTKObjects();
 }
 
+Window window_of(vtkSMProxy& grey_map) {
+  const std::vector<double> points = vtkSMPropertyHelper(&grey_map, "RGBPoints").GetDoubleArray();
+  if (points.size() < 8) return {};
+  const double low = points.front(), high = points[points.size() - 4];
+  return {.level = (low + high) / 2, .width = high - low};
+}
+
 void set_volume_look(vtkSMProxy& representation, const VolumeLook& look) {
   vtkSMProxy* const colours = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
   vtkSMProxy* const opacity = vtkSMPropertyHelper(&representation, "ScalarOpacityFunction").GetAsProxy();

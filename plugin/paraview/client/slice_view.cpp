@@ -147,7 +147,7 @@ SliceView::SliceView(pqRenderView& view, vtkSMProxy& representation, const Slice
   vtkPVRenderView& client = *client_view(view);
   overlay_ = std::make_unique<SliceOverlay>(client);
   if (client.GetInteractor()) mouse_ = std::make_unique<Mouse>(*this, *client.GetInteractor());
-  place_camera();
+  if (!setup_.keeps_camera) place_camera();
   show_slice(setup_.slice);
 }
 

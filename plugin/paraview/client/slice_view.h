@@ -48,6 +48,7 @@ struct SliceSetup {
   glm::dvec3 center_mm{0};  ///< of the volume
   double half_height_mm = 100;
   double half_width_mm = 100;
+  bool keeps_camera = false;  ///< a state file has placed it
 };
 
 /// Belongs to its view and goes with it.

@@ -131,10 +131,8 @@ struct StylusHand::State {
                                                         {"Down", -upright}, {"Prior", along}, {"Next", -along}};
     for (const auto& [name, step] : steps) {
       if (key != name) continue;
-      // From where the hand wants to be, so that steps into a surface add up.
-      const Look& look = touching.last();
-      const bool stepping = glm::length(target - look.probe_mm) < 30;
-      go((stepping ? target : look.probe_mm) + key_mm * step);
+      // From where the hand wants to be, so that steps into a surface add up, in whichever view.
+      touching.move_hand(touching.hand_mm() + key_mm * step);
       return true;
     }
     return false;

@@ -61,6 +61,7 @@ void Touching::follow_scene(Pace pace) {
   try {
     live_.set_scene(model_.scene(), pace);
     if (live_.plan()) before_ = std::exchange(now_, live_.plan()->workspace);
+    if (before_ != now_) hand_mm_.reset();
   } catch (const std::exception& error) {
     emit told(QString::fromUtf8(error.what()), true);
   }
@@ -99,6 +100,7 @@ void Touching::connect_stylus(const StylusChoice& choice) {
     simulated_ = std::dynamic_pointer_cast<device::SimulatedStylus>(stylus);
     live_.connect(stylus);
     look_ = {};  // of a recording, perhaps
+    hand_mm_.reset();
     buttons_ = 0;
     before_ = now_ = live_.plan()->workspace;
     next_frame_ = 0;
@@ -199,11 +201,13 @@ bool Touching::may_remap() const {
 
 void Touching::move_hand(const glm::dvec3& patient_mm) {
   letting_go_ = false;
+  hand_mm_ = patient_mm;
   if (simulated_) simulated_->move_target(now_.to_device(patient_mm));
 }
 
 void Touching::let_go() {
   letting_go_ = simulated_ != nullptr;
+  hand_mm_.reset();
 }
 
 /// To the proxy and a little beyond: the arm's own friction keeps a hand that goes no farther inside.

@@ -84,6 +84,8 @@ class Touching : public QObject {
   // The simulated stylus' hand, for mouse and keyboard.
   bool has_simulated() const { return simulated_ != nullptr && live_.is_connected(); }
   void move_hand(const glm::dvec3& patient_mm);
+  /// Where the hand wants to be, mm, patient space: where it was put last, or where the stylus is.
+  glm::dvec3 hand_mm() const { return hand_mm_.value_or(look_.probe_mm); }
   /// The hand gives way until nothing pushes it.
   void let_go();
   /// While the mouse means something else, it does not take the stylus.
@@ -114,6 +116,7 @@ class Touching : public QObject {
   modes::Workspace before_, now_;  // of the last two scenes
   std::uint64_t next_frame_ = 0;
   std::uint32_t buttons_ = 0;
+  std::optional<glm::dvec3> hand_mm_;  // while the workspace stays and it does not give way
   bool letting_go_ = false;
   bool clutched_ = false;
   bool mouse_off_ = false;

@@ -47,7 +47,6 @@ SCENARIOS = [
     "the_scan_changes_in_mid_contact",
     "a_series_is_picked",
     "a_bad_folder",
-    "a_state_is_restored",
     "a_colour_is_chosen",
     "profile_follows_an_edit",
     "recordings_are_replayed_and_compared",

@@ -84,11 +84,10 @@ def rounds_leave_nothing():
     return probing - without < MOST_LEFT_BYTES
 
 
-# The second: only by name, for they have not been seen to hold from beginning to end yet.
 main({
     "undone": lambda: run("twenty_edits_are_undone", ball()),
-}, {
     "saved": saved_and_restored,
     "traced": traced_and_replayed,
+}, {  # a measurement
     "heap": rounds_leave_nothing,
 })

@@ -57,8 +57,6 @@ void keys_step_in_the_views() {
   save_screen("keys");
   for (int n = 0; n < 10; ++n) press_key_in(coronal, "Next");
   wait_for("towards the eye it is free again", [] { return number("palpateForce") < 0.02; });
-  // The axial view's down is the same way.
-  press_until_felt(view("Axial"), "Down", 0.3);
 }
 
 /// The volume's colours are the boundaries': the dialog changes scene, swatch and view, and undo all three.
@@ -109,7 +107,7 @@ void a_dragged_node_is_felt() {
   scan_is_shown();
   connect_stylus();
   find<QDoubleSpinBox>("palpateStrength0").setValue(1);
-  press_until_felt(view("Axial"), "Down", 0.6);
+  press_until_felt(view("Coronal"), "Prior", 0.6);
   wait_ms(500);
   const double felt = number("palpateForce");
   click("palpateCurvesSectionFold");
@@ -117,8 +115,8 @@ void a_dragged_node_is_felt() {
   QWidget& chart = find<QWidget>("palpateStrengthCurveChart");
   scroll_to(find<QWidget>("palpateStrengthCurveValue"));
   wait_ms(500);
-  // As steep as the boundary is: between the middle of the scale and its end, which is as steep as can be.
-  const QPoint node(chart.width() * 4 / 5, chart.height() / 2);
+  // Where the strength that is proposed has come to its full newton.
+  const QPoint node(chart.width() * 2 / 5, chart.height() * 2 / 3);
   drag(chart, node, node, true);  // where there is none a click makes one
   wait_for(
       "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);

@@ -1,6 +1,5 @@
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
-#include <pqObjectBuilder.h>
 
 #include <QApplication>
 #include <QCheckBox>
@@ -189,29 +188,6 @@ void a_bad_folder() {
   expect(!find<QPushButton>("palpateConnect").isEnabled(), "there is nothing to connect to");
 }
 
-/// Quit and restore, but for the program's own end: all that the server had is gone in between.
-void a_state_is_restored() {
-  scan_is_shown();
-  auto& strength = find<QDoubleSpinBox>("palpateStrength0");
-  strength.setValue(0.65);
-  wait_for(
-      "the edit is in the scene", [] { return scene_text().find("0.65") != std::string::npos; }, 5);
-  const std::string saved = scene_text();
-  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/panel-state.pvsm");
-  pqApplicationCore& core = *pqApplicationCore::instance();
-  expect(core.saveState(file), "the state is saved");
-  core.getObjectBuilder()->resetServer(pqActiveObjects::instance().activeServer());
-  wait_for(
-      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 10);
-  expect(scene_text().empty(), "the scene has gone with the server's sources");
-  core.loadState(file.toUtf8().constData(), pqActiveObjects::instance().activeServer());
-  scan_is_shown();
-  expect(scene_text() == saved, "the scene is the same text");
-  expect(find<QDoubleSpinBox>("palpateStrength0").value() == 0.65, "the panel shows it");
-  save_screen("restored");
-  feel();
-}
-
 /// Not a test but a measurement: how long the main thread is busy at a stretch while one probes. ParaView updates its
 /// slices before it renders them: that is only left out where they do not follow.
 void main_thread() {
@@ -248,7 +224,6 @@ const Scenarios scenarios{
     {"the_scan_changes_in_mid_contact", the_scan_changes_in_mid_contact},
     {"a_series_is_picked", a_series_is_picked},
     {"a_bad_folder", a_bad_folder},
-    {"a_state_is_restored", a_state_is_restored},
     {"main_thread", main_thread},
     {"closed_in_mid_contact", closed_in_mid_contact},
 };
