@@ -48,6 +48,8 @@ SCENARIOS = [
     "a_series_is_picked",
     "a_bad_folder",
     "a_colour_is_chosen",
+    "keys_step_in_the_views",
+    "a_dragged_node_is_felt",
     "profile_follows_an_edit",
     "recordings_are_replayed_and_compared",
     "closed_in_mid_contact",
