@@ -82,18 +82,18 @@ TEST(OddSeries, CtIsInHounsfieldUnitsOnlyWhereItSaysSo) {
     const char* type;
     const char* unit;
   };
-  for (const auto& [intercept, type, unit] :
+  for (const Case& is :
        {Case{"-1024", "HU", "HU"}, Case{"-1024", "", "HU"}, Case{"-1024", "MGML", ""}, Case{"", "", ""}}) {
     const TestFolder folder;
     write_stack(folder.path(), 2, [&](int, TestImage& image) {
       image.edit = [&](DcmDataset& d) {
-        if (*intercept != '\0') put(d, DCM_RescaleIntercept, intercept);
-        if (*type != '\0') put(d, DCM_RescaleType, type);
+        if (*is.intercept != '\0') put(d, DCM_RescaleIntercept, is.intercept);
+        if (*is.type != '\0') put(d, DCM_RescaleType, is.type);
       };
     });
     const Series series = find_in(folder).series.at(0);
-    EXPECT_EQ(series.unit, unit) << intercept << type;
-    EXPECT_EQ(series.warnings.size(), *unit == '\0' ? 1U : 0U);
+    EXPECT_EQ(series.unit, is.unit) << is.intercept << is.type;
+    EXPECT_EQ(series.warnings.size(), *is.unit == '\0' ? 1U : 0U);
     EXPECT_THAT(series.warnings, Each(HasSubstr("Hounsfield")));
   }
 }
