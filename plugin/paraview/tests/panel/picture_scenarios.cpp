@@ -46,8 +46,9 @@ void fold(const char* section, bool open) {
 
 /// One section alone, from its heading to the end of what is in sight of it.
 void save_section(const char* name, const char* section) {
-  for (const char* const other : {"palpateScanSection", "palpateTissuesSection", "palpateStylusSection",
-                                  "palpateCurvesSection", "palpateModesSection", "palpateProfileSection"}) {
+  for (const char* const other :
+       {"palpateScanSection", "palpateTissuesSection", "palpateStylusSection", "palpateCurvesSection",
+        "palpateModesSection", "palpateProfileSection", "palpateRecordingsSection"}) {
     if (widget(other)) fold(other, other == std::string(section));
   }
   save_widget(name, section);
@@ -70,6 +71,13 @@ void guide_pictures() {
   let_go();
   save_section("tissues", "palpateTissuesSection");
   save_section("boundary", "palpateCurvesSection");
+  fold("palpateProfileSection", true);
+  click("palpateProfilePick");
+  QWidget& sagittal = view("Sagittal");
+  const int height = sagittal.height() / 2;
+  drag(sagittal, QPoint(sagittal.width() / 12, height), QPoint(sagittal.width() / 3, height), true);
+  wait_for("a boundary is met", [] { return label("palpateProfileReadout").contains("up to"); });
+  save_section("profile", "palpateProfileSection");
   save_section("stylus", "palpateStylusSection");
   QThread::sleep(3);  // as if the program hung: the servo takes the force away
   wait_for("the fault is told", [] { return find<QPushButton>("palpateFeel").text() == "Clear fault"; });
