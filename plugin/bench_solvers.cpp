@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
@@ -17,6 +16,7 @@
 
 #include "palpate/plugin/chart.h"
 #include "palpate/plugin/solver_entrants.h"
+#include "palpate/plugin/text_file.h"
 #include "palpate/plugin/whole_tick_study.h"
 #include "palpate/solver/certify.h"
 #include "palpate/solver/reference.h"
@@ -47,7 +47,7 @@ struct Result {
 };
 
 /// A solver over all balances of a family.
-struct Summary {
+struct FamilySummary {
   Family family = Family::allowed;
   std::string solver;
   std::size_t solved = 0, capped = 0, declined = 0;
@@ -57,7 +57,6 @@ struct Summary {
 };
 
 Result run_once(const Entrant& entrant, const Problem& problem) {
-  using Clock = std::chrono::steady_clock;
   constexpr int runs = 5;  // the fastest counts: what else the machine did is not the solver's
   Result result;
   result.microseconds = std::numeric_limits<double>::infinity();
@@ -65,9 +64,9 @@ Result run_once(const Entrant& entrant, const Problem& problem) {
   std::vector<Vec3> forces(problem.primitives.size(), Vec3(0));
   for (int i = 0; i < runs; ++i) {
     entrant.prepare(problem, forces);
-    const auto start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     const solver::Solution solution = entrant.solve(balance, forces);
-    const std::chrono::duration<double, std::micro> time = Clock::now() - start;
+    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
     result.microseconds = std::min(result.microseconds, time.count());
     result.outcome = solution.outcome;
     result.proxy = solution.proxy;
@@ -84,8 +83,8 @@ double quantile(std::vector<double> values, double fraction) {
   return values[at];
 }
 
-Summary summarise(Family family, const std::string& name, const std::vector<Result>& results) {
-  Summary summary{.family = family, .solver = name};
+FamilySummary summarise(Family family, const std::string& name, const std::vector<Result>& results) {
+  FamilySummary summary{.family = family, .solver = name};
   std::vector<double> bounds, errors, times;
   for (const Result& result : results) {
     summary.solved += result.outcome == Outcome::solved;
@@ -109,7 +108,7 @@ Summary summarise(Family family, const std::string& name, const std::vector<Resu
   return summary;
 }
 
-std::vector<Summary> run_family(Family family, const std::vector<Entrant>& entrants, int cases) {
+std::vector<FamilySummary> run_family(Family family, const std::vector<Entrant>& entrants, int cases) {
   std::vector<std::vector<Result>> results(entrants.size());
   for (int seed = 0; seed < cases; ++seed) {
     const Problem problem = solver::make_problem(family, static_cast<std::uint64_t>(seed));
@@ -123,18 +122,18 @@ std::vector<Summary> run_family(Family family, const std::vector<Entrant>& entra
       results[e].push_back(result);
     }
   }
-  std::vector<Summary> summaries;
+  std::vector<FamilySummary> summaries;
   for (std::size_t e = 0; e < entrants.size(); ++e) {
     summaries.push_back(summarise(family, entrants[e].name, results[e]));
   }
   return summaries;
 }
 
-void print(const std::vector<Summary>& summaries) {
+void print(const std::vector<FamilySummary>& summaries) {
   fmt::print("\n{}: m and us\n{:<18}{:>7}{:>7}{:>9}{:>7}{:>11}{:>11}{:>11}{:>11}{:>10}{:>10}{:>10}\n",
              name_of(summaries.front().family), "", "solved", "capped", "declined", "known", "error med", "worst",
              "bound med", "worst", "time med", "p99", "worst");
-  for (const Summary& s : summaries) {
+  for (const FamilySummary& s : summaries) {
     fmt::print("{:<18}{:>7}{:>7}{:>9}", s.solver, s.solved, s.capped, s.declined);
     if (s.solved + s.capped > 0) {
       fmt::print("{:>7}{:>11.1e}{:>11.1e}{:>11.1e}{:>11.1e}{:>10.2f}{:>10.2f}{:>10.2f}", s.known, s.error_median,
@@ -144,18 +143,11 @@ void print(const std::vector<Summary>& summaries) {
   }
 }
 
-/// Writes a table; throws naming the file.
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw std::runtime_error(path.string() + ": cannot be written");
-}
-
-std::string csv_of(const std::vector<Summary>& summaries) {
+std::string csv_of(const std::vector<FamilySummary>& summaries) {
   std::string text =
       "family,solver,solved,capped,declined,known,error_median_m,error_worst_m,bound_median_m,bound_worst_m,"
       "time_median_us,time_p99_us,time_worst_us\n";
-  for (const Summary& s : summaries) {
+  for (const FamilySummary& s : summaries) {
     text += fmt::format("{},{},{},{},{},{}", name_of(s.family), s.solver, s.solved, s.capped, s.declined, s.known);
     text += s.solved + s.capped == 0
                 ? ",,,,,,,\n"
@@ -166,7 +158,7 @@ std::string csv_of(const std::vector<Summary>& summaries) {
 }
 
 /// One point for each family: median time against the largest error.
-void draw(const std::vector<Summary>& summaries, const std::vector<Entrant>& entrants,
+void draw(const std::vector<FamilySummary>& summaries, const std::vector<Entrant>& entrants,
           const std::filesystem::path& path) {
   constexpr Colour palette[] = {colours::black,  colours::green,  colours::sky, colours::vermilion,
                                 colours::orange, colours::purple, colours::blue};
@@ -178,7 +170,7 @@ void draw(const std::vector<Summary>& summaries, const std::vector<Entrant>& ent
                 .colour = palette[e % std::size(palette)],
                 .style = Curve::Style::points,
                 .width = 4};
-    for (const Summary& s : summaries) {
+    for (const FamilySummary& s : summaries) {
       // The errors of stiff and far are those of their data: an ulp of 1e6 m, and of 1e12 N at 1e-3 N/m.
       if (s.solver != entrants[e].name || s.known == 0 || s.family == Family::stiff || s.family == Family::far_away) {
         continue;
@@ -222,7 +214,7 @@ void run_counts(const std::vector<Entrant>& entrants, const std::filesystem::pat
   }
   fmt::print("\n");
   if (folder.empty()) return;
-  write(folder / "counts.csv", csv + "\n");
+  write_text(folder / "counts.csv", csv + "\n");
   write_png(Chart{.x = {.label = "primitives", .logarithmic = true},
                   .y = {.label = "median time (us)", .logarithmic = true},
                   .curves = std::move(curves)},
@@ -246,15 +238,15 @@ void run_wind_tunnel(const std::vector<Entrant>& entrants, const std::filesystem
                          r.mean_residual_m, r.largest_residual_m);
     }
   }
-  if (!folder.empty()) write(folder / "wind-tunnel.csv", csv);
+  if (!folder.empty()) write_text(folder / "wind-tunnel.csv", csv);
 }
 
 void run_all(const SolversArguments& arguments, const std::filesystem::path& folder) {
   const std::vector<Entrant> entrants = solver_entrants();
-  std::vector<Summary> all;
+  std::vector<FamilySummary> all;
   for (const Family family : solver::all_families) {
     if (family == Family::many) continue;  // descent would take minutes: see the numbers below
-    const std::vector<Summary> summaries = run_family(family, entrants, arguments.cases);
+    const std::vector<FamilySummary> summaries = run_family(family, entrants, arguments.cases);
     print(summaries);
     all.insert(all.end(), summaries.begin(), summaries.end());
   }
@@ -262,7 +254,7 @@ void run_all(const SolversArguments& arguments, const std::filesystem::path& fol
   run_wind_tunnel(entrants, folder);
   run_whole_tick(folder);
   if (folder.empty()) return;
-  write(folder / "solvers.csv", csv_of(all));
+  write_text(folder / "solvers.csv", csv_of(all));
   draw(all, entrants, folder / "error-time.png");
 }
 

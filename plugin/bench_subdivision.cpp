@@ -4,13 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "palpate/plugin/chart.h"
 #include "palpate/plugin/subdivision_study.h"
+#include "palpate/plugin/text_file.h"
 #include "palpate/testdata/fresh_folder.h"
 
 namespace palpate::plugin {
@@ -24,12 +24,12 @@ const char* name_of(Wall wall) {
 }
 
 void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem::path& folder) {
-  std::ofstream csv(folder / "subdivision.csv");
-  csv << "wall,speed_mm_per_s,most_sub_steps,sub_steps,worst_deg,worst_force_n,drift_mm,frame_us\n";
+  std::string csv = "wall,speed_mm_per_s,most_sub_steps,sub_steps,worst_deg,worst_force_n,drift_mm,frame_us\n";
   for (const SubdivisionRow& row : rows) {
-    csv << fmt::format("{},{},{},{},{},{},{},{}\n", row.wall == Wall::convex ? "convex" : "concave", row.speed_mm_per_s,
+    csv += fmt::format("{},{},{},{},{},{},{},{}\n", row.wall == Wall::convex ? "convex" : "concave", row.speed_mm_per_s,
                        row.most_sub_steps, row.sub_steps, row.worst_deg, row.worst_force_n, row.drift_mm, row.frame_us);
   }
+  write_text(folder / "subdivision.csv", csv);
   constexpr std::array line_colours{colours::vermilion, colours::orange, colours::green, colours::sky, colours::blue};
   std::vector<Chart> panels;
   for (const Wall wall : {Wall::convex, Wall::concave}) {
@@ -58,7 +58,7 @@ void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem:
   write_png(panels, folder / "subdivision.png");
 }
 
-void run(const std::filesystem::path& folder) {
+void study(const std::filesystem::path& folder) {
   fmt::print(
       "Sliding 1.5 mm deep at k = 400 N/m, a frame a millisecond, at most so many sub-steps of 0.1 mm a frame.\n"
       "Force: against k times the depth, along the normal at the probe. Errors on exact fields, times on voxels of 1 "
@@ -86,7 +86,7 @@ void add_bench_subdivision(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand(
       "subdivision", "What cutting a frame into sub-steps buys, in error against run time, over stylus speeds.");
   command->add_option("-o,--output", *output, "also write CSV and a picture to this folder; new or empty");
-  command->callback([output] { testdata::write_all_or_none(*output, run); });
+  command->callback([output] { testdata::write_all_or_none(*output, study); });
 }
 
 }  // namespace palpate::plugin

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <random>
 
@@ -18,6 +17,7 @@
 #include "palpate/plugin/run_session.h"
 #include "palpate/plugin/series_option.h"
 #include "palpate/plugin/sphere_study.h"
+#include "palpate/plugin/text_file.h"
 #include "palpate/plugin/tick_study.h"
 #include "palpate/testdata/fresh_folder.h"
 #include "palpate/testdata/scan.h"
@@ -191,14 +191,6 @@ void tabulate_sizes(const Arguments& arguments, Rows& rows) {
   }
 }
 
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file);
-  stream << text;
-  if (!stream.flush()) {
-    throw std::runtime_error("cannot write " + file.string() + " (is the disk full?)");
-  }
-}
-
 void run(const Arguments& arguments, const std::filesystem::path& folder) {
   std::string csv;
   if (arguments.sphere) {
@@ -210,7 +202,7 @@ void run(const Arguments& arguments, const std::filesystem::path& folder) {
     fmt::print("\nCHAI3D's voxel haptics, measured elsewhere and not run here: 4.8 to 28 us a tick.\n");
     csv = rows.csv();
   }
-  if (!folder.empty()) write(folder / (arguments.sphere ? "sphere.csv" : "tick.csv"), csv);
+  if (!folder.empty()) write_text(folder / (arguments.sphere ? "sphere.csv" : "tick.csv"), csv);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace palpate::plugin {
 namespace {
 
-struct Arguments {
+struct CompareOptions {
   std::filesystem::path first, second, picture, table;
   SeriesOption series;
   bool json = false;
@@ -25,16 +25,15 @@ RecordedSession read_session(const std::filesystem::path& file, const io::Volume
   throw InputRefused(std::string(error.what()).starts_with(name) ? error.what() : name + ": " + error.what());
 }
 
-void run(const Arguments& arguments) {
-  const io::Volume volume = load_series(arguments.series);
+void run(const CompareOptions& options) {
+  const io::Volume volume = load_series(options.series);
   const Comparison comparison =
-      compare_strokes(read_session(arguments.first, volume), read_session(arguments.second, volume));
-  if (!arguments.picture.empty()) {
-    write_png(charts_of(comparison, arguments.first.stem().string(), arguments.second.stem().string()),
-              arguments.picture);
+      compare_strokes(read_session(options.first, volume), read_session(options.second, volume));
+  if (!options.picture.empty()) {
+    write_png(charts_of(comparison, options.first.stem().string(), options.second.stem().string()), options.picture);
   }
-  if (!arguments.table.empty()) write_csv(comparison, arguments.table);
-  if (arguments.json) {
+  if (!options.table.empty()) write_csv(comparison, options.table);
+  if (options.json) {
     const nlohmann::ordered_json json{{"along_mm", comparison.along_mm},
                                       {"first_n", comparison.first_n},
                                       {"second_n", comparison.second_n},
@@ -52,19 +51,19 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_compare(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto options = std::make_shared<CompareOptions>();
   CLI::App* command = program.add_subcommand(
       "compare",
       "What two recordings felt on the same stroke through a scan, place by place along it, however fast each was.");
-  command->add_option("FIRST", arguments->first, "a recording")->required()->check(CLI::ExistingFile);
-  command->add_option("SECOND", arguments->second, "another, made on the same scan")
+  command->add_option("FIRST", options->first, "a recording")->required()->check(CLI::ExistingFile);
+  command->add_option("SECOND", options->second, "another, made on the same scan")
       ->required()
       ->check(CLI::ExistingFile);
-  add_series_option(*command, arguments->series);
-  command->add_option("-o,--picture", arguments->picture, "also draw both: a PNG file");
-  command->add_option("--table", arguments->table, "also write a line every step of the stroke: a CSV file");
-  command->add_flag("--json", arguments->json, "for machines");
-  command->callback([arguments] { run(*arguments); });
+  add_series_option(*command, options->series);
+  command->add_option("-o,--picture", options->picture, "also draw both: a PNG file");
+  command->add_option("--table", options->table, "also write a line every step of the stroke: a CSV file");
+  command->add_flag("--json", options->json, "for machines");
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace palpate::plugin

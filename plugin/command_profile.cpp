@@ -16,7 +16,7 @@
 namespace palpate::plugin {
 namespace {
 
-struct Arguments {
+struct ProfileOptions {
   SeriesOption series;
   std::string scene, from, to;
   double speed = 50;
@@ -74,23 +74,23 @@ void print_text(const std::vector<StrokePoint>& stroke, const modes::Plan& plan,
   }
 }
 
-void run(const Arguments& arguments) {
-  const glm::dvec3 from = parse_vector(arguments.from, "--from");
-  const glm::dvec3 to = parse_vector(arguments.to, "--to");
-  if (!(arguments.speed > 0)) {
+void run(const ProfileOptions& options) {
+  const glm::dvec3 from = parse_vector(options.from, "--from");
+  const glm::dvec3 to = parse_vector(options.to, "--to");
+  if (!(options.speed > 0)) {
     throw WrongUsage("--speed has to be above 0 mm/s");
   }
-  const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
-  const modes::Scene scene = scene_for(arguments.scene, *volume);
+  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
+  const modes::Scene scene = scene_for(options.scene, *volume);
   const Felt felt = prepare(scene, volume, glm::dvec3(0.1));
-  const Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, arguments.speed),
+  const Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, options.speed),
                         .plan = felt.plan,
                         .scene = scene,
                         .unit = volume->unit,
                         .limit_n = scene.limits.force_n};
-  if (!arguments.picture.empty()) write_png(charts_of(profile), arguments.picture);
-  if (!arguments.table.empty()) write_csv(profile, arguments.table);
-  if (arguments.json) {
+  if (!options.picture.empty()) write_png(charts_of(profile), options.picture);
+  if (!options.table.empty()) write_csv(profile, options.table);
+  if (options.json) {
     fmt::print("{}\n", to_json(profile.stroke, scene));
   } else {
     print_text(profile.stroke, *felt.plan, scene);
@@ -100,22 +100,21 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_profile(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto options = std::make_shared<ProfileOptions>();
   CLI::App* command =
       program.add_subcommand("profile",
                              "The force felt along a straight stroke of the probe, as a table and a picture.\n"
                              "Tunes a scene without a stylus.");
-  add_series_option(*command, arguments->series);
-  command->add_option("--from", arguments->from, "where the stroke begins: x,y,z in mm, patient space (LPS)")
-      ->required();
-  command->add_option("--to", arguments->to, "where it ends")->required();
-  command->add_option("--scene", arguments->scene,
+  add_series_option(*command, options->series);
+  command->add_option("--from", options->from, "where the stroke begins: x,y,z in mm, patient space (LPS)")->required();
+  command->add_option("--to", options->to, "where it ends")->required();
+  command->add_option("--scene", options->scene,
                       "a scene's file or the name of a starting scene (default: one that suits the modality)");
-  command->add_option("--speed", arguments->speed, "of the probe, mm/s; a frame is 1 ms")->capture_default_str();
-  command->add_option("-o,--picture", arguments->picture, "also draw the stroke: a PNG file");
-  command->add_option("--table", arguments->table, "also write every frame as a line of a CSV file");
-  command->add_flag("--json", arguments->json, "every frame, for machines");
-  command->callback([arguments] { run(*arguments); });
+  command->add_option("--speed", options->speed, "of the probe, mm/s; a frame is 1 ms")->capture_default_str();
+  command->add_option("-o,--picture", options->picture, "also draw the stroke: a PNG file");
+  command->add_option("--table", options->table, "also write every frame as a line of a CSV file");
+  command->add_flag("--json", options->json, "every frame, for machines");
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace palpate::plugin

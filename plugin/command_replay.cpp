@@ -15,7 +15,7 @@
 namespace palpate::plugin {
 namespace {
 
-struct Arguments {
+struct ReplayOptions {
   std::filesystem::path recording, csv;
   SeriesOption series;
   bool json = false;
@@ -58,24 +58,24 @@ void print_json(const Replay& replay) {
   fmt::print("{}\n", json.dump(1));
 }
 
-void run(const Arguments& arguments) {
-  if (arguments.series.path.empty() && arguments.csv.empty()) {
+void run(const ReplayOptions& options) {
+  if (options.series.path.empty() && options.csv.empty()) {
     throw WrongUsage("replay needs the SERIES that was felt, or --csv to export the recording alone");
   }
-  const Recording recording = read_recording(arguments.recording);
+  const Recording recording = read_recording(options.recording);
   if (!recording.complete) {
     fmt::print(stderr, "palpate: {} was not closed in good order; {} frames of it can be read\n",
-               arguments.recording.string(), recording.frames.size());
+               options.recording.string(), recording.frames.size());
   }
-  if (!arguments.csv.empty()) {
-    write_csv(recording, arguments.csv);
+  if (!options.csv.empty()) {
+    write_csv(recording, options.csv);
   }
-  if (arguments.series.path.empty()) {
+  if (options.series.path.empty()) {
     return;
   }
-  const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
+  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   const Replay result = replay(recording, on_scan(volume));
-  if (arguments.json) {
+  if (options.json) {
     print_json(result);
   } else {
     fmt::print("{} frames replayed: {}\n", result.frames, verdict(result));
@@ -93,19 +93,19 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_replay(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = program.add_subcommand(
       "replay",
       "A recorded session again, frame by frame, compared with what was recorded: on the same build the same to the\n"
       "last bit, whichever stylus it was made with.");
-  command->add_option("RECORDING", arguments->recording, "what `probe` or `record` wrote")
+  command->add_option("RECORDING", options->recording, "what `probe` or `record` wrote")
       ->required()
       ->check(CLI::ExistingFile);
-  add_series_option(*command, arguments->series);
+  add_series_option(*command, options->series);
   command->get_option("SERIES")->required(false);
-  command->add_option("--csv", arguments->csv, "also export it: a line a frame, every member a column");
-  command->add_flag("--json", arguments->json, "for machines");
-  command->callback([arguments] { run(*arguments); });
+  command->add_option("--csv", options->csv, "also export it: a line a frame, every member a column");
+  command->add_flag("--json", options->json, "for machines");
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace palpate::plugin

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -11,6 +10,7 @@
 #include "palpate/plugin/command.h"
 #include "palpate/plugin/series_option.h"
 #include "palpate/plugin/suggestion_picture.h"
+#include "palpate/plugin/text_file.h"
 
 namespace palpate::plugin {
 namespace {
@@ -50,11 +50,7 @@ void run(const SuggestOptions& options) {
   picture.replace_extension(".png");
   // The picture first: without it there shall be no scene that looks complete.
   write_suggestion_png(suggestion, volume, picture);
-  std::ofstream file(scene, std::ios::binary | std::ios::trunc);
-  file << text << '\n';
-  if (!file.flush()) {
-    throw InputRefused(scene.string() + ": cannot be written; is the folder there, and is it yours to write?");
-  }
+  write_text(scene, text + "\n");
   print_words(suggestion, volume->unit.empty() ? "" : " " + volume->unit);
   fmt::print("\nwritten: {} and {}\nfeel it: palpate probe {} --scene {}\n", scene.string(), picture.string(),
              options.series.path, scene.string());

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "palpate/plugin/text_file.h"
 
 namespace palpate::plugin {
 
@@ -20,9 +20,7 @@ class CsvTable {
   }
   void save(const std::filesystem::path& folder, const std::string& name) const {
     if (folder.empty()) return;
-    std::ofstream file(folder / name);
-    file << csv_;
-    if (!file.flush()) throw std::runtime_error((folder / name).string() + ": cannot be written (is the disk full?)");
+    write_text(folder / name, csv_);
   }
 
  private:

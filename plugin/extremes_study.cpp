@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "palpate/plugin/solver_entrants.h"
+#include "palpate/plugin/text_file.h"
 #include "palpate/solver/certify.h"
 #include "palpate/solver/problems.h"
 #include "palpate/solver/reference.h"
@@ -250,13 +250,7 @@ void run_extremes(const std::filesystem::path& folder) {
     }
   }
   fmt::print("\n");
-  if (!folder.empty()) {
-    std::ofstream file(folder / "extremes.csv");
-    file << csv;
-    if (!file.flush()) {
-      throw std::runtime_error("cannot write " + (folder / "extremes.csv").string());
-    }
-  }
+  if (!folder.empty()) write_text(folder / "extremes.csv", csv);
 }
 
 }  // namespace palpate::plugin

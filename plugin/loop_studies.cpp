@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -16,6 +15,7 @@
 #include "palpate/plugin/chart.h"
 #include "palpate/plugin/frame_study.h"
 #include "palpate/plugin/hand_study.h"
+#include "palpate/plugin/text_file.h"
 
 namespace palpate::plugin {
 namespace {
@@ -25,14 +25,6 @@ std::function<void(double)> progress_line(const char* what) {
     return [](double) {};
   }
   return [what](double done) { fmt::print(stderr, "\r{} {:3.0f} %{}", what, 100 * done, done < 1 ? "" : "\r\033[K"); };
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file);
-  stream << text;
-  if (!stream.flush()) {
-    throw std::runtime_error("cannot write " + file.string());
-  }
 }
 
 void over_frames(const LoopStudyOptions& options, const std::filesystem::path& folder) {
@@ -48,7 +40,7 @@ void over_frames(const LoopStudyOptions& options, const std::filesystem::path& f
         fmt::format("{},\"{}\",{},{},\"{}\",\"{}\"\n", row.what, row.solver, row.value, row.unit, row.ideal, row.how);
   }
   if (!folder.empty()) {
-    write(folder / "frames.csv", csv);
+    write_text(folder / "frames.csv", csv);
   }
 }
 
@@ -119,7 +111,7 @@ void in_the_hand(const LoopStudyOptions& options, const std::filesystem::path& f
       "{:.0f}.\nThe wind tunnel's force mode adds energy: no passivity is claimed there.\n",
       bounds.passive, bounds.held, bounds.near_rest);
   if (!folder.empty()) {
-    write(folder / "hand.csv", csv);
+    write_text(folder / "hand.csv", csv);
     const std::array panels{chart_of(rows.front().scene, "press", rows), chart_of(rows.front().scene, "slide", rows),
                             chart_of(rows.back().scene, "press", rows), chart_of(rows.back().scene, "slide", rows)};
     write_png(panels, folder / "hand.png", 900, 360);

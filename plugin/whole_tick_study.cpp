@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include "palpate/io/volume_fields.h"
 #include "palpate/plugin/chart.h"
 #include "palpate/plugin/summary.h"
+#include "palpate/plugin/text_file.h"
 #include "palpate/plugin/wall_slide.h"
 #include "palpate/testdata/scan.h"
 
@@ -41,14 +41,6 @@ std::vector<Fields> all_fields() {
     fields.push_back({fmt::format("Gaussian, {} mm", scale_mm), io::GradientMethod::gaussian, scale_mm});
   }
   return fields;
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file);
-  stream << text;
-  if (!stream.flush()) {
-    throw std::runtime_error("cannot write " + file.string());
-  }
 }
 
 }  // namespace
@@ -91,7 +83,7 @@ void run_whole_tick(const std::filesystem::path& folder) {
     }
   }
   if (!folder.empty()) {
-    write(folder / "whole-tick.csv", csv);
+    write_text(folder / "whole-tick.csv", csv);
     write_png(chart, folder / "whole-tick.png", 960, 480);
   }
 }

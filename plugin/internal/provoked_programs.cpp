@@ -133,7 +133,7 @@ std::vector<Provoked> provoke_programs() {
       {"cannot write {}: {} (is the disk full?)", said("replay " + recording.string() + " --csv /absent/a.csv")},
       {"cannot write the picture {}: {} (is the folder there, and room on the disk?)",
        said("profile " + scan + forehead + "--picture /absent/a.png")},
-      {"{}: cannot be written; is the folder there, and is it yours to write?",
+      {"{}: cannot be written; is the folder there, is it yours to write, and is there room?",
        said("suggest " + scan + " -o " + no_file.string())},
       {"{} of {} line{} could not be solved: see \"error\" in the answers", said("solve < " + letter)},
       {"bench tick needs a SERIES, or --sphere", said("bench tick")},
