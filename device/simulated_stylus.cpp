@@ -77,9 +77,10 @@ void SimulatedStylus::open() {
   read_tick_ = -1;
   forces_.fill(Vec3(0));
   acting_force_ = Vec3(0);
-  live_target_.load();
-  intended_ = path_.empty() ? Vec3(0) : path_.front().position;
-  buttons_ = path_.empty() ? 0 : path_.front().buttons;
+  const LiveTarget& live = live_target_.load();
+  const Waypoint start = path_.empty() ? Waypoint{} : path_.front();
+  intended_ = live.given ? live.position : start.position;
+  buttons_ = live.given ? live.buttons : start.buttons;
   target_ = intended_ + tremor_(0);
   body_ = {glm::clamp(intended_, -device_.arm.half_extent, device_.arm.half_extent), Vec3(0)};
   last_reading_ = {};

@@ -46,7 +46,8 @@ class SimulatedStylus final : public Stylus {
 
   /// The hand follows these waypoints from open() on; copied. Not while ticking. Throws as check_path().
   void follow(std::span<const Waypoint> path, Interpolation interpolation = Interpolation::minimum_jerk);
-  /// The hand leaves its path and goes after this target (m); from one thread at a time, also while ticking.
+  /// The hand leaves its path and goes after this target (m); from one thread at a time, also while ticking. It stays
+  /// there while the device is closed: opened again, it is there from the first tick on.
   void move_target(const Vec3& target, std::uint32_t buttons = 0) noexcept;
   /// From any thread, also while ticking. SimulatedFault::none plugs it in again; open() is needed after unplugged.
   void inject(SimulatedFault fault) noexcept { fault_.store(fault, std::memory_order_relaxed); }

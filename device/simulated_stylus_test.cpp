@@ -255,6 +255,18 @@ TEST(SimulatedStylus, GoesAfterALiveTargetAtAHandsSpeed) {
   EXPECT_LT(fastest, 0.4);
 }
 
+TEST(SimulatedStylus, IsStillAtItsLiveTargetWhenOpenedAgain) {
+  SimulatedStylus stylus(without_tremor());
+  stylus.open();
+  stylus.move_target(Vec3(0.05, 0.01, 0), 1);
+  for (int i = 0; i < 1000; ++i) stylus.write_force(Vec3(0));
+  stylus.close();
+  stylus.open();
+  const Reading reading = stylus.read();
+  EXPECT_NEAR(glm::length(reading.position - Vec3(0.05, 0.01, 0)), 0, 0.02e-3);
+  EXPECT_EQ(reading.buttons, 1U);
+}
+
 TEST(SimulatedStylus, StopsAtTheEndOfItsArm) {
   SimulatedStylus stylus;
   const Waypoint path[] = {{0, {0, 0, 0}}, {0.5, {0.5, 0, 0}}};

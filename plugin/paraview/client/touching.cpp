@@ -146,12 +146,11 @@ void Touching::clear_fault() {
 }
 
 void Touching::record(const std::string& file) {
-  const glm::dvec3 hand = look_.probe_mm;
   try {
+    if (simulated_) move_hand(look_.probe_mm);  // where the new session finds it
     live_.record(file);
     recording_to_ = QString::fromStdString(file);
     next_frame_ = 0;
-    if (simulated_) move_hand(hand);
     emit told(tr("Recording: the session began anew, so that it can be repeated to the last bit."), false);
   } catch (const std::exception& error) {
     emit told(QString::fromUtf8(error.what()), true);

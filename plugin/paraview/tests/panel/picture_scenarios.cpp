@@ -2,11 +2,13 @@
 
 #include <pqCoreUtilities.h>
 
-#include <QCheckBox>
-#include <QDoubleSpinBox>
+#include <QDockWidget>
+#include <QFile>
+#include <QMainWindow>
 #include <QPixmap>
 #include <QPushButton>
 #include <QScreen>
+#include <QSlider>
 #include <QThread>
 #include <QToolButton>
 #include <QWidget>
@@ -54,28 +56,42 @@ void save_section(const char* name, const char* section) {
   save_widget(name, section);
 }
 
-/// As wide as a person would make it to read what is in it, in a window of the whole screen.
-void arrange() {
-  QWidget& window = *pqCoreUtilities::mainWidget();
-  window.setGeometry(QGuiApplication::primaryScreen()->geometry());
+/// As much of the screen as a small laptop has, for the whole; more for the sections, so that each is seen to its end.
+void arrange(const QSize& size, int panel_width) {
+  auto& window = *qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  window.setGeometry(QRect({0, 0}, size));
+  for (QWidget* above = &find<QWidget>("palpateFooter"); above; above = above->parentWidget()) {
+    if (auto* const dock = qobject_cast<QDockWidget*>(above)) window.resizeDocks({dock}, {panel_width}, Qt::Horizontal);
+  }
   wait_ms(1500);
 }
 
 void guide_pictures() {
-  expect(!qEnvironmentVariable("PALPATE_GUIDE").isEmpty(), "PALPATE_GUIDE names a folder for the pictures");
-  arrange();
-  feel();
-  for (const char* const section : {"palpateScanSection"}) fold(section, false);
-  save("panel", QGuiApplication::primaryScreen()->geometry());
+  const QString folder = qEnvironmentVariable("PALPATE_GUIDE");
+  expect(!folder.isEmpty(), "PALPATE_GUIDE names a folder for the pictures");
+  const QString recording = qEnvironmentVariable("PALPATE_PICTURES") + "/press.h5";
+  QFile::remove(recording);
+  arrange({1366, 768}, 340);
+  scan_is_shown();
+  connect_stylus();
+  wait_ms(1500);
+  name_file("palpateRecord", recording);
+  press();
+  fold("palpateScanSection", false);
+  save("panel", QRect(0, 0, 1366, 768));
   save_widget("footer", "palpateFooter");
   let_go();
+  click("palpateRecord");
+  wait_for(
+      "the recording is open", [] { return label("palpateRecordingName") == "press.h5"; }, 20);
+
+  arrange(QGuiApplication::primaryScreen()->size(), 460);
   save_section("tissues", "palpateTissuesSection");
   save_section("boundary", "palpateCurvesSection");
   fold("palpateProfileSection", true);
   click("palpateProfilePick");
-  QWidget& sagittal = view("Sagittal");
-  const int height = sagittal.height() / 2;
-  drag(sagittal, QPoint(sagittal.width() / 12, height), QPoint(sagittal.width() / 3, height), true);
+  QWidget& axial = view("Axial");
+  drag(axial, QPoint(axial.width() / 2, axial.height() / 20), QPoint(axial.width() / 2, axial.height() * 2 / 5), true);
   wait_for("a boundary is met", [] { return label("palpateProfileReadout").contains("up to"); });
   save_section("profile", "palpateProfileSection");
   save_section("stylus", "palpateStylusSection");
@@ -86,7 +102,10 @@ void guide_pictures() {
   wait_for("forces are on again", [] { return label("palpateState").startsWith("active"); });
   press_key(Qt::Key_Escape);
   wait_for("it is released", [] { return label("palpateState").startsWith("released"); });
-  save_section("released", "palpateStylusSection");
+  click("palpateConnect");
+  auto& slider = find<QSlider>("palpateScrub");
+  slider.setValue(slider.maximum() * 9 / 10);
+  save_section("recordings", "palpateRecordingsSection");
 }
 
 }  // namespace
