@@ -88,12 +88,32 @@ int PalpateFields::RequestUpdateExtent(vtkInformation*, vtkInformationVector** i
   return 1;
 }
 
+namespace {
+
+/// What of the image is asked for: a rank's own part, or the extent.
+std::array<int, 6> own_part(vtkImageData& image, vtkInformation& asked) {
+  if (plugin::pieces_of(asked) > 1) return plugin::own_extent(image, plugin::ghosts_of(asked));
+  std::array<int, 6> there{};
+  std::array<int, 6> part{};
+  image.GetExtent(there.data());
+  asked.Get(Pipeline::UPDATE_EXTENT(), part.data());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    part[2 * axis] = std::max(part[2 * axis], there[2 * axis]);
+    part[2 * axis + 1] = std::min(part[2 * axis + 1], there[2 * axis + 1]);
+  }
+  return part;
+}
+
+}  // namespace
+
 int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vtkInformationVector* output) {
   vtkImageData& image = *vtkImageData::GetData(input[0]);
   vtkImageData& result = *vtkImageData::GetData(output);
   result.ShallowCopy(&image);
   if (image.GetNumberOfPoints() == 0) return 1;
   try {
+    // The neighbours' voxels are read, and not passed on.
+    plugin::cut_to(own_part(image, *output->GetInformationObject(0)), result);
     const auto volume = plugin::scan_of(image);
     plugin::FieldChoice choice{.gradient = make_gradient_,
                                .magnitude = make_magnitude_,
@@ -101,7 +121,7 @@ int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vt
                                .scene = plugin::scene_of(scene_, *volume),
                                .mode = mode_};
     if (scale_mm_ > 0) choice.scene.gradient_scale_mm = scale_mm_;
-    for (const auto& array : plugin::fields_of(image, volume, choice, [this](double done) {
+    for (const auto& array : plugin::fields_of(result, volume, choice, [this](double done) {
            UpdateProgress(done);
            return GetAbortExecute() == 0;
          })) {
@@ -112,14 +132,8 @@ int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vt
     return 0;
   }
   // What is looked at first is what was asked for last.
-  result.GetPointData()->SetActiveScalars(make_felt_        ? plugin::felt_name
-                                          : make_magnitude_ ? plugin::magnitude_name
-                                                            : nullptr);
-  if (!make_felt_ && !make_magnitude_) result.GetPointData()->SetScalars(image.GetPointData()->GetScalars());
-  vtkInformation& asked = *output->GetInformationObject(0);
-  std::array<int, 6> wanted{};
-  asked.Get(Pipeline::UPDATE_EXTENT(), wanted.data());
-  if (plugin::pieces_of(asked) > 1) wanted = plugin::own_extent(image, plugin::ghosts_of(asked));
-  result.Crop(wanted.data());
+  if (make_felt_ || make_magnitude_) {
+    result.GetPointData()->SetActiveScalars(make_felt_ ? plugin::felt_name : plugin::magnitude_name);
+  }
   return 1;
 }

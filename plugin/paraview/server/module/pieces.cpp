@@ -1,12 +1,18 @@
 #include "pieces.h"
 
+#include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+#include "shared_voxels.h"
 
 namespace palpate::plugin {
 
@@ -48,6 +54,26 @@ std::array<int, 6> own_extent(vtkImageData& image, int ghosts) {
     at = {at[0] / cells, at[1] / cells};
   }
   return own;
+}
+
+void cut_to(const std::array<int, 6>& extent, vtkImageData& image) {
+  std::array<int, 6> whole{};
+  image.GetExtent(whole.data());
+  if (extent == whole) return;
+  vtkDataArray* const scalars = image.GetPointData()->GetScalars();
+  vtkSmartPointer<vtkDataArray> part;
+  if (scalars && std::equal(extent.begin(), extent.begin() + 4, whole.begin())) {
+    const auto points_until = [&](int slice) {
+      const int* const size = image.GetDimensions();
+      return static_cast<std::size_t>(slice - whole[4]) * static_cast<std::size_t>(size[0]) *
+             static_cast<std::size_t>(size[1]);
+    };
+    const std::size_t first = points_until(extent[4]);
+    part = share_part(*scalars, first, points_until(extent[5] + 1) - first);
+  }
+  if (part) image.GetPointData()->SetScalars(nullptr);
+  image.Crop(extent.data());
+  if (part) image.GetPointData()->SetScalars(part);
 }
 
 }  // namespace palpate::plugin

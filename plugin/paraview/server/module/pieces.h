@@ -19,4 +19,7 @@ void ask_for_ghosts(vtkInformation& input, vtkInformation& output, int more);
 /// The part of the image's extent that is the rank's own, grown by `ghosts` within the image.
 std::array<int, 6> own_extent(vtkImageData& image, int ghosts);
 
+/// Cuts an image to an extent within its own. The scan's voxels are shared, not copied, where they are whole slices.
+void cut_to(const std::array<int, 6>& extent, vtkImageData& image);
+
 }  // namespace palpate::plugin

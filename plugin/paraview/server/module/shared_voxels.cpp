@@ -5,9 +5,12 @@
 #include <vtkShortArray.h>
 #include <vtkUnsignedShortArray.h>
 
+#include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -75,6 +78,25 @@ vtkSmartPointer<vtkDataArray> share_voxels(const std::shared_ptr<const io::Volum
         array->SetArray(at, static_cast<vtkIdType>(count), 0, vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
         array->SetArrayFreeFunction([](void* freed) { owners().remove(freed); });
         return array;
+      },
+      volume->voxels);
+}
+
+vtkSmartPointer<vtkDataArray> share_part(vtkDataArray& array, std::size_t first, std::size_t count) {
+  const auto volume = volume_behind(array);
+  if (!volume) return nullptr;
+  const std::size_t bytes = static_cast<std::size_t>(array.GetNumberOfValues() * array.GetDataTypeSize());
+  const auto* const at = static_cast<const std::byte*>(array.GetVoidPointer(0));
+  return std::visit(
+      [&](const auto& voxels) -> vtkSmartPointer<vtkDataArray> {
+        const auto stored = std::as_bytes(std::span(voxels));
+        // An array that was only tied to the volume lies elsewhere.
+        const std::less_equal<> not_behind;
+        if (!not_behind(stored.data(), at) || !not_behind(at + bytes, stored.data() + stored.size())) return nullptr;
+        const auto offset = static_cast<std::size_t>(at - stored.data()) / sizeof(voxels[0]);
+        const auto part = share_voxels(volume, offset + first, count);
+        part->SetName(array.GetName());
+        return part;
       },
       volume->voxels);
 }

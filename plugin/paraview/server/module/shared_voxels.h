@@ -18,6 +18,9 @@ namespace palpate::plugin {
 vtkSmartPointer<vtkDataArray> share_voxels(const std::shared_ptr<const io::Volume>& volume, std::size_t first,
                                            std::size_t count);
 
+/// The same of `count` values from `first` on of an array that views a volume's voxels; null for any other array.
+vtkSmartPointer<vtkDataArray> share_part(vtkDataArray& array, std::size_t first, std::size_t count);
+
 /// Ties a volume to an array with values of its own that shows the volume resampled: volume_behind() finds it. The
 /// array has to have allocated its values itself.
 void tie_to_volume(vtkDataArray& array, const std::shared_ptr<const io::Volume>& volume);
