@@ -229,6 +229,19 @@ TEST(OddSeries, OneUidForTwoPatientsIsTwoSeries) {
   }
 }
 
+TEST(OddSeries, PlacesInTwoFramesOfReferenceAreNotComparedSoThatTheyAreTwoSeries) {
+  const TestFolder folder;
+  for (const char* frame : {"1.2.1", "1.2.2"}) {
+    fs::create_directory(folder / frame);
+    write_stack(folder / frame, 3, [&](int, TestImage& image) {
+      image.edit = [&](DcmDataset& d) { put(d, DCM_FrameOfReferenceUID, frame); };
+    });
+  }
+  const Catalogue found = find_in(folder);
+  ASSERT_THAT(found.series, SizeIs(2));
+  EXPECT_EQ(found.series[0].frames_per_position, 1);
+}
+
 TEST(OddSeries, WithoutASeriesUidAFolderIsASeries) {
   const TestFolder folder;
   for (const char* part : {"A", "B"}) {

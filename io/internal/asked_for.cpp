@@ -39,6 +39,7 @@ bool is_asked_for(std::uint32_t tag) {
                                  DCM_InstanceNumber,
                                  DCM_ImagePositionPatient,
                                  DCM_ImageOrientationPatient,
+                                 DCM_FrameOfReferenceUID,
                                  DCM_TemporalPositionIdentifier,
                                  DCM_SamplesPerPixel,
                                  DCM_PhotometricInterpretation,

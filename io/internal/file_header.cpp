@@ -26,6 +26,7 @@ void read_identity(DcmItem& item, FileHeader& header) {
   header.sop_class = text_of(item, DCM_SOPClassUID);
   header.sop_instance = text_of(item, DCM_SOPInstanceUID);
   header.series = text_of(item, DCM_SeriesInstanceUID);
+  header.frame_of_reference = text_of(item, DCM_FrameOfReferenceUID);
   header.study = text_of(item, DCM_StudyInstanceUID);
   header.modality = text_of(item, DCM_Modality);
   header.description = utf8_of(text_of(item, DCM_SeriesDescription), characters);

@@ -82,11 +82,12 @@ enum class PixelCoding { native, deflated, encapsulated };
 
 struct FileHeader {
   std::filesystem::path path;
-  std::string transfer_syntax;  ///< UID
-  std::string sop_class;        ///< UID
-  std::string sop_instance;     ///< UID
-  std::string series;           ///< UID
-  std::string study;            ///< UID
+  std::string transfer_syntax;     ///< UID
+  std::string sop_class;           ///< UID
+  std::string sop_instance;        ///< UID
+  std::string series;              ///< UID
+  std::string study;               ///< UID
+  std::string frame_of_reference;  ///< UID; empty where it is not said
   std::string modality;
   std::string description;
   std::string image_type;  ///< all its values, separated by backslashes

@@ -24,13 +24,18 @@ std::string name_of(const FileHeader& file) {
   return file.path.filename().string();
 }
 
+/// Places are comparable where both files give them in one frame of reference; where one does not say, its series does.
+bool share_frame_of_reference(const FileHeader& a, const FileHeader& b) {
+  return a.frame_of_reference == b.frame_of_reference || a.frame_of_reference.empty() || b.frame_of_reference.empty();
+}
+
 bool fit_together(const SeriesSource& source, const Slice& a, const Slice& b) {
   const FileHeader& fa = source.file_of(a);
   const FileHeader& fb = source.file_of(b);
   const Placement& x = *source.plane_of(a).placement;
   const Placement& y = *source.plane_of(b).placement;
   return fa.columns == fb.columns && fa.rows == fb.rows && fa.modality == fb.modality &&
-         glm::length(x.direction_i - y.direction_i) < direction_tolerance &&
+         share_frame_of_reference(fa, fb) && glm::length(x.direction_i - y.direction_i) < direction_tolerance &&
          glm::length(x.direction_j - y.direction_j) < direction_tolerance &&
          std::abs(x.spacing_i - y.spacing_i) < spacing_tolerance * x.spacing_i &&
          std::abs(x.spacing_j - y.spacing_j) < spacing_tolerance * x.spacing_j;
