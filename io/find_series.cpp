@@ -34,7 +34,10 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths) {
     const auto status = fs::status(path, error);
     if (fs::is_regular_file(status)) files.push_back(path);
     if (!fs::is_directory(status)) continue;
-    auto entry = fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error);
+    // Folders below that may not be read are passed over; the one that was named is not.
+    static_cast<void>(fs::directory_iterator(path, error));
+    auto entry = fs::recursive_directory_iterator();
+    if (!error) entry = {path, fs::directory_options::skip_permission_denied, error};
     for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
       std::error_code ignored;
       if (entry->is_regular_file(ignored)) files.push_back(entry->path());

@@ -16,20 +16,20 @@ using hdf5::Handle;
 
 template <typename Row>
 std::vector<Row> read_table(hid_t file, const char* name, const Handle& type) {
-  const Handle table(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find a table");
-  const Handle space(H5Dget_space(table), H5Sclose, "read a table");
+  const Handle table(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find what a recording holds");
+  const Handle space(H5Dget_space(table), H5Sclose, "read what is in it");
   std::vector<Row> rows(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
   if (!rows.empty()) {
-    check(H5Dread(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), "read a table");
+    check(H5Dread(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), "read what is in it");
   }
   return rows;
 }
 
 std::string read_text(hid_t file, const char* name) {
-  const Handle data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find a text");
-  const Handle type(H5Dget_type(data), H5Tclose, "read a text");
+  const Handle data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find what a recording holds");
+  const Handle type(H5Dget_type(data), H5Tclose, "read what is in it");
   std::string text(H5Tget_size(type), '\0');
-  check(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read a text");
+  check(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read what is in it");
   text.resize(std::min(text.size(), text.find('\0')));
   return text;
 }
@@ -101,7 +101,7 @@ Recording read_recording(const std::filesystem::path& file) {
     recording.frames = read_table<Frame>(input, "frames", frame_row_type());
     recording.shares = read_table<Share>(input, "shares", share_row_type());
     keep_whole_frames(recording);
-    const Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "read a table");
+    const Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "read what is in it");
     const auto events = read_table<char>(input, "events", byte);
     read_events({events.data(), events.size()}, recording);
     if (!recording.scenes.empty()) {

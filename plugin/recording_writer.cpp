@@ -15,13 +15,13 @@ constexpr hsize_t rows_of_chunk = 1024;  // 270 KB of frames: within HDF5's cach
 
 /// A text as a dataset, not an attribute: an attribute in the object's header may not pass 64 KiB.
 void write_text(hid_t file, const char* name, const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "write a text");
-  check(H5Tset_size(type, std::max<std::size_t>(1, text.size())), "write a text");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "write a text");
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "write a text");
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a table");
+  check(H5Tset_size(type, std::max<std::size_t>(1, text.size())), "make a table");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "make a table");
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a table");
   const Handle data(H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                    "write a text");
-  check(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write a text (is the disk full?)");
+                    "make a table");
+  check(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write (is the disk full?)");
 }
 
 /// A table that grows.

@@ -228,7 +228,7 @@ void answer(const Problem& problem, const SolveOptions& options, Json& out) {
   if (const auto rejection = validate(balance)) throw Refused(describe(*rejection));
   const auto [solution, forces, nanoseconds] = solve(balance, options);
   if (solution.outcome == solver::Outcome::refused) {
-    throw Refused(solution.rejection ? describe(*solution.rejection) : "refused by the solver");
+    throw Refused(describe(solution.rejection.value()));
   }
   if (solution.outcome == solver::Outcome::unsuitable) {
     throw Refused(std::string("the ") + name_of(options.solver) + " solver does not fit this configuration");

@@ -103,7 +103,9 @@ class InflatedBytes final : public ByteSource {
  public:
   InflatedBytes(const std::filesystem::path& path, std::uint64_t at)
       : stream_(OFFilename(path.c_str()), static_cast<offile_off_t>(at)) {
-    if (stream_.installCompressionFilter(ESC_zlib).bad()) throw DicomError("damaged: it cannot be inflated");
+    if (stream_.installCompressionFilter(ESC_zlib).bad()) {  // it went away since its first bytes were read
+      throw DicomError("cannot be opened: check that it exists and may be read");
+    }
   }
   std::size_t read(std::span<std::byte> into) override {
     std::size_t total = 0;

@@ -72,11 +72,12 @@ void decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes
   const Codec codec(opj_create_decompress(bare ? OPJ_CODEC_J2K : OPJ_CODEC_JP2), opj_destroy_codec);
   opj_dparameters_t parameters;
   opj_set_default_decoder_parameters(&parameters);
-  if (!opj_setup_decoder(codec.get(), &parameters)) refuse("cannot be decoded");
-  opj_decoder_set_strict_mode(codec.get(), OPJ_TRUE);  // a truncated image is refused, not completed with grey
+  // A truncated image is refused, not completed with grey.
+  const bool is_ready =
+      opj_setup_decoder(codec.get(), &parameters) && opj_decoder_set_strict_mode(codec.get(), OPJ_TRUE);
 
   opj_image_t* read_image = nullptr;
-  const bool has_header = opj_read_header(stream.get(), codec.get(), &read_image) == OPJ_TRUE;
+  const bool has_header = is_ready && opj_read_header(stream.get(), codec.get(), &read_image) == OPJ_TRUE;
   const std::unique_ptr<opj_image_t, void (*)(opj_image_t*)> image(read_image, opj_image_destroy);
   if (!has_header || !image) refuse("has no readable header");
   // Before anything is decoded: its own header decides how much memory that takes.
@@ -88,10 +89,12 @@ void decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes
   if (image->comps[0].prec > 16 || image->comps[0].dx != 1 || image->comps[0].dy != 1) refuse("is of an unknown kind");
   bool damaged = false;
   opj_set_warning_handler(codec.get(), note_damage, &damaged);
-  if (!opj_decode(codec.get(), stream.get(), image.get())) refuse("cannot be decoded to its end");
-  if (damaged) refuse("holds errors");
+  const bool is_decoded = opj_decode(codec.get(), stream.get(), image.get()) == OPJ_TRUE;
   const opj_image_comp_t& component = image->comps[0];
-  if (component.data == nullptr || component.w != columns || component.h != rows) refuse("is incomplete");
+  if (!is_decoded || component.data == nullptr || component.w != columns || component.h != rows) {
+    refuse("cannot be decoded to its end");
+  }
+  if (damaged) refuse("holds errors");
   // Sign and unused bits are treated as for every other coder, by what the file says of them.
   std::transform(component.data, component.data + values.size(), values.begin(),
                  [](OPJ_INT32 v) { return static_cast<std::uint16_t>(v); });

@@ -20,8 +20,7 @@ struct Outcome {
   std::string output;  // stdout, or both where asked for
 };
 
-inline Outcome palpate(const std::string& arguments, bool with_errors = true) {
-  const std::string command = std::string(PALPATE_PROGRAM) + " " + arguments + (with_errors ? " 2>&1" : " 2>/dev/null");
+inline Outcome run_command(const std::string& command) {
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");  // NOLINT: the tests' own arguments
   std::array<char, 4096> buffer{};
@@ -30,6 +29,15 @@ inline Outcome palpate(const std::string& arguments, bool with_errors = true) {
   }
   outcome.exit = WEXITSTATUS(pclose(pipe));
   return outcome;
+}
+
+inline Outcome palpate(const std::string& arguments, bool with_errors = true) {
+  return run_command(std::string(PALPATE_PROGRAM) + " " + arguments + (with_errors ? " 2>&1" : " 2>/dev/null"));
+}
+
+/// All that a command of the shell says.
+inline std::string output_of(const std::string& command) {
+  return run_command("{ " + command + "; } 2>&1").output;
 }
 
 /// A ball of soft tissue with a core of bone, 60 mm wide, as a DICOM series.

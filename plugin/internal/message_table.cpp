@@ -89,6 +89,12 @@ std::string literal_at(std::string_view code, std::size_t& at) {
   return text;
 }
 
+void append_literals(const std::string& code, std::string& all) {
+  for (std::size_t at = code.find('"'); at != std::string::npos; at = code.find('"', at)) {
+    all += literal_at(code, at) + "\n";
+  }
+}
+
 constexpr std::array openers = {
     "DicomError(", "runtime_error(",   "invalid_argument(",  "InputRefused(",  "WrongUsage(",
     " Refused(",   "refuse(",          "refuse_choice(",     "require(",       "warnings.push_back(",
@@ -168,10 +174,19 @@ std::vector<Literal> literals_that_tell(const fs::path& sources) {
 
 std::string all_literals(const fs::path& sources) {
   std::string all;
-  for (const fs::path& file : sources_in(sources)) {
-    const std::string code = without_comments(content_of(file));
-    for (std::size_t at = code.find('"'); at != std::string::npos; at = code.find('"', at)) {
-      all += literal_at(code, at) + "\n";
+  for (const fs::path& file : sources_in(sources)) append_literals(without_comments(content_of(file)), all);
+  return all;
+}
+
+std::string all_literals_of_tests(const fs::path& sources) {
+  static const std::regex meets("_test\\.cpp$|/tests/.*\\.(py|cpp)$");
+  std::string all;
+  for (const char* const folder : {"io", "modes", "solver", "device", "plugin"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(sources / folder)) {
+      const std::string name = entry.path().string();
+      if (!std::regex_search(name, meets) || entry.path().filename() == "messages_test.cpp") continue;
+      const std::string text = content_of(entry.path());
+      append_literals(name.ends_with(".py") ? text : without_comments(text), all);
     }
   }
   return all;

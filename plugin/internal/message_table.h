@@ -30,6 +30,9 @@ std::vector<Literal> literals_that_tell(const std::filesystem::path& sources);
 /// Every literal of those sources, one a line.
 std::string all_literals(const std::filesystem::path& sources);
 
+/// The same of the tests' sources that meet messages outside this program: tests in C++ and in Python, the panel's.
+std::string all_literals_of_tests(const std::filesystem::path& sources);
+
 /// Whether it is words, and not a key or a number's unit.
 bool is_a_phrase(std::string_view piece);
 

@@ -15,10 +15,18 @@ struct Provoked {
 std::vector<Provoked> provoke_scenes();
 std::vector<Provoked> provoke_balances();
 std::vector<Provoked> provoke_files();
+std::vector<Provoked> provoke_headers();
+std::vector<Provoked> provoke_pixels();
 std::vector<Provoked> provoke_programs();
 std::vector<Provoked> provoke_styluses();
+std::vector<Provoked> provoke_devices();
+std::vector<Provoked> provoke_recordings();
+/// Needs umockdev, which does not go together with sanitizers.
+std::vector<Provoked> provoke_usb();
+bool can_provoke_usb();
+bool is_of_usb(const std::string& message);
 
-/// All of them.
+/// All of them that can be had here.
 std::vector<Provoked> provoke_everything();
 
 }  // namespace palpate::plugin::testing

@@ -1,5 +1,8 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <unistd.h>
+
 #include <array>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -15,6 +18,7 @@
 #include "palpate/device/wooden_haptics.h"
 #include "palpate/plugin/internal/command_rig.h"
 #include "palpate/plugin/internal/provoked.h"
+#include "palpate/plugin/internal/provoked_scans.h"
 #include "palpate/plugin/live_session.h"
 #include "palpate/plugin/path.h"
 
@@ -27,27 +31,48 @@ std::string file_with(const std::string& name, const std::string& text) {
   return file.string();
 }
 
-std::string said_when(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-
 std::string scene_with(const std::string& member) {
   return R"({"version": 1, "modes": [{"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}}], )" +
          member + "}";
 }
 
-/// It stands beside palpate.
-std::string said_by_guardian() {
-  FILE* pipe = popen(PALPATE_PROGRAM "-guardian 2>&1", "r");  // NOLINT: the tests' own arguments
-  std::array<char, 256> line{};
-  const std::string said = fgets(line.data(), line.size(), pipe) ? line.data() : "nothing";
-  pclose(pipe);
-  return said;
+std::string small_ball() {
+  const auto folder = fresh_path("small_ball");
+  testdata::write_series(testdata::scan(testdata::make_sphere(10), testdata::make_geometry({.size = glm::ivec3(30)})),
+                         folder);
+  return folder.string();
+}
+
+/// Two stacks across each other that have one series UID.
+std::string two_of_one_uid() {
+  const auto folder = fresh_path("across");
+  for (const bool sagittal : {false, true}) {
+    const auto part = folder / (sagittal ? "sagittal" : "axial");
+    std::filesystem::create_directories(part);
+    io::internal::write_stack(part, 3, [&](int k, TestImage& image) {
+      if (!sagittal) return;
+      image.edit = [k](DcmDataset& d) {
+        io::internal::put(d, DCM_ImageOrientationPatient, std::string("0\\1\\0\\0\\0\\-1"));
+        io::internal::put(d, DCM_ImagePositionPatient, std::to_string(3 * k) + "\\0\\50");
+      };
+    });
+  }
+  return folder.string();
+}
+
+/// Tubes and friction without the solvers that they need.
+const std::string unsolvable =
+    R"({"version": 1, "solvers": {"exact": false, "descent": false}, "modes": [)"
+    R"({"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}},)"
+    R"({"type": "tube", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}},)"
+    R"({"type": "friction", "strength_n": 0.2}]})";
+
+/// A session whose user may neither have real-time threads nor lock memory: root may, unless it has given that up.
+std::string without_real_time() {
+  const std::string as_any_user = ::geteuid() == 0 ? "setpriv --bounding-set=-sys_nice,-ipc_lock " : "";
+  return output_of("ulimit -r 0; ulimit -l 0; " + as_any_user + PALPATE_PROGRAM " record " + phantom().string() +
+                   " --scene ct-skin-and-bone --seconds 0.1 --from 0,-29,0 --to 0,0,0 -o " +
+                   fresh_path("late.h5").string());
 }
 
 std::string said_of_arm(const std::string& json) {
@@ -125,7 +150,23 @@ std::vector<Provoked> provoke_programs() {
       {"a gradient scale of {} mm reaches over more than {} voxels of this scan; take a smaller one",
        said("profile " + scan + forehead + "--scene " +
             file_with("wide.json", scene_with(R"("gradient_scale_mm": 500)")))},
-      {"palpate-guardian KIND ADDRESS is started by palpate, never by hand", said_by_guardian()},
+      {"there is no series {} in {}", said("profile " + scan + forehead + "--series 9")},
+      {"series {} holds {} volumes that do not fit together",
+       said("profile " + two_of_one_uid() + forehead + "--series 1.2.3.4")},
+      {"DCMTK's data dictionary is missing: reinstall the package libdcmtk17, or let the environment variable "
+       "DCMDICTPATH name its dicom.dic",
+       output_of("DCMDICTPATH=/absent " PALPATE_PROGRAM " info " + scan)},
+      {"--jpeg-lossless needs dcmcjpeg: install the package dcmtk",
+       output_of("PATH= " PALPATE_PROGRAM " bench load --jpeg-lossless " + scan)},
+      {"standard output cannot be written", output_of("echo {} | " PALPATE_PROGRAM " solve > /dev/full")},
+      {"standard input cannot be read", output_of(PALPATE_PROGRAM " solve < /")},
+      {"the balance at {}, {}, {} mm could not be solved: does the scene switch off the solver it needs?",
+       said("profile " + small_ball() + " --from 0,-14,0 --to 3,0,2 --scene " +
+            file_with("unsolved.json", unsolvable))},
+      {"palpate: real time: {}", without_real_time()},
+      {"not allowed here: {}; ticks may be late. To allow it, put '@plugdev - rtprio 80' and '@plugdev - memlock "
+       "unlimited' into /etc/security/limits.d/palpate.conf and log in again.",
+       without_real_time()},
       {"replay needs the SERIES that was felt, or --csv to export the recording alone",
        said("replay " + recording.string())},
       {"the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",

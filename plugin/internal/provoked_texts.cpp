@@ -1,10 +1,18 @@
+#include <cmath>
+#include <cstdint>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "palpate/io/volume_fields.h"
 #include "palpate/modes/scene_json.h"
 #include "palpate/plugin/internal/provoked.h"
+#include "palpate/plugin/internal/provoked_scans.h"
 #include "palpate/plugin/solve_json.h"
+#include "palpate/solver/balance.h"
 
 namespace palpate::plugin::testing {
 namespace {
@@ -49,6 +57,29 @@ std::string balance(const std::string& primitives, const std::string& more = "")
 }
 
 const std::string plane = R"([{"type":"plane","strength":2,"position":[0,0,0],"direction":[0,0,1]}])";
+
+/// What a file cannot hold, and a program that makes its own scenes may.
+std::vector<Provoked> provoke_scenes_of_programs() {
+  const auto refusal = [](const std::function<void(modes::Scene&)>& change) {
+    modes::Scene scene = modes::scene_from_json(surface(R"("strength_n": 1)"), "mine");
+    change(scene);
+    return said_when([&] { modes::validate(scene); });
+  };
+  auto ball = std::make_shared<io::Volume>();
+  ball->geometry.dimensions = {2, 2, 1};
+  ball->geometry.slice_positions = {glm::dvec3(0)};
+  ball->voxels = std::vector<std::int16_t>(4);
+  return {
+      {"is missing; it is {}", refusal([](modes::Scene& scene) { scene.modes[0].strength_n = {}; })},
+      {"is not finite", refusal([](modes::Scene& scene) { scene.workspace.center_mm = glm::dvec3(std::nan("")); })},
+      {"workspace.fit: the scan or the device has no extent",
+       said_when([] { modes::place_workspace({.fit = true}, glm::dvec3(0), glm::dvec3(0), glm::dvec3(0.1)); })},
+      {"a scan offers its value, its gradient, the values on both sides of a boundary and the direction of tubes, and "
+       "vectors only where velocities were measured along three directions",
+       said_when([&] { io::VolumeFields(ball, io::FieldSet::vector, 1); })},
+      {"the scale of the gradient has to be above 0 mm", said_when([&] { io::GradientKernel(ball, 0); })},
+  };
+}
 
 }  // namespace
 
@@ -96,6 +127,8 @@ std::vector<Provoked> provoke_scenes() {
   };
   std::vector<Provoked> said;
   for (const auto& [wanted, text] : texts) said.push_back({wanted, refusal_of(text)});
+  const std::vector<Provoked> more = provoke_scenes_of_programs();
+  said.insert(said.end(), more.begin(), more.end());
   return said;
 }
 
@@ -114,6 +147,7 @@ std::vector<Provoked> provoke_balances() {
       {R"(strength is neither a number nor "inf")", error_of(balance(R"([{"type":"plane","strength":"much"}])"))},
       {"type is not a string", error_of(balance(R"([{"type":3}])"))},
       {R"(type "{}" is unknown; there are force, plane, line and point)", error_of(balance(R"([{"type":"wall"}])"))},
+      {"{} is not finite{}", solver::describe({.field = solver::Field::probe})},
       {"{} is negative ({})", error_of(balance(R"([{"type":"point","strength":-1,"position":[0,0,0]}])"))},
       {"{} is not positive ({})", error_of(R"({"id":1,"stiffness":0,"probe":[0,0,0],"primitives":[]})")},
       {"{} has no length ({})", error_of(balance(R"([{"type":"force","strength":1,"direction":[0,0,0]}])"))},
@@ -134,9 +168,14 @@ std::vector<Provoked> provoke_balances() {
 
 std::vector<Provoked> provoke_everything() {
   std::vector<Provoked> all;
-  for (const auto& provoke : {provoke_scenes, provoke_balances, provoke_files, provoke_programs, provoke_styluses}) {
+  for (const auto& provoke : {provoke_scenes, provoke_balances, provoke_files, provoke_headers, provoke_pixels,
+                              provoke_programs, provoke_styluses, provoke_devices, provoke_recordings}) {
     const std::vector<Provoked> some = provoke();
     all.insert(all.end(), some.begin(), some.end());
+  }
+  if (can_provoke_usb()) {
+    const std::vector<Provoked> usb = provoke_usb();
+    all.insert(all.end(), usb.begin(), usb.end());
   }
   return all;
 }
