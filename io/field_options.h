@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace palpate::io {
 
@@ -20,11 +21,20 @@ enum class GradientMethod : std::uint8_t {
   cubic                 ///< of the cubic value (cubic_spline.h), which is then the value whatever ValueMethod says
 };
 
+/// Slices of a scan, both ends included; none where last < first.
+struct SliceRange {
+  int first = 0;
+  int last = std::numeric_limits<int>::max();
+
+  bool operator==(const SliceRange&) const = default;
+};
+
 struct FieldOptions {
   GradientMethod gradient = GradientMethod::gaussian;
   ValueMethod value = ValueMethod::cubic;
   std::size_t brick_bytes = std::size_t{64} << 20;  ///< bound on the memory for bricks; 0: none are kept
   bool background = true;                           ///< whether a worker fills bricks ahead
+  SliceRange ahead = {};  ///< bricks hold these slices and no others: elsewhere each sample computes its own
 
   bool operator==(const FieldOptions&) const = default;
 };

@@ -138,6 +138,12 @@ internal::BrickContent hessians_of(const GradientKernel& kernel) {
           }};
 }
 
+/// Whole slices.
+Block block_of(const SliceRange& slices, const glm::ivec3& size) {
+  const int first = std::clamp(slices.first, 0, size.z), last = std::min(slices.last, size.z - 1);
+  return {{0, 0, first}, {size.x, size.y, std::max(0, last - first + 1)}};
+}
+
 }  // namespace
 
 FieldSet fields_of(const Volume& volume) noexcept {
@@ -167,17 +173,18 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
   } else if (gradients || tube) {
     kernel_ = std::make_unique<GradientKernel>(volume_, scale_mm);
   }
-  const glm::ivec3 size = volume_->geometry.dimensions;
+  const Block region = block_of(options.ahead, volume_->geometry.dimensions);
+  if (region.voxels() == 0) return;
   // A Hessian takes twice the memory of a gradient.
   const std::size_t third = options.brick_bytes / 3;
   if (gradients && options.brick_bytes > 0) {
     bricks_ = std::make_unique<internal::BrickCache>(
         contains(wanted, FieldSet::low_high) ? gradients_and_sides_of(*kernel_, *volume_) : gradients_of(*kernel_),
-        size, tube ? third : options.brick_bytes, options.background);
+        region, tube ? third : options.brick_bytes, options.background);
   }
   if (tube && options.brick_bytes > 0) {
     tube_bricks_ = std::make_unique<internal::BrickCache>(
-        hessians_of(tube_kernel()), size, options.brick_bytes - (gradients ? third : 0), options.background);
+        hessians_of(tube_kernel()), region, options.brick_bytes - (gradients ? third : 0), options.background);
   }
 }
 
@@ -246,17 +253,10 @@ void VolumeFields::prepare(const Vec3& position_mm, double distance_mm) const {
   const Vec3 reach = distance_mm / Vec3(g.spacing_i, g.spacing_j, between);
   const Vec3 last(g.dimensions - 1);
   const Vec3 index = g.to_index(position_mm);
-  const glm::ivec3 low(glm::clamp(index - reach, Vec3(0), last) / static_cast<double>(internal::BrickCache::cells));
-  const glm::ivec3 high(glm::clamp(index + reach, Vec3(0), last) / static_cast<double>(internal::BrickCache::cells));
-  for (int k = low.z; k <= high.z; ++k) {
-    for (int j = low.y; j <= high.y; ++j) {
-      for (int i = low.x; i <= high.x; ++i) {
-        const glm::ivec3 voxel = glm::ivec3(i, j, k) * internal::BrickCache::cells;
-        if (bricks_) bricks_->fill(voxel);
-        if (tube_bricks_) tube_bricks_->fill(voxel);
-      }
-    }
-  }
+  const glm::ivec3 low(glm::clamp(index - reach, Vec3(0), last));
+  const glm::ivec3 high(glm::clamp(index + reach, Vec3(0), last));
+  if (bricks_) bricks_->fill(low, high);
+  if (tube_bricks_) tube_bricks_->fill(low, high);
 }
 
 std::size_t VolumeFields::memory_bytes() const noexcept {

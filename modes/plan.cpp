@@ -16,7 +16,7 @@ struct FieldName {
   const char* cost;
 };
 constexpr FieldName field_names[] = {
-    {io::FieldSet::value, "value", "one interpolation a tick"},
+    {io::FieldSet::value, "value", "one interpolation a sub-step; once a frame it is read all the same, to be shown"},
     {io::FieldSet::gradient, "gradient", "one gradient sample a tick, and its bricks"},
     {io::FieldSet::vector, "vector field", "one vector sample a tick"},
     {io::FieldSet::tube, "Hessian", "six second derivatives a tick, and their bricks"},

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "palpate/io/field_options.h"
 #include "palpate/io/field_source.h"
 #include "palpate/modes/mode_type.h"
 #include "palpate/modes/scene.h"
@@ -16,11 +17,12 @@ namespace palpate::modes {
 
 /// Something that was left out of a plan: never computed, kept in memory or called.
 struct LeftOut {
-  std::string what;                         ///< "friction", "Hessian", "exact solver", ...
-  std::string why;                          ///< "strength is zero everywhere"
-  std::string saves;                        ///< "one gradient a tick", ...
-  io::FieldSet field = io::FieldSet::none;  ///< where it is a field: which
-  std::optional<std::size_t> mode = {};     ///< where it is a mode: which of the scene's
+  std::string what;                           ///< "friction", "Hessian", "exact solver", ...
+  std::string why;                            ///< "strength is zero everywhere"
+  std::string saves;                          ///< "one gradient a tick", ...
+  io::FieldSet field = io::FieldSet::none;    ///< where it is a field: which
+  std::optional<std::size_t> mode = {};       ///< where it is a mode: which of the scene's
+  std::optional<io::SliceRange> slices = {};  ///< where it is slices of the scan: which
 };
 
 /// Immutable once made: sessions share it between threads by pointer.
@@ -32,6 +34,7 @@ struct Plan {
   Workspace workspace;
   Subdivision subdivision;
   bool holds_iso_surface = false;  ///< whether a surface mode needs the anchor (anchor.h)
+  io::SliceRange slices;  ///< of the scan: their fields are computed ahead and kept (reach.h); all where nobody said
   std::vector<LeftOut> left_out;
 };
 

@@ -1,12 +1,16 @@
 // What a plan left out is never computed, allocated or called: counted on a scan's own fields and the solvers' chain.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <set>
+#include <vector>
 
 #include "palpate/io/volume_fields.h"
 #include "palpate/modes/internal/test_rig.h"
+#include "palpate/modes/reach.h"
 #include "palpate/testdata/scan.h"
 
 namespace palpate::modes {
@@ -17,20 +21,29 @@ using io::FieldSet;
 /// Counts what is asked of a scan's fields.
 class Counted : public io::FieldSource {
  public:
-  Counted(std::shared_ptr<const io::Volume> volume, FieldSet wanted)
-      : fields_(volume, wanted, io::default_gradient_scale_mm(volume->geometry)) {}
+  Counted(const std::shared_ptr<const io::Volume>& volume, FieldSet wanted, const io::SliceRange& slices = {})
+      : samples_by_slice(static_cast<std::size_t>(volume->geometry.dimensions.z)),
+        volume_(volume),
+        fields_(volume, wanted, io::default_gradient_scale_mm(volume->geometry), {.ahead = slices}) {}
   FieldSet available() const noexcept override { return fields_.available(); }
   io::Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept override {
     ++samples;
     asked = asked | wanted;
+    const Vec3 index = volume_->geometry.to_index(position_mm);
+    if (volume_->geometry.contains(index)) {
+      ++samples_by_slice[static_cast<std::size_t>(index.z)];
+    }
     return fields_.sample(position_mm, wanted);
   }
   std::size_t memory_bytes() const { return fields_.memory_bytes(); }
+  void prepare_all() const { fields_.prepare({0, 0, 0}, 1000); }
 
   mutable int samples = 0;
   mutable FieldSet asked = FieldSet::none;
+  mutable std::vector<int> samples_by_slice;  ///< by the slice below
 
  private:
+  std::shared_ptr<const io::Volume> volume_;
   io::VolumeFields fields_;
 };
 
@@ -108,6 +121,59 @@ TEST(PlanRun, keeps_no_brick_where_no_gradient_is_read_and_no_field_where_nothin
   const Counts constant = count(scene_with_little_to_feel(mode_of("friction", TransferFunction(0.2))));
   EXPECT_EQ(constant.asked, FieldSet::none);
   EXPECT_EQ(constant.field_bytes, 0U);
+}
+
+/// A probe that is anywhere within the device's reach, with surfaces that hold the proxy off it, and a worker that
+/// computes ahead: no cell of a slice that was left out is ever asked for, and none is ever kept.
+TEST(PlanRun, samples_and_keeps_nothing_of_the_slices_that_were_left_out) {
+  const auto volume = ball();
+  const io::Geometry& g = volume->geometry;
+  const Scene scene = testing::scene_of(
+      {testing::surface(TransferFunction({{20, 0}, {60, 2}})),
+       testing::surface(TransferFunction({{20, 0}, {60, 2}}), Datum::gradient_magnitude, Side::leaving)},
+      8);
+  Workspace workspace;
+  workspace.center_mm = {4, -3, 10};
+  const Vec3 half_extent_m(0.02, 0.006, 0.015);
+  Plan plan = make_plan(scene, io::fields_of(*volume), workspace);
+  leave_out_slices(g, half_extent_m, plan);
+  ASSERT_GT(plan.slices.first, 0);
+  ASSERT_LT(plan.slices.last, g.dimensions.z - 1);
+  const Counted source(volume, plan.fields, plan.slices);
+  solver::Chain chain(testing::chain_options(plan.solvers));
+  const auto scratch = std::make_unique<StepScratch>();
+  Touch touch;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> part(-1, 1);
+  Vec3 probe(0);
+  double farthest_m = 0;
+  for (int frame = 0; frame < 20000; ++frame) {
+    for (int axis = 0; axis < 3; ++axis) {
+      probe[axis] = std::clamp(probe[axis] + 3e-4 * part(random), -half_extent_m[axis], half_extent_m[axis]);
+    }
+    const StepResult result = step(plan, source, probe, touch, chain, *scratch);
+    farthest_m = std::max(farthest_m, std::abs(result.proxy_m.y) - half_extent_m.y);
+  }
+  EXPECT_GT(farthest_m, 0) << "the proxy was never beyond the probe's reach: too easy a walk";
+  int kept = 0, of_those_left_out = 0, by_slice = 0;
+  for (int slice = 0; slice < g.dimensions.z - 1; ++slice) {
+    const bool in_plan = slice >= plan.slices.first && slice < plan.slices.last;
+    by_slice += source.samples_by_slice[static_cast<std::size_t>(slice)];
+    of_those_left_out += in_plan ? 0 : source.samples_by_slice[static_cast<std::size_t>(slice)];
+  }
+  EXPECT_GT(by_slice, 20000);
+  EXPECT_EQ(of_those_left_out, 0);
+  // What the worker may hold: everything that can be had is asked for, cell by cell.
+  source.prepare_all();
+  for (int slice = 0; slice < g.dimensions.z - 1; ++slice) {
+    const Vec3 middle(0.5 * Vec3(g.dimensions - 1));
+    const io::Sample sample = source.sample(g.to_patient({middle.x, middle.y, slice + 0.5}), FieldSet::gradient);
+    const bool in_plan = slice >= plan.slices.first && slice < plan.slices.last;
+    EXPECT_EQ(sample.from_brick, in_plan) << slice;
+    kept += sample.from_brick ? 1 : 0;
+  }
+  EXPECT_EQ(kept, plan.slices.last - plan.slices.first);
+  EXPECT_LT(source.memory_bytes(), Counted(volume, plan.fields).memory_bytes());
 }
 
 }  // namespace

@@ -2,17 +2,18 @@
 
 /// Which slices of a scan a stylus can reach.
 
-#include <utility>
-#include <vector>
-
+#include "palpate/io/field_options.h"
 #include "palpate/io/geometry.h"
-#include "palpate/modes/workspace.h"
+#include "palpate/modes/plan.h"
 
 namespace palpate::modes {
 
-/// Runs of slices (first, last) that lie wholly outside a device that reaches half_extent_m from its origin along each
-/// of its axes: nothing of them can be touched, so nothing of them is ever sampled. Ascending.
-std::vector<std::pair<int, int>> slices_out_of_reach(const io::Geometry& geometry, const Workspace& workspace,
-                                                     const Vec3& half_extent_m);
+/// The slices that a place within this distance from a device's origin along each of its axes lies in or between;
+/// none (last < first) where it meets no part of the scan. No more than these hold a field that is read there.
+io::SliceRange slices_within_reach(const io::Geometry& geometry, const Workspace& workspace, const Vec3& half_extent_m);
+
+/// Leaves out of a plan the slices that no proxy of a device of this reach comes to: plan.slices, and what is said of
+/// them. The proxy goes no farther from the probe than all modes together can hold it.
+void leave_out_slices(const io::Geometry& geometry, const Vec3& half_extent_m, Plan& plan);
 
 }  // namespace palpate::modes

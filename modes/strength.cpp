@@ -42,8 +42,10 @@ Strength::Strength(Datum of, const TransferFunction& newtons, const std::vector<
     factors_.push_back({datum, StrengthTable(function), constant ? io::FieldSet::none : field_of(datum)});
   };
   add(of, newtons);
+  most_n_ = newtons.maximum();
   for (const Gate& gate : gates) {
     add(gate.of, gate.factor);
+    most_n_ *= gate.factor.maximum();
   }
 }
 

@@ -24,6 +24,8 @@ class Strength {
   double operator()(const io::Sample& sample) const noexcept;
   /// The fields that operator() reads.
   io::FieldSet reads() const noexcept;
+  /// N: it is never more.
+  double most_n() const noexcept { return most_n_; }
 
  private:
   struct Factor {
@@ -32,6 +34,7 @@ class Strength {
     io::FieldSet reads = io::FieldSet::none;
   };
   std::vector<Factor> factors_;
+  double most_n_ = 0;
 };
 
 }  // namespace palpate::modes

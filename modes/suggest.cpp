@@ -73,8 +73,8 @@ std::string name_by_hu(double value) {
     double below;
     const char* name;
   };
-  static constexpr std::array ranges{Range{-900, "air"},        Range{-200, "lung"}, Range{-25, "fat"},
-                                     Range{150, "soft tissue"}, Range{2500, "bone"}, Range{infinity, "metal"}};
+  static constexpr std::array ranges{Range{-900, "air"},        Range{-200, "lung or foam"}, Range{-25, "fat"},
+                                     Range{150, "soft tissue"}, Range{2500, "bone"},         Range{infinity, "metal"}};
   return std::find_if(ranges.begin(), ranges.end(), [=](const Range& range) { return value < range.below; })->name;
 }
 
@@ -90,13 +90,13 @@ std::vector<std::string> names_of(const std::vector<double>& typical, const io::
       names.push_back(name_by_hu(typical[t]));
     } else {
       names.push_back("tissue " + std::to_string(t + 1) + " of " + std::to_string(count) +
-                      (t == 0 ? ", darkest" : (t + 1 == count ? ", brightest" : "")));
+                      (t == 0 ? " (darkest)" : (t + 1 == count ? " (brightest)" : "")));
     }
   }
   const std::vector<std::string> plain = names;
   for (std::size_t t = 0; t < count; ++t) {
     if (std::count(plain.begin(), plain.end(), plain[t]) > 1) {
-      names[t] += ", " + whole_number(typical[t]) + " HU";
+      names[t] += " (" + whole_number(typical[t]) + " HU)";
     }
   }
   return names;

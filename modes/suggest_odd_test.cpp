@@ -83,7 +83,7 @@ TEST(SuggestOdd, values_of_any_size_give_the_same_tissues) {
       ASSERT_EQ(found.boundaries.size(), 2U) << unit;
       EXPECT_TRUE(has_boundary(found, unit * (air_hu + offset), unit * (soft_tissue_hu + offset), 40 * unit)) << unit;
       EXPECT_TRUE(has_boundary(found, unit * (soft_tissue_hu + offset), unit * (bone_hu + offset), 40 * unit)) << unit;
-      EXPECT_EQ(found.scene.tissues[0].name, "tissue 1 of 3, darkest");
+      EXPECT_EQ(found.scene.tissues[0].name, "tissue 1 of 3 (darkest)");
     }
   }
 }

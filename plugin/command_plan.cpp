@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "palpate/device/simulated_stylus.h"
 #include "palpate/modes/plan.h"
 #include "palpate/modes/scene_json.h"
 #include "palpate/plugin/command.h"
+#include "palpate/plugin/plan_device.h"
 #include "palpate/plugin/plan_savings.h"
+#include "palpate/plugin/run_session.h"
 #include "palpate/plugin/scan.h"
 #include "palpate/plugin/series_option.h"
+#include "palpate/plugin/stylus_option.h"
 
 namespace palpate::plugin {
 namespace {
@@ -22,6 +24,7 @@ using Json = nlohmann::ordered_json;
 struct PlanOptions {
   SeriesOption series;
   std::string scene;
+  StylusOption stylus;
   bool json = false;
 };
 
@@ -62,9 +65,9 @@ void print_text(const Json& json) {
 void run(const PlanOptions& options) {
   // The scene first: a wrong one is refused before a large scan is read.
   if (!options.scene.empty()) modes::load_scene(options.scene);
+  const device::Specification device = make_stylus(options.stylus)->specification();
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
-  const modes::Scene scene = scene_for(options.scene, *volume);
-  const device::Specification device = device::SimulatedStylus().specification();
+  const modes::Scene scene = suited_to(scene_for(options.scene, *volume), device);
   const auto plan = plan_for(scene, *volume, device.workspace_half_extent);
 
   Json json{{"fields", modes::names_of(plan->fields)},
@@ -72,7 +75,10 @@ void run(const PlanOptions& options) {
             {"solvers", solver_names(plan->solvers)},
             {"device", device.name},
             {"left_out", Json::array()}};
-  for (const Saving& saving : measure_savings(scene, *plan, volume, device.workspace_half_extent)) {
+  std::vector<Saving> savings = measure_savings(scene, *plan, volume);
+  const std::vector<Saving> of_device = savings_of_device(options.stylus.device, device);
+  savings.insert(savings.end(), of_device.begin(), of_device.end());
+  for (const Saving& saving : savings) {
     Json entry{{"what", saving.what}, {"why", saving.why}, {"saves", saving.saves}};
     if (saving.us) entry["saves_us_a_sub_step"] = *saving.us;
     if (saving.ms) entry["saves_ms_once"] = *saving.ms;
@@ -95,6 +101,7 @@ void add_plan(CLI::App& program) {
   add_series_option(*command, options->series);
   command->add_option("--scene", options->scene,
                       "a scene's file or the name of a starting scene (default: one that suits the modality)");
+  add_device_option(*command, options->stylus);
   command->add_flag("--json", options->json, "for machines");
   command->callback([options] { run(*options); });
 }

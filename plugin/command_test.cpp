@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -62,6 +63,36 @@ TEST(Command, PlanSaysWhatItLeftOutAndWhatThatSavesMeasured) {
   EXPECT_FALSE(entry("follow").contains("saves_bytes")) << "what cannot be felt here cannot be measured";
   EXPECT_GT(entry("Hessian")["saves_bytes"], 100'000);
   EXPECT_GT(entry("exact solver")["saves_bytes"], 1000);
+  EXPECT_TRUE(entry("slices").is_null()) << "all of them are in reach";
+  EXPECT_EQ(entry("guardian")["why"], "a simulated stylus pushes nobody");
+}
+
+TEST(Command, PlanNamesTheSlicesOutOfReachAndWhatTheStylusDoesNotNeed) {
+  const std::string scene = write_scene("near.json", R"({"version": 1, "workspace": {"scale": 0.1}, "modes": [
+    {"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}}]})");
+  const auto left_out = [&scene](const std::string& device) {
+    const Outcome outcome =
+        palpate("plan " + phantom().string() + " --json --scene " + scene + " --device " + device, false);
+    EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    std::map<std::string, nlohmann::json> entries;
+    for (const auto& entry : nlohmann::json::parse(outcome.output)["left_out"]) {
+      entries[entry["what"].get<std::string>()] = entry;
+    }
+    return entries;
+  };
+  const auto simulated = left_out("simulated");
+  EXPECT_TRUE(simulated.contains("drivers of falcon, wooden_haptics, space_mouse"));
+  const auto slices = simulated.lower_bound("slices");
+  ASSERT_TRUE(slices != simulated.end() && slices->first.starts_with("slices 0-"));
+  EXPECT_EQ(slices->second["why"], "outside the workspace");
+  EXPECT_GT(slices->second["saves_ms_once"], 0);
+  EXPECT_GT(slices->second["saves_bytes"], 10'000);
+  const auto falcon = left_out("falcon");
+  EXPECT_FALSE(falcon.contains("guardian")) << "it can push";
+  EXPECT_TRUE(falcon.contains("drivers of wooden_haptics, space_mouse"));
+  const auto space_mouse = left_out("space_mouse");
+  EXPECT_EQ(space_mouse.at("guardian")["why"], "the stylus has no motors");
+  EXPECT_THAT(space_mouse.at("damping of ringing")["saves"], HasSubstr(" us a tick"));
 }
 
 TEST(Command, ProbeLeavesARecordingASummaryAndPictures) {

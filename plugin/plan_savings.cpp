@@ -10,7 +10,6 @@
 
 #include "palpate/io/volume_fields.h"
 #include "palpate/modes/haptic_step.h"
-#include "palpate/modes/reach.h"
 #include "palpate/plugin/scan.h"
 #include "palpate/solver/chain.h"
 
@@ -32,16 +31,24 @@ double scale_of(const modes::Scene& scene, const io::Volume& volume) {
 }
 
 io::VolumeFields fields_without_worker(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-                                       FieldSet wanted) {
+                                       FieldSet wanted, const io::SliceRange& slices) {
   io::FieldOptions options = modes::field_options(scene.sampling);
   options.background = false;  // a worker would take its time while something else is measured
+  options.ahead = slices;
   return {volume, wanted, scale_of(scene, *volume), options};
 }
 
-/// Mean time of one sample of a field, us, around the middle of the scan; the best of some rounds.
-double sample_us(const io::VolumeFields& fields, FieldSet field, const Box& box) {
+/// The middle of the slices that a plan keeps; of the scan, where it keeps none.
+glm::dvec3 middle_of(const io::Geometry& geometry, const modes::Plan& plan) {
+  const int last = geometry.dimensions.z - 1;
+  const int low = std::clamp(plan.slices.first, 0, last), high = std::clamp(plan.slices.last, 0, last);
+  const double k = plan.slices.last < plan.slices.first ? 0.5 * last : 0.5 * (low + high);
+  return geometry.to_patient({0.5 * (geometry.dimensions.x - 1), 0.5 * (geometry.dimensions.y - 1), k});
+}
+
+/// Mean time of one sample of a field, us, around a place; the best of some rounds.
+double sample_us(const io::VolumeFields& fields, FieldSet field, const glm::dvec3& middle) {
   constexpr int points = 500, rounds = 5;
-  const glm::dvec3 middle = 0.5 * (box.low + box.high);
   fields.prepare(middle, 5);
   double best = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
@@ -63,12 +70,11 @@ struct Cost {
   std::size_t bytes = 0;
 };
 
-/// A small movement about the middle of the scan, within half a millimetre: the same one for every plan.
+/// A small movement about the middle, within half a millimetre: the same one for every plan.
 Cost cost_of(const modes::Scene& scene, const modes::Plan& plan, const std::shared_ptr<const io::Volume>& volume) {
   constexpr int frames = 400, rounds = 7;
-  const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields);
-  const Box box = bounding_box(volume->geometry);
-  const glm::dvec3 middle = 0.5 * (box.low + box.high);
+  const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields, plan.slices);
+  const glm::dvec3 middle = middle_of(volume->geometry, plan);
   source.prepare(middle, 5);
   solver::Chain chain(
       {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
@@ -114,45 +120,57 @@ int floats_a_voxel(FieldSet fields) {
 }
 
 /// What the plan's fields would cost in those slices, were they computed: from a brick of the middle.
-Saving of_slices(int first, int last, const modes::Scene& scene, const modes::Plan& plan,
-                 const std::shared_ptr<const io::Volume>& volume) {
-  Saving saving{.what = fmt::format("slices {}-{}", first, last), .why = "outside the workspace"};
+void measure_slices(const io::SliceRange& left_out, const modes::Scene& scene, const modes::Plan& plan,
+                    const std::shared_ptr<const io::Volume>& volume, Saving& saving) {
   const int floats = floats_a_voxel(plan.fields);
+  saving.ms = 0;
+  saving.bytes = 0;
   if (floats == 0) {
     saving.saves = "nothing: this plan computes no field ahead";
-    saving.bytes = 0;
-    return saving;
+    return;
   }
-  const Box box = bounding_box(volume->geometry);
-  const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields);
-  const double us = us_of([&] { source.prepare(0.5 * (box.low + box.high), 0); });
+  double us = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 3; ++round) {
+    const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields, {});
+    us = std::min(us, us_of([&] { source.prepare(middle_of(volume->geometry, plan), 0); }));
+  }
   constexpr double voxels_a_brick = 16.0 * 16 * 16;
   const glm::ivec3 size = volume->geometry.dimensions;
-  const double voxels = static_cast<double>(last - first + 1) * size.x * size.y;
-  saving.ms = us * 1e-3 * voxels / voxels_a_brick;
-  saving.bytes = static_cast<std::size_t>(voxels) * static_cast<std::size_t>(floats) * sizeof(float);
-  saving.saves = fmt::format("{:.0f} ms of computing their {} ahead and {}, were they all kept", *saving.ms,
-                             floats == 3 ? "gradients" : "gradients and what goes with them", size_of(*saving.bytes));
-  return saving;
+  saving.ms = us * 1e-3 * (left_out.last - left_out.first + 1) * size.x * size.y / voxels_a_brick;
+  const auto kept = [&](const io::SliceRange& slices) {
+    return fields_without_worker(scene, volume, plan.fields, slices).memory_bytes();
+  };
+  const bool none_kept = plan.slices.last < plan.slices.first;
+  saving.bytes = kept(none_kept ? left_out
+                                : io::SliceRange{std::min(plan.slices.first, left_out.first),
+                                                 std::max(plan.slices.last, left_out.last)}) -
+                 kept(plan.slices);
+  saving.saves = fmt::format("{:.0f} ms of computing their {} ahead, {}", *saving.ms,
+                             floats == 3 ? "gradients" : "gradients and what goes with them",
+                             *saving.bytes > 0 ? size_of(*saving.bytes) + " of memory"
+                                               : "no memory: the other slices fill what there is for it");
 }
 
 }  // namespace
 
 std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan& plan,
-                                    const std::shared_ptr<const io::Volume>& volume,
-                                    const glm::dvec3& device_half_extent_m) {
+                                    const std::shared_ptr<const io::Volume>& volume) {
   std::optional<Cost> without;
   std::vector<Saving> savings;
   for (const modes::LeftOut& entry : plan.left_out) {
     Saving saving{.what = entry.what, .why = entry.why, .saves = entry.saves};
     if (entry.field != FieldSet::none) {
-      const io::VolumeFields fields = fields_without_worker(scene, volume, entry.field);
-      saving.us = sample_us(fields, entry.field, bounding_box(volume->geometry));
+      const io::VolumeFields fields = fields_without_worker(scene, volume, entry.field, plan.slices);
+      saving.us = sample_us(fields, entry.field, middle_of(volume->geometry, plan));
       saving.bytes = fields.memory_bytes();
       saving.saves = per_step(*saving.us, *saving.bytes);
+      if (entry.field == FieldSet::value) saving.saves += "; once a frame it is read all the same, to be shown";
+    } else if (entry.slices) {
+      measure_slices(*entry.slices, scene, plan, volume, saving);
     } else if (entry.mode) {
       const modes::Scene all = with_mode(scene, *entry.mode);
-      const modes::Plan more = modes::make_plan(all, io::fields_of(*volume), plan.workspace);
+      modes::Plan more = modes::make_plan(all, io::fields_of(*volume), plan.workspace);
+      more.slices = plan.slices;
       if (more.modes.size() > plan.modes.size()) {
         if (!without) without = cost_of(scene, plan, volume);
         const Cost with = cost_of(all, more, volume);
@@ -169,9 +187,6 @@ std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan
       saving.bytes = 0;
     }
     savings.push_back(std::move(saving));
-  }
-  for (const auto& [first, last] : modes::slices_out_of_reach(volume->geometry, plan.workspace, device_half_extent_m)) {
-    savings.push_back(of_slices(first, last, scene, plan, volume));
   }
   return savings;
 }

@@ -22,10 +22,8 @@ struct Saving {
   std::optional<std::size_t> bytes;
 };
 
-/// Of everything that the plan of this scene left out, then of the slices that no pose of the device reaches. Takes
-/// some tenths of a second.
+/// Of everything that the plan of this scene left out. Takes some tenths of a second.
 std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan& plan,
-                                    const std::shared_ptr<const io::Volume>& volume,
-                                    const glm::dvec3& device_half_extent_m);
+                                    const std::shared_ptr<const io::Volume>& volume);
 
 }  // namespace palpate::plugin

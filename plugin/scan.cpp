@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "palpate/io/volume_fields.h"
+#include "palpate/modes/reach.h"
 #include "palpate/modes/scene_json.h"
 
 namespace palpate::plugin {
@@ -47,8 +48,10 @@ modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m) {
   const Box box = bounding_box(volume.geometry);
-  return std::make_shared<const modes::Plan>(modes::make_plan(
-      scene, io::fields_of(volume), modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m)));
+  modes::Plan plan = modes::make_plan(scene, io::fields_of(volume),
+                                      modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m));
+  modes::leave_out_slices(volume.geometry, device_half_extent_m, plan);
+  return std::make_shared<const modes::Plan>(std::move(plan));
 }
 
 Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
@@ -60,13 +63,16 @@ Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>&
              const glm::dvec3& device_half_extent_m, const Prepared& before) {
   Felt felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
   if (before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
-      before.scene.gradient_scale_mm == scene.gradient_scale_mm && before.scene.sampling == scene.sampling) {
+      before.felt.plan->slices == felt.plan->slices && before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
+      before.scene.sampling == scene.sampling) {
     felt.source = before.felt.source;
     return felt;
   }
+  io::FieldOptions options = modes::field_options(scene.sampling);
+  options.ahead = felt.plan->slices;
   felt.source = std::make_shared<const io::VolumeFields>(
       volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)),
-      modes::field_options(scene.sampling));
+      options);
   return felt;
 }
 

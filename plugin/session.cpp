@@ -45,15 +45,18 @@ struct Session::Setting {
         chain({.analytical = published.plan->solvers.analytical,
                .exact = published.plan->solvers.exact,
                .descent = published.plan->solvers.descent}),
-        changing_chain({.analytical = published.plan->solvers.analytical,
-                        .exact = true,
-                        .descent = published.plan->solvers.descent,
-                        .capacity = modes::most_primitives}) {}
+        changing_chain(number == 0 ? nullptr
+                                   : std::make_unique<solver::Chain>(
+                                         solver::ChainOptions{.analytical = published.plan->solvers.analytical,
+                                                              .exact = true,
+                                                              .descent = published.plan->solvers.descent,
+                                                              .capacity = modes::most_primitives})) {}
 
   Snapshot snapshot;
   std::uint32_t epoch;
   solver::Chain chain;
-  solver::Chain changing_chain;  ///< two scenes together can need what neither does alone
+  /// Of the change to it, in which two scenes together can need what neither does alone; null where there is none.
+  std::unique_ptr<solver::Chain> changing_chain;
   Setting* next_returned = nullptr;
 };
 
@@ -120,6 +123,16 @@ std::uint32_t Session::change_stylus(std::shared_ptr<device::Stylus> stylus) {
   return last_stylus_;
 }
 
+std::size_t Session::solver_bytes() const noexcept {
+  std::size_t bytes = 0;
+  for (const Setting* setting : {setting_, leaving_}) {
+    if (setting == nullptr) continue;
+    bytes += setting->chain.memory_bytes();
+    if (setting->changing_chain) bytes += setting->changing_chain->memory_bytes();
+  }
+  return bytes;
+}
+
 void Session::collect() {
   settings_.collect();
   styluses_.collect();
@@ -175,7 +188,6 @@ void Session::take_setting(double time) noexcept {
     if (Setting* next = settings_.take()) {
       leaving_ = std::exchange(setting_, next);
       change_began_s_ = time;
-      setting_->changing_chain.forget();
     }
   }
   part_ = 1;
@@ -192,8 +204,10 @@ modes::StepResult Session::step(const device::Reading& reading) noexcept {
   const Snapshot& from = leaving_->snapshot;
   const modes::Change change{
       .from = {from.plan.get(), from.source.get()}, .to = {to.plan.get(), to.source.get()}, .part = part_};
-  const modes::StepResult result = modes::step(change, reading.position, touch_, setting_->changing_chain, *scratch_);
+  const modes::StepResult result = modes::step(change, reading.position, touch_, *setting_->changing_chain, *scratch_);
   if (part_ >= 1) {
+    // To be freed with the setting that it was a change from.
+    leaving_->changing_chain.swap(setting_->changing_chain);
     settings_.give_back(std::exchange(leaving_, nullptr));
   }
   return result;

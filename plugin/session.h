@@ -80,6 +80,8 @@ class Session {
   /// Frees scenes, scans and styluses (these are closed) that the servo has left. publish() and change_stylus() do it,
   /// too.
   void collect();
+  /// What its solvers hold for the tick. Not while another thread ticks.
+  std::size_t solver_bytes() const noexcept;
 
  private:
   struct Setting;

@@ -10,13 +10,17 @@
 
 namespace palpate::plugin {
 
-void add_stylus_option(CLI::App& command, StylusOption& option) {
+void add_device_option(CLI::App& command, StylusOption& option) {
   command
       .add_option(
           "--device", option.device,
           "the stylus: simulated, falcon, wooden_haptics or space_mouse; @ADDRESS where several are plugged in\n"
           "(`palpate devices` lists them)")
       ->capture_default_str();
+}
+
+void add_stylus_option(CLI::App& command, StylusOption& option) {
+  add_device_option(command, option);
   command.add_option("--firmware", option.firmware, "Falcon: Novint's firmware file, where it has none yet");
   command.add_option("--device-settings", option.settings, "WoodenHaptics: the arm's geometry and signs, a JSON file");
   command.add_option("--seed", option.seed, "simulated: of the hand's tremor")->capture_default_str();

@@ -23,7 +23,9 @@ struct StylusOption {
   bool is_simulated() const { return device == "simulated"; }
 };
 
-/// `option` has to live as long as the command.
+/// --device alone. `option` has to live as long as the command, here and below.
+void add_device_option(CLI::App& command, StylusOption& option);
+/// All of them.
 void add_stylus_option(CLI::App& command, StylusOption& option);
 
 /// Not open yet; drivers of real ones start a guardian when they are opened. Throws WrongUsage for a kind that there is

@@ -23,6 +23,7 @@ constexpr double side = 520;  // pixels of a slice and of the histogram
 constexpr double margin = 16, header = 40;
 constexpr int samples = 260;  // of a slice, along each side
 constexpr double legend_row = 22;
+constexpr double axis_room = 86;  // left of the histogram
 
 Colour colour_of(const std::string& hex) {
   const auto part = [&](std::size_t at) {
@@ -134,15 +135,22 @@ void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, c
     canvas.disc(at, 9, colours::white);
     canvas.disc(at, 7, colour);
   }
+  // Tissues that are much alike: every other number stands a row farther out.
+  constexpr double widest = 44, highest = 14;  // pixels of a number
+  bool out_x = false, out_y = false;
   for (std::size_t t = 0; t < suggestion.typical.size(); ++t) {
     const std::string number = fmt::format("{:.0f}", suggestion.typical[t]);
-    canvas.text({x_of(suggestion.typical[t]), corner.y + side + 16}, number, 12, colours::black, Anchor::centre);
-    canvas.text({corner.x - 6, y_of(suggestion.typical[t]) + 4}, number, 12, colours::black, Anchor::right);
+    const Point at{x_of(suggestion.typical[t]), y_of(suggestion.typical[t])};
+    const double step = t == 0 ? side : at.x - x_of(suggestion.typical[t - 1]);
+    out_x = !out_x && step < widest;
+    out_y = !out_y && step < highest;
+    canvas.text({at.x, corner.y + side + (out_x ? 30 : 16)}, number, 12, colours::black, Anchor::centre);
+    canvas.text({corner.x - (out_y ? widest : 6), at.y + 4}, number, 12, colours::black, Anchor::right);
   }
   const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
-  canvas.text({corner.x + side / 2, corner.y + side + 34}, "value on the lower side of a boundary" + in_unit, 13,
+  canvas.text({corner.x + side / 2, corner.y + side + 50}, "value on the lower side of a boundary" + in_unit, 13,
               colours::black, Anchor::centre);
-  canvas.text({corner.x - 46, corner.y + side / 2}, "value on the higher side" + in_unit, 13, colours::black,
+  canvas.text({corner.x - axis_room, corner.y + side / 2}, "value on the higher side" + in_unit, 13, colours::black,
               Anchor::centre, true);
   canvas.text(corner + Point{0, -8}, "which pairs of values boundaries lie between", 14);
 }
@@ -152,8 +160,8 @@ void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, c
 void write_suggestion_png(const modes::Suggestion& suggestion, const std::shared_ptr<const io::Volume>& volume,
                           const std::filesystem::path& file) {
   const auto rows = static_cast<double>(suggestion.boundaries.size());
-  Canvas canvas(static_cast<int>(3 * side + 5 * margin + 44),
-                static_cast<int>(header + side + 3 * margin + 20 + legend_row * std::max(1.0, rows)), colours::white);
+  Canvas canvas(static_cast<int>(3 * side + 5 * margin + axis_room),
+                static_cast<int>(header + side + 3 * margin + 20 + legend_row * std::max(2.0, rows)), colours::white);
   const Painter painter(suggestion, volume);
   Point corner{margin, header};
   for (const Slice& slice : slices) {
@@ -161,7 +169,7 @@ void write_suggestion_png(const modes::Suggestion& suggestion, const std::shared
     corner.x += side + margin;
   }
   if (!suggestion.edges.counts.empty()) {
-    paint_pairs(suggestion, volume->unit, {corner.x + margin + 44, header}, canvas);
+    paint_pairs(suggestion, volume->unit, {corner.x + margin + axis_room, header}, canvas);
   }
   double y = header + side + 2 * margin + 8;
   for (const modes::FoundBoundary& boundary : suggestion.boundaries) {

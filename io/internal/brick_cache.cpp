@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <new>
 #include <utility>
 
@@ -34,10 +35,10 @@ std::size_t count(const glm::ivec3& n) {
 
 }  // namespace
 
-BrickCache::BrickCache(BrickContent content, const glm::ivec3& dimensions, std::size_t memory_bytes, bool background)
+BrickCache::BrickCache(BrickContent content, const Block& region, std::size_t memory_bytes, bool background)
     : content_(std::move(content)),
-      dimensions_(dimensions),
-      bricks_(bricks_of(dimensions)),
+      region_(region),
+      bricks_(bricks_of(region.size)),
       slot_of_(count(bricks_)),
       slots_(slots_in(memory_bytes, count(bricks_),
                       sizeof(Slot) + floats_of_brick(content_.floats_a_voxel) * sizeof(float))),
@@ -70,7 +71,11 @@ glm::dvec3 BrickCache::middle_of(std::size_t brick) const noexcept {
 }
 
 bool BrickCache::read(const Block& cell, std::span<float> corners) const noexcept {
-  const glm::ivec3 brick = cell.first / cells;
+  const glm::ivec3 first = cell.first - region_.first;
+  if (glm::any(glm::lessThan(first, glm::ivec3(0))) || glm::any(glm::greaterThan(first + cell.size, region_.size))) {
+    return false;
+  }
+  const glm::ivec3 brick = first / cells;
   const std::size_t number = number_of(brick);
   const std::int32_t at = slot_of_[number].load(std::memory_order_acquire);
   if (at < 0) {
@@ -81,7 +86,7 @@ bool BrickCache::read(const Block& cell, std::span<float> corners) const noexcep
   if (version % 2 == 1 || slot.brick.load(std::memory_order_acquire) != static_cast<std::int32_t>(number)) {
     return false;
   }
-  const glm::ivec3 from = cell.first - brick * cells;
+  const glm::ivec3 from = first - brick * cells;
   float* const numbers = numbers_.get() + static_cast<std::size_t>(at) * brick_floats_;
   const int floats = content_.floats_a_voxel;
   auto corner = corners.begin();
@@ -99,7 +104,7 @@ bool BrickCache::read(const Block& cell, std::span<float> corners) const noexcep
 
 void BrickCache::move_to(const glm::dvec3& index) noexcept {
   for (int axis = 0; axis < 3; ++axis) {
-    point_[axis].store(index[axis], std::memory_order_relaxed);
+    point_[axis].store(index[axis] - region_.first[axis], std::memory_order_relaxed);
   }
   moves_.fetch_add(1, std::memory_order_relaxed);
 }
@@ -110,9 +115,20 @@ glm::dvec3 BrickCache::point() const noexcept {
           point_[2].load(std::memory_order_relaxed)};
 }
 
-void BrickCache::fill(const glm::ivec3& voxel) {
-  const glm::ivec3 brick = glm::min(voxel / cells, bricks_ - 1);
-  fill_brick(brick, middle_of(number_of(brick)));
+void BrickCache::fill(const glm::ivec3& low, const glm::ivec3& high) {
+  const glm::ivec3 from = glm::max(low - region_.first, glm::ivec3(0));
+  const glm::ivec3 to = glm::min(high - region_.first, region_.size - 1);
+  if (glm::any(glm::greaterThan(from, to))) {
+    return;
+  }
+  const glm::ivec3 first = glm::min(from / cells, bricks_ - 1), last = glm::min(to / cells, bricks_ - 1);
+  for (int k = first.z; k <= last.z; ++k) {
+    for (int j = first.y; j <= last.y; ++j) {
+      for (int i = first.x; i <= last.x; ++i) {
+        fill_brick({i, j, k}, middle_of(number_of({i, j, k})));
+      }
+    }
+  }
 }
 
 /// A free slot, or that of the brick farthest from the point if it is farther than the one to come.
@@ -144,7 +160,7 @@ bool BrickCache::fill_brick(const glm::ivec3& brick, const glm::dvec3& point) {
     return false;
   }
   const glm::ivec3 first = brick * cells;
-  const Block block{first, glm::min(glm::ivec3(edge), dimensions_ - first)};
+  const Block block{region_.first + first, glm::min(glm::ivec3(edge), region_.size - first)};
   const auto floats = static_cast<std::size_t>(content_.floats_a_voxel);
   std::vector<float> numbers(floats * block.voxels());
   content_.compute(block, numbers);

@@ -35,8 +35,9 @@ class BrickCache {
   static constexpr int cells =
       16;  ///< edge of a brick; it also holds the first voxels of the next ones, so no cell lies in two
 
-  /// Holds as many bricks as fit in `memory_bytes`, at least one. Starts the worker where `background`.
-  BrickCache(BrickContent content, const glm::ivec3& dimensions, std::size_t memory_bytes, bool background);
+  /// Bricks of the voxels of a region and of no others: as many as fit in `memory_bytes`, at least one. Starts the
+  /// worker where `background`.
+  BrickCache(BrickContent content, const Block& region, std::size_t memory_bytes, bool background);
   /// Waits for at most one brick.
   ~BrickCache();
   BrickCache(const BrickCache&) = delete;
@@ -47,9 +48,9 @@ class BrickCache {
   /// Where the point is now (continuous voxel index): what the worker goes by. In the tick.
   void move_to(const glm::dvec3& index) noexcept;
 
-  /// Computes the brick of a voxel now, on this thread, unless it is there or none that is farther away can give its
-  /// place.
-  void fill(const glm::ivec3& voxel);
+  /// Computes the bricks of a box of voxels (both ends included) now, on this thread, but for those that are there and
+  /// those for which none that is farther away can give its place.
+  void fill(const glm::ivec3& low, const glm::ivec3& high);
 
   std::size_t capacity() const noexcept { return slots_.size(); }  ///< bricks
   std::size_t filled() const noexcept { return filled_.load(std::memory_order_relaxed); }
@@ -74,7 +75,7 @@ class BrickCache {
   void work(const std::stop_token& stop);
 
   BrickContent content_;
-  glm::ivec3 dimensions_;
+  Block region_;
   glm::ivec3 bricks_;
   std::vector<std::atomic<std::int32_t>> slot_of_;  ///< by brick; -1: not there
   std::vector<Slot> slots_;

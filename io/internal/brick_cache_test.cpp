@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 #include "palpate/io/volume_fields.h"
 #include "palpate/testdata/scan.h"
@@ -88,6 +92,85 @@ TEST(Bricks, AreOnlyWhereTheyWerePrepared) {
   EXPECT_TRUE(fields.sample({20, 0, 0}, both).from_brick);
   EXPECT_FALSE(fields.sample({-20, 0, 0}, both).from_brick);
   EXPECT_FALSE(fields.sample({20, 0, 0}, FieldSet::value).from_brick);
+}
+
+/// Of a region, bricks are computed of its voxels and of no others, wherever the point goes and whoever asks.
+TEST(Bricks, AreComputedOfTheirRegionAlone) {
+  std::mutex counting;
+  std::vector<int> times(70);  // each slice was computed, of how many bricks
+  int outside = 0;
+  const Block region{{3, 0, 18}, {40, 50, 35}};
+  const internal::BrickContent content{1, [&](const Block& block, std::span<float> numbers) {
+                                         const std::scoped_lock lock(counting);
+                                         const glm::ivec3 first = block.first - region.first;
+                                         const glm::ivec3 end = first + block.size;
+                                         for (int axis = 0; axis < 3; ++axis) {
+                                           outside += first[axis] < 0 || end[axis] > region.size[axis];
+                                         }
+                                         for (int k = 0; k < block.size.z; ++k) {
+                                           ++times[static_cast<std::size_t>(block.first.z + k)];
+                                         }
+                                         std::size_t n = 0;
+                                         for (int k = 0; k < block.size.z; ++k) {
+                                           for (int j = 0; j < block.size.y; ++j) {
+                                             for (int i = 0; i < block.size.x; ++i) {
+                                               const glm::ivec3 at = block.first + glm::ivec3(i, j, k);
+                                               numbers[n++] = static_cast<float>(at.x + 100 * at.y + 10000 * at.z);
+                                             }
+                                           }
+                                         }
+                                       }};
+  {
+    internal::BrickCache by_worker(content, region, std::size_t{10} << 20, true);
+    for (int n = 0; n < 200; ++n) {
+      by_worker.move_to({20 + 30 * std::sin(0.3 * n), 30, 35 + 34 * std::sin(0.1 * n)});
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  internal::BrickCache cache(content, region, std::size_t{10} << 20, false);
+  cache.fill(glm::ivec3(0), glm::ivec3(69));
+  EXPECT_EQ(cache.filled(), cache.capacity());
+  EXPECT_EQ(outside, 0);
+  for (int slice = 0; slice < 70; ++slice) {
+    EXPECT_EQ(times[static_cast<std::size_t>(slice)] > 0, slice >= 18 && slice < 53) << slice;
+  }
+  int read = 0;
+  for (int k = 0; k < 69; ++k) {
+    for (int j = 0; j < 69; ++j) {
+      for (int i = 0; i < 69; ++i) {
+        std::array<float, 8> corners{};
+        const bool inside = i >= 3 && i < 42 && j < 49 && k >= 18 && k < 52;
+        ASSERT_EQ(cache.read({{i, j, k}, {2, 2, 2}}, corners), inside) << i << " " << j << " " << k;
+        ASSERT_TRUE(!inside || corners[7] == static_cast<float>(i + 1 + 100 * (j + 1) + 10000 * (k + 1)));
+        read += inside;
+      }
+    }
+  }
+  EXPECT_EQ(read, 39 * 49 * 34);
+}
+
+TEST(Bricks, OfSomeSlicesGiveTheSameBitsAndTakeLessMemory) {
+  constexpr FieldSet all = both | FieldSet::tube | FieldSet::low_high;
+  const auto volume = head_like();
+  const SliceRange slices{8, 23};
+  const VolumeFields plain(volume, all, 2, no_bricks);
+  const VolumeFields some(volume, all, 2, {.background = false, .ahead = slices});
+  EXPECT_LT(2 * some.memory_bytes(), VolumeFields(volume, all, 2, on_request).memory_bytes());
+  EXPECT_EQ(VolumeFields(volume, all, 2, {.ahead = {40, 50}}).memory_bytes(), 0U) << "there is none of them";
+  some.prepare({0, 0, 0}, 100);
+  int there = 0, elsewhere = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const Vec3 p = step_of_walk(3 * n);
+    const Sample a = plain.sample(p, all);
+    const Sample b = some.sample(p, all);
+    ASSERT_TRUE(same_bits(a, b)) << n;
+    const double k = volume->geometry.to_index(p).z;
+    ASSERT_EQ(b.from_brick, b.inside && k >= slices.first && k < slices.last) << k;
+    there += b.from_brick;
+    elsewhere += b.inside && !b.from_brick;
+  }
+  EXPECT_GT(there, 100);
+  EXPECT_GT(elsewhere, 100);
 }
 
 TEST(Bricks, StayUnderTheirBoundAndKeepTheLatest) {
