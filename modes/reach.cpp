@@ -70,7 +70,10 @@ void leave_out_slices(const io::Geometry& geometry, const Vec3& half_extent_m, P
   plan.slices = slices_within_reach(geometry, plan.workspace, half_extent_m + Vec3(beyond_m));
   const auto leave_out = [&plan](int first, int last) {
     if (first > last) return;
-    plan.left_out.push_back({.what = "slices " + std::to_string(first) + "-" + std::to_string(last),
+    std::string what = first < last ? "slices " : "slice ";
+    what.append(std::to_string(first));
+    if (first < last) what.append(1, '-').append(std::to_string(last));
+    plan.left_out.push_back({.what = what,
                              .why = "outside the workspace",
                              .saves = "computing their fields ahead, and keeping them",
                              .slices = io::SliceRange{first, last}});

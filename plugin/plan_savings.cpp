@@ -147,8 +147,7 @@ void measure_slices(const io::SliceRange& left_out, const modes::Scene& scene, c
                  kept(plan.slices);
   saving.saves = fmt::format("{:.0f} ms of computing their {} ahead, {}", *saving.ms,
                              floats == 3 ? "gradients" : "gradients and what goes with them",
-                             *saving.bytes > 0 ? size_of(*saving.bytes) + " of memory"
-                                               : "no memory: the other slices fill what there is for it");
+                             *saving.bytes > 0 ? size_of(*saving.bytes) + " of memory" : "no memory");
 }
 
 }  // namespace
