@@ -74,8 +74,9 @@ TEST(Command, PlanNamesTheSlicesOutOfReachAndWhatTheStylusDoesNotNeed) {
     const Outcome outcome =
         palpate("plan " + phantom().string() + " --json --scene " + scene + " --device " + device, false);
     EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    const auto plan = nlohmann::json::parse(outcome.output);
     std::map<std::string, nlohmann::json> entries;
-    for (const auto& entry : nlohmann::json::parse(outcome.output)["left_out"]) {
+    for (const auto& entry : plan["left_out"]) {
       entries[entry["what"].get<std::string>()] = entry;
     }
     return entries;
