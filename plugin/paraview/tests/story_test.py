@@ -54,7 +54,7 @@ def traced_and_replayed():
     done = subprocess.run(["pvpython", "--force-offscreen-rendering", script], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, timeout=150)
     if done.returncode != 0:
-        print(f"traced: FAILED: the trace does not run in pvpython:\n{done.stdout[-3000:]}")
+        print(f"traced: FAILED: the trace does not run in pvpython:\n{done.stdout[:1500]}\n...\n{done.stdout[-1500:]}")
         return False
     for what in "scene.json", "stroke.txt":
         if open(scratch("story-traced-" + what)).read() != open(scratch("story-replayed-" + what)).read():
