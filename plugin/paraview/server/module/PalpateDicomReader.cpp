@@ -223,7 +223,8 @@ void PalpateDicomReader::find() {
   found->chosen = plugin::choose_scan(*found->catalogue, series_uid_, file_name_);
   const io::Series& series = found->series();
   if (series.geometry.slice_positions.empty()) {
-    throw io::DicomError(plugin::scan_label(series) + ": its images have no position in the patient");
+    const std::string why = series.warnings.empty() ? "it has no readable images" : series.warnings.front();
+    throw io::DicomError(plugin::scan_label(series) + ": " + why);
   }
   found->grid = plugin::display_grid(series.geometry);
   found->loaded_elsewhere = plugin::held_scan(series, 0) != nullptr;

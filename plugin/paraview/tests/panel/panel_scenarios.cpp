@@ -168,6 +168,7 @@ void the_scan_changes_in_mid_contact() {
 
 void a_series_is_picked() {
   wait_for("the series are listed", [] { return find<QListWidget>("palpateSeries").count() > 1; });
+  expect(label("palpateMessage").endsWith(" series: choose one."), "it is said that one is to be chosen");
   wait_ms(1000);
   save_screen("mixed");
   auto& series = find<QListWidget>("palpateSeries");
@@ -183,7 +184,10 @@ void a_series_is_picked() {
 }
 
 void a_bad_folder() {
-  wait_for("it is said what is wrong", [] { return !label("palpateMessage").isEmpty(); });
+  wait_for("it is said what is wrong", [] {
+    return label("palpateMessage") ==
+           "No image series in this folder (1 file(s) looked at): choose the one that holds the DICOM files.";
+  });
   save_screen("bad-folder");
   expect(!find<QPushButton>("palpateConnect").isEnabled(), "there is nothing to connect to");
 }

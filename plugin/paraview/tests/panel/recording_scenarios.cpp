@@ -18,6 +18,9 @@ void record_a_press(const QString& file) {
   name_file("palpateRecord", file);
   wait_for(
       "it is being recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 10);
+  expect(
+      label("palpateStylusMessage") == "Recording: the session began anew, so that it can be repeated to the last bit.",
+      "it is said that the session began anew");
   wait_for(
       "forces are on", [] { return label("palpateState").startsWith("active"); }, 20);
   wait_ms(1500);
@@ -29,6 +32,8 @@ void record_a_press(const QString& file) {
   wait_for(
       "the recording is written and open",
       [&] { return QFile::exists(file) && file.endsWith("/" + label("palpateRecordingName")); }, 20);
+  const QString said = label("palpateStylusMessage");
+  expect(said.startsWith("Recorded: ") && said.endsWith(" frames, 0 lost."), "it is said what was recorded");
 }
 
 void recordings_are_replayed_and_compared() {

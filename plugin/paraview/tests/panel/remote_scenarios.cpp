@@ -114,14 +114,15 @@ void wait_for_word(const char* word) {
 void remote_probe() {
   connect_server();
   open_on_server();
-  wait_for_word("the same as the server's");
+  wait_for_word("Felt from the copy on this machine, which is the same as the server's.");
   feel_patiently(true);
   save_screen("remote");
   pqApplicationCore::instance()->getObjectBuilder()->removeServer(active_server());
   wait_for(
       "nothing is held", [] { return label("palpateState").startsWith("not connected"); }, 10);
   expect(number("palpateForce") == 0, "the force was taken away");
-  expect(label("palpateStylusMessage").contains("left the server"), "it is said why");
+  expect(label("palpateStylusMessage") == "ParaView left the server: the stylus was let go, and a recording closed.",
+         "it is said why");
   expect(QFile::exists(qEnvironmentVariable("PALPATE_RECORDING")), "the recording is there");
   let_go();
   wait_for("ParaView has its built-in server again", [] { return active_server() && !active_server()->isRemote(); });
@@ -138,16 +139,19 @@ void remote_fetched() {
     if (progress.format().startsWith("Fetching")) find<QPushButton>("palpateCancel").click();
   });
   open_on_server();
-  wait_for_word("Cancelled");
+  wait_for_word("Cancelled.");
   QObject::disconnect(cancelling);
   wait_for(
       "connecting can be tried", [] { return find<QPushButton>("palpateConnect").isEnabled(); }, 10);
   click("palpateConnect");
-  expect(label("palpateStylusMessage").contains("not fetched"), "connecting is refused with the reason");
+  expect(label("palpateStylusMessage")
+             .contains(
+                 "The scan is on the server, and was not fetched: choose it again in the list, or name a copy here."),
+         "connecting is refused with the reason");
   expect(find<QPushButton>("palpateConnect").text() == "Connect", "nothing is connected");
   auto& series = find<QListWidget>("palpateSeries");
   click(*series.viewport(), series.visualItemRect(series.item(0)).center());
-  wait_for_word("Fetched from the server");
+  wait_for_word("Fetched from the server.");
   feel_patiently(true);
   click("palpateRecord");
   wait_for(
@@ -159,7 +163,8 @@ void remote_fetched() {
 void remote_different() {
   connect_server();
   open_on_server();
-  wait_for_word("is not the server's scan");
+  wait_for_word(
+      "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
   feel_patiently(true);
   click("palpateRecord");
   wait_for(
@@ -174,7 +179,8 @@ void remote_different() {
   wait_for(
       "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 10);
   core.loadState(file.toUtf8().constData(), active_server());
-  wait_for_word("is not the server's scan");
+  wait_for_word(
+      "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
   scan_is_shown();
   expect(scene_text() == saved, "the scene is the same text");
   feel_patiently(false);
@@ -184,7 +190,7 @@ void remote_different() {
 void remote_killed() {
   connect_server();
   open_on_server();
-  wait_for_word("the same as the server's");
+  wait_for_word("Felt from the copy on this machine, which is the same as the server's.");
   feel_patiently(true);
   QTimer looking;
   QObject::connect(&looking, &QTimer::timeout, [&] {
@@ -193,7 +199,10 @@ void remote_killed() {
     looking.stop();
     // At once: the panel is told before ParaView is.
     const bool zero = number("palpateForce") == 0 && label("palpateState").startsWith("not connected");
-    const bool said = label("palpateStylusMessage").contains("The server is lost");
+    const bool said =
+        label("palpateStylusMessage") ==
+        "The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without its "
+        "server: it asks whether to save the state, and ends.";
     wait_ms(300);  // painted
     save_screen("remote-lost");
     std::printf("remote_killed: %s\n", !zero   ? "FAILED: the force is on"
