@@ -32,8 +32,6 @@ void record_a_press(const QString& file) {
   wait_for(
       "the recording is written and open",
       [&] { return QFile::exists(file) && file.endsWith("/" + label("palpateRecordingName")); }, 20);
-  const QString said = label("palpateStylusMessage");
-  expect(said.startsWith("Recorded: ") && said.endsWith(" frames, 0 lost."), "it is said what was recorded");
 }
 
 void recordings_are_replayed_and_compared() {

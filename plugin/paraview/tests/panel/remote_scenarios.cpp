@@ -121,7 +121,8 @@ void remote_probe() {
   wait_for(
       "nothing is held", [] { return label("palpateState").startsWith("not connected"); }, 10);
   expect(number("palpateForce") == 0, "the force was taken away");
-  expect(label("palpateStylusMessage") == "ParaView left the server: the stylus was let go, and a recording closed.",
+  expect(label("palpateStylusMessage")
+             .contains("ParaView left the server: the stylus was let go, and a recording closed."),
          "it is said why");
   expect(QFile::exists(qEnvironmentVariable("PALPATE_RECORDING")), "the recording is there");
   let_go();
@@ -155,7 +156,12 @@ void remote_fetched() {
   feel_patiently(true);
   click("palpateRecord");
   wait_for(
-      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+      "the recording is closed",
+      [] {
+        const QString said = label("palpateStylusMessage");
+        return said.startsWith("Recorded: ") && said.endsWith(" frames, 0 lost.");
+      },
+      10);
   let_go();
 }
 
@@ -200,9 +206,10 @@ void remote_killed() {
     // At once: the panel is told before ParaView is.
     const bool zero = number("palpateForce") == 0 && label("palpateState").startsWith("not connected");
     const bool said =
-        label("palpateStylusMessage") ==
-        "The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without its "
-        "server: it asks whether to save the state, and ends.";
+        label("palpateStylusMessage")
+            .contains(
+                "The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without "
+                "its server: it asks whether to save the state, and ends.");
     wait_ms(300);  // painted
     save_screen("remote-lost");
     std::printf("remote_killed: %s\n", !zero   ? "FAILED: the force is on"
