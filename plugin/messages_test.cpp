@@ -92,14 +92,7 @@ const std::vector<NotShown> not_shown = {
              "a program that cannot be started, and runs"},
     NotShown{"palpate: internal fault: {}", "a fault of the program, of which none is known"},
     NotShown{"Please report it with the command that caused it.", "a fault of the program, of which none is known"},
-    NotShown{"There is no scan to see it in yet: open the scan that was felt, then the recording.", of_paraview},
-    NotShown{"the server has not loaded Palpate: in Tools > Manage Plugins, load the plug-in Palpate on the server",
-             of_paraview},
     NotShown{"ParaView is not connected to a server: File > Connect.", of_paraview},
-    NotShown{"The server has no Palpate plug-in of this version: load Palpate.so there (Tools > Manage Plugins).",
-             of_paraview},
-    NotShown{"The server finds no image series there: choose a folder that it can read, by the server's own names.",
-             of_paraview},
     NotShown{"The server cannot give the scan's voxels: %1", of_paraview},
     NotShown{"it does not answer, and needs the Palpate plug-in of this version", of_paraview},
     NotShown{"The scan is no longer on the server.", of_paraview},
@@ -108,9 +101,6 @@ const std::vector<NotShown> not_shown = {
     NotShown{"Fetched from the server before.", of_paraview},
     NotShown{"this series could not be read: see the messages", of_paraview},
     NotShown{"this series has no values: see the messages", of_paraview},
-    NotShown{"Display resampled, touch is not.", of_paraview},
-    NotShown{"Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.", of_paraview},
-    NotShown{"%1 cannot be written: %2", of_paraview},
 };
 
 std::vector<bool> shown_by(const std::vector<testing::Provoked>& provoked) {

@@ -263,7 +263,7 @@ void ScanSection::show_now(const Loaded& loaded) {
     source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
     if (!source_) {
       throw std::runtime_error(
-          "the server has not loaded Palpate: in Tools > Manage Plugins, load the plug-in Palpate on the server");
+          "The server has no Palpate plug-in of this version: load Palpate.so there (Tools > Manage Plugins).");
     }
     vtkSMProxy& proxy = *source_->getProxy();
     {

@@ -47,6 +47,7 @@ SCENARIOS = [
     "the_scan_changes_in_mid_contact",
     "a_series_is_picked",
     "a_bad_folder",
+    "what_is_to_be_known_is_said",
     "a_colour_is_chosen",
     "keys_step_in_the_views",
     "a_dragged_node_is_felt",
@@ -54,6 +55,10 @@ SCENARIOS = [
     "recordings_are_replayed_and_compared",
     "closed_in_mid_contact",
 ]
+
+
+def told_of_its_scan():
+    return run("what_is_to_be_known_is_said", PALPATE_DROP=phantom("uneven", "sphere", "--tilt", "12", "--uneven", "0.4"))
 
 
 def on_its_folder(scenario):
@@ -64,7 +69,8 @@ def on_its_folder(scenario):
     return run(scenario, folder)
 
 
-# Only by name: a measurement, and what has not been seen to hold yet.
-BY_NAME = ["main_thread", "keys_step_in_the_views", "a_dragged_node_is_felt"]
-main({name: lambda name=name: on_its_folder(name) for name in SCENARIOS},
-     {name: lambda name=name: on_its_folder(name) for name in BY_NAME})
+# Only by name: a measurement.
+BY_NAME = ["main_thread"]
+TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
+TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
+main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

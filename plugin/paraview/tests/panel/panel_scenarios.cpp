@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QThread>
 #include <QTimer>
 #include <QToolButton>
@@ -192,6 +193,28 @@ void a_bad_folder() {
   expect(!find<QPushButton>("palpateConnect").isEnabled(), "there is nothing to connect to");
 }
 
+/// A scan that is tilted and has uneven slices: what there is to know of it, and what goes wrong around it, in words.
+void what_is_to_be_known_is_said() {
+  click("palpateRecordingsSectionFold");
+  name_file("palpateOpenRecording", "/proc/version");  // any file: without a scan none is read
+  wait_for("recordings wait for their scan", [] {
+    return label("palpateRecordingMessage") ==
+           "There is no scan to see it in yet: open the scan that was felt, then the recording.";
+  });
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  scan_is_shown();
+  for (const char* const sentence : {"Display resampled, touch is not.",
+                                     "Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour."}) {
+    expect(label("palpateMessage").split('\n').contains(sentence), std::string("it is said: ") + sentence);
+  }
+  const QString nowhere = "/proc/scene.json";  // not even root may make one there
+  name_file("palpateSaveScene", nowhere);
+  const QRegularExpression refusal("^/proc/scene\\.json cannot be written: .+$");
+  wait_for("a scene that cannot be saved is told of",
+           [&] { return refusal.match(label("palpateSceneMessage")).hasMatch(); });
+  save_screen("said");
+}
+
 /// Not a test but a measurement: how long the main thread is busy at a stretch while one probes. ParaView updates its
 /// slices before it renders them: that is only left out where they do not follow.
 void main_thread() {
@@ -228,6 +251,7 @@ const Scenarios scenarios{
     {"the_scan_changes_in_mid_contact", the_scan_changes_in_mid_contact},
     {"a_series_is_picked", a_series_is_picked},
     {"a_bad_folder", a_bad_folder},
+    {"what_is_to_be_known_is_said", what_is_to_be_known_is_said},
     {"main_thread", main_thread},
     {"closed_in_mid_contact", closed_in_mid_contact},
 };

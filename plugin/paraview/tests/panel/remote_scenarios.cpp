@@ -226,12 +226,29 @@ void remote_killed() {
       "ParaView ends", [] { return false; }, 60);
 }
 
+void is_refused(const char* why) {
+  connect_server();
+  open_on_server();
+  wait_for("it is said what is wrong", [why] { return label("palpateMessage") == why; });
+  expect(!find<QPushButton>("palpateConnect").isEnabled(), "there is nothing to connect to");
+}
+
+void remote_without_series() {
+  is_refused("The server finds no image series there: choose a folder that it can read, by the server's own names.");
+}
+
+void remote_without_plugin() {
+  is_refused("The server has no Palpate plug-in of this version: load Palpate.so there (Tools > Manage Plugins).");
+}
+
 }  // namespace
 
 const Scenarios& remote_scenarios() {
   static const Scenarios all{{"remote_probe", remote_probe},
                              {"remote_fetched", remote_fetched},
                              {"remote_different", remote_different},
-                             {"remote_killed", remote_killed}};
+                             {"remote_killed", remote_killed},
+                             {"remote_without_series", remote_without_series},
+                             {"remote_without_plugin", remote_without_plugin}};
   return all;
 }
