@@ -118,7 +118,6 @@ std::vector<bool> shown_by(const std::vector<testing::Provoked>& provoked) {
 TEST(Messages, EveryRowIsShownByATest) {
   const std::vector<bool> provoked = shown_by(testing::provoke_everything());
   const std::string quoted = testing::all_literals_of_tests(sources);
-  const bool with_usb = testing::can_provoke_usb();
   std::size_t here = 0, elsewhere = 0, never = 0;
   for (std::size_t n = 0; n < table().size(); ++n) {
     const std::string& message = table()[n];
@@ -134,7 +133,7 @@ TEST(Messages, EveryRowIsShownByATest) {
       std::printf("  shown by no test: %s (%s)\n", message.c_str(), reason->why);
     } else if (is_quoted) {
       ++elsewhere;
-    } else if (with_usb || !testing::is_of_usb(message)) {
+    } else if (!testing::cannot_be_had_here(message)) {
       ADD_FAILURE() << "no test shows the row " << message
                     << ": provoke it in plugin/internal/provoked_*.cpp, quote it in the test that meets it, or say in "
                        "not_shown why it cannot be had";

@@ -24,7 +24,8 @@ std::vector<Provoked> provoke_recordings();
 /// Needs umockdev, which does not go together with sanitizers.
 std::vector<Provoked> provoke_usb();
 bool can_provoke_usb();
-bool is_of_usb(const std::string& message);
+/// Whether this build or machine keeps a message from being provoked that others provoke.
+bool cannot_be_had_here(const std::string& message);
 
 /// All of them that can be had here.
 std::vector<Provoked> provoke_everything();

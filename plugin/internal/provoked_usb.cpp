@@ -69,6 +69,8 @@ std::vector<Provoked> provoke_usb() {
   };
 }
 
+namespace {
+
 bool is_of_usb(const std::string& message) {
   return message.find("permission denied") != std::string::npos || message.starts_with("type: sudo cp") ||
          message.find("another program hold") != std::string::npos ||
@@ -76,8 +78,15 @@ bool is_of_usb(const std::string& message) {
          message.find("cannot be opened: {}; unplug") != std::string::npos;
 }
 
+}  // namespace
+
 bool can_provoke_usb() {
   return !testdata::is_sanitized && output_of("umockdev-run --version").find("not found") == std::string::npos;
+}
+
+bool cannot_be_had_here(const std::string& message) {
+  return (is_of_usb(message) && !can_provoke_usb()) ||
+         (testdata::is_sanitized && message.find("needs more memory than there is") != std::string::npos);
 }
 
 }  // namespace palpate::plugin::testing
