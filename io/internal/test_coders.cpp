@@ -90,6 +90,7 @@ void encapsulate(DcmDataset& dataset, E_TransferSyntax syntax, const std::vector
 
 std::vector<Uint8> jpeg_ls(int columns, int rows, int bits, int near, const std::function<int(int, int)>& value) {
   std::vector<Uint16> pixels;
+  pixels.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   for (int n = 0; n < columns * rows; ++n) {
     pixels.push_back(static_cast<Uint16>(value(n % columns, n / columns) & ((1 << bits) - 1)));
   }
