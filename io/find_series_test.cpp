@@ -1,15 +1,10 @@
 #include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dcdict.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
-#include <clocale>
-#include <cstdlib>
-#include <fstream>
 
 #include "palpate/io/errors.h"
-#include "palpate/io/internal/dcmtk_start.h"
 #include "palpate/io/internal/test_image.h"
 #include "palpate/io/load.h"
 #include "palpate/io/series.h"
@@ -17,6 +12,8 @@
 namespace palpate::io {
 namespace {
 
+using internal::find_in;
+using internal::load_frame;
 using internal::put;
 using internal::TestFolder;
 using internal::TestImage;
@@ -26,16 +23,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-Catalogue find_in(const TestFolder& folder) {
-  return find_series(std::array{folder.path()});
-}
-
-Volume load_frame(const Series& series, int frame) {
-  LoadOptions options;
-  options.frame = frame;
-  return load(series, options);
-}
 
 TEST(FindSeries, OrderOfFilesAndNumbersDoesNotMatter) {
   const TestFolder folder;
@@ -278,130 +265,6 @@ TEST(FindSeries, WhatCannotBeFeltIsRefusedWithAReason) {
     ASSERT_THAT(found.skipped, SizeIs(1)) << unfit.name;
     EXPECT_THAT(found.skipped[0].reason, HasSubstr(unfit.reason)) << unfit.name;
   }
-}
-
-TEST(FindSeries, DescriptionBecomesUtf8) {
-  const std::array<std::array<std::string, 3>, 7> cases{
-      {{"ISO_IR 100", "T\xEAte", "T\xC3\xAAte"},
-       {"ISO_IR 192", "\xE9\xA0\xAD", "\xE9\xA0\xAD"},
-       {"ISO_IR 144", "\xB3\xDE\xDB\xDE\xD2\xD0", "Голова"},
-       {"\\ISO 2022 IR 87", "\x1B$B;3ED\x1B(B^\x1B$BB@O:\x1B(B", "山田^太郎"},
-       {"ISO 2022 IR 13\\ISO 2022 IR 87", "\xD4\xCF\xC0\xDE=\x1B$B;3ED\x1B(J", "ﾔﾏﾀﾞ=山田"},
-       {"GB18030", "\xCD\xF5\xD0\xA1\xB6\xAB", "王小东"},
-       {"", "T\xEAte", "T\xC3\xAAte"}}};
-  for (const auto& texts : cases) {  // character set, as stored, expected
-    const TestFolder folder;
-    write_stack(folder.path(), 2, [&](int, TestImage& image) {
-      image.edit = [&](DcmDataset& d) {
-        if (!texts[0].empty()) put(d, DCM_SpecificCharacterSet, texts[0]);
-        put(d, DCM_SeriesDescription, texts[1]);
-        put(d, DCM_PatientName, texts[1]);
-      };
-    });
-    const Series series = find_in(folder).series.at(0);
-    EXPECT_EQ(series.description, texts[2]) << texts[0];
-    EXPECT_EQ(series.identity.patient_name, texts[2]) << texts[0];
-  }
-}
-
-// A host program may run in a country that writes 0,75: neither attributes nor words may change.
-TEST(FindSeries, DecimalCommaOfTheLocaleChangesNothing) {
-  const TestFolder folder;
-  write_stack(folder.path(), 6, [](int k, TestImage& image) {
-    image.z = k == 5 ? 13.75 : 2.25 * k;
-    image.edit = [](DcmDataset& d) { put(d, DCM_RescaleIntercept, "-0.5"); };
-  });
-  const Series before = find_in(folder).series.at(0);
-  const TestFolder locales;
-  const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8").string() + " >/dev/null 2>&1";
-  if (std::system(make.c_str()) != 0)
-    GTEST_SKIP()
-        << "needs a locale that writes 0,75, and localedef (Debian's locales) cannot make de_DE here";  // NOLINT(cert-env33-c)
-  ::setenv("LOCPATH", locales.path().c_str(), 1);
-  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr)
-    GTEST_SKIP() << "needs a locale that writes 0,75, and setlocale() does not take de_DE here";
-  ASSERT_STREQ(std::localeconv()->decimal_point, ",");
-  const Series after = find_in(folder).series.at(0);
-  std::setlocale(LC_ALL, "C");
-  ::unsetenv("LOCPATH");
-  EXPECT_EQ(after.geometry.spacing_i, 0.75);
-  EXPECT_EQ(after.geometry.slice_positions, before.geometry.slice_positions);
-  ASSERT_THAT(before.warnings, SizeIs(1));
-  EXPECT_EQ(after.warnings, before.warnings);
-}
-
-TEST(FindSeries, DicomdirStandsForItsFolder) {
-  const TestFolder folder;
-  write_stack(folder.path(), 3);
-  std::ofstream(folder / "DICOMDIR") << "whatever it says";
-  EXPECT_EQ(find_series(std::array{folder / "DICOMDIR"}).series.at(0).geometry.dimensions.z, 3);
-}
-
-TEST(FindSeries, CancelledHalfWayLeavesNothingRunning) {
-  const TestFolder folder;
-  write_stack(folder.path(), 40);
-  const Series series = find_in(folder).series.at(0);
-  for (const double stop_at : {0.0, 0.2, 0.9}) {
-    LoadOptions options;
-    int later = 0;
-    bool stopped = false;
-    options.progress = [&](double done) {
-      later += stopped;
-      stopped = stopped || done >= stop_at;
-      return !stopped;
-    };
-    EXPECT_THROW(load(series, options), Cancelled);
-    EXPECT_EQ(later, 0) << "called again after it said no";
-  }
-}
-
-TEST(FindSeries, MissingDataDictionaryIsRefusedByName) {
-  EXPECT_NO_THROW(internal::start_dcmtk());
-  DcmDataDictionary empty(OFFalse, OFFalse);
-  empty.clear();
-  for (const bool loaded : {false, true}) {
-    try {
-      internal::check_dictionary(empty, loaded);
-      FAIL();
-    } catch (const DicomError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("DCMDICTPATH"));
-    }
-  }
-}
-
-TEST(FindSeries, NamesWhatDoesNotExist) {
-  const TestFolder folder;
-  try {
-    find_series(std::array{folder / "absent"});
-    FAIL();
-  } catch (const DicomError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("absent"));
-  }
-}
-
-TEST(FindSeries, CanBeCancelledAndReportsProgress) {
-  const TestFolder folder;
-  write_stack(folder.path(), 8);
-  EXPECT_THROW(find_series(std::array{folder.path()}, [](double) { return false; }), Cancelled);
-  std::vector<double> reported;
-  const Catalogue found = find_series(std::array{folder.path()}, [&](double done) {
-    reported.push_back(done);
-    return true;
-  });
-  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
-  LoadOptions options;
-  options.progress = [](double) { return false; };
-  EXPECT_THROW(load(found.series.at(0), options), Cancelled);
-}
-
-TEST(FindSeries, EveryFileOfAForeignFolderIsNamed) {
-  const TestFolder folder;
-  std::ofstream(folder / "empty");
-  std::ofstream(folder / "text.dcm") << "ISO_IR looks like nothing";
-  std::ofstream(folder / "short") << "DICM";
-  const Catalogue found = find_in(folder);
-  EXPECT_THAT(found.series, IsEmpty());
-  EXPECT_THAT(found.skipped, SizeIs(3));
 }
 
 }  // namespace

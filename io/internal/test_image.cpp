@@ -3,6 +3,7 @@
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcuid.h>
 
+#include <array>
 #include <vector>
 
 namespace palpate::io::internal {
@@ -71,6 +72,16 @@ DcmItem& group(DcmItem& item, const DcmTagKey& sequence) {
   DcmItem* made = nullptr;
   succeed(item.findOrCreateSequenceItem(sequence, made, 0));
   return *made;
+}
+
+Catalogue find_in(const TestFolder& folder) {
+  return find_series(std::array{folder.path()});
+}
+
+Volume load_frame(const Series& series, int frame) {
+  LoadOptions options;
+  options.frame = frame;
+  return load(series, options);
 }
 
 void make_multi_frame(DcmDataset& dataset, const std::vector<double>& heights,

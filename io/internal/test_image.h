@@ -14,6 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "palpate/io/load.h"
+#include "palpate/io/series.h"
+
 namespace palpate::io::internal {
 
 /// A folder of its own under the system's temporary one, removed with its owner.
@@ -64,6 +67,10 @@ void write(const TestImage& image, const std::filesystem::path& path);
 void write_stack(
     const std::filesystem::path& folder, int count,
     const std::function<void(int, TestImage&)>& change = [](int, TestImage&) {});
+
+/// What the reader finds there.
+Catalogue find_in(const TestFolder& folder);
+Volume load_frame(const Series& series, int frame);
 
 /// Makes the dataset an enhanced one: a frame for each height z (mm), in this order, oriented and spaced as the image
 /// was. `frame` may add to a frame's functional groups.

@@ -14,10 +14,6 @@ namespace {
 
 using testing::SizeIs;
 
-Catalogue find_in(const TestFolder& folder) {
-  return find_series(std::array{folder.path()});
-}
-
 // Enhanced phase contrast: magnitude and three directions in one file, frame by frame.
 TEST(Velocity, OfAnEnhancedFileIsJoined) {
   const TestFolder folder;
