@@ -1,4 +1,4 @@
-# What every folder shares: the language, the warnings, and the arrows between the folders.
+# What every folder shares: the language, the warnings, the libraries, the tests.
 include(CTest)
 include(GNUInstallDirs)
 
@@ -17,33 +17,39 @@ if(PALPATE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${PALPATE_CCACHE})
 endif()
 
-# Designated initialisers name what they set and leave the rest at its default: no reason for a warning.
+# An include is the path in the tree: the root is the one include folder.
+# Designated initializers name what they set and leave the rest at its default: no reason for a warning.
 # -ffp-contract=off: a session is replayed bit for bit, so no compiler may fuse what the source keeps apart.
 add_library(palpate_compile_options INTERFACE)
+target_include_directories(palpate_compile_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(palpate_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Wno-missing-field-initializers -Werror -ffp-contract=off)
+  -Wno-missing-field-initializers -ffp-contract=off)
+if(PALPATE_WERROR)
+  target_compile_options(palpate_compile_options INTERFACE -Werror)
+endif()
 if(PALPATE_SANITIZE)
   target_compile_options(palpate_compile_options INTERFACE
     -fsanitize=${PALPATE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(palpate_compile_options INTERFACE -fsanitize=${PALPATE_SANITIZE})
 endif()
 
-# The arrows: what a folder may include. Enforced three times: palpate_module() refuses any other dependency; a
-# folder's headers can be reached only through the include directory of a target that is linked; and the test
-# `arrows` fails on a relative include that would go round both.
+# The arrows: what a folder may depend on. palpate_module() refuses any other dependency, and the test `arrows` reads
+# the includes of every file, at any depth.
 set(PALPATE_ARROWS_solver "")
 set(PALPATE_ARROWS_io "")
 set(PALPATE_ARROWS_device "")
 set(PALPATE_ARROWS_modes io solver)
 set(PALPATE_ARROWS_testdata io)
-set(PALPATE_ARROWS_plugin solver io device modes testdata)
+set(PALPATE_ARROWS_plugin solver io device modes)
 
-# palpate_module(<name> SOURCES <file>... [DEPENDS <folder>...] [PUBLIC <library>...] [PRIVATE <library>...])
+# palpate_module(<name> SOURCES <file>... [HEADERS <file>...] [DEPENDS <folder>...] [PUBLIC <library>...]
+#                [PRIVATE <library>...])
 #
-# The library palpate::<name> of the folder this is called in. Its headers are included as "palpate/<name>/<file>.h".
+# The library palpate::<name> of the folder this is called in. HEADERS are its public ones: they are installed under
+# include/palpate/<name>, and nothing else is. A module without HEADERS is not installed.
 function(palpate_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
   foreach(dependency IN LISTS ARG_DEPENDS)
     if(NOT dependency IN_LIST PALPATE_ARROWS_${name})
       message(FATAL_ERROR "${name} may not depend on ${dependency}: see the arrows in .cmake/PalpateModule.cmake")
@@ -51,24 +57,22 @@ function(palpate_module name)
     list(APPEND ARG_PUBLIC palpate::${dependency})
   endforeach()
 
-  set(include_dir ${PROJECT_BINARY_DIR}/include/${name})
-  file(MAKE_DIRECTORY ${include_dir}/palpate)
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_dir}/palpate/${name} SYMBOLIC)
-
   add_library(palpate_${name} STATIC ${ARG_SOURCES})
   add_library(palpate::${name} ALIAS palpate_${name})
-  set_target_properties(palpate_${name} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(palpate_${name} PUBLIC
-    $<BUILD_INTERFACE:${include_dir}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  set_target_properties(palpate_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  target_include_directories(palpate_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_compile_features(palpate_${name} PUBLIC cxx_std_20)
   target_link_libraries(palpate_${name} PUBLIC ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:palpate_compile_options>)
+  if(NOT ARG_HEADERS)
+    return()
+  endif()
 
-  install(TARGETS palpate_${name} EXPORT palpate_${name})
+  target_sources(palpate_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
+  install(TARGETS palpate_${name} EXPORT palpate_${name}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/palpate)
   install(EXPORT palpate_${name} NAMESPACE palpate:: FILE palpate-${name}.cmake
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/palpate)
-  install(DIRECTORY ./ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/palpate/${name}
-    FILES_MATCHING PATTERN "*.h" PATTERN "internal" EXCLUDE)
 endfunction()
 
 # palpate_tests(<name> SOURCES <file>... [LINK <library>...]): GoogleTest cases of a folder, one CTest entry each.
@@ -82,8 +86,7 @@ function(palpate_tests name)
   add_executable(${name}_tests ${ARG_SOURCES})
   target_link_libraries(${name}_tests PRIVATE palpate_compile_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   # Real series are never copied into the project: tests that use them skip, saying so, where the folder is absent.
-  target_compile_definitions(${name}_tests PRIVATE
-    PALPATE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data" PALPATE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(${name}_tests PRIVATE PALPATE_SHARED_DATA="${PALPATE_SHARED_DATA}")
   gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
 endfunction()
 

@@ -4,12 +4,12 @@
 
 #include <array>
 
-#include "palpate/device/energy.h"
-#include "palpate/device/falcon_kinematics.h"
-#include "palpate/device/falcon_protocol.h"
-#include "palpate/device/safety_filter.h"
-#include "palpate/device/simulated_stylus.h"
-#include "palpate/device/wooden_haptics.h"
+#include "device/falcon/falcon_kinematics.h"
+#include "device/falcon/falcon_protocol.h"
+#include "device/safety/energy.h"
+#include "device/safety/safety_filter.h"
+#include "device/simulated/simulated_stylus.h"
+#include "device/wooden_haptics/wooden_haptics.h"
 
 namespace palpate::device {
 namespace {

@@ -1,9 +1,9 @@
-#include "palpate/device/found_devices.h"
+#include "device/found_devices.h"
 
 #include <iterator>
 
-#include "palpate/device/internal/falcon_usb.h"
-#include "palpate/device/internal/hid.h"
+#include "device/falcon/falcon_usb.h"
+#include "device/link/hid.h"
 
 namespace palpate::device {
 

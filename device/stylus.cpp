@@ -1,4 +1,4 @@
-#include "palpate/device/stylus.h"
+#include "device/stylus.h"
 
 namespace palpate::device {
 

@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "palpate/io/errors.h"
-#include "palpate/io/internal/dcmtk_start.h"
-#include "palpate/io/internal/test_image.h"
-#include "palpate/io/load.h"
-#include "palpate/io/series.h"
+#include "io/dicom/dcmtk_start.h"
+#include "io/errors.h"
+#include "io/load.h"
+#include "io/series.h"
+#include "io/testing/test_image.h"
 
 namespace palpate::io {
 namespace {

@@ -4,13 +4,13 @@
 #include <string>
 #include <system_error>
 
-#include "palpate/io/errors.h"
-#include "palpate/io/internal/dcmtk_start.h"
-#include "palpate/io/internal/file_header.h"
-#include "palpate/io/internal/grouping.h"
-#include "palpate/io/internal/parallel.h"
-#include "palpate/io/internal/velocity.h"
-#include "palpate/io/series.h"
+#include "io/dicom/dcmtk_start.h"
+#include "io/dicom/file_header.h"
+#include "io/dicom/grouping.h"
+#include "io/dicom/velocity.h"
+#include "io/errors.h"
+#include "io/parallel.h"
+#include "io/series.h"
 
 namespace palpate::io {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <array>
 
-#include "palpate/io/errors.h"
-#include "palpate/io/internal/test_image.h"
-#include "palpate/io/load.h"
-#include "palpate/io/series.h"
+#include "io/errors.h"
+#include "io/load.h"
+#include "io/series.h"
+#include "io/testing/test_image.h"
 
 namespace palpate::io {
 namespace {

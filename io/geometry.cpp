@@ -1,4 +1,4 @@
-#include "palpate/io/geometry.h"
+#include "io/geometry.h"
 
 #include <algorithm>
 #include <cmath>

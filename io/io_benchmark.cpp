@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <random>
 
-#include "palpate/io/load.h"
-#include "palpate/io/volume_fields.h"
-#include "palpate/testdata/scan.h"
+#include "io/fields/volume_fields.h"
+#include "io/load.h"
+#include "testdata/scan.h"
 
 namespace palpate::io {
 namespace {

@@ -1,16 +1,16 @@
-#include "palpate/io/load.h"
+#include "io/load.h"
 
 #include <algorithm>
 #include <mutex>
 #include <optional>
 
-#include "palpate/io/errors.h"
-#include "palpate/io/internal/pages.h"
-#include "palpate/io/internal/parallel.h"
-#include "palpate/io/internal/series_source.h"
-#include "palpate/io/internal/slice_reader.h"
-#include "palpate/io/internal/stacking.h"
-#include "palpate/io/internal/velocity.h"
+#include "io/dicom/series_source.h"
+#include "io/dicom/slice_reader.h"
+#include "io/dicom/stacking.h"
+#include "io/dicom/velocity.h"
+#include "io/errors.h"
+#include "io/pages.h"
+#include "io/parallel.h"
 
 namespace palpate::io {
 namespace {

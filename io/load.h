@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "palpate/io/progress.h"
-#include "palpate/io/series.h"
-#include "palpate/io/volume.h"
+#include "io/progress.h"
+#include "io/series.h"
+#include "io/volume.h"
 
 namespace palpate::io {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "palpate/io/geometry.h"
-#include "palpate/io/progress.h"
+#include "io/geometry.h"
+#include "io/progress.h"
 
 namespace palpate::io {
 

@@ -1,12 +1,12 @@
-#include "palpate/io/volume.h"
+#include "io/volume.h"
 
 #include <algorithm>
 #include <limits>
 #include <span>
 #include <type_traits>
 
-#include "palpate/io/internal/for_processor.h"
-#include "palpate/io/internal/parallel.h"
+#include "io/for_processor.h"
+#include "io/parallel.h"
 
 namespace palpate::io {
 

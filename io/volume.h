@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "palpate/io/geometry.h"
+#include "io/geometry.h"
 
 namespace palpate::io {
 

@@ -1,12 +1,12 @@
-#include "palpate/solver/analytical.h"
+#include "solver/analytical.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "palpate/solver/certify.h"
-#include "palpate/solver/internal/answer.h"
+#include "solver/certify.h"
+#include "solver/exact/answer.h"
 
 namespace palpate::solver {
 

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "palpate/solver/solution.h"
+#include "solver/solution.h"
 
 namespace palpate::solver {
 

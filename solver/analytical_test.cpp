@@ -1,4 +1,4 @@
-#include "palpate/solver/analytical.h"
+#include "solver/analytical.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "palpate/solver/problems.h"
+#include "solver/testing/problems.h"
 
 namespace palpate::solver {
 namespace {

@@ -1,9 +1,9 @@
-#include "palpate/solver/balance.h"
+#include "solver/balance.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "palpate/solver/certify.h"
+#include "solver/certify.h"
 
 namespace palpate::solver {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "palpate/solver/primitive.h"
+#include "solver/primitive.h"
 
 namespace palpate::solver {
 

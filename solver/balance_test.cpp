@@ -1,4 +1,4 @@
-#include "palpate/solver/balance.h"
+#include "solver/balance.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "palpate/solver/certify.h"
+#include "solver/certify.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "palpate/solver/internal/settle.h"
+#include "solver/exact/settle.h"
 
 namespace palpate::solver {
 

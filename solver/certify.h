@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "palpate/solver/balance.h"
+#include "solver/balance.h"
 
 namespace palpate::solver {
 

@@ -1,4 +1,4 @@
-#include "palpate/solver/certify.h"
+#include "solver/certify.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "palpate/solver/analytical.h"
-#include "palpate/solver/problems.h"
+#include "solver/analytical.h"
+#include "solver/testing/problems.h"
 
 namespace palpate::solver {
 namespace {

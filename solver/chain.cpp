@@ -1,8 +1,8 @@
-#include "palpate/solver/chain.h"
+#include "solver/chain.h"
 
 #include <algorithm>
 
-#include "palpate/solver/analytical.h"
+#include "solver/analytical.h"
 
 namespace palpate::solver {
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "palpate/solver/descent.h"
-#include "palpate/solver/exact.h"
-#include "palpate/solver/solution.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
+#include "solver/solution.h"
 
 namespace palpate::solver {
 

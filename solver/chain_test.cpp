@@ -1,4 +1,4 @@
-#include "palpate/solver/chain.h"
+#include "solver/chain.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "palpate/solver/problems.h"
+#include "solver/testing/problems.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "palpate/solver/descent.h"
+#include "solver/descent.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "palpate/solver/certify.h"
-#include "palpate/solver/internal/placed.h"
+#include "solver/certify.h"
+#include "solver/exact/placed.h"
 
 namespace palpate::solver {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "palpate/solver/solution.h"
+#include "solver/solution.h"
 
 namespace palpate::solver {
 

@@ -1,4 +1,4 @@
-#include "palpate/solver/descent.h"
+#include "solver/descent.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "palpate/solver/exact.h"
+#include "solver/exact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "palpate/solver/certify.h"
-#include "palpate/solver/internal/answer.h"
-#include "palpate/solver/internal/walk.h"
+#include "solver/certify.h"
+#include "solver/exact/answer.h"
+#include "solver/exact/walk.h"
 
 namespace palpate::solver {
 

@@ -26,7 +26,7 @@
 #include <memory>
 #include <span>
 
-#include "palpate/solver/solution.h"
+#include "solver/solution.h"
 
 namespace palpate::solver {
 

@@ -1,4 +1,4 @@
-#include "palpate/solver/exact.h"
+#include "solver/exact.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-#include "palpate/solver/analytical.h"
-#include "palpate/solver/problems.h"
+#include "solver/analytical.h"
+#include "solver/testing/problems.h"
 
 namespace palpate::solver {
 namespace {

@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "palpate/solver/analytical.h"
-#include "palpate/solver/certify.h"
-#include "palpate/solver/chain.h"
-#include "palpate/solver/problems.h"
-#include "palpate/solver/reference.h"
+#include "solver/analytical.h"
+#include "solver/certify.h"
+#include "solver/chain.h"
+#include "solver/testing/problems.h"
+#include "solver/testing/reference.h"
 
 namespace palpate::solver {
 namespace {

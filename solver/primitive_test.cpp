@@ -1,4 +1,4 @@
-#include "palpate/solver/primitive.h"
+#include "solver/primitive.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "palpate/solver/solution.h"
+#include "solver/solution.h"
 
 namespace palpate::solver {
 

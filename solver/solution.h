@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "palpate/solver/balance.h"
+#include "solver/balance.h"
 
 namespace palpate::solver {
 

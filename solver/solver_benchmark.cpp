@@ -6,10 +6,10 @@
 #include <iterator>
 #include <vector>
 
-#include "palpate/solver/analytical.h"
-#include "palpate/solver/descent.h"
-#include "palpate/solver/exact.h"
-#include "palpate/solver/problems.h"
+#include "solver/analytical.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
+#include "solver/testing/problems.h"
 
 namespace palpate::solver {
 namespace {

@@ -1,4 +1,4 @@
-#include "palpate/testdata/analytic.h"
+#include "testdata/analytic.h"
 
 #include <cmath>
 #include <glm/vector_relational.hpp>

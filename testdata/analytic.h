@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "palpate/io/field_source.h"
-#include "palpate/testdata/phantom.h"
+#include "io/fields/field_source.h"
+#include "testdata/phantom.h"
 
 namespace palpate::testdata {
 

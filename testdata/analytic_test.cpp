@@ -1,4 +1,4 @@
-#include "palpate/testdata/analytic.h"
+#include "testdata/analytic.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 /// The virtual wind tunnel: potential flow past a sphere, exactly. Source: Batchelor, "An Introduction to Fluid
 /// Dynamics" (1967), section 6.8 (the potential) and 6.2 (Bernoulli's theorem).
 
-#include "palpate/io/field_source.h"
+#include "io/fields/field_source.h"
 
 namespace palpate::testdata {
 

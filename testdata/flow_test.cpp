@@ -1,4 +1,4 @@
-#include "palpate/testdata/flow.h"
+#include "testdata/flow.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "palpate/testdata/invesalius.h"
+#include "testdata/invesalius.h"
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "palpate/testdata/scan.h"
+#include "testdata/scan.h"
 
 namespace palpate::testdata {
 namespace {

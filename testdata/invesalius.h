@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "palpate/io/volume.h"
+#include "io/volume.h"
 
 namespace palpate::testdata {
 

@@ -1,4 +1,4 @@
-#include "palpate/testdata/invesalius.h"
+#include "testdata/invesalius.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "palpate/testdata/fresh_folder.h"
+#include "io/fresh_folder.h"
 
 namespace palpate::testdata {
 namespace {
@@ -109,7 +109,7 @@ TEST_F(Cranium, NoseIsAnterior) {
 
 TEST(Invesalius, RefusesWhatIsNoProject) {
   EXPECT_THROW(read_invesalius("/nowhere/Cranium.inv3"), std::runtime_error);
-  const FreshFolder folder = temporary_folder();
+  const io::FreshFolder folder = io::temporary_folder();
   const auto file = folder.path() / "not-a-project.inv3";
   std::ofstream(file) << "not a tar";
   try {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "palpate/testdata/invesalius.h"
-#include "palpate/testdata/scan.h"
-#include "palpate/testdata/write_flow.h"
-#include "palpate/testdata/write_series.h"
+#include "testdata/invesalius.h"
+#include "testdata/scan.h"
+#include "testdata/write_flow.h"
+#include "testdata/write_series.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "palpate/testdata/phantom.h"
+#include "testdata/phantom.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

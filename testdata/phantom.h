@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "palpate/testdata/shape.h"
+#include "testdata/shape.h"
 
 namespace palpate::testdata {
 

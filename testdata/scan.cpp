@@ -1,4 +1,4 @@
-#include "palpate/testdata/scan.h"
+#include "testdata/scan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "palpate/io/volume.h"
-#include "palpate/testdata/phantom.h"
+#include "io/volume.h"
+#include "testdata/phantom.h"
 
 namespace palpate::testdata {
 

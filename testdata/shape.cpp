@@ -1,4 +1,4 @@
-#include "palpate/testdata/shape.h"
+#include "testdata/shape.h"
 
 #include <algorithm>
 #include <cmath>

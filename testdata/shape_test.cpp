@@ -1,4 +1,4 @@
-#include "palpate/testdata/shape.h"
+#include "testdata/shape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "palpate/testdata/write_flow.h"
+#include "testdata/write_flow.h"
 
 #include <cmath>
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "palpate/testdata/fresh_folder.h"
-#include "palpate/testdata/write_series.h"
+#include "io/fresh_folder.h"
+#include "testdata/write_series.h"
 
 namespace palpate::testdata {
 namespace {
@@ -79,7 +79,7 @@ void write_flow_study(const FlowStudy& study, const std::filesystem::path& folde
     throw std::invalid_argument("a flow study needs at least one time and a venc above its fastest speed");
   }
   const io::Geometry geometry = make_geometry(study.grid);
-  FreshFolder fresh(folder);
+  io::FreshFolder fresh(folder);
   SeriesLabel label{
       .description = "", .subject = "PHANTOM", .bits_stored = 12, .modality = "MR", .study = "palpate 4D flow"};
   for (int time = 0; time < study.times; ++time) {

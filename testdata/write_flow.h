@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "palpate/testdata/flow.h"
-#include "palpate/testdata/scan.h"
+#include "testdata/flow.h"
+#include "testdata/scan.h"
 
 namespace palpate::testdata {
 

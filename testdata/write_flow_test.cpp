@@ -1,13 +1,13 @@
-#include "palpate/testdata/write_flow.h"
+#include "testdata/write_flow.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "palpate/io/load.h"
-#include "palpate/io/volume_fields.h"
-#include "palpate/testdata/fresh_folder.h"
+#include "io/fields/volume_fields.h"
+#include "io/fresh_folder.h"
+#include "io/load.h"
 
 namespace palpate::testdata {
 namespace {
@@ -21,7 +21,7 @@ class FlowFolder : public testing::Test {
     return io::find_series(std::array{folder_});
   }
 
-  const FreshFolder scratch_ = temporary_folder();
+  const io::FreshFolder scratch_ = io::temporary_folder();
   const fs::path folder_ = scratch_.path() / "flow";
 };
 

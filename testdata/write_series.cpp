@@ -1,4 +1,4 @@
-#include "palpate/testdata/write_series.h"
+#include "testdata/write_series.h"
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "palpate/testdata/fresh_folder.h"
+#include "io/fresh_folder.h"
 
 namespace palpate::testdata {
 namespace {
@@ -266,7 +266,7 @@ void write_series(const io::Volume& volume, const fs::path& folder, const Series
   if (!dcmDataDict.isDictionaryLoaded()) {
     throw std::runtime_error("DCMTK's data dictionary is not loaded; set DCMDICTPATH to dicom.dic");
   }
-  FreshFolder fresh(folder);
+  io::FreshFolder fresh(folder);
   std::visit(
       [&](const auto& voxels) {
         if constexpr (std::is_floating_point_v<typename std::decay_t<decltype(voxels)>::value_type>) {

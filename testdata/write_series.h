@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "palpate/io/series.h"
-#include "palpate/io/volume.h"
-#include "palpate/testdata/shape.h"
+#include "io/series.h"
+#include "io/volume.h"
+#include "testdata/shape.h"
 
 namespace palpate::testdata {
 

@@ -1,4 +1,4 @@
-#include "palpate/testdata/write_series.h"
+#include "testdata/write_series.h"
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
@@ -10,8 +10,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "palpate/testdata/fresh_folder.h"
-#include "palpate/testdata/scan.h"
+#include "io/fresh_folder.h"
+#include "testdata/scan.h"
 
 namespace palpate::testdata {
 namespace {
@@ -33,7 +33,7 @@ class WriteSeries : public testing::Test {
     return found;
   }
 
-  const FreshFolder folder_ = temporary_folder();
+  const io::FreshFolder folder_ = io::temporary_folder();
   const fs::path root_ = folder_.path();
   io::Volume volume_;
 };

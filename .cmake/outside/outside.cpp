@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "palpate/solver/chain.h"
+#include "solver/chain.h"
 
 int main() {
   using namespace palpate::solver;

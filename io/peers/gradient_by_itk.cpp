@@ -1,6 +1,6 @@
 // gradient_by_itk COLUMNS ROWS SLICES RUNS: seconds that ITK's GradientRecursiveGaussianImageFilter (1.5 mm, voxels of
 // 0.7 x 0.7 x 1 mm) takes for a 16-bit volume of seeded noise, best of some runs on all cores. A yardstick for
-// `palpate bench fields`.
+// `palpate-bench fields`.
 #include <itkGradientRecursiveGaussianImageFilter.h>
 #include <itkImage.h>
 

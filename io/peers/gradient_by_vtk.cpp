@@ -1,5 +1,5 @@
 // gradient_by_vtk COLUMNS ROWS SLICES RUNS: seconds that vtkImageGradient takes for a 16-bit volume of seeded noise,
-// best of some runs on all cores. A yardstick for `palpate bench fields`.
+// best of some runs on all cores. A yardstick for `palpate-bench fields`.
 #include <vtkImageData.h>
 #include <vtkImageGradient.h>
 #include <vtkSmartPointer.h>

@@ -1,5 +1,5 @@
 // load_by_dcmtk FOLDER: what a program gets from DCMTK alone, one file after the other: decode, sort by position,
-// rescale, minimum, maximum and mean. A yardstick for `palpate bench load`; for sound, plain series only.
+// rescale, minimum, maximum and mean. A yardstick for `palpate-bench load`; for sound, plain series only.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
 #include <dcmtk/dcmdata/dcfilefo.h>

@@ -1,5 +1,5 @@
 // load_by_itk FOLDER: what a program gets from ITK: GDCMSeriesFileNames and ImageSeriesReader, with minimum, maximum
-// and mean. A yardstick for `palpate bench load`; for sound, plain series only.
+// and mean. A yardstick for `palpate-bench load`; for sound, plain series only.
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 #include <itkImage.h>

@@ -1,10 +1,10 @@
 // load_by_palpate FOLDER: find_series(), load() and statistics() and no more, as the peers beside it do with their
-// libraries. What `palpate bench load` compares.
+// libraries. What `palpate-bench load` compares.
 #include <array>
 #include <cstdio>
 #include <filesystem>
 
-#include "palpate/io/load.h"
+#include "io/load.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

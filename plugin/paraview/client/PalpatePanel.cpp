@@ -1,4 +1,4 @@
-#include "PalpatePanel.h"
+#include "plugin/paraview/client/PalpatePanel.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
@@ -22,23 +22,23 @@
 
 #include <utility>
 
-#include "boundary_colours.h"
-#include "column_scroll.h"
-#include "curves_section.h"
-#include "first_folder.h"
-#include "fold.h"
-#include "footer.h"
-#include "image_lattice.h"
-#include "mapping.h"
-#include "modes_section.h"
-#include "palpate/plugin/scan.h"
-#include "profile_section.h"
-#include "recordings_section.h"
-#include "scan_section.h"
-#include "server_watch.h"
-#include "stylus_section.h"
-#include "stylus_views.h"
-#include "tissues_section.h"
+#include "plugin/paraview/client/panel/column_scroll.h"
+#include "plugin/paraview/client/panel/curves_section.h"
+#include "plugin/paraview/client/panel/fold.h"
+#include "plugin/paraview/client/panel/footer.h"
+#include "plugin/paraview/client/panel/modes_section.h"
+#include "plugin/paraview/client/panel/profile_section.h"
+#include "plugin/paraview/client/panel/recordings_section.h"
+#include "plugin/paraview/client/panel/tissues_section.h"
+#include "plugin/paraview/client/remote/server_watch.h"
+#include "plugin/paraview/client/scan/first_folder.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/stylus/mapping.h"
+#include "plugin/paraview/client/stylus/stylus_section.h"
+#include "plugin/paraview/client/stylus/stylus_views.h"
+#include "plugin/paraview/client/views/boundary_colors.h"
+#include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/session/scan.h"
 
 using namespace palpate;
 using namespace palpate::plugin;

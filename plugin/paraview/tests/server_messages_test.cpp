@@ -1,4 +1,4 @@
-// What the plug-in on the server says of scans, images and questions that it refuses, in the words of MESSAGES.md: the
+// What the plug-in on the server says of scans, images and questions that it refuses, in the words of messages.md: the
 // reader, the filters and the slices' way to a client, without ParaView around them.
 
 #include <gtest/gtest.h>
@@ -21,15 +21,15 @@
 #include <functional>
 #include <string>
 
-#include "PalpateDicomReader.h"
-#include "PalpateFields.h"
-#include "PalpateScanSlices.h"
-#include "palpate/io/series.h"
-#include "palpate/plugin/internal/message_table.h"
-#include "palpate/plugin/internal/test_files.h"
-#include "palpate/testdata/scan.h"
-#include "palpate/testdata/write_series.h"
-#include "slices_message.h"
+#include "io/series.h"
+#include "plugin/messages/message_table.h"
+#include "plugin/paraview/common/slices_message.h"
+#include "plugin/paraview/server/module/PalpateDicomReader.h"
+#include "plugin/paraview/server/module/PalpateFields.h"
+#include "plugin/paraview/server/module/PalpateScanSlices.h"
+#include "plugin/testing/test_files.h"
+#include "testdata/scan.h"
+#include "testdata/write_series.h"
 
 namespace palpate::plugin {
 namespace {
@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 
 void expect_row(const std::string& row, const std::string& said) {
   static const std::vector<std::string> table =
-      testing::messages_of_table(fs::path(PALPATE_SOURCES) / "plugin/MESSAGES.md");
+      testing::messages_of_table(fs::path(PALPATE_SOURCES) / "plugin/docs/messages.md");
   EXPECT_GT(std::ranges::count(table, row), 0) << "no row of the table: " << row;
   EXPECT_TRUE(testing::fits(row, said)) << "wanted: " << row << "\nsaid: " << said;
 }

@@ -1,4 +1,4 @@
-#include "PalpateDicomReader.h"
+#include "plugin/paraview/server/module/PalpateDicomReader.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
@@ -24,11 +24,11 @@
 #include <string_view>
 #include <vector>
 
-#include "display_image.h"
-#include "palpate/io/errors.h"
-#include "scan_choice.h"
-#include "scan_store.h"
-#include "value_shares.h"
+#include "io/errors.h"
+#include "plugin/paraview/common/display_image.h"
+#include "plugin/paraview/common/scan_choice.h"
+#include "plugin/paraview/common/scan_store.h"
+#include "plugin/paraview/server/module/value_shares.h"
 
 using namespace palpate;
 

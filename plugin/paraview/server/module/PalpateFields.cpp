@@ -1,4 +1,4 @@
-#include "PalpateFields.h"
+#include "plugin/paraview/server/module/PalpateFields.h"
 
 #include <vtkDataObject.h>
 #include <vtkFloatArray.h>
@@ -14,9 +14,9 @@
 #include <cmath>
 #include <exception>
 
-#include "image_fields.h"
-#include "pieces.h"
-#include "scan_of_image.h"
+#include "plugin/paraview/server/module/image_fields.h"
+#include "plugin/paraview/server/module/pieces.h"
+#include "plugin/paraview/server/module/scan_of_image.h"
 
 using namespace palpate;
 using Pipeline = vtkStreamingDemandDrivenPipeline;

@@ -1,4 +1,4 @@
-#include "PalpateForceProfile.h"
+#include "plugin/paraview/server/module/PalpateForceProfile.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
@@ -15,10 +15,10 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "palpate/plugin/scan.h"
-#include "palpate/plugin/stroke.h"
-#include "palpate/plugin/summary.h"
-#include "scan_of_image.h"
+#include "plugin/paraview/server/module/scan_of_image.h"
+#include "plugin/report/summary.h"
+#include "plugin/session/scan.h"
+#include "plugin/session/stroke.h"
 
 using namespace palpate;
 

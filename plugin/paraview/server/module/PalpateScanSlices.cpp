@@ -1,4 +1,4 @@
-#include "PalpateScanSlices.h"
+#include "plugin/paraview/server/module/PalpateScanSlices.h"
 
 #include <vtkClientServerStream.h>
 #include <vtkMultiProcessStream.h>
@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "PalpateDicomReader.h"
-#include "slices_message.h"
+#include "plugin/paraview/common/slices_message.h"
+#include "plugin/paraview/server/module/PalpateDicomReader.h"
 
 using namespace palpate::plugin;
 

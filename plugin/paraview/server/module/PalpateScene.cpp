@@ -1,4 +1,4 @@
-#include "PalpateScene.h"
+#include "plugin/paraview/server/module/PalpateScene.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkInformation.h>
@@ -10,9 +10,9 @@
 
 #include <exception>
 
-#include "palpate/modes/scene.h"
-#include "palpate/plugin/summary.h"
-#include "scan_of_image.h"
+#include "modes/scene/scene.h"
+#include "plugin/paraview/server/module/scan_of_image.h"
+#include "plugin/report/summary.h"
 
 using namespace palpate;
 

@@ -1,4 +1,4 @@
-#include "PalpateTissueSurface.h"
+#include "plugin/paraview/server/module/PalpateTissueSurface.h"
 
 #include <vtkCleanPolyData.h>
 #include <vtkDataArray.h>
@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 
-#include "pieces.h"
+#include "plugin/paraview/server/module/pieces.h"
 
 using namespace palpate;
 

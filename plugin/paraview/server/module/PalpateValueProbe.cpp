@@ -1,4 +1,4 @@
-#include "PalpateValueProbe.h"
+#include "plugin/paraview/server/module/PalpateValueProbe.h"
 
 #include <vtkObjectFactory.h>
 

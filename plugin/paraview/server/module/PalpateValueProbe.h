@@ -10,8 +10,8 @@
 
 #include <array>
 
-#include "PalpateDicomReader.h"
 #include "PalpateServerModule.h"
+#include "plugin/paraview/server/module/PalpateDicomReader.h"
 
 class PALPATESERVER_EXPORT PalpateValueProbe : public vtkObject {
  public:

@@ -1,4 +1,4 @@
-#include "image_fields.h"
+#include "plugin/paraview/server/module/image_fields.h"
 
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -12,11 +12,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "palpate/io/errors.h"
-#include "palpate/io/volume_fields.h"
-#include "palpate/modes/mode_type.h"
-#include "palpate/plugin/scan.h"
-#include "scan_of_image.h"
+#include "io/errors.h"
+#include "io/fields/volume_fields.h"
+#include "modes/types/mode_type.h"
+#include "plugin/paraview/server/module/scan_of_image.h"
+#include "plugin/session/scan.h"
 
 namespace palpate::plugin {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "palpate/io/progress.h"
-#include "palpate/io/volume.h"
-#include "palpate/modes/scene.h"
+#include "io/progress.h"
+#include "io/volume.h"
+#include "modes/scene/scene.h"
 
 class vtkFloatArray;
 class vtkImageData;

@@ -1,4 +1,4 @@
-#include "pieces.h"
+#include "plugin/paraview/server/module/pieces.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <iterator>
 
-#include "shared_voxels.h"
+#include "plugin/paraview/common/shared_voxels.h"
 
 namespace palpate::plugin {
 

@@ -1,4 +1,4 @@
-#include "scan_of_image.h"
+#include "plugin/paraview/server/module/scan_of_image.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataArrayRange.h>
@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "palpate/modes/scene_json.h"
-#include "palpate/plugin/scan.h"
-#include "shared_voxels.h"
+#include "modes/scene/scene_json.h"
+#include "plugin/paraview/common/shared_voxels.h"
+#include "plugin/session/scan.h"
 
 namespace palpate::plugin {
 namespace {

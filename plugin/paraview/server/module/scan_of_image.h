@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "palpate/io/volume.h"
-#include "palpate/modes/scene.h"
+#include "io/volume.h"
+#include "modes/scene/scene.h"
 
 class vtkImageData;
 

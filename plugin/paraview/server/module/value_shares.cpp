@@ -1,4 +1,4 @@
-#include "value_shares.h"
+#include "plugin/paraview/server/module/value_shares.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <memory>
 
-#include "scan_store.h"
+#include "plugin/paraview/common/scan_store.h"
 
 namespace palpate::plugin {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "palpate/io/series.h"
-#include "palpate/io/volume.h"
+#include "io/series.h"
+#include "io/volume.h"
 
 namespace palpate::plugin {
 

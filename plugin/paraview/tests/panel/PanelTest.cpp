@@ -1,4 +1,4 @@
-#include "PanelTest.h"
+#include "plugin/paraview/tests/panel/PanelTest.h"
 
 #include <QApplication>
 #include <QListWidget>
@@ -9,7 +9,7 @@
 #include <exception>
 #include <string>
 
-#include "panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "busy_watch.h"
+#include "plugin/paraview/tests/panel/busy_watch.h"
 
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>

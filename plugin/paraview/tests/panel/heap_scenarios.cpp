@@ -19,9 +19,9 @@
 #include <cstdio>
 #include <functional>
 
-#include "palpate/plugin/heap_use.h"
-#include "panel_rig.h"
-#include "panel_steps.h"
+#include "plugin/bench/heap_use.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
 
 namespace {
 

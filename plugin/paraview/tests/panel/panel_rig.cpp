@@ -1,4 +1,4 @@
-#include "panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

@@ -17,9 +17,9 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "busy_watch.h"
-#include "panel_rig.h"
-#include "panel_steps.h"
+#include "plugin/paraview/tests/panel/busy_watch.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "panel_steps.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -19,7 +19,7 @@
 
 #include <stdexcept>
 
-#include "panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
 
 std::string scene_text() {
   for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {

@@ -16,8 +16,8 @@
 
 #include <QGuiApplication>
 
-#include "panel_rig.h"
-#include "panel_steps.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include <cmath>
 
-#include "panel_rig.h"
-#include "panel_steps.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "panel_rig.h"
-#include "panel_steps.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
 
 namespace {
 

@@ -28,13 +28,13 @@
 #include <memory>
 #include <string>
 
-#include "palpate/plugin/paraview/server/module/scan_choice.h"
-#include "palpate/plugin/paraview/server/module/scan_store.h"
-#include "palpate/plugin/replay.h"
-#include "palpate/plugin/run_session.h"
-#include "palpate/plugin/scan_hash.h"
-#include "panel_rig.h"
-#include "panel_steps.h"
+#include "plugin/app/run_session.h"
+#include "plugin/paraview/common/scan_choice.h"
+#include "plugin/paraview/common/scan_store.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
+#include "plugin/recording/replay.h"
+#include "plugin/session/scan_hash.h"
 
 namespace {
 

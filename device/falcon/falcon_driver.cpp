@@ -1,0 +1,108 @@
+#include "device/falcon/falcon_driver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "device/vectors.h"
+
+namespace palpate::device {
+
+namespace {
+
+constexpr double reply_time = 0.020;    // s after which a reply is given up and the Falcon asked again
+constexpr double surplus_time = 0.005;  // s that a reply given up is waited for once another has come
+const Vec3 newton_start(0, 0, 0.11);    // m: from here Newton's method reaches every pose of the workspace
+
+}  // namespace
+
+FalconProtocol::FalconProtocol(const FalconSettings& settings) : settings_(settings) {}
+
+void FalconProtocol::connect(Link& link) {
+  connect_falcon(dynamic_cast<FalconLink&>(link), settings_.firmware_file);
+  const std::uint64_t news = status_.news;
+  status_ = {};
+  status_.state = State::homing;
+  status_.news = news;
+  replies_ = {};
+  robot_position_ = newton_start;
+  command_due_ = true;
+  asked_again_ = false;
+}
+
+void FalconProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
+  if (const std::optional<FalconReply> reply = replies_.feed(packet)) {
+    command_due_ = true;
+    replied_ = now;
+    take(*reply);
+  }
+}
+
+void FalconProtocol::take(const FalconReply& reply) noexcept {
+  if (status_.state == State::fault) return;
+  status_.buttons = reply.buttons;
+  const bool homed = std::all_of(reply.homed.begin(), reply.homed.end(), [](bool leg) { return leg; });
+  if (!homed) {
+    if (status_.state != State::homing) return fail(LinkFault::unhomed);
+    // Counts mean nothing before; the pose stays where it was.
+    ++status_.news;
+    return;
+  }
+  Vec3 angles;
+  for (int leg = 0; leg < 3; ++leg) {
+    angles[leg] = settings_.geometry.angle_at_zero +
+                  reply.encoders[static_cast<std::size_t>(leg)] * settings_.geometry.angle_per_count;
+  }
+  const std::optional<Vec3> position = falcon_position(settings_.geometry, angles, robot_position_);
+  if (!position) return fail(LinkFault::unreachable_pose);
+  robot_position_ = *position;
+  status_.position = *position - Vec3(0, 0, settings_.geometry.centre);
+  status_.state = State::idle;
+  ++status_.news;
+}
+
+void FalconProtocol::fail(LinkFault fault) noexcept {
+  status_.state = State::fault;
+  status_.fault = fault;
+}
+
+std::size_t FalconProtocol::step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept {
+  if (!command_due_ && now - sent_ < reply_time) return 0;
+  // A reply given up may only be late. Each reply asks for a command, so a surplus one would stay in the pipe for ever
+  // and make every force a tick older: wait until it has come.
+  if (asked_again_ && command_due_ && now - replied_ < surplus_time) return 0;
+  asked_again_ = !command_due_;
+  // A command that is repeated for want of a reply carries no force: nobody knows where the grip is.
+  const bool may_push = command_due_ && status_.state == State::idle;
+  FalconCommand command;
+  command.lights = status_.state == State::idle ? falcon_green : falcon_red;
+  if (may_push) {
+    const auto torques =
+        falcon_torques(settings_.geometry, robot_position_, clamp_length(force, settings_.maximum_force));
+    if (torques) command.motors = falcon_motors(*torques, settings_.motor_gain);
+  }
+  const auto bytes = encode(command);
+  std::copy(bytes.begin(), bytes.end(), packet.begin());
+  command_due_ = false;
+  sent_ = now;
+  return bytes.size();
+}
+
+Specification falcon_specification(const FalconSettings& settings) {
+  Specification specification;
+  specification.name = "Novint Falcon";
+  specification.workspace_half_extent = Vec3(0.04);  // all of this cube can be reached; of a 10 cm one 1.3 % cannot
+  specification.position_resolution = 0.035e-3;
+  specification.maximum_force = settings.maximum_force;
+  specification.continuous_force = settings.maximum_force / 2;
+  specification.stiffness_limit = 1000;
+  specification.rate = 1000;
+  return specification;
+}
+
+std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkStylus::LinkMaker make_link,
+                                           const LinkStylusOptions& options) {
+  return std::make_unique<LinkStylus>(falcon_specification(settings), std::make_unique<FalconProtocol>(settings),
+                                      std::move(make_link), options);
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "device/falcon/falcon.h"
+#include "device/falcon/falcon_protocol.h"
+#include "device/link/link_stylus.h"
+#include "device/link/protocol.h"
+
+namespace palpate::device {
+
+Specification falcon_specification(const FalconSettings& settings);
+
+/// The same stylus as make_falcon()'s, on any link.
+std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkStylus::LinkMaker make_link,
+                                           const LinkStylusOptions& options);
+
+/// Brings the serial chip and the firmware up: run mode if firmware is loaded, else the upload. Throws
+/// std::runtime_error.
+void connect_falcon(FalconLink& link, const std::string& firmware_file);
+
+class FalconProtocol final : public Protocol {
+ public:
+  explicit FalconProtocol(const FalconSettings& settings);
+
+  void connect(Link& link) override;
+  void receive(std::span<const std::uint8_t> packet, double now) noexcept override;
+  std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept override;
+  const ProtocolStatus& status() const noexcept override { return status_; }
+
+ private:
+  void take(const FalconReply& reply) noexcept;
+  void fail(LinkFault fault) noexcept;
+
+  FalconSettings settings_;
+  ProtocolStatus status_;
+  FalconReplies replies_;
+  Vec3 robot_position_{0};
+  bool command_due_ = true;
+  bool asked_again_ = false;
+  double sent_ = 0;
+  double replied_ = 0;
+};
+
+}  // namespace palpate::device

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/found_devices.h"
+#include "device/link/link.h"
+
+namespace palpate::device {
+
+/// WoodenHaptics arms and SpaceMouse pucks. Never throws: no HID is no devices.
+std::vector<FoundDevice> find_hid_devices();
+
+/// Opens the device of a kind at a hidraw path, or the only one. Throws std::runtime_error naming it and what to do.
+std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& address);
+
+}  // namespace palpate::device

@@ -1,0 +1,44 @@
+#pragma once
+
+/// What a driver knows of its device's packets and geometry: no thread, no clock, no USB.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "device/link/link.h"
+#include "device/stylus.h"
+
+namespace palpate::device {
+
+/// Why a driver gave up, until it is opened again.
+enum class LinkFault : std::uint8_t { none, unplugged, silent, slow, unreachable_pose, unhomed };
+const char* name_of(LinkFault fault);
+
+struct ProtocolStatus {
+  State state = State::disconnected;  ///< homing, idle or fault
+  LinkFault fault = LinkFault::none;
+  Vec3 position{0};  ///< m, device frame; always finite
+  std::uint32_t buttons = 0;
+  std::uint64_t news = 0;  ///< how many poses there have been
+};
+
+class Protocol {
+ public:
+  Protocol() = default;
+  Protocol(const Protocol&) = delete;
+  Protocol& operator=(const Protocol&) = delete;
+  virtual ~Protocol() = default;
+
+  /// Brings the device into its working state. Throws std::runtime_error naming it and what to do.
+  virtual void connect(Link& link) = 0;
+  /// A packet that arrived.
+  virtual void receive(std::span<const std::uint8_t> packet, double now) noexcept = 0;
+  /// After all that arrived: the packet to send now (its size; 0 when none is due), for this force (N).
+  virtual std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept = 0;
+  virtual const ProtocolStatus& status() const noexcept = 0;
+  /// s without a new pose after which the device counts as dead.
+  virtual double longest_silence() const noexcept { return 0.100; }
+};
+
+}  // namespace palpate::device

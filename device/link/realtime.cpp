@@ -1,0 +1,72 @@
+#include "device/link/realtime.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <cerrno>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+
+namespace palpate::device {
+
+namespace {
+
+constexpr std::int64_t second = 1'000'000'000;
+
+std::int64_t now_ns() noexcept {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec * second + time.tv_nsec;
+}
+
+}  // namespace
+
+bool make_thread_realtime(int priority) noexcept {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
+
+RealtimeStatus become_realtime(int priority) {
+  RealtimeStatus status;
+  status.scheduled = make_thread_realtime(priority);
+  // As pages are touched: a whole scan need not be fetched for it.
+  status.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
+  if (!status.scheduled || !status.memory_locked) {
+    status.advice =
+        std::string("not allowed here: ") + (status.scheduled ? "" : "real-time scheduling") +
+        (status.scheduled || status.memory_locked ? "" : " and ") + (status.memory_locked ? "" : "locked memory") +
+        "; ticks may be late. To allow it, put '@plugdev - rtprio 80' and '@plugdev - memlock unlimited' into "
+        "/etc/security/limits.d/palpate.conf and log in again.";
+  }
+  return status;
+}
+
+Metronome::Metronome(double period) : period_(0), deadline_(0) {
+  if (!(period >= 10e-6 && period <= 1)) throw std::invalid_argument("a tick has to last between 10 us and 1 s");
+  period_ = std::llround(period * 1e9);
+  deadline_ = now_ns();
+}
+
+double Metronome::wait() noexcept {
+  deadline_ += period_;
+  const std::int64_t late = now_ns() - deadline_;
+  if (late >= period_) {
+    const std::int64_t passed = late / period_;
+    missed_ += static_cast<std::uint64_t>(passed);
+    deadline_ += passed * period_;
+  }
+  const timespec until{deadline_ / second, deadline_ % second};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+  ++ticks_;
+  return static_cast<double>(now_ns() - deadline_) * 1e-9;
+}
+
+double monotonic_time() noexcept {
+  return static_cast<double>(now_ns()) * 1e-9;
+}
+
+}  // namespace palpate::device

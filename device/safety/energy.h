@@ -1,0 +1,36 @@
+#pragma once
+
+/// Ringing is taken out where it begins. A passive wall gives back at most what the hand put in; one that is too stiff
+/// for its delay gives back more, in the band where it rings. That energy is observed, and damping injected while it
+/// lasts: B. Hannaford and J.-H. Ryu, "Time-domain passivity control of haptic interfaces", 2002, but of the fast part
+/// of force and velocity only, since a scene may well push the hand along slowly.
+
+#include <glm/vec3.hpp>
+
+#include "device/stylus.h"
+
+namespace palpate::device {
+
+struct EnergyLimits {
+  double corner = 20;           ///< Hz: slower power is the scene's own
+  double memory = 0.1;          ///< s: how long generated energy counts
+  double tolerated = 10e-6;     ///< J within the memory
+  double full_damping = 50e-6;  ///< J at which the damping is `most_damping`
+  double most_damping = 3;      ///< N s/m: more would ring by itself
+};
+
+struct EnergyState {
+  bool started = false;
+  double time = 0;        ///< s
+  Vec3 position{0};       ///< m
+  Vec3 velocity{0};       ///< m/s, low-passed over two samples
+  Vec3 slow_velocity{0};  ///< m/s, below the corner
+  Vec3 slow_force{0};     ///< N
+  Vec3 force{0};          ///< N: what was asked for in the tick before
+  double generated = 0;   ///< J in the fast band, forgotten over the memory; below zero where energy was taken
+};
+
+/// The force with damping added, to be called on every tick before the safety filter. No allocation, lock or exception.
+Vec3 damp_ringing(const EnergyLimits& limits, const Reading& reading, const Vec3& force, EnergyState& state) noexcept;
+
+}  // namespace palpate::device

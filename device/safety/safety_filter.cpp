@@ -1,0 +1,194 @@
+#include "device/safety/safety_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "device/vectors.h"
+
+namespace palpate::device {
+
+namespace {
+
+void latch(SafetyState& state, Fault fault) {
+  if (state.fault == Fault::none) state.fault = fault;
+  state.armed = false;
+}
+
+void fall_at_once(SafetyState& state) {
+  state.gain = 0;
+  state.slewed_force = Vec3(0);
+}
+
+void follow_pose(const SafetyLimits& limits, const SafetyInput& input, SafetyState& state) {
+  if (!input.reading.fresh) return;
+  const double elapsed = input.time - state.pose_time;
+  if (state.has_pose && elapsed > 0) {
+    const Vec3 velocity = (input.reading.position - state.pose) / elapsed;
+    state.velocity += (velocity - state.velocity) * (elapsed / (elapsed + limits.speed_filter_time));
+  }
+  // Two poses in one instant tell no speed: the older stays the reference.
+  if (!state.has_pose || elapsed > 0) {
+    state.pose = input.reading.position;
+    state.pose_time = input.time;
+    state.has_pose = true;
+  }
+}
+
+bool can_push(State device) {
+  return device == State::idle || device == State::ramping || device == State::active;
+}
+
+Fault find_fault(const SafetyLimits& limits, const SafetyInput& input, const SafetyState& state) {
+  if (!can_push(input.device) && input.device != State::homing) return Fault::device_lost;
+  // Written so that a time or a limit that is not a number is a fault, too.
+  if (!(input.time - state.time <= limits.stall_time)) return Fault::tick_late;
+  if (!(input.time - state.pose_time <= limits.stall_time)) return Fault::device_silent;
+  if (!(input.time - input.force_time <= limits.stall_time)) return Fault::force_stale;
+  if (!(glm::length(state.velocity) <= limits.speed)) return Fault::speed_exceeded;
+  if (!(input.time - input.heartbeat_time <= limits.heartbeat_time)) return Fault::commander_silent;
+  return Fault::none;
+}
+
+void move_gain(const SafetyLimits& limits, double elapsed, SafetyState& state) {
+  if (state.armed) {
+    state.gain = std::min(1.0, state.gain + elapsed / limits.ramp_time);
+  } else {
+    const double time = state.fault == Fault::commander_silent ? limits.ramp_time : limits.fall_time;
+    state.gain = std::max(0.0, state.gain - elapsed / time);
+  }
+}
+
+State state_of(const SafetyInput& input, const SafetyState& state) {
+  if (state.fault != Fault::none) return State::fault;
+  if (!can_push(input.device)) return input.device;
+  if (!state.armed) return State::idle;
+  return state.gain < 1 ? State::ramping : State::active;
+}
+
+}  // namespace
+
+const char* name_of(Fault fault) {
+  switch (fault) {
+    case Fault::none:
+      return "none";
+    case Fault::pose_not_finite:
+      return "pose not finite";
+    case Fault::force_not_finite:
+      return "force not finite";
+    case Fault::device_lost:
+      return "device lost";
+    case Fault::device_silent:
+      return "device silent";
+    case Fault::force_stale:
+      return "force stale";
+    case Fault::tick_late:
+      return "tick late";
+    case Fault::speed_exceeded:
+      return "speed exceeded";
+    case Fault::commander_silent:
+      return "commander silent";
+  }
+  return "unknown";
+}
+
+const char* advice_for(Fault fault) {
+  switch (fault) {
+    case Fault::none:
+      return "Nothing is wrong.";
+    case Fault::pose_not_finite:
+      return "The stylus reported a pose that cannot be; home it again, then clear the fault and arm.";
+    case Fault::force_not_finite:
+      return "The scene asked for a force that is not a number; keep the recording, then clear the fault and arm.";
+    case Fault::device_lost:
+      return "The stylus is gone: check its plug and power, open it again, then clear the fault and arm.";
+    case Fault::device_silent:
+      return "The stylus stopped sending poses: check its plug and power, then clear the fault and arm.";
+    case Fault::force_stale:
+      return "No new force was computed: the scene's thread is stalled; wait for it, then clear the fault and arm.";
+    case Fault::tick_late:
+      return "The servo loop was held up: close other heavy programs, then clear the fault and arm.";
+    case Fault::speed_exceeded:
+      return "The stylus moved faster than allowed: hold it, then clear the fault and arm.";
+    case Fault::commander_silent:
+      return "The panel stopped answering: wait until it does, then clear the fault and arm.";
+  }
+  return "";
+}
+
+SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, SafetyState& state) noexcept {
+  if (!state.started) {
+    state.started = true;
+    state.time = state.pose_time = input.time;
+  }
+  const bool pose_is_finite = is_finite(input.reading.position);
+  const bool force_is_finite = is_finite(input.force);
+  if (!pose_is_finite || !force_is_finite) {
+    latch(state, pose_is_finite ? Fault::force_not_finite : Fault::pose_not_finite);
+    fall_at_once(state);
+  }
+  if (pose_is_finite) follow_pose(limits, input, state);
+
+  // An unarmed filter has nothing to take away: a device that is unplugged or moved fast then is no fault.
+  if (state.armed) {
+    const Fault fault = find_fault(limits, input, state);
+    if (fault != Fault::none) latch(state, fault);
+  }
+  // Encoders jump when a device is homed, and nothing that was felt before means anything after.
+  if (!can_push(input.device)) {
+    fall_at_once(state);
+    state.has_pose = false;
+    state.velocity = Vec3(0);
+  }
+
+  SafetyResult result;
+  const bool fresh =
+      input.time - input.force_time <= limits.force_age && input.time - state.pose_time <= limits.pose_age;
+  const Vec3 wanted = fresh && pose_is_finite && force_is_finite && can_push(input.device) ? input.force : Vec3(0);
+  const Vec3 clamped = clamp_length(wanted, limits.force);
+  // A tick that comes late may not use the time that it missed to make a step.
+  const double elapsed = input.time > state.time ? std::min(input.time - state.time, limits.force_age) : 0;
+  const Vec3 change = clamp_length(clamped - state.slewed_force, limits.slew * elapsed);
+  result.clamped = clamped != wanted;
+  result.slewed = change != clamped - state.slewed_force;
+  state.slewed_force = result.slewed ? state.slewed_force + change : clamped;
+  move_gain(limits, elapsed, state);
+  const Vec3 ramped = state.gain * state.slewed_force;
+  result.force = clamp_length(ramped, limits.device_force);
+  result.clamped = result.clamped || result.force != ramped;
+  if (!is_finite(result.force)) {  // only limits that are not numbers lead here
+    latch(state, Fault::force_not_finite);
+    fall_at_once(state);
+    result.force = Vec3(0);
+  }
+
+  state.time = input.time;
+  result.state = state_of(input, state);
+  result.fault = state.fault;
+  result.speed = glm::length(state.velocity);
+  result.gain = state.gain;
+  return result;
+}
+
+bool arm(SafetyState& state) noexcept {
+  if (state.fault != Fault::none) return false;
+  if (!state.armed) {
+    state.armed = true;
+    // Ages and speed count from now: what happened while nothing was pushed does not matter.
+    state.started = false;
+    state.has_pose = false;
+    state.velocity = Vec3(0);
+  }
+  return true;
+}
+
+void disarm(SafetyState& state) noexcept {
+  state.armed = false;
+}
+
+void clear_fault(SafetyState& state) noexcept {
+  state.fault = Fault::none;
+  state.armed = false;
+}
+
+}  // namespace palpate::device

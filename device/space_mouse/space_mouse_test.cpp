@@ -1,0 +1,115 @@
+#include "device/space_mouse/space_mouse.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "device/space_mouse/space_mouse_driver.h"
+#include "device/testing/fake_space_mouse.h"
+
+namespace palpate::device {
+namespace {
+
+struct Bench {
+  FakeHidBench bench;
+  FakeSpaceMouse puck;
+  std::unique_ptr<LinkStylus> stylus;
+
+  explicit Bench(bool together = false) : puck(together) {
+    LinkStylusOptions options;
+    options.threaded = false;
+    stylus = make_space_mouse_on(
+        {}, [this] { return std::make_unique<FakeHidLink>(puck, bench); }, options);
+    stylus->open();
+  }
+  Reading run(double seconds) {
+    const double end = bench.time + seconds;
+    while (bench.time < end) stylus->service(1e-3);
+    return stylus->read();
+  }
+};
+
+TEST(SpaceMouse, FullDeflectionMovesAtFullSpeedAlongTheRightAxis) {
+  const struct {
+    Vec3 counts, direction;
+  } pushes[] = {{{350, 0, 0}, {1, 0, 0}}, {{0, 350, 0}, {0, 0, 1}}, {{0, 0, 350}, {0, -1, 0}}};
+  for (const bool together : {false, true}) {
+    for (const auto& push : pushes) {
+      Bench bench(together);
+      bench.puck.deflect(push.counts);
+      const Vec3 moved = bench.run(0.3).position;
+      EXPECT_LT(glm::length(moved - 0.03 * push.direction), 0.6e-3);
+    }
+  }
+}
+
+TEST(SpaceMouse, StaysWhereItIsWhenLetGo) {
+  Bench bench;
+  bench.puck.deflect(Vec3(-200, 50, 100));
+  bench.run(0.2);
+  bench.puck.deflect(Vec3(0));
+  const Vec3 there = bench.run(0.05).position;
+  const Reading later = bench.run(2);
+  EXPECT_EQ(later.position, there);
+  EXPECT_EQ(bench.stylus->state(), State::idle) << "silence is rest";
+  EXPECT_TRUE(later.fresh);
+}
+
+TEST(SpaceMouse, ADeadZoneHidesASmallDeflection) {
+  Bench bench;
+  bench.puck.deflect(Vec3(27, -27, 27));
+  EXPECT_EQ(bench.run(1).position, Vec3(0));
+  bench.puck.deflect(Vec3(40, 0, 0));
+  EXPECT_GT(bench.run(1).position.x, 0);
+}
+
+TEST(SpaceMouse, StaysInItsWorkspaceAndItsSpeed) {
+  Bench bench;
+  bench.puck.deflect(Vec3(32767, -32768, 0));
+  EXPECT_NEAR(bench.run(0.1).position.x, 0.01, 1e-3) << "no faster than its full speed";
+  EXPECT_EQ(bench.run(5).position, Vec3(0.08, 0, -0.06));
+}
+
+TEST(SpaceMouse, ReadsUpTo32Buttons) {
+  Bench bench;
+  bench.puck.press(0x80000005U);
+  EXPECT_EQ(bench.run(0.01).buttons, 0x80000005U);
+  bench.puck.press(0);
+  EXPECT_EQ(bench.run(0.01).buttons, 0U);
+}
+
+TEST(SpaceMouse, OddReportsAreIgnored) {
+  SpaceMouseProtocol protocol{SpaceMouseSettings{}};
+  const std::array<std::uint8_t, 13> bytes{1, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55};
+  protocol.receive({}, 0);
+  for (const std::size_t size : {1U, 2U, 6U}) protocol.receive(std::span(bytes).first(size), 0);
+  std::array<std::uint8_t, 13> rotation = bytes;
+  rotation[0] = 2;
+  protocol.receive(std::span(rotation).first(7), 0);
+  rotation[0] = 0x17;
+  protocol.receive(std::span(rotation).first(2), 0);
+  protocol.step(Vec3(0), 0.04, {});
+  EXPECT_EQ(protocol.status().position, Vec3(0));
+  protocol.receive(std::span(bytes).first(7), 0);
+  protocol.step(Vec3(0), 0.08, {});
+  EXPECT_NE(protocol.status().position, Vec3(0));
+}
+
+TEST(SpaceMouse, UnpluggedIsAFault) {
+  Bench bench;
+  bench.bench.unplugged = true;
+  bench.run(0.01);
+  EXPECT_EQ(bench.stylus->fault(), LinkFault::unplugged);
+}
+
+TEST(SpaceMouse, KnowsPucksFromTheMakersOtherDevices) {
+  EXPECT_TRUE(is_space_mouse(0x046d, 0xc626));
+  EXPECT_TRUE(is_space_mouse(0x256f, 0xc635));
+  EXPECT_FALSE(is_space_mouse(0x256f, 0xc650)) << "a keyboard pad";
+  EXPECT_FALSE(is_space_mouse(0x046d, 0xc52b)) << "a mouse";
+}
+
+}  // namespace
+}  // namespace palpate::device

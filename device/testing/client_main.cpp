@@ -1,0 +1,125 @@
+// A session's part of the tests that go through the real libraries: opens a device as palpate does, pushes, ends.
+//   device_client KIND SCENARIO [FILE]
+// KIND: falcon (FILE: firmware), wooden_haptics (FILE: settings), space_mouse.
+// SCENARIO: run | unplug | sigint | sigterm | sigkill | denied.
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "device/falcon/falcon.h"
+#include "device/found_devices.h"
+#include "device/link/realtime.h"
+#include "device/space_mouse/space_mouse.h"
+#include "device/wooden_haptics/wooden_haptics.h"
+
+namespace {
+
+using namespace palpate::device;
+
+struct Run {
+  int fresh = 0;
+  double seconds = 0;
+};
+
+/// Ticks at 1 kHz until the time is over or the state is the one waited for.
+Run tick(Stylus& stylus, const Vec3& force, double seconds, State until) {
+  Metronome metronome(1e-3);
+  Run run;
+  const double start = monotonic_time();
+  while ((run.seconds = monotonic_time() - start) < seconds && stylus.state() != until) {
+    run.fresh += stylus.read().fresh ? 1 : 0;
+    stylus.write_force(force);
+    metronome.wait();
+  }
+  return run;
+}
+
+/// The one device that there is.
+FoundDevice find_it() {
+  const std::vector<FoundDevice> found = find_devices();
+  for (const FoundDevice& device : found) {
+    std::printf("client: found %s '%s' at %s%s\n", device.kind.c_str(), device.name.c_str(), device.address.c_str(),
+                device.accessible ? "" : " (not accessible)");
+  }
+  if (found.size() != 1) throw std::runtime_error(std::to_string(found.size()) + " devices were found, not one");
+  return found.front();
+}
+
+int expect(bool holds, const char* what) {
+  if (!holds) std::printf("client: failed: %s\n", what);
+  return holds ? 0 : 1;
+}
+
+int play(Stylus& stylus, const std::string& scenario) {
+  int failures = expect(find_it().accessible, "found, and may be opened");
+  stylus.open();
+  tick(stylus, Vec3(0), 10, State::idle);
+  failures += expect(stylus.state() == State::idle, "homed within 10 s");
+  const double pushing = scenario == "run" ? 1 : 0.5;  // s
+  const Run run = tick(stylus, Vec3(0, 1, 0), pushing, State::fault);
+  std::printf("client: %d new poses in %.2f s, state %s\n", run.fresh, run.seconds, name_of(stylus.state()));
+  if (scenario == "unplug") {
+    tick(stylus, Vec3(0, 1, 0), 10, State::fault);
+    failures += expect(stylus.state() == State::fault, "unplugged is a fault");
+  } else {
+    failures += expect(run.fresh > 40 * pushing, "more than 40 poses a second, also on a busy machine");
+    failures += expect(stylus.state() == State::idle, "still there");
+  }
+  std::fflush(stdout);
+  if (failures > 0) return failures;
+  if (scenario == "sigint") std::raise(SIGINT);
+  if (scenario == "sigterm") std::raise(SIGTERM);
+  if (scenario == "sigkill") std::raise(SIGKILL);
+  if (stylus.specification().force_axes == 0) {
+    failures += expect(stylus.read().position.x > 0.05, "a puck that is pushed for a second moves");
+  }
+  stylus.close();
+  return failures;
+}
+
+/// A user without the rights is told what to type.
+int be_denied(Stylus& stylus) {
+  const FoundDevice device = find_it();
+  int failures = expect(!device.accessible, "may not be opened");
+  failures += expect(device.note == permission_advice(), "the list says what to type");
+  try {
+    stylus.open();
+    failures += expect(false, "opening is refused");
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    failures += expect(what.find("permission denied; " + permission_advice()) != std::string::npos, error.what());
+  }
+  return failures + expect(stylus.state() == State::disconnected, "stays closed");
+}
+
+int play(std::unique_ptr<Stylus> stylus, const std::string& scenario) {
+  return scenario == "denied" ? be_denied(*stylus) : play(*stylus, scenario);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::string kind = count > 1 ? arguments[1] : "";
+  const std::string scenario = count > 2 ? arguments[2] : "";
+  try {
+    if (kind == "falcon") {
+      FalconSettings settings;
+      settings.firmware_file = count > 3 ? arguments[3] : "";
+      return play(make_falcon(settings), scenario);
+    }
+    if (kind == "wooden_haptics" && count > 3) {
+      return play(make_wooden_haptics(read_wooden_haptics(arguments[3])), scenario);
+    }
+    if (kind == "space_mouse") return play(make_space_mouse(), scenario);
+  } catch (const std::exception& error) {
+    std::printf("client: refused: %s\n", error.what());
+    return 1;
+  }
+  std::puts("device_client KIND SCENARIO [FILE]");
+  return 2;
+}

@@ -1,0 +1,100 @@
+#pragma once
+
+/// A Falcon as its protocol shows it: serial chip, boot loader, firmware, three arms and a hand on the grip. Written
+/// once and mounted wherever bytes can be carried; time comes from the mount.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "device/falcon/falcon_kinematics.h"
+#include "device/falcon/falcon_protocol.h"
+#include "device/testing/fake_hand.h"
+
+namespace palpate::device {
+
+struct FakeFalconOptions {
+  bool firmware_loaded = true;
+  bool homed = false;
+  std::vector<std::uint8_t> image;   ///< the only firmware that runs
+  bool greeting_after_zero = false;  ///< a 00 in front of the greeting, as some stacks see it
+  double motor_gain = 10000;
+  double friction = 0.06;      ///< N, of the arms
+  std::vector<Waypoint> path;  ///< of the hand, m in the device's frame; empty: out, in and then at rest
+};
+
+/// What goes wrong; may be changed while it runs.
+struct FakeFalconFaults {
+  bool silent = false;            ///< nothing is answered
+  double reply_delay = 0;         ///< s on top of a reply's usual way
+  std::size_t most_payload = 62;  ///< bytes in one USB packet: below 16 every reply is split
+  int garble_every = 0;           ///< each n-th reply has a byte broken
+  int drop_every = 0;             ///< each n-th reply is lost
+  bool impossible_pose = false;   ///< encoders that no Falcon can have
+  int corrupt_echoes = 0;         ///< this many of the upload's echoes have a bit wrong
+};
+
+class FakeFalcon {
+ public:
+  explicit FakeFalcon(const FakeFalconOptions& options = {});
+
+  // The USB side. Vendor request; bulk OUT 0x02; bulk IN 0x81: one packet that would complete now, status bytes first.
+  void control(std::uint8_t request, std::uint16_t value, double now);
+  void write(std::span<const std::uint8_t> bytes, double now);
+  std::optional<std::size_t> read(std::span<std::uint8_t> packet, double now);
+
+  FakeFalconFaults faults;
+
+  // What the arms feel. A real Falcon's own watchdog is not known: this one holds its last command for ever.
+  const std::array<int, 3>& motors() const noexcept { return motors_; }
+  const Vec3& force() const noexcept { return force_; }                ///< N on the grip
+  const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the longest force there was
+  bool is_pushing() const noexcept { return motors_ != std::array<int, 3>{}; }
+  double pushed_until() const noexcept { return pushed_until_; }  ///< s: the last command that was not zero
+  const FakeHand& hand() const noexcept { return hand_; }
+  bool firmware_runs() const noexcept { return firmware_loaded_ && baud_ == 2; }
+  std::uint64_t commands() const noexcept { return commands_; }
+  int uploads() const noexcept { return uploads_; }
+  int packets_with_other_size() const noexcept { return odd_reads_; }
+
+ private:
+  void boot_byte(std::uint8_t byte, double now);
+  void run(const FalconCommand& command, double now);
+  void reply(std::span<const std::uint8_t> bytes, double now);
+  std::array<double, 3> true_counts() const;
+
+  FakeFalconOptions options_;
+  FalconGeometry geometry_;
+  FakeHand hand_;
+
+  std::uint16_t baud_ = 0x4138;
+  double latency_ = 0.016;
+  bool dtr_ = false;
+  bool firmware_loaded_;
+  bool in_boot_loader_ = false;
+  bool loading_ = false;
+  std::vector<std::uint8_t> received_;
+
+  struct Byte {
+    std::uint8_t value;
+    double ready;
+  };
+  std::deque<Byte> to_host_;
+  double last_in_ = 0;
+
+  std::vector<std::uint8_t> command_bytes_;
+  std::array<int, 3> motors_{};
+  Vec3 force_{0};
+  Vec3 strongest_{0};
+  std::array<bool, 3> homed_{};
+  std::array<bool, 3> was_out_{};
+  std::uint64_t commands_ = 0;
+  int uploads_ = 0;
+  int odd_reads_ = 0;
+  double pushed_until_ = 0;
+};
+
+}  // namespace palpate::device

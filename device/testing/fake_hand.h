@@ -1,0 +1,37 @@
+#pragma once
+
+/// The simulated hand on a fake device: the same arithmetic as the simulated stylus, stepped by whatever clock the
+/// fake is mounted on.
+
+#include <span>
+#include <vector>
+
+#include "device/simulated/hand_path.h"
+#include "device/simulated/simulated_hand.h"
+
+namespace palpate::device {
+
+class FakeHand {
+ public:
+  FakeHand(const ArmModel& arm, const HandModel& hand, std::span<const Waypoint> path);
+
+  /// Moves on to `now` (s since the first call) under a constant force (N).
+  void advance(double now, const Vec3& force) noexcept;
+  const BodyState& body() const noexcept { return body_; }
+  double time() const noexcept { return time_; }
+  std::uint32_t buttons() const noexcept { return buttons_; }
+
+ private:
+  ArmModel arm_;
+  HandModel hand_;
+  Tremor tremor_;
+  std::vector<Waypoint> path_;
+  BodyState body_;
+  Vec3 target_{0};
+  std::uint32_t buttons_ = 0;
+  double start_ = 0;
+  double time_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace palpate::device

@@ -1,0 +1,150 @@
+#include "device/testing/play.h"
+
+#include <grp.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "device/link/realtime.h"
+#include "device/testing/fake_space_mouse.h"
+#include "device/testing/fake_wooden_haptics.h"
+
+namespace palpate::device {
+
+namespace {
+
+const Vec3 asked_force(0, 1, 0);  // N: what the client asks for
+
+std::string firmware() {
+  std::string image(1500, 0);
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = static_cast<char>(i * 7 + i / 251);
+  return image;
+}
+
+/// How a child ended, as the shell has it: 128 + the signal for one that died of it. -1: there is no such child.
+int wait_for(pid_t pid) {
+  int status = 0;
+  if (waitpid(pid, &status, 0) < 0) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+int run_client(const Scenario& scenario, const std::string& client, const std::string& file) {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    if (scenario.user >= 0) {
+      const auto user = static_cast<unsigned>(scenario.user);
+      const gid_t group = plugdev_group;
+      if (setgroups(scenario.in_plugdev ? 1 : 0, &group) != 0 || setgid(user) != 0 || setuid(user) != 0) _exit(126);
+    }
+    execl(client.c_str(), client.c_str(), scenario.kind.c_str(), scenario.name.c_str(), file.c_str(), nullptr);
+    _exit(127);
+  }
+  return pid < 0 ? 127 : wait_for(pid);
+}
+
+}  // namespace
+
+/// Of the fake, at one time.
+struct Play::Outcome {
+  bool pushing = false;
+  unsigned long long packets = 0;
+  Vec3 strongest{0};      // N
+  std::string complaint;  // empty, or what the client did that this device does not take
+};
+
+Play::Play(const Scenario& scenario) : scenario_(scenario) {
+  if (scenario.kind == "falcon") {
+    FakeFalconOptions options;
+    options.firmware_loaded = scenario.name != "run";
+    const std::string image = firmware();
+    options.image.assign(image.begin(), image.end());
+    falcon = std::make_unique<FakeFalcon>(options);
+    file_ = files_.write("firmware", image);
+  } else if (scenario.kind == "wooden_haptics") {
+    FakeWoodenHapticsOptions options;
+    const std::array<int, 3>& home = options.arm.home_counts;
+    file_ = files_.write("settings.json", "{\"address\": \"" + scenario.address + "\", \"home_counts\": [" +
+                                              std::to_string(home[0]) + ", " + std::to_string(home[1]) + ", " +
+                                              std::to_string(home[2]) + "]}");
+    options.button_time = monotonic_time() + 0.3;
+    hid = std::make_unique<FakeWoodenHaptics>(options);
+  } else if (scenario.kind == "space_mouse") {
+    auto puck = std::make_unique<FakeSpaceMouse>(scenario.newer_puck);
+    puck->deflect(Vec3(350, 0, 0));
+    hid = std::move(puck);
+  } else {
+    throw std::invalid_argument("there is no fake of '" + scenario.kind + "'");
+  }
+}
+
+void Play::touch(double now) noexcept {
+  if (first_touch_ < 0) first_touch_ = now;
+}
+
+bool Play::unplugged(double now) const noexcept {
+  return scenario_.name == "unplug" && first_touch_ >= 0 && now - first_touch_ > scenario_.unplug_after;
+}
+
+Play::Outcome Play::look() {
+  const std::lock_guard lock(mutex);
+  if (falcon) {
+    const bool loaded_anew = falcon->uploads() == (scenario_.name == "run" ? 1 : 0);
+    return {falcon->is_pushing(), falcon->commands(), falcon->strongest_force(),
+            loaded_anew ? "" : "firmware uploaded " + std::to_string(falcon->uploads()) + " times"};
+  }
+  if (const auto* arm = dynamic_cast<const FakeWoodenHaptics*>(hid.get())) {
+    Outcome outcome{arm->is_pushing(monotonic_time()), arm->reports(), arm->strongest_force(), ""};
+    // A guardian cannot know the length and sends them all.
+    if (scenario_.name == "run" && arm->odd_outputs() != 0) {
+      outcome.complaint = std::to_string(arm->odd_outputs()) + " outputs of another length";
+    }
+    return outcome;
+  }
+  const auto* puck = dynamic_cast<const FakeSpaceMouse*>(hid.get());
+  return {false, puck == nullptr ? 0 : puck->reports(), Vec3(0), ""};
+}
+
+int Play::run(const std::string& client) {
+  // A guardian that outlives its session becomes a child of this process.
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const int code = run_client(scenario_, client, file_);
+  const double ended = monotonic_time();
+  const bool should_die = scenario_.name.starts_with("sig");
+  Outcome outcome = look();
+  while (outcome.pushing && should_die && monotonic_time() - ended < scenario_.zero_within) {
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+    outcome = look();
+  }
+  const double zero_after = monotonic_time() - ended;
+  const int guardian = wait_for(-1);
+
+  // An unplugged device is its own watchdog's affair; nobody can tell one what may not be opened anything at all.
+  const bool was_opened = scenario_.name != "denied";
+  const bool ended_well = should_die ? code > 128 : code == 0;
+  if (guardian != (should_die ? 0 : -1)) {
+    outcome.complaint += " its guardian was left behind, or ended with " + std::to_string(guardian);
+  }
+  if (was_opened && scenario_.kind != "space_mouse" && glm::distance(outcome.strongest, asked_force) > 0.1) {
+    outcome.complaint += " the strongest force was not the one asked for";
+  }
+  if (was_opened && outcome.packets == 0) outcome.complaint += " it was never asked for anything";
+  std::printf("fake %s, %s: %llu packets, strongest force %.3f N, client ended with %d, %s", scenario_.kind.c_str(),
+              scenario_.name.c_str(), outcome.packets, glm::length(outcome.strongest), code,
+              outcome.pushing ? "STILL PUSHING" : "no force");
+  if (should_die) std::printf(" %.1f ms after the client was gone", zero_after * 1e3);
+  if (scenario_.name == "unplug" && scenario_.kind != "space_mouse") {
+    std::printf(" (its own watchdog: %s)", scenario_.kind == "falcon" ? "unknown" : "0.5 s");
+  }
+  std::printf("%s%s\n", outcome.complaint.empty() ? "" : "; WRONG: ", outcome.complaint.c_str());
+  const bool quiet = !outcome.pushing || scenario_.name == "unplug";
+  return ended_well && quiet && outcome.complaint.empty() ? 0 : 1;
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,24 @@
+#pragma once
+
+/// A fake HID device by the kernel's uhid: the real HID stack finds it and gives it to hidapi as a hidraw node.
+
+#include <memory>
+
+#include "device/testing/play.h"
+
+namespace palpate::device {
+
+class UhidMount {
+ public:
+  /// Plugs the play's HID device in; the play outlives this. Throws std::system_error where there is no /dev/uhid or no
+  /// right to it. Unplugs it where the play says so, and at the end.
+  explicit UhidMount(Play& play);
+  ~UhidMount();
+
+  struct Parts;
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace palpate::device

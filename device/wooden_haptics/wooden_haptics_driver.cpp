@@ -1,0 +1,151 @@
+#include "device/wooden_haptics/wooden_haptics_driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "device/vectors.h"
+
+namespace palpate::device {
+
+namespace {
+
+constexpr std::size_t report_2016 = 8;
+constexpr std::size_t report_hid = 14;
+constexpr std::size_t report_teensy = 64;
+constexpr int set_encoders = 1;
+constexpr int button_pressed = 1;
+constexpr double start_time = 0.010;  // s of silence after which the firmware waits for us
+// An arm is in reach of its origin; its home pose lies outside the workspace.
+constexpr double reach_in_radii = 3;
+
+int word(std::span<const std::uint8_t> packet, std::size_t index) {
+  return static_cast<std::int16_t>(packet[2 * index] | packet[2 * index + 1] << 8);
+}
+
+/// No body can turn half round.
+bool could_be(const Vec3& angles) {
+  constexpr double half_a_turn = std::numbers::pi;
+  return std::abs(angles.x) < half_a_turn && std::abs(angles.y) < half_a_turn && std::abs(angles.z) < half_a_turn;
+}
+
+void put_word(std::span<std::uint8_t> packet, std::size_t index, int value) {
+  const auto bits = static_cast<std::uint16_t>(value);
+  packet[2 * index] = static_cast<std::uint8_t>(bits & 0xffU);
+  packet[2 * index + 1] = static_cast<std::uint8_t>(bits >> 8U);
+}
+
+}  // namespace
+
+void WoodenHapticsProtocol::connect(Link& link) {
+  const std::uint64_t news = status_.news;
+  status_ = {};
+  status_.state = State::homing;
+  status_.news = news;
+  report_size_ = 0;
+  calibrated_ = button_ = reply_due_ = started_ = false;
+  starts_ = 0;
+  std::array<std::uint8_t, 64> packet{};
+  const double start = link.now();
+  while (status_.news == news) {
+    if (link.lost() || link.now() - start > 1.0) {
+      throw std::runtime_error(
+          "WoodenHaptics at " + settings_.address +
+          (link.lost() ? ": it was unplugged" : ": it sends no reports that it should; is this the device?"));
+    }
+    const std::size_t size = link.receive(packet, 1e-3);
+    if (size > 0) receive(std::span(packet).first(size), link.now());
+    const std::size_t due = step(Vec3(0), link.now(), packet);
+    if (due > 0) link.send(std::span(packet).first(due));
+  }
+}
+
+void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/) noexcept {
+  const bool known = packet.size() == report_2016 || packet.size() == report_hid || packet.size() == report_teensy;
+  if (!known || (report_size_ != 0 && packet.size() != report_size_)) {
+    ++refused_;
+    return;
+  }
+  const std::array<int, 3> counts{word(packet, 0), word(packet, 1), word(packet, 2)};
+  if (report_size_ == 0 && packet.size() == report_2016) {
+    // No button: the arm was opened in its home pose.
+    for (std::size_t i = 0; i < 3; ++i) offset_[i] = settings_.home_counts[i] - counts[i];
+    calibrated_ = true;
+  }
+  report_size_ = packet.size();
+  reply_due_ = true;
+  if (packet.size() != report_2016) {
+    const bool pressed = word(packet, 6) == button_pressed;
+    // The latch is cleared by the counters being set: from then on they count from home.
+    if (button_ && !pressed) {
+      calibrated_ = true;
+      offset_ = {};
+    }
+    button_ = pressed;
+  }
+  take(counts);
+}
+
+void WoodenHapticsProtocol::take(const std::array<int, 3>& counts) noexcept {
+  if (status_.state == State::fault) return;
+  ++status_.news;
+  if (!calibrated_ || button_) {
+    status_.state = State::homing;
+    return;
+  }
+  std::array<int, 3> homed{};
+  for (std::size_t i = 0; i < 3; ++i) homed[i] = counts[i] + offset_[i];
+  const Vec3 angles = wooden_haptics_angles(settings_, homed);
+  const Vec3 position = wooden_haptics_position(settings_, angles);
+  if (!could_be(angles) || glm::length(position) > reach_in_radii * settings_.workspace_radius)
+    return fail(LinkFault::unreachable_pose);
+  angles_ = angles;
+  status_.position = position;
+  status_.state = State::idle;
+}
+
+void WoodenHapticsProtocol::fail(LinkFault fault) noexcept {
+  status_.state = State::fault;
+  status_.fault = fault;
+}
+
+std::size_t WoodenHapticsProtocol::step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept {
+  if (!started_) {
+    started_ = true;
+    sent_ = now;
+  }
+  if (!reply_due_ && now - sent_ < start_time) return 0;
+  // Before the first report its length is not known: both kinds of firmware are offered theirs in turn.
+  const std::size_t size = report_size_ != 0 ? report_size_ : (starts_++ % 4 == 3 ? report_2016 : report_hid);
+  std::fill(packet.begin(), packet.begin() + static_cast<std::ptrdiff_t>(size), std::uint8_t{0});
+  if (reply_due_ && button_) {
+    put_word(packet, 3, set_encoders);
+    for (std::size_t i = 0; i < 3; ++i) put_word(packet, 4 + i, settings_.home_counts[i]);
+  } else if (reply_due_ && status_.state == State::idle) {
+    const Vec3 torques = wooden_haptics_torques(settings_, angles_, clamp_length(force, settings_.maximum_force));
+    const std::array<int, 3> currents = wooden_haptics_currents(settings_, torques);
+    for (std::size_t i = 0; i < 3; ++i) put_word(packet, i, currents[i]);
+  }
+  reply_due_ = false;
+  sent_ = now;
+  return size;
+}
+
+std::unique_ptr<LinkStylus> make_wooden_haptics_on(const WoodenHapticsSettings& settings,
+                                                   LinkStylus::LinkMaker make_link, const LinkStylusOptions& options) {
+  check(settings);
+  Specification specification;
+  specification.name = "WoodenHaptics";
+  specification.workspace_half_extent = Vec3(settings.workspace_radius);
+  specification.position_resolution = 0.064e-3;
+  specification.maximum_force = settings.maximum_force;
+  specification.continuous_force = settings.maximum_force / 2;
+  specification.stiffness_limit = settings.stiffness_limit;
+  specification.rate = 1000;
+  return std::make_unique<LinkStylus>(specification, std::make_unique<WoodenHapticsProtocol>(settings),
+                                      std::move(make_link), options);
+}
+
+}  // namespace palpate::device

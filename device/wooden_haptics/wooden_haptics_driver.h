@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+
+#include "device/link/link_stylus.h"
+#include "device/link/protocol.h"
+#include "device/wooden_haptics/wooden_haptics.h"
+
+namespace palpate::device {
+
+/// The same stylus as make_wooden_haptics()'s, on any link.
+std::unique_ptr<LinkStylus> make_wooden_haptics_on(const WoodenHapticsSettings& settings,
+                                                   LinkStylus::LinkMaker make_link, const LinkStylusOptions& options);
+
+/// Reports of 14 bytes (seven int16, little-endian; 64 bytes from a Teensy, padded) or 8 bytes (firmware of 2016). The
+/// firmware sends one and waits for one: lock-step, with a zero to start it.
+class WoodenHapticsProtocol final : public Protocol {
+ public:
+  explicit WoodenHapticsProtocol(const WoodenHapticsSettings& settings) : settings_(settings) {}
+
+  void connect(Link& link) override;
+  void receive(std::span<const std::uint8_t> packet, double now) noexcept override;
+  std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept override;
+  const ProtocolStatus& status() const noexcept override { return status_; }
+
+  std::uint64_t refused_packets() const noexcept { return refused_; }
+
+ private:
+  void take(const std::array<int, 3>& counts) noexcept;
+  void fail(LinkFault fault) noexcept;
+
+  WoodenHapticsSettings settings_;
+  ProtocolStatus status_;
+  std::size_t report_size_ = 0;  // 0: not known yet
+  std::array<int, 3> offset_{};
+  bool calibrated_ = false;
+  bool button_ = false;  // the calibration button's latch, as the last report has it
+  Vec3 angles_{0};
+  bool reply_due_ = false;
+  bool started_ = false;
+  double sent_ = 0;
+  int starts_ = 0;
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace palpate::device

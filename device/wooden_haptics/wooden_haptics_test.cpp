@@ -1,0 +1,279 @@
+#include "device/wooden_haptics/wooden_haptics.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "device/testing/fake_wooden_haptics.h"
+#include "device/testing/test_files.h"
+#include "device/testing/wall_ringing.h"
+#include "device/wooden_haptics/wooden_haptics_driver.h"
+
+namespace palpate::device {
+namespace {
+
+Vec3 random_position(std::mt19937& random, double radius) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Vec3 direction;
+  do {
+    direction = {uniform(random), uniform(random), uniform(random)};
+  } while (glm::length(direction) > 1);
+  return radius * direction;
+}
+
+TEST(WoodenHapticsKinematics, ForwardOfInverseIsTheIdentity) {
+  const WoodenHapticsSettings settings;
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 position = random_position(random, settings.workspace_radius);
+    const Vec3 angles = wooden_haptics_inverse(settings, position);
+    ASSERT_LT(glm::length(wooden_haptics_position(settings, angles) - position), 1e-9);
+  }
+}
+
+TEST(WoodenHapticsKinematics, TheHomePoseOfThe2019ArmIsWhereItsDrawingHasIt) {
+  // Lower body upright, upper body level: the tip is one upper length out, one lower length up.
+  WoodenHapticsSettings settings;
+  settings.motor_aligned = {false, false, false};
+  settings.home_counts = {0, 0, 6000};
+  const Vec3 angles = wooden_haptics_angles(settings, settings.home_counts);
+  EXPECT_NEAR(angles.z, std::acos(-1.0) / 2, 1e-12) << "6000 counts are 90 degrees";
+  const Vec3 position = wooden_haptics_position(settings, angles);
+  EXPECT_NEAR(position.z, 0.245 - 0.220, 1e-12) << "towards the user";
+  EXPECT_NEAR(position.y, 0.080 + 0.205 - 0.080, 1e-12) << "up";
+  EXPECT_NEAR(position.x, 0, 1e-12);
+}
+
+TEST(WoodenHapticsKinematics, TorquesDoTheForcesWork) {
+  const WoodenHapticsSettings settings;
+  std::mt19937 random(2);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 angles = wooden_haptics_inverse(settings, random_position(random, 0.09));
+    const Vec3 force = random_position(random, 5);
+    const Vec3 torques = wooden_haptics_torques(settings, angles, force);
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 turn(0);
+      turn[axis] = 1e-6;
+      const Vec3 moved =
+          wooden_haptics_position(settings, angles + turn) - wooden_haptics_position(settings, angles - turn);
+      EXPECT_NEAR(torques[axis], glm::dot(force, moved) / 2e-6, 1e-6);
+    }
+  }
+}
+
+TEST(WoodenHapticsKinematics, CurrentsKeepTheirLimitAndDirection) {
+  const WoodenHapticsSettings settings;
+  std::mt19937 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 torques = random_position(random, std::pow(10, static_cast<double>(i % 7) - 3));
+    const auto currents = wooden_haptics_currents(settings, torques);
+    const auto small = wooden_haptics_currents(settings, torques * (0.02 / glm::length(torques)));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ASSERT_LE(std::abs(currents[axis]), 2000);
+      ASSERT_GE(static_cast<long>(currents[axis]) * small[axis], 0) << "no sign may change";
+    }
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(wooden_haptics_currents(settings, Vec3(nan, 1, 1)), (std::array<int, 3>{}));
+  EXPECT_EQ(wooden_haptics_currents(settings, Vec3(1e308, 0, 0)), (std::array<int, 3>{}));
+}
+
+/// The driver on the fake, stepped in one thread on the fake's own clock.
+struct Bench {
+  FakeHidBench bench;
+  FakeWoodenHaptics arm;
+  std::unique_ptr<LinkStylus> stylus;
+
+  explicit Bench(const FakeWoodenHapticsOptions& options = {}) : arm(options) {
+    LinkStylusOptions link_options;
+    link_options.threaded = false;
+    stylus = make_wooden_haptics_on(
+        options.arm, [this] { return std::make_unique<FakeHidLink>(arm, bench); }, link_options);
+  }
+  void run(double seconds, const std::function<Vec3(const Reading&)>& force) {
+    const double end = bench.time + seconds;
+    double tick = bench.time;
+    while (bench.time < end) {
+      stylus->service(0.2e-3);
+      if (bench.time < tick) continue;
+      tick += 1e-3;
+      stylus->write_force(force(stylus->read()));
+    }
+  }
+  void run(double seconds, const Vec3& force = Vec3(0)) {
+    run(seconds, [&](const Reading&) { return force; });
+  }
+  bool is_pushing() const { return arm.is_pushing(bench.time); }
+  void home() {
+    stylus->open();
+    run(0.3);
+    ASSERT_EQ(stylus->state(), State::idle);
+  }
+};
+
+TEST(WoodenHapticsDriver, IsCalibratedByItsButtonAndFollowsTheHand) {
+  for (const std::size_t size : {14U, 64U}) {
+    FakeWoodenHapticsOptions options;
+    options.report_size = size;
+    options.path = {{0.3, {0, 0, 0}}, {0.6, {0.02, -0.03, 0.01}}};
+    Bench bench(options);
+    bench.stylus->open();
+    bench.run(0.1, Vec3(0, 2, 0));
+    EXPECT_EQ(bench.stylus->state(), State::homing);
+    EXPECT_EQ(bench.arm.pushed_until(), 0) << "no force before calibration";
+    bench.run(0.9);
+    EXPECT_EQ(bench.stylus->state(), State::idle);
+    EXPECT_LT(glm::length(bench.stylus->read().position - bench.arm.hand().body().position), 0.1e-3);
+    EXPECT_GT(bench.arm.outputs(), 900U) << "a report and an answer every millisecond";
+    EXPECT_LE(bench.arm.outputs(), 1010U);
+  }
+}
+
+TEST(WoodenHapticsDriver, SpeaksTheShortReportsOf2016) {
+  FakeWoodenHapticsOptions options;
+  options.report_size = 8;
+  Bench bench(options);
+  bench.stylus->open();
+  bench.run(0.2, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->state(), State::idle);
+  EXPECT_LT(glm::length(bench.stylus->read().position - bench.arm.hand().body().position), 0.2e-3);
+  EXPECT_LT(glm::length(bench.arm.force() - Vec3(0, 1, 0)), 0.02);
+}
+
+TEST(WoodenHapticsDriver, TheHandFeelsTheForceAskedFor) {
+  Bench bench;
+  bench.home();
+  for (const Vec3& force : {Vec3(1, 0, 0), Vec3(0, -2, 0), Vec3(0.5, 0.5, -1)}) {
+    bench.run(0.4, force);
+    EXPECT_LT(glm::length(bench.arm.force() - force), 0.02);
+    EXPECT_GT(glm::dot(bench.stylus->read().position, force), 0) << "the hand gives way";
+  }
+}
+
+/// How far the hand still moves on a wall of this stiffness (N/m), m.
+double ringing(double stiffness, double friction) {
+  FakeWoodenHapticsOptions options;
+  options.friction = friction;
+  options.path = {{0.3, {0, 0, 0}}, {0.5, {0, 0.005, 0}}, {1.0, {0, -0.002, 0}}};
+  Bench bench(options);
+  bench.home();
+  return ringing_of_wall(bench, bench.arm.hand(), stiffness);
+}
+
+TEST(WoodenHapticsDriver, AWallAtItsStiffnessLimitIsQuiet) {
+  const double limit = Bench().stylus->specification().stiffness_limit;
+  EXPECT_LT(ringing(limit, 0.06), 0.15e-3) << "tremor alone";
+  // Whatever a real one's friction: without any, a stiffer wall lets less of the tremor through, until it rings.
+  EXPECT_LT(ringing(limit, 0), ringing(limit / 2, 0));
+  EXPECT_LT(ringing(1.5 * limit, 0), ringing(limit, 0)) << "and there is a margin";
+  EXPECT_GT(ringing(4 * limit, 0), 3 * ringing(limit, 0)) << "or nothing could be seen here";
+}
+
+TEST(WoodenHapticsDriver, StartsAFirmwareThatWaits) {
+  Bench bench;
+  bench.home();
+  bench.arm.faults.drop_every = 50;  // the firmware then blocks until it is sent something
+  bench.run(1, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->fault(), LinkFault::none);
+  EXPECT_GT(bench.arm.outputs(), 700U);
+}
+
+TEST(WoodenHapticsDriver, ShortReportsAreRefused) {
+  Bench bench;
+  bench.home();
+  bench.arm.faults.short_every = 20;
+  bench.run(1, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->fault(), LinkFault::none);
+  EXPECT_LT(glm::length(bench.stylus->read().position - bench.arm.hand().body().position), 0.5e-3);
+}
+
+TEST(WoodenHapticsDriver, FaultsEndInZeros) {
+  Bench impossible;
+  impossible.home();
+  impossible.run(0.1, Vec3(0, 1, 0));
+  impossible.arm.faults.impossible_pose = true;
+  impossible.run(0.1, Vec3(0, 1, 0));
+  EXPECT_EQ(impossible.stylus->fault(), LinkFault::unreachable_pose);
+  EXPECT_FALSE(impossible.is_pushing());
+
+  Bench unplugged;
+  unplugged.home();
+  unplugged.run(0.1, Vec3(0, 1, 0));
+  unplugged.bench.unplugged = true;
+  unplugged.run(0.01, Vec3(0, 1, 0));
+  EXPECT_EQ(unplugged.stylus->fault(), LinkFault::unplugged);
+  EXPECT_TRUE(unplugged.is_pushing()) << "nobody can reach it";
+  unplugged.bench.time += 0.51;
+  EXPECT_FALSE(unplugged.is_pushing()) << "its own watchdog of 0.5 s";
+
+  Bench stalled;
+  stalled.home();
+  stalled.run(0.1, Vec3(0, 1, 0));
+  for (int i = 0; i < 30; ++i) stalled.stylus->service(1e-3);
+  EXPECT_FALSE(stalled.is_pushing());
+
+  Bench closed;
+  closed.home();
+  closed.run(0.1, Vec3(0, 1, 0));
+  ASSERT_TRUE(closed.is_pushing());
+  closed.stylus->close();
+  EXPECT_FALSE(closed.is_pushing());
+}
+
+TEST(WoodenHapticsDriver, ADeviceThatDoesNotAnswerIsRefused) {
+  Bench bench;
+  bench.arm.faults.silent = true;
+  EXPECT_THROW(bench.stylus->open(), std::runtime_error);
+  EXPECT_EQ(bench.stylus->state(), State::disconnected);
+}
+
+std::string write_settings(const std::string& json) {
+  static const TestFiles files;
+  return files.write("wooden.json", json);
+}
+
+TEST(WoodenHapticsSettings, AreReadFromJson) {
+  const auto settings = read_wooden_haptics(write_settings(
+      R"({"address": "/dev/hidraw3", "encoder_sign": [1, -1, 1], "motor_aligned": [false, false, false],
+          "home_counts": [0, 0, 6000], "torque_constant": [0.321, 0.0603, 0.0603]})"));
+  EXPECT_EQ(settings.address, "/dev/hidraw3");
+  EXPECT_EQ(settings.encoder_sign[1], -1);
+  EXPECT_EQ(settings.home_counts[2], 6000);
+  EXPECT_EQ(settings.torque_constant[0], 0.321);
+  EXPECT_EQ(settings.lower_length, 0.205) << "absent keys keep their defaults";
+}
+
+TEST(WoodenHapticsSettings, WrongOnesAreRefusedByName) {
+  const struct {
+    const char* json;
+    const char* names;
+  } wrong[] = {{R"({"lower_lenght": 0.2})", "'lower_lenght' is not a setting"},
+               {R"({"lower_length": "long"})", "'lower_length'"},
+               {R"({"torque_constant": [0, 1, 1]})", "torque constant of axis a"},
+               {R"({"encoder_sign": [1, 1, 2]})", "encoder sign of axis c"},
+               {R"({"current_limit": 30})", "current limit"},
+               {R"([1, 2])", "not a JSON object"},
+               {R"({"address": )", "wooden.json"}};
+  for (const auto& example : wrong) {
+    try {
+      read_wooden_haptics(write_settings(example.json));
+      FAIL() << example.json;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(example.names));
+      EXPECT_THAT(error.what(), testing::HasSubstr("wooden.json"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::device

@@ -1,0 +1,97 @@
+#include "io/dicom/copies.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+#include <span>
+#include <string>
+
+#include "io/dicom/input_file.h"
+#include "io/errors.h"
+
+namespace palpate::io::internal {
+namespace {
+
+std::string name_of(const FileHeader& file) {
+  return file.path.filename().string();
+}
+
+bool same_place_and_time(const FileHeader& a, const FileHeader& b) {
+  constexpr double rounding = 1e-3;  // mm
+  const auto same_place = [](const Plane& x, const Plane& y) {
+    if (x.placement.has_value() != y.placement.has_value()) return false;
+    return !x.placement || glm::distance(x.placement->position, y.placement->position) < rounding;
+  };
+  return a.acquired == b.acquired &&
+         std::equal(a.planes.begin(), a.planes.end(), b.planes.begin(), b.planes.end(), same_place);
+}
+
+// Where the coded pixels are in their file.
+std::vector<Fragment> coded_pixels(const FileHeader& file) {
+  std::vector<Fragment> stretches;
+  if (file.coding == PixelCoding::native) {
+    const std::size_t frame = file.format.bytes_per_frame();
+    for (const Plane& plane : file.planes) {
+      stretches.push_back({file.pixels_at + plane.frame * frame, static_cast<std::uint32_t>(frame)});
+    }
+  }
+  for (const auto& frame : file.fragments) stretches.insert(stretches.end(), frame.begin(), frame.end());
+  return stretches;
+}
+
+// As they are coded; what is coded in two ways is not compared.
+bool pixels_differ(const FileHeader& a, const FileHeader& b) {
+  if (a.transfer_syntax != b.transfer_syntax) return false;
+  const InputFile file_a(a.path);
+  const InputFile file_b(b.path);
+  const auto coded_a = coded_pixels(a);
+  const auto coded_b = coded_pixels(b);
+  const auto differ = [&](const Fragment& x, const Fragment& y) {
+    return x.length != y.length || read_fragments(file_a, {x}) != read_fragments(file_b, {y});
+  };
+  return !std::equal(coded_a.begin(), coded_a.end(), coded_b.begin(), coded_b.end(),
+                     [&](const Fragment& x, const Fragment& y) { return !differ(x, y); });
+}
+
+// Archives number images anew; images of one place and time that differ in number and pixels are two.
+bool same_image(const FileHeader& a, const FileHeader& b) {
+  return same_place_and_time(a, b) &&
+         (a.instance_number == b.instance_number || !a.defect.empty() || !b.defect.empty() || !pixels_differ(a, b));
+}
+
+}  // namespace
+
+std::vector<FileHeader> drop_copies(std::vector<FileHeader> files, std::vector<SkippedFile>& skipped) {
+  std::stable_sort(files.begin(), files.end(), [](const FileHeader& a, const FileHeader& b) {
+    return a.defect.empty() == b.defect.empty() ? a.path < b.path : a.defect.empty();
+  });
+  std::map<std::string, std::vector<std::size_t>> kept_of;  // SOP instance -> those of it that are kept
+  std::vector<FileHeader> kept;
+  for (FileHeader& file : files) {
+    auto& known = kept_of[file.sop_instance];
+    const auto first =
+        std::find_if(known.begin(), known.end(), [&](std::size_t n) { return same_image(kept[n], file); });
+    if (file.sop_instance.empty() || first == known.end()) {
+      if (!file.sop_instance.empty() && known.size() == 1) {
+        kept[known[0]].remarks.emplace_back(
+            "different images of it have one SOP instance UID, which is against the standard: all are kept");
+      }
+      known.push_back(kept.size());
+      kept.push_back(std::move(file));
+      continue;
+    }
+    FileHeader& original = kept[*first];
+    std::string why = "a copy of " + name_of(original) + ": the same SOP instance";
+    if (!file.defect.empty()) {
+      why += " (" + file.defect + ")";
+    } else if (pixels_differ(original, file)) {
+      why += ", but with other pixels";
+      original.remarks.push_back(name_of(original) + " is used and not " + name_of(file) +
+                                 ", which is the same SOP instance with other pixels");
+    }
+    skipped.push_back({file.path, std::move(why)});
+  }
+  return kept;
+}
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,211 @@
+#include "io/dicom/dataset.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdatset.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcistrmb.h>
+#include <dcmtk/dcmdata/dcistrmf.h>
+#include <dcmtk/dcmdata/dcuid.h>
+#include <dcmtk/dcmdata/dcxfer.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "io/dicom/asked_for.h"
+#include "io/errors.h"
+
+namespace palpate::io::internal {
+namespace {
+
+struct FirstBytes {
+  std::array<std::byte, 12> bytes{};
+
+  FirstBytes(const InputFile& file, std::uint64_t at) {
+    if (at > file.size() || file.size() - at < bytes.size()) throw DicomError("not a DICOM file");
+    file.read(at, bytes);
+  }
+  unsigned operator[](std::size_t i) const { return std::to_integer<unsigned>(bytes[i]); }
+  bool has_vr() const {
+    const auto letter = [](unsigned c) { return c >= 'A' && c <= 'Z'; };
+    return letter((*this)[4]) && letter((*this)[5]);
+  }
+  unsigned group() const { return (*this)[0] | (*this)[1] << 8; }
+};
+
+// A dataset starts with a low group (8, rarely 2 or 4) and, without a VR, a length of at most a few hundred bytes.
+std::optional<Encoding> guess_encoding(const FirstBytes& start) {
+  const bool little = (start[0] == 8 || start[0] == 4) && start[1] == 0 && start[3] == 0;
+  const bool big = start[0] == 0 && (start[1] == 8 || start[1] == 4) && start[2] == 0;
+  const bool short_value = start[6] == 0 && start[7] == 0;
+  if (little && start.has_vr()) return Encoding{false, true};
+  if (big && start.has_vr()) return Encoding{true, true};
+  if (little && short_value) return Encoding{false, false};
+  return std::nullopt;
+}
+
+// Group 2 is always little endian with explicit VRs. Returns the transfer syntax; `at` moves behind it.
+std::string read_meta(const InputFile& file, std::uint64_t& at) {
+  std::string syntax;
+  while (file.size() - at >= 12) {
+    const FirstBytes element(file, at);
+    if (element.group() != 2 || !element.has_vr()) break;
+    const bool wide = element[4] == 'O' || (element[4] == 'U' && (element[5] == 'N' || element[5] == 'T'));
+    const std::uint64_t length =
+        wide ? element[8] | element[9] << 8 | element[10] << 16 | std::uint64_t{element[11]} << 24
+             : element[6] | element[7] << 8;
+    const std::uint64_t value_at = at + (wide ? 12 : 8);
+    if (value_at > file.size() || length > file.size() - value_at) throw DicomError("truncated in its header");
+    if ((element[2] | element[3] << 8) == 0x0010 && length <= 64) {
+      syntax.resize(length);
+      file.read(value_at, std::as_writable_bytes(std::span(syntax)));
+      syntax.erase(std::find_if(syntax.begin(), syntax.end(), [](char c) { return c == '\0' || c == ' '; }),
+                   syntax.end());
+    }
+    at = value_at + length;
+  }
+  return syntax;
+}
+
+// A window of the file, so that a header costs a few reads and not one an element.
+class FileBytes final : public ByteSource {
+ public:
+  FileBytes(const InputFile& file, std::uint64_t at) : file_(file), at_(at) {}
+
+  std::size_t read(std::span<std::byte> into) override {
+    const std::size_t count = std::min<std::uint64_t>(into.size(), file_.size() - std::min(file_.size(), at_));
+    if (at_ < window_at_ || at_ + count > window_at_ + window_.size()) {
+      window_.resize(std::min<std::uint64_t>(file_.size() - at_, window_size));
+      window_at_ = at_;
+      file_.read(window_at_, window_);
+    }
+    std::copy_n(window_.begin() + static_cast<std::ptrdiff_t>(at_ - window_at_), count, into.begin());
+    at_ += count;
+    return count;
+  }
+  bool skip(std::uint64_t count) override {
+    if (at_ > file_.size() || count > file_.size() - at_) return false;
+    at_ += count;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint64_t window_size = 1U << 14;
+  const InputFile& file_;
+  std::uint64_t at_;
+  std::uint64_t window_at_ = 0;
+  std::vector<std::byte> window_;
+};
+
+class InflatedBytes final : public ByteSource {
+ public:
+  InflatedBytes(const std::filesystem::path& path, std::uint64_t at)
+      : stream_(OFFilename(path.c_str()), static_cast<offile_off_t>(at)) {
+    if (stream_.installCompressionFilter(ESC_zlib).bad()) {  // it went away since its first bytes were read
+      throw DicomError("cannot be opened: check that it exists and may be read");
+    }
+  }
+  std::size_t read(std::span<std::byte> into) override {
+    std::size_t total = 0;
+    while (total < into.size()) {
+      const offile_off_t got = stream_.read(into.data() + total, static_cast<offile_off_t>(into.size() - total));
+      if (got <= 0) break;
+      total += static_cast<std::size_t>(got);
+    }
+    return total;
+  }
+  bool skip(std::uint64_t count) override {
+    while (count > 0) {
+      const offile_off_t skipped = stream_.skip(static_cast<offile_off_t>(count));
+      if (skipped <= 0) return false;
+      count -= static_cast<std::uint64_t>(skipped);
+    }
+    return true;
+  }
+
+ private:
+  DcmInputFileStream stream_;
+};
+
+// What DCMTK is to parse by: the file's own syntax, or one written alike where DCMTK does not know that, or where the
+// file is not written as it says.
+E_TransferSyntax syntax_of(const DatasetStart& start) {
+  const DcmXfer known(start.transfer_syntax.c_str());
+  const bool as_it_says = (known.isExplicitVR() == OFTrue) == start.encoding.explicit_vr;
+  if (!start.transfer_syntax.empty() && known.getXfer() != EXS_Unknown && as_it_says) return known.getXfer();
+  if (!start.encoding.explicit_vr) return EXS_LittleEndianImplicit;
+  return start.encoding.big_endian ? EXS_BigEndianExplicit : EXS_LittleEndianExplicit;
+}
+
+}  // namespace
+
+DatasetStart find_dataset(const InputFile& file) {
+  if (file.size() == 0) throw DicomError("empty file");
+  DatasetStart start;
+  bool is_part_10 = false;
+  if (file.size() >= 132) {
+    std::array<std::byte, 4> magic{};
+    file.read(128, magic);
+    is_part_10 = std::memcmp(magic.data(), "DICM", magic.size()) == 0;
+    if (is_part_10) start.at = 132;
+  }
+  const std::uint64_t meta_at = start.at;
+  start.transfer_syntax = read_meta(file, start.at);
+  const DcmXfer syntax(start.transfer_syntax.c_str());  // which knows syntaxes without a UID, too
+  if (!start.transfer_syntax.empty() && syntax.getXfer() != EXS_Unknown) {
+    start.encoding = {syntax.getByteOrder() == EBO_BigEndian, syntax.isExplicitVR() == OFTrue};
+    start.deflated = syntax.getStreamCompression() != ESC_none;
+    if (start.deflated || file.size() - start.at < sizeof(FirstBytes)) return start;
+    // Some archives rewrite the dataset and not what is said of it.
+    const auto shown = guess_encoding(FirstBytes(file, start.at));
+    if (shown && shown->big_endian == start.encoding.big_endian) start.encoding = *shown;
+    return start;
+  }
+  const auto guess = guess_encoding(FirstBytes(file, start.at));
+  if (!guess) throw DicomError(is_part_10 || start.at > meta_at ? "damaged: no dataset in it" : "not a DICOM file");
+  start.encoding = *guess;
+  if (start.transfer_syntax.empty()) start.transfer_syntax = DcmXfer(syntax_of(start)).getXferID();
+  return start;
+}
+
+std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start) {
+  return std::make_unique<InflatedBytes>(path, start.at);
+}
+
+std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
+                                         const DatasetStart& start, DcmDataset& dataset) {
+  DatasetShape shape;
+  OFCondition read = EC_Normal;
+  // The syntax is given, so that DCMTK never guesses another one than was checked.
+  dataset.transferInit();
+  if (start.deflated) {
+    shape = check_structure(*inflated(path, start), start.encoding, is_asked_for);
+    DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(start.at));
+    read = dataset.readUntilTag(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
+  } else {
+    FileBytes bytes(file, start.at);
+    shape = check_structure(bytes, start.encoding, is_asked_for);
+    constexpr std::uint64_t longest = 1U << 28;  // five times the header of 10 000 enhanced frames
+    if (shape.header_end > longest) throw DicomError("its header is larger than 256 MiB");
+    // Pixels, and what nobody asks for, stay out: DCMTK takes a microsecond an element.
+    std::vector<std::byte> before(shape.header_end);
+    file.read(start.at, before);
+    std::size_t kept = 0;
+    for (const DatasetShape::Stretch& stretch : shape.wanted) {
+      std::memmove(before.data() + kept, before.data() + stretch.begin, stretch.end - stretch.begin);
+      kept += stretch.end - stretch.begin;
+    }
+    before.resize(kept);
+    DcmInputBufferStream stream;
+    stream.setBuffer(before.data(), static_cast<offile_off_t>(before.size()));
+    stream.setEos();
+    read = dataset.read(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength);
+  }
+  dataset.transferEnd();
+  if (read.bad()) throw DicomError(std::string("damaged header: ") + read.text());
+  return shape.pixels;
+}
+
+}  // namespace palpate::io::internal

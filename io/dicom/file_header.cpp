@@ -1,0 +1,213 @@
+#include "io/dicom/file_header.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdatset.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcuid.h>
+#include <dcmtk/dcmdata/dcxfer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "io/dicom/character_set.h"
+#include "io/dicom/dataset.h"
+#include "io/dicom/decode.h"
+#include "io/dicom/dicom_value.h"
+#include "io/dicom/planes.h"
+#include "io/errors.h"
+
+namespace palpate::io::internal {
+namespace {
+
+void read_identity(DcmItem& item, FileHeader& header) {
+  const std::string characters = text_of(item, DCM_SpecificCharacterSet);
+  header.sop_class = text_of(item, DCM_SOPClassUID);
+  header.sop_instance = text_of(item, DCM_SOPInstanceUID);
+  header.series = text_of(item, DCM_SeriesInstanceUID);
+  header.frame_of_reference = text_of(item, DCM_FrameOfReferenceUID);
+  header.study = text_of(item, DCM_StudyInstanceUID);
+  header.modality = text_of(item, DCM_Modality);
+  header.description = utf8_of(text_of(item, DCM_SeriesDescription), characters);
+  header.image_type = text_of(item, DCM_ImageType);
+  header.identity.patient_name = utf8_of(text_of(item, DCM_PatientName), characters);
+  header.identity.patient_id = utf8_of(text_of(item, DCM_PatientID), characters);
+  header.identity.study_date = text_of(item, DCM_StudyDate);
+  header.instance_number = number_of(item, DCM_InstanceNumber).value_or(0);
+  header.acquired = text_of(item, DCM_AcquisitionDate) + text_of(item, DCM_AcquisitionTime) + ' ' +
+                    text_of(item, DCM_ContentDate) + text_of(item, DCM_ContentTime);
+  header.thickness = number_of(item, DCM_SliceThickness).value_or(0);
+}
+
+std::string what_it_is(const FileHeader& header) {
+  const char* name = dcmFindNameOfUID(header.sop_class.c_str());
+  return name != nullptr ? std::string(name) : header.modality.empty() ? "DICOM" : header.modality;
+}
+
+void read_format(DcmItem& item, FileHeader& header) {
+  const auto whole = [&](const DcmTagKey& tag, int otherwise) {
+    return static_cast<int>(std::clamp(number_of(item, tag).value_or(otherwise), -1.0, 65536.0));
+  };
+  PixelFormat& format = header.format;
+  format.columns = whole(DCM_Columns, 0);
+  format.rows = whole(DCM_Rows, 0);
+  format.bits_allocated = whole(DCM_BitsAllocated, 0);
+  format.bits_stored = whole(DCM_BitsStored, format.bits_allocated);
+  format.high_bit = whole(DCM_HighBit, format.bits_stored - 1);
+  format.is_signed = whole(DCM_PixelRepresentation, 0) == 1;
+  if (format.columns < 1 || format.rows < 1) throw DicomError(what_it_is(header) + ": no image in it");
+
+  header.columns = format.columns;
+  header.rows = format.rows;
+
+  const std::string photometric = text_of(item, DCM_PhotometricInterpretation);
+  const bool grey = photometric.empty() || photometric == "MONOCHROME1" || photometric == "MONOCHROME2";
+  if (whole(DCM_SamplesPerPixel, 1) != 1 || !grey) {
+    header.unfit = "colour image (" + photometric + "): it has no values to feel";
+  } else if ((format.bits_allocated != 8 && format.bits_allocated != 16) || format.bits_stored < 1 ||
+             format.high_bit < format.bits_stored - 1 || format.high_bit >= format.bits_allocated) {
+    header.unfit = "pixels of " + std::to_string(format.bits_stored) + " bits in " +
+                   std::to_string(format.bits_allocated) + ", the highest of them bit " +
+                   std::to_string(format.high_bit) + ", cannot be read";
+  }
+}
+
+// What lies outside the patient's image. MR scanners write 0 here although 0 is also what air reads: taken for padding,
+// it would hide the skin.
+std::optional<std::pair<double, double>> padding_of(DcmItem& item, const FileHeader& header) {
+  const auto signed_value = [&](double v) { return header.format.is_signed && v > 32767 ? v - 65536 : v; };
+  const auto value = number_of(item, DCM_PixelPaddingValue);
+  if (!value || (header.modality != "CT" && *value == 0)) return std::nullopt;
+  const double limit = number_of(item, DCM_PixelPaddingRangeLimit).value_or(*value);
+  return std::minmax(signed_value(*value), signed_value(limit));
+}
+
+void remark_on_lost_frames(double frames, FileHeader& header) {
+  const auto placed = std::count_if(header.planes.begin(), header.planes.end(),
+                                    [](const Plane& plane) { return plane.placement.has_value(); });
+  if (placed == 0 || static_cast<double>(placed) >= frames) return;
+  header.remarks.push_back(header.path.filename().string() + " says where " + std::to_string(placed) + " of its " +
+                           std::to_string(std::llround(frames)) + " frames lie: the others are left out");
+}
+
+void read_planes(DcmItem& item, FileHeader& header) {
+  const double frames = number_of(item, DCM_NumberOfFrames).value_or(1);
+  header.padding = padding_of(item, header);
+  if (first_item(item, DCM_ModalityLUTSequence) != nullptr && header.unfit.empty()) {
+    header.unfit = "its values need a modality look-up table, which is not applied here";
+  }
+  if (first_item(item, DCM_PerFrameFunctionalGroupsSequence) != nullptr) {
+    header.planes = functional_group_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
+    remark_on_lost_frames(frames, header);
+  } else if (header.image_type.find("MOSAIC") != std::string::npos) {
+    header.planes = mosaic_planes(item, header);
+    if (header.planes.empty() && header.unfit.empty()) {
+      header.unfit = "Siemens mosaic without the private header that says how to take it apart";
+    }
+  } else {
+    header.planes.push_back(classic_plane(item, header));
+    if (frames > 1 && header.unfit.empty()) header.unfit = "several frames without a position for each";
+  }
+  const bool placed =
+      std::any_of(header.planes.begin(), header.planes.end(), [](const Plane& p) { return p.placement; });
+  if (header.modality == "CT" && header.unit.empty()) {
+    header.remarks.emplace_back("its values are not said to be Hounsfield units");
+  }
+  if (!placed && header.unfit.empty()) {
+    header.unfit = "no position in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing)";
+  }
+}
+
+void check_native_length(const InputFile& file, std::size_t frames, const PixelElement& pixels, FileHeader& header) {
+  const std::uint64_t present =
+      std::min<std::uint64_t>(pixels.length, file.size() - std::min(file.size(), header.pixels_at));
+  const std::uint64_t needed = header.format.bytes_per_frame() * frames;
+  if (present < needed) {
+    header.defect = "truncated: " + std::to_string(present) + " of " + std::to_string(needed) + " bytes of pixels";
+  }
+}
+
+void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader& header) {
+  std::size_t frames = 1;
+  for (const Plane& plane : header.planes) frames = std::max<std::size_t>(frames, plane.frame + 1);
+  const DcmXfer syntax(header.transfer_syntax.c_str());
+  header.big_endian = syntax.getPixelDataByteOrder() == EBO_BigEndian;
+  header.swapped_words = header.big_endian && header.format.bits_allocated == 8 && pixels.vr == "OW";
+  header.pixels_at = header.start.deflated ? pixels.value_at : header.start.at + pixels.value_at;
+  const bool encapsulated = pixels.length == PixelElement::undefined_length;
+  if (pixels.is_float) {
+    if (header.unfit.empty()) header.unfit = "pixels that are floating-point numbers cannot be read";
+    return;
+  }
+  if (encapsulated && !can_decode(header.transfer_syntax)) {
+    if (header.unfit.empty()) header.unfit = "its compression is unknown here: " + header.transfer_syntax;
+    return;
+  }
+  try {
+    if (encapsulated) {
+      header.coding = PixelCoding::encapsulated;
+      header.fragments = find_fragments(file, header.pixels_at, frames);
+      check_density(header.transfer_syntax, header.format, frames, file.size());
+    } else if (header.start.deflated) {
+      header.coding = PixelCoding::deflated;
+      check_density(header.transfer_syntax, header.format, frames, file.size());
+    } else if (can_decode(header.transfer_syntax)) {
+      header.defect = "damaged: its pixels are not compressed as it says";
+    } else {
+      check_native_length(file, frames, pixels, header);
+    }
+  } catch (const DicomError& error) {
+    header.defect = error.what();
+  }
+}
+
+}  // namespace
+
+std::optional<Placement> make_placement(const std::vector<double>& position, const std::vector<double>& orientation,
+                                        const std::vector<double>& spacing) {
+  if (position.size() < 3 || orientation.size() < 6 || spacing.size() < 2) return std::nullopt;
+  Placement place;
+  place.position = {position[0], position[1], position[2]};
+  place.direction_i = {orientation[0], orientation[1], orientation[2]};
+  place.direction_j = {orientation[3], orientation[4], orientation[5]};
+  place.spacing_i = spacing[1];
+  place.spacing_j = spacing[0];
+  // Cosines are rounded in the file; a visibly wrong length or angle is not rounding.
+  constexpr double tolerance = 0.01;
+  if (std::abs(glm::length(place.direction_i) - 1) > tolerance ||
+      std::abs(glm::length(place.direction_j) - 1) > tolerance ||
+      std::abs(glm::dot(place.direction_i, place.direction_j)) > tolerance || !(place.spacing_i > 0) ||
+      !(place.spacing_j > 0)) {
+    return std::nullopt;
+  }
+  return place;
+}
+
+bool FileHeader::padding_is_wide() const {
+  if (!padding || format.bits_allocated != 16) return false;
+  const double least = format.is_signed ? -std::ldexp(1.0, format.bits_stored - 1) : 0;
+  const double most = std::ldexp(1.0, format.is_signed ? format.bits_stored - 1 : format.bits_stored) - 1;
+  return padding->second < least || padding->first > most;
+}
+
+FileHeader read_file_header(const std::filesystem::path& path) {
+  const InputFile file(path);
+  FileHeader header;
+  header.path = path;
+  header.start = find_dataset(file);
+  header.transfer_syntax = header.start.transfer_syntax;
+  DcmDataset dataset;
+  const auto pixels = parse_header(file, path, header.start, dataset);
+  if (dataset.tagExists(DCM_DirectoryRecordSequence)) {
+    throw DicomError("DICOMDIR: an index; the files themselves are looked at");
+  }
+  read_identity(dataset, header);
+  read_format(dataset, header);
+  if (!pixels) throw DicomError(what_it_is(header) + ": no pixels in it");
+  read_planes(dataset, header);
+  locate_pixels(file, *pixels, header);
+  return header;
+}
+
+}  // namespace palpate::io::internal

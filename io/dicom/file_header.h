@@ -1,0 +1,124 @@
+#pragma once
+
+/// What one file's header says, as far as grouping, placing and decoding its images needs it.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/dicom/dataset.h"
+#include "io/dicom/fragments.h"
+#include "io/geometry.h"
+#include "io/series.h"
+
+namespace palpate::io::internal {
+
+/// Where one image lies in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing).
+struct Placement {
+  Vec3 position{0};           ///< mm, centre of the first pixel
+  Vec3 direction_i{1, 0, 0};  ///< unit, along a row
+  Vec3 direction_j{0, 1, 0};  ///< unit, along a column
+  double spacing_i = 1;       ///< mm between columns
+  double spacing_j = 1;       ///< mm between rows
+};
+
+/// From the attributes' values (3, 6 and 2 of them, in DICOM's order); nothing where they are no placement.
+std::optional<Placement> make_placement(const std::vector<double>& position, const std::vector<double>& orientation,
+                                        const std::vector<double>& spacing);
+
+/// What may tell apart images at one position, the most telling first.
+enum class Label {
+  image_type,
+  echo_time,
+  b_value,
+  diffusion_direction,
+  velocity_encoding,
+  time_point,
+  trigger_time,
+  acquisition
+};
+constexpr std::size_t label_count = 8;
+/// One text a label, numbers as text; empty where unknown.
+using Labels = std::array<std::string, label_count>;
+
+/// What a phase-contrast image says: the speed along a direction is slope * stored + intercept, m/s.
+struct VelocityEncoding {
+  Vec3 direction{0};  ///< unit, patient axes
+  double slope = 0;
+  double intercept = 0;
+};
+
+/// One image: a file, or a frame of a multi-frame file, or a tile of a mosaic.
+struct Plane {
+  std::uint32_t frame = 0;                      ///< in the file's pixel data, from 0
+  std::uint32_t tile_column = 0, tile_row = 0;  ///< first pixel of the tile in the frame
+  std::optional<Placement> placement;
+  double slope = 1;  ///< RescaleSlope
+  double intercept = 0;
+  Labels labels;
+  std::optional<Series::Window> window;
+  std::optional<VelocityEncoding> velocity;
+};
+
+struct PixelFormat {
+  int columns = 0;  ///< of a frame as stored (all of a mosaic)
+  int rows = 0;
+  int bits_allocated = 16;
+  int bits_stored = 16;
+  int high_bit = 15;
+  bool is_signed = false;
+
+  std::size_t bytes_per_frame() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
+           static_cast<std::size_t>(bits_allocated / 8);
+  }
+};
+
+enum class PixelCoding { native, deflated, encapsulated };
+
+struct FileHeader {
+  std::filesystem::path path;
+  std::string transfer_syntax;     ///< UID
+  std::string sop_class;           ///< UID
+  std::string sop_instance;        ///< UID
+  std::string series;              ///< UID
+  std::string study;               ///< UID
+  std::string frame_of_reference;  ///< UID; empty where it is not said
+  std::string modality;
+  std::string description;
+  std::string image_type;  ///< all its values, separated by backslashes
+  std::string unit;
+  Series::Identity identity;
+  double instance_number = 0;
+  std::string acquired;  ///< date and time of the acquisition and of the content, only to be compared
+  double thickness = 0;  ///< SliceThickness, mm; 0 where unknown
+
+  PixelFormat format;
+  int columns = 0;  ///< of one image (of a tile of a mosaic)
+  int rows = 0;
+  std::optional<std::pair<double, double>> padding;  ///< stored values, both ends included
+  /// Whether that is no value that BitsStored can hold, but a word of BitsAllocated that stands for none.
+  bool padding_is_wide() const;
+
+  PixelCoding coding = PixelCoding::native;
+  bool big_endian = false;
+  bool swapped_words = false;                    ///< 8-bit pixels in big-endian 16-bit words
+  DatasetStart start;                            ///< where the dataset is
+  std::uint64_t pixels_at = 0;                   ///< where the pixels are: in the file; of the inflated dataset
+  std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
+
+  std::vector<Plane> planes;
+  std::vector<std::string> remarks;  ///< what a user should know of its series, in words that all of its files share
+  std::string unfit;   ///< why its images cannot be part of a volume (colour, no position); empty where they can
+  std::string defect;  ///< why its pixels cannot be read (truncated); empty where they can
+};
+
+/// Reads a file up to its pixel data. Throws DicomError with a reason (that does not name the file) where it holds no
+/// image.
+FileHeader read_file_header(const std::filesystem::path& path);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,25 @@
+#pragma once
+
+/// Encapsulated (compressed) pixel data: DICOM PS3.5 annex A.4. A frame is one fragment or several in a row.
+
+#include <cstdint>
+#include <vector>
+
+#include "io/dicom/input_file.h"
+
+namespace palpate::io::internal {
+
+struct Fragment {
+  std::uint64_t at = 0;  ///< in the file
+  std::uint32_t length = 0;
+};
+
+/// The fragments of each frame. `pixels_at` is where the value of PixelData starts, at the basic offset table. Frames
+/// are told apart by one fragment each; else by the offset table; else by the fragments that start a new JPEG, JPEG-LS
+/// or JPEG 2000 stream. Throws DicomError where the file is truncated or the fragments do not make up that many frames.
+std::vector<std::vector<Fragment>> find_fragments(const InputFile& file, std::uint64_t pixels_at, std::size_t frames);
+
+/// The bytes of a frame, its fragments joined.
+std::vector<std::byte> read_fragments(const InputFile& file, const std::vector<Fragment>& fragments);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,214 @@
+#include "io/dicom/grouping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <set>
+
+#include "io/dicom/copies.h"
+#include "io/dicom/frames.h"
+#include "io/dicom/series_source.h"
+#include "io/dicom/stacking.h"
+
+namespace palpate::io::internal {
+namespace {
+
+using Slice = SeriesSource::Slice;
+
+// Cosines of one series may differ in their last digits from file to file.
+constexpr double direction_tolerance = 1e-3;
+constexpr double spacing_tolerance = 1e-4;
+
+std::string name_of(const FileHeader& file) {
+  return file.path.filename().string();
+}
+
+/// Places are comparable where both files give them in one frame of reference; where one does not say, its series does.
+bool share_frame_of_reference(const FileHeader& a, const FileHeader& b) {
+  return a.frame_of_reference == b.frame_of_reference || a.frame_of_reference.empty() || b.frame_of_reference.empty();
+}
+
+bool fit_together(const SeriesSource& source, const Slice& a, const Slice& b) {
+  const FileHeader& fa = source.file_of(a);
+  const FileHeader& fb = source.file_of(b);
+  const Placement& x = *source.plane_of(a).placement;
+  const Placement& y = *source.plane_of(b).placement;
+  return fa.columns == fb.columns && fa.rows == fb.rows && fa.modality == fb.modality &&
+         share_frame_of_reference(fa, fb) && glm::length(x.direction_i - y.direction_i) < direction_tolerance &&
+         glm::length(x.direction_j - y.direction_j) < direction_tolerance &&
+         std::abs(x.spacing_i - y.spacing_i) < spacing_tolerance * x.spacing_i &&
+         std::abs(x.spacing_j - y.spacing_j) < spacing_tolerance * x.spacing_j;
+}
+
+void describe(const FileHeader& file, Series& series) {
+  series.uid = file.series;
+  series.study_uid = file.study;
+  series.modality = file.modality;
+  series.description = file.description;
+  series.unit = file.unit;
+  series.identity = file.identity;
+}
+
+// What files say alike is said once.
+void add_remarks(const SeriesSource& source, const std::vector<Slice>& slices, Series& series) {
+  std::set<std::uint32_t> seen;
+  for (const Slice& slice : slices) {
+    if (!seen.insert(slice.file).second) continue;
+    for (const std::string& remark : source.file_of(slice).remarks) {
+      const bool is_new = std::find(series.warnings.begin(), series.warnings.end(), remark) == series.warnings.end();
+      if (is_new) series.warnings.push_back(remark);
+    }
+  }
+}
+
+void list_files(const SeriesSource& source, const std::vector<Slice>& slices, Series& series) {
+  std::set<std::uint32_t> listed;
+  std::set<std::string> syntaxes;
+  for (const Slice& slice : slices) {
+    const FileHeader& file = source.file_of(slice);
+    if (listed.insert(slice.file).second) series.files.push_back(file.path);
+    syntaxes.insert(file.transfer_syntax);
+  }
+  series.transfer_syntaxes.assign(syntaxes.begin(), syntaxes.end());
+}
+
+std::string why_unusable(const SeriesSource& source) {
+  const auto& slices = source.frames.front().slices;
+  if (slices.empty()) return "none of its images can be read";
+  const FileHeader& file = source.file_of(slices.front());
+  if (file.image_type.find("LOCALIZER") != std::string::npos) return "a localizer, no volume";
+  if (slices.size() == 1) return "one slice alone is no volume";
+  return {};
+}
+
+Geometry geometry_of(const SeriesSource& source, const SeriesSource::Frame& frame, const Slice& example) {
+  std::vector<Vec3> positions;
+  for (const Slice& slice : frame.slices) positions.push_back(source.plane_of(slice).placement->position);
+  const FileHeader& file = source.file_of(example);
+  return stack_geometry(file.columns, file.rows, *source.plane_of(example).placement, std::move(positions), frame.lost,
+                        file.thickness);
+}
+
+// One stack of images that fit together, as a series with its frames.
+Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, std::vector<SkippedFile>& skipped) {
+  Series series;
+  describe(files.file_of(stack.front()), series);
+  auto source = std::make_shared<SeriesSource>(files);
+  const FrameSplit split = split_into_frames(*source, stack);
+
+  std::vector<Slice> read;
+  for (const auto& slices : split.frames) {
+    SeriesSource::Frame& frame = source->frames.emplace_back();
+    for (const Slice& slice : slices) {
+      if (source->file_of(slice).defect.empty()) {
+        frame.slices.push_back(slice);
+        read.push_back(slice);
+      } else {
+        frame.lost.push_back(source->plane_of(slice).placement->position);
+      }
+    }
+  }
+  std::set<std::uint32_t> unreadable;
+  for (const Slice& slice : stack) {
+    if (!source->file_of(slice).defect.empty()) unreadable.insert(slice.file);
+  }
+  for (const std::uint32_t file : unreadable) {
+    const FileHeader& header = (*source->files)[file];
+    series.warnings.push_back(name_of(header) + " is left out: " + header.defect);
+  }
+  for (const Slice& slice : split.left_over) {
+    const FileHeader& file = source->file_of(slice);
+    if (!file.defect.empty()) continue;
+    skipped.push_back({file.path, "another image of its series lies at its position and nothing tells them apart"});
+    series.warnings.push_back(name_of(file) + " is left out: another image lies at its position");
+  }
+
+  add_remarks(*source, stack, series);
+  list_files(*source, read, series);
+  series.frames_per_position = static_cast<int>(source->frames.size());
+  series.frame_names = split.names;
+  series.geometry = geometry_of(*source, source->frames.front(), stack.front());
+  for (auto& warning : geometry_warnings(series.geometry)) series.warnings.push_back(std::move(warning));
+  for (std::size_t f = 1; f < source->frames.size(); ++f) {
+    if (source->frames[f].slices.size() == source->frames.front().slices.size()) continue;
+    series.warnings.push_back("frame " + std::to_string(f) + " has " + std::to_string(source->frames[f].slices.size()) +
+                              " slices, not " + std::to_string(source->frames.front().slices.size()));
+  }
+  if (const auto& slices = source->frames.front().slices; !slices.empty()) {
+    series.window = source->plane_of(slices[slices.size() / 2]).window;
+  }
+  const std::string why = why_unusable(*source);
+  series.usable = why.empty();
+  if (!series.usable) series.warnings.insert(series.warnings.begin(), why);
+  if (source->frames.front().slices.empty()) source->frames.clear();
+  series.source = std::move(source);
+  return series;
+}
+
+// All files of one series.
+void group_one_series(std::vector<FileHeader> headers, std::vector<Series>& result, std::vector<SkippedFile>& skipped) {
+  SeriesSource source;
+  std::vector<std::filesystem::path> all_paths;
+  all_paths.reserve(headers.size());
+  for (FileHeader& header : headers) all_paths.push_back(header.path);
+  source.files = std::make_shared<const std::vector<FileHeader>>(drop_copies(std::move(headers), skipped));
+  std::vector<std::vector<Slice>> stacks;
+  for (std::uint32_t f = 0; f < source.files->size(); ++f) {
+    const FileHeader& file = (*source.files)[f];
+    if (!file.unfit.empty() || !file.defect.empty())
+      skipped.push_back({file.path, file.unfit.empty() ? file.defect : file.unfit});
+    if (!file.unfit.empty()) continue;
+    for (std::uint32_t p = 0; p < file.planes.size(); ++p) {
+      if (!file.planes[p].placement) continue;
+      const auto stack = std::find_if(stacks.begin(), stacks.end(), [&](const std::vector<Slice>& s) {
+        return fit_together(source, s.front(), {f, p});
+      });
+      (stack == stacks.end() ? stacks.emplace_back() : *stack).push_back({f, p});
+    }
+  }
+  if (stacks.empty()) return;
+
+  std::vector<Series> found;
+  found.reserve(stacks.size());
+  for (const auto& stack : stacks) found.push_back(make_series(source, stack, skipped));
+  const auto first_unusable =
+      std::stable_partition(found.begin(), found.end(), [](const Series& s) { return s.usable; });
+  if (first_unusable == found.begin()) {
+    // Nothing to feel: shown once, with all its files, so that nobody looks for it in vain.
+    Series& whole = *std::max_element(found.begin(), found.end(),
+                                      [](const Series& a, const Series& b) { return a.files.size() < b.files.size(); });
+    whole.files = all_paths;
+    result.push_back(std::move(whole));
+    return;
+  }
+  for (auto unusable = first_unusable; unusable != found.end(); ++unusable) {
+    for (const auto& path : unusable->files) {
+      skipped.push_back({path, "does not fit the volume of its series (" + unusable->warnings.front() + ")"});
+    }
+  }
+  std::move(found.begin(), first_unusable, std::back_inserter(result));
+}
+
+}  // namespace
+
+std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped) {
+  // Anonymised scans may share a series UID, or have none: patients, studies and folders are never mixed.
+  const auto key_of = [](const FileHeader& file) {
+    std::string key = file.series + '\n' + file.study + '\n' + file.identity.patient_id;
+    if (file.series.empty()) key += '\n' + file.description + '\n' + file.path.parent_path().string();
+    return key;
+  };
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<FileHeader>> by_series;
+  for (FileHeader& header : headers) {
+    auto& files = by_series[key_of(header)];
+    if (files.empty()) order.push_back(key_of(header));
+    files.push_back(std::move(header));
+  }
+  std::vector<Series> series;
+  for (const std::string& key : order) group_one_series(std::move(by_series[key]), series, skipped);
+  return series;
+}
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,16 @@
+#pragma once
+
+/// From headers to series.
+
+#include <vector>
+
+#include "io/dicom/file_header.h"
+#include "io/series.h"
+
+namespace palpate::io::internal {
+
+/// Groups the images of all files by series UID (of one study and patient), orientation, size and pixel spacing, sorts
+/// them by position, and describes the result. Files that end up in no series are named in `skipped`.
+std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped);
+
+}  // namespace palpate::io::internal

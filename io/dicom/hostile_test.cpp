@@ -1,0 +1,247 @@
+// Files that lie, end early or were made to hurt: the reader names them, quickly, and allocates by what is there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <random>
+
+#include "io/errors.h"
+#include "io/load.h"
+#include "io/testing/test_image.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::put;
+using internal::TestFolder;
+using internal::TestImage;
+using internal::write;
+using internal::write_stack;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_file(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool under_sanitizer = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool under_sanitizer = true;
+#else
+constexpr bool under_sanitizer = false;
+#endif
+#else
+constexpr bool under_sanitizer = false;
+#endif
+
+/// The most memory this process has held; always 0 under a sanitizer, whose own bookkeeping outweighs the reader's.
+long peak_mib() {
+  if (under_sanitizer) return 0;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+/// The most since it was last reset (VmHWM).
+long peak_now_mib() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::stol(line.substr(6)) / 1024;
+  }
+  return 0;
+}
+
+/// Preamble and meta information of an explicit little-endian file.
+std::string part_10_start() {
+  const TestFolder folder;
+  write(TestImage(), folder / "f");
+  const std::string bytes = read_file(folder / "f");
+  return bytes.substr(0, bytes.find(std::string("\x08\x00\x08\x00", 4)));
+}
+
+std::string only_reason(const TestFolder& folder) {
+  const Catalogue found = find_series(std::array{folder.path()});
+  EXPECT_THAT(found.skipped, SizeIs(1));
+  return found.skipped.empty() ? "" : found.skipped[0].reason;
+}
+
+TEST(Hostile, ClaimedSizesCostNoMemory) {
+  const fs::path data = PALPATE_SHARED_DATA;
+  const long before = peak_mib();
+  for (const bool many_frames : {false, true}) {
+    const auto claim = [&](DcmDataset& d) {
+      if (many_frames) {
+        internal::make_multi_frame(d, {1, 2, 3});
+        put(d, DCM_NumberOfFrames, "100000000");
+      }
+      put(d, DCM_Rows, 60000);
+      put(d, DCM_Columns, 60000);
+    };
+    for (const E_TransferSyntax syntax : {EXS_LittleEndianExplicit, EXS_DeflatedLittleEndianExplicit}) {
+      const TestFolder folder;
+      TestImage image;
+      image.edit = claim;
+      image.syntax = syntax;
+      write(image, folder / "claims");
+      for (const Series& series : find_series(std::array{folder.path()}).series) EXPECT_FALSE(series.usable);
+    }
+  }
+  for (const char* name : {"mr_tx_rle_4", "mr_tx_jpeg_4", "mr_tx_jpegls_4", "mr_tx_j2k_4"}) {
+    if (!fs::exists(data / name))
+      GTEST_SKIP() << "needs the shared series in every compression, to spoil what they claim: not at " << data;
+    const TestFolder folder;
+    for (const auto& entry : fs::directory_iterator(data / name)) {
+      std::string bytes = read_file(entry.path());
+      for (const char* attribute : {"\x28\x00\x10\x00US", "\x28\x00\x11\x00US"}) {
+        bytes.replace(bytes.find(std::string(attribute, 6)) + 8, 2, "\x60\xEA");
+      }
+      write_file(folder / entry.path().filename().string(), bytes);
+    }
+    for (const Series& series : find_series(std::array{folder.path()}).series) EXPECT_FALSE(series.usable);
+  }
+  EXPECT_LT(peak_mib() - before, 64);
+}
+
+/// Runs in a child of its own, since the most memory a process has held never shrinks: MiB above what it started with.
+long mib_to_load(const fs::path& folder) {
+  int report[2];
+  if (::pipe(report) != 0) throw std::runtime_error("no pipe");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    long used = -1;
+    try {
+      const std::array start{fs::path("/dev/null")};
+      static_cast<void>(find_series(start));        // DCMTK's dictionary is not the scan's
+      std::ofstream("/proc/self/clear_refs") << 5;  // the peak starts anew
+      const long before = peak_now_mib();
+      static_cast<void>(load(find_series(std::array{folder}).series.at(0)));
+      used = peak_now_mib() - before;
+    } catch (const std::exception&) {
+    }
+    const ssize_t written = ::write(report[1], &used, sizeof used);
+    ::_exit(written == sizeof used ? 0 : 1);
+  }
+  long used = -1;
+  ::close(report[1]);
+  const ssize_t got = ::read(report[0], &used, sizeof used);
+  ::close(report[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return got == sizeof used ? used : -1;
+}
+
+TEST(Hostile, LoadingHoldsLittleMoreThanTheVolume) {
+  const fs::path data = PALPATE_SHARED_DATA;
+  if (!fs::exists(data))
+    GTEST_SKIP() << "needs the shared series, whose size tells peak memory from noise: not at " << data;
+  if (under_sanitizer)
+    GTEST_SKIP() << "a sanitizer's own bookkeeping outweighs the reader's memory; measured without one";
+  for (const char* name : {"ct_head_phantom_140", "mr_t1_ax_384", "mr_enh_philips_fieldmap_64f"}) {
+    const Series series = find_series(std::array{data / name}).series.at(0);
+    const glm::ivec3 size = series.geometry.dimensions;
+    const double stored_mib = 2.0 * size.x * size.y * size.z / (1 << 20);
+    const long used = mib_to_load(data / name);
+    ASSERT_GE(used, static_cast<long>(stored_mib) - 1) << name;
+    EXPECT_LT(static_cast<double>(used), 1.25 * stored_mib + 64) << name;
+    RecordProperty(name, std::to_string(used) + " MiB for " + std::to_string(stored_mib));
+  }
+}
+
+TEST(Hostile, SequencesNestedWithoutEndAreRefused) {
+  const TestFolder folder;
+  std::string bytes = part_10_start();
+  for (int n = 0; n < 100000; ++n) {
+    bytes += std::string("\x08\x00\x40\x11SQ\0\0\xFF\xFF\xFF\xFF\xFE\xFF\x00\xE0\xFF\xFF\xFF\xFF", 20);
+  }
+  write_file(folder / "deep", bytes);
+  EXPECT_THAT(only_reason(folder), HasSubstr("nested too deeply"));
+}
+
+TEST(Hostile, ElementsInNoOrderAreRefused) {
+  const TestFolder folder;
+  std::string bytes = part_10_start();
+  for (int n = 0xFFFF; n > 0x2000; --n) {
+    bytes += std::string("\x09\x00", 2) + static_cast<char>(n & 0xFF) + static_cast<char>(n >> 8) + "LO" +
+             std::string(
+                 "\x02\x00"
+                 "ab",
+                 4);
+  }
+  write_file(folder / "descending", bytes);
+  EXPECT_THAT(only_reason(folder), HasSubstr("in disorder"));
+}
+
+// Cut anywhere, a file is named with a reason, or was not cut where it matters.
+TEST(Hostile, FileCutAnywhere) {
+  const TestFolder folder;
+  write_stack(folder.path(), 3);
+  const std::string whole = read_file(folder / "s1.dcm");
+  for (std::size_t length = 0; length < whole.size(); length += 3) {
+    write_file(folder / "s1.dcm", whole.substr(0, length));
+    const Catalogue found = find_series(std::array{folder.path()});
+    ASSERT_THAT(found.skipped, SizeIs(1)) << length;
+    EXPECT_THAT(found.skipped[0].reason, AnyOf(HasSubstr("truncated"), HasSubstr("not a DICOM"), HasSubstr("empty"),
+                                               HasSubstr("no image"), HasSubstr("no pixels"), HasSubstr("damaged")))
+        << length;
+    ASSERT_THAT(found.series, SizeIs(1)) << length;
+    EXPECT_EQ(load(found.series[0]).geometry.dimensions.z, 2) << length;
+  }
+}
+
+// Seeded mutations of one slice of every coding: the others are still read, nothing crashes, hangs or grows.
+TEST(Hostile, RandomDamageCostsAtMostThatSlice) {
+  const fs::path data = PALPATE_SHARED_DATA;
+  std::vector<fs::path> seeds;
+  for (const char* name : {"mr_tx_jpeg_4", "mr_tx_rle_4", "mr_tx_j2k_4", "mr_enh_philips_fieldmap_64f"}) {
+    std::error_code absent;
+    for (const auto& entry : fs::directory_iterator(data / name, absent)) seeds.push_back(entry.path());
+  }
+  const TestFolder plain;
+  write(TestImage(), plain / "plain");
+  seeds.push_back(plain / "plain");
+  const long before = peak_mib();
+  std::mt19937 random(20240229);
+  for (const fs::path& seed : seeds) {
+    const std::string good = read_file(seed);
+    for (int n = 0; n < 24; ++n) {
+      const TestFolder folder;
+      std::string bad = good;
+      const std::size_t changes = 1 + random() % 8;
+      for (std::size_t c = 0; c < changes; ++c) {
+        // Half of the damage goes to the header, where it does most.
+        const std::size_t range = random() % 2 == 0 ? std::min<std::size_t>(2000, bad.size() - 132) : bad.size() - 132;
+        bad[132 + random() % range] = static_cast<char>(random());
+      }
+      write_file(folder / "bad", bad);
+      write_stack(folder.path(), 3);
+      const Catalogue found = find_series(std::array{folder.path()});
+      const auto ours =
+          std::find_if(found.series.begin(), found.series.end(), [](const Series& s) { return s.uid == "1.2.3.4"; });
+      ASSERT_NE(ours, found.series.end());
+      EXPECT_GE(load(*ours).geometry.dimensions.z, 3);
+      for (const Series& series : found.series) {
+        try {
+          static_cast<void>(statistics(load(series)));
+        } catch (const DicomError&) {  // named, as it should be
+        }
+      }
+    }
+  }
+  EXPECT_LT(peak_mib() - before, 256);
+}
+
+}  // namespace
+}  // namespace palpate::io

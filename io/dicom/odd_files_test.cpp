@@ -1,0 +1,103 @@
+// What scanners, archives and anonymisers do that is legal or common, and that a reader may get wrong without a word:
+// how files are written.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcfilefo.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+
+#include "io/load.h"
+#include "io/testing/test_image.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::find_in;
+using internal::numbered;
+using internal::TestFolder;
+using internal::TestImage;
+using internal::write;
+using internal::write_stack;
+using testing::SizeIs;
+
+void write_bare(const TestImage& image, const fs::path& path, E_TransferSyntax syntax, E_FileWriteMode mode,
+                E_EncodingType lengths, E_GrpLenEncoding groups) {
+  DcmFileFormat file;
+  internal::fill(*file.getDataset(), image);
+  DcmItem* item = nullptr;
+  internal::succeed(file.getDataset()->findOrCreateSequenceItem(DCM_ReferencedImageSequence, item, -2));
+  internal::succeed(item->putAndInsertString(DCM_ReferencedSOPInstanceUID, "1.2.3"));
+  internal::succeed(file.saveFile(OFFilename(path.c_str()), syntax, lengths, groups, EPD_noChange, 0, 0, mode));
+}
+
+TEST(OddFiles, WithoutPreambleOrWithGroupLengthsAndOpenSequences) {
+  for (const E_TransferSyntax syntax : {EXS_LittleEndianImplicit, EXS_LittleEndianExplicit, EXS_BigEndianExplicit}) {
+    for (const E_FileWriteMode mode : {EWM_fileformat, EWM_dataset}) {
+      for (const E_EncodingType lengths : {EET_ExplicitLength, EET_UndefinedLength}) {
+        for (const E_GrpLenEncoding groups : {EGL_withoutGL, EGL_withGL}) {
+          const TestFolder folder;
+          for (int k = 0; k < 2; ++k) {
+            TestImage image;
+            image.z = 2.0 * k;
+            write_bare(image, folder / std::to_string(k), syntax, mode, lengths, groups);
+          }
+          const Catalogue found = find_in(folder);
+          ASSERT_THAT(found.series, SizeIs(1)) << syntax << " " << mode << " " << lengths << " " << groups;
+          EXPECT_EQ(load(found.series[0]).value_at(3, 2, 1), 32);
+        }
+      }
+    }
+  }
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// An archive that rewrites datasets and leaves what the meta information says of them.
+TEST(OddFiles, DatasetWrittenOtherwiseThanItSaysIsRead) {
+  const std::string explicit_uid = "1.2.840.10008.1.2.1";
+  for (int k = 0; k < 2; ++k) {
+    const TestFolder folder;
+    for (const int slice : {0, 1}) {
+      TestImage image;
+      image.z = 2.0 * slice;
+      image.syntax = EXS_LittleEndianExplicit;
+      write(image, folder / "says");
+      image.syntax = EXS_LittleEndianImplicit;
+      write(image, folder / "is");
+      std::array parts{read_file(folder / "says"), read_file(folder / "is")};
+      fs::remove(folder / "says");
+      fs::remove(folder / "is");
+      if (k == 1) std::swap(parts[0], parts[1]);
+      const auto meta_end = [](const std::string& bytes) { return bytes.find(std::string("\x08\0\x08\0", 4)); };
+      std::ofstream(folder / (numbered("s", slice)), std::ios::binary)
+          << parts[0].substr(0, meta_end(parts[0])) << parts[1].substr(meta_end(parts[1]));
+    }
+    EXPECT_EQ(load(find_in(folder).series.at(0)).value_at(3, 2, 1), 32);
+  }
+}
+
+TEST(OddFiles, ValuesOfOddLengthAreRead) {
+  const TestFolder folder;
+  write_stack(folder.path(), 2);
+  for (const int k : {0, 1}) {
+    const fs::path path = folder / (numbered("s", k) + ".dcm");
+    std::string bytes = read_file(path);
+    const std::string padded("\x08\0\x60\0CS\x02\0CT", 10);
+    const std::size_t at = bytes.find(padded);
+    ASSERT_NE(at, std::string::npos);
+    bytes.replace(at, padded.size(), std::string("\x08\0\x60\0CS\x03\0CT ", 11));
+    std::ofstream(path, std::ios::binary) << bytes;
+  }
+  const Series series = find_in(folder).series.at(0);
+  EXPECT_EQ(series.modality, "CT");
+  EXPECT_EQ(load(series).value_at(3, 2, 1), 132);
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,251 @@
+// What scanners, archives and anonymisers do that is legal or common, and that a reader may get wrong without a word:
+// which images belong together, and what their frames are.
+#include <dcmtk/config/osconfig.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "io/load.h"
+#include "io/testing/test_image.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::find_in;
+using internal::load_frame;
+using internal::put;
+using internal::TestFolder;
+using internal::TestImage;
+using internal::write;
+using internal::write_stack;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+void put_private(DcmDataset& d, Uint16 group, const char* creator, Uint16 element, DcmEVR vr, const char* value) {
+  internal::succeed(d.putAndInsertString(DcmTag(group, 0x0010, EVR_LO), creator));
+  internal::succeed(d.putAndInsertString(DcmTag(group, element, vr), value));
+}
+
+// --- Which images belong together ------------------------------------------------------------------------------------
+
+TEST(OddSeries, OneUidForTwoPatientsIsTwoSeries) {
+  const TestFolder folder;
+  for (const char* patient : {"A", "B"}) {
+    fs::create_directory(folder / patient);
+    write_stack(folder / patient, 3,
+                [&](int, TestImage& image) { image.edit = [&](DcmDataset& d) { put(d, DCM_PatientID, patient); }; });
+  }
+  const Catalogue found = find_in(folder);
+  ASSERT_THAT(found.series, SizeIs(2));
+  for (const Series& series : found.series) {
+    EXPECT_EQ(series.geometry.dimensions.z, 3);
+    EXPECT_EQ(series.frames_per_position, 1);
+  }
+}
+
+TEST(OddSeries, PlacesInTwoFramesOfReferenceAreNotComparedSoThatTheyAreTwoSeries) {
+  const TestFolder folder;
+  for (const char* frame : {"1.2.1", "1.2.2"}) {
+    fs::create_directory(folder / frame);
+    write_stack(folder / frame, 3, [&](int, TestImage& image) {
+      image.edit = [&](DcmDataset& d) { put(d, DCM_FrameOfReferenceUID, frame); };
+    });
+  }
+  const Catalogue found = find_in(folder);
+  ASSERT_THAT(found.series, SizeIs(2));
+  EXPECT_EQ(found.series[0].frames_per_position, 1);
+}
+
+TEST(OddSeries, WithoutASeriesUidAFolderIsASeries) {
+  const TestFolder folder;
+  for (const char* part : {"A", "B"}) {
+    fs::create_directory(folder / part);
+    write_stack(folder / part, 3, [](int, TestImage& image) { image.series = ""; });
+  }
+  const Catalogue found = find_in(folder);
+  ASSERT_THAT(found.series, SizeIs(2));
+  for (const Series& series : found.series) EXPECT_EQ(series.frames_per_position, 1);
+}
+
+TEST(OddSeries, OneInstanceUidForAllSlicesLosesNone) {
+  const TestFolder folder;
+  write_stack(folder.path(), 5, [](int, TestImage& image) { image.instance = "1.2.3.4.5"; });
+  const Catalogue found = find_in(folder);
+  EXPECT_THAT(found.skipped, IsEmpty());
+  EXPECT_EQ(found.series.at(0).geometry.dimensions.z, 5);
+  EXPECT_THAT(found.series[0].warnings, Contains(HasSubstr("one SOP instance UID")));
+}
+
+TEST(OddSeries, CopyThatWasNumberedAnewIsACopy) {
+  const TestFolder folder;
+  for (const int first : {0, 100}) {
+    fs::create_directory(folder / std::to_string(first));
+    write_stack(folder / std::to_string(first), 3, [=](int k, TestImage& image) {
+      image.instance = internal::numbered("1.2.7.", k);
+      image.edit = [=](DcmDataset& d) { put(d, DCM_InstanceNumber, std::to_string(first + k)); };
+    });
+  }
+  const Catalogue found = find_in(folder);
+  EXPECT_THAT(found.skipped, SizeIs(3));
+  EXPECT_EQ(found.series.at(0).frames_per_position, 1);
+}
+
+// An anonymiser that gives all images one UID and removes their times: two time points remain two.
+TEST(OddSeries, OneInstanceUidForAllTimesLosesNone) {
+  const TestFolder folder;
+  for (int n = 0; n < 8; ++n) {
+    TestImage image;
+    image.z = 2.0 * (n % 4);
+    image.instance = "1.2.3.4.5";
+    image.value = [n](int, int) { return n / 4; };
+    image.edit = [n](DcmDataset& d) { put(d, DCM_InstanceNumber, std::to_string(n + 1)); };
+    write(image, folder / std::to_string(n));
+  }
+  const Series series = find_in(folder).series.at(0);
+  ASSERT_EQ(series.frames_per_position, 2);
+  for (const int frame : {0, 1}) EXPECT_EQ(load_frame(series, frame).value_at(1, 1, 3), frame);
+}
+
+TEST(OddSeries, CopyWithOtherPixelsIsSaidToBeOne) {
+  for (const E_TransferSyntax syntax : {EXS_LittleEndianExplicit, EXS_BigEndianExplicit}) {
+    const TestFolder folder;
+    const auto with_instance = [&](int k, TestImage& image) {
+      image.instance = internal::numbered("1.2.7.", k);
+      image.syntax = syntax;
+    };
+    write_stack(folder.path(), 3, with_instance);
+    fs::create_directory(folder / "t");
+    write_stack(folder / "t", 3, [&](int k, TestImage& image) {
+      with_instance(k, image);
+      if (k == 1) image.value = [](int, int) { return 7; };
+    });
+    const Catalogue found = find_in(folder);
+    const Series& series = found.series.at(0);
+    EXPECT_THAT(found.skipped, SizeIs(3));
+    EXPECT_THAT(series.warnings, Contains(HasSubstr("with other pixels")).Times(1));
+    EXPECT_EQ(load(series).value_at(3, 2, 1), 132);  // of the first in the order of names
+  }
+}
+
+// --- Frames ----------------------------------------------------------------------------------------------------------
+
+TEST(OddSeries, DiffusionWeightingOfAPrivateAttributeNamesFrames) {
+  struct Vendor {
+    const char* name;
+    std::function<void(DcmDataset&, int)> put;
+  };
+  const std::array vendors{
+      Vendor{"Siemens",
+             [](DcmDataset& d, int b) {
+               put_private(d, 0x0019, "SIEMENS MR HEADER", 0x100C, EVR_IS, std::to_string(b).c_str());
+             }},
+      Vendor{"GE",
+             [](DcmDataset& d, int b) {
+               put_private(d, 0x0043, "GEMS_PARM_01", 0x1039, EVR_IS,
+                           (std::to_string(b > 0 ? 1000000000 + b : 0) + "\\8\\0\\0").c_str());
+             }},
+      Vendor{"Philips", [](DcmDataset& d, int b) {
+               put_private(d, 0x2001, "Philips Imaging DD 001", 0x1003, EVR_FL, std::to_string(b).c_str());
+             }}};
+  for (const Vendor& vendor : vendors) {
+    for (const E_TransferSyntax syntax : {EXS_LittleEndianExplicit, EXS_LittleEndianImplicit}) {
+      const TestFolder folder;
+      for (int n = 0; n < 8; ++n) {  // the largest weighting first, and every slice has its turn
+        TestImage image;
+        const int b = n % 2 == 0 ? 800 : 0;
+        image.z = 2.0 * (n / 2);
+        image.syntax = syntax;
+        image.value = [b](int, int) { return b; };
+        image.edit = [&](DcmDataset& d) { vendor.put(d, b); };
+        write(image, folder / std::to_string(n));
+      }
+      const Series series = find_in(folder).series.at(0);
+      ASSERT_THAT(series.frame_names, ElementsAre("b = 0 s/mm2", "b = 800 s/mm2")) << vendor.name << " " << syntax;
+      EXPECT_EQ(load_frame(series, 1).value_at(0, 0, 3), 800);
+    }
+  }
+}
+
+// Interleaved acquisitions number their passes; together with the echo that would halve every volume.
+TEST(OddSeries, NumbersThatAlternateDoNotDivideFrames) {
+  const TestFolder folder;
+  for (int n = 0; n < 12; ++n) {
+    TestImage image;
+    const int k = n / 2;
+    const int echo = n % 2;
+    image.z = 2.0 * k;
+    image.edit = [&](DcmDataset& d) {
+      put(d, DCM_EchoTime, echo == 0 ? "5" : "10");
+      put(d, DCM_AcquisitionNumber, std::to_string(1 + (k + echo) % 2));
+    };
+    write(image, folder / std::to_string(n));
+  }
+  const Series series = find_in(folder).series.at(0);
+  EXPECT_THAT(series.frame_names, ElementsAre("echo time 5 ms", "echo time 10 ms"));
+  EXPECT_EQ(series.geometry.dimensions.z, 6);
+  EXPECT_THAT(series.geometry.gaps, IsEmpty());
+}
+
+// Magnitude and phase, trigger times that grow from slice to slice, no temporal position, numbers that repeat.
+TEST(OddSeries, MagnitudeAndPhaseOfACineAreFrames) {
+  const TestFolder folder;
+  for (int n = 0; n < 24; ++n) {
+    const int k = n / 6;
+    const int time = n / 2 % 3;
+    const bool phase = n % 2 == 1;
+    TestImage image;
+    image.z = 8.0 * k;
+    image.value = [=](int, int) { return 100 * static_cast<int>(phase) + 10 * time + k; };
+    image.edit = [=](DcmDataset& d) {
+      put(d, DCM_Modality, "MR");
+      put(d, DCM_ImageType, phase ? "DERIVED\\PRIMARY\\P\\ND" : "ORIGINAL\\PRIMARY\\M\\ND");
+      put(d, DCM_TriggerTime, std::to_string(30 * time + 0.5 * k));
+      put(d, DCM_AcquisitionTime, std::to_string(100000 + 100 * k + 10 * time));
+      put(d, DCM_InstanceNumber, std::to_string(k + 1));
+    };
+    write(image, folder / internal::numbered("i", 90 - n));
+  }
+  const Series series = find_in(folder).series.at(0);
+  ASSERT_EQ(series.frames_per_position, 6);
+  for (int k = 0; k < 4; ++k) {
+    for (int time = 0; time < 3; ++time) {
+      EXPECT_EQ(load_frame(series, time).value_at(1, 1, k) + load_frame(series, 3 + time).value_at(1, 1, k),
+                100 + 2 * (10 * time + k));
+    }
+  }
+}
+
+TEST(OddSeries, EnhancedFilesOfOneFrameEachAreAVolume) {
+  const TestFolder folder;
+  for (int k = 0; k < 4; ++k) {
+    TestImage image;
+    image.value = [k](int, int) { return k; };
+    image.edit = [k](DcmDataset& d) { internal::make_multi_frame(d, {3.0 * k}); };
+    write(image, folder / std::to_string(9 - k));
+  }
+  const Volume volume = load(find_in(folder).series.at(0));
+  ASSERT_EQ(volume.geometry.dimensions.z, 4);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(volume.value_at(0, 0, k), k);
+}
+
+TEST(OddSeries, FramesThatAreNotDescribedAreLeftOutWithAWord) {
+  const TestFolder folder;
+  TestImage image;
+  image.edit = [](DcmDataset& d) {
+    internal::repeat_pixels(d, 5);
+    internal::make_multi_frame(d, {0, 2, 4});
+    put(d, DCM_NumberOfFrames, "5");
+  };
+  write(image, folder / "enhanced");
+  const Series series = find_in(folder).series.at(0);
+  EXPECT_EQ(series.geometry.dimensions.z, 3);
+  EXPECT_THAT(series.warnings, ElementsAre(HasSubstr("3 of its 5 frames")));
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,197 @@
+// What scanners, archives and anonymisers do that is legal or common, and that a reader may get wrong without a word:
+// the values.
+#include <dcmtk/config/osconfig.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "io/load.h"
+#include "io/testing/test_image.h"
+
+namespace palpate::io {
+namespace {
+
+using internal::find_in;
+using internal::put;
+using internal::TestFolder;
+using internal::TestImage;
+using internal::write;
+using internal::write_stack;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+std::string only_reason(const Catalogue& found) {
+  EXPECT_THAT(found.series, IsEmpty());
+  EXPECT_THAT(found.skipped, SizeIs(1));
+  return found.skipped.empty() ? "" : found.skipped[0].reason;
+}
+
+// --- Rescale ---------------------------------------------------------------------------------------------------------
+
+TEST(OddValues, RescaleThatIsNoNumberIsRefusedAndNotTakenForNone) {
+  for (const char* slope : {"0,5", "two", "0"}) {
+    const TestFolder folder;
+    TestImage image;
+    image.edit = [&](DcmDataset& d) { put(d, DCM_RescaleSlope, slope); };
+    write(image, folder / "image");
+    EXPECT_THAT(only_reason(find_in(folder)), HasSubstr("rescale slope")) << slope;
+  }
+}
+
+// As PET has it; the volume then holds what a voxel means, whatever slice it is in.
+TEST(OddValues, RescaleOfItsOwnForEverySlice) {
+  const TestFolder folder;
+  write_stack(folder.path(), 4, [](int k, TestImage& image) {
+    image.edit = [k](DcmDataset& d) {
+      put(d, DCM_Modality, "PT");
+      put(d, DCM_RescaleSlope, std::to_string(0.5 * (k + 1)));
+      put(d, DCM_RescaleIntercept, "0");
+    };
+  });
+  const Series series = find_in(folder).series.at(0);
+  EXPECT_EQ(series.unit, "");
+  const Volume volume = load(series);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(volume.value_at(3, 2, k), 0.5 * (k + 1) * (100 * k + 32));
+}
+
+TEST(OddValues, CtIsInHounsfieldUnitsOnlyWhereItSaysSo) {
+  struct Case {
+    const char* intercept;
+    const char* type;
+    const char* unit;
+  };
+  for (const Case& is :
+       {Case{"-1024", "HU", "HU"}, Case{"-1024", "", "HU"}, Case{"-1024", "MGML", ""}, Case{"", "", ""}}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 2, [&](int, TestImage& image) {
+      image.edit = [&](DcmDataset& d) {
+        if (*is.intercept != '\0') put(d, DCM_RescaleIntercept, is.intercept);
+        if (*is.type != '\0') put(d, DCM_RescaleType, is.type);
+      };
+    });
+    const Series series = find_in(folder).series.at(0);
+    EXPECT_EQ(series.unit, is.unit) << is.intercept << is.type;
+    EXPECT_EQ(series.warnings.size(), *is.unit == '\0' ? 1U : 0U);
+    EXPECT_THAT(series.warnings, Each(HasSubstr("Hounsfield")));
+  }
+}
+
+TEST(OddValues, EnhancedFramesEachHaveTheirRescale) {
+  const TestFolder folder;
+  TestImage image;
+  image.edit = [](DcmDataset& d) {
+    internal::repeat_pixels(d, 3);
+    internal::make_multi_frame(d, {0, 2, 4}, [](std::size_t n, DcmItem& frame) {
+      DcmItem& rescale = internal::group(frame, DCM_PixelValueTransformationSequence);
+      internal::succeed(rescale.putAndInsertString(DCM_RescaleSlope, std::to_string(n + 1).c_str()));
+      internal::succeed(rescale.putAndInsertString(DCM_RescaleIntercept, "-7"));
+    });
+  };
+  write(image, folder / "enhanced");
+  const Volume volume = load(find_in(folder).series.at(0));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(volume.value_at(3, 2, k), (k + 1) * 32 - 7);
+}
+
+// --- Pixels ----------------------------------------------------------------------------------------------------------
+
+TEST(OddValues, PaddingOutsideTheStoredBitsIsNoTissue) {
+  for (const bool is_signed : {true, false}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 2, [&](int, TestImage& image) {
+      image.value = [](int i, int) { return i == 0 ? 0x8000 : 0xA000 | i; };  // above bit 11 there is an overlay
+      image.edit = [&](DcmDataset& d) {
+        put(d, DCM_BitsStored, 12);
+        put(d, DCM_HighBit, 11);
+        put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
+        is_signed ? internal::succeed(d.putAndInsertSint16(DcmTag(DCM_PixelPaddingValue, EVR_SS), -32768))
+                  : put(d, DCM_PixelPaddingValue, 0x8000);
+      };
+    });
+    const Volume volume = load(find_in(folder).series.at(0));
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_EQ(volume.is_padding(i, 1, 1), i == 0);
+      EXPECT_EQ(volume.value_at(i, 1, 1), i > 0 ? i : is_signed ? -32768 : 32768);
+    }
+  }
+}
+
+TEST(OddValues, PaddingRangeHoldsBothItsEnds) {
+  const TestFolder folder;
+  write_stack(folder.path(), 2, [](int, TestImage& image) {
+    image.value = [](int i, int) { return 1000 + i; };
+    image.edit = [](DcmDataset& d) {
+      put(d, DCM_PixelPaddingValue, 1003);  // the limit may be below the value or above it
+      put(d, DCM_PixelPaddingRangeLimit, 1001);
+    };
+  });
+  const Volume volume = load(find_in(folder).series.at(0));
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(volume.is_padding(i, 0, 0), i >= 1 && i <= 3);
+}
+
+TEST(OddValues, EightSignedBits) {
+  const TestFolder folder;
+  write_stack(folder.path(), 2, [](int, TestImage& image) {
+    image.edit = [](DcmDataset& d) {
+      put(d, DCM_BitsAllocated, 8);
+      put(d, DCM_BitsStored, 8);
+      put(d, DCM_HighBit, 7);
+      put(d, DCM_PixelRepresentation, 1);
+      std::array<Uint8, 24> pixels{};
+      for (std::size_t n = 0; n < pixels.size(); ++n) pixels[n] = static_cast<Uint8>(10 * static_cast<int>(n) - 120);
+      internal::succeed(d.putAndInsertUint8Array(DCM_PixelData, pixels.data(), pixels.size()));
+    };
+  });
+  const Volume volume = load(find_in(folder).series.at(0));
+  for (int n = 0; n < 24; ++n) EXPECT_EQ(volume.value_at(n % 6, n / 6, 1), 10 * n - 120);
+}
+
+TEST(OddValues, Monochrome1ChangesNoValueAtAnyDepth) {
+  for (const int bits : {8, 12, 16}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 2, [&](int, TestImage& image) {
+      image.edit = [&](DcmDataset& d) {
+        put(d, DCM_PhotometricInterpretation, "MONOCHROME1");
+        put(d, DCM_BitsStored, bits);
+        put(d, DCM_HighBit, bits - 1);
+        put(d, DCM_RescaleIntercept, "-20");
+      };
+    });
+    EXPECT_EQ(load(find_in(folder).series.at(0)).value_at(3, 2, 0), 32 - 20) << bits;
+  }
+}
+
+TEST(OddValues, PixelsThatCannotBeReadAreNamed) {
+  struct Case {
+    const char* reason;
+    std::function<void(DcmDataset&)> edit;
+  };
+  const auto colours = [](const char* name) {
+    return [name](DcmDataset& d) { put(d, DCM_PhotometricInterpretation, name); };
+  };
+  const std::array cases{
+      Case{"colour image (PALETTE COLOR)", colours("PALETTE COLOR")},
+      Case{"colour image (YBR_FULL_422)", colours("YBR_FULL_422")},
+      Case{"12 bits in 12", [](DcmDataset& d) { put(d, DCM_BitsAllocated, 12), put(d, DCM_BitsStored, 12); }},
+      Case{"highest of them bit 3", [](DcmDataset& d) { put(d, DCM_HighBit, 3); }},
+      Case{"floating-point", [](DcmDataset& d) {
+             internal::succeed(d.findAndDeleteElement(DCM_PixelData));
+             const std::array<Float32, 24> pixels{};
+             internal::succeed(
+                 d.putAndInsertFloat32Array(DcmTag(0x7FE0, 0x0008, EVR_OF), pixels.data(), pixels.size()));
+           }}};
+  for (const Case& pixels : cases) {
+    const TestFolder folder;
+    TestImage image;
+    image.edit = pixels.edit;
+    write(image, folder / "image");
+    const Catalogue found = find_in(folder);
+    EXPECT_THAT(only_reason(found), HasSubstr(pixels.reason));
+    EXPECT_EQ(found.skipped.at(0).path, folder / "image");
+  }
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,84 @@
+#include "io/dicom/pixels.h"
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "io/dicom/dataset.h"
+#include "io/dicom/decode.h"
+#include "io/errors.h"
+
+namespace palpate::io::internal {
+namespace {
+
+void swap_bytes(std::span<std::uint16_t> values) {
+  for (auto& v : values) v = static_cast<std::uint16_t>(v << 8 | v >> 8);
+}
+
+// Brings the stored bits down to bit 0 and extends the sign.
+std::uint16_t cleaned(std::uint16_t v, int above, int unused, bool is_signed) {
+  v = static_cast<std::uint16_t>(v << above);
+  return is_signed ? static_cast<std::uint16_t>(static_cast<std::int16_t>(v) >> unused)
+                   : static_cast<std::uint16_t>(v >> unused);
+}
+
+void clean_bits(const FileHeader& header, std::span<std::uint16_t> values) {
+  const PixelFormat& format = header.format;
+  if (format.bits_stored == 16) return;
+  const int above = 15 - format.high_bit;
+  const int unused = 16 - format.bits_stored;
+  if (header.padding_is_wide()) {
+    // A word of 16 bits that means no value: without its upper bits it would be one (-32768 in 12 bits: 0).
+    for (auto& v : values) {
+      const double word = format.is_signed ? static_cast<std::int16_t>(v) : v;
+      const bool is_padding = word >= header.padding->first && word <= header.padding->second;
+      if (!is_padding) v = cleaned(v, above, unused, format.is_signed);
+    }
+  } else if (format.is_signed) {
+    for (auto& v : values) v = cleaned(v, above, unused, true);
+  } else {
+    for (auto& v : values) v = cleaned(v, above, unused, false);
+  }
+}
+
+void read_deflated(const FileHeader& header, std::uint64_t offset, std::span<std::byte> bytes) {
+  const auto source = inflated(header.path, header.start);
+  if (!source->skip(header.pixels_at + offset) || source->read(bytes) != bytes.size()) {
+    throw DicomError("truncated: its deflated pixels end early");
+  }
+}
+
+void read_uncompressed(const FileHeader& header, const InputFile& file, std::uint64_t offset,
+                       std::span<std::byte> bytes) {
+  if (header.coding == PixelCoding::deflated) {
+    read_deflated(header, offset, bytes);
+  } else {
+    file.read(header.pixels_at + offset, bytes);
+  }
+}
+
+}  // namespace
+
+PixelReader::PixelReader(const FileHeader& header) : header_(header), file_(header.path) {}
+
+void PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) const {
+  const PixelFormat& format = header_.format;
+  const std::size_t frame_bytes = format.bytes_per_frame();
+  if (header_.coding == PixelCoding::encapsulated) {
+    decode_frame(header_.transfer_syntax, format, read_fragments(file_, header_.fragments.at(frame)), values);
+  } else if (format.bits_allocated == 16) {
+    read_uncompressed(header_, file_, frame * frame_bytes, std::as_writable_bytes(values));
+    if (header_.big_endian != (std::endian::native == std::endian::big)) swap_bytes(values);
+  } else {
+    // 8-bit pixels in 16-bit words: big-endian files hold the second pixel first, and a word may straddle two frames.
+    const std::uint64_t start = frame * frame_bytes;
+    const std::uint64_t lead = header_.swapped_words ? start % 2 : 0;
+    std::vector<std::uint8_t> bytes(lead + frame_bytes + (header_.swapped_words ? (lead + frame_bytes) % 2 : 0));
+    read_uncompressed(header_, file_, start - lead, std::as_writable_bytes(std::span(bytes)));
+    for (std::size_t i = 0; header_.swapped_words && i + 1 < bytes.size(); i += 2) std::swap(bytes[i], bytes[i + 1]);
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(lead), values.size(), values.begin());
+  }
+  clean_bits(header_, values);
+}
+
+}  // namespace palpate::io::internal

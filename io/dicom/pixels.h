@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "io/dicom/file_header.h"
+#include "io/dicom/input_file.h"
+
+namespace palpate::io::internal {
+
+/// Reads frames out of one file. Keeps the file open; one thread at a time.
+class PixelReader {
+ public:
+  /// `header` has to live as long as the reader. Throws DicomError where the file cannot be opened.
+  explicit PixelReader(const FileHeader& header);
+
+  /// The stored values of a frame as the file holds it (all of a mosaic), rows * columns of them, sign extended; bits
+  /// outside BitsStored, such as overlays, are removed, but for padding that needs them. Signed ones are to be read as
+  /// int16. Throws DicomError with a reason that does not name the file.
+  void read(std::uint32_t frame, std::span<std::uint16_t> values) const;
+
+ private:
+  const FileHeader& header_;
+  InputFile file_;
+};
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,154 @@
+#include "io/dicom/planes.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcitem.h>
+#include <dcmtk/dcmdata/dcsequen.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "io/dicom/b_value.h"
+#include "io/dicom/dicom_value.h"
+#include "io/dicom/velocity.h"
+
+namespace palpate::io::internal {
+namespace {
+
+std::string label_of(std::optional<double> value) {
+  if (!value) return {};
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), *value).ptr};
+}
+
+std::string& at(Labels& labels, Label label) {
+  return labels[static_cast<std::size_t>(label)];
+}
+
+// Looks into a frame's own functional groups first, then into the shared ones.
+class FunctionalGroups {
+ public:
+  FunctionalGroups(DcmItem& own, DcmItem* shared) : own_(own), shared_(shared) {}
+
+  DcmItem* group(const DcmTagKey& sequence) const {
+    DcmItem* found = first_item(own_, sequence);
+    return found != nullptr || shared_ == nullptr ? found : first_item(*shared_, sequence);
+  }
+  std::vector<double> numbers(const DcmTagKey& sequence, const DcmTagKey& tag) const {
+    DcmItem* item = group(sequence);
+    return item != nullptr ? numbers_of(*item, tag) : std::vector<double>();
+  }
+  std::optional<double> number(const DcmTagKey& sequence, const DcmTagKey& tag) const {
+    const auto values = numbers(sequence, tag);
+    return values.empty() ? std::nullopt : std::optional(values.front());
+  }
+  std::string text(const DcmTagKey& sequence, const DcmTagKey& tag) const {
+    DcmItem* item = group(sequence);
+    return item != nullptr ? text_of(*item, tag) : std::string();
+  }
+
+ private:
+  DcmItem& own_;
+  DcmItem* shared_;
+};
+
+Labels labels_of(const FunctionalGroups& groups) {
+  Labels labels;
+  for (const DcmTagKey& sequence : {DCM_MRImageFrameTypeSequence, DCM_CTImageFrameTypeSequence}) {
+    at(labels, Label::image_type) +=
+        groups.text(sequence, DCM_FrameType) + groups.text(sequence, DCM_ComplexImageComponent);
+  }
+  at(labels, Label::echo_time) = label_of(groups.number(DCM_MREchoSequence, DCM_EffectiveEchoTime));
+  at(labels, Label::b_value) = label_of(groups.number(DCM_MRDiffusionSequence, DCM_DiffusionBValue));
+  if (DcmItem* diffusion = groups.group(DCM_MRDiffusionSequence)) {
+    if (DcmItem* direction = first_item(*diffusion, DCM_DiffusionGradientDirectionSequence)) {
+      at(labels, Label::diffusion_direction) = text_of(*direction, DCM_DiffusionGradientOrientation);
+    }
+  }
+  at(labels, Label::velocity_encoding) = groups.text(DCM_MRVelocityEncodingSequence, DCM_VelocityEncodingDirection);
+  at(labels, Label::time_point) = label_of(groups.number(DCM_FrameContentSequence, DCM_TemporalPositionIndex));
+  at(labels, Label::trigger_time) =
+      label_of(groups.number(DCM_CardiacSynchronizationSequence, DCM_NominalCardiacTriggerDelayTime));
+  return labels;
+}
+
+std::optional<Series::Window> window_of(std::optional<double> level, std::optional<double> width) {
+  const bool sound = level && width && std::isfinite(*level) && std::isfinite(*width) && *width > 0;
+  return sound ? std::optional(Series::Window{*level, *width}) : std::nullopt;
+}
+
+// What is written but is no number (a decimal comma) must not pass for an attribute that is absent.
+double rescale_number(DcmItem* item, const DcmTagKey& tag, double otherwise, FileHeader& header) {
+  if (item == nullptr) return otherwise;
+  const auto value = number_of(*item, tag);
+  if (value) return *value;
+  if (!text_of(*item, tag).empty()) header.unfit = "its rescale slope or intercept is no number";
+  return otherwise;
+}
+
+// Of the dataset, or of a frame's functional group; null where there is none.
+void read_rescale(DcmItem* item, FileHeader& header, Plane& plane) {
+  plane.slope = rescale_number(item, DCM_RescaleSlope, 1, header);
+  plane.intercept = rescale_number(item, DCM_RescaleIntercept, 0, header);
+  if (plane.slope == 0) header.unfit = "its rescale slope is 0: it says that all values are the same";
+  if (header.modality != "CT") return;
+  const bool rescaled = item != nullptr && !text_of(*item, DCM_RescaleIntercept).empty();
+  const std::string type = item != nullptr ? text_of(*item, DCM_RescaleType) : std::string();
+  header.unit = rescaled && (type.empty() || type == "HU") ? "HU" : "";
+}
+
+Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, FileHeader& header) {
+  Plane plane;
+  plane.frame = frame;
+  plane.placement = make_placement(groups.numbers(DCM_PlanePositionSequence, DCM_ImagePositionPatient),
+                                   groups.numbers(DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient),
+                                   groups.numbers(DCM_PixelMeasuresSequence, DCM_PixelSpacing));
+  read_rescale(groups.group(DCM_PixelValueTransformationSequence), header, plane);
+  plane.window = window_of(groups.number(DCM_FrameVOILUTSequence, DCM_WindowCenter),
+                           groups.number(DCM_FrameVOILUTSequence, DCM_WindowWidth));
+  plane.labels = labels_of(groups);
+  std::string& type = at(plane.labels, Label::image_type);
+  if (type.empty()) type = header.image_type;
+  plane.velocity =
+      velocity_of(groups.numbers(DCM_MRVelocityEncodingSequence, DCM_VelocityEncodingDirection),
+                  groups.number(DCM_MRVelocityEncodingSequence, DCM_VelocityEncodingMaximumValue),
+                  groups.text(DCM_PixelValueTransformationSequence, DCM_RescaleType), plane, header.format);
+  return plane;
+}
+
+}  // namespace
+
+Plane classic_plane(DcmItem& dataset, FileHeader& header) {
+  Plane plane;
+  plane.placement =
+      make_placement(numbers_of(dataset, DCM_ImagePositionPatient), numbers_of(dataset, DCM_ImageOrientationPatient),
+                     numbers_of(dataset, DCM_PixelSpacing));
+  read_rescale(&dataset, header, plane);
+  plane.window = window_of(number_of(dataset, DCM_WindowCenter), number_of(dataset, DCM_WindowWidth));
+  at(plane.labels, Label::image_type) = header.image_type;
+  at(plane.labels, Label::echo_time) = label_of(number_of(dataset, DCM_EchoTime));
+  at(plane.labels, Label::b_value) = label_of(b_value_of(dataset));
+  at(plane.labels, Label::diffusion_direction) = text_of(dataset, DCM_DiffusionGradientOrientation);
+  at(plane.labels, Label::time_point) = label_of(number_of(dataset, DCM_TemporalPositionIdentifier));
+  at(plane.labels, Label::trigger_time) = label_of(number_of(dataset, DCM_TriggerTime));
+  at(plane.labels, Label::acquisition) = label_of(number_of(dataset, DCM_AcquisitionNumber));
+  read_classic_velocity(dataset, header, plane);
+  return plane;
+}
+
+std::vector<Plane> functional_group_planes(DcmItem& dataset, FileHeader& header, std::size_t frames) {
+  std::vector<Plane> planes;
+  DcmSequenceOfItems* per_frame = nullptr;
+  if (dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, per_frame).bad()) return planes;
+  DcmItem* const shared = first_item(dataset, DCM_SharedFunctionalGroupsSequence);
+  DcmObject* object = nullptr;
+  // Not by index: that walks the list from its start for every frame.
+  while (planes.size() < frames && (object = per_frame->nextInContainer(object)) != nullptr) {
+    auto* own = dynamic_cast<DcmItem*>(object);
+    if (own == nullptr) break;
+    planes.push_back(plane_of(FunctionalGroups(*own, shared), static_cast<std::uint32_t>(planes.size()), header));
+  }
+  return planes;
+}
+
+}  // namespace palpate::io::internal

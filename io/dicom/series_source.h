@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "io/dicom/file_header.h"
+
+namespace palpate::io {
+
+struct SeriesSource {
+  struct Slice {
+    std::uint32_t file = 0;   ///< index into files
+    std::uint32_t plane = 0;  ///< index into that file's planes
+  };
+  /// One volume of the series: a time point, an echo, a b-value.
+  struct Frame {
+    std::vector<Slice> slices;  ///< ascending along direction_i x direction_j
+    std::vector<Vec3> lost;     ///< positions (mm) of slices known to exist that cannot be read
+  };
+
+  std::shared_ptr<const std::vector<internal::FileHeader>> files;  ///< shared by all series of one UID
+  std::vector<Frame> frames;
+
+  /// One direction of a velocity: a frame of the series that holds it.
+  struct Component {
+    std::shared_ptr<const SeriesSource> source;
+    std::size_t frame = 0;
+  };
+  /// By time, where this is a velocity in three directions; then it has no files and frames of its own.
+  std::vector<std::array<Component, 3>> velocities;
+
+  const internal::FileHeader& file_of(const Slice& slice) const { return (*files)[slice.file]; }
+  const internal::Plane& plane_of(const Slice& slice) const { return file_of(slice).planes[slice.plane]; }
+};
+
+}  // namespace palpate::io

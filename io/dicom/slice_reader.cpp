@@ -1,0 +1,118 @@
+#include "io/dicom/slice_reader.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <type_traits>
+
+#include "io/dicom/pixels.h"
+
+namespace palpate::io::internal {
+namespace {
+
+void rescale(const FileHeader& file, const Reading::Rescale& by, std::span<const std::uint16_t> stored,
+             std::span<float> values) {
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    const double v = file.format.is_signed ? static_cast<std::int16_t>(stored[i]) : stored[i];
+    const bool padded = file.padding && v >= file.padding->first && v <= file.padding->second;
+    values[i] = padded ? float_padding : static_cast<float>(by.slope * v + by.intercept);
+  }
+}
+
+// Stored values of a slice -> its place in the volume, rescaled where the volume is of floats.
+void place_slice(const Reading& reading, const SeriesSource::Slice& slice, std::span<const std::uint16_t> frame,
+                 std::size_t at, Volume::Voxels& voxels) {
+  const FileHeader& file = reading.source.file_of(slice);
+  const Plane& plane = reading.source.plane_of(slice);
+  const auto columns = static_cast<std::size_t>(file.columns);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(file.rows); ++row) {
+    const auto stored = frame.subspan(
+        (plane.tile_row + row) * static_cast<std::size_t>(file.format.columns) + plane.tile_column, columns);
+    std::visit(
+        [&](auto& v) {
+          const auto target = std::span(v).subspan(at + row * columns, columns);
+          if constexpr (std::is_same_v<std::decay_t<decltype(v[0])>, float>) {
+            rescale(file, reading.rescale_of(slice), stored, target);
+          } else {
+            std::memcpy(target.data(), stored.data(), target.size_bytes());
+          }
+        },
+        voxels);
+  }
+}
+
+// Where a whole frame is one slice of 16-bit voxels, it is decoded in place.
+std::span<std::uint16_t> in_place(const FileHeader& file, std::size_t at, Volume::Voxels& voxels) {
+  if (file.columns != file.format.columns || file.rows != file.format.rows) return {};
+  return std::visit(
+      [&](auto& v) -> std::span<std::uint16_t> {
+        if constexpr (sizeof(v[0]) != 2) return {};
+        const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
+        return {reinterpret_cast<std::uint16_t*>(v.data() + at), size};  // signed and unsigned shorts may alias
+      },
+      voxels);
+}
+
+}  // namespace
+
+Reading::Rescale Reading::rescale_of(const SeriesSource::Slice& slice) const {
+  const Plane& plane = source.plane_of(slice);
+  if (as_velocity) return {plane.velocity->slope, plane.velocity->intercept};
+  return {plane.slope, plane.intercept};
+}
+
+std::vector<SliceUnit> slice_units(const Reading& reading) {
+  constexpr std::size_t most = 16;
+  const SeriesSource& source = reading.source;
+  const Slices& slices = reading.frame.slices;
+  std::vector<std::size_t> order(slices.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(slices[a].file, slices[a].plane) < std::tuple(slices[b].file, slices[b].plane);
+  });
+  std::vector<SliceUnit> units;
+  for (const std::size_t k : order) {
+    const bool same_file = !units.empty() && slices[units.back().front()].file == slices[k].file;
+    const bool same_frame =
+        same_file && source.plane_of(slices[units.back().back()]).frame == source.plane_of(slices[k]).frame;
+    if (!same_frame && !(same_file && units.back().size() < most)) units.emplace_back();
+    units.back().push_back(k);
+  }
+  return units;
+}
+
+void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& voxels,
+               const std::function<void(std::size_t, const char*)>& failed) {
+  const SeriesSource& source = reading.source;
+  const Slices& slices = reading.frame.slices;
+  const FileHeader& file = source.file_of(slices[unit.front()]);
+  const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
+  std::optional<PixelReader> reader;
+  std::vector<std::uint16_t> frame;
+  std::optional<std::uint32_t> held;
+  for (const std::size_t k : unit) {
+    try {
+      if (!reader) reader.emplace(file);
+      const std::uint32_t wanted = source.plane_of(slices[k]).frame;
+      if (const auto target = in_place(file, k * size, voxels); !target.empty()) {
+        reader->read(wanted, target);
+        continue;
+      }
+      if (held != wanted) {
+        held.reset();
+        frame.resize(static_cast<std::size_t>(file.format.columns) * static_cast<std::size_t>(file.format.rows));
+        reader->read(wanted, frame);
+        held = wanted;
+      }
+      place_slice(reading, slices[k], frame, k * size, voxels);
+    } catch (const std::exception& error) {
+      failed(k, error.what());
+    }
+  }
+}
+
+}  // namespace palpate::io::internal

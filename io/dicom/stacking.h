@@ -1,0 +1,28 @@
+#pragma once
+
+/// Slices in order and the geometry that follows from their positions alone.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/dicom/file_header.h"
+
+namespace palpate::io::internal {
+
+/// How far an image lies along direction_i x direction_j of `reference`, mm.
+double height_of(const Vec3& position, const Placement& reference);
+
+/// Geometry of parallel slices. `positions` ascend along the normal; `lost` are positions where a slice is known to
+/// exist that cannot be read. `thickness` (mm) is the step of a single slice.
+///
+/// Uniform where every step is within 2 % of the mean one. A gap is an interval that holds a lost position, or is more
+/// than 1.5 times the median one without being part of an evenly spaced run of three or more such intervals, which is
+/// how a protocol with two slice distances looks.
+Geometry stack_geometry(int columns, int rows, const Placement& reference, std::vector<Vec3> positions,
+                        std::span<const Vec3> lost, double thickness);
+
+/// What a user should know of it: missing slices with their place, uneven steps. One sentence each; may be empty.
+std::vector<std::string> geometry_warnings(const Geometry& geometry);
+
+}  // namespace palpate::io::internal

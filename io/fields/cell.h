@@ -1,0 +1,28 @@
+#pragma once
+
+/// The voxels around a point and their trilinear weights.
+
+#include "io/volume.h"
+
+namespace palpate::io::internal {
+
+struct Cell {
+  glm::ivec3 first{0};  ///< lowest corner
+  glm::ivec3 size{0};   ///< corners along each axis: 2, or 1 in a volume of one voxel there
+  Vec3 fraction{0};     ///< 0 ... 1 from the lowest corner to the next
+
+  /// Weight of the corner first + (i, j, k); those of all corners add up to 1.
+  double weight(int i, int j, int k) const noexcept {
+    return (i != 0 ? fraction.x : 1 - fraction.x) * (j != 0 ? fraction.y : 1 - fraction.y) *
+           (k != 0 ? fraction.z : 1 - fraction.z);
+  }
+};
+
+/// The cell that holds a continuous index; false where nothing can be sampled: beyond the hull of the voxel centres,
+/// between slices where some are missing, beside padding that would have a weight.
+bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept;
+
+/// The rescaled value there.
+double trilinear_value(const Volume& volume, const Cell& cell) noexcept;
+
+}  // namespace palpate::io::internal

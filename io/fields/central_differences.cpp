@@ -1,0 +1,211 @@
+#include "io/fields/central_differences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <type_traits>
+
+#include "io/for_processor.h"
+
+namespace palpate::io::internal {
+namespace {
+
+using Weights = CentralDifferences::Weights;
+using Sides = CentralDifferences::Sides;
+
+struct Differences {
+  float i = 0, j = 0, up = 0, down = 0;
+};
+
+[[gnu::always_inline]] inline float combined(const Weights& weights, const Differences& d, int axis) {
+  return ((weights.along_i[axis] * d.i + weights.along_j[axis] * d.j) +
+          (weights.up[axis] * d.up + weights.down[axis] * d.down)) +
+         0.0F;
+}
+
+/// Rows around the one in hand, at its first voxel; where there is none, the row itself.
+template <typename Stored>
+struct Rows {
+  const Stored* middle;
+  const Stored* before;
+  const Stored* after;
+  float share_j;  ///< of the difference between them: a half, or all where one is the row itself
+  const Stored* up;
+  const Stored* down;
+};
+
+/// `count` voxels that have both neighbours along i.
+template <typename Stored>
+[[gnu::always_inline]] inline void difference_row(const Rows<Stored>& rows, const Weights& weights, int count,
+                                                  glm::vec3* gradients) {
+  const Stored* __restrict const middle = rows.middle;
+  const Stored* __restrict const before = rows.before;
+  const Stored* __restrict const after = rows.after;
+  const Stored* __restrict const up = rows.up;
+  const Stored* __restrict const down = rows.down;
+  const Weights w = weights;
+  const float share_j = rows.share_j;
+  float* __restrict const out = &gradients->x;
+  PALPATE_INDEPENDENT
+  for (std::ptrdiff_t n = 0; n < count; ++n) {
+    const auto here = static_cast<float>(middle[n]);
+    const Differences d{0.5F * (static_cast<float>(middle[n + 1]) - static_cast<float>(middle[n - 1])),
+                        share_j * (static_cast<float>(after[n]) - static_cast<float>(before[n])),
+                        static_cast<float>(up[n]) - here, here - static_cast<float>(down[n])};
+    out[3 * n] = combined(w, d, 0);
+    out[3 * n + 1] = combined(w, d, 1);
+    out[3 * n + 2] = combined(w, d, 2);
+  }
+}
+
+PALPATE_FOR_PROCESSOR
+void run_row(const Rows<std::int16_t>& rows, const Weights& weights, int count, glm::vec3* gradients) {
+  difference_row(rows, weights, count, gradients);
+}
+PALPATE_FOR_PROCESSOR
+void run_row(const Rows<std::uint16_t>& rows, const Weights& weights, int count, glm::vec3* gradients) {
+  difference_row(rows, weights, count, gradients);
+}
+PALPATE_FOR_PROCESSOR
+void run_row(const Rows<float>& rows, const Weights& weights, int count, glm::vec3* gradients) {
+  difference_row(rows, weights, count, gradients);
+}
+
+/// One voxel with whatever neighbours it has.
+template <typename Stored>
+class AtVoxel {
+ public:
+  AtVoxel(const Volume& volume, const std::vector<Stored>& voxels) : volume_(volume), voxels_(voxels.data()) {}
+
+  glm::vec3 operator()(const glm::ivec3& v, Sides slices, const std::array<Weights, 4>& weights) const noexcept {
+    if (is_padding(v)) {
+      return glm::vec3(0);
+    }
+    const bool has_above = (slices & CentralDifferences::above) != 0 && !is_padding(v + glm::ivec3(0, 0, 1));
+    const bool has_below = (slices & CentralDifferences::below) != 0 && !is_padding(v - glm::ivec3(0, 0, 1));
+    const float here = at(v);
+    const Differences d{in_plane(v, 0), in_plane(v, 1), has_above ? at(v + glm::ivec3(0, 0, 1)) - here : 0,
+                        has_below ? here - at(v - glm::ivec3(0, 0, 1)) : 0};
+    const Weights& w = weights[(has_above ? 1U : 0U) + (has_below ? 2U : 0U)];
+    return {combined(w, d, 0), combined(w, d, 1), combined(w, d, 2)};
+  }
+  bool holds_padding(const glm::ivec3& first, int count) const noexcept {
+    const Stored* const row = voxels_ + volume_.offset(first.x, first.y, first.z);
+    return std::any_of(row, row + count, [this](Stored stored) { return is_padding(stored); });
+  }
+
+ private:
+  float at(const glm::ivec3& v) const noexcept { return static_cast<float>(voxels_[volume_.offset(v.x, v.y, v.z)]); }
+  bool is_padding(Stored stored) const noexcept {
+    if constexpr (std::is_floating_point_v<Stored>) {
+      if (!std::isfinite(stored)) return true;
+    }
+    return volume_.padding && stored >= volume_.padding->first && stored <= volume_.padding->second;
+  }
+  bool is_padding(const glm::ivec3& v) const noexcept { return is_padding(voxels_[volume_.offset(v.x, v.y, v.z)]); }
+
+  float in_plane(const glm::ivec3& v, int axis) const noexcept {
+    glm::ivec3 before = v;
+    glm::ivec3 after = v;
+    --before[axis];
+    ++after[axis];
+    const bool has_before = v[axis] > 0 && !is_padding(before);
+    const bool has_after = v[axis] + 1 < volume_.geometry.dimensions[axis] && !is_padding(after);
+    const float share = has_before && has_after ? 0.5F : 1.0F;
+    return share * (at(has_after ? after : v) - at(has_before ? before : v));
+  }
+
+  const Volume& volume_;
+  const Stored* voxels_;
+};
+
+/// Weights of the slices on both sides, where they are counted.
+Weights weights_of(const glm::dmat3& basis, const Vec3& up, const Vec3& down, Sides sides, double slope) {
+  const glm::dmat3 inverse = glm::inverse(basis);
+  const glm::dmat3 dual = glm::transpose(inverse);
+  const Vec3 u = inverse * up;  // steps along i and j, mm along the normal
+  const Vec3 d = inverse * down;
+  const bool has_up = (sides & CentralDifferences::above) != 0;
+  const bool has_down = (sides & CentralDifferences::below) != 0;
+  const double share_up = !has_up ? 0 : has_down ? d.z / (u.z + d.z) : 1;
+  const double share_down = has_down ? 1 - share_up : 0;
+  const double per_up = has_up ? share_up / u.z : 0;
+  const double per_down = has_down ? share_down / d.z : 0;
+  const Vec3 along_i = dual[0] - dual[2] * (per_up * u.x + per_down * d.x);
+  const Vec3 along_j = dual[1] - dual[2] * (per_up * u.y + per_down * d.y);
+  return {glm::vec3(slope * along_i), glm::vec3(slope * along_j), glm::vec3(slope * per_up * dual[2]),
+          glm::vec3(slope * per_down * dual[2])};
+}
+
+}  // namespace
+
+CentralDifferences::CentralDifferences(const Geometry& g, double slope) {
+  const glm::dmat3 basis(g.spacing_i * g.direction_i, g.spacing_j * g.direction_j,
+                         glm::normalize(glm::cross(g.direction_i, g.direction_j)));
+  const auto is_gap = [&](int k) { return std::binary_search(g.gaps.begin(), g.gaps.end(), k); };
+  for (int k = 0; k < g.dimensions.z; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const bool has_above = k + 1 < g.dimensions.z && !is_gap(k);
+    const bool has_below = k > 0 && !is_gap(k - 1);
+    // The same bits all through an even volume.
+    const Vec3 up = g.uniform || !has_above ? g.step : g.slice_positions[at + 1] - g.slice_positions[at];
+    const Vec3 down = g.uniform || !has_below ? g.step : g.slice_positions[at] - g.slice_positions[at - 1];
+    std::array<Weights, 4> weights;
+    for (unsigned sides = neither; sides <= both; ++sides) {
+      weights[sides] = weights_of(basis, up, down, static_cast<Sides>(sides), slope);
+    }
+    of_slice_.push_back(weights);
+    sides_.push_back(static_cast<Sides>((has_above ? 1U : 0U) + (has_below ? 2U : 0U)));
+  }
+}
+
+template <typename Stored>
+void CentralDifferences::run(const Volume& volume, const std::vector<Stored>& voxels, const Block& block,
+                             const GradientTarget& target) const noexcept {
+  const AtVoxel<Stored> at_voxel(volume, voxels);
+  const glm::ivec3 size = volume.geometry.dimensions;
+  const bool may_be_padding = std::is_floating_point_v<Stored> || volume.padding;
+  const int first = std::clamp(1 - block.first.x, 0, block.size.x);
+  const int last = std::clamp(size.x - 1 - block.first.x, first, block.size.x);
+  for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
+    const Sides sides = sides_[static_cast<std::size_t>(k)];
+    const auto& weights = of_slice_[static_cast<std::size_t>(k)];
+    const int above_k = k + ((sides & above) != 0 ? 1 : 0);
+    const int below_k = k - ((sides & below) != 0 ? 1 : 0);
+    for (int j = block.first.y; j < block.first.y + block.size.y; ++j) {
+      glm::vec3* const out = target.first + (k - block.first.z) * target.slice + (j - block.first.y) * target.row;
+      const int before = std::max(j - 1, 0);
+      const int after = std::min(j + 1, size.y - 1);
+      int plain_first = first;
+      int plain_last = last;
+      if (may_be_padding && first < last) {
+        const glm::ivec3 from(block.first.x + first, j, k);
+        const int count = last - first;
+        const bool any =
+            at_voxel.holds_padding(from - glm::ivec3(1, 0, 0), count + 2) ||
+            at_voxel.holds_padding({from.x, before, k}, count) || at_voxel.holds_padding({from.x, after, k}, count) ||
+            at_voxel.holds_padding({from.x, j, above_k}, count) || at_voxel.holds_padding({from.x, j, below_k}, count);
+        plain_last = any ? first : last;
+      }
+      for (int i = 0; i < block.size.x; ++i) {
+        if (i == plain_first && plain_first < plain_last) {
+          const auto row = [&](int y, int z) { return voxels.data() + volume.offset(block.first.x + i, y, z); };
+          const float share_j = before < j && j < after ? 0.5F : 1.0F;
+          run_row(Rows<Stored>{row(j, k), row(before, k), row(after, k), share_j, row(j, above_k), row(j, below_k)},
+                  weights[sides], plain_last - plain_first, out + i);
+          i = plain_last - 1;
+        } else {
+          out[i] = at_voxel({block.first.x + i, j, k}, sides, weights);
+        }
+      }
+    }
+  }
+}
+
+void CentralDifferences::at_block(const Volume& volume, const Block& block,
+                                  const GradientTarget& target) const noexcept {
+  std::visit([&](const auto& voxels) { run(volume, voxels, block, target); }, volume.voxels);
+}
+
+}  // namespace palpate::io::internal

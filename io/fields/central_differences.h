@@ -1,0 +1,44 @@
+#pragma once
+
+/// Differences between the six neighbours of a voxel, in patient space: the sharpest gradient that a scan has, and the
+/// noisiest.
+
+#include <array>
+#include <vector>
+
+#include "io/fields/gradient.h"
+#include "io/fields/straight_block.h"
+#include "io/volume.h"
+
+namespace palpate::io::internal {
+
+/// Exact on linear fields whatever the grid: a tilted slice's neighbours are displaced, and of two at different
+/// distances the nearer counts for more (the parabola through the three). One-sided at the edge, beside padding and
+/// beside missing slices; 0 along an axis without neighbours, and in padding.
+class CentralDifferences {
+ public:
+  CentralDifferences() = default;
+  /// slope: of the volume's rescale.
+  CentralDifferences(const Geometry& geometry, double slope);
+
+  void at_block(const Volume& volume, const Block& block, const GradientTarget& target) const noexcept;
+
+  /// What differences count for: per step along i and j, and from slice to slice.
+  struct Weights {
+    glm::vec3 along_i{0};
+    glm::vec3 along_j{0};
+    glm::vec3 up{0};
+    glm::vec3 down{0};
+  };
+  enum Sides : unsigned { neither = 0, above = 1, below = 2, both = 3 };
+
+ private:
+  template <typename Stored>
+  void run(const Volume& volume, const std::vector<Stored>& voxels, const Block& block,
+           const GradientTarget& target) const noexcept;
+
+  std::vector<std::array<Weights, 4>> of_slice_;  ///< by Sides
+  std::vector<Sides> sides_;                      ///< where there is a neighbouring slice to compare with
+};
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,39 @@
+#pragma once
+
+/// Value and gradient from one stencil of 64 voxels: a cubic spline whose coefficients are the voxels themselves.
+///
+/// Along an axis of the grid it is between the B-spline, which blurs by a standard deviation of 0.58 voxels, and
+/// Catmull and Rom's spline, which passes through the voxels and does not blur. The B-spline's part is 1 along the axis
+/// with the finest voxels, and along others such that the blur is as wide there in mm: thick slices, whose blur would
+/// shift a curved boundary, are not blurred further. All are exact on linear fields, curve smoothly, and have the
+/// gradient of the very value that they give. Source: D. P. Mitchell and A. N. Netravali, "Reconstruction filters in
+/// computer graphics", SIGGRAPH 1988: the kernels with B + 2 C = 1, whose variance is B / 3 voxels squared.
+
+#include <glm/vec3.hpp>
+
+#include "io/volume.h"
+
+namespace palpate::io {
+
+namespace internal {
+struct Cell;
+}
+
+struct ValueAndGradient {
+  double value = 0;  ///< in the volume's unit
+  Vec3 gradient{0};  ///< per mm, patient axes
+};
+
+/// The B-spline's part (B) along each axis of a grid.
+Vec3 b_spline_part(const Geometry& geometry) noexcept;
+
+/// In a cell of the volume's (internal/cell.h); part: what b_spline_part() says of its geometry. What the stencil lacks
+/// (beyond the edge, in padding, behind missing slices) is continued straight from what there is, so linear fields stay
+/// exact to the edge; between uneven slices, too, and there the gradient is that of the value to first order. Where all
+/// 64 voxels are alike the value is theirs, to the last bit. In the tick.
+ValueAndGradient cubic_spline(const Volume& volume, const internal::Cell& cell, const Vec3& part) noexcept;
+
+/// The same value, without its gradient. In the tick.
+double cubic_spline_value(const Volume& volume, const internal::Cell& cell, const Vec3& part) noexcept;
+
+}  // namespace palpate::io

@@ -1,0 +1,90 @@
+#pragma once
+
+/// The gradient of a scan at a scale: derivative of Gaussian, in patient space (LPS), per mm.
+///
+/// At a voxel it is the slope of the plane that fits the voxels around best, each weighted by a Gaussian of its
+/// distance in mm (cut off at 3.2 sigma along each axis). On a complete neighbourhood that is the derivative of
+/// Gaussian; at the edge of the volume, beside padding and between uneven or tilted slices it stays exact on linear
+/// fields, and what lies outside has no say: there is no boundary where the data ends. Source: Knutsson and Westin,
+/// "Normalized and differential convolution", CVPR 1993.
+///
+/// Or, sharper and noisier: central differences between neighbouring voxels.
+///
+/// One kernel serves the whole volume, a brick and a single sample, and gives the same bits in all three: every sum is
+/// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
+/// they round differently in their vectorised part, in a row's tail and from one processor to the next.
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "io/progress.h"
+#include "io/volume.h"
+
+namespace palpate::io {
+
+/// max(1.5 mm, 2 in-plane voxels, 0.6 slice spacing): mm.
+double default_gradient_scale_mm(const Geometry& geometry) noexcept;
+
+/// A box of voxels.
+struct Block {
+  glm::ivec3 first{0};
+  glm::ivec3 size{0};
+
+  std::size_t voxels() const noexcept {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+  }
+};
+
+/// Reads the volume; keeps little more than the weights of its own. Immutable, so any number of threads may use it.
+class GradientKernel {
+ public:
+  struct CentralDifferences {};
+  /// Throws std::invalid_argument for no volume, and for a scale that is not above 0 or reaches over more than 64
+  /// voxels.
+  GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm);
+  /// Central differences. Throws std::invalid_argument for no volume.
+  GradientKernel(std::shared_ptr<const Volume> volume, CentralDifferences);
+  ~GradientKernel();
+  GradientKernel(const GradientKernel&) = delete;
+  GradientKernel& operator=(const GradientKernel&) = delete;
+
+  /// Of the Gaussian; of central differences, half the distance that they span at the most.
+  double scale_mm() const noexcept;
+  /// Voxels that the kernel reaches over on each side of the one it is centred on.
+  glm::ivec3 radius() const noexcept;
+
+  /// The eight voxels of a cell or fewer: writes size.x * size.y * size.z gradients, i fastest. May be called in the
+  /// tick. At most 2 voxels along each axis, all of them within the volume.
+  void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
+  /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel in patient space, per mm^2, without the rescale slope's
+  /// sign and size; not-a-number where the neighbourhood is not complete: second derivatives of what is not there would
+  /// be guesses.
+  using Hessian = std::array<float, 6>;
+  /// Those of the same Gaussian at a cell's voxels; none of central differences. May be called in the tick.
+  void hessians_at_cell(const Block& cell, std::span<Hessian> hessians) const noexcept;
+  /// The same of any block; allocates.
+  void hessians_at_block(const Block& block, std::span<Hessian> hessians) const;
+  /// Any block within the volume; allocates.
+  void at_block(const Block& block, std::span<glm::vec3> gradients) const;
+  /// The whole volume piece by piece, on `threads` threads (0: all cores) and in no order: `use` gets every voxel once
+  /// and may be called by several threads at a time. Throws Cancelled, and what `use` throws.
+  void for_each_block(const std::function<void(const Block&, std::span<const glm::vec3>)>& use,
+                      const Progress& progress = {}, int threads = 0) const;
+  /// The whole volume's gradients: 12 bytes a voxel. Throws Cancelled.
+  std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
+  /// The same into memory of the caller's: one for each voxel, i fastest. Fresh memory is best left untouched: it is
+  /// asked for in large pages and first touched on all threads.
+  void whole_into(std::span<glm::vec3> gradients, const Progress& progress = {}, int threads = 0) const;
+
+ private:
+  struct Weights;
+  std::unique_ptr<const Weights> weights_;
+};
+
+}  // namespace palpate::io

@@ -1,0 +1,98 @@
+#include "io/fields/histogram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+#include "io/fields/low_high.h"
+
+namespace palpate::io {
+namespace {
+
+void check(const Bins& bins, const char* what) {
+  if (bins.count < 1 || !(bins.high > bins.low)) {
+    throw std::invalid_argument(std::string("histogram: the bins of the ") + what + " are empty");
+  }
+}
+
+}  // namespace
+
+int Bins::bin_of(double value) const noexcept {
+  const double at = (value - low) / width();
+  return at > 0 ? static_cast<int>(std::min(at, count - 1.0)) : 0;
+}
+
+JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
+                               const Bins& magnitudes, const Progress& progress, int threads) {
+  check(values, "values");
+  check(magnitudes, "gradient magnitudes");
+  JointHistogram all{values, magnitudes, {}, 0};
+  all.counts.resize(static_cast<std::size_t>(values.count) * static_cast<std::size_t>(magnitudes.count));
+  std::mutex adding;
+  const auto count_block = [&](const Block& block, std::span<const glm::vec3> gradients) {
+    std::vector<std::uint32_t> counts(all.counts.size());
+    std::uint64_t voxels = 0;
+    auto gradient = gradients.begin();
+    for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
+      for (int j = block.first.y; j < block.first.y + block.size.y; ++j) {
+        for (int i = block.first.x; i < block.first.x + block.size.x; ++i, ++gradient) {
+          const double value = volume.value_at(i, j, k);
+          if (volume.is_padding(i, j, k) || !std::isfinite(value)) {
+            continue;
+          }
+          const auto column = static_cast<std::size_t>(values.bin_of(value));
+          const auto row = static_cast<std::size_t>(magnitudes.bin_of(static_cast<double>(glm::length(*gradient))));
+          ++counts[row * static_cast<std::size_t>(values.count) + column];
+          ++voxels;
+        }
+      }
+    }
+    const std::scoped_lock lock(adding);
+    std::transform(counts.begin(), counts.end(), all.counts.begin(), all.counts.begin(),
+                   [](std::uint32_t a, std::uint64_t b) { return a + b; });
+    all.voxels += voxels;
+  };
+  kernel.for_each_block(count_block, progress, threads);
+  return all;
+}
+
+LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
+                                    double least_magnitude, const Progress& progress, int threads) {
+  check(values, "values");
+  constexpr std::uint64_t enough_voxels = 4'000'000;  // far more than the bins can show
+  const std::uint64_t stride = 1 + volume.offset(0, 0, volume.geometry.dimensions.z) / enough_voxels;
+  LowHighHistogram all{values, {}, 0};
+  all.counts.resize(static_cast<std::size_t>(values.count) * static_cast<std::size_t>(values.count));
+  std::mutex adding;
+  const auto count_block = [&](const Block& block, std::span<const glm::vec3> gradients) {
+    std::vector<std::size_t> found;
+    auto gradient = gradients.begin();
+    for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
+      for (int j = block.first.y; j < block.first.y + block.size.y; ++j) {
+        for (int i = block.first.x; i < block.first.x + block.size.x; ++i, ++gradient) {
+          // Hashed: an even stride would fall into step with the rows.
+          const std::uint64_t hash = (volume.offset(i, j, k) * 0x9E3779B97F4A7C15U) >> 32U;
+          if (hash % stride != 0 || !(static_cast<double>(glm::length(*gradient)) > least_magnitude) ||
+              volume.is_padding(i, j, k)) {
+            continue;
+          }
+          const LowHigh sides = low_high_at(volume, {i, j, k}, Vec3(*gradient), kernel.scale_mm());
+          found.push_back(static_cast<std::size_t>(values.bin_of(sides.high)) * static_cast<std::size_t>(values.count) +
+                          static_cast<std::size_t>(values.bin_of(sides.low)));
+        }
+      }
+    }
+    const std::scoped_lock lock(adding);
+    for (const std::size_t bin : found) {
+      ++all.counts[bin];
+    }
+    all.voxels += found.size();
+  };
+  kernel.for_each_block(count_block, progress, threads);
+  return all;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,61 @@
+#pragma once
+
+/// What a scan is made of: how often each value occurs together with each gradient magnitude. Tissues are the bright
+/// spots at low magnitude, boundaries the arches between two of them. Source: Kindlmann and Durkin, "Semi-automatic
+/// generation of transfer functions for direct volume rendering", 1998.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "io/fields/gradient.h"
+
+namespace palpate::io {
+
+/// Evenly wide bins over [low, high]; what lies outside counts in the first or last bin.
+struct Bins {
+  double low = 0;
+  double high = 1;
+  int count = 1;
+
+  double width() const noexcept { return (high - low) / count; }
+  double middle(int bin) const noexcept { return low + (bin + 0.5) * width(); }
+  int bin_of(double value) const noexcept;
+};
+
+struct JointHistogram {
+  Bins values;                        ///< in the volume's unit
+  Bins magnitudes;                    ///< of the gradient, per mm
+  std::vector<std::uint64_t> counts;  ///< value bins fastest
+  std::uint64_t voxels = 0;           ///< that were counted: all but padding
+
+  std::uint64_t at(int value_bin, int magnitude_bin) const noexcept {
+    return counts[static_cast<std::size_t>(magnitude_bin) * static_cast<std::size_t>(values.count) +
+                  static_cast<std::size_t>(value_bin)];
+  }
+};
+
+/// Counts every voxel, block by block: no gradient of the whole volume is kept. `threads` 0: all cores; the counts do
+/// not depend on them. Throws std::invalid_argument for bins that are none, Cancelled.
+JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
+                               const Bins& magnitudes, const Progress& progress = {}, int threads = 0);
+
+/// Which pairs of values boundaries lie between: how often each low occurs together with each high (low_high.h).
+struct LowHighHistogram {
+  Bins values;                        ///< of low and of high, in the volume's unit
+  std::vector<std::uint64_t> counts;  ///< low bins fastest
+  std::uint64_t voxels = 0;           ///< that were counted
+
+  std::uint64_t at(int low_bin, int high_bin) const noexcept {
+    return counts[static_cast<std::size_t>(high_bin) * static_cast<std::size_t>(values.count) +
+                  static_cast<std::size_t>(low_bin)];
+  }
+};
+
+/// Counts the voxels whose gradient's magnitude is above the least (per mm), but for padding; of a volume of more than
+/// some millions of voxels, evenly spread ones. `threads` 0: all cores; the counts do not depend on them. Throws
+/// std::invalid_argument for bins that are none, Cancelled.
+LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
+                                    double least_magnitude, const Progress& progress = {}, int threads = 0);
+
+}  // namespace palpate::io

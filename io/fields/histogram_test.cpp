@@ -1,0 +1,80 @@
+#include "io/fields/histogram.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <stdexcept>
+
+#include "testdata/scan.h"
+
+namespace palpate::io {
+namespace {
+
+const Bins values{-1100, 1100, 44};
+const Bins magnitudes{0, 300, 30};
+
+std::shared_ptr<const Volume> sphere(double circle) {
+  testdata::Grid grid;
+  grid.size = {50, 46, 40};
+  return std::make_shared<const Volume>(
+      testdata::scan(testdata::make_sphere(12), testdata::make_geometry(grid), {.circle_radius = circle}));
+}
+
+TEST(JointHistogram, CountsEachVoxelOfTheWholeGradientOnce) {
+  const auto volume = sphere(21);
+  const GradientKernel kernel(volume, 2);
+  const JointHistogram histogram = joint_histogram(*volume, kernel, values, magnitudes);
+  const auto gradients = kernel.whole();
+  std::vector<std::uint64_t> counts(std::size_t{44} * 30);
+  std::uint64_t voxels = 0;
+  for (int k = 0; k < 40; ++k) {
+    for (int j = 0; j < 46; ++j) {
+      for (int i = 0; i < 50; ++i) {
+        if (volume->is_padding(i, j, k)) continue;
+        const auto magnitude = static_cast<double>(glm::length(gradients[volume->offset(i, j, k)]));
+        ++counts[static_cast<std::size_t>(magnitude / 10) * 44 +
+                 static_cast<std::size_t>((volume->value_at(i, j, k) + 1100) / 50)];
+        ++voxels;
+      }
+    }
+  }
+  EXPECT_EQ(histogram.counts, counts);
+  EXPECT_EQ(histogram.voxels, voxels);
+  EXPECT_LT(voxels, 50U * 46 * 40);
+  EXPECT_EQ(joint_histogram(*volume, kernel, values, magnitudes, {}, 1).counts, counts);
+}
+
+TEST(JointHistogram, OfASphereIsTwoTissuesAndAnArch) {
+  const auto volume = sphere(0);
+  const GradientKernel kernel(volume, 2);
+  const JointHistogram h = joint_histogram(*volume, kernel, values, magnitudes);
+  EXPECT_GT(h.at(values.bin_of(-1000), 0), h.voxels / 2);
+  EXPECT_GT(h.at(values.bin_of(40), 0), 1000U);
+  // The steepest voxels, 1040 HU / (2 mm sqrt(2 pi)) = 207 HU/mm, have values between the two.
+  std::uint64_t between = 0;
+  for (int v = values.bin_of(-900); v <= values.bin_of(-60); ++v) {
+    for (int m = magnitudes.bin_of(150); m < magnitudes.count; ++m) between += h.at(v, m);
+  }
+  EXPECT_GT(between, 500U);
+  for (int m = magnitudes.bin_of(230); m < magnitudes.count; ++m) {
+    for (int v = 0; v < values.count; ++v) EXPECT_EQ(h.at(v, m), 0U);
+  }
+}
+
+TEST(JointHistogram, RefusesBinsThatAreNone) {
+  const auto volume = sphere(0);
+  const GradientKernel kernel(volume, 2);
+  EXPECT_THROW(joint_histogram(*volume, kernel, {0, 0, 4}, magnitudes), std::invalid_argument);
+  EXPECT_THROW(joint_histogram(*volume, kernel, values, {0, 1, 0}), std::invalid_argument);
+}
+
+TEST(Bins, CountWhatLiesOutsideInTheOutermost) {
+  EXPECT_EQ(values.bin_of(-5000), 0);
+  EXPECT_EQ(values.bin_of(5000), 43);
+  EXPECT_EQ(values.bin_of(1100), 43);
+  for (int bin = 0; bin < values.count; ++bin) EXPECT_EQ(values.bin_of(values.middle(bin)), bin);
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,70 @@
+#pragma once
+
+/// A volume's rows as the gradient's kernel wants them.
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "io/fields/straight_filters.h"
+#include "io/volume.h"
+
+namespace palpate::io::internal {
+
+/// Reads rows of a volume as stored values, or as 1 where there is a value: 0 beyond the volume and in padding.
+template <typename Stored>
+class RowReader {
+ public:
+  RowReader(const Volume& volume, const std::vector<Stored>& voxels, bool mask)
+      : volume_(volume), voxels_(voxels.data()), mask_(mask) {}
+
+  void operator()(int slice, int j, int i, int count, float* row) const noexcept {
+    const glm::ivec3 size = volume_.geometry.dimensions;
+    const int first = std::clamp(-i, 0, count);
+    const int last = j < 0 || j >= size.y ? first : std::clamp(size.x - i, first, count);
+    std::fill(row, row + first, 0.0F);
+    if (first < last) {
+      copy(voxels_ + volume_.offset(i + first, j, slice), last - first, row + first);
+    }
+    std::fill(row + last, row + count, 0.0F);
+    complete_ = complete_ && last - first == count;
+  }
+  /// Whether everything read so far was inside and no padding.
+  bool complete() const noexcept { return complete_; }
+  bool met_padding() const noexcept { return met_padding_; }
+
+ private:
+  void copy(const Stored* stored, int count, float* row) const noexcept {
+    if constexpr (std::is_integral_v<Stored>) {
+      if (!volume_.padding) {
+        mask_ ? std::fill(row, row + count, 1.0F) : to_floats(stored, count, row);
+        return;
+      }
+    }
+    bool any_padding = false;
+    for (int n = 0; n < count; ++n) {
+      const bool padding = is_padding(stored[n]);
+      any_padding = any_padding || padding;
+      row[n] = padding ? 0.0F : mask_ ? 1.0F : static_cast<float>(stored[n]);
+    }
+    met_padding_ = met_padding_ || any_padding;
+    complete_ = complete_ && !any_padding;
+  }
+  bool is_padding(Stored stored) const noexcept {
+    if constexpr (std::is_floating_point_v<Stored>) {
+      if (!std::isfinite(stored)) {
+        return true;
+      }
+    }
+    return volume_.padding && stored >= volume_.padding->first && stored <= volume_.padding->second;
+  }
+
+  const Volume& volume_;
+  const Stored* voxels_;
+  bool mask_;
+  mutable bool complete_ = true;
+  mutable bool met_padding_ = false;
+};
+
+}  // namespace palpate::io::internal

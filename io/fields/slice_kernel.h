@@ -1,0 +1,53 @@
+#pragma once
+
+/// The Gaussian weights with which each slice contributes to each, for any slice geometry: even, uneven or tilted.
+///
+/// Offsets are in mm along the geometry's own basis (direction_i, direction_j, normal). A tilted slice's neighbours are
+/// displaced in its plane, so the in-plane weights are centred there: the Gaussian stays round in the patient.
+
+#include <glm/mat3x3.hpp>
+#include <vector>
+
+#include "io/geometry.h"
+
+namespace palpate::io::internal {
+
+inline constexpr int largest_radius = 64;  ///< voxels
+inline constexpr double cut_off = 3.2;     ///< sigmas
+
+/// One voxel of a row (or column): its offset in voxels, and its weight times its offset in mm to the power 0, 1, 2.
+struct Tap {
+  int offset = 0;
+  float weight[3] = {0, 0, 0};
+};
+
+/// Ordered from the middle outwards, sides in turn (the negative first). Where the middle is a voxel the two sides are
+/// alike, and are added or subtracted before they are weighted: half the products, and on even data what is left and
+/// what is right of the middle cancels to exactly 0.
+using Taps = std::vector<Tap>;
+
+/// What slice `slice` adds to the one it contributes to.
+struct Contribution {
+  int slice = 0;
+  float weight = 0;
+  float offset[3] = {0, 0, 0};  ///< mm: this slice's voxel (i, j) from the other's voxel (i, j)
+  int taps = 0;                 ///< index into SliceKernel::taps_i and taps_j
+  /// Whether the next contribution lies as far on the other side, with the same weight: the two are added first.
+  bool paired = false;
+};
+
+struct SliceKernel {
+  std::vector<std::vector<Contribution>> of_slice;  ///< by slice, from itself outwards
+  std::vector<Taps> taps_i;
+  std::vector<Taps> taps_j;
+  /// Whether all contributions share the first taps, so that a slice filtered in its plane serves every other.
+  /// The taps are then symmetric, too.
+  bool straight = true;
+  glm::ivec3 radius{0};   ///< largest offset along each axis
+  glm::dmat3 to_patient;  ///< gradient along the basis -> gradient in patient space (inverse transpose of the basis)
+};
+
+/// Throws std::invalid_argument for a scale that is not above 0 or reaches over more than largest_radius voxels.
+SliceKernel make_slice_kernel(const Geometry& geometry, double scale_mm);
+
+}  // namespace palpate::io::internal

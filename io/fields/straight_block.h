@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "io/fields/fits.h"
+#include "io/fields/slice_kernel.h"
+#include "io/volume.h"
+
+namespace palpate::io::internal {
+
+/// Where a block's gradients go: its first voxel's, and how many gradients apart rows and slices lie.
+struct GradientTarget {
+  glm::vec3* first = nullptr;
+  std::ptrdiff_t row = 0;
+  std::ptrdiff_t slice = 0;
+};
+
+/// The gradients of a block of a scan with straight slices, slice by slice. False, with nothing of use written, where
+/// it meets padding, or an edge whose fits are not known. Allocates a few hundred KiB. Instantiated for what volumes
+/// store.
+template <typename Stored>
+bool straight_block(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel,
+                    const Fits& fits, const Block& block, const GradientTarget& target);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,75 @@
+#pragma once
+
+/// The fields of a scan at any point of the patient: value, gradient, vector, the direction of tubes.
+
+#include <cstddef>
+#include <memory>
+
+#include "io/fields/field_options.h"
+#include "io/fields/field_source.h"
+#include "io/fields/gradient.h"
+#include "io/volume.h"
+
+namespace palpate::io {
+
+namespace internal {
+class BrickCache;
+struct Cell;
+}  // namespace internal
+
+/// What a volume's fields can be: the value and what is derived from it, and vectors where it holds them.
+FieldSet fields_of(const Volume& volume) noexcept;
+
+/// Value: between voxel centres by FieldOptions::value, in `Volume::unit`. Gradient: trilinear between the voxels'
+/// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
+/// lies.
+///
+/// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square.
+///
+/// Tube: the eigenvector of least curvature of the Hessian at the gradient's scale, trilinear between the voxels'
+/// Hessians; zero within the kernel's reach of the edge or of padding.
+///
+/// Vector: trilinear between the voxels' vectors, in `Volume::unit`.
+///
+/// A worker computes gradients (with low and high, and Hessians, where they are wanted) in bricks ahead of and around
+/// the point last sampled, and keeps them under a memory bound. A sample that finds its brick missing computes its cell
+/// with the same kernel: it takes longer and gives the same bits.
+///
+/// Outside: beyond the hull of the voxel centres, between slices where some are missing, and wherever a voxel that the
+/// interpolation needs is padding.
+class VolumeFields : public FieldSource {
+ public:
+  /// Prepares what the wanted fields need and no more; `scale_mm` is that of the Gaussian and is not read without one.
+  /// Throws std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
+  VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
+               const FieldOptions& options = {});
+  ~VolumeFields() override;
+
+  FieldSet available() const noexcept override { return available_; }
+  /// From any number of threads.
+  Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept override;
+
+  /// Fills the bricks within a distance (mm, along each axis of the grid) of a point before it returns, as far as
+  /// memory goes.
+  void prepare(const Vec3& position_mm, double distance_mm) const;
+
+  /// Largest memory beyond the volume's own, bytes.
+  std::size_t memory_bytes() const noexcept;
+
+ private:
+  std::shared_ptr<const Volume> volume_;
+  FieldSet available_;
+  GradientMethod gradient_;
+  ValueMethod value_;
+  Vec3 b_spline_part_;
+  std::unique_ptr<const GradientKernel> kernel_;          ///< of gradients
+  std::unique_ptr<const GradientKernel> hessian_kernel_;  ///< of tubes, where it is another
+  std::unique_ptr<internal::BrickCache> bricks_;
+  std::unique_ptr<internal::BrickCache> tube_bricks_;
+
+  const GradientKernel& tube_kernel() const noexcept { return hessian_kernel_ ? *hessian_kernel_ : *kernel_; }
+  void sample_gradients(const internal::Cell& cell, FieldSet given, Sample& s) const noexcept;
+  Vec3 sample_tube(const internal::Cell& cell) const noexcept;
+};
+
+}  // namespace palpate::io

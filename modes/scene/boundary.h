@@ -1,0 +1,21 @@
+#pragma once
+
+/// A boundary as a pair of tissues, from and to: which gates say that a place lies between these two, and which
+/// crossing is resisted.
+
+#include <array>
+
+#include "modes/scene/scene.h"
+
+namespace palpate::modes {
+
+/// 1 within the tissue's range, 0 beyond its soft ends, a line between; infinite ends are open.
+TransferFunction gate_of(const Tissue& tissue);
+
+struct Boundary {
+  std::array<Gate, 2> gates;   ///< of low and of high: the values on both sides are those of the two tissues
+  Side side = Side::entering;  ///< entering where `to` has the higher values
+};
+Boundary boundary_between(const Tissue& from, const Tissue& to);
+
+}  // namespace palpate::modes

@@ -1,0 +1,193 @@
+#include "modes/scene/plan.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+#include <stdexcept>
+
+#include "modes/scene/boundary.h"
+
+namespace palpate::modes {
+namespace {
+
+struct FieldName {
+  io::FieldSet field;
+  const char* name;
+  const char* cost;
+};
+constexpr FieldName field_names[] = {
+    {io::FieldSet::value, "value", "one interpolation a sub-step; once a frame it is read all the same, to be shown"},
+    {io::FieldSet::gradient, "gradient", "one gradient sample a tick, and its bricks"},
+    {io::FieldSet::vector, "vector field", "one vector sample a tick"},
+    {io::FieldSet::tube, "Hessian", "six second derivatives a tick, and their bricks"},
+    {io::FieldSet::low_high, "low and high", "one boundary search a tick, and its bricks"}};
+
+std::string words(io::FieldSet fields) {
+  std::string text;
+  for (const std::string& name : names_of(fields)) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+io::FieldSet without(io::FieldSet set, io::FieldSet taken) {
+  return static_cast<io::FieldSet>(static_cast<unsigned>(set) & ~static_cast<unsigned>(taken));
+}
+
+/// "surface "skin"", or "modes[2] (surface)" where it has no name.
+std::string name_of(const Mode& mode, std::size_t index) {
+  return mode.name.empty() ? mode.type + " (modes[" + std::to_string(index) + "])"
+                           : mode.type + " \"" + mode.name + "\"";
+}
+
+std::string saved_by(const ModeType& type) {
+  return "its strength and its primitive in every tick (" + std::string(type.name) + ")";
+}
+
+/// The mode's gates, those of its pair of tissues included, and the side it resists.
+void add_boundary(const Scene& scene, Mode& mode) {
+  if (mode.from.empty()) {
+    return;
+  }
+  const auto tissue = [&scene](const std::string& name) -> const Tissue& {
+    return *std::find_if(scene.tissues.begin(), scene.tissues.end(),
+                         [&name](const Tissue& t) { return t.name == name; });
+  };
+  const Boundary boundary = boundary_between(tissue(mode.from), tissue(mode.to));
+  mode.gates.insert(mode.gates.end(), boundary.gates.begin(), boundary.gates.end());
+  mode.side = boundary.side;
+}
+
+bool is_zero_everywhere(const Mode& mode) {
+  return mode.strength_n.maximum() <= 0 ||
+         std::any_of(mode.gates.begin(), mode.gates.end(), [](const Gate& gate) { return gate.factor.maximum() <= 0; });
+}
+
+/// Whether all constraints of the plan always form a configuration of section 3.1, which the analytical solver accepts:
+/// at most one plane direction, lines all parallel to each other and, where there are planes, along their normal; all
+/// at one place, unless there is only one.
+bool is_always_analytical(const std::vector<Footprint>& footprints) {
+  std::vector<Footprint> constraints;
+  std::copy_if(footprints.begin(), footprints.end(), std::back_inserter(constraints),
+               [](const Footprint& footprint) { return footprint.primitive != solver::PrimitiveType::directed_force; });
+  if (constraints.size() <= 1) {
+    return true;
+  }
+  const auto same_axis = [&constraints](solver::PrimitiveType type) {
+    const Footprint* first = nullptr;
+    for (const Footprint& footprint : constraints) {
+      if (footprint.primitive == type) {
+        if (first != nullptr && first->axis != footprint.axis) {
+          return false;
+        }
+        first = &footprint;
+      }
+    }
+    return true;
+  };
+  const auto has = [&constraints](solver::PrimitiveType type) {
+    return std::any_of(constraints.begin(), constraints.end(),
+                       [type](const Footprint& f) { return f.primitive == type; });
+  };
+  const bool co_located = std::all_of(constraints.begin(), constraints.end(),
+                                      [](const Footprint& footprint) { return footprint.co_located; });
+  if (!co_located || !same_axis(solver::PrimitiveType::plane) || !same_axis(solver::PrimitiveType::line)) {
+    return false;
+  }
+  if (has(solver::PrimitiveType::plane) && has(solver::PrimitiveType::line)) {
+    return std::all_of(constraints.begin(), constraints.end(), [](const Footprint& footprint) {
+      return footprint.primitive == solver::PrimitiveType::point || footprint.axis == Axis::gradient;
+    });
+  }
+  return true;
+}
+
+/// "1 plane and 1 point", of the constraints.
+std::string count_in_words(const std::vector<Footprint>& footprints) {
+  std::map<solver::PrimitiveType, int> counts;
+  for (const Footprint& footprint : footprints) {
+    ++counts[footprint.primitive];
+  }
+  std::string text;
+  for (const auto& [type, count] : counts) {
+    text += (text.empty() ? "" : " + ") + std::to_string(count) + " " + solver::name_of(type);
+  }
+  return text.empty() ? "no primitive" : text;
+}
+
+void choose_solvers(const Scene& scene, const std::vector<Footprint>& footprints, Plan& plan) {
+  plan.solvers = scene.solvers;
+  if (!scene.solvers.analytical || !is_always_analytical(footprints)) {
+    return;
+  }
+  const std::string why = count_in_words(footprints) + ": always analytical (section 3.1)";
+  if (plan.solvers.exact) {
+    plan.left_out.push_back({"exact solver", why, "its scratch memory; it would not be called"});
+  }
+  if (plan.solvers.descent) {
+    plan.left_out.push_back({"descent solver", why, "nothing: it would not be called"});
+  }
+  plan.solvers.exact = plan.solvers.descent = false;
+}
+
+}  // namespace
+
+std::vector<std::string> names_of(io::FieldSet fields) {
+  std::vector<std::string> names;
+  for (const FieldName& entry : field_names) {
+    if (contains(fields, entry.field)) {
+      names.emplace_back(entry.name);
+    }
+  }
+  return names;
+}
+
+Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& workspace) {
+  validate(scene);
+  Plan plan;
+  plan.stiffness_n_per_m = scene.stiffness_n_per_m;
+  plan.workspace = workspace;
+  plan.subdivision = scene.subdivision;
+  std::vector<Footprint> footprints;
+  for (std::size_t i = 0; i < scene.modes.size(); ++i) {
+    Mode mode = scene.modes[i];
+    const std::string name = name_of(mode, i);
+    const ModeType& type = *find_mode_type(mode.type);
+    add_boundary(scene, mode);
+    const Footprint footprint = type.footprint(mode);
+    const ActiveMode active{.type = &type,
+                            .scene_index = i,
+                            .co_located = footprint.co_located,
+                            .holds = footprint.primitive == solver::PrimitiveType::plane && footprint.co_located,
+                            .strength = Strength(mode.strength_of, mode.strength_n, mode.gates),
+                            .side = mode.side,
+                            .direction_of = mode.direction_of,
+                            .shape = mode.shape,
+                            .position_mm = mode.position_mm,
+                            .direction = glm::normalize(mode.direction)};
+    const io::FieldSet reads = type.reads(mode) | active.strength.reads();
+    const io::FieldSet missing = without(reads, available);
+    if (!mode.enabled) {
+      plan.left_out.push_back({name, "it is switched off", saved_by(type), io::FieldSet::none, i});
+    } else if (is_zero_everywhere(mode)) {
+      plan.left_out.push_back({name, "its strength is zero everywhere", saved_by(type), io::FieldSet::none, i});
+    } else if (missing != io::FieldSet::none) {
+      plan.left_out.push_back(
+          {name, "there is no " + words(missing) + " here", "nothing that could be measured: it cannot be felt here"});
+    } else {
+      plan.fields = plan.fields | reads;
+      plan.holds_iso_surface = plan.holds_iso_surface || active.holds;
+      footprints.push_back(footprint);
+      plan.modes.push_back(active);
+    }
+  }
+  for (const FieldName& entry : field_names) {
+    if (contains(available, entry.field) && !contains(plan.fields, entry.field)) {
+      plan.left_out.push_back({entry.name, "no mode reads it", entry.cost, entry.field});
+    }
+  }
+  choose_solvers(scene, footprints, plan);
+  return plan;
+}
+
+}  // namespace palpate::modes

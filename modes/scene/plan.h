@@ -1,0 +1,48 @@
+#pragma once
+
+/// A plan: exactly what a scene needs on a scan, and in words what it left out. Made outside the tick; the tick runs
+/// it.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/fields/field_options.h"
+#include "io/fields/field_source.h"
+#include "modes/scene/scene.h"
+#include "modes/types/mode_type.h"
+
+namespace palpate::modes {
+
+/// Something that was left out of a plan: never computed, kept in memory or called.
+struct LeftOut {
+  std::string what;                           ///< "friction", "Hessian", "exact solver", ...
+  std::string why;                            ///< "strength is zero everywhere"
+  std::string saves;                          ///< "one gradient a tick", ...
+  io::FieldSet field = io::FieldSet::none;    ///< where it is a field: which
+  std::optional<std::size_t> mode = {};       ///< where it is a mode: which of the scene's
+  std::optional<io::SliceRange> slices = {};  ///< where it is slices of the scan: which
+};
+
+/// Immutable once made: sessions share it between threads by pointer.
+struct Plan {
+  io::FieldSet fields = io::FieldSet::none;  ///< sampled once a sub-step
+  std::vector<ActiveMode> modes;             ///< in the scene's order
+  SolverSwitches solvers;                    ///< those that some frame of this scene can need
+  double stiffness_n_per_m = 0;
+  Workspace workspace;
+  Subdivision subdivision;
+  bool holds_iso_surface = false;  ///< whether a surface mode needs the anchor (anchor.h)
+  io::SliceRange slices;  ///< of the scan: their fields are computed ahead and kept (reach.h); all where nobody said
+  std::vector<LeftOut> left_out;
+};
+
+/// "value", "gradient", "vector field", "Hessian", "low and high": the names of a plan's fields for people.
+std::vector<std::string> names_of(io::FieldSet fields);
+
+/// Throws std::invalid_argument, naming the key, where the scene is not valid. A mode whose field the scan does not
+/// have is left out, with that reason.
+Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& workspace);
+
+}  // namespace palpate::modes

@@ -1,0 +1,45 @@
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "modes/scene/embedded_scenes.h"
+#include "modes/scene/scene_json.h"
+
+namespace palpate::modes {
+
+std::vector<std::string> starting_scenes() {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : embedded_scenes()) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+std::string_view starting_scene_text(std::string_view name) {
+  for (const auto& [known, text] : embedded_scenes()) {
+    if (known == name) {
+      return text;
+    }
+  }
+  return {};
+}
+
+Scene load_scene(const std::string& file_or_name) {
+  if (const auto text = starting_scene_text(file_or_name); !text.empty()) {
+    return scene_from_json(text, file_or_name);
+  }
+  std::error_code ignored;
+  std::ifstream file(file_or_name, std::ios::binary);
+  if (!file || std::filesystem::is_directory(file_or_name, ignored)) {
+    std::string known;
+    for (const std::string& name : starting_scenes()) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    throw std::invalid_argument(file_or_name + ": no such scene file can be read; the starting scenes are: " + known);
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return scene_from_json(text.str(), file_or_name);
+}
+
+}  // namespace palpate::modes

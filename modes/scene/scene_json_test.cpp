@@ -1,0 +1,142 @@
+#include "modes/scene/scene_json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace palpate::modes {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string error_of(const std::string& text) {
+  try {
+    scene_from_json(text, "mine.json");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// A scene with one surface mode, whose text is given members in place of its strength.
+std::string with_surface(const std::string& members) {
+  return R"({"version": 1, "modes": [{"type": "friction", "strength_n": 0.1}, {"type": "surface", )" + members + "}]}";
+}
+
+TEST(SceneJson, text_to_scene_to_text_is_stable) {
+  for (const std::string& name : starting_scenes()) {
+    const Scene scene = load_scene(name);
+    const std::string text = to_json(scene);
+    EXPECT_EQ(to_json(scene_from_json(text, name)), text) << name;
+  }
+  const std::string everything = R"({
+    "version": 1, "name": "\u00e4\"", "stiffness_n_per_m": 0.1, "gradient_scale_mm": 1.7,
+    "limits": {"force_limit_n": 2, "slew_limit_n_per_ms": 0.7, "ramp_s": 0.3, "speed_limit_m_per_s": 0.30000000000000004},
+    "workspace": {"center_mm": [1, 2e-3, -3], "rotation": [[0, 1, 0], [0, 0, 1], [1, 0, 0]], "scale": 2.5, "fit": true},
+    "solvers": {"analytical": false, "exact": true, "descent": true}, "subdivision": {"step_mm": 0.2, "most": 3},
+    "sampling": {"value": "trilinear", "gradient": "central_differences"},
+    "tissues": [{"name": "air", "high": -400, "softness": 100, "color": "#56b4e9"},
+                {"name": "soft tissue", "low": -400, "high": 200, "softness": 100}],
+    "modes": [{"type": "surface", "from": "air", "to": "soft tissue", "strength_n": 1},
+              {"type": "surface", "name": "s", "side": "both", "enabled": false, "color": "#0072B2",
+               "strength_n": {"of": "low", "nodes": [[0, 0], [1, 2]], "interpolation": "monotone_cubic"},
+               "gates": [{"of": "high", "nodes": [[0, 0], [1, 2]], "interpolation": "monotone_cubic"}]},
+              {"type": "landmark", "shape": "point", "position_mm": [1, 2, 3], "strength_n": 1},
+              {"type": "landmark", "shape": "line", "position_mm": [1, 2, 3], "direction": [0.1, 0, 2], "strength_n": 1},
+              {"type": "force", "field": "gradient", "strength_n": {"of": "value", "nodes": [[7, 3]]}}]})";
+  const Scene scene = scene_from_json(everything, "everything");
+  EXPECT_EQ(to_json(scene_from_json(to_json(scene), "again")), to_json(scene));
+  EXPECT_EQ(scene.limits.speed_m_per_s, 0.30000000000000004);
+  EXPECT_EQ(scene.workspace.rotation[0].y, 1.0);
+  EXPECT_EQ(scene.sampling.value, io::ValueMethod::trilinear);
+  EXPECT_EQ(scene.sampling.gradient, io::GradientMethod::central_differences);
+  EXPECT_FALSE(scene.modes[1].enabled);
+  EXPECT_EQ(scene.modes[1].gates[0].factor.interpolation(), Interpolation::monotone_cubic);
+  EXPECT_EQ(scene.modes[3].direction, Vec3(0.1, 0, 2));
+  EXPECT_EQ(scene.modes[4].strength_n(0), 3.0);
+}
+
+TEST(SceneJson, what_is_not_said_takes_the_default) {
+  const Scene scene = scene_from_json(R"({"version": 1, "modes": []})", "empty");
+  EXPECT_EQ(scene.stiffness_n_per_m, 400.0);
+  EXPECT_EQ(scene.limits.force_n, 3.0);
+  EXPECT_FALSE(scene.gradient_scale_mm.has_value());
+  EXPECT_TRUE(scene.solvers.analytical && scene.solvers.exact && !scene.solvers.descent);
+  EXPECT_EQ(scene.sampling.value, io::ValueMethod::cubic);
+  EXPECT_EQ(scene.sampling.gradient, io::GradientMethod::gaussian);
+}
+
+TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
+  EXPECT_THAT(error_of("{"), StartsWith("mine.json: parse error at line 1"));
+  EXPECT_THAT(error_of("[]"), StartsWith("mine.json: scene: is not an object"));
+  EXPECT_THAT(error_of(R"({"modes": []})"), StartsWith("mine.json: version: is missing"));
+  EXPECT_THAT(error_of(R"({"version": 2, "modes": []})"), StartsWith("mine.json: version: 2 is not known"));
+  EXPECT_THAT(error_of(R"({"version": 1})"), StartsWith("mine.json: modes: is missing"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "stiffness": 3})"),
+              StartsWith("mine.json: stiffness: there is no such key here; there are: "));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "stiffness_n_per_m": 0})"),
+              StartsWith("mine.json: stiffness_n_per_m: 0 is not a number above 0"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [{"type": "surfce", "strength_n": 1}]})"),
+              StartsWith("mine.json: modes[0].type: there is no mode \"surfce\"; there are: force, follow, surface, "
+                         "friction, tube, landmark"));
+  EXPECT_THAT(
+      error_of(with_surface(R"("strength_n": {"nodes": [[0, -2]]})")),
+      StartsWith("mine.json: modes[1].strength_n.nodes[0][1]: -2 is negative; a strength is in newtons, 0 or more"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": -0.5)")),
+              StartsWith("mine.json: modes[1].strength_n: -0.5 is negative"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": [[1, 0], [0, 1]]})")),
+              StartsWith("mine.json: modes[1].strength_n.nodes[1]: has to lie beyond"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": [[1, 0, 3]]})")),
+              StartsWith("mine.json: modes[1].strength_n.nodes[0]: is not a list of 2"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": []})")),
+              StartsWith("mine.json: modes[1].strength_n.nodes:"));
+  EXPECT_THAT(
+      error_of(with_surface(R"("strength_n": {"of": "colour", "nodes": [[0, 1]]})")),
+      StartsWith("mine.json: modes[1].strength_n.of: there is no \"colour\"; there are: value, gradient_per_mm"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": 1, "gates": [{"of": "value", "nodes": [["a", 1]]}])")),
+              StartsWith("mine.json: modes[1].gates[0].nodes[0][0]: \"a\" is not a number"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": 1, "field": "vector")")),
+              StartsWith("mine.json: modes[1].field: there is no such key"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": 1, "from": "air", "to": "bone")")),
+              StartsWith("mine.json: modes[1].from: there is no tissue \"air\""));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": 1, "from": "air", "to": "bone", "side": "both")")),
+              StartsWith("mine.json: modes[1].side: the side follows"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "workspace": {"rotation": [[2, 0, 0], [0, 1, 0], [0, 0, 1]]}})"),
+              StartsWith("mine.json: workspace.rotation:"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "workspace": {"rotation": [[0, 1, 0], [1, 0, 0], [0, 0, 1]]}})"),
+              HasSubstr("mirror"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "sampling": {"value": "linear"}})"),
+              StartsWith("mine.json: sampling.value: there is no \"linear\"; there are: cubic, trilinear"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "limits": {"force_limit_n": 1e999}})"),
+              StartsWith("mine.json: "));
+  EXPECT_THAT(
+      error_of(R"({"version": 1, "modes": [], "tissues": [{"name": "a", "low": 2, "high": 1, "softness": 1}]})"),
+      StartsWith("mine.json: tissues[0].low:"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "name": "a", "name": "b"})"),
+              StartsWith("mine.json: name: is given twice"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": [[0, 1]], "nodes": [[0, 2]]})")),
+              HasSubstr("nodes: is given twice"));
+}
+
+TEST(SceneJson, starting_scenes_are_found_by_name_and_are_the_files_of_the_folder) {
+  const std::filesystem::path folder = PALPATE_SCENES;
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    EXPECT_EQ(starting_scene_text(entry.path().stem().string()), text.str()) << entry.path();
+    EXPECT_EQ(to_json(load_scene(entry.path().string())), to_json(load_scene(entry.path().stem().string())));
+    ++files;
+  }
+  EXPECT_EQ(files, starting_scenes().size());
+  EXPECT_THROW(load_scene("no-such-scene"), std::invalid_argument);
+  EXPECT_THROW(load_scene("/"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate::modes

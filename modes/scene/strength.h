@@ -1,0 +1,40 @@
+#pragma once
+
+/// A mode's strength in the form for the tick: the product of a transfer function and its gates, looked up in tables.
+
+#include <vector>
+
+#include "io/fields/field_source.h"
+#include "modes/scene/scene.h"
+#include "modes/scene/strength_table.h"
+
+namespace palpate::modes {
+
+/// The datum of a sample. In the tick.
+double datum_of(const io::Sample& sample, Datum datum) noexcept;
+/// The field that a datum is part of.
+io::FieldSet field_of(Datum datum) noexcept;
+
+class Strength {
+ public:
+  Strength() = default;
+  Strength(Datum of, const TransferFunction& newtons, const std::vector<Gate>& gates);
+
+  /// N, >= 0. In the tick.
+  double operator()(const io::Sample& sample) const noexcept;
+  /// The fields that operator() reads.
+  io::FieldSet reads() const noexcept;
+  /// N: it is never more.
+  double most_n() const noexcept { return most_n_; }
+
+ private:
+  struct Factor {
+    Datum of = Datum::value;
+    StrengthTable table;
+    io::FieldSet reads = io::FieldSet::none;
+  };
+  std::vector<Factor> factors_;
+  double most_n_ = 0;
+};
+
+}  // namespace palpate::modes

@@ -1,0 +1,33 @@
+#pragma once
+
+/// A transfer function in the form for the tick: O(1), whatever the number of nodes.
+
+#include <cstdint>
+#include <vector>
+
+#include "modes/scene/transfer_function.h"
+
+namespace palpate::modes {
+
+/// Equal to its transfer function to within 1e-12 of the largest node value, both interpolations.
+class StrengthTable {
+ public:
+  StrengthTable() = default;
+  explicit StrengthTable(const TransferFunction& function);
+
+  /// In the tick: does not allocate or throw. NaN gives the value of the first node.
+  double operator()(double at) const noexcept;
+
+ private:
+  struct Piece {
+    double from = 0;                        ///< datum at the piece's start
+    double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< value = c0 + c1 d + c2 d^2 + c3 d^3, d = datum - from
+  };
+  double before_ = 0, beyond_ = 0;  ///< values at the first and the last node
+  double first_ = 0, last_ = 0;
+  double cells_per_unit_ = 0;
+  std::vector<Piece> pieces_;
+  std::vector<std::uint32_t> piece_at_;  ///< for each cell of an even grid, the piece at the cell's start
+};
+
+}  // namespace palpate::modes

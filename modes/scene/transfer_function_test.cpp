@@ -1,0 +1,137 @@
+#include "modes/scene/transfer_function.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "modes/scene/strength.h"
+#include "modes/scene/strength_table.h"
+
+namespace palpate::modes {
+namespace {
+
+const std::vector<Node> skin{{-500, 0}, {-300, 1}, {-250, 0.25}, {40, 0.25}, {41, 3}};
+
+std::vector<Node> random_nodes(std::mt19937& random) {
+  std::uniform_real_distribution<double> step(1e-3, 100), value(0, 5);
+  std::vector<Node> nodes{{-1000 + step(random), value(random)}};
+  const auto count = std::uniform_int_distribution<int>(0, 30)(random);
+  for (int i = 0; i < count; ++i) {
+    nodes.push_back({nodes.back().at + step(random), value(random)});
+  }
+  return nodes;
+}
+
+TEST(TransferFunction, is_exact_at_its_nodes_and_constant_beyond_them) {
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::monotone_cubic}) {
+    const TransferFunction function(skin, interpolation);
+    for (const Node& node : skin) {
+      EXPECT_EQ(function(node.at), node.value);
+    }
+    EXPECT_EQ(function(-1e9), 0.0);
+    EXPECT_EQ(function(-std::numeric_limits<double>::infinity()), 0.0);
+    EXPECT_EQ(function(1e9), 3.0);
+    EXPECT_EQ(function(std::numeric_limits<double>::infinity()), 3.0);
+  }
+}
+
+TEST(TransferFunction, is_a_straight_line_between_nodes) {
+  const TransferFunction function(skin);
+  EXPECT_DOUBLE_EQ(function(-400), 0.5);
+  EXPECT_DOUBLE_EQ(function(-275), 0.625);
+  EXPECT_DOUBLE_EQ(function(0), 0.25);
+}
+
+TEST(TransferFunction, monotone_cubic_never_leaves_the_range_of_its_two_nodes_and_has_no_kink) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto nodes = random_nodes(random);
+    const TransferFunction function(nodes, Interpolation::monotone_cubic);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      const auto [low, high] = std::minmax(nodes[i].value, nodes[i + 1].value);
+      double previous = nodes[i].value;
+      for (int part = 1; part <= 20; ++part) {
+        const double value = function(nodes[i].at + (nodes[i + 1].at - nodes[i].at) * part / 20.0);
+        EXPECT_GE(value, low - 1e-12);
+        EXPECT_LE(value, high + 1e-12);
+        EXPECT_GE((value - previous) * (nodes[i + 1].value - nodes[i].value), -1e-12);
+        previous = value;
+      }
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const double h = 1e-7;
+      const double before = (function(nodes[i].at) - function(nodes[i].at - h)) / h;
+      const double after = (function(nodes[i].at + h) - function(nodes[i].at)) / h;
+      const double narrowest = std::min(i > 0 ? nodes[i].at - nodes[i - 1].at : 1.0,
+                                        i + 1 < nodes.size() ? nodes[i + 1].at - nodes[i].at : 1.0);
+      EXPECT_NEAR(before, after, 1e-5 + 60 * h / (narrowest * narrowest));  // |f''| <= 12 * 5 / narrowest^2
+    }
+  }
+}
+
+TEST(TransferFunction, refuses_unusable_nodes_by_their_index) {
+  const auto message = [](std::vector<Node> nodes) {
+    try {
+      TransferFunction function(std::move(nodes));
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(message({}).find("nodes"), 0U);
+  EXPECT_EQ(message({{0, 1}, {0, 2}}).find("nodes[1]"), 0U);
+  EXPECT_EQ(message({{0, 1}, {1, 2}, {0.5, 2}}).find("nodes[2]"), 0U);
+  EXPECT_EQ(message({{0, std::nan("")}}).find("nodes[0]"), 0U);
+  EXPECT_EQ(message({{std::numeric_limits<double>::infinity(), 1}}).find("nodes[0]"), 0U);
+  EXPECT_EQ(message({{0, 1}}), "accepted");
+}
+
+TEST(StrengthTable, agrees_with_its_transfer_function) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> anywhere(-1100, 2500);
+  double worst = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const auto interpolation = trial % 2 == 0 ? Interpolation::linear : Interpolation::monotone_cubic;
+    const TransferFunction function(random_nodes(random), interpolation);
+    const StrengthTable table(function);
+    for (const Node& node : function.nodes()) {
+      EXPECT_EQ(table(node.at), node.value);
+      for (const double beside : {std::nextafter(node.at, -1e9), std::nextafter(node.at, 1e9)}) {
+        worst = std::max(worst, std::abs(table(beside) - function(beside)));
+      }
+    }
+    for (int i = 0; i < 300; ++i) {
+      const double at = anywhere(random);
+      worst = std::max(worst, std::abs(table(at) - function(at)));
+    }
+  }
+  EXPECT_LE(worst, 5e-12);
+}
+
+TEST(StrengthTable, never_gives_a_force_that_is_not_finite) {
+  const StrengthTable table{TransferFunction(skin)};
+  EXPECT_EQ(table(std::nan("")), 0.0);
+  EXPECT_EQ(StrengthTable{}(3.0), 0.0);
+  EXPECT_EQ(StrengthTable{TransferFunction(2.0)}(std::nan("")), 2.0);
+  const StrengthTable extreme{
+      TransferFunction({{-1e30, 1e30}, {0, 0}, {1e-30, 1e30}, {1e30, 0}}, Interpolation::monotone_cubic)};
+  for (const double at : {-1e30, -1e15, -1.0, 1e-31, 5e-31, 1.0, 1e29}) {
+    EXPECT_TRUE(std::isfinite(extreme(at))) << at;
+  }
+}
+
+TEST(Strength, is_the_product_of_its_factors_and_reads_only_what_varies) {
+  const Gate gate{Datum::value, TransferFunction({{0, 0}, {100, 1}})};
+  const Gate open{Datum::high, TransferFunction(1.0)};
+  const Strength strength(Datum::gradient_magnitude, TransferFunction({{0, 0}, {10, 2}}), {gate, open});
+  EXPECT_TRUE(strength.reads() == (io::FieldSet::gradient | io::FieldSet::value));
+  EXPECT_DOUBLE_EQ(strength({.inside = true, .value = 50, .gradient = {3, 0, 4}}), 0.5);
+  EXPECT_EQ(strength({.inside = true, .value = 0, .gradient = {3, 0, 4}}), 0.0);
+  EXPECT_EQ(Strength{}({.inside = true, .value = 50}), 0.0);
+}
+
+}  // namespace
+}  // namespace palpate::modes

@@ -1,0 +1,67 @@
+#pragma once
+
+/// What the tests and benchmarks of this folder share: a hand that steps a plan through a source, in patient space.
+
+#include <memory>
+
+#include "modes/scene/plan.h"
+#include "modes/tick/haptic_step.h"
+#include "solver/chain.h"
+
+namespace palpate::modes::testing {
+
+inline solver::ChainOptions chain_options(const SolverSwitches& switches) {
+  solver::ChainOptions options;
+  options.analytical = switches.analytical;
+  options.exact = switches.exact;
+  options.descent = switches.descent;
+  return options;
+}
+
+/// Steps with probe positions of patient space; mm and N along patient axes.
+class Hand {
+ public:
+  Hand(const Scene& scene, const io::FieldSource& source, const Workspace& workspace = {})
+      : plan(make_plan(scene, source.available(), workspace)), source_(source), chain_(chain_options(plan.solvers)) {}
+
+  const StepResult& move_to(const Vec3& probe_mm) {
+    result = step(plan, source_, plan.workspace.to_device(probe_mm), touch, chain_, *scratch_);
+    return result;
+  }
+  /// In even steps; the first is one step from here.
+  void stroke(const Vec3& from_mm, const Vec3& to_mm, int steps) {
+    for (int i = 1; i <= steps; ++i) {
+      move_to(from_mm + (to_mm - from_mm) * (static_cast<double>(i) / steps));
+    }
+  }
+  Vec3 force() const { return plan.workspace.direction_to_patient(result.force_n); }
+  Vec3 proxy_mm() const { return plan.workspace.to_patient(result.proxy_m); }
+
+  Plan plan;
+  Touch touch;
+  StepResult result;
+
+ private:
+  const io::FieldSource& source_;
+  solver::Chain chain_;
+  std::unique_ptr<StepScratch> scratch_ = std::make_unique<StepScratch>();
+};
+
+inline Mode surface(const TransferFunction& strength, Datum of = Datum::gradient_magnitude,
+                    Side side = Side::entering) {
+  Mode mode;
+  mode.type = "surface";
+  mode.strength_of = of;
+  mode.strength_n = strength;
+  mode.side = side;
+  return mode;
+}
+
+inline Scene scene_of(std::vector<Mode> modes, int most_sub_steps = 1) {
+  Scene scene;
+  scene.modes = std::move(modes);
+  scene.subdivision.most = most_sub_steps;
+  return scene;
+}
+
+}  // namespace palpate::modes::testing

@@ -1,0 +1,60 @@
+#include "modes/tick/anchor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "modes/scene/defaults.h"
+
+namespace palpate::modes {
+namespace {
+
+// Below this a gradient has no direction that a step could take.
+constexpr double least_slope = 1e-150;
+
+}  // namespace
+
+void follow_level(const io::Sample& sample, const Vec3& place_mm, Contact& contact) noexcept {
+  if (contact.hold == Hold::none) {
+    contact.level = sample.value;
+  } else {
+    const Vec3 moved = place_mm - contact.place_mm;
+    contact.level += 0.5 * glm::dot(contact.gradient + sample.gradient, moved);
+    if (contact.hold != Hold::held) {
+      contact.offset = 0;
+    } else if (contact.before != Hold::held) {
+      contact.offset = contact.level - sample.value;
+    }
+    // Not while yielding: the strength is felt then, and a steep one would show every step of the level.
+    if (contact.hold != Hold::yielding) {
+      // A value that is not found nearby (a boundary that thins out) draws the proxy along a gentle slope, not through
+      // it.
+      const double reach = defaults::level_reach_mm * glm::length(sample.gradient);
+      const double weight = -std::expm1(-glm::length(moved) / defaults::level_length_mm);
+      contact.level += weight * std::clamp(sample.value + contact.offset - contact.level, -reach, reach);
+    }
+  }
+  contact.before = contact.hold;
+  contact.place_mm = place_mm;
+  contact.gradient = sample.gradient;
+}
+
+Vec3 anchor_step_mm(Contact& contact) noexcept {
+  if (contact.hold != Hold::held) {
+    contact.held_level = contact.level;
+    return Vec3(0);
+  }
+  const double slope = glm::length(contact.gradient);
+  if (!(slope > least_slope)) {
+    return Vec3(0);
+  }
+  const double step =
+      std::clamp((contact.held_level - contact.level) / slope, -defaults::anchor_step_mm, defaults::anchor_step_mm);
+  return (step / slope) * contact.gradient;
+}
+
+double level_at_anchor(const Contact& contact, const Vec3& step_mm) noexcept {
+  return contact.level + glm::dot(contact.gradient, step_mm);
+}
+
+}  // namespace palpate::modes

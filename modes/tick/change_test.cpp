@@ -1,0 +1,131 @@
+// Changes of scene, data and workspace: ramped, never stepped, and the proxy moves with the data.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "modes/testing/test_rig.h"
+#include "testdata/analytic.h"
+
+namespace palpate::modes {
+namespace {
+
+using testing::scene_of;
+using testing::surface;
+
+constexpr int ramp_frames = 500;
+
+testdata::AnalyticSource slab_at(double depth_mm) {
+  // Inwards is up: along the device's y.
+  return testdata::AnalyticSource(
+      testdata::make_slab({0, 0, 1}, std::vector<testdata::Layer>{{depth_mm, testdata::soft_tissue_hu}}), 1.0);
+}
+
+Scene skin(double strength_n) {
+  Mode friction;
+  friction.type = "friction";
+  friction.strength_n = TransferFunction(0.1);
+  return scene_of({surface(TransferFunction({{-482, 0}, {-478, strength_n}}), Datum::value), friction});
+}
+
+struct Ramp {
+  double largest_step_n = 0;
+  Vec3 first_n{0}, last_n{0};
+  Vec3 proxy_before_mm{0}, proxy_after_mm{0};  ///< patient space
+};
+
+/// Presses 3 mm deep (1.2 N) into `from`, then holds still while it changes to `to`, and on for as long again.
+Ramp change(const Scenery& from, const Scenery& to) {
+  solver::Chain chain;
+  Touch touch;
+  const auto scratch = std::make_unique<StepScratch>();
+  const auto at = [&](double depth_mm) { return from.plan->workspace.to_device({0, 0, depth_mm}); };
+  for (int i = 0; i <= 2000; ++i) {
+    step(*from.plan, *from.source, at(-3 + 6 * i / 2000.0), touch, chain, *scratch);
+  }
+  Ramp ramp{.first_n = touch.force_n, .proxy_before_mm = touch.workspace.to_patient(touch.proxy_m)};
+  Vec3 force = touch.force_n;
+  for (int i = 0; i <= 2 * ramp_frames; ++i) {
+    const StepResult result = i <= ramp_frames
+                                  ? step({.from = from, .to = to, .part = static_cast<double>(i) / ramp_frames}, at(3),
+                                         touch, chain, *scratch)
+                                  : step(*to.plan, *to.source, at(3), touch, chain, *scratch);
+    EXPECT_EQ(result.outcome, solver::Outcome::solved) << i;
+    ramp.largest_step_n = std::max(ramp.largest_step_n, glm::length(result.force_n - force));
+    force = result.force_n;
+  }
+  ramp.last_n = force;
+  ramp.proxy_after_mm = touch.workspace.to_patient(touch.proxy_m);
+  return ramp;
+}
+
+Ramp change_scene(const Scene& from, const Scene& to, const Workspace& workspace = {}) {
+  const auto source = slab_at(0);
+  const Plan before = make_plan(from, source.available(), {});
+  const Plan after = make_plan(to, source.available(), workspace);
+  return change({&before, &source}, {&after, &source});
+}
+
+TEST(Change, to_the_same_scene_is_not_felt) {
+  const Ramp ramp = change_scene(skin(2), skin(2));
+  EXPECT_NEAR(glm::length(ramp.first_n), 1.2, 0.01);
+  EXPECT_LE(ramp.largest_step_n, 1e-12);
+}
+
+TEST(Change, a_wall_that_is_switched_off_lets_go_within_the_ramp_and_never_steps) {
+  const Ramp ramp = change_scene(skin(2), scene_of({}));
+  EXPECT_GT(glm::length(ramp.first_n), 1.1);
+  EXPECT_EQ(ramp.last_n, Vec3(0));
+  EXPECT_LE(ramp.largest_step_n, 0.02);  // of a slew limit of 1 N/ms
+}
+
+TEST(Change, a_stronger_wall_and_a_stiffer_coupling_come_in_by_the_ramp) {
+  Scene stiff = skin(2.5);
+  stiff.stiffness_n_per_m = 800;
+  const Ramp ramp = change_scene(skin(2), stiff);
+  EXPECT_NEAR(glm::length(ramp.last_n), 2 * glm::length(ramp.first_n), 0.05);
+  EXPECT_LE(ramp.largest_step_n, 0.01);
+}
+
+TEST(Change, the_proxy_moves_with_a_moved_turned_and_scaled_workspace) {
+  Workspace moved;
+  moved.center_mm = {0.5, -0.3, -0.4};
+  moved.mm_per_m = 900;
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  moved.rotation = moved.rotation * glm::dmat3(c, s, 0, -s, c, 0, 0, 0, 1);
+  const Ramp ramp = change_scene(skin(2), skin(2), moved);
+  EXPECT_LE(ramp.largest_step_n, 0.02);
+  // The wall holds it at the same depth in the patient, wherever the hand is now.
+  EXPECT_NEAR(ramp.proxy_after_mm.z, ramp.proxy_before_mm.z, 0.02);
+  EXPECT_GT(glm::length(ramp.last_n), 0.3);
+}
+
+TEST(Change, to_another_time_frame_moves_the_proxy_from_one_wall_to_the_other) {
+  const auto before = slab_at(0), after = slab_at(1.5);
+  const Plan plan = make_plan(skin(2), before.available(), {});
+  const Ramp ramp = change({&plan, &before}, {&plan, &after});
+  EXPECT_LE(ramp.largest_step_n, 0.05);
+  EXPECT_NEAR(ramp.proxy_before_mm.z, 0.0, 0.02);
+  EXPECT_NEAR(ramp.proxy_after_mm.z, 1.5, 0.3);
+}
+
+TEST(Workspace, between_two_of_them_lies_a_similarity_and_the_ends_are_exact) {
+  Workspace from, to;
+  to.center_mm = {10, 20, 30};
+  to.mm_per_m = 4000;
+  to.rotation = glm::dmat3(0, 1, 0, 0, 0, 1, 1, 0, 0);
+  EXPECT_TRUE(between(from, to, 0) == from);
+  EXPECT_TRUE(between(from, to, 1) == to);
+  const Workspace half = between(from, to, 0.5);
+  EXPECT_DOUBLE_EQ(half.mm_per_m, 2000);
+  EXPECT_EQ(half.center_mm, Vec3(5, 10, 15));
+  const glm::dmat3 unit = glm::transpose(half.rotation) * half.rotation;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(unit[i][i], 1, 1e-15);
+    EXPECT_NEAR(unit[i][(i + 1) % 3], 0, 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::modes

@@ -1,0 +1,48 @@
+#include "modes/types/mode_type.h"
+
+#include <array>
+
+namespace palpate::modes {
+
+// The list of modes comes from modes/CMakeLists.txt: MODE(force) MODE(follow) ...
+#define MODE(name) extern const ModeType name##_mode;
+PALPATE_MODES
+#undef MODE
+
+std::span<const ModeType* const> mode_types() {
+#define MODE(name) &name##_mode,
+  static const std::array types{PALPATE_MODES};
+#undef MODE
+  return types;
+}
+
+const ModeType* find_mode_type(std::string_view name) {
+  for (const ModeType* type : mode_types()) {
+    if (type->name == name) {
+      return type;
+    }
+  }
+  return nullptr;
+}
+
+std::string mode_type_names() {
+  std::string names;
+  for (const ModeType* type : mode_types()) {
+    names += (names.empty() ? "" : ", ") + std::string(type->name);
+  }
+  return names;
+}
+
+void PrimitiveList::add(const solver::Primitive& primitive) noexcept {
+  // The capacity is checked when a plan is made; this is the belt to those braces.
+  const double strength = weight_ * primitive.strength;
+  if (!(strength > 0) || size_ == room_.size()) {
+    return;
+  }
+  room_[size_] = primitive;
+  room_[size_].strength = strength;
+  mode_of_[size_] = mode_;
+  ++size_;
+}
+
+}  // namespace palpate::modes

@@ -1,0 +1,112 @@
+#pragma once
+
+/// What a haptic mode is: from the fields sampled at a place to primitives there. One file a mode (<name>_mode.cpp);
+/// the list of them is one line in modes/CMakeLists.txt.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/fields/field_source.h"
+#include "modes/scene/scene.h"
+#include "modes/scene/strength.h"
+#include "solver/primitive.h"
+
+namespace palpate::modes {
+
+/// Along what a mode's constraint is directed: decides which combinations stay analytical (plan.h).
+enum class Axis : std::uint8_t { none, gradient, vector, tube, own };
+
+/// What a mode places.
+struct Footprint {
+  solver::PrimitiveType primitive = solver::PrimitiveType::directed_force;
+  Axis axis = Axis::none;
+  bool co_located = true;  ///< placed at the anchor with all the others; false: at a place of its own
+};
+
+/// Keys of a scene's mode, beside type, name, enabled and color, that a type of mode reads: a set of flags.
+enum class Key : std::uint8_t {
+  none = 0,
+  strength = 1,
+  gates = 2,
+  side = 4,
+  direction_of = 8,
+  tissues = 16,
+  landmark = 32  ///< shape, position_mm, direction
+};
+constexpr Key operator|(Key a, Key b) {
+  return static_cast<Key>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool contains(Key set, Key wanted) {
+  return (static_cast<unsigned>(set) & static_cast<unsigned>(wanted)) == static_cast<unsigned>(wanted);
+}
+
+struct ModeType;
+
+/// A mode of a plan: checked, with its strength in the form for the tick.
+struct ActiveMode {
+  const ModeType* type = nullptr;
+  std::size_t scene_index = 0;  ///< which of the scene's modes it is
+  bool co_located = true;       ///< placed at the anchor, and only inside the data
+  bool holds = false;           ///< a surface: while it holds the proxy, the anchor keeps to the iso-surface
+  Strength strength;
+  Side side = Side::entering;
+  DirectionField direction_of = DirectionField::vector;
+  Shape shape = Shape::point;
+  Vec3 position_mm{0};
+  Vec3 direction{0, 0, 1};
+};
+
+/// Where a mode puts its primitives.
+struct Place {
+  const io::Sample& sample;    ///< at the old proxy, patient space
+  const Workspace& workspace;  ///< rotates directions into the device's frame
+  Vec3 anchor_m{0};            ///< the place of all co-located primitives, device's frame
+};
+
+/// Primitives of a frame in the making: a list of fixed capacity.
+class PrimitiveList {
+ public:
+  /// The most that one mode may place (surface on both sides).
+  static constexpr std::size_t most_of_a_mode = 2;
+
+  PrimitiveList(std::span<solver::Primitive> room, std::span<std::uint8_t> mode_of) noexcept
+      : room_(room), mode_of_(mode_of) {}
+  void set_mode(std::uint8_t mode) noexcept { mode_ = mode; }
+  /// Multiplies the strength of what is added from here on.
+  void set_weight(double weight) noexcept { weight_ = weight; }
+  /// Left out where the strength is zero; a mode leaves out itself what has no direction.
+  void add(const solver::Primitive& primitive) noexcept;
+  std::size_t size() const noexcept { return size_; }
+
+ private:
+  std::span<solver::Primitive> room_;
+  std::span<std::uint8_t> mode_of_;
+  std::size_t size_ = 0;
+  std::uint8_t mode_ = 0;
+  double weight_ = 1;
+};
+
+/// A type of mode: constant data and functions.
+struct ModeType {
+  std::string_view name;             ///< as in scenes
+  std::string_view summary;          ///< one line for people: what it feels like
+  Key keys = Key::none;              ///< what it reads of a scene's mode
+  Datum strength_of = Datum::value;  ///< the datum of its strength where the scene names none
+  /// Fields it samples beside those that its strength and gates read.
+  io::FieldSet (*reads)(const Mode& mode) = nullptr;
+  Footprint (*footprint)(const Mode& mode) = nullptr;
+  /// Adds its primitives of this frame. In the tick: no allocation, lock, log or exception.
+  void (*place)(const ActiveMode& mode, const Place& place, PrimitiveList& primitives) noexcept = nullptr;
+};
+
+/// All types of mode, by name.
+std::span<const ModeType* const> mode_types();
+/// Null where there is none of that name.
+const ModeType* find_mode_type(std::string_view name);
+/// "follow, force, ...": for messages.
+std::string mode_type_names();
+
+}  // namespace palpate::modes

@@ -1,0 +1,185 @@
+#include "plugin/app/live_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "device/simulated/simulated_stylus.h"
+#include "io/fields/gradient.h"
+#include "modes/scene/scene_json.h"
+#include "plugin/session/scan_hash.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double dragged_s = 0.02;  // a dragged change is there before the next one comes
+
+/// A scene with its coupling no stiffer than the stylus renders stably.
+modes::Scene suited(modes::Scene scene, const device::Specification& stylus) {
+  if (stylus.force_axes > 0) scene.stiffness_n_per_m = std::min(scene.stiffness_n_per_m, stylus.stiffness_limit);
+  return scene;
+}
+
+}  // namespace
+
+LiveSession::~LiveSession() {
+  disconnect();
+}
+
+Felt LiveSession::felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const {
+  if (!volume) return {};
+  const device::Specification& stylus = is_connected() ? specification_ : device::SimulatedStylus().specification();
+  return prepare(suited(scene, stylus), volume, stylus.workspace_half_extent,
+                 {.felt = felt_, .scene = scene_, .volume = volume_});
+}
+
+Snapshot LiveSession::snapshot(double change_s) const {
+  return {.plan = felt_.plan,
+          .source = felt_.source,
+          .limits = limits_for(scene_.limits, specification_),
+          .change_s = change_s};
+}
+
+SceneRecord LiveSession::record_of_scene(std::uint32_t epoch, double change_s) const {
+  return {.epoch = epoch,
+          .scene = modes::to_json(suited(scene_, specification_)),
+          .scan_hash = scan_hash(),
+          .half_extent_m = specification_.workspace_half_extent,
+          .maximum_force_n = specification_.maximum_force,
+          .change_s = change_s};
+}
+
+const std::string& LiveSession::scan_hash() const {
+  if (scan_hash_.empty()) scan_hash_ = hash_of(*volume_);
+  return scan_hash_;
+}
+
+void LiveSession::publish(double change_s) {
+  if (!session_) return;
+  // Before the servo can take it, so that the recording has the scene of its every frame.
+  if (recorder_) recorder_->note(record_of_scene(last_epoch_ + 1, change_s));
+  last_epoch_ = session_->publish(snapshot(change_s));
+}
+
+void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume) {
+  if (!volume) disconnect();
+  felt_ = felt_of(scene_, volume);
+  if (volume != volume_) scan_hash_.clear();
+  volume_ = std::move(volume);
+  publish(scene_.limits.ramp_s);
+}
+
+void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
+  modes::validate(scene);
+  felt_ = felt_of(scene, volume_);
+  scene_ = scene;
+  publish(pace == Pace::dragged ? std::min(dragged_s, scene.limits.ramp_s) : scene.limits.ramp_s);
+}
+
+void LiveSession::connect(std::shared_ptr<device::Stylus> stylus) {
+  if (!volume_) throw std::runtime_error("there is no scan to feel yet: open one first");
+  disconnect();
+  begin(std::move(stylus), {});
+}
+
+void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file) {
+  stylus_ = std::move(stylus);
+  specification_ = stylus_->specification();
+  const Felt before =
+      std::exchange(felt_, prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent,
+                                   {.felt = felt_, .scene = scene_, .volume = volume_}));
+  last_epoch_ = 0;
+  try {
+    ring_ = std::make_unique<FrameRing>();
+    if (file) {
+      recorder_ = std::make_unique<Recorder>(*ring_, *file,
+                                             RecordingHeader{.palpate_version = PALPATE_VERSION,
+                                                             .scene = modes::to_json(scene_),
+                                                             .device = specification_.name,
+                                                             .scan_hash = scan_hash(),
+                                                             .seed = 0,
+                                                             .rate_hz = specification_.rate});
+      recorder_->note(record_of_scene(0, scene_.limits.ramp_s));
+      recorder_->note(StylusRecord{.epoch = 0,
+                                   .name = specification_.name,
+                                   .force_axes = specification_.force_axes,
+                                   .maximum_force_n = specification_.maximum_force});
+    }
+    session_ = std::make_unique<Session>(snapshot(scene_.limits.ramp_s), stylus_, ring_.get());
+    servo_ = std::make_unique<Servo>(*session_, specification_.rate);
+  } catch (...) {
+    end();
+    felt_ = before;
+    throw;
+  }
+}
+
+std::optional<RecorderStatus> LiveSession::end() noexcept {
+  servo_.reset();
+  session_.reset();
+  auto recorded = stop_recording();  // writes what is left
+  stylus_.reset();
+  return recorded;
+}
+
+std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
+  if (servo_) {
+    release();
+    Frame frame;
+    constexpr int longest_ms = 100;
+    for (int ms = 0; ms < longest_ms; ++ms) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      const std::uint64_t written = ring_->written();
+      const bool zero = written > 0 && ring_->read(written - 1, frame) &&
+                        std::all_of(std::begin(frame.sent_n), std::end(frame.sent_n), [](double n) { return n == 0; });
+      if (zero && ms > 2) break;  // the release has been heard
+    }
+  }
+  return end();
+}
+
+void LiveSession::feel() noexcept {
+  if (session_) session_->arm();
+}
+
+void LiveSession::release() noexcept {
+  if (session_) session_->disarm();
+}
+
+void LiveSession::clear_fault() noexcept {
+  if (session_) session_->clear_fault();
+}
+
+void LiveSession::heartbeat() {
+  if (!servo_) return;
+  servo_->heartbeat();
+  session_->collect();
+}
+
+void LiveSession::record(const std::filesystem::path& file) {
+  if (!is_connected()) throw std::runtime_error("no stylus is held: connect one, then record");
+  std::shared_ptr<device::Stylus> stylus = stylus_;
+  disconnect();
+  try {
+    begin(stylus, file);
+  } catch (...) {
+    begin(std::move(stylus), {});
+    throw;
+  }
+}
+
+std::optional<RecorderStatus> LiveSession::stop_recording() {
+  if (!recorder_) return {};
+  const RecorderStatus status = recorder_->finish();
+  recorder_.reset();
+  return status;
+}
+
+std::optional<RecorderStatus> LiveSession::recording() const {
+  if (!recorder_) return {};
+  return recorder_->status();
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,163 @@
+#include "plugin/app/live_session.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/app/run_session.h"
+#include "plugin/testing/session_rig.h"
+#include "plugin/testing/test_files.h"
+#include "testdata/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+using namespace testing;
+
+std::shared_ptr<const io::Volume> ball(double radius_mm = 25) {
+  return std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(radius_mm), testdata::make_geometry({.size = glm::ivec3(60)})));
+}
+
+/// Held 3 mm below the top of the ball.
+std::shared_ptr<device::SimulatedStylus> pressing() {
+  auto held = std::make_shared<device::SimulatedStylus>();
+  held->follow(std::vector<device::Waypoint>{{.time = 0, .position = {0, 0.03, 0}},
+                                             {.time = 0.4, .position = {0, 0.022, 0}},
+                                             {.time = 1000, .position = {0, 0.022, 0}}});
+  return held;
+}
+
+Frame last_frame(const LiveSession& live) {
+  Frame frame;
+  const std::uint64_t written = live.frames()->written();
+  if (written > 0) live.frames()->read(written - 1, frame);
+  return frame;
+}
+
+double sent_n(const LiveSession& live) {
+  return glm::length(vector_of(last_frame(live).sent_n));
+}
+
+/// Whether it comes to hold within some seconds of a servo that may be late.
+bool comes(LiveSession& live, const std::function<bool()>& holds) {
+  for (int n = 0; n < 2000; ++n) {
+    if (holds()) return true;
+    live.heartbeat();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+TEST(LiveSession, NeedsAScanBeforeAStylus) {
+  LiveSession live;
+  live.set_scene(modes::load_scene("ct-skin-and-bone"));
+  EXPECT_EQ(live.plan(), nullptr);
+  EXPECT_THROW(live.connect(pressing()), std::runtime_error);
+  EXPECT_THROW(live.record(fresh_path("nothing.h5")), std::runtime_error);
+  EXPECT_FALSE(live.is_connected());
+  live.set_scan(ball());
+  ASSERT_NE(live.plan(), nullptr);
+  EXPECT_EQ(live.plan()->modes.size(), 3U);
+}
+
+TEST(LiveSession, FeelsReleasesAndFeelsAgain) {
+  LiveSession live;
+  live.set_scan(ball());
+  live.set_scene(modes::load_scene("ct-skin-and-bone"));
+  live.connect(pressing());
+  EXPECT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
+  live.release();
+  EXPECT_TRUE(comes(live, [&] { return sent_n(live) == 0; }));
+  live.feel();
+  EXPECT_TRUE(comes(live, [&] { return state_of(last_frame(live)) == device::State::active; }));
+}
+
+TEST(LiveSession, LetsGoInMidContact) {
+  LiveSession live;
+  live.set_scan(ball());
+  live.set_scene(modes::load_scene("ct-skin-and-bone"));
+  live.connect(pressing());
+  EXPECT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
+  live.disconnect();
+  EXPECT_FALSE(live.is_connected());
+  EXPECT_EQ(sent_n(live), 0);
+}
+
+TEST(LiveSession, AnEditedStrengthNeedsNoNewFields) {
+  const auto volume = ball();
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  const glm::dvec3 half_extent_m{0.08, 0.06, 0.06};
+  const Prepared before{prepare(scene, volume, half_extent_m), scene, volume};
+  scene.modes[0].strength_n = modes::TransferFunction(0.5);
+  const Felt edited = prepare(scene, volume, half_extent_m, before);
+  EXPECT_EQ(edited.source, before.felt.source);
+  EXPECT_NE(edited.plan, before.felt.plan);
+  EXPECT_NE(prepare(scene, ball(), half_extent_m, before).source, before.felt.source) << "of another scan";
+  scene.gradient_scale_mm = 3;
+  EXPECT_NE(prepare(scene, volume, half_extent_m, before).source, before.felt.source) << "at another scale";
+}
+
+TEST(LiveSession, AnEditIsInTheLoop) {
+  LiveSession live;
+  live.set_scan(ball());
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  live.set_scene(scene);
+  live.connect(pressing());
+  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
+  scene.modes[0].enabled = false;
+  live.set_scene(scene, Pace::dragged);
+  EXPECT_TRUE(comes(live, [&] { return sent_n(live) < 0.05; })) << "the skin is switched off";
+  scene.modes[0].strength_n = {};
+  scene.modes[0].enabled = true;
+  scene.modes[0].from = "nobody";
+  EXPECT_THROW(live.set_scene(scene), std::invalid_argument);
+  EXPECT_FALSE(live.scene().modes[0].enabled) << "the last good scene goes on";
+}
+
+TEST(LiveSession, GoesOverToAnotherScanAndLetsGoWithoutOne) {
+  LiveSession live;
+  live.set_scan(ball());
+  live.set_scene(modes::load_scene("ct-skin-and-bone"));
+  live.connect(pressing());
+  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
+  live.set_scan(ball(15));
+  EXPECT_TRUE(comes(live, [&] { return sent_n(live) < 0.05; })) << "the stylus is outside of the smaller ball";
+  live.set_scan(nullptr);
+  EXPECT_FALSE(live.is_connected());
+  EXPECT_EQ(live.plan(), nullptr);
+}
+
+TEST(LiveSession, ARecordingIsRepeatedToTheLastBit) {
+  const auto file = fresh_path("live.h5");
+  LiveSession live;
+  const auto volume = ball();
+  live.set_scan(volume);
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  live.set_scene(scene);
+  live.connect(pressing());
+  live.record(file);
+  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
+  scene.modes[0].strength_n = modes::TransferFunction(0.2);
+  live.set_scene(scene, Pace::dragged);
+  ASSERT_TRUE(comes(live, [&] { return last_frame(live).scene_epoch == 1 && last_frame(live).change_part == 1; }));
+  live.release();
+  ASSERT_TRUE(comes(live, [&] { return sent_n(live) == 0; }));
+  const auto status = live.stop_recording();
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->lost, 0U);
+  const Recording recording = read_recording(file);
+  EXPECT_GT(recording.frames.size(), 100U);
+  const Replay again = replay(recording, [&](const SceneRecord& record) { return snapshot_of(record, volume); });
+  EXPECT_EQ(again.frames, recording.frames.size());
+  EXPECT_EQ(again.different, 0U);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace palpate::plugin

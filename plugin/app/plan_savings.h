@@ -1,0 +1,29 @@
+#pragma once
+
+/// What leaving something out of a plan saves, measured on the scan itself: a step with it and without it, and the
+/// memory that either takes.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/volume.h"
+#include "modes/scene/plan.h"
+
+namespace palpate::plugin {
+
+struct Saving {
+  std::string what, why;     ///< as modes::LeftOut says
+  std::string saves;         ///< in words
+  std::optional<double> us;  ///< of a sub-step; empty where it cannot be had
+  std::optional<double> ms;  ///< once, of computing ahead
+  std::optional<std::size_t> bytes;
+};
+
+/// Of everything that the plan of this scene left out. Takes some tenths of a second.
+std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan& plan,
+                                    const std::shared_ptr<const io::Volume>& volume);
+
+}  // namespace palpate::plugin

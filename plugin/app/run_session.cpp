@@ -1,0 +1,175 @@
+#include "plugin/app/run_session.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <thread>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/report/live_view.h"
+#include "plugin/session/servo.h"
+
+namespace palpate::plugin {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto between_looks = std::chrono::milliseconds(100);
+constexpr int ticks_between_looks = 256;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While it lives, SIGINT and SIGTERM ask for an end in good order.
+class Interruptible {
+ public:
+  Interruptible() {
+    interrupted = 0;
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = 1; };
+    sigaction(SIGINT, &action, &interrupt_before_);
+    sigaction(SIGTERM, &action, &terminate_before_);
+  }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+  ~Interruptible() {
+    sigaction(SIGINT, &interrupt_before_, nullptr);
+    sigaction(SIGTERM, &terminate_before_, nullptr);
+  }
+
+ private:
+  struct sigaction interrupt_before_ {};
+  struct sigaction terminate_before_ {};
+};
+
+RecordingHeader header_of(const SessionRun& run, const device::Specification& specification) {
+  return {.palpate_version = PALPATE_VERSION,
+          .scene = modes::to_json(run.scene),
+          .device = specification.name,
+          .scan_hash = run.scan_hash,
+          .seed = static_cast<double>(run.seed),
+          .rate_hz = specification.rate};
+}
+
+/// What a person sees while it runs.
+class Watch {
+ public:
+  Watch(const SessionRun& run, const FrameRing& ring, const Recorder& recorder) : recorder_(recorder) {
+    if (run.live) {
+      view_.emplace(ring, run.scene, run.unit);
+    }
+  }
+  void look() {
+    if (Clock::now() < next_) {
+      return;
+    }
+    next_ = Clock::now() + between_looks;
+    if (view_) {
+      view_->show();
+    }
+    const RecorderStatus status = recorder_.status();
+    if (status.stopped && !told_) {
+      told_ = true;
+      fmt::print(stderr, "\npalpate: {}. The session goes on unrecorded.\n", status.why);
+    }
+  }
+
+ private:
+  const Recorder& recorder_;
+  std::optional<LiveView> view_;
+  Clock::time_point next_ = Clock::now();
+  bool told_ = false;
+};
+
+void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, Watch& watch,
+                       SessionRunResult& result) {
+  Servo servo(session, rate_hz);
+  result.realtime = servo.realtime();
+  if (!result.realtime.advice.empty()) {
+    fmt::print(stderr, "palpate: real time: {}\n", result.realtime.advice);
+  }
+  const auto end = Clock::now() + std::chrono::duration<double>(run.seconds);
+  while (interrupted == 0 && (run.seconds <= 0 || Clock::now() < end)) {
+    servo.heartbeat();
+    session.collect();
+    watch.look();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  servo.stop();
+  result.missed = servo.missed();
+}
+
+void run_in_arithmetic(const SessionRun& run, Session& session, double rate_hz, Watch& watch, Recorder& recorder) {
+  const auto ticks = static_cast<std::uint64_t>(run.seconds * rate_hz);
+  for (std::uint64_t n = 0; n < ticks && interrupted == 0; ++n) {
+    if (n % ticks_between_looks == 0) {
+      recorder.wait_for_room();
+      watch.look();
+    }
+    session.tick();
+  }
+}
+
+}  // namespace
+
+modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) {
+  if (stylus.force_axes > 0 && scene.stiffness_n_per_m > stylus.stiffness_limit) {
+    fmt::print(stderr, "palpate: the scene's stiffness of {:.0f} N/m is taken down to {:.0f}, what {} renders stably\n",
+               scene.stiffness_n_per_m, stylus.stiffness_limit, stylus.name);
+    scene.stiffness_n_per_m = stylus.stiffness_limit;
+  }
+  return scene;
+}
+
+Snapshot snapshot_of(const modes::Scene& scene, const Felt& felt, const device::Specification& stylus) {
+  return {.plan = felt.plan,
+          .source = felt.source,
+          .limits = limits_for(scene.limits, stylus),
+          .change_s = scene.limits.ramp_s};
+}
+
+Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume) {
+  const modes::Scene scene = modes::scene_from_json(record.scene, "the recording's scene");
+  device::Specification stylus;
+  stylus.workspace_half_extent = record.half_extent_m;
+  stylus.maximum_force = record.maximum_force_n;
+  Snapshot snapshot = snapshot_of(scene, prepare(scene, volume, record.half_extent_m), stylus);
+  snapshot.change_s = record.change_s;
+  return snapshot;
+}
+
+bool stderr_is_terminal() {
+  return isatty(STDERR_FILENO) != 0;
+}
+
+SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file) {
+  const device::Specification specification = run.stylus->specification();
+  SessionRunResult result;
+  FrameRing ring;
+  Recorder recorder(ring, file, header_of(run, specification));
+  recorder.note(SceneRecord{.epoch = 0,
+                            .scene = modes::to_json(run.scene),
+                            .scan_hash = run.scan_hash,
+                            .half_extent_m = specification.workspace_half_extent,
+                            .maximum_force_n = specification.maximum_force});
+  recorder.note(StylusRecord{.epoch = 0,
+                             .name = specification.name,
+                             .force_axes = specification.force_axes,
+                             .maximum_force_n = specification.maximum_force});
+  {
+    const Interruptible interruptible;
+    Session session(snapshot_of(run.scene, run.felt, specification), run.stylus, &ring);
+    Watch watch(run, ring, recorder);
+    if (run.at_clock_pace) {
+      run_at_clock_pace(run, session, specification.rate, watch, result);
+    } else {
+      run_in_arithmetic(run, session, specification.rate, watch, recorder);
+    }
+    result.interrupted = interrupted != 0;
+  }
+  result.recorder = recorder.finish();
+  return result;
+}
+
+}  // namespace palpate::plugin

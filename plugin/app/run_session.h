@@ -1,0 +1,56 @@
+#pragma once
+
+/// A session from beginning to end, recorded: at the clock's pace on the servo thread, or, with a stylus that is only
+/// arithmetic, as fast as it goes.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "device/link/realtime.h"
+#include "device/stylus.h"
+#include "modes/scene/scene.h"
+#include "plugin/recording/recorder.h"
+#include "plugin/session/scan.h"
+#include "plugin/session/session.h"
+
+namespace palpate::plugin {
+
+struct SessionRun {
+  modes::Scene scene;
+  Felt felt;  ///< the scene on the scan
+  std::string scan_hash;
+  std::string unit;  ///< the scan's
+  std::shared_ptr<device::Stylus> stylus;
+  std::uint64_t seed = 0;
+  double seconds = 0;  ///< 0: until it is interrupted
+  bool at_clock_pace = true;
+  bool live = false;  ///< a line on stderr that is written over
+};
+
+struct SessionRunResult {
+  RecorderStatus recorder;
+  device::RealtimeStatus realtime;  ///< of the servo thread, at the clock's pace
+  std::uint64_t missed = 0;         ///< deadlines without a tick
+  bool interrupted = false;         ///< by SIGINT or SIGTERM: ended in good order
+};
+
+/// Records to the file (`<file>.partial` until it ends). Throws what opening the stylus and the file throws.
+SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file);
+
+/// The scene with its coupling no stiffer than the stylus renders stably (device/stiffness.h); says so on stderr where
+/// that changes it.
+modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
+
+/// The snapshot of a scene on a scan for a stylus.
+Snapshot snapshot_of(const modes::Scene& scene, const Felt& felt, const device::Specification& stylus);
+
+/// The snapshot that a recording tells of, of the scan that it was recorded on. Throws std::invalid_argument for a
+/// scene that is none.
+Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume);
+
+/// Whether stderr is a terminal.
+bool stderr_is_terminal();
+
+}  // namespace palpate::plugin

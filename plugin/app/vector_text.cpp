@@ -1,0 +1,25 @@
+#include "plugin/app/vector_text.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "plugin/app/errors.h"
+
+namespace palpate::plugin {
+
+glm::dvec3 parse_vector(const std::string& text, const std::string& option) {
+  glm::dvec3 vector{0};
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [next, error] = std::from_chars(at, end, vector[axis]);
+    const bool complete = axis == 2 ? next == end : next != end && *next == ',';
+    if (error != std::errc{} || !complete || !std::isfinite(vector[axis])) {
+      throw WrongUsage(option + ": \"" + text + "\" is not a point; write x,y,z in mm, such as -12.5,40,88");
+    }
+    at = next + 1;
+  }
+  return vector;
+}
+
+}  // namespace palpate::plugin

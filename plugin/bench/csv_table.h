@@ -1,0 +1,30 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "plugin/report/text_file.h"
+
+namespace palpate::plugin {
+
+/// Lines of a table on stdout, kept for a CSV file.
+class CsvTable {
+ public:
+  explicit CsvTable(std::string header) : csv_(std::move(header) + "\n") { fmt::print("\n{}", csv_); }
+  void add(const std::string& row) {
+    fmt::print("{}\n", row);
+    csv_ += row + "\n";
+  }
+  void save(const std::filesystem::path& folder, const std::string& name) const {
+    if (folder.empty()) return;
+    write_text(folder / name, csv_);
+  }
+
+ private:
+  std::string csv_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,59 @@
+// `palpate-bench`: what solvers, fields, loading and the tick cost, and how far they are from the truth.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "io/fresh_folder.h"
+#include "plugin/bench/bench_fields.h"
+#include "plugin/bench/bench_load.h"
+#include "plugin/bench/bench_soak.h"
+#include "plugin/bench/bench_solvers.h"
+#include "plugin/bench/bench_subdivision.h"
+#include "plugin/bench/bench_tick.h"
+#include "plugin/bench/extremes_study.h"
+#include "plugin/bench/loop_studies.h"
+#include "plugin/options/run_program.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct StabilityArguments {
+  LoopStudyOptions options;
+  std::string output;
+};
+
+void add_stability(CLI::App& bench) {
+  auto arguments = std::make_shared<StabilityArguments>();
+  CLI::App* command = bench.add_subcommand(
+      "stability",
+      "Solvers at extremes, over frames and in the hand: errors, creep, drift, chatter, and the stiffness that holds.");
+  command->add_option("--seconds", arguments->options.seconds, "of each study over frames")->capture_default_str();
+  command->add_option("--hands", arguments->options.hands, "seeded hands")->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");
+  command->callback([arguments] {
+    io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) {
+      run_extremes(folder);
+      run_loop_studies(arguments->options, folder);
+    });
+  });
+}
+
+}  // namespace
+
+}  // namespace palpate::plugin
+
+int main(int argc, char** argv) {
+  using namespace palpate::plugin;
+  CLI::App program{"Error against run time, as tables, CSV files and pictures.", "palpate-bench"};
+  program.set_version_flag("--version", PALPATE_VERSION);
+  add_stability(program);
+  add_bench_fields(program);
+  add_bench_load(program);
+  add_bench_soak(program);
+  add_bench_solvers(program);
+  add_bench_subdivision(program);
+  add_bench_tick(program);
+  return run_program(program, argc, argv);
+}

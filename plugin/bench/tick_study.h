@@ -1,0 +1,62 @@
+#pragma once
+
+/// What a tick costs: a session run over given poses, without a device to wait for, every tick timed from outside and
+/// stage by stage.
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "plugin/report/summary.h"
+#include "plugin/session/session.h"
+
+namespace palpate::plugin {
+
+struct TickRow {
+  std::string what;
+  std::size_t ticks = 0;
+  Percentiles us;                                   ///< of a whole tick, the frame's way into the ring included
+  std::array<double, stage_count> stage_mean_ns{};  ///< the median of a stage of 20 ns says little
+  double primitives = 0;                            ///< mean of a frame
+  double sub_steps = 0;                             ///< mean
+  double from_brick = 0;                            ///< share of frames whose gradient was ready
+};
+
+/// Runs the work on a thread of its own, scheduled as the servo's is where the system allows it, and waits for it.
+void run_as_servo(const std::function<void()>& work);
+
+/// For a servo that does not keep the clock's pace: to be called after every tick. Sleeps now and then, as every servo
+/// does between its ticks, so that the worker that computes fields ahead gets its turn.
+void pause_now_and_then(std::size_t tick);
+
+/// Ticks over the poses (device frame, m), there and back again and again so that none jumps; what is measured begins
+/// after a tenth of them. At a rate (Hz) they are at the clock's pace, with whatever else runs between them; 0: nearly
+/// back to back.
+TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::span<const glm::dvec3> poses_m,
+                      std::size_t ticks, double rate_hz = 0);
+
+/// While it lives, another thread keeps a core and the memory busy.
+class BusyThread {
+ public:
+  BusyThread();
+  BusyThread(const BusyThread&) = delete;
+  BusyThread& operator=(const BusyThread&) = delete;
+  ~BusyThread();
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+/// One line for a person, and its header.
+std::string to_text(const TickRow& row);
+std::string tick_row_header();
+std::string to_csv(const TickRow& row);
+std::string tick_csv_header();
+
+}  // namespace palpate::plugin

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "plugin/app/errors.h"
+#include "plugin/app/vector_text.h"
+#include "plugin/cli/commands.h"
+#include "plugin/options/series_option.h"
+#include "plugin/report/stroke_picture.h"
+#include "plugin/report/summary.h"
+#include "plugin/session/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct ProfileOptions {
+  SeriesOption series;
+  std::string scene, from, to;
+  double speed = 50;
+  std::filesystem::path picture, table;
+  bool json = false;
+};
+
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json vector(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+std::string to_json(const std::vector<StrokePoint>& stroke, const modes::Scene& scene) {
+  nlohmann::json json{{"position_mm", nlohmann::json::array()}, {"proxy_mm", nlohmann::json::array()},
+                      {"force_n", nlohmann::json::array()},     {"value", nlohmann::json::array()},
+                      {"solver", nlohmann::json::array()},      {"error_bound_m", nlohmann::json::array()},
+                      {"boundary", nlohmann::json::array()}};
+  for (const StrokePoint& point : stroke) {
+    json["position_mm"].push_back(vector(point.position_mm));
+    json["proxy_mm"].push_back(vector(point.proxy_mm));
+    json["force_n"].push_back(vector(point.force_n));
+    json["value"].push_back(number(point.value));
+    json["solver"].push_back(solver::name_of(point.solver));
+    json["error_bound_m"].push_back(number(point.error_bound_m));
+    json["boundary"].push_back(point.boundary ? nlohmann::json(display_name(scene, *point.boundary))
+                                              : nlohmann::json());
+  }
+  return json.dump();
+}
+
+void print_text(const std::vector<StrokePoint>& stroke, const modes::Plan& plan, const modes::Scene& scene) {
+  fmt::print("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
+  const glm::dvec3 from = stroke.front().position_mm;
+  const glm::dvec3 along = glm::normalize(stroke.back().position_mm - from);
+  // A line every half millimetre is what a person reads; --json has every frame.
+  double next = 0;
+  for (const StrokePoint& point : stroke) {
+    const double depth = glm::dot(point.position_mm - from, along);
+    if (depth + 1e-9 >= next) {
+      next += 0.5;
+      fmt::print("{:9.2f} {:9.3f} {:9.2f} {:9.1f}  {:<11} {}\n", depth, glm::length(point.force_n),
+                 glm::dot(point.proxy_mm - from, along), point.value, solver::name_of(point.solver),
+                 point.boundary ? display_name(scene, *point.boundary) : "");
+    }
+  }
+  fmt::print("\n");
+  for (const Contact& contact : contacts_of(stroke, plan, met_n)) {
+    const StrokePoint& first = stroke[contact.first];
+    fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N\n", display_name(scene, contact.boundary),
+               glm::dot(first.proxy_mm - from, along), patient_coordinates(first.proxy_mm), first.value,
+               contact.peak_n);
+  }
+}
+
+void run(const ProfileOptions& options) {
+  const glm::dvec3 from = parse_vector(options.from, "--from");
+  const glm::dvec3 to = parse_vector(options.to, "--to");
+  if (!(options.speed > 0)) {
+    throw WrongUsage("--speed has to be above 0 mm/s");
+  }
+  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
+  const modes::Scene scene = scene_for(options.scene, *volume);
+  const Felt felt = prepare(scene, volume, glm::dvec3(0.1));
+  const Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, options.speed),
+                        .plan = felt.plan,
+                        .scene = scene,
+                        .unit = volume->unit,
+                        .limit_n = scene.limits.force_n};
+  if (!options.picture.empty()) write_png(charts_of(profile), options.picture);
+  if (!options.table.empty()) write_csv(profile, options.table);
+  if (options.json) {
+    fmt::print("{}\n", to_json(profile.stroke, scene));
+  } else {
+    print_text(profile.stroke, *felt.plan, scene);
+  }
+}
+
+}  // namespace
+
+void add_profile(CLI::App& program) {
+  auto options = std::make_shared<ProfileOptions>();
+  CLI::App* command =
+      program.add_subcommand("profile",
+                             "The force felt along a straight stroke of the probe, as a table and a picture.\n"
+                             "Tunes a scene without a stylus.");
+  add_series_option(*command, options->series);
+  command->add_option("--from", options->from, "where the stroke begins: x,y,z in mm, patient space (LPS)")->required();
+  command->add_option("--to", options->to, "where it ends")->required();
+  command->add_option("--scene", options->scene,
+                      "a scene's file or the name of a starting scene (default: one that suits the modality)");
+  command->add_option("--speed", options->speed, "of the probe, mm/s; a frame is 1 ms")->capture_default_str();
+  command->add_option("-o,--picture", options->picture, "also draw the stroke: a PNG file");
+  command->add_option("--table", options->table, "also write every frame as a line of a CSV file");
+  command->add_flag("--json", options->json, "every frame, for machines");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace palpate::plugin

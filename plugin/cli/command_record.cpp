@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "plugin/app/errors.h"
+#include "plugin/cli/commands.h"
+#include "plugin/options/session_option.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct RecordOptions {
+  SessionOption session;
+  std::filesystem::path output;
+};
+
+void run(const RecordOptions& options) {
+  if (std::filesystem::exists(options.output)) {
+    throw InputRefused(options.output.string() + " exists; name another file");
+  }
+  const ReadySession session = prepare_session(options.session, make_stylus(options.session.stylus));
+  const SessionRunResult result = run_session(session.run, options.output);
+  fmt::print("{} frames in {}; missed ticks {}, frames lost {}\n", result.recorder.written, options.output.string(),
+             result.missed, result.recorder.lost);
+  if (result.recorder.stopped) {
+    throw InputRefused(result.recorder.why);
+  }
+}
+
+}  // namespace
+
+void add_record(CLI::App& program) {
+  auto options = std::make_shared<RecordOptions>();
+  CLI::App* command = program.add_subcommand(
+      "record",
+      "A session to a file, at the clock's pace: until Ctrl-C, --seconds, or the end of a simulated hand's path.");
+  add_session_option(*command, options->session);
+  command->add_option("-o,--output", options->output, "the recording: an HDF5 file that is not there yet")->required();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/app/errors.h"
+#include "plugin/app/run_session.h"
+#include "plugin/cli/commands.h"
+#include "plugin/options/series_option.h"
+#include "plugin/recording/replay.h"
+#include "plugin/session/scan_hash.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct ReplayOptions {
+  std::filesystem::path recording, csv;
+  SeriesOption series;
+  bool json = false;
+};
+
+/// Scenes of the recording on the one scan that is named.
+SnapshotMaker on_scan(const std::shared_ptr<const io::Volume>& volume) {
+  const std::string hash = hash_of(*volume);
+  return [volume, hash](const SceneRecord& record) {
+    if (record.scan_hash != hash) {
+      throw InputRefused(fmt::format(
+          "the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",
+          record.scan_hash, hash));
+    }
+    return snapshot_of(record, volume);
+  };
+}
+
+std::string verdict(const Replay& replay) {
+  if (replay.different == 0) {
+    return "the same to the last bit";
+  }
+  return fmt::format(
+      "{} differ, the first is frame {}: the proxy by at most {:.1e} m (certified bounds of the two together {:.1e} "
+      "m), "
+      "the force sent by at most {:.1e} N",
+      replay.different, *replay.first_different, replay.largest_proxy_m, replay.largest_bound_m,
+      replay.largest_force_n);
+}
+
+void print_json(const Replay& replay) {
+  nlohmann::ordered_json json{{"frames", replay.frames},
+                              {"different", replay.different},
+                              {"first_different", nullptr},
+                              {"largest_proxy_m", replay.largest_proxy_m},
+                              {"largest_force_n", replay.largest_force_n},
+                              {"largest_bound_m", replay.largest_bound_m},
+                              {"after_gap", replay.after_gap}};
+  if (replay.first_different) json["first_different"] = *replay.first_different;
+  fmt::print("{}\n", json.dump(1));
+}
+
+void run(const ReplayOptions& options) {
+  if (options.series.path.empty() && options.csv.empty()) {
+    throw WrongUsage("replay needs the SERIES that was felt, or --csv to export the recording alone");
+  }
+  const Recording recording = read_recording(options.recording);
+  if (!recording.complete) {
+    fmt::print(stderr, "palpate: {} was not closed in good order; {} frames of it can be read\n",
+               options.recording.string(), recording.frames.size());
+  }
+  if (!options.csv.empty()) {
+    write_csv(recording, options.csv);
+  }
+  if (options.series.path.empty()) {
+    return;
+  }
+  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
+  const Replay result = replay(recording, on_scan(volume));
+  if (options.json) {
+    print_json(result);
+  } else {
+    fmt::print("{} frames replayed: {}\n", result.frames, verdict(result));
+    if (result.after_gap > 0) {
+      fmt::print("{} frames come after some that were lost, and cannot be replayed\n", result.after_gap);
+    }
+  }
+  // Another build may differ by what both certify; more than that is another session.
+  if (!(result.largest_proxy_m <= result.largest_bound_m)) {
+    throw InputRefused(
+        "the replay is not the session that was recorded: was the recording changed, or made by another version?");
+  }
+}
+
+}  // namespace
+
+void add_replay(CLI::App& program) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = program.add_subcommand(
+      "replay",
+      "A recorded session again, frame by frame, compared with what was recorded: on the same build the same to the\n"
+      "last bit, whichever stylus it was made with.");
+  command->add_option("RECORDING", options->recording, "what `probe` or `record` wrote")
+      ->required()
+      ->check(CLI::ExistingFile);
+  add_series_option(*command, options->series);
+  command->get_option("SERIES")->required(false);
+  command->add_option("--csv", options->csv, "also export it: a line a frame, every member a column");
+  command->add_flag("--json", options->json, "for machines");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace palpate::plugin

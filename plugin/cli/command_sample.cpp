@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/fields/volume_fields.h"
+#include "plugin/app/errors.h"
+#include "plugin/cli/commands.h"
+#include "plugin/options/series_option.h"
+
+namespace palpate::plugin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct SampleOptions {
+  SeriesOption series;
+  std::vector<std::string> at;
+  double scale_mm = 0;
+  bool json = false;
+};
+
+glm::dvec3 parse_point(const std::string& text) {
+  glm::dvec3 point(0);
+  std::string_view rest = text;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (rest.starts_with('+')) rest.remove_prefix(1);
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), point[axis]);
+    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+    const bool separated = axis == 2 ? rest.empty() : rest.starts_with(',');
+    if (error != std::errc() || !separated || !std::isfinite(point[axis])) {
+      throw WrongUsage(
+          fmt::format("--at {}: a point is x,y,z in mm, patient space (LPS), for example --at 12.5,-30,644", text));
+    }
+    if (axis < 2) rest.remove_prefix(1);
+  }
+  return point;
+}
+
+// Coordinates are typed and printed with a limited number of digits; a voxel's centre is meant where one is that near.
+glm::dvec3 at_nearby_centre(const io::Geometry& geometry, const glm::dvec3& position) {
+  constexpr double typed_digits = 1e-5;
+  const glm::dvec3 index = geometry.to_index(position);
+  const glm::dvec3 centre = glm::round(index);
+  return glm::length(index - centre) < typed_digits ? geometry.to_patient(centre) : position;
+}
+
+void run(const SampleOptions& options) {
+  std::vector<glm::dvec3> points;
+  for (const std::string& text : options.at) points.push_back(parse_point(text));
+
+  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
+  constexpr io::FieldSet wanted = io::FieldSet::value | io::FieldSet::gradient;
+  const double scale = options.scale_mm > 0 ? options.scale_mm : io::default_gradient_scale_mm(volume->geometry);
+  // Of a voxel its own value is asked for.
+  const io::VolumeFields fields(volume, wanted, scale, {.value = io::ValueMethod::trilinear});
+
+  Json all = Json::array();
+  for (const glm::dvec3& point : points) {
+    const io::Sample sample = fields.sample(at_nearby_centre(volume->geometry, point), wanted);
+    Json json;
+    json["position_mm"] = {point.x, point.y, point.z};
+    if (sample.inside) {
+      json["value"] = sample.value;
+      json["gradient_per_mm"] = {sample.gradient.x, sample.gradient.y, sample.gradient.z};
+    } else {
+      json["outside"] = true;
+    }
+    all.push_back(json);
+    if (options.json) continue;
+    fmt::print("({:.10g}, {:.10g}, {:.10g}) mm: ", point.x, point.y, point.z);
+    if (!sample.inside) {
+      fmt::print("outside the scan\n");
+    } else {
+      fmt::print("{:.10g}{}{}, gradient ({:.6g}, {:.6g}, {:.6g}) per mm\n", sample.value,
+                 volume->unit.empty() ? "" : " ", volume->unit, sample.gradient.x, sample.gradient.y,
+                 sample.gradient.z);
+    }
+  }
+  if (options.json) std::puts(all.dump(2).c_str());
+}
+
+}  // namespace
+
+void add_sample(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("sample", "Value and gradient at points in patient space");
+  const auto options = std::make_shared<SampleOptions>();
+  add_series_option(*command, options->series);
+  command->add_option("--at", options->at, "Points x,y,z in mm, patient space (LPS)")->required();
+  command->add_option("--scale", options->scale_mm, "Scale of the gradient's Gaussian, mm; by default from the voxels")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", options->json, "JSON on stdout");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,136 @@
+// `palpate probe`, `record` and `replay` as a person meets them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "plugin/recording/recording.h"
+#include "plugin/testing/command_rig.h"
+
+namespace palpate::plugin {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+
+TEST(CommandSession, WhatProbeRecordsReplaysToTheLastBitAndExports) {
+  const auto out = fresh_path("probed");
+  const auto csv = fresh_path("probed.csv");
+  ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "-o " + out.string()).exit, 0);
+  const std::string recording = (out / "recording.h5").string();
+  const Outcome same = palpate("replay " + recording + " " + phantom().string());
+  EXPECT_EQ(same.exit, 0) << same.output;
+  EXPECT_THAT(same.output, HasSubstr("the same to the last bit"));
+  const Outcome json = palpate("replay " + recording + " " + phantom().string() + " --json", false);
+  EXPECT_EQ(nlohmann::json::parse(json.output)["different"], 0);
+
+  ASSERT_EQ(palpate("replay " + recording + " --csv " + csv.string()).exit, 0);
+  std::ifstream lines(csv);
+  std::string header, line;
+  std::getline(lines, header);
+  std::size_t rows = 0;
+  while (std::getline(lines, line)) {
+    ASSERT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ',')) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, read_recording(recording).frames.size());
+  EXPECT_EQ(header.substr(0, 13), "index,time_s,");
+
+  EXPECT_EQ(palpate("replay " + recording).exit, 2) << "neither a scan nor an export";
+}
+
+TEST(CommandSession, ComparesTwoRecordingsOfOneStroke) {
+  const auto first = fresh_path("once"), second = fresh_path("twice"), other = fresh_path("elsewhere");
+  for (const auto& [out, seed] : {std::pair{first, "1"}, std::pair{second, "2"}}) {
+    ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seed " + seed + " -o " + out.string()).exit, 0);
+  }
+  const std::string both = (first / "recording.h5").string() + " " + (second / "recording.h5").string() + " ";
+  const auto picture = fresh_path("both.png"), table = fresh_path("both.csv");
+  const Outcome words =
+      palpate("compare " + both + phantom().string() + " -o " + picture.string() + " --table " + table.string());
+  EXPECT_EQ(words.exit, 0) << words.output;
+  EXPECT_THAT(words.output, HasSubstr("Forces differ by at most"));
+  EXPECT_TRUE(std::filesystem::exists(picture));
+  EXPECT_TRUE(std::filesystem::exists(table));
+  const auto json = nlohmann::json::parse(palpate("compare " + both + phantom().string() + " --json", false).output);
+  EXPECT_EQ(json["first_n"].size(), json["along_mm"].size());
+  EXPECT_GT(json["largest_difference_n"], 0) << "another tremor is another press";
+  EXPECT_LT(json["most_apart_mm"], 1) << "and yet the same stroke";
+
+  testdata::write_series(testdata::scan(testdata::make_sphere(24), testdata::make_geometry({.size = glm::ivec3(60)})),
+                         other);
+  const Outcome refused = palpate("compare " + both + other.string());
+  EXPECT_EQ(refused.exit, 1);
+  EXPECT_THAT(refused.output, ::testing::AllOf(HasSubstr("recording.h5"), HasSubstr("another scan")));
+}
+
+TEST(CommandSession, AnotherScanIsNotTheOneThatWasFelt) {
+  const auto out = fresh_path("felt");
+  const auto other = fresh_path("other");
+  ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 1 -o " + out.string()).exit, 0);
+  testdata::write_series(testdata::scan(testdata::make_sphere(24), testdata::make_geometry({.size = glm::ivec3(60)})),
+                         other);
+  const Outcome refused = palpate("replay " + (out / "recording.h5").string() + " " + other.string());
+  EXPECT_EQ(refused.exit, 1);
+  EXPECT_THAT(refused.output, HasSubstr("another scan"));
+}
+
+TEST(CommandSession, RecordKeepsTheClocksPaceAndItsRecordingReplays) {
+  const auto file = fresh_path("live.h5");
+  const auto begun = std::chrono::steady_clock::now();
+  const Outcome outcome = palpate("record " + phantom().string() + forehead + "--seconds 2 --live -o " + file.string());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  ASSERT_EQ(outcome.exit, 0) << outcome.output;
+  EXPECT_GT(seconds, 2.0);
+  EXPECT_THAT(outcome.output, ::testing::AllOf(HasSubstr("missed"), HasSubstr("mm deep"), HasSubstr("us")));
+  const Recording recording = read_recording(file);
+  EXPECT_NEAR(recording.frames.back().time_s, 2.0, 0.3);
+  EXPECT_EQ(palpate("replay " + file.string() + " " + phantom().string()).exit, 0);
+  EXPECT_EQ(palpate("record " + phantom().string() + forehead + "--seconds 1 -o " + file.string()).exit, 1)
+      << "nothing is overwritten";
+}
+
+TEST(CommandSession, InterruptedItEndsInGoodOrderAndKilledItLeavesAReadableFile) {
+  for (const int signal : {SIGINT, SIGKILL}) {
+    const auto file = fresh_path("signal.h5");
+    const std::string folder = phantom().string();
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(PALPATE_PROGRAM, PALPATE_PROGRAM, "record", folder.c_str(), "--from", "0,-29,0", "--to", "0,0,0", "-o",
+            file.c_str(), nullptr);
+      _exit(127);
+    }
+    const std::string partial = file.string() + ".partial";
+    for (int n = 0; n < 400 && !std::filesystem::exists(partial); ++n) usleep(25000);
+    usleep(2500000);
+    kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (signal == SIGINT) {
+      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+      EXPECT_TRUE(read_recording(file).complete);
+      EXPECT_EQ(read_recording(file).scenes.size(), 1U);
+    } else {
+      const Recording left = read_recording(partial);
+      EXPECT_FALSE(left.complete);
+      EXPECT_GT(left.frames.size(), 800U);
+      EXPECT_EQ(palpate("replay " + partial + " " + folder).exit, 0);
+    }
+  }
+}
+
+TEST(CommandSession, ADeviceThatIsNotThereIsNamed) {
+  const Outcome outcome = palpate("record " + phantom().string() + forehead + "--device falcon --seconds 1 -o " +
+                                  fresh_path("falcon.h5").string());
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("alcon"));
+}
+
+}  // namespace
+}  // namespace palpate::plugin

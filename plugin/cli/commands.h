@@ -1,0 +1,25 @@
+#pragma once
+
+/// The subcommands of `palpate`, one file each.
+
+namespace CLI {
+class App;
+}
+
+namespace palpate::plugin {
+
+// Each adds its subcommand to the program; the subcommand's callback does the work, prints to stdout and throws
+// InputRefused or WrongUsage.
+void add_info(CLI::App& program);
+void add_sample(CLI::App& program);
+void add_suggest(CLI::App& program);
+void add_plan(CLI::App& program);
+void add_profile(CLI::App& program);
+void add_probe(CLI::App& program);
+void add_record(CLI::App& program);
+void add_replay(CLI::App& program);
+void add_compare(CLI::App& program);
+void add_solve(CLI::App& program);
+void add_devices(CLI::App& program);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,28 @@
+// `palpate`: the engine without a screen. What ParaView's panel does, a script can do.
+
+#include <CLI/CLI.hpp>
+
+#include "plugin/cli/commands.h"
+#include "plugin/options/run_program.h"
+
+int main(int argc, char** argv) {
+  using namespace palpate::plugin;
+  CLI::App program{
+      "Feel a CT or MR scan: tissue boundaries as forces on a haptic stylus.\n"
+      "Research software, not a medical device.\n\n"
+      "A first session:  palpate info FOLDER;  palpate probe FOLDER --scene ct-skin-and-bone -o OUT",
+      "palpate"};
+  program.set_version_flag("--version", PALPATE_VERSION);
+  add_info(program);
+  add_sample(program);
+  add_solve(program);
+  add_suggest(program);
+  add_plan(program);
+  add_profile(program);
+  add_probe(program);
+  add_record(program);
+  add_replay(program);
+  add_compare(program);
+  add_devices(program);
+  return run_program(program, argc, argv);
+}

@@ -1,0 +1,186 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcuid.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/dicom/decode.h"
+#include "io/testing/test_coders.h"
+#include "plugin/messages/provoked.h"
+#include "plugin/messages/provoked_scans.h"
+
+namespace palpate::plugin::testing {
+namespace {
+
+using namespace std::string_literals;
+using namespace io::internal;
+using Bytes = std::vector<Uint8>;
+
+constexpr int edge = 32;  // columns and rows of the images
+
+int texture(int i, int j) {
+  return (i * 2654435 + j * 40503 + i * j * 31) & 0xFFF;
+}
+
+/// A stack whose slices' pixels are these frames of compressed bytes.
+std::string of_coded(E_TransferSyntax syntax, const Bytes& bytes, const std::function<void(DcmDataset&)>& edit = {}) {
+  return of_stack(3, [&](int, TestImage& image) {
+    image.columns = image.rows = edge;
+    image.syntax = syntax;
+    image.edit = [&](DcmDataset& dataset) {
+      encapsulate(dataset, syntax, {bytes}, 1U << 20);
+      if (edit) edit(dataset);
+    };
+  });
+}
+
+/// The same, whose files' bytes are edited.
+std::string of_coded_file(const std::function<void(std::string&)>& damage) {
+  return said_of([&](const TestFolder& folder) {
+    TestImage image;
+    image.syntax = EXS_RLELossless;
+    image.edit = [](DcmDataset& dataset) { encapsulate(dataset, EXS_RLELossless, {Bytes(100, 7)}, 1U << 20); };
+    write(image, folder / "a.dcm");
+    std::string bytes = bytes_of(folder / "a.dcm");
+    damage(bytes);
+    write_bytes(folder / "a.dcm", bytes);
+  });
+}
+
+/// What DCMTK's encoder makes of the texture, edited in the file.
+std::string of_jpeg(const std::function<void(std::string&)>& damage) {
+  register_encoders();
+  return said_of([&](const TestFolder& folder) {
+    write_stack(folder.path(), 2, [](int, TestImage& image) {
+      image.columns = image.rows = edge;
+      image.value = texture;
+      image.syntax = EXS_JPEGProcess14SV1;
+    });
+    std::string bytes = bytes_of(folder / "s1.dcm");
+    damage(bytes);
+    write_bytes(folder / "s1.dcm", bytes);
+  });
+}
+
+/// RLE of two segments, which begin where they are said to.
+Bytes rle(std::array<Uint8, 2> starts, const Bytes& behind) {
+  Bytes bytes(64 + behind.size());
+  bytes[0] = 2;
+  bytes[4] = starts[0];
+  bytes[8] = starts[1];
+  std::copy(behind.begin(), behind.end(), bytes.begin() + 64);
+  return bytes;
+}
+
+Bytes coded_2000(int columns, int bits) {
+  return jpeg2000(columns, edge, bits, false, texture);
+}
+
+Bytes first_half(Bytes bytes) {
+  bytes.resize(bytes.size() / 2);
+  return bytes;
+}
+
+/// What is said of an image of JPEG 2000 with one byte broken: of each byte in its turn.
+std::string of_a_broken_byte() {
+  const Bytes whole = coded_2000(edge, 12);
+  std::string said;
+  for (std::size_t at = whole.size() / 8; at < whole.size(); ++at) {
+    for (const int flip : {0x01, 0x10, 0xFF}) {
+      Bytes broken = whole;
+      broken[at] = static_cast<Uint8>(broken[at] ^ flip);
+      std::vector<std::uint16_t> values(edge * edge);
+      const std::string one = said_when([&] {
+        decode_frame(UID_JPEG2000LosslessOnlyTransferSyntax, {.columns = edge, .rows = edge},
+                     std::as_bytes(std::span(broken)), values);
+      });
+      if (said.find(one) == std::string::npos) said += one + "\n";
+    }
+  }
+  return said;
+}
+
+/// Two frames in three fragments of which none begins an image.
+void three_fragments_of_two_frames(DcmDataset& dataset) {
+  const Bytes piece(20, 7);
+  encapsulate(dataset, EXS_RLELossless, {piece, piece, piece}, 1U << 20);
+  make_multi_frame(dataset, {0, 2});
+}
+
+std::vector<Provoked> provoke_lossless_coders() {
+  return {
+      {"damaged: its RLE segments {}", of_coded(EXS_RLELossless, Bytes(10, 7))},
+      {"are missing", of_coded(EXS_RLELossless, Bytes(10, 7))},
+      {"are not one a byte of a pixel", of_coded(EXS_RLELossless, Bytes(100, 7))},
+      {"end early", of_coded(EXS_RLELossless, rle({64, 66}, {0, 1, 0, 1}))},
+      {"do not fit the image", of_coded(EXS_RLELossless, rle({64, 66}, {9, 1, 0, 1}))},
+      {"lie outside the file", of_coded(EXS_RLELossless, rle({64, 200}, {0, 1}))},
+      {"damaged: its JPEG-LS image cannot be decoded ({})", of_coded(EXS_JPEGLSLossless, Bytes(100, 7))},
+      {"damaged: its JPEG-LS image is of another size than the file says",
+       of_coded(EXS_JPEGLSLossless, jpeg_ls(edge + 1, edge, 12, 0, texture))},
+      {"damaged: its JPEG 2000 image {}", of_coded(EXS_JPEG2000LosslessOnly, Bytes(100, 7))},
+      {"has no readable header", of_coded(EXS_JPEG2000LosslessOnly, Bytes(100, 7))},
+      {"is of another size than the file says", of_coded(EXS_JPEG2000LosslessOnly, coded_2000(edge + 1, 12))},
+      {"is of an unknown kind", of_coded(EXS_JPEG2000LosslessOnly, coded_2000(edge, 20))},
+      {"cannot be decoded to its end", of_coded(EXS_JPEG2000LosslessOnly, first_half(coded_2000(edge, 12)))},
+      {"holds errors", of_a_broken_byte()},
+  };
+}
+
+std::vector<Provoked> provoke_jpeg() {
+  return {
+      {"damaged: no JPEG image in its compressed pixels", of_coded(EXS_JPEGProcess14SV1, Bytes(100, 7))},
+      {"damaged: its JPEG image is {}",
+       of_jpeg([](std::string& b) { b[b.find("\xFF\xC3") + 6] = static_cast<char>(edge + 1); })},
+      {"damaged: a Huffman table of its JPEG image is impossible",
+       of_jpeg([](std::string& b) { b[b.find("\xFF\xC4") + 21] = '\x77'; })},
+      {"damaged: its JPEG image holds errors",
+       of_jpeg([](std::string& b) { b.replace(b.size() - 300, 200, 200, '\x55'); })},
+      {"damaged: its JPEG image cannot be decoded ({})",
+       of_jpeg([](std::string& b) { b[b.find("\xFF\xC3") + 1] = '\xC9'; })},
+  };
+}
+
+}  // namespace
+
+std::vector<Provoked> provoke_pixels() {
+  std::vector<Provoked> said{
+      {"{} cannot be read: {}; send the series again", of_coded(EXS_RLELossless, Bytes(10, 7))},
+      {"its compression is unknown here: {}", of_coded(EXS_MPEG2MainProfileAtMainLevel, Bytes(100, 7))},
+      {"damaged: its pixels are not compressed as it says", of_bytes([](std::string b) {
+         return b.replace(b.find(UID_LittleEndianExplicitTransferSyntax), 19, "1.2.840.10008.1.2.5");
+       })},
+      {"damaged: its compressed pixels are not made of items",
+       of_coded_file([](std::string& b) { b[b.rfind("\xFE\xFF\x00\xE0"s) + 2] = 7; })},
+      {"truncated: its compressed pixels end early",
+       of_coded_file([](std::string& b) { b[b.rfind("\xFE\xFF\x00\xE0"s) + 6] = 7; })},
+      {"truncated: the file ends early", of_coded_file([](std::string& b) { b.resize(b.size() - 8); })},
+      {"no pixels in it", of_coded(EXS_RLELossless, {})},
+      {"damaged: {} bytes cannot hold {} pixels",
+       of_coded(EXS_RLELossless, Bytes(100, 7), [](DcmDataset& d) { put(d, DCM_Rows, 60000); })},
+      {"truncated: its deflated pixels end early", of_stack(2,
+                                                            [](int, TestImage& image) {
+                                                              image.syntax = EXS_DeflatedLittleEndianExplicit;
+                                                              image.edit = [](DcmDataset& d) { put(d, DCM_Rows, 8); };
+                                                            })},
+      {"{} compressed fragments do not make up {}", said_of([](const TestFolder& folder) {
+         TestImage image;
+         image.syntax = EXS_RLELossless;
+         image.edit = three_fragments_of_two_frames;
+         write(image, folder / "a.dcm");
+       })},
+  };
+  for (const auto& more : {provoke_lossless_coders(), provoke_jpeg()}) {
+    said.insert(said.end(), more.begin(), more.end());
+  }
+  return said;
+}
+
+}  // namespace palpate::plugin::testing

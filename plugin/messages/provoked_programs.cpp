@@ -1,0 +1,246 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "device/falcon/falcon.h"
+#include "device/safety/safety_filter.h"
+#include "device/simulated/replay_stylus.h"
+#include "device/simulated/simulated_stylus.h"
+#include "device/space_mouse/space_mouse.h"
+#include "device/wooden_haptics/wooden_haptics.h"
+#include "plugin/app/live_session.h"
+#include "plugin/messages/provoked.h"
+#include "plugin/messages/provoked_scans.h"
+#include "plugin/session/path.h"
+#include "plugin/testing/command_rig.h"
+
+namespace palpate::plugin::testing {
+namespace {
+
+std::string file_with(const std::string& name, const std::string& text) {
+  const auto file = fresh_path(name);
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+std::string scene_with(const std::string& member) {
+  return R"({"version": 1, "modes": [{"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}}], )" +
+         member + "}";
+}
+
+std::string small_ball() {
+  const auto folder = fresh_path("small_ball");
+  testdata::write_series(testdata::scan(testdata::make_sphere(10), testdata::make_geometry({.size = glm::ivec3(30)})),
+                         folder);
+  return folder.string();
+}
+
+/// Two stacks across each other that have one series UID.
+std::string two_of_one_uid() {
+  const auto folder = fresh_path("across");
+  for (const bool sagittal : {false, true}) {
+    const auto part = folder / (sagittal ? "sagittal" : "axial");
+    std::filesystem::create_directories(part);
+    io::internal::write_stack(part, 3, [&](int k, TestImage& image) {
+      if (!sagittal) return;
+      image.edit = [k](DcmDataset& d) {
+        io::internal::put(d, DCM_ImageOrientationPatient, std::string("0\\1\\0\\0\\0\\-1"));
+        io::internal::put(d, DCM_ImagePositionPatient, std::to_string(3 * k) + "\\0\\50");
+      };
+    });
+  }
+  return folder.string();
+}
+
+/// Tubes and friction without the solvers that they need.
+const std::string unsolvable =
+    R"({"version": 1, "solvers": {"exact": false, "descent": false}, "modes": [)"
+    R"({"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}},)"
+    R"({"type": "tube", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1]]}},)"
+    R"({"type": "friction", "strength_n": 0.2}]})";
+
+/// A session whose user may neither have real-time threads nor lock memory: root may, unless it has given that up.
+std::string without_real_time() {
+  const std::string as_any_user = ::geteuid() == 0 ? "setpriv --bounding-set=-sys_nice,-ipc_lock " : "";
+  return output_of("ulimit -r 0; ulimit -l 0; " + as_any_user + PALPATE_PROGRAM " record " + phantom().string() +
+                   " --scene ct-skin-and-bone --seconds 0.1 --from 0,-29,0 --to 0,0,0 -o " +
+                   fresh_path("late.h5").string());
+}
+
+std::string said_of_arm(const std::string& json) {
+  return said_when([&] { device::read_wooden_haptics(file_with("arm.json", json)); });
+}
+
+std::string said_of_model(const std::function<void(device::SimulatedDevice&)>& change) {
+  return said_when([&] {
+    device::SimulatedDevice model;
+    change(model);
+    const device::SimulatedStylus stylus(model);
+  });
+}
+
+}  // namespace
+
+std::vector<Provoked> provoke_programs() {
+  const std::string scan = phantom().string();
+  const auto two = fresh_path("two");
+  std::filesystem::create_directory(two);
+  for (const char* const name : {"one", "other"}) {
+    const testdata::Phantom ball = testdata::make_sphere(name == std::string("one") ? 5 : 8);
+    testdata::write_series(testdata::scan(ball, testdata::make_geometry({.size = glm::ivec3(16)})), two / name);
+  }
+  const auto air = fresh_path("air");
+  testdata::write_series(testdata::scan(testdata::make_sphere(0.01), testdata::make_geometry({.size = glm::ivec3(16)})),
+                         air);
+  const auto no_file = fresh_path("folder.json");
+  std::filesystem::create_directory(no_file);
+  const auto recording = fresh_path("press.h5");
+  const std::string press = " --scene ct-skin-and-bone --seconds 1.2 --from 0,-29,0 --to 0,0,0 ";
+  const std::string recorded = palpate("record " + scan + press + "-o " + recording.string()).output;
+  const std::string letter = file_with("letter.txt", "This is no scan.");
+  const std::string path = "probe " + scan + " --scene ct-skin-and-bone -o " + fresh_path("out").string() + " --path ";
+  const auto said = [](const std::string& arguments) { return palpate(arguments).output; };
+  return {
+      {"{}; choose one with --series N or --series UID:{}", said("profile " + two.string() + forehead)},
+      {"--frame {}: series {} has {} frame{}, counted from 0", said("profile " + scan + forehead + "--frame 7")},
+      {"no usable series in {}{}; `palpate info` tells more", said("profile " + letter + forehead)},
+      {": of {} files none is an image, the first ({}) because: {}", said("profile " + letter + forehead)},
+      {"no image series in what was given; the files and why are listed above", said("info " + letter)},
+      {"{}: no such scene file can be read; the starting scenes are: {}", said("plan " + scan + " --scene absent")},
+      {R"("{}" is not a point; write x,y,z in mm, such as -12.5,40,88)",
+       said("profile " + scan + " --from a --to 0,0,0")},
+      {"--at {}: a point is x,y,z in mm, patient space (LPS), for example --at 12.5,-30,644",
+       said("sample " + scan + " --at here")},
+      {"--speed has to be above 0 mm/s", said("profile " + scan + forehead + "--speed 0")},
+      {"a stroke of {} mm at {} mm/s would have {} frames; from one to {} can be run",
+       said("profile " + scan + forehead + "--speed 1e-9")},
+      {"{}, line {}: not four finite numbers; expected {}", said(path + file_with("a.csv", "0,1,2\n"))},
+      {"{}, line {}: time_s {} does not come after the previous line's; times ascend from 0",
+       said(path + file_with("b.csv", "0,1,2,3\n0,2,3,4\n"))},
+      {"{}: a path needs at least two points ({})", said(path + file_with("c.csv", "0,1,2,3\n"))},
+      {"the path's point at {} s, {}, is {} mm from the workspace's centre, beyond the device's reach: set "
+       "workspace.center_mm or workspace.scale in the scene",
+       said(path + file_with("d.csv", "0,0,0,0\n1,9000,0,0\n"))},
+      {"the scene lets nothing be felt between {}, {}, {} and {}, {}, {} mm: choose another stroke with --from and "
+       "--to, "
+       "or another scene",
+       said("probe " + scan + " --scene ct-skin-and-bone --from 0,-29,0 --to 0,-28,0 -o " + fresh_path("n").string())},
+      {"{}: no boundary between tissues was found in this series; take a starting scene, such as ct-skin-and-bone",
+       said("suggest " + air.string())},
+      {R"(--device: there is no device "{}"; there are: simulated, falcon, wooden_haptics, space_mouse)",
+       said("probe " + scan + " --device hand -o " + fresh_path("h").string())},
+      {"{} exists; name another file", said("record " + scan + press + "-o " + recording.string())},
+      {"cannot read the recording {}: {}", said("replay " + letter + " " + scan)},
+      {"cannot write the recording {}: {}", said("record " + scan + press + "-o /absent/a.h5")},
+      {"HDF5 cannot {}", said("record " + scan + press + "-o /absent/a.h5")},
+      {"create the file", said("record " + scan + press + "-o /absent/a.h5")},
+      {"cannot open the path file {}; check its name, and that it is yours to read",
+       said_when([] { read_path_csv("/absent.csv"); })},
+      {"palpate: the scene's stiffness of {} N/m is taken down to {}, what {} renders stably",
+       said("record " + scan + " --seconds 0.2 --from 0,-29,0 --to 0,0,0 -o " + fresh_path("stiff.h5").string() +
+            " --scene " + file_with("stiff.json", scene_with(R"("stiffness_n_per_m": 9000)")))},
+      {"a gradient scale of {} mm reaches over more than {} voxels of this scan; take a smaller one",
+       said("profile " + scan + forehead + "--scene " +
+            file_with("wide.json", scene_with(R"("gradient_scale_mm": 500)")))},
+      {"there is no series {} in {}", said("profile " + scan + forehead + "--series 9")},
+      {"series {} holds {} volumes that do not fit together",
+       said("profile " + two_of_one_uid() + forehead + "--series 1.2.3.4")},
+      {"DCMTK's data dictionary is missing: reinstall the package libdcmtk17, or let the environment variable "
+       "DCMDICTPATH name its dicom.dic",
+       output_of("DCMDICTPATH=/absent " PALPATE_PROGRAM " info " + scan)},
+      {"--jpeg-lossless needs dcmcjpeg: install the package dcmtk",
+       output_of("PATH= " PALPATE_BENCH " load --jpeg-lossless " + scan)},
+      {"standard output cannot be written", output_of("echo {} | " PALPATE_PROGRAM " solve > /dev/full")},
+      {"standard input cannot be read", output_of(PALPATE_PROGRAM " solve < /")},
+      {"the balance at {}, {}, {} mm could not be solved: does the scene switch off the solver it needs?",
+       said("profile " + small_ball() + " --from 0,-14,0 --to 3,0,2 --scene " +
+            file_with("unsolved.json", unsolvable))},
+      {"palpate: real time: {}", without_real_time()},
+      {"not allowed here: {}; ticks may be late. To allow it, put '@plugdev - rtprio 80' and '@plugdev - memlock "
+       "unlimited' into /etc/security/limits.d/palpate.conf and log in again.",
+       without_real_time()},
+      {"replay needs the SERIES that was felt, or --csv to export the recording alone",
+       said("replay " + recording.string())},
+      {"the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",
+       said("replay " + recording.string() + " " + (two / "one").string())},
+      {"cannot write {}: {} (is the disk full?)", said("replay " + recording.string() + " --csv /absent/a.csv")},
+      {"cannot write the picture {}: {} (is the folder there, and room on the disk?)",
+       said("profile " + scan + forehead + "--picture /absent/a.png")},
+      {"{}: cannot be written; is the folder there, is it yours to write, and is there room?",
+       said("suggest " + scan + " -o " + no_file.string())},
+      {"{} of {} line{} could not be solved: see \"error\" in the answers", said("solve < " + letter)},
+      {"palpate-bench tick needs a SERIES, or --sphere", output_of(PALPATE_BENCH " tick")},
+      {"there is no scan to feel yet: open one first", said_when([] {
+         LiveSession session;
+         session.connect(std::make_shared<device::SimulatedStylus>());
+       })},
+      {"no stylus is held: connect one, then record", said_when([] { LiveSession().record("a.h5"); })},
+      {"{}: not found; check its plug and its power supply",
+       said("probe " + scan + " --device falcon -o " + fresh_path("f").string())},
+      {"WoodenHaptics: name its address, as `palpate devices` lists it; other devices share its USB ids",
+       said("probe " + scan + " --device wooden_haptics -o " + fresh_path("w").string())},
+      {"{}: not found; check its plug, or list what is there: palpate devices",
+       said("probe " + scan + " --device space_mouse -o " + fresh_path("s").string())},
+  };
+}
+
+std::vector<Provoked> provoke_styluses() {
+  std::vector<Provoked> said{
+      {"WoodenHaptics: {} cannot be read; name the file of the arm's geometry",
+       said_when([] { device::read_wooden_haptics("/absent.json"); })},
+      {"it is not a JSON object", said_of_arm("[]")},
+      {"'{}' is not a setting", said_of_arm(R"({"colour": 3})")},
+      {"'{}' is not what it should be: {}", said_of_arm(R"({"current_limit": "much"})")},
+      {"the current limit lies between 0 and 3 A", said_of_arm(R"({"current_limit": 30})")},
+      {"the torque constant{} must be above zero", said_of_arm(R"({"torque_constant": [0, 1, 1]})")},
+      {"the counts per turn{} must be above zero", said_of_arm(R"({"counts_per_turn": [0, 1, 1]})")},
+      {"the encoder sign{} is 1 or -1", said_of_arm(R"({"encoder_sign": [0, 1, 1]})")},
+      {"the home counts{} must fit 16 bits", said_of_arm(R"({"home_counts": [99999, 1, 1]})")},
+      {"the diameters{} must be above zero, the body's above the capstan's",
+       said_of_arm(R"({"capstan_diameter": [0, 0.01, 0.01]})")},
+      {"the lengths of the bodies must be above zero", said_of_arm(R"({"lower_length": 0})")},
+      {"the workspace's radius lies within 1 m", said_of_arm(R"({"workspace_radius": 3})")},
+      {"the largest force lies between 0 and 20 N", said_of_arm(R"({"maximum_force": 90})")},
+      {"the stiffness limit must be above zero", said_of_arm(R"({"stiffness_limit": 0})")},
+      {"SpaceMouse: speed and full deflection must be above zero, the dead zone from 0 to below 1",
+       said_when([] { device::make_space_mouse({.speed = 0}); })},
+      {"{}: no poses; record a session first",
+       said_when([] { device::ReplayStylus(std::span<const device::Reading>()).open(); })},
+      {"friction must not be negative", said_of_model([](auto& model) { model.arm.viscous_friction = -1; })},
+      {"masses must be above zero", said_of_model([](auto& model) { model.arm.mass = 0; })},
+      {"the hand's spring and damper must not be negative",
+       said_of_model([](auto& model) { model.hand.damping = -1; })},
+      {"simulated stylus: {}", said_of_model([](auto& model) { model.rate = 3; })},
+      {"the rate must lie between 100 and 20000 Hz", said_of_model([](auto& model) { model.rate = 3; })},
+      {"the delay must lie between 0 and 60 ticks", said_of_model([](auto& model) { model.delay = 1; })},
+      {"maximum force and target speed must be above zero",
+       said_of_model([](auto& model) { model.maximum_force = 0; })},
+      {"position steps must not be negative", said_of_model([](auto& model) { model.position_step = -1; })},
+      {"simulated stylus: unplugged; plug it in again", said_when([] {
+         device::SimulatedStylus stylus;
+         stylus.inject(device::SimulatedFault::unplugged);
+         stylus.open();
+       })},
+      {"the hand's path has no waypoint; give it at least one",
+       said_when([] { device::SimulatedStylus().follow({}); })},
+      {"{} is not later than the one before it", said_when([] {
+         const std::array<device::Waypoint, 2> path{};
+         device::SimulatedStylus().follow(path);
+       })},
+  };
+  for (int fault = 1; fault <= static_cast<int>(device::Fault::commander_silent); ++fault) {
+    const std::string advice = device::advice_for(static_cast<device::Fault>(fault));
+    said.push_back({advice, advice});
+  }
+  return said;
+}
+
+}  // namespace palpate::plugin::testing

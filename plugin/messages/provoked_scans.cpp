@@ -1,0 +1,75 @@
+#include "plugin/messages/provoked_scans.h"
+
+#include <array>
+#include <exception>
+#include <fstream>
+#include <iterator>
+
+#include "io/load.h"
+#include "io/series.h"
+
+namespace palpate::plugin::testing {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void write_bytes(const fs::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+std::string said_of(const fs::path& folder, const std::function<void()>& between) {
+  std::string said;
+  const auto catalogue = io::find_series(std::array{folder});
+  between();
+  for (const io::SkippedFile& file : catalogue.skipped) said += file.reason + "\n";
+  for (const auto& all : {catalogue.series, catalogue.velocity_fields}) {
+    for (const io::Series& series : all) {
+      for (const std::string& warning : series.warnings) said += warning + "\n";
+      said += said_when([&] {
+        for (const std::string& warning : io::load(series).warnings) said += warning + "\n";
+      });
+      said += "\n";
+    }
+  }
+  return said;
+}
+
+std::string said_of(const std::function<void(const TestFolder&)>& fill) {
+  const TestFolder folder;
+  fill(folder);
+  return said_of(folder.path());
+}
+
+std::string of_bytes(const std::function<std::string(std::string)>& damage) {
+  return said_of([&](const TestFolder& folder) {
+    io::internal::write({}, folder / "a.dcm");
+    write_bytes(folder / "a.dcm", damage(bytes_of(folder / "a.dcm")));
+  });
+}
+
+std::string of_image(const std::function<void(DcmDataset&)>& edit) {
+  return said_of([&](const TestFolder& folder) {
+    TestImage image;
+    image.edit = edit;
+    io::internal::write(image, folder / "a.dcm");
+  });
+}
+
+std::string of_stack(int count, const std::function<void(int, TestImage&)>& change) {
+  return said_of([&](const TestFolder& folder) { io::internal::write_stack(folder.path(), count, change); });
+}
+
+std::string said_when(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+}  // namespace palpate::plugin::testing

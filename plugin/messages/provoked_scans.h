@@ -1,0 +1,36 @@
+#pragma once
+
+/// Folders of small DICOM files with something wrong, and what the reader says of them.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "io/testing/test_image.h"
+
+namespace palpate::plugin::testing {
+
+using io::internal::TestFolder;
+using io::internal::TestImage;
+
+std::string bytes_of(const std::filesystem::path& file);
+void write_bytes(const std::filesystem::path& file, const std::string& bytes);
+
+/// What is said of a folder: why files were set apart, notes on its series, and why the first cannot be loaded.
+/// `between` is done after the headers are read and before the pixels are.
+std::string said_of(
+    const std::filesystem::path& folder, const std::function<void()>& between = [] {});
+/// Of a folder that `fill` fills.
+std::string said_of(const std::function<void(const TestFolder&)>& fill);
+
+/// Of one image whose file's bytes are edited.
+std::string of_bytes(const std::function<std::string(std::string)>& damage);
+/// Of one image whose attributes are edited.
+std::string of_image(const std::function<void(DcmDataset&)>& edit);
+/// Of a stack of so many slices, 2 mm apart.
+std::string of_stack(int count, const std::function<void(int, TestImage&)>& change);
+
+/// What an exception says that comes of it.
+std::string said_when(const std::function<void()>& run);
+
+}  // namespace palpate::plugin::testing

@@ -1,0 +1,35 @@
+#pragma once
+
+/// Where a simulated hand goes: --path, or a press on the first boundary between --from and --to.
+
+#include <filesystem>
+#include <string>
+
+#include "io/volume.h"
+#include "modes/scene/scene.h"
+#include "plugin/session/scan.h"
+
+namespace CLI {
+class App;
+}
+namespace palpate::device {
+class SimulatedStylus;
+}
+
+namespace palpate::plugin {
+
+struct ProbePathOption {
+  std::filesystem::path file;
+  std::string from, to;  ///< "x,y,z" in mm; empty: from the front towards the middle, at 3/4 of the scan's height
+};
+
+/// `option` has to live as long as the command.
+void add_probe_path_option(CLI::App& command, ProbePathOption& option);
+
+/// Makes the hand follow the path and returns its end, s. Where the scene names no centre of the workspace, the path's
+/// middle becomes it, in the scene and in the plan. Throws InputRefused where the path leaves the workspace, and what
+/// reading the path or feeling its way throws.
+double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene, Felt& felt,
+                         device::SimulatedStylus& stylus);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,38 @@
+#include "plugin/options/run_program.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "plugin/app/errors.h"
+
+namespace palpate::plugin {
+
+int run_program(CLI::App& program, int argc, char** argv) {
+  const auto told = [&](const std::exception& error, int exit) {
+    std::fprintf(stderr, "%s: %s\n", program.get_name().c_str(), error.what());
+    return exit;
+  };
+  program.require_subcommand(1);
+  program.failure_message(CLI::FailureMessage::help);
+  program.footer("Exit: 0 done, 1 something in the input was refused, 2 wrong usage, 3 internal fault.");
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : 2;
+  } catch (const WrongUsage& error) {
+    return told(error, 2);
+  } catch (const std::runtime_error& error) {  // InputRefused, and what the folders throw of files, series and devices
+    return told(error, 1);
+  } catch (const std::invalid_argument& error) {  // scenes
+    return told(error, 1);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: internal fault: %s\nPlease report it with the command that caused it.\n",
+                 program.get_name().c_str(), error.what());
+    return 3;
+  }
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,62 @@
+#pragma once
+
+/// A transfer function as a curve over a scan's histogram, with its axes in words, a number for the node that is
+/// chosen, and steps by keyboard.
+
+#include <QWidget>
+
+#include <functional>
+#include <vector>
+
+#include "modes/scene/transfer_function.h"
+#include "plugin/paraview/client/scan/scan_study.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QTimer;
+class pqTransferFunctionWidget;
+
+namespace palpate::plugin {
+
+class CurveEditor : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `name` is its object name; `across` and `up` say what the axes are, with their units.
+  CurveEditor(const QString& name, const QString& across, const QString& up, QWidget* parent = nullptr);
+  ~CurveEditor() override;
+
+  /// What it is drawn over, and the curve's greatest value.
+  void set_frame(const Counts& counts, const QString& across, double top);
+  /// Another curve from outside: does not tell of it.
+  void set_curve(const modes::TransferFunction& curve, const QColor& colour);
+  modes::TransferFunction curve() const;
+
+ signals:
+  void dragged();   ///< the curve has moved, and may go on
+  void finished();  ///< it has come to rest
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  struct Functions;
+  void curve_modified();
+  void show_node();
+  void set_node(double at, double value);
+  void show_axes();
+
+  std::unique_ptr<Functions> functions_;
+  pqTransferFunctionWidget* widget_;
+  QLabel* axes_;
+  QDoubleSpinBox* at_;
+  QDoubleSpinBox* value_;
+  QTimer* rest_;
+  Counts counts_;
+  QString across_, up_;
+  double top_ = 1;
+  modes::Interpolation interpolation_ = modes::Interpolation::linear;
+  bool setting_ = false;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,152 @@
+#include "plugin/paraview/client/panel/curves_section.h"
+
+#include <QColor>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/panel/tool_button.h"
+
+namespace palpate::plugin {
+namespace {
+
+/// A curve's shape, from 0 to 1 of the histogram's width and of the strength.
+struct Preset {
+  const char* name;
+  std::vector<modes::Node> nodes;
+};
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all{
+      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Soft edge: comes in gradually"), {{0.05, 0}, {0.5, 1}}},
+      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Firm edge: there at once"), {{0.08, 0}, {0.12, 1}}},
+      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Steep edges only"), {{0.35, 0}, {0.5, 1}}},
+      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Everywhere the same"), {{0, 1}}}};
+  return all;
+}
+
+}  // namespace
+
+CurvesSection::CurvesSection(SceneModel& model, QWidget* parent) : QWidget(parent), model_(model) {
+  setObjectName(QStringLiteral("palpateCurves"));
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* const row = new QHBoxLayout;
+  modes_ = new QComboBox(this);
+  modes_->setObjectName(QStringLiteral("palpateCurveOf"));
+  modes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  connect(modes_, QOverload<int>::of(&QComboBox::activated), this, [this] { show_mode(); });
+  row->addWidget(modes_, 1);
+  add_tool_button(*row, *this, "palpateUndo", QStringLiteral("↶"), tr("Undo"), [this] { model_.undo(); });
+  add_tool_button(*row, *this, "palpateRedo", QStringLiteral("↷"), tr("Redo"), [this] { model_.redo(); });
+  column->addLayout(row);
+  strength_ = new CurveEditor(QStringLiteral("palpateStrengthCurve"), tr("gradient"), tr("strength, N"), this);
+  column->addWidget(strength_);
+  gate_ = new CurveEditor(QStringLiteral("palpateGateCurve"), tr("value"), tr("factor"), this);
+  column->addWidget(gate_);
+  presets_ = new QComboBox(this);
+  presets_->setObjectName(QStringLiteral("palpatePresets"));
+  presets_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  presets_->setMinimumContentsLength(10);
+  presets_->addItem(tr("Shape of the strength…"));
+  for (const Preset& preset : presets()) presets_->addItem(tr(preset.name));
+  connect(presets_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) { use_preset(index); });
+  column->addWidget(presets_);
+  const auto connect_editor = [this](CurveEditor* editor, auto put) {
+    connect(editor, &CurveEditor::dragged, this, [this, editor, put] {
+      editing_ = true;
+      model_.drag([&](modes::Scene& scene) { put(scene, editor->curve()); });
+      editing_ = false;
+    });
+    connect(editor, &CurveEditor::finished, this, [this] {
+      if (mode() < model_.scene().modes.size()) {
+        model_.finish_drag(tr("Curve of %1").arg(name_of(model_.scene(), mode())));
+      }
+    });
+  };
+  connect_editor(strength_, [this](modes::Scene& scene, const modes::TransferFunction& curve) {
+    if (mode() < scene.modes.size()) scene.modes[mode()].strength_n = curve;
+  });
+  connect_editor(gate_, [this](modes::Scene& scene, const modes::TransferFunction& curve) {
+    if (modes::Gate* const gate = gate_of(scene)) gate->factor = curve;
+  });
+  connect(&model, &SceneModel::changed, this, [this](Pace) {
+    if (!editing_) list_modes();
+  });
+  list_modes();
+}
+
+void CurvesSection::set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit) {
+  study_ = study;
+  unit_ = unit;
+  show_mode();
+}
+
+std::size_t CurvesSection::mode() const {
+  return modes_->currentIndex() < 0 ? modes::Scene::most_modes : static_cast<std::size_t>(modes_->currentIndex());
+}
+
+modes::Gate* CurvesSection::gate_of(modes::Scene& scene) const {
+  if (mode() >= scene.modes.size()) return nullptr;
+  auto& gates = scene.modes[mode()].gates;
+  const auto of_value =
+      std::find_if(gates.begin(), gates.end(), [](const modes::Gate& gate) { return gate.of == modes::Datum::value; });
+  return of_value == gates.end() ? nullptr : &*of_value;
+}
+
+void CurvesSection::list_modes() {
+  QStringList names;
+  for (std::size_t n = 0; n < model_.scene().modes.size(); ++n) {
+    names << name_of(model_.scene(), n);
+  }
+  const int was = modes_->currentIndex();
+  modes_->clear();
+  modes_->addItems(names);
+  modes_->setCurrentIndex(std::clamp(was, names.isEmpty() ? -1 : 0, static_cast<int>(names.size()) - 1));
+  show_mode();
+}
+
+const Counts& CurvesSection::counts_of(modes::Datum datum) const {
+  return datum == modes::Datum::gradient_magnitude ? study_->magnitudes : study_->values;
+}
+
+void CurvesSection::show_mode() {
+  modes::Scene scene = model_.scene();
+  const bool any = study_ && mode() < scene.modes.size();
+  strength_->setEnabled(any);
+  presets_->setEnabled(any);
+  const modes::Gate* const gate = any ? gate_of(scene) : nullptr;
+  gate_->setVisible(gate != nullptr);
+  if (!any) return;
+  const modes::Mode& shown = scene.modes[mode()];
+  const QColor colour = colour_of(shown);
+  const QString value = unit_.isEmpty() ? tr("value") : unit_;
+  const QString gradient = unit_.isEmpty() ? tr("gradient per mm") : tr("%1 per mm").arg(unit_);
+  const double top_n = std::max({scene.limits.force_n, shown.strength_n.maximum(), 0.1});
+  strength_->set_frame(counts_of(shown.strength_of),
+                       shown.strength_of == modes::Datum::gradient_magnitude ? gradient : value, top_n);
+  strength_->set_curve(shown.strength_n, colour);
+  if (!gate) return;
+  gate_->set_frame(study_->values, value, 1);
+  gate_->set_curve(gate->factor, colour);
+}
+
+void CurvesSection::use_preset(int index) {
+  presets_->setCurrentIndex(0);
+  if (index <= 0 || !study_ || mode() >= model_.scene().modes.size()) return;
+  const Preset& preset = presets()[static_cast<std::size_t>(index - 1)];
+  model_.edit(tr("Shape: %1").arg(tr(preset.name)), [&](modes::Scene& scene) {
+    modes::Mode& changed = scene.modes[mode()];
+    const io::Bins& bins = counts_of(changed.strength_of).bins;
+    const double strongest = changed.strength_n.maximum() > 0 ? changed.strength_n.maximum() : 1;
+    std::vector<modes::Node> nodes = preset.nodes;
+    for (modes::Node& node : nodes) node = {bins.low + node.at * (bins.high - bins.low), node.value * strongest};
+    changed.strength_n = modes::TransferFunction(std::move(nodes), changed.strength_n.interpolation());
+  });
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,42 @@
+#include "plugin/paraview/client/panel/fold.h"
+
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace palpate::plugin {
+
+Fold::Fold(const QString& title, const QString& name, QWidget* content, bool open, QWidget* parent)
+    : QWidget(parent), title_(title), header_(new QToolButton(this)) {
+  setObjectName(name);
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  header_->setObjectName(name + QStringLiteral("Fold"));
+  header_->setText(title);
+  header_->setCheckable(true);
+  header_->setChecked(open);
+  header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  header_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
+  header_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  header_->setStyleSheet(
+      QStringLiteral("QToolButton { font-weight: bold; border: none; text-align: left; padding: 2px }"));
+  column->addWidget(header_);
+  content->setParent(this);
+  content->setVisible(open);
+  column->addWidget(content);
+  connect(header_, &QToolButton::toggled, content, [this, content](bool unfolded) {
+    header_->setArrowType(unfolded ? Qt::DownArrow : Qt::RightArrow);
+    content->setVisible(unfolded);
+  });
+}
+
+void Fold::set_open(bool open) {
+  header_->setChecked(open);
+}
+
+void Fold::set_note(const QString& note) {
+  header_->setText(note.isEmpty() ? title_ : QStringLiteral("%1: %2").arg(title_, note));
+  header_->setToolTip(note);
+}
+
+}  // namespace palpate::plugin

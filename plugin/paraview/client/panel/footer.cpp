@@ -1,0 +1,127 @@
+#include "plugin/paraview/client/panel/footer.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QFileDialog>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QStandardPaths>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "plugin/paraview/client/panel/force_strip.h"
+#include "solver/solution.h"
+
+namespace palpate::plugin {
+namespace {
+
+/// A label whose width does not follow its text, so that nothing beside it jumps.
+QLabel* make_value(QWidget* parent, const char* name, const QString& tip) {
+  auto* const label = new QLabel(QStringLiteral("–"), parent);
+  label->setObjectName(QString::fromLatin1(name));
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  label->setToolTip(tip);
+  label->setTextFormat(Qt::PlainText);
+  return label;
+}
+
+}  // namespace
+
+Footer::Footer(Touching& touching, const SceneModel& model, QWidget* parent)
+    : QWidget(parent), touching_(touching), model_(model) {
+  setObjectName(QStringLiteral("palpateFooter"));
+  auto* const grid = new QGridLayout(this);
+  grid->setContentsMargins(6, 4, 6, 6);
+  grid->setVerticalSpacing(2);
+  tissue_ = make_value(this, "palpateTissue", tr("Value of the scan and tissue at the proxy"));
+  force_ = make_value(this, "palpateForce", tr("Force that the stylus is fed"));
+  depth_ =
+      make_value(this, "palpateDepth", tr("How far the stylus is past the boundary that holds it, in the patient"));
+  solver_ = make_value(this, "palpateSolver",
+                       tr("Which solver balanced the forces, and how far from the exact balance the proxy can be"));
+  tick_ = make_value(this, "palpateTick", tr("Median time of a tick of the servo, and deadlines that it missed"));
+  QFont large = force_->font();
+  large.setPointSizeF(large.pointSizeF() * 1.4);
+  large.setBold(true);
+  force_->setFont(large);
+  grid->addWidget(force_, 0, 0);
+  grid->addWidget(depth_, 0, 1, 1, 2);
+  grid->addWidget(tissue_, 1, 0, 1, 3);
+  strip_ = new ForceStrip(this);
+  grid->addWidget(strip_, 2, 0, 1, 3);
+  grid->addWidget(solver_, 3, 0, 1, 3);
+  grid->addWidget(tick_, 4, 0, 1, 2);
+  record_ = new QPushButton(tr("Record…"), this);
+  record_->setObjectName(QStringLiteral("palpateRecord"));
+  record_->setToolTip(
+      tr("Keeps every tick in a file that can be repeated to the last bit. No patient's name goes into it."));
+  connect(record_, &QPushButton::clicked, this, [this] { toggle_recording(); });
+  grid->addWidget(record_, 4, 2);
+  release_ = new QPushButton(tr("Release force  (Esc)"), this);
+  release_->setObjectName(QStringLiteral("palpateRelease"));
+  release_->setMinimumHeight(38);
+  release_->setStyleSheet(
+      QStringLiteral("QPushButton { background: #b00020; color: white; font-weight: bold; border-radius: 4px }"
+                     "QPushButton:pressed { background: #7a0016 }"
+                     "QPushButton:disabled { background: palette(mid); color: palette(dark) }"));
+  connect(release_, &QPushButton::clicked, this, [this] { touching_.release(); });
+  grid->addWidget(release_, 5, 0, 1, 3);
+  grid->setColumnStretch(0, 2);
+  grid->setColumnStretch(1, 3);
+  connect(&touching, &Touching::looked, this, [this](const Look& look) { show_look(look); });
+  connect(&touching, &Touching::connection_changed, this, [this] { show_connection(); });
+  show_connection();
+}
+
+void Footer::show_connection() {
+  const bool connected = touching_.live().is_connected();
+  release_->setEnabled(connected);
+  record_->setEnabled(connected);
+  record_->setText(touching_.live().recording() ? tr("Stop recording") : tr("Record…"));
+}
+
+void Footer::toggle_recording() {
+  if (touching_.live().recording()) {
+    touching_.stop_recording();
+    return;
+  }
+  const QString name =
+      QStringLiteral("palpate-%1.h5").arg(QDateTime::currentDateTime().toString(QStringLiteral("yyyyMMdd-HHmmss")));
+  const QString folder = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  const QString file =
+      QFileDialog::getSaveFileName(this, tr("Record to"), QDir(folder).filePath(name), tr("Recordings (*.h5)"));
+  if (!file.isEmpty()) touching_.record(file.toStdString());
+}
+
+void Footer::show_look(const Look& look) {
+  if (!look.connected && !look.replayed) {
+    force_->setText(QStringLiteral("–"));
+    depth_->setText(tr("no stylus"));
+    tissue_->setText(QStringLiteral("–"));
+    solver_->setText(QStringLiteral("–"));
+    tick_->setText(QStringLiteral("–"));
+    return;
+  }
+  const Frame& frame = look.frame;
+  strip_->set_limit(model_.scene().limits.force_n);
+  strip_->add(look.peak_n);
+  force_->setText(tr("%1 N").arg(look.force_n, 0, 'f', 2));
+  const double depth_mm = glm::length(look.proxy_mm - look.probe_mm);
+  depth_->setText(look.force_n > 0 ? tr("%1 mm past the boundary").arg(depth_mm, 0, 'f', 1) : tr("nothing held"));
+  const QString tissue = QString::fromStdString(look.tissue);
+  const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
+  tissue_->setText(std::isfinite(frame.value)
+                       ? tr("%1 %2, %3").arg(frame.value, 0, 'f', 0).arg(QString::fromStdString(unit), tissue)
+                       : tr("outside the scan"));
+  const double error_mm = 1e3 * frame.error_bound_m;
+  constexpr double small_mm = 1e-9;
+  solver_->setText(tr("%1 solver, error below %2 mm")
+                       .arg(QString::fromLatin1(solver::name_of(static_cast<solver::SolverKind>(frame.solver))))
+                       .arg(error_mm < small_mm ? small_mm : error_mm, 0, 'g', 2));
+  tick_->setText(look.replayed ? tr("recorded: tick %1 µs").arg(look.tick_us, 0, 'f', 1)
+                               : tr("tick %1 µs, %2 missed").arg(look.tick_us, 0, 'f', 1).arg(look.missed));
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,39 @@
+#pragma once
+
+/// What stays in sight whatever is folded: what is felt, and the way out.
+
+#include <QWidget>
+
+#include "plugin/paraview/client/panel/touching.h"
+
+class QLabel;
+class QPushButton;
+
+namespace palpate::plugin {
+
+class ForceStrip;
+
+class Footer : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Footer(Touching& touching, const SceneModel& model, QWidget* parent = nullptr);
+
+ private:
+  void show_look(const Look& look);
+  void show_connection();
+  void toggle_recording();
+
+  Touching& touching_;
+  const SceneModel& model_;
+  QLabel* tissue_;
+  QLabel* force_;
+  QLabel* depth_;
+  QLabel* solver_;
+  QLabel* tick_;
+  ForceStrip* strip_;
+  QPushButton* record_;
+  QPushButton* release_;
+};
+
+}  // namespace palpate::plugin

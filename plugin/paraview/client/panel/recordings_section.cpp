@@ -1,0 +1,310 @@
+#include "plugin/paraview/client/panel/recordings_section.h"
+
+#include <QComboBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QStandardPaths>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "plugin/paraview/client/panel/chart_picture.h"
+#include "plugin/paraview/client/panel/save_buttons.h"
+#include "plugin/paraview/client/panel/tool_button.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr int chart_pixels = 130;
+constexpr std::array speeds{0.1, 0.25, 0.5, 1.0, 2.0, 5.0};
+constexpr std::size_t most_points_drawn = 2000;
+
+/// Every so many frames: what a line or a chart can show.
+std::size_t stride_of(const RecordedSession& session) {
+  return std::max<std::size_t>(1, session.size() / most_points_drawn);
+}
+
+std::vector<glm::dvec3> path_of(const RecordedSession* session) {
+  std::vector<glm::dvec3> path;
+  if (!session) return path;
+  for (std::size_t n = 0; n < session->size(); n += stride_of(*session)) path.push_back(session->probe_mm(n));
+  return path;
+}
+
+/// The largest force of each stretch, so that none is missed.
+Chart force_of(const RecordedSession& session) {
+  Curve force{.label = "", .x = {}, .y = {}};
+  const std::size_t stride = stride_of(session);
+  for (std::size_t n = 0; n < session.size(); ++n) {
+    const double newtons = glm::length(session.sent_n(n));
+    if (n % stride == 0) {
+      force.x.push_back(session.time_s(n));
+      force.y.push_back(newtons);
+    } else {
+      force.y.back() = std::max(force.y.back(), newtons);
+    }
+  }
+  Chart chart;
+  chart.x.label = "time (s)";
+  chart.y.label = "force (N)";
+  chart.y.minimum = 0;
+  chart.curves.push_back(std::move(force));
+  return chart;
+}
+
+QString ask_for_recording(QWidget* parent) {
+  return QFileDialog::getOpenFileName(parent, RecordingsSection::tr("Open recording"),
+                                      QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation),
+                                      RecordingsSection::tr("Recordings (*.h5)"));
+}
+
+}  // namespace
+
+RecordingsSection::RecordingsSection(Touching& touching, QWidget* parent)
+    : QWidget(parent),
+      touching_(touching),
+      first_path_(QColor(86, 180, 233)),
+      second_path_(QColor(230, 159, 0)),
+      first_job_([this](const auto& opened, const QString& error) { take(opened, error, false); }),
+      second_job_([this](const auto& opened, const QString& error) { take(opened, error, true); }),
+      compare_job_([this](const auto& both, const QString& error) { show_comparison(both, error); }) {
+  setObjectName(QStringLiteral("palpateRecordings"));
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(3);
+  auto* const row = new QHBoxLayout;
+  auto* const open_button = new QPushButton(tr("Open recording…"), this);
+  open_button->setObjectName(QStringLiteral("palpateOpenRecording"));
+  connect(open_button, &QPushButton::clicked, this, [this] {
+    if (const QString file = ask_for_recording(this); !file.isEmpty()) open(file);
+  });
+  row->addWidget(open_button);
+  name_ = new QLabel(this);
+  name_->setObjectName(QStringLiteral("palpateRecordingName"));
+  name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  row->addWidget(name_, 1);
+  column->addLayout(row);
+  column->addWidget(player_ = build_player());
+  column->addWidget(comparison_ = build_comparison());
+  message_ = new QLabel(this);
+  message_->setObjectName(QStringLiteral("palpateRecordingMessage"));
+  message_->setWordWrap(true);
+  message_->setTextFormat(Qt::PlainText);
+  column->addWidget(message_);
+  touching.show_instead([this] {
+    const auto& scan = touching_.live().scan();
+    return playback_.look(scan ? scan->unit : std::string());
+  });
+  connect(&touching, &Touching::looked, this, [this] { show_player(); });
+  connect(&touching, &Touching::connection_changed, this, [this] {
+    if (touching_.live().is_connected()) playback_.pause();
+    show_player();
+  });
+  set_first({});
+}
+
+RecordingsSection::~RecordingsSection() {
+  touching_.show_instead({});
+}
+
+QWidget* RecordingsSection::build_player() {
+  auto* const box = new QWidget(this);
+  auto* const column = new QVBoxLayout(box);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  force_ = new ChartPicture(chart_pixels, box);
+  force_->setObjectName(QStringLiteral("palpateRecordedForce"));
+  connect(force_, &ChartPicture::picked, this, [this](double seconds) { seek(seconds); });
+  column->addWidget(force_);
+  auto* const row = new QHBoxLayout;
+  play_ =
+      add_tool_button(*row, *box, "palpatePlay", QStringLiteral("▶"), tr("Play or pause"), [this] { play_or_pause(); });
+  slider_ = new QSlider(Qt::Horizontal, box);
+  slider_->setObjectName(QStringLiteral("palpateScrub"));
+  connect(slider_, &QSlider::valueChanged, this, [this](int ms) { seek(ms / 1e3); });
+  row->addWidget(slider_, 1);
+  speed_ = new QComboBox(box);
+  speed_->setObjectName(QStringLiteral("palpateReplaySpeed"));
+  speed_->setToolTip(tr("Times as fast as it was"));
+  for (const double speed : speeds) speed_->addItem(QStringLiteral("%1×").arg(speed), speed);
+  speed_->setCurrentIndex(static_cast<int>(std::find(speeds.begin(), speeds.end(), 1.0) - speeds.begin()));
+  connect(speed_, QOverload<int>::of(&QComboBox::activated), this,
+          [this](int index) { playback_.set_speed(speeds.at(static_cast<std::size_t>(index))); });
+  row->addWidget(speed_);
+  column->addLayout(row);
+  auto* const last = new QHBoxLayout;
+  time_ = new QLabel(box);
+  time_->setObjectName(QStringLiteral("palpateReplayTime"));
+  last->addWidget(time_, 1);
+  compare_ = new QPushButton(tr("Compare with…"), box);
+  compare_->setObjectName(QStringLiteral("palpateCompare"));
+  compare_->setToolTip(tr("Another recording of the same stroke: forces place by place, however fast each was"));
+  connect(compare_, &QPushButton::clicked, this, [this] {
+    if (const QString file = ask_for_recording(this); !file.isEmpty()) read(file, true);
+  });
+  last->addWidget(compare_);
+  auto* const close_button = add_tool_button(*last, *box, "palpateCloseRecording", QStringLiteral("✕"),
+                                             tr("Close the recordings"), [this] { close_all(); });
+  close_button->setAutoRaise(true);
+  column->addLayout(last);
+  return box;
+}
+
+QWidget* RecordingsSection::build_comparison() {
+  auto* const box = new QWidget(this);
+  auto* const column = new QVBoxLayout(box);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  chart_ = new ChartPicture(chart_pixels, box);
+  chart_->setObjectName(QStringLiteral("palpateComparisonChart"));
+  column->addWidget(chart_);
+  add_save_buttons(
+      *column, *box, QStringLiteral("Comparison"),
+      [this](bool table) -> std::function<void(const std::string&)> {
+        return [both = both_, first = first_.name.toStdString(), second = second_.name.toStdString(),
+                table](const std::string& file) {
+          table ? write_csv(*both, file) : write_png(charts_of(*both, first, second), file);
+        };
+      },
+      [this](const QString& problem) { tell(problem, true); });
+  return box;
+}
+
+void RecordingsSection::set_views(const std::vector<ClinicalView>& views) {
+  first_path_.set_views(views);
+  second_path_.set_views(views);
+  close_all();
+}
+
+void RecordingsSection::open(const QString& file) {
+  read(file, false);
+}
+
+void RecordingsSection::read(const QString& file, bool second) {
+  const std::shared_ptr<const io::Volume> volume = touching_.live().scan();
+  if (!volume) {
+    tell(tr("There is no scan to see it in yet: open the scan that was felt, then the recording."), true);
+    return;
+  }
+  (second ? second_job_ : first_job_).ask([file, volume] {
+    const QString name = QFileInfo(file).fileName();
+    try {
+      return Opened{name, std::make_shared<const RecordedSession>(read_recording(file.toStdString()), *volume), volume};
+    } catch (const std::exception& error) {
+      // The file's name without its folders, which may hold a patient's.
+      const std::string what = error.what();
+      const std::size_t path = what.find(file.toStdString());
+      throw std::runtime_error(path == std::string::npos
+                                   ? name.toStdString() + ": " + what
+                                   : std::string(what).replace(path, file.toStdString().size(), name.toStdString()));
+    }
+  });
+}
+
+void RecordingsSection::take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second) {
+  if (!opened) {
+    tell(error, true);
+  } else if (const auto scan = touching_.live().scan(); scan && opened->scan.lock() == scan) {  // else it has gone
+    second ? set_second(*opened) : set_first(*opened);
+  }
+}
+
+void RecordingsSection::set_first(Opened opened) {
+  second_job_.drop();
+  first_ = std::move(opened);
+  playback_.set_session(first_.session);
+  const bool there = first_.session != nullptr;
+  name_->setText(first_.name);
+  name_->setToolTip(first_.name);
+  player_->setVisible(there);
+  if (there) {
+    const QSignalBlocker quiet(slider_);
+    slider_->setRange(0, static_cast<int>(std::lround(1e3 * first_.session->duration_s())));
+  }
+  tell(there && first_.session->elsewhere() > 0
+           ? tr("%1 frames are left out: they felt another scan.").arg(first_.session->elsewhere())
+           : QString());
+  show_force();
+  set_second({});
+  show_player();
+}
+
+void RecordingsSection::close_all() {
+  first_job_.drop();
+  set_first({});
+}
+
+void RecordingsSection::set_second(Opened opened) {
+  compare_job_.drop();
+  second_ = std::move(opened);
+  show_comparison(nullptr, {});
+  show_paths();
+  if (!first_.session || !second_.session) return;
+  compare_job_.ask([a = first_.session, b = second_.session] { return compare_strokes(*a, *b); });
+}
+
+void RecordingsSection::play_or_pause() {
+  playback_.is_playing() ? playback_.pause() : playback_.play();
+  show_player();
+}
+
+void RecordingsSection::seek(double seconds) {
+  playback_.seek(seconds);
+  show_player();
+}
+
+void RecordingsSection::show_player() {
+  if (!first_.session) return;
+  const bool held = touching_.live().is_connected();
+  play_->setEnabled(!held);
+  play_->setText(playback_.is_playing() ? QStringLiteral("⏸") : QStringLiteral("▶"));
+  play_->setToolTip(held ? tr("Disconnect the stylus: the views show what is felt") : tr("Play or pause"));
+  slider_->setEnabled(!held);
+  const QSignalBlocker quiet(slider_);
+  slider_->setValue(static_cast<int>(std::lround(1e3 * playback_.at_s())));
+  time_->setText(tr("%1 of %2 s").arg(playback_.at_s(), 0, 'f', 2).arg(first_.session->duration_s(), 0, 'f', 2));
+  force_->set_cursor(playback_.at_s());
+}
+
+void RecordingsSection::show_force() {
+  if (first_.session) {
+    force_->show_charts({force_of(*first_.session)}, first_.session->duration_s());
+  } else {
+    force_->show_charts({}, 0);
+  }
+}
+
+void RecordingsSection::show_comparison(std::shared_ptr<const Comparison> both, const QString& error) {
+  both_ = std::move(both);
+  comparison_->setVisible(both_ != nullptr);
+  if (!error.isEmpty()) tell(error, true);
+  if (!both_) return;
+  std::vector<Chart> charts = charts_of(*both_, first_.name.toStdString(), second_.name.toStdString());
+  charts.pop_back();  // how far the ways are apart is told in words
+  chart_->show_charts(std::move(charts), both_->along_mm.back());
+  tell(tr("Blue: %1, orange: %2. %3").arg(first_.name, second_.name, QString::fromStdString(in_words(*both_))));
+}
+
+void RecordingsSection::show_paths() {
+  first_path_.show(path_of(first_.session.get()));
+  second_path_.show(path_of(second_.session.get()));
+}
+
+void RecordingsSection::tell(const QString& text, bool problem) {
+  message_->setText(text);
+  message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
+  message_->setVisible(!text.isEmpty());
+}
+
+}  // namespace palpate::plugin

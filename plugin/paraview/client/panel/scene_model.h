@@ -1,0 +1,67 @@
+#pragma once
+
+/// The scene that the panel edits. It stands in ParaView's pipeline as a source (PalpateScene), so that ParaView's
+/// undo, state files and traces hold every edit.
+
+#include <pqPipelineSource.h>
+
+#include <QObject>
+#include <QPointer>
+
+#include <functional>
+#include <string>
+
+#include "modes/scene/scene.h"
+#include "plugin/app/live_session.h"
+
+class pqServer;
+
+namespace palpate::plugin {
+
+class SceneModel : public QObject {
+  Q_OBJECT
+
+ public:
+  using Change = std::function<void(modes::Scene&)>;
+
+  explicit SceneModel(QObject* parent = nullptr) : QObject(parent) {}
+
+  const modes::Scene& scene() const { return scene_; }
+  pqPipelineSource* source() const;
+
+  /// Another scene altogether, in a source of its own on that server where there is none yet.
+  void open(pqServer& server, const modes::Scene& scene);
+  /// Takes over a scene that stands in the pipeline, as a state file restores it.
+  void adopt(pqPipelineSource& source);
+
+  /// A scene that nobody asked for: not a step that can be undone.
+  void propose(const modes::Scene& scene);
+  /// One step that can be undone; `what` names it in ParaView's menu. A change that is refused leaves the scene as it
+  /// was: refused() says why.
+  void edit(const QString& what, const Change& change);
+  /// A change that goes on, as while a node is dragged: felt at once, and together one step with the finish_drag() that
+  /// ends it.
+  void drag(const Change& change);
+  void finish_drag(const QString& what);
+
+  void undo();
+  void redo();
+
+ signals:
+  void changed(palpate::plugin::Pace pace);
+  void refused(const QString& why);
+
+ private slots:
+  void follow_source();
+
+ private:
+  bool take(const modes::Scene& scene, Pace pace);
+  void keep(const QString& what);
+
+  QPointer<pqPipelineSource> source_;
+  modes::Scene scene_;
+  std::string text_;  // of the scene as the source has it
+  bool keeping_ = false;
+};
+
+}  // namespace palpate::plugin

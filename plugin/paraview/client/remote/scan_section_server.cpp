@@ -1,0 +1,143 @@
+#include <pqServer.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+
+#include <QFileDialog>
+#include <QLabel>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+
+#include <exception>
+
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/common/scan_choice.h"
+
+// What of the panel's first section has to do with another program: a server, or a state file's reader.
+
+namespace palpate::plugin {
+namespace {
+
+QString text(const std::string& utf8) {
+  return QString::fromStdString(utf8);
+}
+
+}  // namespace
+
+void ScanSection::open_on_server() {
+  try {
+    emit out_of_reach({});  // looking and reading block: nothing is to be held meanwhile
+    on_server_ = find_on_server(*remote_server(), path_);
+  } catch (const std::exception& error) {
+    set_busy(false);
+    tell(text(error.what()), true);
+    return;
+  }
+  std::vector<std::size_t> usable;
+  for (std::size_t n = 0; n < on_server_->series.size(); ++n) {
+    const ServerSeries::One& one = on_server_->series[n];
+    auto* const item = new QListWidgetItem(text(one.label), series_);
+    item->setData(Qt::UserRole, static_cast<qulonglong>(n));
+    if (one.usable) usable.push_back(n);
+    if (!one.usable) item->setForeground(palette().brush(QPalette::Disabled, QPalette::Text));
+  }
+  if (usable.size() == 1) {
+    load(usable.front());
+  } else {
+    tell(tr("%n series: choose one.", nullptr, static_cast<int>(on_server_->series.size())));
+  }
+}
+
+void ScanSection::fetch() {
+  copy_->show();
+  set_busy(true);
+  std::vector<std::string> places{path_};
+  places.insert(places.end(), copies_.begin(), copies_.end());
+  server_scan_.get(
+      *source_, places,
+      [this](const QString& what, double done) {
+        progress_->setFormat(what + QStringLiteral(" %p%"));
+        progress_->setValue(static_cast<int>(100 * done));
+      },
+      [this](const ServerScan::Found& found) {
+        set_busy(false);
+        const QString notes = message_->text();
+        tell(notes.isEmpty() ? found.said : notes + QLatin1Char('\n') + found.said, !found.volume);
+        copy_->setVisible(!found.volume);
+        if (found.volume) {
+          emit scan_shown(found.volume);
+        } else {
+          emit out_of_reach(found.said);
+        }
+      });
+}
+
+void ScanSection::ask_copy() {
+  const QString folder =
+      QFileDialog::getExistingDirectory(this, tr("Folder of this machine with the scan that the server shows"));
+  if (folder.isEmpty() || !source_) return;
+  copies_.push_back(folder.toStdString());
+  fetch();
+}
+
+void ScanSection::server_gone() {
+  server_scan_.cancel();
+  server_scan_.forget();
+  on_server_.reset();
+  copy_->hide();
+  set_busy(false);
+}
+
+void ScanSection::adopt(pqPipelineSource& reader) {
+  source_ = &reader;
+  path_ = vtkSMPropertyHelper(reader.getProxy(), "FileName").GetAsString();
+  loader_.cancel();
+  server_scan_.cancel();
+  if (reader.getServer()->isRemote()) {
+    adopt_from_server();
+    return;
+  }
+  const std::string path = path_;
+  const std::string name = vtkSMPropertyHelper(reader.getProxy(), "SeriesUid").GetAsString();
+  set_busy(true, tr("Finding series"));
+  loader_.find(
+      path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      [this, path, name](const auto& catalogue, const std::string& error) {
+        set_busy(false);
+        if (!catalogue) {
+          tell(text(error), true);
+          return;
+        }
+        std::size_t series = 0;
+        try {
+          series = choose_scan(*catalogue, name, path);
+        } catch (const std::exception& refused) {  // the folder is no longer the one that was saved
+          tell(text(refused.what()), true);
+          return;
+        }
+        loader_.load(
+            catalogue->series[series], 0, [](double) {},
+            [this, catalogue, path, name, series](const auto& volume, const std::string& why) {
+              if (!volume || !source_) {
+                tell(text(why), true);
+                return;
+              }
+              source_->updatePipeline();
+              views_.adopt(*source_);
+              list_windows();
+              say_what_to_know({path, name, catalogue, series, volume});
+              emit scan_shown(volume);
+            });
+      });
+}
+
+void ScanSection::adopt_from_server() {
+  emit out_of_reach({});
+  source_->updatePipeline();
+  views_.adopt(*source_);
+  list_windows();
+  say_what_to_know({});
+  fetch();
+}
+
+}  // namespace palpate::plugin

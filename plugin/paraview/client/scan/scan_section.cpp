@@ -1,0 +1,325 @@
+#include "plugin/paraview/client/scan/scan_section.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqFileDialog.h>
+#include <pqObjectBuilder.h>
+#include <pqPipelineSource.h>
+#include <pqServer.h>
+#include <pqUndoStack.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMTrace.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QIcon>
+#include <QImage>
+#include <QLabel>
+#include <QListWidget>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTimer>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <exception>
+
+#include "plugin/paraview/common/display_image.h"
+#include "plugin/paraview/common/scan_choice.h"
+
+namespace palpate::plugin {
+namespace {
+
+QString text(const std::string& utf8) {
+  return QString::fromStdString(utf8);
+}
+
+}  // namespace
+
+ScanSection::ScanSection(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("palpateScan"));
+  setAcceptDrops(true);
+  build();
+  set_busy(false);
+}
+
+ScanSection::~ScanSection() = default;
+
+void ScanSection::build() {
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+
+  open_ = new QPushButton(tr("Open DICOM folder…"), this);
+  open_->setObjectName(QStringLiteral("palpateOpen"));
+  open_->setToolTip(tr("A folder of DICOM files, searched to the bottom. A folder may also be dropped here."));
+  connect(open_, &QPushButton::clicked, this, [this] { ask_folder(); });
+  column->addWidget(open_);
+
+  series_ = new QListWidget(this);
+  series_->setObjectName(QStringLiteral("palpateSeries"));
+  series_->setWordWrap(true);
+  series_->setFixedHeight(130);
+  series_->setIconSize({40, 40});
+  connect(series_, &QListWidget::itemActivated, this,
+          [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
+  connect(series_, &QListWidget::itemClicked, this,
+          [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
+  column->addWidget(series_);
+
+  auto* const work = new QHBoxLayout;
+  progress_ = new QProgressBar(this);
+  progress_->setObjectName(QStringLiteral("palpateProgress"));
+  cancel_ = new QPushButton(tr("Cancel"), this);
+  cancel_->setObjectName(QStringLiteral("palpateCancel"));
+  connect(cancel_, &QPushButton::clicked, this, [this] {
+    loader_.cancel();
+    server_scan_.cancel();
+    set_busy(false);
+    tell(tr("Cancelled."));
+    if (remote_server() && source_) {
+      emit out_of_reach(
+          tr("The scan is on the server, and was not fetched: choose it again in the list, or name a copy here."));
+    }
+  });
+  work->addWidget(progress_, 1);
+  work->addWidget(cancel_);
+  column->addLayout(work);
+  copy_ = new QPushButton(tr("A copy on this machine…"), this);
+  copy_->setObjectName(QStringLiteral("palpateCopy"));
+  copy_->setToolTip(tr("A folder of this machine that holds the same scan: it is then not fetched from the server."));
+  copy_->hide();
+  connect(copy_, &QPushButton::clicked, this, [this] { ask_copy(); });
+  column->addWidget(copy_);
+
+  auto* const window = new QHBoxLayout;
+  window->addWidget(new QLabel(tr("Window"), this));
+  window_ = new QComboBox(this);
+  window_->setObjectName(QStringLiteral("palpateWindow"));
+  window_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  window_->setMinimumContentsLength(10);
+  window_->setToolTip(tr("Also: drag in a slice, to the right for a wider window, up for a brighter one."));
+  connect(window_, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) { apply_window(choice); });
+  window->addWidget(window_, 1);
+  column->addLayout(window);
+
+  auto* const ras = new QCheckBox(tr("Places under the pointer in RAS"), this);
+  ras->setObjectName(QStringLiteral("palpateRas"));
+  ras->setToolTip(
+      tr("Instead of L/R, P/A, H/F as DICOM and radiology count: right, anterior and superior are positive."));
+  connect(ras, &QCheckBox::toggled, this,
+          [this](bool on) { views_.set_coordinates(on ? Coordinates::ras : Coordinates::letters); });
+  column->addWidget(ras);
+
+  message_ = new QLabel(this);
+  message_->setObjectName(QStringLiteral("palpateMessage"));
+  message_->setWordWrap(true);
+  message_->setTextFormat(Qt::PlainText);
+  column->addWidget(message_);
+}
+
+void ScanSection::set_busy(bool busy, const QString& what) {
+  progress_->setVisible(busy);
+  progress_->setFormat(what + QStringLiteral(" %p%"));
+  progress_->setValue(0);
+  cancel_->setVisible(busy);
+  window_->setEnabled(!busy && source_ != nullptr);
+}
+
+void ScanSection::tell(const QString& message, bool problem) {
+  message_->setText(message);
+  message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
+  message_->setVisible(!message.isEmpty());
+}
+
+bool ScanSection::has_notes() const {
+  return !message_->text().isEmpty();
+}
+
+void ScanSection::ask_folder() {
+  const QString title = tr("Open DICOM folder");
+  if (pqServer* const server = remote_server()) {
+    pqFileDialog dialog(server, this, title + tr(" of the server"));
+    dialog.setFileMode(pqFileDialog::Directory);
+    if (dialog.exec() == QDialog::Accepted && !dialog.getSelectedFiles().isEmpty()) {
+      open(dialog.getSelectedFiles().first().toStdString());
+    }
+    return;
+  }
+  const QString folder = QFileDialog::getExistingDirectory(this, title);
+  if (!folder.isEmpty()) open(folder.toStdString());
+}
+
+void ScanSection::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
+}
+
+void ScanSection::dropEvent(QDropEvent* event) {
+  open(event->mimeData()->urls().first().toLocalFile().toStdString());
+}
+
+void ScanSection::open(const std::string& path) {
+  path_ = path;
+  catalogue_.reset();
+  on_server_.reset();
+  series_->clear();
+  loader_.cancel();
+  server_scan_.cancel();
+  copy_->hide();
+  tell({});
+  if (remote_server()) {
+    open_on_server();
+    return;
+  }
+  set_busy(true, tr("Finding series"));
+  loader_.find(
+      path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      [this](auto catalogue, const std::string& error) { list(std::move(catalogue), error); });
+}
+
+void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error) {
+  set_busy(false);
+  if (!catalogue) {
+    tell(text(error), true);
+    return;
+  }
+  catalogue_ = std::move(catalogue);
+  for (const std::size_t n : choices(*catalogue_, path_)) {
+    const io::Series& series = catalogue_->series[n];
+    auto* const item = new QListWidgetItem(text(scan_label(series)), series_);
+    item->setData(Qt::UserRole, static_cast<qulonglong>(n));
+    // Shown to verify the patient, never stored: only where the pointer rests.
+    item->setToolTip(tr("%1\nID %2, study of %3")
+                         .arg(text(series.identity.patient_name), text(series.identity.patient_id),
+                              text(series.identity.study_date)));
+    if (!series.usable) item->setForeground(palette().brush(QPalette::Disabled, QPalette::Text));
+  }
+  thumbnails_.draw_thumbnails(catalogue_, [this](const std::vector<QImage>& images) {
+    for (int row = 0; row < series_->count(); ++row) {
+      const auto n = static_cast<std::size_t>(series_->item(row)->data(Qt::UserRole).toULongLong());
+      if (n < images.size() && !images[n].isNull()) series_->item(row)->setIcon(QIcon(QPixmap::fromImage(images[n])));
+    }
+  });
+  const auto usable = std::ranges::count_if(catalogue_->series, [](const io::Series& s) { return s.usable; });
+  if (catalogue_->series.empty()) {
+    tell(tr("No image series in this folder (%n file(s) looked at): choose the one that holds the DICOM files.",
+            nullptr, static_cast<int>(catalogue_->skipped.size())),
+         true);
+  } else if (usable == 1) {
+    series_->setCurrentRow(0);
+    load(choices(*catalogue_, path_).front());
+  } else {
+    tell(tr("%n series: choose one.", nullptr, static_cast<int>(catalogue_->series.size())));
+  }
+}
+
+void ScanSection::load(std::size_t series) {
+  if (on_server_ && series < on_server_->series.size()) {
+    server_scan_.cancel();
+    show({.path = path_, .name = on_server_->series[series].name, .catalogue = {}, .volume = {}});
+    return;
+  }
+  if (!catalogue_ || series >= catalogue_->series.size()) return;
+  set_busy(true, tr("Loading"));
+  tell({});
+  loader_.load(
+      catalogue_->series[series], 0, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      [this, catalogue = catalogue_, path = path_, series](const auto& volume, const std::string& error) {
+        if (volume) show({path, scan_name(*catalogue, series), catalogue, series, volume});
+        set_busy(false);
+        if (!error.empty()) tell(text(error), true);
+      });
+}
+
+void ScanSection::show(const Loaded& loaded) {
+  // ParaView handles events while it makes a layout: another scan may be asked for meanwhile, and comes after this one.
+  if (showing_) {
+    QTimer::singleShot(100, this, [this, loaded] { show(loaded); });
+    return;
+  }
+  showing_ = true;
+  show_now(loaded);
+  showing_ = false;
+}
+
+void ScanSection::show_now(const Loaded& loaded) {
+  pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
+  pqServer* const server = pqActiveObjects::instance().activeServer();
+  if (!server) {
+    tell(tr("ParaView is not connected to a server: File > Connect."), true);
+    return;
+  }
+  try {
+    SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
+    emit closing();
+    if (!loaded.volume) emit out_of_reach({});
+    views_.close();
+    if (source_) builder.destroy(source_);
+    source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
+    if (!source_) {
+      throw std::runtime_error(
+          "The server has no Palpate plug-in of this version: load Palpate.so there (Tools > Manage Plugins).");
+    }
+    vtkSMProxy& proxy = *source_->getProxy();
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", &proxy);  // else a trace has a reader of nothing
+      vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
+      vtkSMPropertyHelper(&proxy, "SeriesUid").Set(loaded.name.c_str());
+      proxy.UpdateVTKObjects();
+    }
+    source_->updatePipeline();
+    // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
+    // takes that for a change.
+    QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
+    views_.show(*source_);
+    list_windows();
+    say_what_to_know(loaded);
+    if (loaded.volume) {
+      emit scan_shown(loaded.volume);
+    } else {
+      fetch();
+    }
+  } catch (const std::exception& error) {
+    tell(text(error.what()), true);
+  }
+}
+
+void ScanSection::list_windows() {
+  window_->clear();
+  for (const NamedWindow& named : views_.windows()) {
+    window_->addItem(QStringLiteral("%1 (%2 / %3)")
+                         .arg(tr(named.name))
+                         .arg(named.window.level, 0, 'g', 4)
+                         .arg(named.window.width, 0, 'g', 4));
+  }
+}
+
+void ScanSection::say_what_to_know(const Loaded& loaded) {
+  QStringList notes;
+  if (!loaded.volume) {
+    for (const std::string& message : messages_of(*source_->getSourceProxy())) notes << text(message);
+    tell(notes.join(QStringLiteral("\n")));
+    return;
+  }
+  const io::Series& shown = loaded.catalogue->series[loaded.series];
+  for (const std::string& warning : shown.warnings) notes << text(warning);
+  for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
+  if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");
+  if (!is_straight(display_grid(shown.geometry))) {
+    notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
+  }
+  tell(notes.join(QStringLiteral("\n")));
+}
+
+void ScanSection::apply_window(int choice) {
+  if (choice >= 0 && choice < static_cast<int>(views_.windows().size())) {
+    views_.set_window(views_.windows()[static_cast<std::size_t>(choice)].window);
+  }
+}
+
+}  // namespace palpate::plugin

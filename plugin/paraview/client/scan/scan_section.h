@@ -1,0 +1,101 @@
+#pragma once
+
+/// The panel's first section: from a folder to a scan on the screen.
+
+#include <pqPipelineSource.h>
+
+#include <QPointer>
+#include <QWidget>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plugin/paraview/client/remote/server_scan.h"
+#include "plugin/paraview/client/remote/server_series.h"
+#include "plugin/paraview/client/scan/scan_loader.h"
+#include "plugin/paraview/client/views/clinical_views.h"
+
+class QComboBox;
+class QLabel;
+class QListWidget;
+class QProgressBar;
+class QPushButton;
+
+namespace palpate::plugin {
+
+class ScanSection : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ScanSection(QWidget* parent = nullptr);
+  ~ScanSection() override;
+
+  /// Finds the series of a folder or file, as the active server knows it; where one alone is a volume, shows it.
+  void open(const std::string& path);
+  /// The server has gone, and what it read.
+  void server_gone();
+  /// Takes over a reader that stands in the pipeline and its views as they are: a state file has restored them.
+  void adopt(pqPipelineSource& reader);
+  /// Whether there is something to be read about the scan that is shown.
+  bool has_notes() const;
+  ClinicalViews& views() { return views_; }
+  pqPipelineSource* source() const { return source_; }
+
+ signals:
+  /// The views of the scan that is shown are about to go.
+  void closing();
+  /// A server's scan is in the views, or on its way there, and cannot be felt: yet, or, where it is said why, at all.
+  void out_of_reach(const QString& why);
+  /// Another scan is in the views, and can be felt.
+  void scan_shown(const std::shared_ptr<const palpate::io::Volume>& volume);
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  void build();
+  void ask_folder();
+  void list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error);
+  void load(std::size_t series);
+  struct Loaded {
+    std::string path;
+    std::string name;  ///< of the series: scan_name()
+    std::shared_ptr<const io::Catalogue> catalogue;
+    std::size_t series = 0;
+    std::shared_ptr<const io::Volume> volume;  ///< held until the reader has it; null: the server has it
+  };
+  void show(const Loaded& loaded);
+  void show_now(const Loaded& loaded);
+  void open_on_server();
+  void fetch();
+  void ask_copy();
+  void adopt_from_server();
+  void list_windows();
+  void say_what_to_know(const Loaded& loaded);
+  void apply_window(int choice);
+  void set_busy(bool busy, const QString& what = {});
+  void tell(const QString& message, bool problem = false);
+
+  QPushButton* open_ = nullptr;
+  QListWidget* series_ = nullptr;
+  QProgressBar* progress_ = nullptr;
+  QPushButton* cancel_ = nullptr;
+  QPushButton* copy_ = nullptr;
+  QComboBox* window_ = nullptr;
+  QLabel* message_ = nullptr;
+
+  std::string path_;
+  std::shared_ptr<const io::Catalogue> catalogue_;
+  std::unique_ptr<ServerSeries> on_server_;  // what the active server found; null: it is this program
+  std::vector<std::string> copies_;          // folders of this machine that were named
+  bool showing_ = false;
+  QPointer<pqPipelineSource> source_;
+  ClinicalViews views_;
+  ScanLoader thumbnails_;
+  ServerScan server_scan_;
+  ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,48 @@
+#include "plugin/paraview/client/scan/thumbnail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <vector>
+
+#include "io/load.h"
+#include "plugin/paraview/client/scan/scan_look.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr int pixels = 40;
+
+Window window_of(const io::Series& series, std::vector<double> values) {
+  if (series.window) return {series.window->level, series.window->width};
+  std::sort(values.begin(), values.end());
+  const double low = values[values.size() / 100], high = values[values.size() - 1 - values.size() / 100];
+  return {(low + high) / 2, std::max(high - low, 1e-6)};
+}
+
+}  // namespace
+
+QImage thumbnail_of(const io::Series& series) {
+  try {
+    const int middle = series.geometry.dimensions.z / 2;
+    const io::Volume slice = io::load(series, {.slices = io::LoadOptions::Range{.first = middle, .count = 1}});
+    const glm::ivec3 size = slice.geometry.dimensions;
+    std::vector<double> values;
+    for (int y = 0; y < pixels; ++y) {
+      for (int x = 0; x < pixels; ++x) values.push_back(slice.value_at(x * size.x / pixels, y * size.y / pixels, 0));
+    }
+    const Window window = window_of(series, values);
+    QImage image(pixels, pixels, QImage::Format_Grayscale8);
+    for (int y = 0; y < pixels; ++y) {
+      for (int x = 0; x < pixels; ++x) {
+        const double part = (values[static_cast<std::size_t>(y * pixels + x)] - window.level) / window.width + 0.5;
+        image.scanLine(y)[x] = static_cast<uchar>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
+      }
+    }
+    return image;
+  } catch (const std::exception&) {
+    return {};  // told when the series is opened
+  }
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,41 @@
+#pragma once
+
+/// A recording that runs again before the eye: at its pace, faster, slower, or wherever it is put. Nothing is felt.
+
+#include <QElapsedTimer>
+
+#include <memory>
+
+#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/recording/recorded_session.h"
+
+namespace palpate::plugin {
+
+class Playback {
+ public:
+  /// Null: none. At its beginning, at rest, and not to be seen before it is played or put somewhere.
+  void set_session(std::shared_ptr<const RecordedSession> session);
+  const std::shared_ptr<const RecordedSession>& session() const { return session_; }
+
+  /// From the beginning again where it has come to its end.
+  void play();
+  void pause() { playing_ = false; }
+  bool is_playing() const { return playing_; }
+  void seek(double seconds);
+  /// Times as fast as it was.
+  void set_speed(double speed);
+  double at_s() const { return at_s_; }
+
+  /// As far as it has come by now.
+  Look look(const std::string& unit);
+
+ private:
+  void advance();
+
+  std::shared_ptr<const RecordedSession> session_;
+  double at_s_ = 0, speed_ = 1;
+  bool playing_ = false, seen_ = false;
+  QElapsedTimer clock_;
+};
+
+}  // namespace palpate::plugin

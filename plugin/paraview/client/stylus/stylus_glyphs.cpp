@@ -1,0 +1,207 @@
+#include "plugin/paraview/client/stylus/stylus_glyphs.h"
+
+#include <vtkActor.h>
+#include <vtkConeSource.h>
+#include <vtkCylinderSource.h>
+#include <vtkDiskSource.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPVRenderView.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphereSource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "modes/tick/haptic_step.h"
+#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/views/overlay_layer.h"
+#include "solver/primitive.h"
+
+namespace palpate::plugin {
+namespace {
+
+enum Shape { ball, rod, cone, disc };
+
+constexpr std::size_t most_primitives_shown = 6;
+constexpr double stylus_pixels = 5, proxy_pixels = 6, spring_pixels = 1.2, disc_pixels = 26, rod_pixels = 60,
+                 newton_pixels = 45, cone_pixels = 9;
+constexpr double seen_faintly = 0.3;  // of something that is hidden altogether
+
+glm::dvec3 vector_of(const double (&from)[3]) {
+  return {from[0], from[1], from[2]};
+}
+
+/// Columns: any two directions across, and the direction itself second, as VTK's cylinder and cone stand.
+glm::dmat3 standing_along(const glm::dvec3& direction) {
+  const glm::dvec3 other = std::abs(direction.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 across = glm::normalize(glm::cross(direction, other));
+  return {across, direction, glm::cross(across, direction)};
+}
+
+glm::dvec3 rgb_of(const modes::Scene& scene, std::uint32_t mode) {
+  const QColor colour = mode < scene.modes.size() ? colour_of(scene.modes[mode]) : QColor(Qt::gray);
+  return {colour.redF(), colour.greenF(), colour.blueF()};
+}
+
+}  // namespace
+
+/// One actor of unit size.
+struct StylusGlyphs::Part {
+  explicit Part(vtkAlgorithmOutput* shape) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(shape);
+    actor->SetMapper(mapper);
+    actor->SetUserMatrix(matrix);
+    actor->PickableOff();
+    actor->VisibilityOff();
+    actor->GetProperty()->SetAmbient(0.4);
+    actor->GetProperty()->SetDiffuse(0.6);
+  }
+  void place(const glm::dvec3& at, const glm::dmat3& axes, const glm::dvec3& size) {
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        matrix->SetElement(row, column, axes[column][row] * size[column]);
+      }
+      matrix->SetElement(row, 3, at[row]);
+    }
+    actor->VisibilityOn();
+  }
+  void colour(const glm::dvec3& rgb, double opacity) {
+    actor->GetProperty()->SetColor(rgb.x, rgb.y, rgb.z);
+    actor->GetProperty()->SetOpacity(opacity);
+  }
+  vtkNew<vtkActor> actor;
+  vtkNew<vtkMatrix4x4> matrix;
+};
+
+std::unique_ptr<StylusGlyphs::Part> StylusGlyphs::add(int shape) {
+  vtkSmartPointer<vtkPolyDataAlgorithm> source;
+  switch (shape) {
+    case rod: {
+      vtkNew<vtkCylinderSource> made;
+      made->SetRadius(1);
+      made->SetResolution(12);
+      source = made;
+      break;
+    }
+    case cone: {
+      vtkNew<vtkConeSource> made;
+      made->SetDirection(0, 1, 0);
+      made->SetRadius(0.5);
+      made->SetResolution(16);
+      source = made;
+      break;
+    }
+    case disc: {
+      vtkNew<vtkDiskSource> made;  // across z
+      made->SetInnerRadius(0);
+      made->SetOuterRadius(1);
+      made->SetCircumferentialResolution(36);
+      source = made;
+      break;
+    }
+    default: {
+      vtkNew<vtkSphereSource> made;
+      made->SetRadius(1);
+      made->SetThetaResolution(20);
+      made->SetPhiResolution(14);
+      source = made;
+    }
+  }
+  auto part = std::make_unique<Part>(source->GetOutputPort());
+  layer_->renderer().AddActor(part->actor);
+  return part;
+}
+
+StylusGlyphs::StylusGlyphs(vtkPVRenderView& view) : layer_(std::make_unique<OverlayLayer>(view)) {
+  for (std::size_t n = 0; n < most_primitives_shown; ++n) {
+    planes_.push_back(add(disc));
+    rods_.push_back(add(rod));
+    balls_.push_back(add(ball));
+  }
+  spring_ = add(rod);
+  force_ = add(rod);
+  tip_ = add(cone);
+  stylus_ = add(ball);
+  proxy_ = add(ball);
+}
+
+StylusGlyphs::~StylusGlyphs() = default;
+
+void StylusGlyphs::hide() {
+  for (const Part* part : {stylus_.get(), proxy_.get(), spring_.get(), force_.get(), tip_.get()}) {
+    part->actor->VisibilityOff();
+  }
+  for (const auto* parts : {&planes_, &rods_, &balls_}) {
+    for (const auto& part : *parts) part->actor->VisibilityOff();
+  }
+}
+
+void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel) {
+  hide();
+  const double opacity = 1 - (1 - seen_faintly) * faint;
+  const glm::dmat3 upright(1);
+  const auto sized = [&](double pixels) { return glm::dvec3(pixels * mm_per_pixel); };
+  stylus_->place(look.probe_mm, upright, sized(stylus_pixels));
+  stylus_->colour({1, 1, 1}, opacity);
+  proxy_->place(look.proxy_mm, upright, sized(proxy_pixels));
+  proxy_->colour({1, 0.85, 0.2}, opacity);
+  if (const glm::dvec3 spring = look.proxy_mm - look.probe_mm; glm::length(spring) > mm_per_pixel) {
+    const double thin = spring_pixels * mm_per_pixel;
+    spring_->place((look.proxy_mm + look.probe_mm) / 2.0, standing_along(glm::normalize(spring)),
+                   {thin, glm::length(spring), thin});
+    spring_->colour({1, 1, 1}, opacity);
+  }
+  const glm::dvec3 force_n = look.workspace.direction_to_patient(vector_of(look.frame.sent_n));
+  if (const double newtons = glm::length(force_n); newtons > 0.02) {
+    const glm::dvec3 along = force_n / newtons;
+    const double length = newtons * newton_pixels * mm_per_pixel, thick = 2 * spring_pixels * mm_per_pixel;
+    const glm::dmat3 axes = standing_along(along);
+    force_->place(look.proxy_mm + along * length / 2.0, axes, {thick, length, thick});
+    tip_->place(look.proxy_mm + along * length, axes, sized(cone_pixels));
+    force_->colour({0.25, 0.8, 1}, opacity);
+    tip_->colour({0.25, 0.8, 1}, opacity);
+  }
+  std::size_t planes = 0, rods = 0, balls = 0;
+  for (const Share& share : look.shares) {
+    const glm::dvec3 acts = look.workspace.direction_to_patient(vector_of(share.force_n));
+    const double newtons = glm::length(acts);
+    if (newtons < 0.01 || share.mode >= modes::of_scene_left) continue;
+    const glm::dvec3 colour = rgb_of(scene, share.mode);
+    switch (static_cast<solver::PrimitiveType>(share.type)) {
+      case solver::PrimitiveType::plane:
+        if (planes < planes_.size()) {
+          const glm::dmat3 axes = standing_along(acts / newtons);
+          Part& plane = *planes_[planes++];
+          plane.place(look.proxy_mm, {axes[0], axes[2], axes[1]}, sized(disc_pixels));
+          plane.colour(colour, 0.55 * opacity);
+        }
+        break;
+      case solver::PrimitiveType::point:
+        if (balls < balls_.size()) {
+          Part& point = *balls_[balls++];
+          point.place(look.proxy_mm, upright, sized(proxy_pixels * 1.6));
+          point.colour(colour, 0.4 * opacity);
+        }
+        break;
+      case solver::PrimitiveType::line:
+      case solver::PrimitiveType::directed_force:
+        if (rods < rods_.size()) {
+          // A line pulls across itself, a force along: both are drawn as what they do to the proxy.
+          const double thick = 2 * spring_pixels * mm_per_pixel;
+          Part& line = *rods_[rods++];
+          line.place(look.proxy_mm, standing_along(acts / newtons), {thick, rod_pixels * mm_per_pixel, thick});
+          line.colour(colour, 0.8 * opacity);
+        }
+        break;
+    }
+  }
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,159 @@
+#include "plugin/paraview/client/stylus/stylus_hand.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkPVRenderView.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double handle_pixels = 16;
+constexpr double wheel_mm = 1, key_mm = 1;
+constexpr float before_all = 20;
+
+}  // namespace
+
+struct StylusHand::State {
+  State(Touching& touching_now, vtkPVRenderView& view_now)
+      : touching(touching_now), view(view_now), interactor(view_now.GetInteractor()) {
+    command->SetClientData(this);
+    command->SetCallback([](vtkObject*, unsigned long event, void* self, void*) {
+      State& state = *static_cast<State*>(self);
+      state.command->SetAbortFlag(state.handle(event) ? 1 : 0);
+    });
+    if (!interactor) return;
+    for (const auto event :
+         {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
+          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::KeyPressEvent}) {
+      observers.push_back(interactor->AddObserver(event, command, before_all));
+    }
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    for (const unsigned long observer : observers) interactor->RemoveObserver(observer);
+  }
+
+  glm::dvec3 display_of(const glm::dvec3& place) const {
+    vtkRenderer& renderer = *view.GetRenderer();
+    renderer.SetWorldPoint(place.x, place.y, place.z, 1);
+    renderer.WorldToDisplay();
+    glm::dvec3 display;
+    renderer.GetDisplayPoint(&display.x);
+    return display;
+  }
+  /// The place in the patient under the pointer, as deep as the one that is dragged.
+  glm::dvec3 under_pointer() const {
+    const int* const at = interactor->GetEventPosition();
+    vtkRenderer& renderer = *view.GetRenderer();
+    renderer.SetDisplayPoint(at[0] - grip[0], at[1] - grip[1], display_of(plane_through)[2]);
+    renderer.DisplayToWorld();
+    double world[4];
+    renderer.GetWorldPoint(world);
+    return glm::dvec3(world[0], world[1], world[2]) / world[3];
+  }
+  glm::dvec3 into_the_screen() const {
+    glm::dvec3 along;
+    view.GetActiveCamera()->GetDirectionOfProjection(&along.x);
+    return along;
+  }
+  bool is_on_handle() {
+    const int* const at = interactor->GetEventPosition();
+    const Look& look = touching.last();
+    for (const glm::dvec3& part : {look.proxy_mm, look.probe_mm}) {
+      const glm::dvec3 display = display_of(part);
+      if (std::hypot(display.x - at[0], display.y - at[1]) > handle_pixels) continue;
+      grip[0] = at[0] - display.x;
+      grip[1] = at[1] - display.y;
+      plane_through = part;
+      return true;
+    }
+    return false;
+  }
+  void go(const glm::dvec3& place) {
+    target = place;
+    touching.move_hand(place);
+  }
+
+  bool handle(unsigned long event) {
+    if (!touching.takes_mouse() || touching.is_clutched() || !touching.last().fresh) {
+      dragging = false;
+      return false;
+    }
+    switch (event) {
+      case vtkCommand::LeftButtonPressEvent:
+        if (!is_on_handle()) return false;
+        dragging = true;
+        go(plane_through);
+        return true;
+      case vtkCommand::LeftButtonReleaseEvent:
+        if (!std::exchange(dragging, false)) return false;
+        touching.let_go();
+        return true;
+      case vtkCommand::MouseMoveEvent:
+        if (!dragging) return false;
+        go(under_pointer());
+        return true;
+      case vtkCommand::MouseWheelForwardEvent:
+      case vtkCommand::MouseWheelBackwardEvent: {
+        if (!dragging) return false;
+        const double step = event == vtkCommand::MouseWheelForwardEvent ? wheel_mm : -wheel_mm;
+        plane_through += step * into_the_screen();
+        go(target + step * into_the_screen());
+        return true;
+      }
+      case vtkCommand::KeyPressEvent:
+        return step_by_key();
+      default:
+        return false;
+    }
+  }
+  bool step_by_key() {
+    const std::string key = interactor->GetKeySym() ? interactor->GetKeySym() : "";
+    const glm::dvec3 along = into_the_screen();
+    glm::dvec3 up;
+    view.GetActiveCamera()->GetViewUp(&up.x);
+    const glm::dvec3 right = glm::normalize(glm::cross(along, up));
+    const glm::dvec3 upright = glm::cross(right, along);
+    const std::pair<const char*, glm::dvec3> steps[] = {{"Left", -right},   {"Right", right}, {"Up", upright},
+                                                        {"Down", -upright}, {"Prior", along}, {"Next", -along}};
+    for (const auto& [name, step] : steps) {
+      if (key != name) continue;
+      // From where the hand wants to be, so that steps into a surface add up, in whichever view.
+      touching.move_hand(touching.hand_mm() + key_mm * step);
+      return true;
+    }
+    return false;
+  }
+
+  Touching& touching;
+  vtkPVRenderView& view;
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor;
+  vtkNew<vtkCallbackCommand> command;
+  std::vector<unsigned long> observers;
+  bool dragging = false;
+  double grip[2] = {};
+  glm::dvec3 plane_through{0}, target{1e9};
+};
+
+StylusHand::StylusHand(Touching& touching, vtkPVRenderView& view) : state_(std::make_unique<State>(touching, view)) {}
+
+StylusHand::~StylusHand() = default;
+
+bool StylusHand::is_dragging() const {
+  return state_->dragging;
+}
+
+}  // namespace palpate::plugin

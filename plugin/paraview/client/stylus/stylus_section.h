@@ -1,0 +1,64 @@
+#pragma once
+
+/// The panel's third section: which stylus, how it is, and how the scan lies in the hand.
+
+#include <QWidget>
+
+#include <functional>
+
+#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/stylus/mapping.h"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QToolButton;
+
+namespace palpate::plugin {
+
+class StylusSection : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `eye` tells what the 3D view looks at.
+  StylusSection(Touching& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent = nullptr);
+
+  bool slices_follow() const;
+
+ private:
+  void build_connection(QWidget& parent);
+  void build_limits();
+  void build_workspace();
+  void find_devices();
+  void connect_or_not();
+  void show_choice();
+  void show_connection();
+  void show_scene();
+  void show_look(const Look& look);
+  void remap(const QString& what, const modes::WorkspaceSettings& settings);
+  void clutch(bool on);
+
+  Touching& touching_;
+  SceneModel& model_;
+  std::function<Eye()> eye_;
+  QComboBox* device_ = nullptr;
+  QLineEdit* file_ = nullptr;
+  QPushButton* connect_ = nullptr;
+  QLabel* lamp_ = nullptr;
+  QLabel* state_ = nullptr;
+  QPushButton* clear_ = nullptr;
+  QDoubleSpinBox* stiffness_ = nullptr;
+  QDoubleSpinBox* limit_ = nullptr;
+  QLabel* own_ = nullptr;
+  QLabel* scale_ = nullptr;
+  QToolButton* fits_[3] = {};
+  QPushButton* clutch_ = nullptr;
+  QCheckBox* turn_ = nullptr;
+  QCheckBox* follow_ = nullptr;
+  QLabel* message_ = nullptr;
+};
+
+}  // namespace palpate::plugin

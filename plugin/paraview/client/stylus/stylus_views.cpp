@@ -1,0 +1,154 @@
+#include "plugin/paraview/client/stylus/stylus_views.h"
+
+#include <pqRenderView.h>
+#include <vtkCamera.h>
+#include <vtkMath.h>
+#include <vtkPVRenderView.h>
+#include <vtkSMRenderViewProxy.h>
+
+#include <QWidget>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "io/fields/volume_fields.h"
+#include "plugin/paraview/client/stylus/mapping.h"
+#include "plugin/paraview/client/views/volume_pick.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr qint64 shortest_ms = 30;
+constexpr qint64 rest_of = 2;       // times as long as a view took to draw it is left alone
+constexpr qint64 settled_ms = 400;  // after that long at rest the volume is drawn in full
+constexpr double moved_pixels = 0.5;
+
+vtkPVRenderView* client_view(pqRenderView& view) {
+  return vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
+}
+
+double visible_height_mm(vtkCamera& camera) {
+  return camera.GetParallelProjection() != 0
+             ? 2 * camera.GetParallelScale()
+             : 2 * camera.GetDistance() * std::tan(vtkMath::RadiansFromDegrees(camera.GetViewAngle()) / 2);
+}
+
+}  // namespace
+
+struct StylusViews::OneView {
+  OneView(Touching& touching, const ClinicalView& of)
+      : kind(of.kind), view(of.view), client(client_view(*of.view)), glyphs(*client), hand(touching, *client) {}
+
+  bool has_moved(const Look& look, double mm_per_pixel) const {
+    const auto moved = [&](const glm::dvec3& a, const glm::dvec3& b) {
+      return glm::length(a - b) > moved_pixels * mm_per_pixel;
+    };
+    return look.is_seen() != drawn.is_seen() || look.clutched != drawn.clutched ||
+           moved(look.probe_mm, drawn.probe_mm) || moved(look.proxy_mm, drawn.proxy_mm) ||
+           std::abs(look.force_n - drawn.force_n) > 0.02 || look.shares.size() != drawn.shares.size();
+  }
+
+  ViewKind kind;
+  QPointer<pqRenderView> view;
+  vtkSmartPointer<vtkPVRenderView> client;
+  StylusGlyphs glyphs;
+  StylusHand hand;
+  std::unique_ptr<VolumePick> pick;
+  Look drawn;
+  qint64 next_ms = 0;
+  qint64 moved_ms = 0;
+  bool coarse = false;  ///< drawn last with less detail than it can have
+};
+
+StylusViews::StylusViews(Touching& touching, const SceneModel& model) : touching_(touching), model_(model) {}
+
+StylusViews::~StylusViews() = default;
+
+void StylusViews::set_views(const std::vector<ClinicalView>& views) {
+  views_.clear();
+  for (const ClinicalView& view : views) {
+    OneView& one = *views_.emplace_back(std::make_unique<OneView>(touching_, view));
+    if (one.kind != ViewKind::volume) continue;
+    one.pick = std::make_unique<VolumePick>(
+        *one.client, [this](Pick what, const auto& near, const auto& far) { return pick(what, near, far); });
+  }
+  clock_.start();
+}
+
+Eye StylusViews::eye() const {
+  for (const auto& one : views_) {
+    if (one->kind != ViewKind::volume || !one->view) continue;
+    vtkCamera& camera = *one->client->GetActiveCamera();
+    Eye eye;
+    camera.GetPosition(&eye.position.x);
+    camera.GetFocalPoint(&eye.focus.x);
+    camera.GetViewUp(&eye.up.x);
+    eye.height_mm = visible_height_mm(camera);
+    return eye;
+  }
+  return {};
+}
+
+void StylusViews::follow_scan() {
+  if (touching_.live().scan() == values_of_) return;
+  values_of_ = touching_.live().scan();
+  values_ = values_of_
+                ? std::make_shared<const io::VolumeFields>(values_of_, io::FieldSet::value, 1,
+                                                           io::FieldOptions{.brick_bytes = 0, .background = false})
+                : nullptr;
+}
+
+bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far) {
+  if (!pick_) return false;
+  follow_scan();
+  if (!values_) return false;
+  const auto seen = first_seen(*values_, opacity_, near, far);
+  if (!seen && what == Pick::pressed) return false;
+  if (seen) picked_mm_ = *seen;
+  // Beside what is seen a drag stays where it was. A copy is called, for picking may end in the call.
+  const auto pick = pick_;
+  pick(what, picked_mm_);
+  return true;
+}
+
+void StylusViews::show(const Look& look) {
+  std::erase_if(views_, [](const auto& one) { return !one->view; });
+  if (views_.empty()) return;
+  follow_scan();
+  const qint64 now_ms = clock_.elapsed();
+  // One view a look: the panel and the mouse have their turn between.
+  for (std::size_t turn = 0; turn < views_.size(); ++turn) {
+    OneView& one = *views_[(next_ + turn) % views_.size()];
+    if (now_ms < one.next_ms || !one.view->widget()->isVisible()) continue;
+    vtkCamera& camera = *one.client->GetActiveCamera();
+    const double mm_per_pixel = visible_height_mm(camera) / std::max(one.view->widget()->height(), 1);
+    const bool moved = one.has_moved(look, mm_per_pixel);
+    const bool settled = one.coarse && now_ms - one.moved_ms > settled_ms;
+    if (!moved && !settled) continue;
+    if (moved) {
+      one.drawn = look;
+      one.moved_ms = now_ms;
+      if (look.is_seen()) {
+        glm::dvec3 eye;
+        camera.GetPosition(&eye.x);
+        const bool volume = one.kind == ViewKind::volume;
+        const double faint = volume && values_ ? hidden_part(*values_, opacity_, eye, look.proxy_mm) : 0;
+        one.glyphs.show(look, look.scene ? *look.scene : model_.scene(), faint, mm_per_pixel);
+      } else {
+        one.glyphs.hide();
+      }
+    }
+    one.coarse = moved && one.kind == ViewKind::volume;
+    if (one.coarse) {
+      one.view->getRenderViewProxy()->InteractiveRender();
+    } else {
+      one.view->forceRender();
+    }
+    one.next_ms = clock_.elapsed() + std::max(shortest_ms, rest_of * (clock_.elapsed() - now_ms));
+    next_ = (next_ + turn + 1) % views_.size();
+    return;
+  }
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,59 @@
+#pragma once
+
+/// The stylus in all views of a scan: drawn as it moves, held by the mouse.
+
+#include <QElapsedTimer>
+#include <QPointer>
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/stylus/stylus_glyphs.h"
+#include "plugin/paraview/client/stylus/stylus_hand.h"
+#include "plugin/paraview/client/views/clinical_views.h"
+#include "plugin/paraview/client/views/sight_line.h"
+
+namespace palpate::plugin {
+
+struct Eye;
+
+class StylusViews {
+ public:
+  StylusViews(Touching& touching, const SceneModel& model);
+  StylusViews(const StylusViews&) = delete;
+  StylusViews& operator=(const StylusViews&) = delete;
+  ~StylusViews();
+
+  /// The views of a scan that has just been shown; empty: none.
+  void set_views(const std::vector<ClinicalView>& views);
+  /// What the volume's rendering hides.
+  void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
+  /// Draws those views anew in which something has moved, none so often that the program would stand still.
+  void show(const Look& look);
+  /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
+  /// again.
+  void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { pick_ = std::move(pick); }
+  /// What the 3D view looks at.
+  Eye eye() const;
+
+ private:
+  struct OneView;
+  void follow_scan();
+  bool pick(Pick what, const glm::dvec3& near, const glm::dvec3& far);
+
+  Touching& touching_;
+  const SceneModel& model_;
+  std::vector<std::unique_ptr<OneView>> views_;
+  std::vector<OpacityNode> opacity_;
+  std::function<void(Pick, const glm::dvec3&)> pick_;
+  glm::dvec3 picked_mm_{0};
+  std::shared_ptr<const io::FieldSource> values_;  // of the scan
+  std::shared_ptr<const io::Volume> values_of_;
+  QElapsedTimer clock_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace palpate::plugin

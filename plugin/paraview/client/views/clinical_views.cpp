@@ -1,0 +1,296 @@
+#include "plugin/paraview/client/views/clinical_views.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqObjectBuilder.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqServer.h>
+#include <pqServerManagerModel.h>
+#include <vtkNew.h>
+#include <vtkPVArrayInformation.h>
+#include <vtkPVDataInformation.h>
+#include <vtkPVDataSetAttributesInformation.h>
+#include <vtkPVRenderView.h>
+#include <vtkSMPVRepresentationProxy.h>
+#include <vtkSMParaViewPipelineControllerWithRendering.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMTrace.h>
+#include <vtkSMViewLayoutProxy.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredData.h>
+
+#include <QCoreApplication>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "plugin/paraview/client/views/image_lattice.h"
+
+namespace palpate::plugin {
+namespace {
+
+QString name_of(ViewKind kind) {
+  const auto translated = [](const char* text) { return QCoreApplication::translate("ClinicalViews", text); };
+  switch (kind) {
+    case ViewKind::axial:
+      return translated("Axial");
+    case ViewKind::sagittal:
+      return translated("Sagittal");
+    case ViewKind::coronal:
+      return translated("Coronal");
+    case ViewKind::volume:
+      break;
+  }
+  return translated("Volume");
+}
+
+pqRenderView* make_view(pqServer& server, ViewKind kind) {
+  const bool flat = kind != ViewKind::volume;
+  auto* const view = qobject_cast<pqRenderView*>(
+      pqApplicationCore::instance()->getObjectBuilder()->createView(pqRenderView::renderViewType(), &server));
+  vtkSMProxy& proxy = *view->getProxy();
+  const auto set = [&](const char* name, int value) { vtkSMPropertyHelper(&proxy, name, true).Set(value); };
+  set("UseColorPaletteForBackground", 0);
+  set("OrientationAxesVisibility", 0);  // X, Y, Z
+  set("CenterAxesVisibility", 0);
+  if (flat) set("InteractionMode", 1);
+  const double black[3] = {0, 0, 0};
+  vtkSMPropertyHelper(&proxy, "Background").Set(black, 3);
+  proxy.UpdateVTKObjects();
+  return view;
+}
+
+vtkSMViewLayoutProxy& make_layout(pqServer& server) {
+  const auto proxy = vtkSmartPointer<vtkSMProxy>::Take(server.proxyManager()->NewProxy("misc", "ViewLayout"));
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->InitializeProxy(proxy);
+  server.proxyManager()->RegisterProxy("layouts", "Scan", proxy);
+  return *vtkSMViewLayoutProxy::SafeDownCast(proxy);
+}
+
+vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRenderView& view, const char* array) {
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  vtkSMProxy* const shown = controller->Show(&image, 0, view.getViewProxy());
+  auto* const proxy = vtkSMPVRepresentationProxy::SafeDownCast(shown);
+  proxy->SetRepresentationType(representation);
+  vtkSMPVRepresentationProxy::SetScalarColoring(proxy, array, 0);
+  vtkSMPVRepresentationProxy::SetScalarBarVisibility(proxy, view.getViewProxy(), false);
+  return *proxy;
+}
+
+constexpr int slice_mode(int index_axis) {
+  return index_axis == 2 ? VTK_XY_PLANE : index_axis == 1 ? VTK_XZ_PLANE : VTK_YZ_PLANE;
+}
+
+/// Half the size of the scan as it is seen along `direction`.
+double half_extent(const ImageLattice& lattice, const glm::dvec3& direction) {
+  double half = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    half += 0.5 * (lattice.dimensions[axis] - 1) * lattice.spacing[axis] *
+            std::abs(glm::dot(lattice.directions[static_cast<std::size_t>(axis)], direction));
+  }
+  return half;
+}
+
+constexpr struct {
+  Plane plane;
+  ViewKind kind;
+  int cell;
+} places[] = {{Plane::axial, ViewKind::axial, 3},
+              {Plane::sagittal, ViewKind::sagittal, 5},
+              {Plane::coronal, ViewKind::coronal, 4}};
+}  // namespace
+
+std::vector<ClinicalView> find_clinical_views() {
+  std::vector<ClinicalView> found;
+  for (pqRenderView* const view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    for (const ViewKind kind : {ViewKind::axial, ViewKind::sagittal, ViewKind::coronal, ViewKind::volume}) {
+      if (view->getSMName() == name_of(kind)) found.push_back({kind, view});
+    }
+  }
+  return found;
+}
+
+ClinicalViews::~ClinicalViews() = default;
+
+void ClinicalViews::close() {
+  slices_.clear();
+  marker_.reset();
+  windows_.clear();
+  window_->value_at = {};
+  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  for (const auto& open : views_) {
+    if (open.view) builder->destroy(open.view);
+  }
+  views_.clear();
+}
+
+void ClinicalViews::refresh() {
+  for (const auto& slice : slices_) {
+    if (!slice) continue;
+    slice->refresh_text();
+  }
+  for (const auto& open : views_) {
+    if (open.view) open.view->render();
+  }
+}
+
+std::vector<ClinicalView> ClinicalViews::views() const {
+  std::vector<ClinicalView> open;
+  for (const auto& [kind, view] : views_) {
+    if (view) open.push_back({kind, view});
+  }
+  return open;
+}
+
+void ClinicalViews::show_point(const glm::dvec3& place) {
+  for (const auto& slice : slices_) {
+    if (slice) slice->show_point(place);
+  }
+}
+
+void ClinicalViews::set_window(const Window& window) {
+  window_->window = window;
+  if (window_->grey_map) plugin::set_window(*window_->grey_map, window);
+  refresh();
+}
+
+void ClinicalViews::show(pqPipelineSource& source) {
+  close();
+  // A trace shows the scan in a view of ParaView's own: these ones are the panel's, and it is not there when a trace is
+  // replayed.
+  {
+    SM_SCOPED_TRACE(TraceText)
+        .arg(("scanView = GetActiveViewOrCreate('RenderView')\n"
+              "scanDisplay = Show(FindSource('" +
+              source.getSMName().toStdString() +
+              "'), scanView)\n"
+              "scanDisplay.SetRepresentationType('Slice')\n"
+              "scanView.ResetCamera()")
+                 .c_str())
+        .arg("comment", "the scan in a view");
+  }
+  SM_SCOPED_TRACE(BlockTraceItems);
+  pqServer& server = *source.getServer();
+  auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
+  const ImageLattice lattice = lattice_of(image);
+
+  // A fresh session has one empty view; it gives way, so that there is one tab with the scan in it and nothing else.
+  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
+  if (auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+      old && layout && layout->GetViews().size() == 1 && old->getNumberOfVisibleRepresentations() == 0) {
+    builder->destroy(old);
+    layout->Reset();
+  } else {
+    layout = &make_layout(server);
+  }
+  layout->SplitHorizontal(0, 0.5);
+  layout->SplitVertical(1, 0.5);
+  layout->SplitVertical(2, 0.5);
+
+  prepare(image, lattice);
+  window_->window = windows_.front().window;
+  plugin::set_window(*window_->grey_map, window_->window);
+  for (const auto& [plane, kind, cell] : places) {
+    pqRenderView& view = *make_view(server, kind);
+    layout->AssignView(cell, view.getViewProxy());
+    vtkSMProxy& shown = show_as("Slice", image, view, lattice.array.c_str());
+    const Sight sight = sight_of(plane, lattice.directions);
+    vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight.index_axis));
+    vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->grey_map);
+    vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
+        .Set(vtkSMPropertyHelper(window_->grey_map, "ScalarOpacityFunction").GetAsProxy());
+    shown.UpdateVTKObjects();
+    add_slice(lattice, plane, kind, view, shown, lattice.dimensions[sight.index_axis] / 2, false);
+  }
+
+  pqRenderView& volume_view = *make_view(server, ViewKind::volume);
+  layout->AssignView(6, volume_view.getViewProxy());
+  vtkSMProxy& volume = show_as("Volume", image, volume_view, lattice.array.c_str());
+  set_volume_look(volume, volume_look_for(lattice.values));
+  // From the front and a little from the patient's left and above; the head up.
+  const glm::dvec3 eye = lattice.center() + glm::dvec3(500, -900, 300);
+  const glm::dvec3 head(0, 0, 1);
+  vtkSMProxy& camera = *volume_view.getProxy();
+  vtkSMPropertyHelper(&camera, "CameraPosition").Set(&eye.x, 3);
+  const glm::dvec3 center = lattice.center();
+  vtkSMPropertyHelper(&camera, "CameraFocalPoint").Set(&center.x, 3);
+  vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
+  camera.UpdateVTKObjects();
+  volume_view.getRenderViewProxy()->ResetCamera(true);
+  add_volume(volume_view);
+  // Not before all are there: the next would have this one's first name again.
+  for (const auto& open : views_) open.view->rename(name_of(open.kind));
+  refresh();
+}
+
+void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice) {
+  windows_ = windows_for(lattice.values);
+  window_->unit = lattice.values.hounsfield ? QStringLiteral("HU") : QString();
+  window_->value_at = [probe = std::make_shared<ValueProbe>(image)](const glm::dvec3& place) {
+    return probe->at(place);
+  };
+  window_->grey_map = grey_map(*pqActiveObjects::instance().activeServer());
+  window_->changed = [this] { refresh(); };
+}
+
+void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view,
+                              vtkSMProxy& shown, int slice, bool restored) {
+  const Sight sight = sight_of(plane, lattice.directions);
+  const glm::dvec3 right = glm::cross(sight.along, sight.up);
+  const int slices = lattice.dimensions[sight.index_axis];
+  const glm::dvec3& to_next = lattice.directions[static_cast<std::size_t>(sight.index_axis)];
+  slices_.emplace_back(new SliceView(view, shown,
+                                     {.plane = plane,
+                                      .sight = sight,
+                                      .slices = slices,
+                                      .slice = slice,
+                                      .first_mm = glm::dot(lattice.origin, sight.along),
+                                      .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
+                                      .center_mm = lattice.center(),
+                                      .half_height_mm = half_extent(lattice, sight.up),
+                                      .half_width_mm = half_extent(lattice, right),
+                                      .keeps_camera = restored},
+                                     window_));
+  views_.push_back({kind, &view});
+}
+
+void ClinicalViews::add_volume(pqRenderView& volume_view) {
+  marker_ = std::make_unique<OrientationMarker>(
+      *vtkPVRenderView::SafeDownCast(volume_view.getRenderViewProxy()->GetClientSideView()));
+  // The view may also be closed by hand, and its renderer with it.
+  QObject::connect(&volume_view, &QObject::destroyed, &lifetime_, [this] { marker_.reset(); });
+  views_.push_back({ViewKind::volume, &volume_view});
+  pqActiveObjects::instance().setActiveView(&volume_view);
+}
+
+void ClinicalViews::adopt(pqPipelineSource& source) {
+  auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
+  const ImageLattice lattice = lattice_of(image);
+  slices_.clear();
+  marker_.reset();
+  views_.clear();
+  prepare(image, lattice);
+  window_->window = window_of(*window_->grey_map);
+  for (const ClinicalView& open : find_clinical_views()) {
+    pqDataRepresentation* const shown = source.getRepresentation(open.view);
+    if (!shown) continue;
+    if (open.kind == ViewKind::volume) {
+      add_volume(*open.view);
+      continue;
+    }
+    const auto* const place = std::ranges::find_if(places, [&](const auto& of) { return of.kind == open.kind; });
+    add_slice(lattice, place->plane, open.kind, *open.view, *shown->getProxy(),
+              vtkSMPropertyHelper(shown->getProxy(), "Slice").GetAsInt(), true);
+  }
+  refresh();
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,20 @@
+#pragma once
+
+/// ParaView's colour maps, as slices and volumes of a scan use them.
+
+#include "plugin/paraview/client/scan/scan_look.h"
+
+class pqServer;
+class vtkSMProxy;
+
+namespace palpate::plugin {
+
+/// The grey map of all slices, apart from the colours of the volume; made on first use, kept by state files.
+vtkSMProxy* grey_map(pqServer& server);
+void set_window(vtkSMProxy& grey_map, const Window& window);
+Window window_of(vtkSMProxy& grey_map);
+
+/// Sets a look on the maps of a representation's array.
+void set_volume_look(vtkSMProxy& representation, const VolumeLook& look);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,35 @@
+#pragma once
+
+/// A path through the patient, in all views of the scan.
+
+#include <QColor>
+#include <QPointer>
+
+#include <memory>
+#include <vector>
+
+#include "plugin/paraview/client/views/clinical_views.h"
+#include "plugin/paraview/client/views/path_glyphs.h"
+
+namespace palpate::plugin {
+
+class PathViews {
+ public:
+  explicit PathViews(QColor colour) : colour_(std::move(colour)) {}
+
+  /// The views of a scan that has just been shown; empty: none.
+  void set_views(const std::vector<ClinicalView>& views);
+  /// Empty: none. `passing`: another one follows at once, so that the volume, which takes long to draw, can wait.
+  void show(const std::vector<glm::dvec3>& path, bool passing = false);
+
+ private:
+  struct One {
+    ViewKind kind;
+    QPointer<pqRenderView> view;
+    std::unique_ptr<PathGlyphs> glyphs;
+  };
+  QColor colour_;
+  std::vector<One> views_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,29 @@
+#pragma once
+
+/// Whether something in the patient is hidden behind what the volume rendering shows.
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+
+#include "io/fields/field_source.h"
+
+namespace palpate::plugin {
+
+/// From a value to the part of the light that a millimetre of it takes: straight between nodes, constant beyond.
+struct OpacityNode {
+  double value = 0;
+  double opacity = 0;  ///< 0 to 1, for each mm
+};
+
+/// How much of the light from a place does not come to the eye, 0 to 1: patient space, mm. The last millimetres before
+/// the place do not count, for it lies on the surface that it feels.
+double hidden_part(const io::FieldSource& source, std::span<const OpacityNode> opacity, const glm::dvec3& eye,
+                   const glm::dvec3& place);
+
+/// What is seen on the way from one place to another: where half of the light is taken, to half a millimetre; none
+/// where less is. Patient space, mm.
+std::optional<glm::dvec3> first_seen(const io::FieldSource& source, std::span<const OpacityNode> opacity,
+                                     const glm::dvec3& from, const glm::dvec3& to);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,81 @@
+#include "plugin/paraview/client/views/slice_overlay.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkPVRenderView.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+#include <glm/geometric.hpp>
+
+#include "plugin/paraview/client/views/anatomy.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct Place {
+  double x, y;  // parts of the view
+  int horizontal, vertical;
+};
+constexpr std::array<Place, 6> places{{{0.985, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
+                                       {0.015, 0.5, VTK_TEXT_LEFT, VTK_TEXT_CENTERED},
+                                       {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
+                                       {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
+                                       {0.015, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP},
+                                       {0.015, 0.87, VTK_TEXT_LEFT, VTK_TEXT_TOP}}};
+constexpr std::size_t letters = 4, corner = 4, pointer = 5;
+
+}  // namespace
+
+SliceOverlay::SliceOverlay(vtkPVRenderView& view) : renderer_(view.GetNonCompositedRenderer()), view_(view) {
+  for (std::size_t n = 0; n < texts_.size(); ++n) {
+    vtkTextActor& text = *texts_[n];
+    text.GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    text.SetPosition(places[n].x, places[n].y);
+    vtkTextProperty& style = *text.GetTextProperty();
+    style.SetFontSize(n < letters ? 18 : 12);
+    style.SetBold(n < letters);
+    style.SetColor(1, 0.85, 0.35);
+    // Bright bone lies under it as often as dark air.
+    style.SetBackgroundColor(0, 0, 0);
+    style.SetBackgroundOpacity(0.6);
+    style.SetJustification(places[n].horizontal);
+    style.SetVerticalJustification(places[n].vertical);
+    renderer_->AddActor(texts_[n]);
+  }
+  before_render_->SetClientData(this);
+  before_render_->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void*) { static_cast<SliceOverlay*>(self)->update_letters(); });
+  observer_ = renderer_->AddObserver(vtkCommand::StartEvent, before_render_);
+}
+
+SliceOverlay::~SliceOverlay() {
+  renderer_->RemoveObserver(observer_);
+  for (const auto& text : texts_) renderer_->RemoveActor(text);
+}
+
+void SliceOverlay::set_corner(const QString& text) {
+  texts_[corner]->SetInput(text.toUtf8().constData());
+}
+
+bool SliceOverlay::set_pointer(const QString& text) {
+  if (text == pointer_) return false;
+  pointer_ = text;
+  texts_[pointer]->SetInput(text.toUtf8().constData());
+  return true;
+}
+
+void SliceOverlay::update_letters() {
+  vtkCamera& camera = *view_.GetActiveCamera();
+  glm::dvec3 along, up;
+  camera.GetDirectionOfProjection(&along.x);
+  camera.GetViewUp(&up.x);
+  const glm::dvec3 right = glm::normalize(glm::cross(along, up));
+  const glm::dvec3 upright = glm::cross(right, along);  // the camera's own up need not be perpendicular
+  const std::array<glm::dvec3, letters> edges{right, -right, upright, -upright};
+  for (std::size_t n = 0; n < edges.size(); ++n) texts_[n]->SetInput(letters_of(edges[n]).c_str());
+}
+
+}  // namespace palpate::plugin

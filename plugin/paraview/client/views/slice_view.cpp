@@ -1,0 +1,219 @@
+#include "plugin/paraview/client/views/slice_view.h"
+
+#include <pqRenderView.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkPVRenderView.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
+
+#include <QCoreApplication>
+#include <QWidget>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "plugin/paraview/client/views/slice_overlay.h"
+
+namespace palpate::plugin {
+namespace {
+
+QString translated(const char* text) {
+  return QCoreApplication::translate("SliceView", text);
+}
+
+QString name_of(Plane plane) {
+  switch (plane) {
+    case Plane::axial:
+      return translated("Axial");
+    case Plane::coronal:
+      return translated("Coronal");
+    case Plane::sagittal:
+      break;
+  }
+  return translated("Sagittal");
+}
+
+vtkPVRenderView* client_view(const pqRenderView& view) {
+  return vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
+}
+
+}  // namespace
+
+/// Takes what it uses before ParaView's own interaction sees it, and leaves the rest (zoom, pan) alone.
+class SliceView::Mouse {
+ public:
+  Mouse(SliceView& owner, vtkRenderWindowInteractor& interactor) : owner_(owner), interactor_(&interactor) {
+    command_->SetClientData(this);
+    command_->SetCallback(
+        [](vtkObject*, unsigned long event, void* self, void*) { static_cast<Mouse*>(self)->handle(event); });
+    constexpr float before_paraview = 10;
+    for (const auto event :
+         {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
+          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::LeaveEvent}) {
+      observers_.push_back(interactor_->AddObserver(event, command_, before_paraview));
+    }
+  }
+  Mouse(const Mouse&) = delete;
+  Mouse& operator=(const Mouse&) = delete;
+  ~Mouse() {
+    for (const unsigned long observer : observers_) interactor_->RemoveObserver(observer);
+  }
+
+ private:
+  void handle(unsigned long event) {
+    const int* const at = interactor_->GetEventPosition();
+    command_->SetAbortFlag(0);
+    switch (event) {
+      case vtkCommand::LeftButtonPressEvent:
+        if (interactor_->GetControlKey() || interactor_->GetShiftKey()) return;
+        if (pick(Pick::pressed)) {
+          picking_ = true;
+          break;
+        }
+        dragging_ = true;
+        from_ = {at[0], at[1]};
+        start_ = owner_.window_->window;
+        break;
+      case vtkCommand::LeftButtonReleaseEvent:
+        if (std::exchange(picking_, false)) {
+          pick(Pick::let_go);
+          break;
+        }
+        if (!std::exchange(dragging_, false)) return;
+        break;
+      case vtkCommand::MouseMoveEvent:
+        if (!dragging_) {
+          if (picking_) pick(Pick::moved);
+          owner_.tell_of(at[0], at[1]);
+          return;
+        }
+        drag_to(at[0], at[1]);
+        break;
+      case vtkCommand::LeaveEvent:
+        owner_.set_pointer_text({});
+        return;
+      case vtkCommand::MouseWheelForwardEvent:
+        owner_.show_slice(owner_.setup_.slice + 1);
+        break;
+      case vtkCommand::MouseWheelBackwardEvent:
+        owner_.show_slice(owner_.setup_.slice - 1);
+        break;
+      default:
+        return;
+    }
+    command_->SetAbortFlag(1);
+  }
+
+  /// Whether places are being picked.
+  bool pick(Pick what) {
+    if (!owner_.window_->pick) return false;
+    const int* const at = interactor_->GetEventPosition();
+    const auto pick = owner_.window_->pick;  // picking may end in the call
+    pick(what, owner_.place_under(at[0], at[1]));
+    return true;
+  }
+
+  // To the right wider, up brighter; a drag over the view's width doubles the window or halves it.
+  void drag_to(int x, int y) {
+    const int* const size = interactor_->GetSize();
+    const double right = static_cast<double>(x - from_[0]) / std::max(size[0], 1);
+    const double up = static_cast<double>(y - from_[1]) / std::max(size[1], 1);
+    Window& window = owner_.window_->window;
+    window.width = std::max(start_.width * std::exp2(2 * right), 1e-3);
+    window.level = start_.level - up * start_.width;
+    set_window(*owner_.window_->grey_map, window);
+    if (owner_.window_->changed) owner_.window_->changed();
+  }
+
+  SliceView& owner_;
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
+  vtkNew<vtkCallbackCommand> command_;
+  std::vector<unsigned long> observers_;
+  bool dragging_ = false, picking_ = false;
+  std::array<int, 2> from_{};
+  Window start_;
+};
+
+SliceView::SliceView(pqRenderView& view, vtkSMProxy& representation, const SliceSetup& setup,
+                     std::shared_ptr<SharedWindow> window)
+    : QObject(&view), view_(view), representation_(representation), setup_(setup), window_(std::move(window)) {
+  vtkPVRenderView& client = *client_view(view);
+  overlay_ = std::make_unique<SliceOverlay>(client);
+  if (client.GetInteractor()) mouse_ = std::make_unique<Mouse>(*this, *client.GetInteractor());
+  if (!setup_.keeps_camera) place_camera();
+  show_slice(setup_.slice);
+}
+
+SliceView::~SliceView() = default;
+
+void SliceView::place_camera() {
+  const glm::dvec3 eye = setup_.center_mm - 1000.0 * setup_.sight.along;  // parallel: the distance does not matter
+  vtkSMProxy& view = *view_.getProxy();
+  vtkSMPropertyHelper(&view, "CameraParallelProjection").Set(1);
+  vtkSMPropertyHelper(&view, "CameraFocalPoint").Set(&setup_.center_mm.x, 3);
+  vtkSMPropertyHelper(&view, "CameraPosition").Set(&eye.x, 3);
+  vtkSMPropertyHelper(&view, "CameraViewUp").Set(&setup_.sight.up.x, 3);
+  const QSize size = view_.widget()->size();
+  const double aspect = size.height() > 0 ? std::max(static_cast<double>(size.width()) / size.height(), 0.1) : 1;
+  constexpr double margin = 1.08;  // for the letters
+  vtkSMPropertyHelper(&view, "CameraParallelScale")
+      .Set(margin * std::max(setup_.half_height_mm, setup_.half_width_mm / aspect));
+  view.UpdateVTKObjects();
+}
+
+void SliceView::show_slice(int slice) {
+  setup_.slice = std::clamp(slice, 0, setup_.slices - 1);
+  vtkSMPropertyHelper(&representation_, "Slice").Set(setup_.slice);
+  representation_.UpdateVTKObjects();
+  refresh_text();
+  view_.render();
+}
+
+void SliceView::show_point(const glm::dvec3& place) {
+  const double slice = std::round((glm::dot(place, setup_.sight.along) - setup_.first_mm) / setup_.pitch_mm);
+  const int nearest = static_cast<int>(std::clamp(slice, 0.0, setup_.slices - 1.0));
+  if (nearest != setup_.slice) show_slice(nearest);
+}
+
+glm::dvec3 SliceView::place_under(int x, int y) const {
+  vtkRenderer& renderer = *client_view(view_)->GetRenderer();
+  renderer.SetDisplayPoint(x, y, 0);
+  renderer.DisplayToWorld();
+  const double* const world = renderer.GetWorldPoint();
+  const glm::dvec3 seen = glm::dvec3(world[0], world[1], world[2]) / world[3];
+  glm::dvec3 along;
+  renderer.GetActiveCamera()->GetDirectionOfProjection(&along.x);
+  const double height = setup_.first_mm + setup_.slice * setup_.pitch_mm;
+  return seen + along * ((height - glm::dot(seen, setup_.sight.along)) / glm::dot(along, setup_.sight.along));
+}
+
+void SliceView::tell_of(int x, int y) {
+  const glm::dvec3 place = place_under(x, y);
+  QString text = QString::fromStdString(place_text(place, window_->coordinates));
+  if (const auto value = window_->value_at ? window_->value_at(place) : std::nullopt) {
+    text += QStringLiteral("   %1 %2").arg(*value, 0, 'g', 6).arg(window_->unit);
+  }
+  set_pointer_text(text.trimmed());
+}
+
+void SliceView::set_pointer_text(const QString& text) {
+  if (overlay_->set_pointer(text)) view_.render();
+}
+
+void SliceView::refresh_text() {
+  overlay_->set_corner(QStringLiteral("%1  %2 / %3\nW %4  L %5")
+                           .arg(name_of(setup_.plane))
+                           .arg(setup_.slice + 1)
+                           .arg(setup_.slices)
+                           .arg(window_->window.width, 0, 'f', 0)
+                           .arg(window_->window.level, 0, 'f', 0));
+}
+
+}  // namespace palpate::plugin

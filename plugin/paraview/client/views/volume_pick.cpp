@@ -1,0 +1,54 @@
+#include "plugin/paraview/client/views/volume_pick.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkPVRenderView.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include <utility>
+
+namespace palpate::plugin {
+
+VolumePick::VolumePick(vtkPVRenderView& view, Ray ray)
+    : view_(view), ray_(std::move(ray)), interactor_(view.GetInteractor()) {
+  command_->SetClientData(this);
+  command_->SetCallback([](vtkObject*, unsigned long event, void* self, void*) {
+    auto& pick = *static_cast<VolumePick*>(self);
+    pick.command_->SetAbortFlag(pick.handle(event) ? 1 : 0);
+  });
+  if (!interactor_) return;
+  constexpr float before_paraview = 10;
+  for (const auto event :
+       {vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent}) {
+    observers_.push_back(interactor_->AddObserver(event, command_, before_paraview));
+  }
+}
+
+VolumePick::~VolumePick() {
+  for (const unsigned long observer : observers_) interactor_->RemoveObserver(observer);
+}
+
+bool VolumePick::handle(unsigned long event) {
+  const glm::dvec3 near = place_at(0), far = place_at(1);
+  switch (event) {
+    case vtkCommand::LeftButtonPressEvent:
+      return picking_ = ray_(Pick::pressed, near, far);
+    case vtkCommand::MouseMoveEvent:
+      return picking_ && ray_(Pick::moved, near, far);
+    default:
+      return std::exchange(picking_, false) && ray_(Pick::let_go, near, far);
+  }
+}
+
+/// Of what is under the pointer: 0 is nearest to the eye, 1 farthest.
+glm::dvec3 VolumePick::place_at(double depth) const {
+  const int* const at = interactor_->GetEventPosition();
+  vtkRenderer& renderer = *view_.GetRenderer();
+  renderer.SetDisplayPoint(at[0], at[1], depth);
+  renderer.DisplayToWorld();
+  const double* const world = renderer.GetWorldPoint();
+  return glm::dvec3(world[0], world[1], world[2]) / world[3];
+}
+
+}  // namespace palpate::plugin

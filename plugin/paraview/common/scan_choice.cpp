@@ -1,0 +1,89 @@
+#include "plugin/paraview/common/scan_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+#include "io/errors.h"
+
+namespace palpate::plugin {
+namespace {
+
+std::int64_t voxel_count(const io::Series& series) {
+  const glm::ivec3& size = series.geometry.dimensions;
+  return std::int64_t{size.x} * size.y * size.z * (series.usable ? 1 : -1);
+}
+
+bool has_file(const io::Series& series, const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::ranges::any_of(series.files, [&](const auto& file) {
+    return file.filename() == path.filename() && std::filesystem::equivalent(file, path, ignored);
+  });
+}
+
+[[noreturn]] void refuse(const io::Catalogue& catalogue, const std::string& why) {
+  std::string there;
+  for (std::size_t n = 0; n < catalogue.series.size(); ++n) {
+    there += fmt::format("\n  {}  {}", scan_name(catalogue, n), scan_label(catalogue.series[n]));
+  }
+  if (there.empty() && !catalogue.skipped.empty()) {
+    there = fmt::format(" no image among {} files; the first, {}: {}", catalogue.skipped.size(),
+                        catalogue.skipped.front().path.filename().string(), catalogue.skipped.front().reason);
+  }
+  throw io::DicomError(why + "; there is:" + (there.empty() ? " nothing" : there));
+}
+
+}  // namespace
+
+std::string scan_name(const io::Catalogue& catalogue, std::size_t index) {
+  const std::string& uid = catalogue.series[index].uid;
+  const auto end = catalogue.series.begin() + static_cast<std::ptrdiff_t>(index);
+  const auto before = std::count_if(catalogue.series.begin(), end, [&](const auto& s) { return s.uid == uid; });
+  return before == 0 ? uid : fmt::format("{}#{}", uid, before + 1);
+}
+
+std::string scan_label(const io::Series& series) {
+  const glm::ivec3& size = series.geometry.dimensions;
+  std::string label = fmt::format("{} {}, {} x {} x {}", series.modality,
+                                  series.description.empty() ? "series" : series.description, size.x, size.y, size.z);
+  if (series.frames_per_position > 1) label += fmt::format(" x {}", series.frames_per_position);
+  return series.usable ? label : label + " (not a volume)";
+}
+
+std::vector<std::size_t> choices(const io::Catalogue& catalogue, const std::filesystem::path& path) {
+  const auto& all = catalogue.series;
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::error_code ignored;
+  const auto first = std::filesystem::is_regular_file(path, ignored)
+                         ? std::ranges::find_if(all, [&](const auto& series) { return has_file(series, path); })
+                         : std::ranges::max_element(all, {}, voxel_count);
+  if (first != all.end())
+    std::rotate(order.begin(), order.begin() + (first - all.begin()), order.begin() + (first - all.begin()) + 1);
+  return order;
+}
+
+std::size_t choose_scan(const io::Catalogue& catalogue, const std::string& name, const std::filesystem::path& path) {
+  const std::string where = path.filename().string();
+  if (!name.empty()) {
+    for (std::size_t n = 0; n < catalogue.series.size(); ++n) {
+      if (scan_name(catalogue, n) == name) return n;
+    }
+    refuse(catalogue, fmt::format("{}: no series {}", where, name));
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) {
+    if (std::ranges::none_of(catalogue.series, [&](const auto& series) { return has_file(series, path); })) {
+      refuse(catalogue, where + " is not part of a series");
+    }
+    return choices(catalogue, path).front();
+  }
+  if (std::ranges::none_of(catalogue.series, [](const auto& series) { return series.usable; })) {
+    refuse(catalogue, where + ": no series that is a volume");
+  }
+  return choices(catalogue, path).front();
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,115 @@
+#include "plugin/recording/recorded_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/session/scan.h"
+#include "plugin/session/scan_hash.h"
+
+namespace palpate::plugin {
+namespace {
+
+glm::dvec3 vector_of(const double (&from)[3]) {
+  return {from[0], from[1], from[2]};
+}
+
+/// Leaves the frames of these scenes, and their shares.
+std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>& epochs) {
+  std::vector<Share> shares;
+  std::size_t kept = 0, share = 0;
+  for (const Frame& frame : recording.frames) {
+    const std::size_t next = share + frame.share_count;
+    if (epochs.count(frame.scene_epoch) > 0) {
+      shares.insert(shares.end(), recording.shares.begin() + static_cast<std::ptrdiff_t>(share),
+                    recording.shares.begin() + static_cast<std::ptrdiff_t>(next));
+      recording.frames[kept++] = frame;
+    }
+    share = next;
+  }
+  const std::size_t left_out = recording.frames.size() - kept;
+  recording.frames.resize(kept);
+  recording.shares = std::move(shares);
+  return left_out;
+}
+
+}  // namespace
+
+RecordedSession::RecordedSession(Recording recording, const io::Volume& volume) : recording_(std::move(recording)) {
+  const std::string hash = hash_of(volume);
+  std::set<std::uint32_t> here;
+  for (const SceneRecord& record : recording_.scenes) {
+    if (record.scan_hash == hash) here.insert(record.epoch);
+  }
+  elsewhere_ = leave_out_others(recording_, here);
+  if (recording_.frames.empty()) {
+    throw std::runtime_error(
+        elsewhere_ == 0 ? std::string("the recording is empty: no frame of it was written")
+                        : fmt::format("the recording was made on another scan: its hash is {}, this one's {}; open "
+                                      "the scan that was felt",
+                                      recording_.header.scan_hash, hash));
+  }
+  first_share_.reserve(size());
+  std::size_t share = 0;
+  std::uint32_t last = recording_.frames.front().scene_epoch;
+  for (const Frame& frame : recording_.frames) {
+    first_share_.push_back(share);
+    share += frame.share_count;
+    if (settings_.count(frame.scene_epoch) > 0) continue;
+    const SceneRecord& record = *std::find_if(recording_.scenes.begin(), recording_.scenes.end(),
+                                              [&](const auto& r) { return r.epoch == frame.scene_epoch; });
+    Setting setting;
+    setting.scene = modes::scene_from_json(record.scene, "the recording's scene");
+    setting.workspace = plan_for(setting.scene, volume, record.half_extent_m)->workspace;
+    // What is left while a change is on its way is what the frame before felt.
+    setting.before = settings_.empty() ? setting.workspace : settings_.at(last).workspace;
+    last = frame.scene_epoch;
+    settings_.emplace(last, std::move(setting));
+  }
+}
+
+double RecordedSession::time_s(std::size_t n) const noexcept {
+  return recording_.frames[n].time_s - recording_.frames.front().time_s;
+}
+
+double RecordedSession::duration_s() const noexcept {
+  return time_s(size() - 1);
+}
+
+std::size_t RecordedSession::frame_at(double seconds) const noexcept {
+  const double at = recording_.frames.front().time_s + seconds;
+  const auto later = std::upper_bound(recording_.frames.begin(), recording_.frames.end(), at,
+                                      [](double time, const Frame& frame) { return time < frame.time_s; });
+  return later == recording_.frames.begin() ? 0 : static_cast<std::size_t>(later - recording_.frames.begin()) - 1;
+}
+
+std::span<const Share> RecordedSession::shares(std::size_t n) const {
+  return std::span(recording_.shares).subspan(first_share_[n], recording_.frames[n].share_count);
+}
+
+const modes::Scene& RecordedSession::scene(std::size_t n) const {
+  return setting(n).scene;
+}
+
+modes::Workspace RecordedSession::workspace(std::size_t n) const {
+  const Setting& at = setting(n);
+  return modes::between(at.before, at.workspace, recording_.frames[n].change_part);
+}
+
+glm::dvec3 RecordedSession::probe_mm(std::size_t n) const {
+  return workspace(n).to_patient(vector_of(recording_.frames[n].probe_m));
+}
+
+glm::dvec3 RecordedSession::proxy_mm(std::size_t n) const {
+  return workspace(n).to_patient(vector_of(recording_.frames[n].proxy_m));
+}
+
+glm::dvec3 RecordedSession::sent_n(std::size_t n) const {
+  return workspace(n).direction_to_patient(vector_of(recording_.frames[n].sent_n));
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,116 @@
+#include "plugin/recording/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "plugin/recording/recording_rows.h"
+#include "plugin/recording/recording_writer.h"
+
+namespace palpate::plugin {
+namespace {
+
+using hdf5::check;
+using hdf5::Handle;
+
+template <typename Row>
+std::vector<Row> read_table(hid_t file, const char* name, const Handle& type) {
+  const Handle table(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find what a recording holds");
+  const Handle space(H5Dget_space(table), H5Sclose, "read what is in it");
+  std::vector<Row> rows(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
+  if (!rows.empty()) {
+    check(H5Dread(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), "read what is in it");
+  }
+  return rows;
+}
+
+std::string read_text(hid_t file, const char* name) {
+  const Handle data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find what a recording holds");
+  const Handle type(H5Dget_type(data), H5Tclose, "read what is in it");
+  std::string text(H5Tget_size(type), '\0');
+  check(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read what is in it");
+  text.resize(std::min(text.size(), text.find('\0')));
+  return text;
+}
+
+/// Says whether the file was closed in good order.
+Handle open(const std::filesystem::path& file, bool& complete) {
+  const hid_t closed = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  complete = closed >= 0;
+  if (complete) {
+    return {closed, H5Fclose, "open it"};
+  }
+  return {H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose,
+          "open it (is it a recording of Palpate's?)"};
+}
+
+/// Where the writer died between two tables, only frames with all their shares count.
+void keep_whole_frames(Recording& recording) {
+  std::size_t shares = 0;
+  std::size_t frames = 0;
+  for (; frames < recording.frames.size(); ++frames) {
+    const std::size_t with_it = shares + recording.frames[frames].share_count;
+    if (with_it > recording.shares.size()) {
+      break;
+    }
+    shares = with_it;
+  }
+  recording.frames.resize(frames);
+  recording.shares.resize(shares);
+}
+
+}  // namespace
+
+void write_recording(const Recording& recording, const std::filesystem::path& file) {
+  RecordingWriter writer(file, recording.header);
+  try {
+    if (recording.scenes.empty() && !recording.header.scene.empty()) {
+      writer.append(SceneRecord{.scene = recording.header.scene, .scan_hash = recording.header.scan_hash});
+    }
+    for (const SceneRecord& scene : recording.scenes) {
+      writer.append(scene);
+    }
+    for (const StylusRecord& stylus : recording.styluses) {
+      writer.append(stylus);
+    }
+    for (const Gap& gap : recording.gaps) {
+      writer.append(gap);
+    }
+    writer.append(recording.frames, recording.shares);
+    writer.finish();
+  } catch (...) {
+    writer.abandon();
+    std::error_code ignored;
+    std::filesystem::remove(writer.partial(), ignored);
+    throw;
+  }
+}
+
+Recording read_recording(const std::filesystem::path& file) {
+  hdf5::silence();
+  try {
+    Recording recording;
+    const Handle input = open(file, recording.complete);
+    recording.header.palpate_version = read_text(input, "palpate_version");
+    recording.header.device = read_text(input, "device");
+    recording.header.scan_hash = read_text(input, "scan_hash");
+    recording.header.seed = std::stod(read_text(input, "seed"));
+    recording.header.rate_hz = std::stod(read_text(input, "rate_hz"));
+    // Frames first: what a writer adds meanwhile is shares of later ones.
+    recording.frames = read_table<Frame>(input, "frames", frame_row_type());
+    recording.shares = read_table<Share>(input, "shares", share_row_type());
+    keep_whole_frames(recording);
+    const Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "read what is in it");
+    const auto events = read_table<char>(input, "events", byte);
+    read_events({events.data(), events.size()}, recording);
+    if (!recording.scenes.empty()) {
+      recording.header.scene = recording.scenes.front().scene;
+    }
+    return recording;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("cannot read the recording {}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace palpate::plugin

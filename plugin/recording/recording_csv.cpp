@@ -1,0 +1,52 @@
+#include <fmt/os.h>
+
+#include <stdexcept>
+
+#include "plugin/recording/recording.h"
+
+namespace palpate::plugin {
+namespace {
+
+template <std::size_t count, typename T>
+void print_all(fmt::ostream& out, const T (&values)[count]) {
+  for (const T& value : values) {
+    out.print(",{}", value);
+  }
+}
+
+}  // namespace
+
+void write_csv(const Recording& recording, const std::filesystem::path& file) try {
+  fmt::ostream out = fmt::output_file(file.string());
+  out.print("index,time_s,dt_s,pose_time_s,heartbeat_s");
+  for (const char* vector : {"probe_m", "proxy_m", "force_n", "sent_n"}) {
+    out.print(",{0}_x,{0}_y,{0}_z", vector);
+  }
+  out.print(
+      ",value,residual_n,error_bound_m,change_part,scene_epoch,sub_steps,halts,iterations,solver,outcome,safety,"
+      "share_count,buttons,fresh,stylus_state,stylus_epoch,commands,from_brick,missed,late_ns");
+  for (const char* stage : stage_names) {
+    out.print(",{}_ns", stage);
+  }
+  out.print("\n");
+  for (const Frame& frame : recording.frames) {
+    out.print("{},{},{},{},{}", frame.index, frame.time_s, frame.dt_s, frame.pose_time_s, frame.heartbeat_s);
+    print_all(out, frame.probe_m);
+    print_all(out, frame.proxy_m);
+    print_all(out, frame.force_n);
+    print_all(out, frame.sent_n);
+    out.print(",{},{},{},{}", frame.value, frame.residual_n, frame.error_bound_m, frame.change_part);
+    const std::uint32_t counts[] = {frame.scene_epoch, frame.sub_steps,  frame.halts,        frame.iterations,
+                                    frame.solver,      frame.outcome,    frame.safety,       frame.share_count,
+                                    frame.buttons,     frame.fresh,      frame.stylus_state, frame.stylus_epoch,
+                                    frame.commands,    frame.from_brick, frame.missed,       frame.late_ns};
+    print_all(out, counts);
+    print_all(out, frame.stage_ns);
+    out.print("\n");
+  }
+  out.close();
+} catch (const std::exception& error) {
+  throw std::runtime_error(fmt::format("cannot write {}: {} (is the disk full?)", file.string(), error.what()));
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,130 @@
+#include "plugin/recording/recording_rows.h"
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+namespace palpate::plugin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using hdf5::check;
+using hdf5::Handle;
+
+struct Member {
+  const char* name;
+  std::size_t offset;
+  hid_t type;
+  hsize_t count = 1;
+};
+
+Handle make_row_type(std::size_t size, std::span<const Member> members) {
+  Handle row(H5Tcreate(H5T_COMPOUND, size), H5Tclose, "make a table");
+  for (const Member& member : members) {
+    if (member.count == 1) {
+      check(H5Tinsert(row, member.name, member.offset, member.type), "make a table");
+    } else {
+      const Handle array(H5Tarray_create2(member.type, 1, &member.count), H5Tclose, "make a table");
+      check(H5Tinsert(row, member.name, member.offset, array), "make a table");
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+Handle frame_row_type() {
+  const hid_t f64 = H5T_NATIVE_DOUBLE;
+  const hid_t u32 = H5T_NATIVE_UINT32;
+  const Member members[] = {{"index", offsetof(Frame, index), H5T_NATIVE_UINT64},
+                            {"time_s", offsetof(Frame, time_s), f64},
+                            {"dt_s", offsetof(Frame, dt_s), f64},
+                            {"pose_time_s", offsetof(Frame, pose_time_s), f64},
+                            {"heartbeat_s", offsetof(Frame, heartbeat_s), f64},
+                            {"probe_m", offsetof(Frame, probe_m), f64, 3},
+                            {"proxy_m", offsetof(Frame, proxy_m), f64, 3},
+                            {"force_n", offsetof(Frame, force_n), f64, 3},
+                            {"sent_n", offsetof(Frame, sent_n), f64, 3},
+                            {"value", offsetof(Frame, value), f64},
+                            {"residual_n", offsetof(Frame, residual_n), f64},
+                            {"error_bound_m", offsetof(Frame, error_bound_m), f64},
+                            {"change_part", offsetof(Frame, change_part), f64},
+                            {"scene_epoch", offsetof(Frame, scene_epoch), u32},
+                            {"sub_steps", offsetof(Frame, sub_steps), u32},
+                            {"halts", offsetof(Frame, halts), u32},
+                            {"iterations", offsetof(Frame, iterations), u32},
+                            {"solver", offsetof(Frame, solver), u32},
+                            {"outcome", offsetof(Frame, outcome), u32},
+                            {"safety", offsetof(Frame, safety), u32},
+                            {"share_count", offsetof(Frame, share_count), u32},
+                            {"buttons", offsetof(Frame, buttons), u32},
+                            {"fresh", offsetof(Frame, fresh), u32},
+                            {"stylus_state", offsetof(Frame, stylus_state), u32},
+                            {"stylus_epoch", offsetof(Frame, stylus_epoch), u32},
+                            {"commands", offsetof(Frame, commands), u32},
+                            {"from_brick", offsetof(Frame, from_brick), u32},
+                            {"missed", offsetof(Frame, missed), u32},
+                            {"late_ns", offsetof(Frame, late_ns), u32},
+                            {"stage_ns", offsetof(Frame, stage_ns), u32, stage_count}};
+  return make_row_type(sizeof(Frame), members);
+}
+
+Handle share_row_type() {
+  const Member members[] = {{"frame", offsetof(Share, frame), H5T_NATIVE_UINT64},
+                            {"mode", offsetof(Share, mode), H5T_NATIVE_UINT32},
+                            {"type", offsetof(Share, type), H5T_NATIVE_UINT32},
+                            {"strength_n", offsetof(Share, strength_n), H5T_NATIVE_DOUBLE},
+                            {"force_n", offsetof(Share, force_n), H5T_NATIVE_DOUBLE, 3}};
+  return make_row_type(sizeof(Share), members);
+}
+
+std::string to_line(const SceneRecord& scene) {
+  const Json json{{"kind", "scene"},
+                  {"epoch", scene.epoch},
+                  {"scan_hash", scene.scan_hash},
+                  {"half_extent_m", {scene.half_extent_m.x, scene.half_extent_m.y, scene.half_extent_m.z}},
+                  {"maximum_force_n", scene.maximum_force_n},
+                  {"change_s", scene.change_s},
+                  {"scene", scene.scene}};
+  return json.dump() + "\n";
+}
+
+std::string to_line(const StylusRecord& stylus) {
+  const Json json{{"kind", "stylus"},
+                  {"epoch", stylus.epoch},
+                  {"name", stylus.name},
+                  {"force_axes", stylus.force_axes},
+                  {"maximum_force_n", stylus.maximum_force_n}};
+  return json.dump() + "\n";
+}
+
+std::string to_line(const Gap& gap) {
+  const Json json{{"kind", "gap"}, {"first_frame", gap.first_frame}, {"frames", gap.frames}};
+  return json.dump() + "\n";
+}
+
+void read_events(std::string_view lines, Recording& recording) {
+  for (auto end = lines.find('\n'); end != std::string_view::npos; end = lines.find('\n')) {
+    const Json json = Json::parse(lines.substr(0, end));
+    lines.remove_prefix(end + 1);
+    const auto& kind = json.at("kind").get_ref<const std::string&>();
+    if (kind == "scene") {
+      const auto& extent = json.at("half_extent_m");
+      recording.scenes.push_back(
+          {.epoch = json.at("epoch"),
+           .scene = json.at("scene"),
+           .scan_hash = json.at("scan_hash"),
+           .half_extent_m = {extent.at(0).get<double>(), extent.at(1).get<double>(), extent.at(2).get<double>()},
+           .maximum_force_n = json.at("maximum_force_n"),
+           .change_s = json.value("change_s", SceneRecord{}.change_s)});
+    } else if (kind == "stylus") {
+      recording.styluses.push_back({.epoch = json.at("epoch"),
+                                    .name = json.at("name"),
+                                    .force_axes = json.at("force_axes"),
+                                    .maximum_force_n = json.at("maximum_force_n")});
+    } else if (kind == "gap") {
+      recording.gaps.push_back({.first_frame = json.at("first_frame"), .frames = json.at("frames")});
+    }
+  }
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,24 @@
+#pragma once
+
+/// The rows of a recording's tables, and its events as text: shared by who writes and who reads.
+
+#include <string>
+#include <string_view>
+
+#include "plugin/recording/hdf5_handle.h"
+#include "plugin/recording/recording.h"
+
+namespace palpate::plugin {
+
+hdf5::Handle frame_row_type();
+hdf5::Handle share_row_type();
+
+/// One line of JSON, with its line feed.
+std::string to_line(const SceneRecord& scene);
+std::string to_line(const StylusRecord& stylus);
+std::string to_line(const Gap& gap);
+/// Adds what the lines say to the recording; a last line that is not whole is left out. Throws std::exception where a
+/// line is not what to_line() writes.
+void read_events(std::string_view lines, Recording& recording);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,187 @@
+#include "plugin/recording/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "device/simulated/replay_stylus.h"
+
+namespace palpate::plugin {
+namespace {
+
+glm::dvec3 vector_of(const double (&from)[3]) {
+  return {from[0], from[1], from[2]};
+}
+
+/// Poses and states as the session got them, whichever stylus they came from.
+struct Poses {
+  std::vector<device::Reading> readings;
+  std::vector<device::State> states;
+};
+
+Poses poses_of(std::span<const Frame> frames) {
+  Poses poses;
+  poses.readings.reserve(frames.size());
+  poses.states.reserve(frames.size());
+  for (const Frame& frame : frames) {
+    poses.readings.push_back({.time = frame.pose_time_s,
+                              .position = vector_of(frame.probe_m),
+                              .buttons = frame.buttons,
+                              .fresh = frame.fresh != 0});
+    poses.states.push_back(static_cast<device::State>(frame.stylus_state));
+  }
+  return poses;
+}
+
+/// One of the session's styluses. All of them read on from the same recorded poses, so that opening and closing one
+/// leaves the others where they are.
+class RecordedStylus final : public device::Stylus {
+ public:
+  RecordedStylus(std::optional<device::ReplayStylus>& poses, const StylusRecord& record, double rate_hz)
+      : poses_(poses) {
+    specification_.name = record.name;
+    specification_.force_axes = record.force_axes;
+    specification_.maximum_force = record.maximum_force_n;
+    specification_.rate = rate_hz;
+  }
+  device::Specification specification() const override { return specification_; }
+  void open() override {}
+  void close() noexcept override {}
+  device::Reading read() noexcept override { return poses_->read(); }
+  void write_force(const device::Vec3& force) noexcept override { force_ = force; }
+  device::State state() const noexcept override { return poses_->state(); }
+
+ private:
+  std::optional<device::ReplayStylus>& poses_;
+  device::Specification specification_;
+  device::Vec3 force_{0};
+};
+
+template <typename Record>
+const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch, const char* what) {
+  const auto found =
+      std::find_if(records.begin(), records.end(), [&](const Record& record) { return record.epoch == epoch; });
+  if (found == records.end()) {
+    throw std::runtime_error(
+        fmt::format("the recording lacks its {} {}: the file is damaged, record anew", what, epoch));
+  }
+  return *found;
+}
+
+void compare(const Frame& recorded, const Frame& repeated, Replay& result) {
+  ++result.frames;
+  if (!same_in_replay(recorded, repeated)) {
+    ++result.different;
+    result.first_different = result.first_different.value_or(recorded.index);
+  }
+  const auto larger = [](double& largest, double value) {
+    if (!(value <= largest)) largest = value;  // a NaN counts
+  };
+  larger(result.largest_proxy_m, glm::length(vector_of(recorded.proxy_m) - vector_of(repeated.proxy_m)));
+  larger(result.largest_force_n, glm::length(vector_of(recorded.sent_n) - vector_of(repeated.sent_n)));
+  larger(result.largest_bound_m, recorded.error_bound_m + repeated.error_bound_m);
+}
+
+}  // namespace
+
+struct Replayer::Progress {
+  std::shared_ptr<device::Stylus> stylus(std::uint32_t epoch) {
+    return std::make_shared<RecordedStylus>(poses, find_epoch(styluses, epoch, "stylus"), rate_hz);
+  }
+  Snapshot snapshot(std::uint32_t epoch) const { return make_snapshot(find_epoch(scenes, epoch, "scene")); }
+  void repeat_commands(std::span<const Frame> coming);
+
+  SnapshotMaker make_snapshot;
+  Replay result;
+  std::vector<SceneRecord> scenes;
+  std::vector<StylusRecord> styluses;
+  double rate_hz = 1000;
+  std::uint64_t next = 0;  ///< index of the frame that comes next, unless some were lost
+  std::uint32_t scene_epoch = 0;
+  std::uint32_t stylus_epoch = 0;
+  std::optional<device::ReplayStylus> poses;
+  std::unique_ptr<Session> session;
+};
+
+/// Asks of the session what was asked of it before the first of the coming frames.
+void Replayer::Progress::repeat_commands(std::span<const Frame> coming) {
+  const Frame& frame = coming.front();
+  if (frame.scene_epoch != scene_epoch) {
+    // Some that were published were never taken; they have numbers, too.
+    const Snapshot taken = snapshot(frame.scene_epoch);
+    while (scene_epoch != frame.scene_epoch) scene_epoch = session->publish(taken);
+  }
+  if ((frame.commands & command::change_stylus) != 0) {
+    const auto taken = std::find_if(coming.begin(), coming.end(),
+                                    [&](const Frame& later) { return later.stylus_epoch != stylus_epoch; });
+    // One that the recording ends before is as good as the one before it: nothing is read from it.
+    const auto changed = stylus(taken == coming.end() ? stylus_epoch : taken->stylus_epoch);
+    const std::uint32_t epoch = taken == coming.end() ? stylus_epoch + 1 : taken->stylus_epoch;
+    while (stylus_epoch != epoch) stylus_epoch = session->change_stylus(changed);
+  }
+  if ((frame.commands & command::clear_fault) != 0) session->clear_fault();
+  if ((frame.commands & command::disarm) != 0) session->disarm();
+  if ((frame.commands & command::arm) != 0) session->arm();
+}
+
+Replayer::Replayer(SnapshotMaker make_snapshot) : progress_(std::make_unique<Progress>()) {
+  progress_->make_snapshot = std::move(make_snapshot);
+}
+
+Replayer::~Replayer() = default;
+
+const Replay& Replayer::result() const noexcept {
+  return progress_->result;
+}
+
+void Replayer::feed(const Recording& part) {
+  Progress& progress = *progress_;
+  progress.scenes.insert(progress.scenes.end(), part.scenes.begin(), part.scenes.end());
+  progress.styluses.insert(progress.styluses.end(), part.styluses.begin(), part.styluses.end());
+  progress.rate_hz = part.header.rate_hz;
+  std::size_t unbroken = 0;
+  while (unbroken < part.frames.size() && part.frames[unbroken].index == progress.next + unbroken) {
+    ++unbroken;
+  }
+  const std::span<const Frame> frames = std::span(part.frames).first(unbroken);
+  progress.next += unbroken;
+  progress.result.after_gap += part.frames.size() - unbroken;
+  if (frames.empty()) {
+    return;
+  }
+  const Poses poses = poses_of(frames);
+  progress.poses.emplace(poses.readings, poses.states);
+  progress.poses->open();
+  if (!progress.session) {
+    progress.session = std::make_unique<Session>(progress.snapshot(0), progress.stylus(0));
+  }
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    const Frame& frame = frames[n];
+    progress.repeat_commands(frames.subspan(n));
+    compare(frame,
+            progress.session->tick({.time_s = frame.time_s,
+                                    .heartbeat_s = frame.heartbeat_s,
+                                    .missed = frame.missed,
+                                    .late_ns = frame.late_ns}),
+            progress.result);
+    progress.poses->write_force(vector_of(frame.sent_n));
+  }
+  progress.session->collect();
+  progress.poses.reset();
+  // Epochs ascend: what is over does not come again, however long the session.
+  std::erase_if(progress.scenes, [&](const SceneRecord& record) { return record.epoch < progress.scene_epoch; });
+  std::erase_if(progress.styluses, [&](const StylusRecord& record) { return record.epoch < progress.stylus_epoch; });
+}
+
+Replay replay(const Recording& recording, const SnapshotMaker& make_snapshot) {
+  Replayer replayer(make_snapshot);
+  replayer.feed(recording);
+  return replayer.result();
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,127 @@
+#include "plugin/recording/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "plugin/recording/recorder.h"
+#include "plugin/testing/session_rig.h"
+
+namespace palpate::plugin {
+namespace {
+
+using namespace testing;
+
+/// Scans by hash, as a session finds them again.
+Snapshot make_again(const SceneRecord& record) {
+  return snapshot(record.scene, slab(record.scan_hash == "frame 1" ? 0.8 : 0.0));
+}
+
+/// A session in which everything happens: scenes, time frames, styluses, faults, a commander that falls silent.
+Recording eventful_session(const std::filesystem::path& file) {
+  const auto held = stylus(press());
+  FrameRing ring;
+  Recorder recorder(ring, file, {.rate_hz = 1000});
+  const auto note_stylus = [&](std::uint32_t epoch, const device::Specification& what) {
+    recorder.note(StylusRecord{epoch, what.name, what.force_axes, what.maximum_force});
+  };
+  SceneRecord scene{.epoch = 0, .scene = "ct-skin-and-bone", .scan_hash = "frame 0"};
+  recorder.note(scene);
+  note_stylus(0, held->specification());
+  Session session(make_again(scene), held, &ring);
+  const auto publish = [&](const std::string& name, const std::string& scan) {
+    scene = {.epoch = scene.epoch + 1, .scene = name, .scan_hash = scan};
+    recorder.note(scene);
+    EXPECT_EQ(session.publish(make_again(scene)), scene.epoch);
+  };
+  for (int n = 0; n < 8000; ++n) {
+    switch (n) {
+      case 2200:
+        publish("ct-skin-and-bone", "frame 1");
+        break;
+      case 2300:  // waits for the change on its way, and never comes
+        publish("ct-vessels", "frame 1");
+        publish("ct-bone", "frame 0");
+        break;
+      case 3700:
+        held->inject(device::SimulatedFault::not_a_number);
+        break;
+      case 3702:
+        held->inject(device::SimulatedFault::none);
+        session.clear_fault();
+        session.arm();
+        break;
+      case 4300:
+        held->inject(device::SimulatedFault::unplugged);
+        break;
+      case 4400:
+        note_stylus(1, device::Specification{.name = "none"});
+        session.change_stylus(nullptr);
+        break;
+      case 4450:
+        session.collect();
+        held->inject(device::SimulatedFault::none);
+        note_stylus(2, held->specification());
+        session.change_stylus(held);
+        session.clear_fault();
+        session.arm();
+        break;
+      default:
+        break;
+    }
+    const double time = 1e-3 * n;
+    session.tick({.time_s = time, .heartbeat_s = n > 5500 ? 5.5 : time, .missed = n % 7 == 0 ? 1U : 0U});
+  }
+  EXPECT_FALSE(recorder.finish().stopped);
+  return read_recording(file);
+}
+
+TEST(Replay, AnEventfulSessionIsTheSameToTheLastBit) {
+  const Recording recording = eventful_session(fresh_path("eventful.h5"));
+  ASSERT_EQ(recording.frames.size(), 8000U);
+  std::map<std::uint32_t, int> faults, scenes, styluses;
+  for (const Frame& frame : recording.frames) {
+    ++faults[static_cast<std::uint32_t>(fault_of(frame))];
+    ++scenes[frame.scene_epoch];
+    ++styluses[frame.stylus_epoch];
+  }
+  EXPECT_EQ(faults.size(), 4U) << "none, a pose that is no number, a lost device, a silent commander";
+  EXPECT_EQ(scenes.size(), 3U) << "0, 1 and 3: 2 was never taken";
+  EXPECT_EQ(styluses.size(), 3U);
+  const Replay result = replay(recording, make_again);
+  EXPECT_EQ(result.frames, 8000U);
+  EXPECT_EQ(result.different, 0U) << "first: " << result.first_different.value_or(0);
+  EXPECT_EQ(result.largest_force_n, 0);
+}
+
+TEST(Replay, FindsTheFrameThatDiffers) {
+  Recording recording = eventful_session(fresh_path("differs.h5"));
+  recording.frames[3000].proxy_m[1] += 1e-9;
+  const Replay result = replay(recording, make_again);
+  EXPECT_EQ(result.different, 1U);
+  EXPECT_EQ(result.first_different, 3000U);
+  EXPECT_NEAR(result.largest_proxy_m, 1e-9, 1e-14);
+  // Another scan is another session from the first touch on.
+  const Replay other = replay(recording, [](const SceneRecord& record) { return snapshot(record.scene, slab(0.4)); });
+  EXPECT_GT(other.different, 100U);
+  EXPECT_GT(other.largest_proxy_m, 1e-5);
+}
+
+TEST(Replay, StopsAtTheFirstGapAndSaysHowManyCameAfter) {
+  Recording recording = eventful_session(fresh_path("gap.h5"));
+  recording.frames.erase(recording.frames.begin() + 1000, recording.frames.begin() + 1200);
+  const Replay result = replay(recording, make_again);
+  EXPECT_EQ(result.frames, 1000U);
+  EXPECT_EQ(result.different, 0U);
+  EXPECT_EQ(result.after_gap, 6800U);
+}
+
+TEST(Replay, RefusesARecordingThatLacksItsScene) {
+  Recording recording = eventful_session(fresh_path("lacks.h5"));
+  recording.scenes.pop_back();
+  EXPECT_THROW(replay(recording, make_again), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace palpate::plugin

@@ -1,0 +1,47 @@
+#pragma once
+
+/// A slice of a scan with what happened on it: tracks of probe and proxy, force arrows. Patient space (LPS, mm).
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/fields/field_source.h"
+#include "plugin/report/canvas.h"
+
+namespace palpate::plugin {
+
+/// The plane shown, and how bright. `right` and `down` are the screen's directions in the patient: unit and
+/// perpendicular.
+struct SliceView {
+  glm::dvec3 centre_mm{0};
+  glm::dvec3 right{1, 0, 0};
+  glm::dvec3 down{0, 1, 0};
+  double extent_mm = 100;  ///< shown across the picture's width
+  double window_level = 40;
+  double window_width = 400;
+};
+
+struct Track {
+  std::string label;
+  std::vector<glm::dvec3> points_mm;
+  Colour colour;
+  double width = 2;
+};
+
+/// A force drawn from a point along its direction in the patient.
+struct ForceArrow {
+  glm::dvec3 at_mm{0};
+  glm::dvec3 force_n{0};
+};
+
+/// The letters of the patient's side a direction points to: "L", "P", "H", and two ("LP") where it is oblique.
+std::string orientation_letters(const glm::dvec3& direction);
+
+/// Throws std::runtime_error naming the file.
+void write_slice_png(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
+                     std::span<const ForceArrow> arrows, const std::string& title, const std::filesystem::path& file,
+                     int width = 960, int height = 760);
+
+}  // namespace palpate::plugin

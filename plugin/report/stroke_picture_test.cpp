@@ -1,0 +1,110 @@
+#include "plugin/report/stroke_picture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/report/summary.h"
+#include "plugin/session/scan.h"
+#include "plugin/testing/test_files.h"
+#include "testdata/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+using namespace ::testing;
+using testing::fresh_path;
+
+/// From in front of a ball of 25 mm to its middle.
+Profile through_the_skin() {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(25), testdata::make_geometry({.size = glm::ivec3(60)})));
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  scene.tissues = {{.name = "air, \"outside\"", .low = -2000, .high = -500, .softness = 50},
+                   {.name = "flesh", .low = -500, .high = 3000, .softness = 50}};
+  const Felt felt = prepare(scene, volume, glm::dvec3(0.1));
+  return {.stroke = run_stroke(*felt.plan, *felt.source, {0, -29, 0}, {0, -15, 0}, 50),
+          .plan = felt.plan,
+          .scene = scene,
+          .unit = volume->unit};
+}
+
+TEST(StrokePicture, CrossesTheTissuesInTheirOrder) {
+  const Profile profile = through_the_skin();
+  const std::vector<Chart> charts = charts_of(profile);
+  ASSERT_EQ(charts.size(), 3U);
+  const std::vector<Band>& bands = charts[1].bands;
+  ASSERT_EQ(bands.size(), 2U);
+  EXPECT_EQ(bands[0].label, "air, \"outside\"");
+  EXPECT_EQ(bands[1].label, "flesh");
+  EXPECT_DOUBLE_EQ(bands[0].from, 0);
+  EXPECT_NEAR(bands[0].to, 4, 1) << "the ball begins 4 mm along the stroke";
+  EXPECT_NEAR(bands[1].to, 14, 1e-9);
+}
+
+TEST(StrokePicture, ShowsEveryForceOnceInTheColourOfWhoPushes) {
+  const Profile profile = through_the_skin();
+  const std::vector<Curve> curves = charts_of(profile).front().curves;
+  ASSERT_GT(curves.size(), 1U);
+  EXPECT_THAT(curves, Contains(Field(&Curve::label, HasSubstr("(plane)"))));
+  for (std::size_t n = 0; n < profile.stroke.size(); ++n) {
+    const double force = glm::length(profile.stroke[n].force_n);
+    std::size_t shown = 0;
+    for (const Curve& curve : curves) {
+      if (std::isnan(curve.y[n])) continue;
+      EXPECT_EQ(curve.y[n], force);
+      ++shown;
+      if (profile.stroke[n].boundary &&
+          curve.label.starts_with(display_name(profile.scene, *profile.stroke[n].boundary))) {
+        EXPECT_EQ(curve.colour.red,
+                  colour_from(profile.scene.modes[*profile.stroke[n].boundary].color, colours::vermilion).red);
+      }
+    }
+    EXPECT_GE(shown, 1U) << "point " << n;
+    EXPECT_LE(shown, 2U) << "two only where one stretch ends and the next begins";
+  }
+}
+
+TEST(StrokePicture, TellsWhoPushesWithWhat) {
+  const Profile profile = through_the_skin();
+  const std::vector<Contact> contacts = contacts_of(profile.stroke, *profile.plan, met_n);
+  ASSERT_FALSE(contacts.empty());
+  const std::size_t held = (contacts.front().first + contacts.front().last) / 2;
+  EXPECT_EQ(profile.stroke[held].primitive, solver::PrimitiveType::plane);
+  EXPECT_THAT(point_in_words(profile, held), AllOf(HasSubstr(display_name(profile.scene, contacts.front().boundary)),
+                                                   HasSubstr("(plane)"), HasSubstr("HU, flesh")));
+  EXPECT_THAT(point_in_words(profile, 0), AllOf(HasSubstr("0.00 N"), Not(HasSubstr(" by "))));
+}
+
+TEST(StrokePicture, ItsTableHasALineAFrame) {
+  const Profile profile = through_the_skin();
+  const auto file = fresh_path("profile.csv");
+  write_csv(profile, file);
+  std::ifstream table(file);
+  std::string line;
+  std::size_t lines = 0;
+  while (std::getline(table, line)) {
+    if (lines == 1) {
+      EXPECT_THAT(line, AllOf(StartsWith("0,0,-29,0,"), HasSubstr("\"air, \"\"outside\"\"\"")));
+    }
+    ++lines;
+  }
+  EXPECT_EQ(lines, profile.stroke.size() + 1);
+  EXPECT_THAT([&] { write_csv(profile, "/nowhere/profile.csv"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("/nowhere/profile.csv")));
+}
+
+TEST(StrokePicture, ColoursAreReadOrReplaced) {
+  EXPECT_EQ(colour_from("#ff8000", {}).green, 128 / 255.0);
+  for (const char* const wrong : {"", "red", "#ff80", "#gggggg", "#ff80000"}) {
+    EXPECT_EQ(colour_from(wrong, colours::blue).blue, colours::blue.blue) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::plugin

@@ -1,0 +1,187 @@
+#include "plugin/report/suggestion_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <limits>
+#include <vector>
+
+#include "modes/scene/plan.h"
+#include "plugin/report/canvas.h"
+#include "plugin/session/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+using Rgb = std::array<unsigned char, 3>;
+
+constexpr double side = 520;  // pixels of a slice and of the histogram
+constexpr double margin = 16, header = 40;
+constexpr int samples = 260;  // of a slice, along each side
+constexpr double legend_row = 22;
+constexpr double axis_room = 86;  // left of the histogram
+
+Colour colour_of(const std::string& hex) {
+  const auto part = [&](std::size_t at) {
+    return static_cast<double>(std::strtol(hex.substr(at, 2).c_str(), nullptr, 16)) / 255;
+  };
+  return hex.size() == 7 ? Colour{part(1), part(3), part(5)} : colours::grey;
+}
+
+/// A slice through the scan's middle, as radiologists hang it.
+struct Slice {
+  const char* name;
+  glm::dvec3 right, down;
+};
+constexpr std::array slices{Slice{"axial, from the feet", {1, 0, 0}, {0, 1, 0}},
+                            Slice{"sagittal, from the left", {0, 1, 0}, {0, 0, -1}}};
+
+/// What a slice shows: the value in grey, and in colour the boundary that is strongest there.
+class Painter {
+ public:
+  Painter(const modes::Suggestion& suggestion, const std::shared_ptr<const io::Volume>& volume)
+      : suggestion_(suggestion),
+        felt_(prepare(suggestion.scene, volume, glm::dvec3(0.1))),
+        box_(bounding_box(volume->geometry)) {
+    const io::Bins& values = suggestion.edges.values;
+    low_ = suggestion.typical.empty() ? values.low : suggestion.typical.front();
+    // Up to the brightest tissue, with some room for what is brighter.
+    high_ = suggestion.typical.empty() ? values.high : low_ + 1.15 * (suggestion.typical.back() - low_);
+  }
+
+  void paint(const Slice& slice, const Point& corner, Canvas& canvas) const {
+    const glm::dvec3 size = box_.high - box_.low;
+    const double extent = std::max({size.x, size.y, size.z});
+    std::vector<Rgb> pixels(static_cast<std::size_t>(samples) * samples);
+    for (int row = 0; row < samples; ++row) {
+      for (int column = 0; column < samples; ++column) {
+        const glm::dvec2 at = (glm::dvec2(column, row) + 0.5) / static_cast<double>(samples) - 0.5;
+        const glm::dvec3 place = 0.5 * (box_.low + box_.high) + extent * (at.x * slice.right + at.y * slice.down);
+        pixels[static_cast<std::size_t>(row) * samples + static_cast<std::size_t>(column)] = pixel_at(place);
+      }
+    }
+    canvas.image(pixels, samples, samples, corner, {side, side});
+    canvas.text(corner + Point{0, -8}, slice.name, 14);
+  }
+
+ private:
+  Rgb pixel_at(const glm::dvec3& place) const {
+    const io::Sample sample = felt_.source->sample(place, felt_.plan->fields | io::FieldSet::value);
+    if (!sample.inside) {
+      return {0, 0, 0};
+    }
+    const double grey = std::clamp((sample.value - low_) / (high_ - low_), 0.0, 1.0) * 0.75;
+    const modes::Mode* felt = nullptr;
+    double strongest = 0;
+    for (const modes::ActiveMode& mode : felt_.plan->modes) {
+      const double strength = mode.strength(sample);
+      if (mode.holds && strength > strongest) {
+        strongest = strength;
+        felt = &suggestion_.scene.modes[mode.scene_index];
+      }
+    }
+    Colour colour{grey, grey, grey};
+    if (felt != nullptr) {
+      const Colour own = colour_of(felt->color);
+      const double part = std::min(1.0, strongest);
+      colour = {grey + part * (own.red - grey), grey + part * (own.green - grey), grey + part * (own.blue - grey)};
+    }
+    const auto byte = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
+    return {byte(colour.red), byte(colour.green), byte(colour.blue)};
+  }
+
+  const modes::Suggestion& suggestion_;
+  Felt felt_;
+  Box box_;
+  double low_ = 0, high_ = 1;
+};
+
+void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, const Point& corner, Canvas& canvas) {
+  const io::LowHighHistogram& edges = suggestion.edges;
+  const int bins = edges.values.count;
+  constexpr int cells = 192;
+  std::vector<double> counts(static_cast<std::size_t>(cells) * cells);
+  for (int high = 0; high < bins; ++high) {
+    for (int low = 0; low < bins; ++low) {
+      counts[static_cast<std::size_t>(cells - 1 - high * cells / bins) * cells +
+             static_cast<std::size_t>(low * cells / bins)] += static_cast<double>(edges.at(low, high));
+    }
+  }
+  const double most = std::log1p(*std::max_element(counts.begin(), counts.end()));
+  std::vector<unsigned char> grey(counts.size());
+  std::transform(counts.begin(), counts.end(), grey.begin(), [&](double count) {
+    return static_cast<unsigned char>(255 - std::lround(235 * std::log1p(count) / std::max(most, 1.0)));
+  });
+  canvas.grey_image(grey, cells, cells, corner, {side, side});
+  const auto x_of = [&](double value) {
+    return corner.x + side * (value - edges.values.low) / (edges.values.high - edges.values.low);
+  };
+  const auto y_of = [&](double value) { return corner.y + side - (x_of(value) - corner.x); };
+  for (const modes::Tissue& tissue : suggestion.scene.tissues) {
+    if (std::isfinite(tissue.high)) {
+      canvas.line(std::array{Point{x_of(tissue.high), corner.y}, Point{x_of(tissue.high), corner.y + side}},
+                  colours::grey, 1, true);
+      canvas.line(std::array{Point{corner.x, y_of(tissue.high)}, Point{corner.x + side, y_of(tissue.high)}},
+                  colours::grey, 1, true);
+    }
+  }
+  for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
+    const Colour colour = colour_of(suggestion.scene.modes[boundary.mode].color);
+    const Point at{x_of(suggestion.typical[boundary.low]), y_of(suggestion.typical[boundary.high])};
+    canvas.disc(at, 9, colours::white);
+    canvas.disc(at, 7, colour);
+  }
+  // Tissues that are much alike: every other number stands a row farther out.
+  constexpr double widest = 44, highest = 14;  // pixels of a number
+  bool out_x = false, out_y = false;
+  for (std::size_t t = 0; t < suggestion.typical.size(); ++t) {
+    const std::string number = fmt::format("{:.0f}", suggestion.typical[t]);
+    const Point at{x_of(suggestion.typical[t]), y_of(suggestion.typical[t])};
+    const double step = t == 0 ? side : at.x - x_of(suggestion.typical[t - 1]);
+    out_x = !out_x && step < widest;
+    out_y = !out_y && step < highest;
+    canvas.text({at.x, corner.y + side + (out_x ? 30 : 16)}, number, 12, colours::black, Anchor::centre);
+    canvas.text({corner.x - (out_y ? widest : 6), at.y + 4}, number, 12, colours::black, Anchor::right);
+  }
+  const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
+  canvas.text({corner.x + side / 2, corner.y + side + 50}, "value on the lower side of a boundary" + in_unit, 13,
+              colours::black, Anchor::centre);
+  canvas.text({corner.x - axis_room, corner.y + side / 2}, "value on the higher side" + in_unit, 13, colours::black,
+              Anchor::centre, true);
+  canvas.text(corner + Point{0, -8}, "which pairs of values boundaries lie between", 14);
+}
+
+}  // namespace
+
+void write_suggestion_png(const modes::Suggestion& suggestion, const std::shared_ptr<const io::Volume>& volume,
+                          const std::filesystem::path& file) {
+  const auto rows = static_cast<double>(suggestion.boundaries.size());
+  Canvas canvas(static_cast<int>(3 * side + 5 * margin + axis_room),
+                static_cast<int>(header + side + 3 * margin + 20 + legend_row * std::max(2.0, rows)), colours::white);
+  const Painter painter(suggestion, volume);
+  Point corner{margin, header};
+  for (const Slice& slice : slices) {
+    painter.paint(slice, corner, canvas);
+    corner.x += side + margin;
+  }
+  if (!suggestion.edges.counts.empty()) {
+    paint_pairs(suggestion, volume->unit, {corner.x + margin + axis_room, header}, canvas);
+  }
+  double y = header + side + 2 * margin + 8;
+  for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
+    const modes::Mode& mode = suggestion.scene.modes[boundary.mode];
+    canvas.rectangle({margin, y - 12}, {28, 14}, colour_of(mode.color));
+    canvas.text({margin + 38, y},
+                fmt::format("{}: felt at {:.0f}{}{}; {:.0f} % of what lies at boundaries", mode.name, boundary.middle,
+                            volume->unit.empty() ? "" : " ", volume->unit, 100 * boundary.share),
+                14);
+    y += legend_row;
+  }
+  canvas.write_png(file);
+}
+
+}  // namespace palpate::plugin

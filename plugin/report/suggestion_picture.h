@@ -1,0 +1,18 @@
+#pragma once
+
+/// What a suggestion found, to be looked at: where each boundary will be felt, on two slices; and the pairs of values
+/// that they were found in.
+
+#include <filesystem>
+#include <memory>
+
+#include "io/volume.h"
+#include "modes/scene/suggest.h"
+
+namespace palpate::plugin {
+
+/// Throws std::runtime_error naming the file.
+void write_suggestion_png(const modes::Suggestion& suggestion, const std::shared_ptr<const io::Volume>& volume,
+                          const std::filesystem::path& file);
+
+}  // namespace palpate::plugin

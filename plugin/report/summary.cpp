@@ -1,0 +1,203 @@
+#include "plugin/report/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <span>
+
+#include "device/safety/safety_filter.h"
+#include "plugin/session/session.h"
+#include "solver/solution.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double felt_n = 0.05;       // below, a boundary is not said to be felt
+constexpr double same_hold_s = 0.05;  // a shorter interruption does not end a hold: contact chatters at its edge
+
+glm::dvec3 vector_of(const double (&from)[3]) {
+  return {from[0], from[1], from[2]};
+}
+
+bool is_surface(const modes::Plan& plan, std::size_t mode) {
+  return std::any_of(plan.modes.begin(), plan.modes.end(), [&](const modes::ActiveMode& active) {
+    return active.scene_index == mode && active.type->name == "surface";
+  });
+}
+
+/// The surface that pushes most in a frame, if one is felt.
+std::optional<std::size_t> holding_surface(std::span<const Share> shares, const modes::Plan& plan) {
+  std::optional<std::size_t> most;
+  double largest = felt_n;
+  for (const Share& share : shares) {
+    const double force = glm::length(vector_of(share.force_n));
+    if (force > largest && is_surface(plan, share.mode)) {
+      largest = force;
+      most = share.mode;
+    }
+  }
+  return most;
+}
+
+void extend_holds(std::vector<Hold>& holds, std::size_t mode, const Frame& frame, const modes::Plan& plan) {
+  const bool goes_on = !holds.empty() && holds.back().mode == mode && frame.time_s - holds.back().end_s < same_hold_s;
+  if (!goes_on) {
+    holds.push_back({.mode = mode,
+                     .begin_s = frame.time_s,
+                     .end_s = frame.time_s,
+                     .contact_mm = plan.workspace.to_patient(vector_of(frame.proxy_m)),
+                     .value = frame.value});
+  }
+  holds.back().end_s = frame.time_s;
+  holds.back().peak_n = std::max(holds.back().peak_n, glm::length(vector_of(frame.force_n)));
+}
+
+}  // namespace
+
+double tick_us(const Frame& frame) {
+  return 1e-3 * std::accumulate(std::begin(frame.stage_ns), std::end(frame.stage_ns), 0.0);
+}
+
+Percentiles percentiles_of(std::vector<double> values) {
+  if (values.empty()) {
+    return {};
+  }
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return {.median = at(0.5), .p99 = at(0.99), .p999 = at(0.999), .largest = values.back()};
+}
+
+Summary summarize(const Recording& recording, const modes::Plan& plan) {
+  Summary summary;
+  summary.frames = recording.frames.size();
+  if (recording.frames.empty()) {
+    return summary;
+  }
+  summary.duration_s = recording.frames.back().time_s - recording.frames.front().time_s;
+  std::vector<double> times;
+  times.reserve(recording.frames.size());
+  std::span<const Share> shares(recording.shares);
+  device::Fault fault = device::Fault::none;
+  for (const Frame& frame : recording.frames) {
+    const auto own = shares.first(frame.share_count);
+    shares = shares.subspan(frame.share_count);
+    if (const auto mode = holding_surface(own, plan)) {
+      extend_holds(summary.holds, *mode, frame, plan);
+    }
+    switch (static_cast<solver::Outcome>(frame.outcome)) {
+      case solver::Outcome::capped:
+        ++summary.capped;
+        break;
+      case solver::Outcome::refused:
+      case solver::Outcome::unsuitable:
+        ++summary.refused;
+        break;
+      case solver::Outcome::solved:
+        break;
+    }
+    const auto kind = static_cast<solver::SolverKind>(frame.solver);
+    summary.analytical += kind == solver::SolverKind::analytical ? 1 : 0;
+    summary.exact += kind == solver::SolverKind::exact ? 1 : 0;
+    summary.descent += kind == solver::SolverKind::descent ? 1 : 0;
+    summary.peak_sent_n = std::max(summary.peak_sent_n, glm::length(vector_of(frame.sent_n)));
+    summary.largest_error_bound_m = std::max(summary.largest_error_bound_m, frame.error_bound_m);
+    summary.largest_residual_m = std::max(summary.largest_residual_m, frame.residual_n / plan.stiffness_n_per_m);
+    if (fault_of(frame) != fault && fault_of(frame) != device::Fault::none) {
+      summary.faults.push_back(fmt::format("at {:.3f} s: {} ({})", frame.time_s, device::name_of(fault_of(frame)),
+                                           device::advice_for(fault_of(frame))));
+    }
+    fault = fault_of(frame);
+    summary.missed += frame.missed;
+    times.push_back(tick_us(frame));
+  }
+  summary.tick_us = percentiles_of(std::move(times));
+  for (const Gap& gap : recording.gaps) {
+    summary.lost += gap.frames;
+  }
+  return summary;
+}
+
+std::string display_name(const modes::Scene& scene, std::size_t mode) {
+  if (mode >= scene.modes.size()) {
+    return fmt::format("mode {}", mode);
+  }
+  return scene.modes[mode].name.empty() ? scene.modes[mode].type : scene.modes[mode].name;
+}
+
+std::string patient_coordinates(const glm::dvec3& position_mm) {
+  return fmt::format("{} {:.1f} {} {:.1f} {} {:.1f} mm", position_mm.x < 0 ? 'R' : 'L', std::abs(position_mm.x),
+                     position_mm.y < 0 ? 'A' : 'P', std::abs(position_mm.y), position_mm.z < 0 ? 'F' : 'H',
+                     std::abs(position_mm.z));
+}
+
+std::string to_text(const Summary& summary, const modes::Scene& scene, const std::string& scan,
+                    const std::string& device) {
+  std::string text = fmt::format("Palpate session: {:.1f} s, {} frames\n\n", summary.duration_s, summary.frames);
+  text += fmt::format("scan      {}\nscene     {}\ndevice    {}\n\n", scan, scene.name, device);
+  text += "What was felt\n";
+  if (summary.holds.empty()) {
+    text += "  nothing: no boundary pushed with more than 0.05 N\n";
+  }
+  for (const Hold& hold : summary.holds) {
+    text += fmt::format("  {:6.3f} to {:6.3f} s  {:<12} met at {}, value {:.0f}; up to {:.2f} N\n", hold.begin_s,
+                        hold.end_s, display_name(scene, hold.mode), patient_coordinates(hold.contact_mm), hold.value,
+                        hold.peak_n);
+  }
+  text += fmt::format("  largest force sent to the device: {:.2f} N\n\n", summary.peak_sent_n);
+  text += "How it was solved\n";
+  text += fmt::format("  analytical {} frames, exact {}, descent {}; work cap hit {}, refused {}\n", summary.analytical,
+                      summary.exact, summary.descent, summary.capped, summary.refused);
+  text += fmt::format("  certified error of the proxy at most {:.1e} m; residual / k at most {:.1e} m\n\n",
+                      summary.largest_error_bound_m, summary.largest_residual_m);
+  text += fmt::format("Time of a tick   median {:.2f} us, 99 % {:.2f} us, 99.9 % {:.2f} us, largest {:.1f} us\n",
+                      summary.tick_us.median, summary.tick_us.p99, summary.tick_us.p999, summary.tick_us.largest);
+  text += fmt::format("Missed ticks     {}; frames lost to the recording {}\n", summary.missed, summary.lost);
+  text += summary.faults.empty() ? "Safety           no fault\n" : "Safety\n";
+  for (const std::string& fault : summary.faults) {
+    text += "  " + fault + "\n";
+  }
+  text += "\nResearch software, not a medical device.\n";
+  return text;
+}
+
+std::string to_json(const Summary& summary, const modes::Scene& scene) {
+  nlohmann::json holds = nlohmann::json::array();
+  for (const Hold& hold : summary.holds) {
+    holds.push_back({{"boundary", display_name(scene, hold.mode)},
+                     {"begin_s", hold.begin_s},
+                     {"end_s", hold.end_s},
+                     {"contact_mm", {hold.contact_mm.x, hold.contact_mm.y, hold.contact_mm.z}},
+                     {"value", hold.value},
+                     {"peak_n", hold.peak_n}});
+  }
+  const nlohmann::json json{{"duration_s", summary.duration_s},
+                            {"frames", summary.frames},
+                            {"holds", holds},
+                            {"peak_sent_n", summary.peak_sent_n},
+                            {"solver_frames",
+                             {{"analytical", summary.analytical},
+                              {"exact", summary.exact},
+                              {"descent", summary.descent},
+                              {"capped", summary.capped},
+                              {"refused", summary.refused}}},
+                            {"largest_error_bound_m", summary.largest_error_bound_m},
+                            {"largest_residual_m", summary.largest_residual_m},
+                            {"tick_us",
+                             {{"median", summary.tick_us.median},
+                              {"p99", summary.tick_us.p99},
+                              {"p999", summary.tick_us.p999},
+                              {"largest", summary.tick_us.largest}}},
+                            {"missed_ticks", summary.missed},
+                            {"lost_frames", summary.lost},
+                            {"faults", summary.faults}};
+  return json.dump(1);
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,60 @@
+#pragma once
+
+/// What a session came to, in numbers and in words.
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "modes/scene/plan.h"
+#include "modes/scene/scene.h"
+#include "plugin/recording/recording.h"
+
+namespace palpate::plugin {
+
+/// A stretch of frames in which one surface, above all others, held the proxy.
+struct Hold {
+  std::size_t mode = 0;  ///< index into the scene's modes
+  double begin_s = 0;
+  double end_s = 0;
+  glm::dvec3 contact_mm{0};  ///< proxy when it began, patient space
+  double value = 0;          ///< of the scan there
+  double peak_n = 0;         ///< largest force of the coupling meanwhile
+};
+
+struct Percentiles {
+  double median = 0, p99 = 0, p999 = 0, largest = 0;
+};
+
+struct Summary {
+  double duration_s = 0;
+  std::size_t frames = 0;
+  std::vector<Hold> holds;
+  double peak_sent_n = 0;
+  std::size_t analytical = 0, exact = 0, descent = 0, capped = 0, refused = 0;  ///< frames
+  double largest_error_bound_m = 0;
+  double largest_residual_m = 0;    ///< |residual| / k
+  Percentiles tick_us;              ///< all stages together
+  std::uint64_t missed = 0;         ///< deadlines that went by without a tick
+  std::uint64_t lost = 0;           ///< frames that are not in the recording
+  std::vector<std::string> faults;  ///< of the safety filter, in words
+};
+
+/// The time of a frame in all its stages, microseconds.
+double tick_us(const Frame& frame);
+
+Percentiles percentiles_of(std::vector<double> values);
+
+Summary summarize(const Recording& recording, const modes::Plan& plan);
+
+/// For a person. `scan` describes the scan without naming the patient.
+std::string to_text(const Summary& summary, const modes::Scene& scene, const std::string& scan,
+                    const std::string& device);
+std::string to_json(const Summary& summary, const modes::Scene& scene);
+
+/// What a person calls the mode: its name, or its type where it has none.
+std::string display_name(const modes::Scene& scene, std::size_t mode);
+/// "L 12.3 P 4.0 H 88.1 mm"
+std::string patient_coordinates(const glm::dvec3& position_mm);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,74 @@
+#include "plugin/session/path.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace palpate::plugin {
+namespace {
+
+constexpr std::string_view header = "time_s,x_mm,y_mm,z_mm";
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Four finite numbers, or false. std::from_chars: the locale's decimal comma plays no part.
+bool parse(std::string_view line, std::array<double, 4>& numbers) {
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    const auto comma = line.find(',');
+    const bool last = n + 1 == numbers.size();
+    if ((comma == std::string_view::npos) != last) {
+      return false;
+    }
+    const std::string_view cell = trim(line.substr(0, comma));
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), numbers[n]);
+    if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(numbers[n])) {
+      return false;
+    }
+    line = last ? "" : line.substr(comma + 1);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<PathPoint> read_path_csv(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    throw std::runtime_error(
+        fmt::format("cannot open the path file {}; check its name, and that it is yours to read", file.string()));
+  }
+  std::vector<PathPoint> path;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    const std::string_view content = trim(line);
+    if (content.empty() || content.front() == '#' || (number == 1 && content == header)) {
+      continue;
+    }
+    std::array<double, 4> cells{};
+    if (!parse(content, cells)) {
+      throw std::runtime_error(
+          fmt::format("{}, line {}: not four finite numbers; expected {}", file.string(), number, header));
+    }
+    if (cells[0] < 0 || (!path.empty() && cells[0] <= path.back().time_s)) {
+      throw std::runtime_error(
+          fmt::format("{}, line {}: time_s {} does not come after the previous line's; times ascend from 0",
+                      file.string(), number, cells[0]));
+    }
+    path.push_back({cells[0], {cells[1], cells[2], cells[3]}});
+  }
+  if (path.size() < 2) {
+    throw std::runtime_error(fmt::format("{}: a path needs at least two points ({})", file.string(), header));
+  }
+  return path;
+}
+
+}  // namespace palpate::plugin

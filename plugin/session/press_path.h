@@ -1,0 +1,28 @@
+#pragma once
+
+/// The main job's script, made from the scan: come from outside, press on the first boundary, slide along it, push
+/// through to the next ones, and lift off.
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "io/fields/field_source.h"
+#include "modes/scene/plan.h"
+#include "plugin/session/path.h"
+
+namespace palpate::plugin {
+
+struct PressPath {
+  std::vector<PathPoint> hand;          ///< where the hand wants to be
+  glm::dvec3 inward{0, 0, 1};           ///< unit, patient axes: the direction of pressing
+  glm::dvec3 contact_mm{0};             ///< where the first boundary was met
+  std::vector<std::size_t> boundaries;  ///< the scene's modes met on the way in, in order
+};
+
+/// Feels its way once from `from_mm` to `to_mm` (a stroke), and writes the script from what it met. Throws
+/// std::runtime_error where nothing is felt on the way, saying so.
+PressPath make_press_path(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
+                          const glm::dvec3& to_mm);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,79 @@
+#include "plugin/session/scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "io/fields/volume_fields.h"
+#include "modes/scene/scene_json.h"
+#include "modes/tick/reach.h"
+
+namespace palpate::plugin {
+
+Box bounding_box(const io::Geometry& geometry) {
+  Box box{glm::dvec3(std::numeric_limits<double>::infinity()), glm::dvec3(-std::numeric_limits<double>::infinity())};
+  for (const int k : {0, geometry.dimensions.z - 1}) {
+    for (const int j : {0, geometry.dimensions.y - 1}) {
+      for (const int i : {0, geometry.dimensions.x - 1}) {
+        const glm::dvec3 corner = geometry.to_patient({i, j, k});
+        box.low = glm::min(box.low, corner);
+        box.high = glm::max(box.high, corner);
+      }
+    }
+  }
+  return box;
+}
+
+std::string describe_scan(const io::Volume& volume) {
+  const io::Geometry& geometry = volume.geometry;
+  return fmt::format("{}, {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm", volume.modality, geometry.dimensions.x,
+                     geometry.dimensions.y, geometry.dimensions.z, geometry.spacing_i, geometry.spacing_j,
+                     glm::length(geometry.step));
+}
+
+modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume) {
+  if (!file_or_name.empty()) {
+    return modes::load_scene(file_or_name);
+  }
+  if (volume.vectors) {
+    return modes::load_scene("flow");
+  }
+  return modes::load_scene(volume.modality == "CT" ? "ct-skin-and-bone" : "mr-brain");
+}
+
+std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
+                                            const glm::dvec3& device_half_extent_m) {
+  const Box box = bounding_box(volume.geometry);
+  modes::Plan plan = modes::make_plan(scene, io::fields_of(volume),
+                                      modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m));
+  modes::leave_out_slices(volume.geometry, device_half_extent_m, plan);
+  return std::make_shared<const modes::Plan>(std::move(plan));
+}
+
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m) {
+  return prepare(scene, volume, device_half_extent_m, {});
+}
+
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m, const Prepared& before) {
+  Felt felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
+  if (before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
+      before.felt.plan->slices == felt.plan->slices && before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
+      before.scene.sampling == scene.sampling) {
+    felt.source = before.felt.source;
+    return felt;
+  }
+  io::FieldOptions options = modes::field_options(scene.sampling);
+  options.ahead = felt.plan->slices;
+  felt.source = std::make_shared<const io::VolumeFields>(
+      volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)),
+      options);
+  return felt;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,56 @@
+#pragma once
+
+/// A loaded scan and what the session needs to know of it.
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+
+#include "io/fields/field_source.h"
+#include "io/volume.h"
+#include "modes/scene/plan.h"
+#include "modes/scene/scene.h"
+
+namespace palpate::plugin {
+
+/// Corners of the box around all voxel centres, patient space, mm.
+struct Box {
+  glm::dvec3 low{0};
+  glm::dvec3 high{0};
+};
+Box bounding_box(const io::Geometry& geometry);
+
+/// The scan in words, for reports: "CT, 256 x 256 x 108 voxels of 0.957 x 0.957 x 1.5 mm". Names no patient and no
+/// path.
+std::string describe_scan(const io::Volume& volume);
+
+/// The scene named by --scene (a file or a starting scene); the one that suits the modality, or a velocity field,
+/// where it is empty. Throws
+/// std::invalid_argument as modes::load_scene() does.
+modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume);
+
+/// The plan of a scene on a scan, with the fields that this scan has (vectors where it is a velocity field), held with
+/// a device of that reach.
+std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
+                                            const glm::dvec3& device_half_extent_m);
+
+/// A scene on a scan: the plan, and the fields that this plan needs and no more.
+struct Felt {
+  std::shared_ptr<const modes::Plan> plan;
+  std::shared_ptr<const io::FieldSource> source;
+};
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m);
+
+/// What was prepared before.
+struct Prepared {
+  Felt felt;
+  modes::Scene scene;
+  std::shared_ptr<const io::Volume> volume;
+};
+/// The same, with the fields that were prepared before where the scene still needs just these of that scan: a scene
+/// that is being edited is then there at once.
+Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+             const glm::dvec3& device_half_extent_m, const Prepared& before);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,331 @@
+#include "plugin/session/session.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "solver/chain.h"
+
+namespace palpate::plugin {
+namespace {
+
+void copy(const glm::dvec3& from, double (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis) {
+    to[axis] = from[axis];
+  }
+}
+
+bool can_push(device::State state) {
+  return state == device::State::idle || state == device::State::ramping || state == device::State::active;
+}
+
+/// Between two styluses: nothing is held, and nothing can be pushed.
+class NoStylus final : public device::Stylus {
+ public:
+  device::Specification specification() const override { return {.name = "none"}; }
+  void open() override {}
+  void close() noexcept override {}
+  device::Reading read() noexcept override { return {}; }
+  void write_force(const device::Vec3& /*force*/) noexcept override {}
+  device::State state() const noexcept override { return device::State::disconnected; }
+};
+
+std::uint32_t count(const auto& value) {
+  return static_cast<std::uint32_t>(value);
+}
+
+}  // namespace
+
+/// A snapshot as the servo holds it, with solvers of its own so that the tick runs exactly its plan.
+struct Session::Setting {
+  explicit Setting(const Snapshot& published, std::uint32_t number)
+      : snapshot(published),
+        epoch(number),
+        chain({.analytical = published.plan->solvers.analytical,
+               .exact = published.plan->solvers.exact,
+               .descent = published.plan->solvers.descent}),
+        changing_chain(number == 0 ? nullptr
+                                   : std::make_unique<solver::Chain>(
+                                         solver::ChainOptions{.analytical = published.plan->solvers.analytical,
+                                                              .exact = true,
+                                                              .descent = published.plan->solvers.descent,
+                                                              .capacity = modes::most_primitives})) {}
+
+  Snapshot snapshot;
+  std::uint32_t epoch;
+  solver::Chain chain;
+  /// Of the change to it, in which two scenes together can need what neither does alone; null where there is none.
+  std::unique_ptr<solver::Chain> changing_chain;
+  Setting* next_returned = nullptr;
+};
+
+/// An open stylus; closed when this goes.
+struct Session::Held {
+  Held(std::shared_ptr<device::Stylus> opened, std::uint32_t number)
+      : stylus(std::move(opened)), specification(stylus->specification()), epoch(number) {}
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  ~Held() { stylus->close(); }
+
+  std::shared_ptr<device::Stylus> stylus;
+  device::Specification specification;
+  std::uint32_t epoch;
+  Held* next_returned = nullptr;
+};
+
+device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device) {
+  device::SafetyLimits limits;
+  limits.force = scene.force_n;
+  limits.device_force = device.maximum_force;
+  limits.slew = scene.slew_n_per_ms * 1e3;
+  limits.ramp_time = scene.ramp_s;
+  limits.speed = scene.speed_m_per_s;
+  return limits;
+}
+
+Session::Session(std::shared_ptr<const modes::Plan> plan, std::shared_ptr<const io::FieldSource> source,
+                 device::Stylus& stylus, const device::SafetyLimits& limits)
+    : Session({.plan = std::move(plan), .source = std::move(source), .limits = limits},
+              std::shared_ptr<device::Stylus>(&stylus, [](device::Stylus*) {})) {}
+
+Session::Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, FrameRing* ring)
+    : scratch_(std::make_unique<modes::StepScratch>()),
+      ring_(ring),
+      rate_hz_(stylus->specification().rate),
+      ns_per_count_(1 / modes::counts_per_ns()) {
+  stylus->open();
+  auto held = std::make_unique<Held>(std::move(stylus), last_stylus_);
+  setting_ = std::make_unique<Setting>(first, last_setting_).release();
+  held_ = held.release();
+}
+
+Session::~Session() {
+  held_->stylus->write_force(device::Vec3(0));
+  const std::unique_ptr<Held> held(held_);
+  const std::unique_ptr<Setting> setting(setting_);
+  const std::unique_ptr<Setting> leaving(leaving_);
+}
+
+std::uint32_t Session::publish(const Snapshot& next) {
+  settings_.give(std::make_unique<Setting>(next, ++last_setting_));
+  collect();
+  return last_setting_;
+}
+
+std::uint32_t Session::change_stylus(std::shared_ptr<device::Stylus> stylus) {
+  collect();
+  if (!stylus) {
+    stylus = std::make_shared<NoStylus>();
+  }
+  stylus->open();
+  styluses_.give(std::make_unique<Held>(std::move(stylus), ++last_stylus_));
+  return last_stylus_;
+}
+
+std::size_t Session::solver_bytes() const noexcept {
+  std::size_t bytes = 0;
+  for (const Setting* setting : {setting_, leaving_}) {
+    if (setting == nullptr) continue;
+    bytes += setting->chain.memory_bytes();
+    if (setting->changing_chain) bytes += setting->changing_chain->memory_bytes();
+  }
+  return bytes;
+}
+
+void Session::collect() {
+  settings_.collect();
+  styluses_.collect();
+}
+
+void Session::take_commands() noexcept {
+  frame_.commands = 0;
+  if (commands_.load(std::memory_order_relaxed) != 0) {
+    frame_.commands = commands_.exchange(0, std::memory_order_acquire);
+  }
+  // Looked for after the commands: who sees that it shall arm sees the stylus that was changed before.
+  if (!exchanging_ && styluses_.is_offered()) {
+    exchanging_ = true;
+    arm_again_ = safety_.armed;
+    device::disarm(safety_);
+    frame_.commands |= command::change_stylus;
+  }
+  if ((frame_.commands & command::clear_fault) != 0) {
+    device::clear_fault(safety_);
+  }
+  if ((frame_.commands & command::disarm) != 0) {
+    device::disarm(safety_);
+    arm_again_ = false;
+  }
+  if ((frame_.commands & command::arm) != 0) {
+    if (exchanging_) {
+      arm_again_ = true;  // the next stylus
+    } else {
+      device::arm(safety_);
+    }
+  }
+}
+
+void Session::go_over_to_stylus() noexcept {
+  if (!exchanging_ || safety_.gain > 0) {
+    return;
+  }
+  if (Held* next = styluses_.take()) {
+    held_->stylus->write_force(device::Vec3(0));
+    styluses_.give_back(std::exchange(held_, next));
+    stylus_epoch_.store(held_->epoch, std::memory_order_release);
+    safety_ = {.fault = safety_.fault};
+    if (arm_again_) {
+      device::arm(safety_);
+    }
+    exchanging_ = false;
+    engaged_ = false;
+  }
+}
+
+void Session::take_setting(double time) noexcept {
+  if (leaving_ == nullptr) {
+    if (Setting* next = settings_.take()) {
+      leaving_ = std::exchange(setting_, next);
+      change_began_s_ = time;
+    }
+  }
+  part_ = 1;
+  if (leaving_ != nullptr && setting_->snapshot.change_s > 0) {
+    part_ = std::clamp((time - change_began_s_) / setting_->snapshot.change_s, 0.0, 1.0);
+  }
+}
+
+modes::StepResult Session::step(const device::Reading& reading) noexcept {
+  const Snapshot& to = setting_->snapshot;
+  if (leaving_ == nullptr) {
+    return modes::step(*to.plan, *to.source, reading.position, touch_, setting_->chain, *scratch_);
+  }
+  const Snapshot& from = leaving_->snapshot;
+  const modes::Change change{
+      .from = {from.plan.get(), from.source.get()}, .to = {to.plan.get(), to.source.get()}, .part = part_};
+  const modes::StepResult result = modes::step(change, reading.position, touch_, *setting_->changing_chain, *scratch_);
+  if (part_ >= 1) {
+    // To be freed with the setting that it was a change from.
+    leaving_->changing_chain.swap(setting_->changing_chain);
+    settings_.give_back(std::exchange(leaving_, nullptr));
+  }
+  return result;
+}
+
+device::SafetyLimits Session::limits() const noexcept {
+  device::SafetyLimits limits = setting_->snapshot.limits;
+  limits.device_force = std::min(limits.device_force, held_->specification.maximum_force);
+  if (leaving_ != nullptr) {
+    const double from = leaving_->snapshot.limits.force;
+    limits.force = from + part_ * (limits.force - from);
+  }
+  return limits;
+}
+
+const Frame& Session::tick() noexcept {
+  const double time = static_cast<double>(ticks_) / rate_hz_;
+  return tick({.time_s = time, .heartbeat_s = time});
+}
+
+const Frame& Session::tick(const Beat& beat) noexcept {
+  modes::Stopwatch watch;
+  watch.start();
+  std::array<std::uint64_t, stage_count> counts{};
+  const auto lap = [&](Stage stage) { watch.lap(counts[static_cast<std::size_t>(stage)]); };
+
+  take_commands();
+  go_over_to_stylus();
+  const device::Reading reading = held_->stylus->read();
+  const device::State state = held_->stylus->state();
+  lap(Stage::read);
+
+  const bool engaged = safety_.armed && can_push(state);
+  if (engaged && !engaged_) {
+    // What was touched before the force came back means nothing to the hand now.
+    touch_ = {};
+    energy_ = {};
+  }
+  engaged_ = engaged;
+  take_setting(beat.time_s);
+  const device::SafetyLimits limits_now = limits();
+  const modes::StepResult result = step(reading);
+  lap(Stage::modes);
+  const modes::StepTimes& times = scratch_->times;
+  counts[static_cast<std::size_t>(Stage::map)] = times.map;
+  counts[static_cast<std::size_t>(Stage::sample)] = times.sample;
+  counts[static_cast<std::size_t>(Stage::solve)] = times.solve;
+  counts[static_cast<std::size_t>(Stage::modes)] -= times.map + times.sample + times.solve;
+
+  // A frame that could not be solved asks for a force that is not a number: the filter latches the fault and lets go.
+  const bool solved = result.outcome == solver::Outcome::solved || result.outcome == solver::Outcome::capped;
+  glm::dvec3 asked = solved ? result.force_n : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+  if (held_->specification.force_axes > 0) {
+    asked = device::damp_ringing({}, reading, asked, energy_);
+  }
+  const device::SafetyInput input{.time = beat.time_s,
+                                  .reading = reading,
+                                  .device = state,
+                                  .force = asked,
+                                  .force_time = beat.time_s,
+                                  .heartbeat_time = beat.heartbeat_s};
+  const device::SafetyResult safe = device::filter_force(limits_now, input, safety_);
+  lap(Stage::filter);
+
+  held_->stylus->write_force(safe.force);
+  lap(Stage::write);
+
+  frame_.stylus_state = count(state);
+  frame_.safety = pack_safety(safe.state, safe.fault);
+  copy(safe.force, frame_.sent_n);
+  observe(beat, reading, result);
+  lap(Stage::observe);
+  for (std::size_t stage = 0; stage < stage_count; ++stage) {
+    frame_.stage_ns[stage] = count(static_cast<double>(counts[stage]) * ns_per_count_);
+  }
+  if (ring_ != nullptr) {
+    ring_->push(frame_, shares());
+  }
+  return frame_;
+}
+
+void Session::observe(const Beat& beat, const device::Reading& reading, const modes::StepResult& result) noexcept {
+  frame_.index = ticks_++;
+  frame_.dt_s = beat.time_s - frame_.time_s;
+  frame_.time_s = beat.time_s;
+  frame_.pose_time_s = reading.time;
+  frame_.heartbeat_s = beat.heartbeat_s;
+  frame_.missed = beat.missed;
+  frame_.late_ns = beat.late_ns;
+  copy(reading.position, frame_.probe_m);
+  copy(result.proxy_m, frame_.proxy_m);
+  copy(result.force_n, frame_.force_n);
+  const Snapshot& now = setting_->snapshot;
+  const io::Sample here = now.source->sample(touch_.workspace.to_patient(result.proxy_m), io::FieldSet::value);
+  frame_.value = here.inside ? here.value : std::numeric_limits<double>::quiet_NaN();
+  frame_.error_bound_m = result.error_bound;
+  frame_.change_part = part_;
+  frame_.scene_epoch = setting_->epoch;
+  frame_.sub_steps = count(result.sub_steps);
+  frame_.halts = count(result.halts);
+  frame_.iterations = count(result.iterations);
+  frame_.solver = count(result.solver);
+  frame_.outcome = count(result.outcome);
+  frame_.buttons = reading.buttons;
+  frame_.fresh = reading.fresh ? 1 : 0;
+  frame_.stylus_epoch = held_->epoch;
+  frame_.from_brick = result.sample.from_brick ? 1 : 0;
+  frame_.share_count = count(result.primitives.size());
+  glm::dvec3 balance = -result.force_n;
+  for (std::size_t n = 0; n < result.primitives.size(); ++n) {
+    shares_[n] = {.frame = frame_.index,
+                  .mode = result.mode_of[n],
+                  .type = count(result.primitives[n].type),
+                  .strength_n = result.primitives[n].strength};
+    copy(result.shares[n], shares_[n].force_n);
+    balance += result.shares[n];
+  }
+  frame_.residual_n = glm::length(balance);
+}
+
+}  // namespace palpate::plugin

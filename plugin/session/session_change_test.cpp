@@ -1,0 +1,171 @@
+// Scenes, scans, time frames and styluses change while the session runs: the force is ramped, never stepped.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "plugin/session/session.h"
+#include "plugin/testing/session_rig.h"
+
+namespace palpate::plugin {
+namespace {
+
+using namespace testing;
+
+constexpr double slew_n = 1.0;  // N in a tick of 1 ms: the limit of the safety filter
+
+struct Watched {
+  double largest_step_n = 0;
+  glm::dvec3 last_n{0};
+};
+
+void tick(Session& session, int ticks, Watched& watched) {
+  for (int n = 0; n < ticks; ++n) {
+    const glm::dvec3 sent = vector_of(session.tick().sent_n);
+    watched.largest_step_n = std::max(watched.largest_step_n, glm::length(sent - watched.last_n));
+    watched.last_n = sent;
+  }
+}
+
+TEST(SessionChange, AnotherSceneComesInByTheRamp) {
+  Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
+  Watched watched;
+  tick(session, 1500, watched);
+  const double pressed = glm::length(watched.last_n);
+  EXPECT_GT(pressed, 0.5);
+  watched.largest_step_n = 0;
+  const std::uint32_t epoch = session.publish(snapshot("ct-bone", slab()));
+  EXPECT_EQ(session.tick().scene_epoch, epoch);
+  EXPECT_LT(session.tick().change_part, 0.02);
+  tick(session, 1500, watched);
+  EXPECT_EQ(session.tick().change_part, 1);
+  EXPECT_LT(glm::length(watched.last_n), 0.02) << "without its skin the scene holds nothing here";
+  EXPECT_LT(watched.largest_step_n, 0.1 * slew_n);
+  EXPECT_EQ(session.fault(), device::Fault::none);
+}
+
+TEST(SessionChange, AnotherTimeFrameMovesTheWallAndTheProxyWithIt) {
+  Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
+  Watched watched;
+  tick(session, 1500, watched);
+  const double before = glm::length(watched.last_n);
+  watched.largest_step_n = 0;
+  session.publish(snapshot("ct-skin-and-bone", slab(-1.0)));
+  tick(session, 1500, watched);
+  // 1 mm deeper: of the hand's 3 mm into the wall 2 are left.
+  EXPECT_NEAR(glm::length(watched.last_n), 2.0 / 3.0 * before, 0.1);
+  EXPECT_LT(watched.largest_step_n, 0.1 * slew_n);
+}
+
+TEST(SessionChange, OfSeveralThatWaitTheLastCounts) {
+  Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
+  session.tick();
+  session.publish(snapshot("ct-bone", slab()));
+  session.tick();
+  session.publish(snapshot("ct-vessels", slab()));
+  const std::uint32_t last = session.publish(snapshot("ct-skin-and-bone", slab()));
+  EXPECT_EQ(session.tick().scene_epoch, 1U) << "one change at a time";
+  for (int n = 0; n < 320; ++n) session.tick();
+  EXPECT_EQ(session.tick().scene_epoch, last);
+}
+
+TEST(SessionChange, WhatTheServoHasLeftIsFreed) {
+  auto old_source = slab();
+  const std::weak_ptr<const io::FieldSource> old = old_source;
+  Session session(snapshot("ct-skin-and-bone", old_source), stylus(hold()));
+  old_source.reset();
+  session.publish(snapshot("ct-bone", slab()));
+  for (int n = 0; n < 400; ++n) session.tick();
+  EXPECT_FALSE(old.expired()) << "the servo frees nothing";
+  session.collect();
+  EXPECT_TRUE(old.expired());
+}
+
+TEST(SessionChange, AnotherStylusStartsFromZeroForce) {
+  const auto first = stylus(hold()), second = stylus(hold(-0.004));
+  Session session(snapshot("ct-skin-and-bone", slab()), first);
+  Watched watched;
+  tick(session, 1500, watched);
+  EXPECT_GT(glm::length(watched.last_n), 0.5);
+  watched.largest_step_n = 0;
+  const std::uint32_t epoch = session.change_stylus(second);
+  EXPECT_FALSE(session.holds_stylus(epoch));
+  tick(session, 60, watched);
+  EXPECT_TRUE(session.holds_stylus(epoch));
+  EXPECT_LT(glm::length(watched.last_n), 0.05) << "fallen, and hardly ramped up again";
+  session.collect();
+  EXPECT_EQ(first->state(), device::State::disconnected) << "closed";
+  tick(session, 2000, watched);
+  EXPECT_GT(glm::length(watched.last_n), 0.5);
+  EXPECT_LT(watched.largest_step_n, 0.2 * slew_n);
+}
+
+TEST(SessionChange, UnpluggedThenPluggedInAgain) {
+  const auto held = stylus(hold());
+  Session session(snapshot("ct-skin-and-bone", slab()), held);
+  Watched watched;
+  tick(session, 1500, watched);
+  held->inject(device::SimulatedFault::unplugged);
+  tick(session, 2, watched);
+  EXPECT_EQ(glm::length(watched.last_n), 0);
+  EXPECT_EQ(session.fault(), device::Fault::device_lost);
+  const std::uint32_t none = session.change_stylus(nullptr);
+  tick(session, 2, watched);
+  ASSERT_TRUE(session.holds_stylus(none));
+  held->inject(device::SimulatedFault::none);
+  session.change_stylus(held);
+  tick(session, 100, watched);
+  EXPECT_EQ(session.fault(), device::Fault::device_lost) << "latched until the user clears it";
+  session.clear_fault();
+  session.arm();
+  watched.largest_step_n = 0;
+  tick(session, 1500, watched);
+  EXPECT_GT(glm::length(watched.last_n), 0.3);
+  EXPECT_LT(watched.largest_step_n, 0.1 * slew_n);
+}
+
+TEST(SessionChange, ArmingAgainForgetsWhatWasTouchedBefore) {
+  // Disarmed, the hand goes from above the skin far into the bone; armed there it is not thrown out.
+  const std::vector<device::Waypoint> dive{{.time = 0, .position = {0, 0.004, 0}},
+                                           {.time = 1, .position = {0, -0.02, 0}},
+                                           {.time = 100, .position = {0, -0.02, 0}}};
+  Session session(snapshot("ct-skin-and-bone", slab()), stylus(dive));
+  session.disarm();
+  Watched watched;
+  tick(session, 1500, watched);
+  EXPECT_EQ(glm::length(watched.last_n), 0);
+  session.arm();
+  tick(session, 1000, watched);
+  EXPECT_LT(glm::length(watched.last_n), 0.1);
+}
+
+TEST(SessionChange, ASilentCommanderRampsTheForceToZero) {
+  Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
+  Frame frame;
+  for (int n = 0; n < 4600; ++n) {
+    const double time = 1e-3 * n;
+    frame = session.tick({.time_s = time, .heartbeat_s = std::min(time, 2.0)});
+    if (n == 3900) {
+      EXPECT_GT(glm::length(vector_of(frame.sent_n)), 0.3) << "alive 1.9 s ago";
+    }
+  }
+  EXPECT_EQ(fault_of(frame), device::Fault::commander_silent);
+  EXPECT_EQ(glm::length(vector_of(frame.sent_n)), 0);
+}
+
+TEST(SessionChange, TheStagesOfAFrameAddUp) {
+  Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
+  std::uint64_t sums[stage_count] = {};
+  for (int n = 0; n < 2000; ++n) {
+    const Frame& frame = session.tick();
+    for (std::size_t stage = 0; stage < stage_count; ++stage) {
+      ASSERT_LT(frame.stage_ns[stage], 1000000000U) << stage_names[stage] << ": below zero, wrapped";
+      sums[stage] += frame.stage_ns[stage];
+    }
+  }
+  for (std::size_t stage = 0; stage < stage_count; ++stage) EXPECT_GT(sums[stage], 0U) << stage_names[stage];
+}
+
+}  // namespace
+}  // namespace palpate::plugin

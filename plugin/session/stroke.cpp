@@ -1,0 +1,107 @@
+#include "plugin/session/stroke.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "modes/tick/haptic_step.h"
+#include "solver/chain.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double frames_per_s = 1000;
+constexpr double most_frames = 1e7;
+
+/// The primitive that pushes most, if any does.
+std::optional<std::size_t> pushes_most(const modes::StepResult& result) {
+  std::optional<std::size_t> most;
+  double largest = 0;
+  for (std::size_t n = 0; n < result.shares.size(); ++n) {
+    const double force = glm::length(result.shares[n]);
+    if (force > largest) {
+      largest = force;
+      most = n;
+    }
+  }
+  return most;
+}
+
+double value_at(const io::FieldSource& source, const glm::dvec3& place) {
+  const io::Sample sample = source.sample(place, io::FieldSet::value);
+  return sample.inside ? sample.value : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
+                                    const glm::dvec3& to_mm, double speed_mm_per_s) {
+  const double length = glm::distance(from_mm, to_mm);
+  const double count = std::ceil(length / speed_mm_per_s * frames_per_s);
+  if (!(count >= 1) || count > most_frames) {
+    throw std::runtime_error(
+        fmt::format("a stroke of {} mm at {} mm/s would have {} frames; from one to {:.0f} can be run", length,
+                    speed_mm_per_s, count, most_frames));
+  }
+  std::vector<StrokePoint> stroke;
+  stroke.reserve(static_cast<std::size_t>(count) + 1);
+  solver::Chain chain(
+      {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
+  const auto scratch = std::make_unique<modes::StepScratch>();
+  modes::Touch touch;
+  for (double n = 0; n <= count; ++n) {
+    const glm::dvec3 position = from_mm + (n / count) * (to_mm - from_mm);
+    const modes::StepResult result =
+        modes::step(plan, source, plan.workspace.to_device(position), touch, chain, *scratch);
+    if (result.outcome == solver::Outcome::refused || result.outcome == solver::Outcome::unsuitable) {
+      throw std::runtime_error(
+          fmt::format("the balance at {:.3f}, {:.3f}, {:.3f} mm could not be solved: does the scene switch off the "
+                      "solver it needs?",
+                      position.x, position.y, position.z));
+    }
+    const glm::dvec3 proxy = plan.workspace.to_patient(result.proxy_m);
+    const std::optional<std::size_t> most = pushes_most(result);
+    stroke.push_back({.position_mm = position,
+                      .proxy_mm = proxy,
+                      .force_n = plan.workspace.direction_to_patient(result.force_n),
+                      .value = value_at(source, proxy),
+                      .value_passed = value_at(source, position),
+                      .solver = result.solver,
+                      .error_bound_m = result.error_bound,
+                      .boundary = most ? std::optional<std::size_t>(result.mode_of[*most]) : std::nullopt,
+                      .primitive = most ? std::optional(result.primitives[*most].type) : std::nullopt});
+  }
+  return stroke;
+}
+
+std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const modes::Plan& plan, double threshold_n) {
+  std::vector<Contact> contacts;
+  const auto is_surface = [&](std::size_t scene_index) {
+    for (const modes::ActiveMode& mode : plan.modes) {
+      if (mode.scene_index == scene_index) {
+        return mode.type->name == "surface";
+      }
+    }
+    return false;
+  };
+  bool held = false;
+  for (std::size_t n = 0; n < stroke.size(); ++n) {
+    const StrokePoint& point = stroke[n];
+    const double force = glm::length(point.force_n);
+    const bool now = point.boundary && force > threshold_n && is_surface(*point.boundary);
+    if (now && (!held || contacts.back().boundary != *point.boundary)) {
+      contacts.push_back({.boundary = *point.boundary, .first = n, .last = n, .peak_n = force});
+    } else if (now) {
+      contacts.back().last = n;
+      contacts.back().peak_n = std::max(contacts.back().peak_n, force);
+    }
+    held = now;
+  }
+  return contacts;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,50 @@
+#pragma once
+
+/// The force felt along a straight stroke, without a stylus: the probe itself moves at constant speed, a frame a
+/// millisecond.
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/fields/field_source.h"
+#include "modes/scene/plan.h"
+#include "solver/primitive.h"
+#include "solver/solution.h"
+
+namespace palpate::plugin {
+
+/// All vectors along patient axes (LPS); mm and N.
+struct StrokePoint {
+  glm::dvec3 position_mm{0};  ///< of the probe
+  glm::dvec3 proxy_mm{0};
+  glm::dvec3 force_n{0};
+  double value = 0;         ///< of the scan at the proxy; NaN outside it
+  double value_passed = 0;  ///< of the scan at the probe; NaN outside it
+  solver::SolverKind solver = solver::SolverKind::none;
+  double error_bound_m = 0;
+  std::optional<std::size_t> boundary;             ///< the scene's mode that pushes most, if any does
+  std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with; there where a boundary is
+};
+
+/// Throws std::runtime_error where the stroke has no length or more than 10 000 000 frames.
+std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
+                                    const glm::dvec3& to_mm, double speed_mm_per_s);
+
+/// A stretch of the stroke in which one boundary holds the proxy back.
+struct Contact {
+  std::size_t boundary = 0;  ///< index into the scene's modes
+  std::size_t first = 0;     ///< point at which the proxy was first held
+  std::size_t last = 0;      ///< last point before it yielded or let go
+  double peak_n = 0;
+};
+
+/// N: a boundary that pushes less is not worth telling of.
+constexpr double met_n = 0.05;
+
+/// The surfaces met along a stroke, in order: where a surface mode pushes with more than threshold_n.
+std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const modes::Plan& plan, double threshold_n);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,28 @@
+#include "plugin/session/tick_ring.h"
+
+namespace palpate::plugin {
+
+void FrameRing::push(const Frame& frame, std::span<const Share> shares) noexcept {
+  const std::uint64_t first = shares_.written();
+  for (const Share& share : shares) shares_.push(share);
+  frames_.push({frame, first});
+}
+
+bool FrameRing::read(std::uint64_t n, Frame& frame, std::vector<Share>* shares) const {
+  Entry entry;
+  if (!frames_.read(n, entry)) return false;
+  if (shares != nullptr) {
+    const std::size_t before = shares->size();
+    shares->resize(before + entry.frame.share_count);
+    for (std::uint32_t i = 0; i < entry.frame.share_count; ++i) {
+      if (!shares_.read(entry.first_share + i, (*shares)[before + i])) {
+        shares->resize(before);
+        return false;
+      }
+    }
+  }
+  frame = entry.frame;
+  return true;
+}
+
+}  // namespace palpate::plugin

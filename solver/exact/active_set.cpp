@@ -1,0 +1,176 @@
+#include "solver/exact/active_set.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace palpate::solver::internal {
+
+namespace {
+
+// About the sine of the least angle between directions that count as independent: what double-double resolves, with a
+// margin.
+constexpr double independent = 0x1p-80;
+
+DoubleDouble product(double a, double b, double c, double d) {
+  return two_product(a, b) + -two_product(c, d);
+}
+
+FineVec3 cross(const Vec3& a, const Vec3& b) {
+  return {product(a.y, b.z, a.z, b.y), product(a.z, b.x, a.x, b.z), product(a.x, b.y, a.y, b.x)};
+}
+
+FineVec3 cross(const FineVec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+FineVec3 times(const FineVec3& a, const DoubleDouble& b) {
+  return {a.x * b, a.y * b, a.z * b};
+}
+
+DoubleDouble dot(const FineVec3& a, const FineVec3& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+// Of length one but for 1e-32.
+FineVec3 unit(const FineVec3& v) {
+  const FineVec3 near = v * (1 / length_of(v.hi()));
+  // Newton's step for 1 / sqrt.
+  const DoubleDouble squared = dot(near, near);
+  const DoubleDouble correction = (DoubleDouble{3, 0} - squared) * 0.5;
+  return times(near, correction);
+}
+
+bool lock_plane(Frame& frame, std::span<const Placed> primitives, const Placed& plane) {
+  if (frame.rank == 3) {
+    return false;
+  }
+  FineVec3 normal;
+  if (frame.rank == 0) {
+    normal = unit(fine(plane.given_direction));
+  } else if (frame.rank == 1) {
+    const Vec3& first = primitives[frame.locked[0]].given_direction;
+    const FineVec3 both = cross(first, plane.given_direction);
+    if (!(length_of(both.hi()) > independent)) {
+      return false;
+    }
+    frame.along = unit(both);
+    normal = unit(cross(both, first));
+  } else {
+    normal = frame.along;
+  }
+  const double size = internal::dot(normal, plane.given_direction).hi;
+  if (!(std::abs(size) > independent)) {
+    return false;
+  }
+  frame.size[frame.count] = size;
+  frame.normal[frame.count] = normal;
+  frame.rank += 1;
+  return true;
+}
+
+}  // namespace
+
+bool lock(Frame& frame, std::span<const Placed> primitives, std::uint32_t i) {
+  const Placed& primitive = primitives[i];
+  switch (primitive.type) {
+    case PrimitiveType::directed_force:
+      return false;
+    case PrimitiveType::plane:
+      if (!lock_plane(frame, primitives, primitive)) {
+        return false;
+      }
+      break;
+    case PrimitiveType::line:
+      if (frame.count > 0) {
+        return false;
+      }
+      frame.along = unit(fine(primitive.given_direction));
+      frame.rank = 2;
+      break;
+    case PrimitiveType::point:
+      if (frame.count > 0) {
+        return false;
+      }
+      frame.rank = 3;
+      break;
+  }
+  frame.locked[frame.count++] = i;
+  return true;
+}
+
+Frame without(const Frame& frame, std::span<const Placed> primitives, int j) {
+  Frame rest;
+  for (int i = 0; i < frame.count; ++i) {
+    if (i != j) {
+      lock(rest, primitives, frame.locked[i]);
+    }
+  }
+  return rest;
+}
+
+void settle(const Frame& frame, std::span<const Placed> primitives, FineVec3& z) {
+  // The second pass takes away what the first one's roundings left.
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int j = 0; j < frame.count; ++j) {
+      const Placed& primitive = primitives[frame.locked[j]];
+      if (primitive.type == PrimitiveType::point) {
+        z = primitive.offset;
+        return;
+      }
+      if (primitive.type == PrimitiveType::line) {
+        const FineVec3 e = primitive.offset - z;
+        z = z + (e - times(frame.along, dot(e, frame.along)));
+      } else {
+        const DoubleDouble depth = internal::dot(primitive.offset - z, primitive.given_direction);
+        z = z + times(frame.normal[j], depth / DoubleDouble{frame.size[j], 0});
+      }
+    }
+  }
+}
+
+double doubt_of(const Frame& frame, std::span<const Placed> primitives, const FineVec3& z) {
+  double doubt = 0;
+  for (int j = 0; j < frame.count; ++j) {
+    const Placed& primitive = primitives[frame.locked[j]];
+    if (primitive.type == PrimitiveType::plane) {
+      const Depth depth = depth_of(primitive, z);
+      doubt += (std::abs(depth.value) + depth.error + doubt) / std::abs(frame.size[j]);
+    } else {
+      const Miss miss = miss_of(primitive, z);
+      doubt += miss.length + miss.error;
+    }
+  }
+  return doubt;
+}
+
+FineVec3 within(const Frame& frame, const FineVec3& v) {
+  if (frame.rank == 0) {
+    return v;
+  }
+  if (frame.rank == 1) {
+    return v - times(frame.normal[0], dot(v, frame.normal[0]));
+  }
+  if (frame.rank == 2) {
+    return times(frame.along, dot(v, frame.along));
+  }
+  return fine(Vec3{0});
+}
+
+void share(const Frame& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]) {
+  Vec3 rest = needed;
+  // Backwards: the last normal is orthogonal to all the other planes, and to the line.
+  for (int j = frame.count - 1; j >= 0; --j) {
+    const Placed& primitive = primitives[frame.locked[j]];
+    if (primitive.type == PrimitiveType::plane) {
+      forces[j] =
+          primitive.direction * (primitive.given_length * internal::dot(frame.normal[j], rest).hi / frame.size[j]);
+    } else if (primitive.type == PrimitiveType::line) {
+      forces[j] = rest - primitive.direction * glm::dot(primitive.direction, rest);
+    } else {
+      forces[j] = rest;
+    }
+    rest -= forces[j];
+  }
+}
+
+}  // namespace palpate::solver::internal

@@ -1,0 +1,46 @@
+#pragma once
+
+/// The flat (a plane, line or point) on which up to three independent primitives keep a proxy, in double-double, so
+/// that it is known well even where the primitives are nearly parallel.
+
+#include <cstdint>
+#include <span>
+
+#include "solver/exact/placed.h"
+
+namespace palpate::solver::internal {
+
+/// What is locked: nothing; a point; a line and perhaps a plane that it crosses; or one to three planes.
+struct Frame {
+  int count = 0;  ///< locked primitives
+  int rank = 0;   ///< directions that they fix: 3 for a point, 2 for a line, 1 for a plane
+  std::uint32_t locked[3];
+  FineVec3 normal[3];  ///< of length one, each orthogonal to the normals of the planes (and line) before it
+  double size[3];  ///< of the normal's part in the direction of the plane that it was made for: the sine of an angle
+  FineVec3 along;  ///< the free direction, of length one, where rank is 2
+
+  bool has(std::size_t i) const {
+    return (count > 0 && locked[0] == i) || (count > 1 && locked[1] == i) || (count > 2 && locked[2] == i);
+  }
+};
+
+/// Locks primitive i too. False, and nothing done, where it is not independent of what is locked, or of a kind that
+/// does not go with it.
+bool lock(Frame& frame, std::span<const Placed> primitives, std::uint32_t i);
+
+/// Everything locked but the j-th.
+Frame without(const Frame& frame, std::span<const Placed> primitives, int j);
+
+/// Moves z onto the flat.
+void settle(const Frame& frame, std::span<const Placed> primitives, FineVec3& z);
+
+/// How far the exact flat may pass z, m, after settle().
+double doubt_of(const Frame& frame, std::span<const Placed> primitives, const FineVec3& z);
+
+/// The part of v within the flat.
+FineVec3 within(const Frame& frame, const FineVec3& v);
+
+/// The force of each locked primitive (any size) that together have the part of `needed` that is across the flat.
+void share(const Frame& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]);
+
+}  // namespace palpate::solver::internal

@@ -1,0 +1,49 @@
+#pragma once
+
+/// The slack law of certify.h in coordinates relative to the probe.
+
+#include <cstdint>
+#include <span>
+
+#include "solver/exact/placed.h"
+
+namespace palpate::solver::internal {
+
+/// What a primitive contributes to the law at a point: an admissible force and its slack.
+struct Share {
+  Vec3 force{0};              ///< N
+  double force_error = 0;     ///< N: rounding of the force
+  double slack = 0;           ///< J
+  double backward_slack = 0;  ///< J: what is left of it when the primitive may move by the rounding of its data
+  bool held = false;          ///< the force is one that only a point on the primitive exerts
+};
+
+/// The cheaper of the full force at z (no slack) and the admissible force nearest to `force` (with its slack).
+/// doubt: how far z may be from the point meant, m.
+Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt = 0,
+               bool leniently = false);
+
+/// A flat that holds the proxy: of which primitives, and how far the exact one passes the point taken for it.
+struct Flat {
+  int count = 0;
+  std::uint32_t chosen[3];
+  double doubt = 0;  ///< m
+
+  bool has(std::size_t i) const {
+    return (count > 0 && chosen[0] == i) || (count > 1 && chosen[1] == i) || (count > 2 && chosen[2] == i);
+  }
+};
+
+struct Bound {
+  double error = 0;           ///< m, rounded outwards
+  double backward_error = 0;  ///< m: the same for the nearest balance within the rounding of the data
+  double residual = 0;        ///< N
+  double slack = 0;           ///< J
+};
+
+/// The law at the exact point of the flat that z stands for. forces: as many as primitives. leniently: hard constraints
+/// count as met within hard_tolerance.
+Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
+               std::span<const Vec3> forces, bool leniently = false);
+
+}  // namespace palpate::solver::internal

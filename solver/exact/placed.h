@@ -1,0 +1,98 @@
+#pragma once
+
+/// A primitive as the solvers see it: relative to the probe. "Direction" is the direction of the doubles given, taken
+/// as exact, so a direction of length 1 + 1e-15 means what it says.
+
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "solver/exact/double_double.h"
+#include "solver/primitive.h"
+
+namespace palpate::solver::internal {
+
+/// Not initialised by default: solvers keep short arrays of these on the stack.
+struct Placed {
+  PrimitiveType type;
+  double strength;       ///< N
+  FineVec3 offset;       ///< position - probe, m, exact; not set of a directed force
+  Vec3 given_direction;  ///< of length 0.5 to 3.5: the one given times a power of two; not set of a point, as what
+                         ///< follows
+  Vec3 direction;        ///< of length 1, but for rounding
+  double given_length;   ///< of given_direction, but for rounding
+};
+
+Placed place(const Primitive& primitive, const Vec3& probe);
+
+/// The primitives of a balance: placed once into an array by who has one, else each time that they are looked at.
+class PlacedPrimitives {
+ public:
+  PlacedPrimitives(std::span<const Primitive> primitives, const Vec3& probe) : primitives_(primitives), probe_(probe) {}
+  explicit PlacedPrimitives(std::span<const Placed> stored) : stored_(stored) {}
+
+  std::size_t size() const { return stored_.empty() ? primitives_.size() : stored_.size(); }
+  /// room: where the primitive is put if it is not stored.
+  const Placed& at(std::size_t i, Placed& room) const {
+    if (!stored_.empty()) {
+      return stored_[i];
+    }
+    room = place(primitives_[i], probe_);
+    return room;
+  }
+
+ private:
+  std::span<const Primitive> primitives_;
+  Vec3 probe_{0};
+  std::span<const Placed> stored_;
+};
+
+/// Length without under- or overflow.
+double scaled_length_of(const Vec3& v);
+inline double length_of(const Vec3& v) {
+  const double squared = glm::dot(v, v);
+  return squared > 1e-280 && squared < 1e280 ? std::sqrt(squared) : scaled_length_of(v);
+}
+
+/// Sum of the components' magnitudes.
+inline double size_of(const FineVec3& v) {
+  return std::abs(v.x.hi) + std::abs(v.y.hi) + std::abs(v.z.hi);
+}
+
+bool same(const FineVec3& a, const FineVec3& b);
+
+/// Of a difference and its scalar product in double, with a margin.
+inline constexpr double rough_rounding = 0x1p-50;
+
+// The following are in double-double where a cancellation asks for it.
+
+/// From z (relative to the probe, m) to the nearest point of a line or point, and how wrong it may be.
+struct Miss {
+  FineVec3 vector;
+  double length = 0;
+  double error = 0;
+};
+Miss fine_miss_of(const Placed& line_or_point, const FineVec3& z);
+inline Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
+  const Vec3 e = line_or_point.offset.hi() - z.hi();
+  const Vec3& q = line_or_point.direction;
+  const Vec3 rough = line_or_point.type == PrimitiveType::point ? e : e - q * glm::dot(q, e);
+  const double length = length_of(rough);
+  const double size = size_of(line_or_point.offset) + size_of(z);
+  return 4 * length > size ? Miss{fine(rough), length, rough_rounding * size} : fine_miss_of(line_or_point, z);
+}
+
+/// (position - z) . direction of a plane, positive behind it.
+struct Depth {
+  double value = 0;
+  double error = 0;
+};
+Depth fine_depth_of(const Placed& plane, const FineVec3& z);
+inline Depth depth_of(const Placed& plane, const FineVec3& z) {
+  const double rough = glm::dot(plane.offset.hi() - z.hi(), plane.direction);
+  const double error = rough_rounding * (size_of(plane.offset) + size_of(z));
+  return std::abs(rough) > 0x1p20 * error ? Depth{rough, error} : fine_depth_of(plane, z);
+}
+
+}  // namespace palpate::solver::internal

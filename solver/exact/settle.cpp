@@ -1,0 +1,177 @@
+#include "solver/exact/settle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace palpate::solver::internal {
+
+namespace {
+
+constexpr double unit_roundoff = 0x1p-53;
+
+// Below this sine two directions count as parallel: what is left of their angle is left to the slack of the law.
+constexpr double independent = 0x1p-44;
+
+// The few primitives that may hold a proxy, placed: more of them add no more than tightness.
+struct Holding {
+  std::array<Placed, 32> placed;
+  std::array<std::uint32_t, 32> index;
+  std::size_t count = 0;
+
+  void add(const Placed& primitive, std::size_t i) {
+    placed[count] = primitive;
+    index[count++] = static_cast<std::uint32_t>(i);
+  }
+  bool is_full() const { return count == placed.size(); }
+  std::span<const Placed> all() const { return std::span(placed).first(count); }
+};
+
+// A point, else a line, else the plane with the largest angle to what is locked.
+bool lock_best(const Holding& holding, Frame& frame) {
+  std::uint32_t best = 0;
+  double best_size = 0;
+  for (std::uint32_t i = 0; i < holding.count; ++i) {
+    const PrimitiveType type = holding.placed[i].type;
+    double size = 0;
+    if (type == PrimitiveType::plane) {
+      Frame with = frame;
+      size = lock(with, holding.all(), i) ? std::abs(with.size[with.count - 1]) : 0;
+    } else if (frame.count == 0) {
+      size = type == PrimitiveType::point ? 4 : 3;
+    }
+    if (size > best_size && size > independent) {
+      best_size = size;
+      best = i;
+    }
+  }
+  return best_size > 0 && lock(frame, holding.all(), best);
+}
+
+// Two lines of one position meet there and nowhere else.
+bool meets_another_line(const Holding& holding, const Frame& frame, std::uint32_t& other) {
+  if (frame.count != 1 || frame.rank != 2) {
+    return false;
+  }
+  const Placed& line = holding.placed[frame.locked[0]];
+  for (other = 0; other < holding.count; ++other) {
+    const Placed& placed = holding.placed[other];
+    if (placed.type == PrimitiveType::line && other != frame.locked[0] && same(placed.offset, line.offset) &&
+        length_of(glm::cross(placed.direction, line.direction)) > independent) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Flat settle(const Holding& holding, FineVec3& z) {
+  Frame frame;
+  Flat flat;
+  if (!lock_best(holding, frame)) {
+    return flat;
+  }
+  std::uint32_t other = 0;
+  bool one_position = meets_another_line(holding, frame, other);
+  if (one_position) {
+    flat.chosen[flat.count++] = holding.index[other];
+  } else {
+    while (frame.rank < 3 && lock_best(holding, frame)) {
+    }
+  }
+  const FineVec3& first = holding.placed[frame.locked[0]].offset;
+  for (int j = 0; j < frame.count; ++j) {
+    flat.chosen[flat.count++] = holding.index[frame.locked[j]];
+    one_position = (one_position || frame.rank == 3) && same(first, holding.placed[frame.locked[j]].offset);
+  }
+  if (one_position) {
+    z = first;
+  } else {
+    settle(frame, holding.all(), z);
+    flat.doubt = doubt_of(frame, holding.all(), z);
+  }
+  return flat;
+}
+
+Bound law_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
+             std::span<const Vec3> forces) {
+  const Bound bound = bound_at(primitives, stiffness, z, flat, forces);
+  return std::isfinite(bound.error) ? bound : bound_at(primitives, stiffness, z, flat, forces, true);
+}
+
+bool has_full_size(const Placed& primitive, const Vec3& force) {
+  return (primitive.type == PrimitiveType::line || primitive.type == PrimitiveType::point) &&
+         length_of(force) >= primitive.strength * (1 - 8 * unit_roundoff);
+}
+
+// Moves z within the flat to where the attractor's direction is that of its force: by the rounding of z, which close to
+// the attractor turns the direction by far more than that of the force.
+void align(const Placed& attractor, const Vec3& force, const Frame& frame, FineVec3& z) {
+  const Miss miss = miss_of(attractor, z);
+  const Vec3 step = (miss.vector - fine(force * (miss.length / length_of(force)))).hi();
+  z = z + within(frame, fine(step));
+}
+
+}  // namespace
+
+Settled settle_on(const Frame& frame, std::span<const Placed> placed, double stiffness, const FineVec3& z,
+                  std::span<const Vec3> forces) {
+  Settled settled{z, {}};
+  Flat flat;
+  for (int j = 0; j < frame.count; ++j) {
+    flat.chosen[flat.count++] = frame.locked[j];
+  }
+  settle(frame, placed, settled.z);
+  flat.doubt = doubt_of(frame, placed, settled.z);
+  settled.bound = bound_at(PlacedPrimitives(placed), stiffness, settled.z, flat, forces);
+  return settled;
+}
+
+Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z,
+                         std::span<const Vec3> forces) {
+  Holding held;
+  Holding inside;  // those of the held whose force is not at its limit
+  std::uint32_t slipping = 0;
+  int slips = 0;
+  Placed room;
+  for (std::size_t i = 0; i < primitives.size() && !held.is_full(); ++i) {
+    const Placed& primitive = primitives.at(i, room);
+    const Share share = share_of(primitive, z, forces[i], stiffness);
+    const bool is_slipping = share.slack > 0 && has_full_size(primitive, forces[i]);
+    if (is_slipping) {
+      slipping = static_cast<std::uint32_t>(i);
+      ++slips;
+    }
+    if (share.held) {
+      held.add(primitive, i);
+      if (!is_slipping) {
+        inside.add(primitive, i);
+      }
+    }
+  }
+  Settled settled{z, {}};
+  const Flat flat = settle(held, settled.z);
+  settled.bound = law_at(primitives, stiffness, settled.z, flat, forces);
+  if (slips == 1) {
+    // Between sticking and slipping, where friction rests for as long as the probe does, the proxy is nearly but not
+    // quite on one attractor, which pulls with all its strength.
+    Settled free{z, {}};
+    Frame frame;
+    while (frame.rank < 3 && lock_best(inside, frame)) {
+    }
+    Flat rest;
+    for (int j = 0; j < frame.count; ++j) {
+      rest.chosen[rest.count++] = inside.index[frame.locked[j]];
+    }
+    settle(frame, inside.all(), free.z);
+    align(primitives.at(slipping, room), forces[slipping], frame, free.z);
+    rest.doubt = doubt_of(frame, inside.all(), free.z);
+    free.bound = law_at(primitives, stiffness, free.z, rest, forces);
+    if (free.bound.backward_error < settled.bound.backward_error) {
+      return free;
+    }
+  }
+  return settled;
+}
+
+}  // namespace palpate::solver::internal

@@ -1,0 +1,26 @@
+#pragma once
+
+/// From a point near the flat that holds the proxy to that flat, and the bound of the error there.
+
+#include <span>
+
+#include "solver/exact/active_set.h"
+#include "solver/exact/bound.h"
+
+namespace palpate::solver::internal {
+
+/// An answer relative to the probe with the bound of its error.
+struct Settled {
+  FineVec3 z;
+  Bound bound;
+};
+
+/// At the flat that is locked.
+Settled settle_on(const Frame& frame, std::span<const Placed> placed, double stiffness, const FineVec3& z,
+                  std::span<const Vec3> forces);
+
+/// Settles z onto what its forces say holds it there, if that is near.
+Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z,
+                         std::span<const Vec3> forces);
+
+}  // namespace palpate::solver::internal
