@@ -1,6 +1,6 @@
 #pragma once
 
-/// A haptic stylus, in its own frame: x to the user's right, y up, z towards the user; metres, newtons, seconds.
+/// A haptic stylus, in its own frame: x to the user's right, y up, z towards the user; meters, newtons, seconds.
 
 #include <cstdint>
 #include <glm/vec3.hpp>

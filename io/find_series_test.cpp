@@ -237,9 +237,9 @@ struct Unfit {
 
 TEST(FindSeries, WhatCannotBeFeltIsRefusedWithAReason) {
   const std::array cases{
-      Unfit{"colour",
+      Unfit{"color",
             [](DcmDataset& d) { put(d, DCM_SamplesPerPixel, 3), put(d, DCM_PhotometricInterpretation, "RGB"); },
-            "colour"},
+            "color"},
       Unfit{"unplaced", [](DcmDataset& d) { internal::succeed(d.findAndDeleteElement(DCM_ImagePositionPatient)); },
             "no position"},
       Unfit{"no spacing", [](DcmDataset& d) { put(d, DCM_PixelSpacing, "0\\0"); }, "no position"},

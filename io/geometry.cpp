@@ -9,8 +9,8 @@
 namespace palpate::io {
 namespace {
 
-// Far below what a position in mm can resolve, far above the rounding of the transform: a voxel's centre comes back as
-// an integer, so that its value is not blended with its neighbours'.
+// Far below what a position in mm can resolve, far above the rounding of the transform: a voxel's center comes back as
+// an integer, so that its value is not blended with its neighbors'.
 constexpr double snap = 1e-9;
 
 double snapped(double index) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Where the voxels of a series are in the patient. DICOM patient space: LPS (x to the patient's left, y to the back, z
-/// to the head), millimetres. Source: ImagePositionPatient and ImageOrientationPatient of every slice, PixelSpacing;
+/// to the head), millimeters. Source: ImagePositionPatient and ImageOrientationPatient of every slice, PixelSpacing;
 /// never the gantry-tilt attribute.
 
 #include <glm/mat3x3.hpp>
@@ -12,7 +12,7 @@ namespace palpate::io {
 
 using Vec3 = glm::dvec3;
 
-/// Voxel centres: position(i, j, k) = slice_positions[k] + i * spacing_i * direction_i + j * spacing_j * direction_j.
+/// Voxel centers: position(i, j, k) = slice_positions[k] + i * spacing_i * direction_i + j * spacing_j * direction_j.
 ///
 /// i counts columns, j rows, k slices; slices ascend along direction_i x direction_j. The step from a slice to the next
 /// need not be perpendicular to the slices (gantry tilt) nor the same everywhere.
@@ -22,7 +22,7 @@ struct Geometry {
   Vec3 direction_j{0, 1, 0};          ///< unit: along a column, towards growing row
   double spacing_i = 1;               ///< mm between columns (second value of PixelSpacing)
   double spacing_j = 1;               ///< mm between rows (first value of PixelSpacing)
-  std::vector<Vec3> slice_positions;  ///< mm: centre of each slice's first voxel
+  std::vector<Vec3> slice_positions;  ///< mm: center of each slice's first voxel
 
   /// Mean vector from a slice to the next, mm; the unit normal times the slice's own thickness where there is one
   /// slice.
@@ -34,12 +34,12 @@ struct Geometry {
 
   /// Patient position of a continuous voxel index, mm.
   Vec3 to_patient(const Vec3& index) const noexcept;
-  /// Continuous voxel index of a patient position (mm). Exact at voxel centres, also where slices are unevenly spaced;
+  /// Continuous voxel index of a patient position (mm). Exact at voxel centers, also where slices are unevenly spaced;
   /// linear between them; outside the volume it continues the nearest step.
   Vec3 to_index(const Vec3& position_mm) const noexcept;
-  /// Whether an index lies within the hull of the voxel centres.
+  /// Whether an index lies within the hull of the voxel centers.
   bool contains(const Vec3& index) const noexcept;
-  /// Mean distance between neighbouring slices along their normal, mm; under gantry tilt less than the length of
+  /// Mean distance between neighboring slices along their normal, mm; under gantry tilt less than the length of
   /// `step`.
   double slice_spacing() const noexcept;
   /// Gradient per index step -> gradient per mm in patient space, at slice interval k (the transposed inverse

@@ -29,14 +29,14 @@ Geometry uneven_tilted() {
   return geometry;
 }
 
-TEST(Geometry, VoxelCentresComeBackAsIntegers) {
+TEST(Geometry, VoxelCentersComeBackAsIntegers) {
   const Geometry geometry = uneven_tilted();
   for (int k = 0; k < 6; ++k) {
     for (int j = 0; j < 30; j += 7) {
       for (int i = 0; i < 40; i += 3) {
-        const Vec3 centre = geometry.slice_positions[static_cast<std::size_t>(k)] + i * 0.7 * geometry.direction_i +
+        const Vec3 center = geometry.slice_positions[static_cast<std::size_t>(k)] + i * 0.7 * geometry.direction_i +
                             j * 0.45 * geometry.direction_j;
-        EXPECT_EQ(geometry.to_index(centre), Vec3(i, j, k));
+        EXPECT_EQ(geometry.to_index(center), Vec3(i, j, k));
       }
     }
   }
@@ -61,7 +61,7 @@ TEST(Geometry, IsContinuousAcrossASlice) {
   }
 }
 
-TEST(Geometry, ContainsTheHullOfTheVoxelCentres) {
+TEST(Geometry, ContainsTheHullOfTheVoxelCenters) {
   const Geometry geometry = uneven_tilted();
   EXPECT_TRUE(geometry.contains({0, 0, 0}));
   EXPECT_TRUE(geometry.contains({39, 29, 5}));

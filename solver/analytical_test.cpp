@@ -194,10 +194,10 @@ TEST(Analytical, SolvesEveryFrameOfAStylusThatComesToRestOnFriction) {
     const Vec3 probe = 5 * mm * random.normal_vector(1);
     Vec3 at = probe + 3 * mm * random.normal_vector(1);
     // The surface curves away beneath a proxy that creeps: its normal turns with the place.
-    const Vec3 centre = probe + 30 * mm * random.unit_vector();
+    const Vec3 center = probe + 30 * mm * random.unit_vector();
     const double friction = random.uniform(0.02, 0.3);
     for (int frame = 0; frame < 200; ++frame) {
-      const Vec3 normal = glm::normalize(at - centre);
+      const Vec3 normal = glm::normalize(at - center);
       const std::array rest{make_plane(2, at, normal), make_point(friction, at)};
       std::array<Vec3, 2> forces{};
       const Solution solution = solve_analytical({k, probe, at, rest}, forces);

@@ -33,7 +33,7 @@ enum class Flaw : std::uint8_t {
   not_finite,      ///< NaN, or infinite where only a constraint's strength may be
   negative,        ///< a strength below zero
   not_positive,    ///< a stiffness that is zero or less
-  zero_direction,  ///< a direction of zero (or not normalisable) length
+  zero_direction,  ///< a direction of zero (or not normalizable) length
   incompatible,    ///< hard constraints without a common point
   out_of_range     ///< larger than largest_quantity, or a stiffness below smallest_stiffness
 };

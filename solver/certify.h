@@ -14,7 +14,7 @@ namespace palpate::solver {
 /// |x - x*| <= (r + sqrt(r^2 + 4 k eps)) / (2 k).
 struct Certificate {
   double error_bound = 0;  ///< m: |proxy - exact proxy| is at most this; rounded outwards
-  /// m: the same for the most favourable balance within 4 ulp of the data. Where constraints are redundant but for
+  /// m: the same for the most favorable balance within 4 ulp of the data. Where constraints are redundant but for
   /// rounding, error_bound is honest and loose; this one says whether the answer is as exact as the data allow.
   double backward_bound = 0;
   double residual = 0;  ///< N: r, where the bound was evaluated

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The paper's numerical solver, section 4: steepest descent from the previous proxy, kept as the reference that the
-/// other solvers are measured against. As printed it can cycle forever and can freeze millimetres away from the proxy;
+/// other solvers are measured against. As printed it can cycle forever and can freeze millimeters away from the proxy;
 /// nothing of that is mended here.
 
 #include <limits>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Haptic primitives: the four force functions of K. L. Palmerius, "Fast and High Precision Volume Haptics" (2007),
-/// equations (2) to (6). SI units in the haptic device's frame: metres and newtons.
+/// equations (2) to (6). SI units in the haptic device's frame: meters and newtons.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -20,7 +20,7 @@ struct Primitive {
   PrimitiveType type = PrimitiveType::directed_force;
   double strength = 0;  ///< N, >= 0; infinity makes a plane, line or point a hard constraint
   Vec3 position{0};     ///< m; not read of a directed force
-  Vec3 direction{0};    ///< unit vector (the solvers normalise it once more); not read of a point
+  Vec3 direction{0};    ///< unit vector (the solvers normalize it once more); not read of a point
 };
 
 Primitive make_directed_force(double strength, const Vec3& direction);

@@ -12,7 +12,7 @@ struct FlowPastSphere {
   double radius = 20;             ///< mm
   io::Vec3 free_stream{1, 0, 0};  ///< velocity far away, m/s
   double density = 1.2;           ///< kg/m^3
-  double half_width = 100;        ///< mm: the tunnel is a cube about the centre, and there is nothing outside it
+  double half_width = 100;        ///< mm: the tunnel is a cube about the center, and there is nothing outside it
 };
 
 /// vector: the velocity, m/s. value: the pressure above that of the free stream, Pa. gradient: the pressure's, Pa/mm.

@@ -11,7 +11,7 @@ namespace palpate::testdata {
 /// Where the package puts its head CT.
 inline constexpr const char* invesalius_cranium = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3";
 
-/// Reads the CT of an InVesalius project, centred at the origin. Its rows come bottom-up and its slices from the jaw
+/// Reads the CT of an InVesalius project, centered at the origin. Its rows come bottom-up and its slices from the jaw
 /// upwards: rows are flipped, so that j runs to the back and k to the head. Left and right cannot be told from the file
 /// and are assumed to be as DICOM has them.
 ///

@@ -23,7 +23,7 @@ struct Phantom {
 
 double value_at(const Phantom& phantom, const Vec3& position_mm) noexcept;
 
-/// Mean value over a voxel: the box spanned by three edges (mm) about a centre. Curved surfaces are cut as planes in
+/// Mean value over a voxel: the box spanned by three edges (mm) about a center. Curved surfaces are cut as planes in
 /// parts so small that the fraction of a voxel on either side is wrong by less than 1e-4; exact where one plane cuts;
 /// where several surfaces meet in a voxel, to 1/16 of its edges.
 double mean_value(const Phantom& phantom, const Vec3& center_mm, const Vec3 (&edges)[3]);

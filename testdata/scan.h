@@ -10,7 +10,7 @@
 
 namespace palpate::testdata {
 
-/// How the voxels lie. By default 64 voxels of 1 mm along the patient's axes, centred at the origin.
+/// How the voxels lie. By default 64 voxels of 1 mm along the patient's axes, centered at the origin.
 struct Grid {
   glm::ivec3 size{64};        ///< columns, rows, slices
   Vec3 spacing{1};            ///< mm between columns, rows and slices

@@ -9,7 +9,7 @@
 namespace palpate::testdata {
 namespace {
 
-TEST(Grid, IsCentredAndSteppedAlongTheTable) {
+TEST(Grid, IsCenterdAndSteppedAlongTheTable) {
   Grid grid;
   grid.size = {11, 21, 5};
   grid.spacing = {0.5, 0.7, 3};
@@ -95,20 +95,20 @@ TEST(Scan, NoiseIsGaussianAndSeeded) {
   double sum = 0;
   double squares = 0;
   double fourth = 0;
-  double neighbours = 0;
+  double neighbors = 0;
   const auto& v = std::get<std::vector<float>>(a.voxels);
   for (std::size_t n = 0; n < v.size(); ++n) {
     const double d = v[n] - 40;
     sum += d;
     squares += d * d;
     fourth += d * d * d * d;
-    neighbours += n > 0 ? d * (v[n - 1] - 40) : 0;
+    neighbors += n > 0 ? d * (v[n - 1] - 40) : 0;
   }
   const auto count = static_cast<double>(v.size());
   EXPECT_NEAR(sum / count, 0, 4 * 20 / std::sqrt(count));
   EXPECT_NEAR(std::sqrt(squares / count), 20, 0.25);
   EXPECT_NEAR(fourth * count / (squares * squares), 3, 0.1);
-  EXPECT_NEAR(neighbours / squares, 0, 0.02);
+  EXPECT_NEAR(neighbors / squares, 0, 0.02);
 }
 
 TEST(Scan, CircleIsPadding) {

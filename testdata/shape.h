@@ -31,7 +31,7 @@ using Shape = std::variant<HalfSpace, Ball, Cylinder>;
 
 struct Distance {
   double signed_mm = 0;  ///< negative inside the shape
-  Vec3 normal{0};  ///< gradient of the signed distance: unit, outward; zero at a ball's centre or on a cylinder's axis
+  Vec3 normal{0};  ///< gradient of the signed distance: unit, outward; zero at a ball's center or on a cylinder's axis
 };
 
 Distance distance_to(const Shape& shape, const Vec3& position_mm) noexcept;

@@ -55,7 +55,7 @@ void FalconProtocol::take(const FalconReply& reply) noexcept {
   const std::optional<Vec3> position = falcon_position(settings_.geometry, angles, robot_position_);
   if (!position) return fail(LinkFault::unreachable_pose);
   robot_position_ = *position;
-  status_.position = *position - Vec3(0, 0, settings_.geometry.centre);
+  status_.position = *position - Vec3(0, 0, settings_.geometry.center);
   status_.state = State::idle;
   ++status_.news;
 }

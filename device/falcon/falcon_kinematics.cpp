@@ -82,7 +82,7 @@ std::optional<Vec3> falcon_position(const FalconGeometry& geometry, const Vec3& 
   for (int iteration = 0; iteration < 30; ++iteration) {
     const Vec3 error = angles - *reached;
     if (glm::dot(error, error) < close_enough * close_enough) {
-      const bool in_reach = glm::length(position - Vec3(0, 0, geometry.centre)) <= geometry.reach;
+      const bool in_reach = glm::length(position - Vec3(0, 0, geometry.center)) <= geometry.reach;
       return in_reach ? std::optional(position) : std::nullopt;
     }
     const std::optional<glm::dmat3> jacobian = falcon_jacobian(geometry, position);

@@ -15,7 +15,7 @@
 
 namespace palpate::device {
 
-/// Metres and radians.
+/// Meters and radians.
 struct FalconGeometry {
   double thigh = 0.060;               ///< a: from the first to the second joint
   double shin = 0.1025;               ///< b: the parallelogram's long side
@@ -29,8 +29,8 @@ struct FalconGeometry {
   double angle_at_zero = 0.6108652381980153;  ///< 35 deg: a leg's angle at encoder count 0
   /// 360 deg in 320 slots x 4 edges of the motor's wheel, geared by a 14.25 mm shaft on a 110 mm drum.
   double angle_per_count = 2 * 3.141592653589793 / 1280 * 14.25 / 110;
-  double centre = 0.120;  ///< m along z: the middle of what the grip reaches, origin of the device's frame
-  double reach = 0.090;   ///< m from the centre: the corner of the vendor's 10 cm cube; further the stops do not let it
+  double center = 0.120;  ///< m along z: the middle of what the grip reaches, origin of the device's frame
+  double reach = 0.090;   ///< m from the center: the corner of the vendor's 10 cm cube; further the stops do not let it
 };
 
 /// The joint angles of a position (m, robot's frame); nothing where the arms cannot reach.

@@ -20,7 +20,7 @@ Vec3 angles_of_counts(double count) {
 /// Evenly in a cube of this edge (m) about the middle of the workspace.
 Vec3 random_position(std::mt19937& random, double edge) {
   std::uniform_real_distribution<double> uniform(-edge / 2, edge / 2);
-  return {uniform(random), uniform(random), geometry.centre + uniform(random)};
+  return {uniform(random), uniform(random), geometry.center + uniform(random)};
 }
 
 TEST(FalconKinematics, KnownPositions) {
@@ -113,13 +113,13 @@ TEST(FalconKinematics, TorquesDoTheForcesWork) {
   std::mt19937 random(4);
   for (int i = 0; i < 200; ++i) {
     const Vec3 position = random_position(random, 0.07);
-    const Vec3 force = 100.0 * (random_position(random, 0.08) - Vec3(0, 0, geometry.centre));
+    const Vec3 force = 100.0 * (random_position(random, 0.08) - Vec3(0, 0, geometry.center));
     const Vec3 torques = *falcon_torques(geometry, position, force);
-    const Vec3 motion = 1e-4 * (random_position(random, 0.08) - Vec3(0, 0, geometry.centre));
+    const Vec3 motion = 1e-4 * (random_position(random, 0.08) - Vec3(0, 0, geometry.center));
     const Vec3 turned = *falcon_angles(geometry, position + motion) - *falcon_angles(geometry, position - motion);
     EXPECT_NEAR(glm::dot(torques, turned), glm::dot(force, 2.0 * motion), 1e-9);
   }
-  const Vec3 pull = *falcon_torques(geometry, Vec3(0, 0, geometry.centre), Vec3(0, 0, 1));
+  const Vec3 pull = *falcon_torques(geometry, Vec3(0, 0, geometry.center), Vec3(0, 0, 1));
   for (int leg = 0; leg < 3; ++leg) EXPECT_NEAR(pull[leg], 0.0247, 0.5e-3);
 }
 

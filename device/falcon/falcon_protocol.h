@@ -26,7 +26,7 @@ struct FalconCommand {
 
 struct FalconReply {
   std::array<int, 3> encoders{};  ///< counts, int16
-  std::uint32_t buttons = 0;      ///< 1 plus, 2 forward, 4 centre, 8 minus
+  std::uint32_t buttons = 0;      ///< 1 plus, 2 forward, 4 center, 8 minus
   std::array<bool, 3> homed{};
 };
 

@@ -116,7 +116,7 @@ void FakeFalcon::boot_byte(std::uint8_t byte, double now) {
 }
 
 std::array<double, 3> FakeFalcon::true_counts() const {
-  const auto angles = falcon_angles(geometry_, hand_.body().position + Vec3(0, 0, geometry_.centre));
+  const auto angles = falcon_angles(geometry_, hand_.body().position + Vec3(0, 0, geometry_.center));
   std::array<double, 3> counts{};
   for (std::size_t i = 0; i < 3 && angles; ++i) {
     counts[i] = std::round(((*angles)[static_cast<int>(i)] - geometry_.angle_at_zero) / geometry_.angle_per_count);
@@ -131,7 +131,7 @@ void FakeFalcon::run(const FalconCommand& command, double now) {
   if (is_pushing()) pushed_until_ = now;
   Vec3 torques;
   for (int i = 0; i < 3; ++i) torques[i] = -command.motors[static_cast<std::size_t>(i)] / options_.motor_gain;
-  const auto jacobian = falcon_jacobian(geometry_, hand_.body().position + Vec3(0, 0, geometry_.centre));
+  const auto jacobian = falcon_jacobian(geometry_, hand_.body().position + Vec3(0, 0, geometry_.center));
   force_ = jacobian ? glm::transpose(*jacobian) * torques : Vec3(0);
   if (glm::length(force_) > glm::length(strongest_)) strongest_ = force_;
 

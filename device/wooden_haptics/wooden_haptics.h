@@ -11,7 +11,7 @@
 
 namespace palpate::device {
 
-/// Metres, newton metres per ampere, amperes; per axis in the order a (base), b (lower body), c (upper body). Boards
+/// Meters, newton meters per ampere, amperes; per axis in the order a (base), b (lower body), c (upper body). Boards
 /// and arms differ: keep yours in a JSON file whose keys are these names (read_wooden_haptics).
 struct WoodenHapticsSettings {
   std::string address;  ///< the hidraw path; needed, since other devices share its USB ids

@@ -62,9 +62,9 @@ void read_format(DcmItem& item, FileHeader& header) {
   header.rows = format.rows;
 
   const std::string photometric = text_of(item, DCM_PhotometricInterpretation);
-  const bool grey = photometric.empty() || photometric == "MONOCHROME1" || photometric == "MONOCHROME2";
-  if (whole(DCM_SamplesPerPixel, 1) != 1 || !grey) {
-    header.unfit = "colour image (" + photometric + "): it has no values to feel";
+  const bool gray = photometric.empty() || photometric == "MONOCHROME1" || photometric == "MONOCHROME2";
+  if (whole(DCM_SamplesPerPixel, 1) != 1 || !gray) {
+    header.unfit = "color image (" + photometric + "): it has no values to feel";
   } else if ((format.bits_allocated != 8 && format.bits_allocated != 16) || format.bits_stored < 1 ||
              format.high_bit < format.bits_stored - 1 || format.high_bit >= format.bits_allocated) {
     header.unfit = "pixels of " + std::to_string(format.bits_stored) + " bits in " +

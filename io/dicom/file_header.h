@@ -19,7 +19,7 @@ namespace palpate::io::internal {
 
 /// Where one image lies in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing).
 struct Placement {
-  Vec3 position{0};           ///< mm, centre of the first pixel
+  Vec3 position{0};           ///< mm, center of the first pixel
   Vec3 direction_i{1, 0, 0};  ///< unit, along a row
   Vec3 direction_j{0, 1, 0};  ///< unit, along a column
   double spacing_i = 1;       ///< mm between columns
@@ -113,7 +113,7 @@ struct FileHeader {
 
   std::vector<Plane> planes;
   std::vector<std::string> remarks;  ///< what a user should know of its series, in words that all of its files share
-  std::string unfit;   ///< why its images cannot be part of a volume (colour, no position); empty where they can
+  std::string unfit;   ///< why its images cannot be part of a volume (color, no position); empty where they can
   std::string defect;  ///< why its pixels cannot be read (truncated); empty where they can
 };
 

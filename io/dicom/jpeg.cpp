@@ -13,7 +13,7 @@
 namespace palpate::io::internal {
 namespace {
 
-// IJG's decoders carry on over damage, filling with grey, and only say so; here that is an error.
+// IJG's decoders carry on over damage, filling with gray, and only say so; here that is an error.
 template <typename Decompressor>
 class StrictDecompressor final : public Decompressor {
  public:

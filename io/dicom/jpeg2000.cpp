@@ -72,7 +72,7 @@ void decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes
   const Codec codec(opj_create_decompress(bare ? OPJ_CODEC_J2K : OPJ_CODEC_JP2), opj_destroy_codec);
   opj_dparameters_t parameters;
   opj_set_default_decoder_parameters(&parameters);
-  // A truncated image is refused, not completed with grey.
+  // A truncated image is refused, not completed with gray.
   const bool is_ready =
       opj_setup_decoder(codec.get(), &parameters) && opj_decoder_set_strict_mode(codec.get(), OPJ_TRUE);
 

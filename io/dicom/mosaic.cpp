@@ -46,7 +46,7 @@ std::vector<Plane> mosaic_planes(DcmItem& dataset, FileHeader& header) {
   if (header.columns < 1 || header.rows < 1) return {};
 
   // The position in the file is that of the first pixel of an image as large as the mosaic around the first slice's
-  // centre.
+  // center.
   Placement& place = *whole.placement;
   place.position += place.spacing_i * 0.5 * (header.format.columns - header.columns) * place.direction_i +
                     place.spacing_j * 0.5 * (header.format.rows - header.rows) * place.direction_j;

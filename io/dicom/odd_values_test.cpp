@@ -168,12 +168,12 @@ TEST(OddValues, PixelsThatCannotBeReadAreNamed) {
     const char* reason;
     std::function<void(DcmDataset&)> edit;
   };
-  const auto colours = [](const char* name) {
+  const auto colors = [](const char* name) {
     return [name](DcmDataset& d) { put(d, DCM_PhotometricInterpretation, name); };
   };
   const std::array cases{
-      Case{"colour image (PALETTE COLOR)", colours("PALETTE COLOR")},
-      Case{"colour image (YBR_FULL_422)", colours("YBR_FULL_422")},
+      Case{"color image (PALETTE COLOR)", colors("PALETTE COLOR")},
+      Case{"color image (YBR_FULL_422)", colors("YBR_FULL_422")},
       Case{"12 bits in 12", [](DcmDataset& d) { put(d, DCM_BitsAllocated, 12), put(d, DCM_BitsStored, 12); }},
       Case{"highest of them bit 3", [](DcmDataset& d) { put(d, DCM_HighBit, 3); }},
       Case{"floating-point", [](DcmDataset& d) {

@@ -38,7 +38,7 @@ bool in_even_run(const std::vector<double>& intervals, std::size_t at) {
   return last - first >= 2;
 }
 
-std::string millimetres(double value) {
+std::string millimeters(double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.2f", value);
   std::replace(text.begin(), text.end(), ',', '.');  // whatever the locale's decimal sign
@@ -92,13 +92,13 @@ std::vector<std::string> geometry_warnings(const Geometry& geometry) {
     const auto missing = std::max(1L, std::lround(interval / median) - 1);
     warnings.push_back(std::to_string(missing) + (missing == 1 ? " slice is" : " slices are") +
                        " missing between slices " + std::to_string(k) + " and " + std::to_string(k + 1) + " (" +
-                       millimetres(interval) + " apart, elsewhere " + millimetres(median) + "): nothing is felt there");
+                       millimeters(interval) + " apart, elsewhere " + millimeters(median) + "): nothing is felt there");
   }
   if (!geometry.uniform && geometry.gaps.empty()) {
     const auto [least, most] = std::minmax_element(intervals.begin(), intervals.end());
     const bool even = *most - *least < uniform_tolerance * median;
     warnings.push_back(even ? "slices are displaced sideways against each other: each is used where it is"
-                            : "slices are unevenly spaced, " + millimetres(*least) + " to " + millimetres(*most) +
+                            : "slices are unevenly spaced, " + millimeters(*least) + " to " + millimeters(*most) +
                                   " apart: each is used where it is");
   }
   return warnings;

@@ -199,8 +199,8 @@ TEST(TruthWithJudgement, MosaicIsTakenApart) {
     const Volume volume = load(series, options);
     const Geometry& geometry = volume.geometry;
     EXPECT_EQ(geometry.dimensions, glm::ivec3(82, 82, 48));
-    // The protocol in the private header: slices from 63.45 mm left to 63.45 mm right of the centre, 2.7 mm apart,
-    // centred at (., 1.807, -50.602) over a field of 222 mm; Siemens counts the centre as pixel 41 of 82.
+    // The protocol in the private header: slices from 63.45 mm left to 63.45 mm right of the center, 2.7 mm apart,
+    // centered at (., 1.807, -50.602) over a field of 222 mm; Siemens counts the center as pixel 41 of 82.
     const double half_field = 41 * geometry.spacing_i;
     expect_near(geometry.slice_positions.front(), {63.45, 1.80722891566 - half_field, -50.6024096386 + half_field},
                 1e-3, "origin");
@@ -254,7 +254,7 @@ TEST(TruthWithJudgement, MixedFolderGivesItsSevenSeries) {
   EXPECT_THAT(reasons["rtstruct.dcm"], HasSubstr("no image in it"));
   EXPECT_THAT(reasons["cut_I20.dcm"], HasSubstr("a copy of I20"));
   EXPECT_THAT(reasons["MR_truncated.dcm"], HasSubstr("8130 of 8192 bytes"));
-  EXPECT_THAT(reasons["sc_I50"], HasSubstr("colour"));
+  EXPECT_THAT(reasons["sc_I50"], HasSubstr("color"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace palpate::io::internal {
 namespace {
 
-double metres_per_second(const std::string& unit) {
+double meters_per_second(const std::string& unit) {
   return unit == "m/s" ? 1 : unit == "cm/s" ? 1e-2 : unit == "mm/s" ? 1e-3 : 0;
 }
 
@@ -153,7 +153,7 @@ std::optional<VelocityEncoding> velocity_of(const std::vector<double>& direction
   const double length = glm::length(velocity.direction);
   if (!(std::abs(length - 1) < 0.01)) return std::nullopt;
   velocity.direction /= length;
-  if (const double unit = metres_per_second(rescale_unit); unit > 0) {
+  if (const double unit = meters_per_second(rescale_unit); unit > 0) {
     velocity.slope = unit * plane.slope;
     velocity.intercept = unit * plane.intercept;
     return velocity;

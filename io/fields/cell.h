@@ -18,7 +18,7 @@ struct Cell {
   }
 };
 
-/// The cell that holds a continuous index; false where nothing can be sampled: beyond the hull of the voxel centres,
+/// The cell that holds a continuous index; false where nothing can be sampled: beyond the hull of the voxel centers,
 /// between slices where some are missing, beside padding that would have a weight.
 bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept;
 

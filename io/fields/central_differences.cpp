@@ -35,7 +35,7 @@ struct Rows {
   const Stored* down;
 };
 
-/// `count` voxels that have both neighbours along i.
+/// `count` voxels that have both neighbors along i.
 template <typename Stored>
 [[gnu::always_inline]] inline void difference_row(const Rows<Stored>& rows, const Weights& weights, int count,
                                                   glm::vec3* gradients) {
@@ -72,7 +72,7 @@ void run_row(const Rows<float>& rows, const Weights& weights, int count, glm::ve
   difference_row(rows, weights, count, gradients);
 }
 
-/// One voxel with whatever neighbours it has.
+/// One voxel with whatever neighbors it has.
 template <typename Stored>
 class AtVoxel {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Differences between the six neighbours of a voxel, in patient space: the sharpest gradient that a scan has, and the
+/// Differences between the six neighbors of a voxel, in patient space: the sharpest gradient that a scan has, and the
 /// noisiest.
 
 #include <array>
@@ -12,9 +12,9 @@
 
 namespace palpate::io::internal {
 
-/// Exact on linear fields whatever the grid: a tilted slice's neighbours are displaced, and of two at different
+/// Exact on linear fields whatever the grid: a tilted slice's neighbors are displaced, and of two at different
 /// distances the nearer counts for more (the parabola through the three). One-sided at the edge, beside padding and
-/// beside missing slices; 0 along an axis without neighbours, and in padding.
+/// beside missing slices; 0 along an axis without neighbors, and in padding.
 class CentralDifferences {
  public:
   CentralDifferences() = default;
@@ -38,7 +38,7 @@ class CentralDifferences {
            const GradientTarget& target) const noexcept;
 
   std::vector<std::array<Weights, 4>> of_slice_;  ///< by Sides
-  std::vector<Sides> sides_;                      ///< where there is a neighbouring slice to compare with
+  std::vector<Sides> sides_;                      ///< where there is a neighboring slice to compare with
 };
 
 }  // namespace palpate::io::internal

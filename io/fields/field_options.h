@@ -11,7 +11,7 @@ namespace palpate::io {
 /// The value between voxels.
 enum class ValueMethod : std::uint8_t {
   cubic,     ///< smooth, from 64 voxels (cubic_spline.h): a boundary is felt where it is; blurred by 0.58 voxels
-  trilinear  ///< exact at the voxels' centres, from 8 voxels; its iso-surfaces are flatter than a round body
+  trilinear  ///< exact at the voxels' centers, from 8 voxels; its iso-surfaces are flatter than a round body
 };
 
 /// Where the gradient comes from.

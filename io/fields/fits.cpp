@@ -20,7 +20,7 @@ struct OnesWithin {
   }
 };
 
-/// Rows of 1 everywhere: the neighbourhood of a voxel far from every edge.
+/// Rows of 1 everywhere: the neighborhood of a voxel far from every edge.
 struct OnesEverywhere {
   void operator()(int, int, int, int count, float* row) const noexcept { std::fill(row, row + count, 1.0F); }
 };
@@ -48,7 +48,7 @@ std::vector<float> sums_of(const BlockLayout& layout, const SliceKernel& kernel,
 
 }  // namespace
 
-// All by the same sums, over weights alone, that a block beside padding takes: the same neighbourhood gets the same
+// All by the same sums, over weights alone, that a block beside padding takes: the same neighborhood gets the same
 // fit.
 Fits::Fits(const glm::ivec3& dimensions, const SliceKernel& kernel, double scale_mm, const glm::dmat3& to_patient)
     : dimensions_(dimensions), radius_(kernel.radius), small_(glm::min(dimensions, 2 * kernel.radius + 1)) {

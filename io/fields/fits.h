@@ -1,6 +1,6 @@
 #pragma once
 
-/// The plane fits of a scan that need no look at its voxels: of complete neighbourhoods, and of those that the volume's
+/// The plane fits of a scan that need no look at its voxels: of complete neighborhoods, and of those that the volume's
 /// edge cuts off.
 
 #include <array>
@@ -21,14 +21,14 @@ class Fits {
 
   using Sums = std::array<float, space_sums(2)>;
 
-  /// Of a complete neighbourhood, by slice.
+  /// Of a complete neighborhood, by slice.
   const PlaneFit& whole(int k) const noexcept { return whole_[static_cast<std::size_t>(k)]; }
   /// The sums of its weights.
   const Sums& whole_sums(int k) const noexcept { return whole_sums_[static_cast<std::size_t>(k)]; }
 
   /// Whether at() may be called: not where slices are tilted, or all spaced differently.
   bool knows_edges() const noexcept { return !edges_.empty(); }
-  /// Of a voxel's neighbourhood as the volume's edge cuts it off, where nothing in it is padding.
+  /// Of a voxel's neighborhood as the volume's edge cuts it off, where nothing in it is padding.
   const PlaneFit& at(int i, int j, int k) const noexcept {
     const auto row = static_cast<std::size_t>(reduced(j, dimensions_.y, radius_.y, small_.y));
     const auto column = static_cast<std::size_t>(reduced(i, dimensions_.x, radius_.x, small_.x));
@@ -38,7 +38,7 @@ class Fits {
   }
 
  private:
-  /// The voxel of a volume just large enough for one complete neighbourhood whose neighbourhood is cut off alike.
+  /// The voxel of a volume just large enough for one complete neighborhood whose neighborhood is cut off alike.
   static int reduced(int i, int size, int radius, int small) noexcept {
     return i < radius ? i : i >= size - radius ? small - (size - i) : radius;
   }
@@ -49,7 +49,7 @@ class Fits {
   glm::ivec3 small_{0};
   std::vector<PlaneFit> whole_;
   std::vector<Sums> whole_sums_;
-  std::vector<std::size_t> kind_of_slice_;  ///< slices of one kind have the same neighbours at the same distances
+  std::vector<std::size_t> kind_of_slice_;  ///< slices of one kind have the same neighbors at the same distances
   std::vector<PlaneFit> edges_;             ///< by column, row, kind
 };
 

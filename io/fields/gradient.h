@@ -3,12 +3,12 @@
 /// The gradient of a scan at a scale: derivative of Gaussian, in patient space (LPS), per mm.
 ///
 /// At a voxel it is the slope of the plane that fits the voxels around best, each weighted by a Gaussian of its
-/// distance in mm (cut off at 3.2 sigma along each axis). On a complete neighbourhood that is the derivative of
+/// distance in mm (cut off at 3.2 sigma along each axis). On a complete neighborhood that is the derivative of
 /// Gaussian; at the edge of the volume, beside padding and between uneven or tilted slices it stays exact on linear
 /// fields, and what lies outside has no say: there is no boundary where the data ends. Source: Knutsson and Westin,
 /// "Normalized and differential convolution", CVPR 1993.
 ///
-/// Or, sharper and noisier: central differences between neighbouring voxels.
+/// Or, sharper and noisier: central differences between neighboring voxels.
 ///
 /// One kernel serves the whole volume, a brick and a single sample, and gives the same bits in all three: every sum is
 /// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
@@ -56,14 +56,14 @@ class GradientKernel {
 
   /// Of the Gaussian; of central differences, half the distance that they span at the most.
   double scale_mm() const noexcept;
-  /// Voxels that the kernel reaches over on each side of the one it is centred on.
+  /// Voxels that the kernel reaches over on each side of the one it is centered on.
   glm::ivec3 radius() const noexcept;
 
   /// The eight voxels of a cell or fewer: writes size.x * size.y * size.z gradients, i fastest. May be called in the
   /// tick. At most 2 voxels along each axis, all of them within the volume.
   void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
   /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel in patient space, per mm^2, without the rescale slope's
-  /// sign and size; not-a-number where the neighbourhood is not complete: second derivatives of what is not there would
+  /// sign and size; not-a-number where the neighborhood is not complete: second derivatives of what is not there would
   /// be guesses.
   using Hessian = std::array<float, 6>;
   /// Those of the same Gaussian at a cell's voxels; none of central differences. May be called in the tick.

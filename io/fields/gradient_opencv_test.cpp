@@ -34,7 +34,7 @@ Filter make_filter(double scale, double spacing, int radius) {
   return filter;
 }
 
-TEST(GradientAndOpenCV, AgreeOnCompleteNeighbourhoods) {
+TEST(GradientAndOpenCV, AgreeOnCompleteNeighborhoods) {
   testdata::Grid grid;
   grid.size = {52, 47, 40};
   grid.spacing = {0.7, 0.8, 1.1};

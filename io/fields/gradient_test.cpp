@@ -173,7 +173,7 @@ TEST(CentralDifferences, AreExactOnLinearFieldsOnEveryGridUpToEdgesAndPadding) {
       return glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, size)) &&
              !volume->is_padding(at.x, at.y, at.z);
     };
-    const auto has_neighbours = [&](const glm::ivec3& at) {
+    const auto has_neighbors = [&](const glm::ivec3& at) {
       const auto& gaps = volume->geometry.gaps;
       const bool gap_below = std::find(gaps.begin(), gaps.end(), at.z - 1) != gaps.end();
       const bool gap_above = std::find(gaps.begin(), gaps.end(), at.z) != gaps.end();
@@ -188,7 +188,7 @@ TEST(CentralDifferences, AreExactOnLinearFieldsOnEveryGridUpToEdgesAndPadding) {
           const Vec3 gradient(gradients[volume->offset(i, j, k)]);
           if (!counts({i, j, k})) {
             ASSERT_EQ(gradient, Vec3(0));
-          } else if (has_neighbours({i, j, k})) {
+          } else if (has_neighbors({i, j, k})) {
             ASSERT_LT(glm::length(gradient - slope), 2e-4) << i << ' ' << j << ' ' << k;
             ++exact;
           }
@@ -199,7 +199,7 @@ TEST(CentralDifferences, AreExactOnLinearFieldsOnEveryGridUpToEdgesAndPadding) {
   }
 }
 
-TEST(CentralDifferences, AreHalfTheDifferenceOfTheNeighbours) {
+TEST(CentralDifferences, AreHalfTheDifferenceOfTheNeighbors) {
   Grid grid;
   grid.size = {9, 8, 7};
   grid.spacing = {0.5, 0.7, 2};
@@ -222,7 +222,7 @@ struct Errors {
   double magnitude = 0;  ///< of the largest magnitude on the surface
 };
 
-/// The slope of a ball of 1040 HU blurred by a Gaussian, exactly, at a distance from its centre.
+/// The slope of a ball of 1040 HU blurred by a Gaussian, exactly, at a distance from its center.
 double slope_of_blurred_ball(double radius, double scale, double r) {
   const double a = (radius - r) / (std::numbers::sqrt2 * scale);
   const double b = (radius + r) / (std::numbers::sqrt2 * scale);

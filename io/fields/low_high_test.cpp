@@ -113,7 +113,7 @@ TEST(LowHigh, is_the_value_itself_where_there_is_no_boundary) {
   }
 }
 
-TEST(LowHigh, vary_smoothly_between_voxels_and_are_those_of_the_voxels_at_their_centres) {
+TEST(LowHigh, vary_smoothly_between_voxels_and_are_those_of_the_voxels_at_their_centers) {
   const auto volume =
       std::make_shared<const Volume>(testdata::scan(testdata::make_sphere(20), testdata::make_geometry(Grid{})));
   const VolumeFields fields(volume, FieldSet::low_high, 2);
@@ -125,7 +125,7 @@ TEST(LowHigh, vary_smoothly_between_voxels_and_are_those_of_the_voxels_at_their_
     worst = std::max({worst, std::abs(here.low - before.low), std::abs(here.high - before.high)});
     before = here;
   }
-  EXPECT_LT(worst, 4) << "HU in a micrometre";
+  EXPECT_LT(worst, 4) << "HU in a micrometer";
   const GradientKernel kernel(volume, 2);
   const glm::ivec3 voxel(50, 40, 36);
   glm::vec3 gradient;

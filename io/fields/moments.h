@@ -1,6 +1,6 @@
 #pragma once
 
-/// Weighted sums over the neighbourhoods of a block of voxels: of the values, and of the values times their offsets in
+/// Weighted sums over the neighborhoods of a block of voxels: of the values, and of the values times their offsets in
 /// mm, up to an order. Rows first, then columns, then slices; `lanes` voxels of a row side by side, each summed in the
 /// same order whatever the block, so that the sums of a voxel have the same bits in every block.
 

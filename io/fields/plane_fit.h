@@ -1,6 +1,6 @@
 #pragma once
 
-/// The plane that fits a neighbourhood best: from weighted sums to a gradient.
+/// The plane that fits a neighborhood best: from weighted sums to a gradient.
 
 #include <cstddef>
 #include <glm/mat3x3.hpp>
@@ -27,7 +27,7 @@ inline glm::vec3 gradient_of(const PlaneFit& fit, const float* s, std::size_t st
 }
 
 /// From the sums of the weights themselves (1, p, q, w, pp, pq, qq, pw, qw, ww: `stride` floats apart). A direction
-/// along which the neighbourhood has no extent worth a slope (a single slice, a lone voxel beside padding) gets slope
+/// along which the neighborhood has no extent worth a slope (a single slice, a lone voxel beside padding) gets slope
 /// 0. to_patient: gradient along (p, q, w) -> patient space, rescale slope included.
 PlaneFit fit_plane(const float* sums, std::size_t stride, double scale_mm, const glm::dmat3& to_patient) noexcept;
 

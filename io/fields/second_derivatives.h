@@ -29,7 +29,7 @@ inline Hessian unknown_hessian() noexcept {
   return unknown;
 }
 
-/// From the sums of second order of a complete neighbourhood to its Hessian: the second derivative of a Gaussian of
+/// From the sums of second order of a complete neighborhood to its Hessian: the second derivative of a Gaussian of
 /// covariance C is C^-1 (x x^T - C) C^-1 times it.
 class SecondDerivatives {
  public:

@@ -27,7 +27,7 @@ Taps make_taps(double scale, double spacing, double shift) {
   return taps;
 }
 
-/// Half the distance between the neighbours: what a slice stands for in an integral over uneven ones. A missing slice
+/// Half the distance between the neighbors: what a slice stands for in an integral over uneven ones. A missing slice
 /// is nobody's share, so no side counts for more than the usual distance.
 double thickness_of(const std::vector<double>& heights, std::size_t k, double usual) {
   const double below = k > 0 ? heights[k] - heights[k - 1] : usual;

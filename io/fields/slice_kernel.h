@@ -2,8 +2,8 @@
 
 /// The Gaussian weights with which each slice contributes to each, for any slice geometry: even, uneven or tilted.
 ///
-/// Offsets are in mm along the geometry's own basis (direction_i, direction_j, normal). A tilted slice's neighbours are
-/// displaced in its plane, so the in-plane weights are centred there: the Gaussian stays round in the patient.
+/// Offsets are in mm along the geometry's own basis (direction_i, direction_j, normal). A tilted slice's neighbors are
+/// displaced in its plane, so the in-plane weights are centered there: the Gaussian stays round in the patient.
 
 #include <glm/mat3x3.hpp>
 #include <vector>

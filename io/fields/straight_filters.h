@@ -38,7 +38,7 @@ struct SlicePair {
 void sum_slices(const SlicePair* pairs, int pair_count, std::size_t plane, float* s0, float* p, float* q, float* w,
                 std::size_t count);
 
-/// Gradients of a row from its sums, of a neighbourhood whose weights are balanced (PlaneFit::constant is 0).
+/// Gradients of a row from its sums, of a neighborhood whose weights are balanced (PlaneFit::constant is 0).
 void fit_balanced_row(const glm::mat3& slope, const float* p, const float* q, const float* w, int count,
                       glm::vec3* gradients);
 

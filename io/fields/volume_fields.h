@@ -20,7 +20,7 @@ struct Cell;
 /// What a volume's fields can be: the value and what is derived from it, and vectors where it holds them.
 FieldSet fields_of(const Volume& volume) noexcept;
 
-/// Value: between voxel centres by FieldOptions::value, in `Volume::unit`. Gradient: trilinear between the voxels'
+/// Value: between voxel centers by FieldOptions::value, in `Volume::unit`. Gradient: trilinear between the voxels'
 /// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
 /// lies.
 ///
@@ -35,7 +35,7 @@ FieldSet fields_of(const Volume& volume) noexcept;
 /// the point last sampled, and keeps them under a memory bound. A sample that finds its brick missing computes its cell
 /// with the same kernel: it takes longer and gives the same bits.
 ///
-/// Outside: beyond the hull of the voxel centres, between slices where some are missing, and wherever a voxel that the
+/// Outside: beyond the hull of the voxel centers, between slices where some are missing, and wherever a voxel that the
 /// interpolation needs is padding.
 class VolumeFields : public FieldSource {
  public:

@@ -19,7 +19,7 @@ std::shared_ptr<Volume> share(Volume volume) {
   return std::make_shared<Volume>(std::move(volume));
 }
 
-/// value = 7 + 3 x - 2 y + 5 z at every voxel's centre.
+/// value = 7 + 3 x - 2 y + 5 z at every voxel's center.
 std::shared_ptr<Volume> linear_volume(const Grid& grid) {
   Volume v;
   v.geometry = testdata::make_geometry(grid);
@@ -91,7 +91,7 @@ TEST(VolumeFields, HomogeneousTissueHasNoGradientNotEvenARoundingError) {
   const Sample s = fields.sample({0.3, -0.2, 0.1}, both);
   EXPECT_EQ(s.value, 1234);
   EXPECT_EQ(s.gradient, Vec3(0));
-  // Where the neighbourhood ends at the edge, one of single precision remains: 1e-7 of the value.
+  // Where the neighborhood ends at the edge, one of single precision remains: 1e-7 of the value.
   EXPECT_LT(glm::length(fields.sample({7, 6, 5.5}, both).gradient), 2e-4);
 }
 
@@ -177,7 +177,7 @@ TEST(VolumeFields, TubeRunsAlongTheVesselOnEveryGrid) {
   }
 }
 
-TEST(VolumeFields, TubeIsZeroWhereNothingCurvesOrTheNeighbourhoodEnds) {
+TEST(VolumeFields, TubeIsZeroWhereNothingCurvesOrTheNeighborhoodEnds) {
   const auto volume = share(testdata::scan(testdata::Phantom{40, {}}, testdata::make_geometry(small())));
   const VolumeFields fields(volume, FieldSet::tube, 1);
   EXPECT_EQ(fields.sample({0, 0, 0}, FieldSet::tube).tube, Vec3(0));

@@ -21,7 +21,7 @@ inline constexpr double slew_limit_n_per_ms = 1.0;
 inline constexpr double ramp_s = 0.5;
 inline constexpr double speed_limit_m_per_s = 1.0;
 
-/// Millimetres of patient for one millimetre of hand.
+/// Millimeters of patient for one millimeter of hand.
 inline constexpr double workspace_scale = 1.0;
 
 // The anchor that keeps a held proxy on its iso-surface (anchor.h), mm of patient.

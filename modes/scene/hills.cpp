@@ -46,7 +46,7 @@ std::vector<Hill> hills_of(std::span<const float> curve, double prominence, doub
                            curve.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
   };
   const double least = mass * sum(0, curve.size());
-  // How far a hill stands out of the higher of the valleys towards its neighbours, of its own height; less than 0 for
+  // How far a hill stands out of the higher of the valleys towards its neighbors, of its own height; less than 0 for
   // one that holds too little.
   const auto standing = [&](std::size_t h) {
     const double height = curve[hills[h].top];

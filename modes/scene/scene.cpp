@@ -136,11 +136,11 @@ void check_unique_names(const std::string& list, const Items& items) {
 }  // namespace
 
 void validate(const Scene& scene) {
-  check_positive("stiffness_n_per_m", scene.stiffness_n_per_m, "newtons per metre");
+  check_positive("stiffness_n_per_m", scene.stiffness_n_per_m, "newtons per meter");
   check_positive("limits.force_limit_n", scene.limits.force_n, "newtons");
   check_positive("limits.slew_limit_n_per_ms", scene.limits.slew_n_per_ms, "newtons per millisecond");
   check_positive("limits.ramp_s", scene.limits.ramp_s, "seconds");
-  check_positive("limits.speed_limit_m_per_s", scene.limits.speed_m_per_s, "metres per second");
+  check_positive("limits.speed_limit_m_per_s", scene.limits.speed_m_per_s, "meters per second");
   check_workspace(scene.workspace);
   if (!scene.solvers.analytical && !scene.solvers.exact && !scene.solvers.descent) {
     refuse("solvers", "all are switched off");
@@ -184,7 +184,7 @@ Workspace place_workspace(const WorkspaceSettings& settings, const Vec3& box_low
   workspace.center_mm = settings.center_mm.value_or(0.5 * (box_low_mm + box_high_mm));
   workspace.mm_per_m = 1000.0 * settings.scale;
   if (settings.fit) {
-    // Per device axis, the box's half-extent as seen along it, measured from the centre that was chosen.
+    // Per device axis, the box's half-extent as seen along it, measured from the center that was chosen.
     double mm_per_m = 0;
     for (int axis = 0; axis < 3; ++axis) {
       double reach_mm = 0;

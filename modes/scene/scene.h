@@ -95,7 +95,7 @@ struct Subdivision {
 
 /// Where the scan meets the hand: settings, from which place_workspace() makes a Workspace for a scan.
 struct WorkspaceSettings {
-  std::optional<Vec3> center_mm;               ///< patient point at the device's origin; the scan's centre by default
+  std::optional<Vec3> center_mm;               ///< patient point at the device's origin; the scan's center by default
   glm::dmat3 rotation = Workspace{}.rotation;  ///< columns: the device's x, y and z axes in patient space
   double scale = defaults::workspace_scale;    ///< mm of patient for one mm of hand
   bool fit = false;                            ///< scale chosen so that the whole scan fits the device instead

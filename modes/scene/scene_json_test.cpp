@@ -96,8 +96,8 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
   EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": []})")),
               StartsWith("mine.json: modes[1].strength_n.nodes:"));
   EXPECT_THAT(
-      error_of(with_surface(R"("strength_n": {"of": "colour", "nodes": [[0, 1]]})")),
-      StartsWith("mine.json: modes[1].strength_n.of: there is no \"colour\"; there are: value, gradient_per_mm"));
+      error_of(with_surface(R"("strength_n": {"of": "color", "nodes": [[0, 1]]})")),
+      StartsWith("mine.json: modes[1].strength_n.of: there is no \"color\"; there are: value, gradient_per_mm"));
   EXPECT_THAT(error_of(with_surface(R"("strength_n": 1, "gates": [{"of": "value", "nodes": [["a", 1]]}])")),
               StartsWith("mine.json: modes[1].gates[0].nodes[0][0]: \"a\" is not a number"));
   EXPECT_THAT(error_of(with_surface(R"("strength_n": 1, "field": "vector")")),

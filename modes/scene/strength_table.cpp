@@ -58,7 +58,7 @@ double StrengthTable::operator()(double at) const noexcept {
   }
   const auto cell = std::min(static_cast<std::size_t>((at - first_) * cells_per_unit_), piece_at_.size() - 1);
   std::size_t i = piece_at_[cell];
-  // Rounding may put a datum at a cell's edge into the neighbour: look both ways.
+  // Rounding may put a datum at a cell's edge into the neighbor: look both ways.
   while (i > 0 && at < pieces_[i].from) {
     --i;
   }

@@ -24,14 +24,14 @@ constexpr double bandwidth_of_range = 0.008;
 constexpr float valley_floor = 0.05F;  // of the lower of two hills
 constexpr double prominence = 0.15, tissue_mass = 0.01;
 constexpr double boundary_share = 0.02;     // of the voxels at boundaries
-constexpr std::size_t most_boundaries = 8;  // as many as have a colour
-// Okabe and Ito's colours: told apart by the colour-blind too. Source: "Color universal design", 2008.
+constexpr std::size_t most_boundaries = 8;  // as many as have a color
+// Okabe and Ito's colors: told apart by the color-blind too. Source: "Color universal design", 2008.
 constexpr std::array<const char*, most_boundaries> colors{"#e69f00", "#0072b2", "#009e73", "#d55e00",
                                                           "#56b4e9", "#cc79a7", "#f0e442", "#999999"};
 
 struct Spread {
   double low = 0, high = 0;  ///< nearly all values lie between
-  double noise = 0;          ///< standard deviation from a voxel to its neighbour, over sqrt(2)
+  double noise = 0;          ///< standard deviation from a voxel to its neighbor, over sqrt(2)
 };
 
 Spread spread_of(const io::Volume& volume) {
@@ -120,7 +120,7 @@ int bins_of_least_step(const io::Bins& values) {
   return static_cast<int>(least_step / (1 + 2 * margin) * values.count);
 }
 
-/// Neighbours part in the middle of the valley between them, which may be wide and empty.
+/// Neighbors part in the middle of the valley between them, which may be wide and empty.
 void part_in_the_middle(std::span<const float> curve, std::vector<internal::Hill>& hills) {
   for (std::size_t h = 1; h < hills.size(); ++h) {
     const float* left = curve.data() + hills[h - 1].top;
@@ -178,7 +178,7 @@ std::vector<Tissue> tissues_of(const Found& found, const io::Bins& values, const
     tissue.name = names[t];
     tissue.low = t == 0 ? -infinity : tissues.back().high;
     tissue.high = last ? infinity : readable(values.low + static_cast<double>(found.hills[t].end) * values.width());
-    // A tenth of the way to the nearest tissue: neighbours share the soft end between them.
+    // A tenth of the way to the nearest tissue: neighbors share the soft end between them.
     double nearest = infinity;
     if (t > 0) nearest = std::min(nearest, found.typical[t] - found.typical[t - 1]);
     if (!last) nearest = std::min(nearest, found.typical[t + 1] - found.typical[t]);

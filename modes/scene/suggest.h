@@ -33,9 +33,9 @@ struct Suggestion {
 };
 
 /// For CT tissues are named by their HU (air, lung or foam, fat, soft tissue, bone, metal), else by their rank. Every
-/// boundary is a surface with a name, a colour that the colour-blind can tell from the others, and a switch; its
+/// boundary is a surface with a name, a color that the color-blind can tell from the others, and a switch; its
 /// strength rises with the gradient and sets in at the boundary's middle, so that this is where it is felt. The way
-/// back, from the higher to the lower values, is a surface of its own in the same colour, switched off: a hand that
+/// back, from the higher to the lower values, is a surface of its own in the same color, switched off: a hand that
 /// comes from outside meets what it enters. The scene has no mode for a scan without boundaries. Throws io::Cancelled.
 Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress = {}, int threads = 0);
 

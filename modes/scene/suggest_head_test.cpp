@@ -104,7 +104,7 @@ TEST(SuggestHead, offers_the_scalp_and_the_surface_of_the_brain_of_an_mr) {
   ASSERT_FALSE(catalogue.series.empty());
   const auto head = std::make_shared<const io::Volume>(io::load(catalogue.series.front()));
   const Suggestion found = suggest(head);
-  // Dark (air, bone, fluid), the brain's grey matter and the scalp, white matter and fat.
+  // Dark (air, bone, fluid), the brain's gray matter and the scalp, white matter and fat.
   const auto scalp_and_brain = between(found, {0, 15}, {30, 50});
   ASSERT_TRUE(scalp_and_brain);
   EXPECT_TRUE(between(found, {30, 50}, {60, 85}));

@@ -20,7 +20,7 @@ using testdata::air_hu;
 using testdata::bone_hu;
 using testdata::soft_tissue_hu;
 
-/// Skin, and a skull within: half a millimetre of blur, 20 HU of noise.
+/// Skin, and a skull within: half a millimeter of blur, 20 HU of noise.
 io::Volume head(const testdata::Acquisition& acquisition = {.noise = 20}) {
   testdata::Phantom ball = testdata::make_sphere(24);
   ball.bodies.push_back(testdata::make_sphere(16, bone_hu).bodies.front());

@@ -13,7 +13,7 @@
 /// and as a strength that flickers. The gradient comes from a filter and is smooth, but its integral along the way
 /// drifts. The *level* joins the two: near a surface it follows, from frame to frame, the integral of the gradient
 /// (trapezoidal, so that a circle is closed to third order); while held it also returns to V, or to as far from V as it
-/// was when the hold began, over some millimetres of travel (defaults::level_length_mm). Away from surfaces it is V. A
+/// was when the hold began, over some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A
 /// proxy that does not move keeps its level, and its anchor, to the last bit.
 
 #include <cstdint>

@@ -43,7 +43,7 @@ inline constexpr std::size_t most_primitives = 2 * Scene::most_modes * Primitive
 /// Marks, in StepResult::mode_of, primitives of a scene that is being left.
 inline constexpr std::uint8_t of_scene_left = 0x80;
 
-/// What one frame hands to the next. Value-initialised: nothing has been touched, and the next frame starts in free
+/// What one frame hands to the next. Value-initialized: nothing has been touched, and the next frame starts in free
 /// space.
 struct Touch {
   bool started = false;

@@ -65,7 +65,7 @@ io::SliceRange slices_within_reach(const io::Geometry& geometry, const Workspace
 void leave_out_slices(const io::Geometry& geometry, const Vec3& half_extent_m, Plan& plan) {
   double most_n = 0;
   for (const ActiveMode& mode : plan.modes) most_n += mode.strength.most_n();
-  // In whole centimetres: a strength that is being edited shall not take away what was computed before.
+  // In whole centimeters: a strength that is being edited shall not take away what was computed before.
   const double beyond_m = 0.01 * std::ceil(most_n / plan.stiffness_n_per_m / 0.01);
   plan.slices = slices_within_reach(geometry, plan.workspace, half_extent_m + Vec3(beyond_m));
   const auto leave_out = [&plan](int first, int last) {

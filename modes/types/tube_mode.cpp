@@ -1,6 +1,6 @@
 // Tube mode, equation (4): a line along the eigenvector of least curvature of the value's Hessian, strength tau(V):
 // follow a vessel or a nerve in a scalar scan. The line passes through the old proxy, not through the vessel's middle:
-// it guides, it does not centre. Analytical with force and friction; with surface only where the vessel happens to lie
+// it guides, it does not center. Analytical with force and friction; with surface only where the vessel happens to lie
 // in the plane.
 #include "modes/types/direction.h"
 #include "modes/types/mode_type.h"

@@ -70,7 +70,7 @@ struct Cost {
   std::size_t bytes = 0;
 };
 
-/// A small movement about the middle, within half a millimetre: the same one for every plan.
+/// A small movement about the middle, within half a millimeter: the same one for every plan.
 Cost cost_of(const modes::Scene& scene, const modes::Plan& plan, const std::shared_ptr<const io::Volume>& volume) {
   constexpr int frames = 400, rounds = 7;
   const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields, plan.slices);

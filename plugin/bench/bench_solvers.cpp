@@ -160,14 +160,14 @@ std::string csv_of(const std::vector<FamilySummary>& summaries) {
 /// One point for each family: median time against the largest error.
 void draw(const std::vector<FamilySummary>& summaries, const std::vector<Entrant>& entrants,
           const std::filesystem::path& path) {
-  constexpr Colour palette[] = {colours::black,  colours::green,  colours::sky, colours::vermilion,
-                                colours::orange, colours::purple, colours::blue};
+  constexpr Color palette[] = {colors::black,  colors::green,  colors::sky, colors::vermilion,
+                                colors::orange, colors::purple, colors::blue};
   constexpr double floor = 1e-18;  // m: where an error of nothing is drawn
   Chart chart{.x = {.label = "median time (us); a point is a family of balances", .logarithmic = true},
               .y = {.label = "largest error against 128 bits (m)", .logarithmic = true}};
   for (std::size_t e = 0; e < entrants.size(); ++e) {
     Curve curve{.label = entrants[e].name,
-                .colour = palette[e % std::size(palette)],
+                .color = palette[e % std::size(palette)],
                 .style = Curve::Style::points,
                 .width = 4};
     for (const FamilySummary& s : summaries) {
@@ -193,7 +193,7 @@ void run_counts(const std::vector<Entrant>& entrants, const std::filesystem::pat
     if (!entrant.scales) continue;
     fmt::print("{:>14}", entrant.name);
     csv += "," + entrant.name + "_us";
-    curves.push_back({.label = entrant.name, .colour = curves.empty() ? colours::green : colours::sky});
+    curves.push_back({.label = entrant.name, .color = curves.empty() ? colors::green : colors::sky});
   }
   for (const std::size_t count : counts) {
     fmt::print("\n{:<12}", count);

@@ -30,7 +30,7 @@ void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem:
                        row.most_sub_steps, row.sub_steps, row.worst_deg, row.worst_force_n, row.drift_mm, row.frame_us);
   }
   write_text(folder / "subdivision.csv", csv);
-  constexpr std::array line_colours{colours::vermilion, colours::orange, colours::green, colours::sky, colours::blue};
+  constexpr std::array line_colors{colors::vermilion, colors::orange, colors::green, colors::sky, colors::blue};
   std::vector<Chart> panels;
   for (const Wall wall : {Wall::convex, Wall::concave}) {
     Chart chart{.title = fmt::format("Sliding on a wall: {}", name_of(wall)),
@@ -42,7 +42,7 @@ void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem:
       Curve curve{.label = fmt::format("{:.0f} mm/s", speeds_mm_per_s[s]),
                   .x = {},
                   .y = {},
-                  .colour = line_colours[s],
+                  .color = line_colors[s],
                   .style = Curve::Style::points,
                   .width = 4};
       for (const SubdivisionRow& row : rows) {

@@ -166,8 +166,8 @@ void tabulate_series(const Arguments& arguments, Rows& rows) {
   measure("surface + friction, brick missed", on(walk, surface_and_friction(), no_bricks));
   {
     const BusyThread busy;
-    measure("surface + friction, busy neighbour", on(walk, surface_and_friction()));
-    measure("three modes, busy neighbour", on(walk, three));
+    measure("surface + friction, busy neighbor", on(walk, surface_and_friction()));
+    measure("three modes, busy neighbor", on(walk, three));
   }
   rows.add(measure_ticks("surface + friction, at 1 kHz", on(walk, surface_and_friction()), walk.poses_m,
                          std::min<std::size_t>(arguments.ticks, 10000), 1000));

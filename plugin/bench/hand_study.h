@@ -12,7 +12,7 @@ namespace palpate::plugin {
 
 struct HandStudyOptions {
   int hands = 10;     ///< seeded tremors
-  double hold_s = 3;  ///< of which the last second is analysed
+  double hold_s = 3;  ///< of which the last second is analyzed
   std::vector<double> stiffness_n_per_m{200, 400, 800, 1600, 2400, 3200, 4800, 6400, 9600};
 };
 

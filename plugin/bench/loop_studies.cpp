@@ -46,8 +46,8 @@ void over_frames(const LoopStudyOptions& options, const std::filesystem::path& f
 
 Chart chart_of(const std::string& scene, const std::string& motion, const std::vector<HandStudyRow>& rows) {
   Chart chart{scene + ", " + motion, {"stiffness k (N/m)", true}, {"RMS of the force, 30 to 500 Hz (N)", true}, {}, {}};
-  constexpr std::array palette{colours::blue, colours::orange, colours::vermilion};
-  Curve threshold{.label = "2 k q: still below", .x = {}, .y = {}, .colour = colours::grey};
+  constexpr std::array palette{colors::blue, colors::orange, colors::vermilion};
+  Curve threshold{.label = "2 k q: still below", .x = {}, .y = {}, .color = colors::gray};
   for (const HandStudyRow& row : rows) {
     if (row.scene != scene || row.motion != motion) {
       continue;
@@ -56,7 +56,7 @@ Chart chart_of(const std::string& scene, const std::string& motion, const std::v
         std::find_if(chart.curves.begin(), chart.curves.end(), [&](const Curve& c) { return c.label == row.solver; });
     if (curve == chart.curves.end()) {
       chart.curves.push_back(
-          {.label = row.solver, .x = {}, .y = {}, .colour = palette[chart.curves.size() % palette.size()]});
+          {.label = row.solver, .x = {}, .y = {}, .color = palette[chart.curves.size() % palette.size()]});
       curve = chart.curves.end() - 1;
     }
     curve->x.push_back(row.stiffness_n_per_m);

@@ -29,7 +29,7 @@ constexpr double edge_mm = 1;  // standard deviation of its Gaussian edge
 constexpr double depth_mm = 2;
 constexpr double step_mm = 0.05;  // 50 mm/s at 1 kHz
 
-/// Sampled at the voxels' centres, rounded to 1 HU as CT does.
+/// Sampled at the voxels' centers, rounded to 1 HU as CT does.
 std::shared_ptr<const io::Volume> soft_sphere(int voxels) {
   testdata::Grid grid;
   grid.size = glm::ivec3(voxels);

@@ -27,12 +27,12 @@ struct Fields {
 struct SolverChoice {
   const char* name;
   modes::SolverSwitches switches;
-  Colour colour;
+  Color color;
 };
 
-const std::array solver_choices{SolverChoice{"analytical", {true, false, false}, colours::blue},
-                                SolverChoice{"exact", {false, true, false}, colours::green},
-                                SolverChoice{"descent", {false, false, true}, colours::vermilion}};
+const std::array solver_choices{SolverChoice{"analytical", {true, false, false}, colors::blue},
+                                SolverChoice{"exact", {false, true, false}, colors::green},
+                                SolverChoice{"descent", {false, false, true}, colors::vermilion}};
 
 std::vector<Fields> all_fields() {
   std::vector<Fields> fields{{"central differences", io::GradientMethod::central_differences},
@@ -62,7 +62,7 @@ void run_whole_tick(const std::filesystem::path& folder) {
               .marks = {}};
   for (const SolverChoice& solver : solver_choices) {
     chart.curves.push_back(
-        {.label = solver.name, .x = {}, .y = {}, .colour = solver.colour, .style = Curve::Style::points, .width = 4});
+        {.label = solver.name, .x = {}, .y = {}, .color = solver.color, .style = Curve::Style::points, .width = 4});
   }
   for (const Fields& choice : all_fields()) {
     io::FieldOptions options;

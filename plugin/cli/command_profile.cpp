@@ -55,7 +55,7 @@ void print_text(const std::vector<StrokePoint>& stroke, const modes::Plan& plan,
   fmt::print("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
   const glm::dvec3 from = stroke.front().position_mm;
   const glm::dvec3 along = glm::normalize(stroke.back().position_mm - from);
-  // A line every half millimetre is what a person reads; --json has every frame.
+  // A line every half millimeter is what a person reads; --json has every frame.
   double next = 0;
   for (const StrokePoint& point : stroke) {
     const double depth = glm::dot(point.position_mm - from, along);

@@ -47,12 +47,12 @@ glm::dvec3 parse_point(const std::string& text) {
   return point;
 }
 
-// Coordinates are typed and printed with a limited number of digits; a voxel's centre is meant where one is that near.
-glm::dvec3 at_nearby_centre(const io::Geometry& geometry, const glm::dvec3& position) {
+// Coordinates are typed and printed with a limited number of digits; a voxel's center is meant where one is that near.
+glm::dvec3 at_nearby_center(const io::Geometry& geometry, const glm::dvec3& position) {
   constexpr double typed_digits = 1e-5;
   const glm::dvec3 index = geometry.to_index(position);
-  const glm::dvec3 centre = glm::round(index);
-  return glm::length(index - centre) < typed_digits ? geometry.to_patient(centre) : position;
+  const glm::dvec3 center = glm::round(index);
+  return glm::length(index - center) < typed_digits ? geometry.to_patient(center) : position;
 }
 
 void run(const SampleOptions& options) {
@@ -67,7 +67,7 @@ void run(const SampleOptions& options) {
 
   Json all = Json::array();
   for (const glm::dvec3& point : points) {
-    const io::Sample sample = fields.sample(at_nearby_centre(volume->geometry, point), wanted);
+    const io::Sample sample = fields.sample(at_nearby_center(volume->geometry, point), wanted);
     Json json;
     json["position_mm"] = {point.x, point.y, point.z};
     if (sample.inside) {

@@ -64,7 +64,7 @@ void add_solve(CLI::App& program) {
       ->option_text("N");
   command->footer(
       "In:  {\"id\":1,\"stiffness\":400,\"probe\":[0,0,-0.002],\"primitives\":[{\"type\":\"plane\",\"strength\":2,\n"
-      "      \"position\":[0,0,0],\"direction\":[0,0,1]}]}     metres, newtons; a strength may be \"inf\"\n"
+      "      \"position\":[0,0,0],\"direction\":[0,0,1]}]}     meters, newtons; a strength may be \"inf\"\n"
       "Out: {\"id\",\"proxy\",\"force\",\"forces\",\"solver\",\"error_bound\",\"iterations\",\"time_ns\"} or "
       "{\"id\",\"error\"}\n"
       "Every line is answered; exit 1 where any of them is an error.");

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Force balances as JSON Lines: a line with a balance in, a line with its proxy and forces out. Metres, newtons and
-/// newtons per metre, in the frame of the haptic device.
+/// Force balances as JSON Lines: a line with a balance in, a line with its proxy and forces out. Meters, newtons and
+/// newtons per meter, in the frame of the haptic device.
 ///
 /// In:  {"id": any string or number, "stiffness": N/m, "probe": [m,m,m], "previous": [m,m,m], "primitives": [...]}, a
 ///      primitive being {"type": "force"|"plane"|"line"|"point", "strength": N|"inf", "position": [m,m,m],

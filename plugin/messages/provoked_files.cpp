@@ -154,7 +154,7 @@ std::vector<Provoked> provoke_files() {
        of_image([](DcmDataset& d) { d.insertEmptyElement(DCM_DirectoryRecordSequence); })},
       {"{}: no pixels in it", of_image([](DcmDataset& d) { d.findAndDeleteElement(DCM_PixelData); })},
       {"{}: no image in it", of_image([](DcmDataset& d) { put(d, DCM_Rows, 0); })},
-      {"colour image ({}): it has no values to feel",
+      {"color image ({}): it has no values to feel",
        of_image([](DcmDataset& d) { put(d, DCM_PhotometricInterpretation, std::string("RGB")); })},
       {"pixels of {} bits in {}, the highest of them bit {}, cannot be read",
        of_image([](DcmDataset& d) { put(d, DCM_BitsStored, 40); })},

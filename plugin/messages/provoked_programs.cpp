@@ -126,7 +126,7 @@ std::vector<Provoked> provoke_programs() {
       {"{}, line {}: time_s {} does not come after the previous line's; times ascend from 0",
        said(path + file_with("b.csv", "0,1,2,3\n0,2,3,4\n"))},
       {"{}: a path needs at least two points ({})", said(path + file_with("c.csv", "0,1,2,3\n"))},
-      {"the path's point at {} s, {}, is {} mm from the workspace's centre, beyond the device's reach: set "
+      {"the path's point at {} s, {}, is {} mm from the workspace's center, beyond the device's reach: set "
        "workspace.center_mm or workspace.scale in the scene",
        said(path + file_with("d.csv", "0,0,0,0\n1,9000,0,0\n"))},
       {"the scene lets nothing be felt between {}, {}, {} and {}, {}, {} mm: choose another stroke with --from and "
@@ -197,7 +197,7 @@ std::vector<Provoked> provoke_styluses() {
       {"WoodenHaptics: {} cannot be read; name the file of the arm's geometry",
        said_when([] { device::read_wooden_haptics("/absent.json"); })},
       {"it is not a JSON object", said_of_arm("[]")},
-      {"'{}' is not a setting", said_of_arm(R"({"colour": 3})")},
+      {"'{}' is not a setting", said_of_arm(R"({"color": 3})")},
       {"'{}' is not what it should be: {}", said_of_arm(R"({"current_limit": "much"})")},
       {"the current limit lies between 0 and 3 A", said_of_arm(R"({"current_limit": 30})")},
       {"the torque constant{} must be above zero", said_of_arm(R"({"torque_constant": [0, 1, 1]})")},

@@ -94,7 +94,7 @@ std::vector<Provoked> provoke_scenes() {
       {R"(there is no mode "{}"; there are: {})", R"({"version": 1, "modes": [{"type": "surfce", "strength_n": 1}]})"},
       {"{} is negative; a strength is in newtons, 0 or more", surface(R"("strength_n": -1)")},
       {"{} is negative; {}, 0 or more", surface(R"("strength_n": {"nodes": [[0, -1]]})")},
-      {R"(there is no "{}"; there are: {})", surface(R"("strength_n": {"of": "colour", "nodes": [[0, 1]]})")},
+      {R"(there is no "{}"; there are: {})", surface(R"("strength_n": {"of": "color", "nodes": [[0, 1]]})")},
       {"{} is not a number", scene(R"("stiffness_n_per_m": "hard")")},
       {"{} is not a whole number", scene(R"("subdivision": {"most": 1.5})")},
       {"{} is not true or false", scene(R"("workspace": {"fit": 1})")},

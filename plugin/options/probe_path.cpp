@@ -47,7 +47,7 @@ std::vector<device::Waypoint> to_device(const std::vector<PathPoint>& path, cons
     const glm::dvec3 at = workspace.to_device(point.position_mm);
     if (glm::any(glm::greaterThan(glm::abs(at), half_extent_m))) {
       throw InputRefused(fmt::format(
-          "the path's point at {} s, {}, is {:.0f} mm from the workspace's centre, beyond the device's reach: set "
+          "the path's point at {} s, {}, is {:.0f} mm from the workspace's center, beyond the device's reach: set "
           "workspace.center_mm or workspace.scale in the scene",
           point.time_s, patient_coordinates(point.position_mm), 1e3 * glm::length(at)));
     }

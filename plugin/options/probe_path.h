@@ -26,7 +26,7 @@ struct ProbePathOption {
 /// `option` has to live as long as the command.
 void add_probe_path_option(CLI::App& command, ProbePathOption& option);
 
-/// Makes the hand follow the path and returns its end, s. Where the scene names no centre of the workspace, the path's
+/// Makes the hand follow the path and returns its end, s. Where the scene names no center of the workspace, the path's
 /// middle becomes it, in the scene and in the plan. Throws InputRefused where the path leaves the workspace, and what
 /// reading the path or feeling its way throws.
 double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene, Felt& felt,

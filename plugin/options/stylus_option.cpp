@@ -14,7 +14,7 @@ void add_device_option(CLI::App& command, StylusChoice& choice) {
 }
 
 void add_stylus_option(CLI::App& command, StylusChoice& choice) {
-  add_device_option(command, option);
+  add_device_option(command, choice);
   command.add_option("--firmware", choice.firmware, "Falcon: Novint's firmware file, where it has none yet");
   command.add_option("--device-settings", choice.settings, "WoodenHaptics: the arm's geometry and signs, a JSON file");
   command.add_option("--seed", choice.seed, "simulated: of the hand's tremor")->capture_default_str();

@@ -12,7 +12,7 @@
 
 namespace palpate::plugin {
 
-Canvas::Canvas(int width, int height, const Colour& background)
+Canvas::Canvas(int width, int height, const Color& background)
     : width_(width),
       height_(height),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy),
@@ -24,7 +24,7 @@ Canvas::Canvas(int width, int height, const Colour& background)
   cairo_set_line_cap(pen_.get(), CAIRO_LINE_CAP_ROUND);
 }
 
-Colour colour_from(const std::string& hexadecimal, const Colour& otherwise) {
+Color color_from(const std::string& hexadecimal, const Color& otherwise) {
   unsigned rgb = 0;
   const char* const end = hexadecimal.data() + hexadecimal.size();
   if (hexadecimal.size() != 7 || hexadecimal[0] != '#' ||
@@ -35,12 +35,12 @@ Colour colour_from(const std::string& hexadecimal, const Colour& otherwise) {
   return {part(16), part(8), part(0)};
 }
 
-void Canvas::set(const Colour& colour) {
-  cairo_set_source_rgba(pen_.get(), colour.red, colour.green, colour.blue, colour.alpha);
+void Canvas::set(const Color& color) {
+  cairo_set_source_rgba(pen_.get(), color.red, color.green, color.blue, color.alpha);
 }
 
-void Canvas::line(std::span<const Point> points, const Colour& colour, double width, bool dashed) {
-  set(colour);
+void Canvas::line(std::span<const Point> points, const Color& color, double width, bool dashed) {
+  set(color);
   cairo_set_line_width(pen_.get(), width);
   const std::array dashes{4.0, 4.0};
   cairo_set_dash(pen_.get(), dashes.data(), dashed ? 2 : 0, 0);
@@ -62,7 +62,7 @@ void Canvas::line(std::span<const Point> points, const Colour& colour, double wi
   cairo_set_dash(pen_.get(), nullptr, 0, 0);
 }
 
-void Canvas::arrow(const Point& from, const Point& to, const Colour& colour, double width) {
+void Canvas::arrow(const Point& from, const Point& to, const Color& color, double width) {
   const Point along = to - from;
   const double length = std::hypot(along.x, along.y);
   if (!(length > 0)) {
@@ -72,8 +72,8 @@ void Canvas::arrow(const Point& from, const Point& to, const Colour& colour, dou
   const Point side{-forward.y, forward.x};
   const double head = std::min(9.0, 0.5 * length);
   const Point neck = to - head * forward;
-  line(std::array{from, neck}, colour, width);
-  set(colour);
+  line(std::array{from, neck}, color, width);
+  set(color);
   const Point a = neck + 0.4 * head * side;
   const Point b = neck - 0.4 * head * side;
   cairo_move_to(pen_.get(), to.x, to.y);
@@ -83,14 +83,14 @@ void Canvas::arrow(const Point& from, const Point& to, const Colour& colour, dou
   cairo_fill(pen_.get());
 }
 
-void Canvas::disc(const Point& centre, double radius, const Colour& colour) {
-  set(colour);
-  cairo_arc(pen_.get(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+void Canvas::disc(const Point& center, double radius, const Color& color) {
+  set(color);
+  cairo_arc(pen_.get(), center.x, center.y, radius, 0, 2 * std::numbers::pi);
   cairo_fill(pen_.get());
 }
 
-void Canvas::rectangle(const Point& corner, const Point& size, const Colour& colour, bool filled) {
-  set(colour);
+void Canvas::rectangle(const Point& corner, const Point& size, const Color& color, bool filled) {
+  set(color);
   cairo_set_line_width(pen_.get(), 1);
   cairo_rectangle(pen_.get(), corner.x, corner.y, size.x, size.y);
   if (filled) {
@@ -107,11 +107,11 @@ double Canvas::text_width(const std::string& words, double size) {
   return extents.x_advance;
 }
 
-void Canvas::text(const Point& at, const std::string& words, double size, const Colour& colour, Anchor anchor,
+void Canvas::text(const Point& at, const std::string& words, double size, const Color& color, Anchor anchor,
                   bool turned) {
-  const double shift = anchor == Anchor::left ? 0 : text_width(words, size) * (anchor == Anchor::centre ? 0.5 : 1.0);
+  const double shift = anchor == Anchor::left ? 0 : text_width(words, size) * (anchor == Anchor::center ? 0.5 : 1.0);
   cairo_set_font_size(pen_.get(), size);
-  set(colour);
+  set(color);
   cairo_save(pen_.get());
   cairo_translate(pen_.get(), at.x, at.y);
   if (turned) {
@@ -122,13 +122,13 @@ void Canvas::text(const Point& at, const std::string& words, double size, const 
   cairo_restore(pen_.get());
 }
 
-void Canvas::grey_image(std::span<const unsigned char> pixels, int columns, int rows, const Point& corner,
+void Canvas::gray_image(std::span<const unsigned char> pixels, int columns, int rows, const Point& corner,
                         const Point& size) {
-  std::vector<std::array<unsigned char, 3>> colours(pixels.size());
-  std::transform(pixels.begin(), pixels.end(), colours.begin(), [](unsigned char grey) {
-    return std::array{grey, grey, grey};
+  std::vector<std::array<unsigned char, 3>> colors(pixels.size());
+  std::transform(pixels.begin(), pixels.end(), colors.begin(), [](unsigned char gray) {
+    return std::array{gray, gray, gray};
   });
-  image(colours, columns, rows, corner, size);
+  image(colors, columns, rows, corner, size);
 }
 
 void Canvas::image(std::span<const std::array<unsigned char, 3>> pixels, int columns, int rows, const Point& corner,

@@ -17,41 +17,41 @@ namespace palpate::plugin {
 
 using Point = glm::dvec2;
 
-struct Colour {
+struct Color {
   double red = 0, green = 0, blue = 0, alpha = 1;
 };
 
 /// Of "#rrggbb"; `otherwise` for any other text.
-Colour colour_from(const std::string& hexadecimal, const Colour& otherwise);
+Color color_from(const std::string& hexadecimal, const Color& otherwise);
 
-/// Okabe and Ito's palette, told apart by colour-blind eyes.
-namespace colours {
-constexpr Colour black{0, 0, 0}, white{1, 1, 1}, grey{0.45, 0.45, 0.45}, light{0.88, 0.88, 0.88};
-constexpr Colour orange{0.90, 0.62, 0}, sky{0.34, 0.71, 0.91}, green{0, 0.62, 0.45}, yellow{0.94, 0.89, 0.26};
-constexpr Colour blue{0, 0.45, 0.70}, vermilion{0.84, 0.37, 0}, purple{0.80, 0.47, 0.65};
-}  // namespace colours
+/// Okabe and Ito's palette, told apart by color-blind eyes.
+namespace colors {
+constexpr Color black{0, 0, 0}, white{1, 1, 1}, gray{0.45, 0.45, 0.45}, light{0.88, 0.88, 0.88};
+constexpr Color orange{0.90, 0.62, 0}, sky{0.34, 0.71, 0.91}, green{0, 0.62, 0.45}, yellow{0.94, 0.89, 0.26};
+constexpr Color blue{0, 0.45, 0.70}, vermilion{0.84, 0.37, 0}, purple{0.80, 0.47, 0.65};
+}  // namespace colors
 
-enum class Anchor { left, centre, right };
+enum class Anchor { left, center, right };
 
 class Canvas {
  public:
-  Canvas(int width, int height, const Colour& background);
+  Canvas(int width, int height, const Color& background);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  void line(std::span<const Point> points, const Colour& colour, double width = 1.5, bool dashed = false);
-  void arrow(const Point& from, const Point& to, const Colour& colour, double width = 1.5);
-  void disc(const Point& centre, double radius, const Colour& colour);
-  void rectangle(const Point& corner, const Point& size, const Colour& colour, bool filled = true);
+  void line(std::span<const Point> points, const Color& color, double width = 1.5, bool dashed = false);
+  void arrow(const Point& from, const Point& to, const Color& color, double width = 1.5);
+  void disc(const Point& center, double radius, const Color& color);
+  void rectangle(const Point& corner, const Point& size, const Color& color, bool filled = true);
   /// Text with its baseline's anchor at `at`; `turned` writes it upwards.
-  void text(const Point& at, const std::string& words, double size = 13, const Colour& colour = colours::black,
+  void text(const Point& at, const std::string& words, double size = 13, const Color& color = colors::black,
             Anchor anchor = Anchor::left, bool turned = false);
   double text_width(const std::string& words, double size = 13);
-  /// Grey values 0..255, row by row, stretched over the rectangle without smoothing between neighbours further than a
+  /// Gray values 0..255, row by row, stretched over the rectangle without smoothing between neighbors further than a
   /// pixel.
-  void grey_image(std::span<const unsigned char> pixels, int columns, int rows, const Point& corner, const Point& size);
-  /// The same in colour: red, green, blue.
+  void gray_image(std::span<const unsigned char> pixels, int columns, int rows, const Point& corner, const Point& size);
+  /// The same in color: red, green, blue.
   void image(std::span<const std::array<unsigned char, 3>> pixels, int columns, int rows, const Point& corner,
              const Point& size);
   /// Restricts drawing to the rectangle until unclip().
@@ -64,7 +64,7 @@ class Canvas {
   void write_png(const std::filesystem::path& file) const;
 
  private:
-  void set(const Colour& colour);
+  void set(const Color& color);
 
   int width_, height_;
   std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface_;

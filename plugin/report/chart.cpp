@@ -94,12 +94,12 @@ void draw_curve(Canvas& canvas, const Curve& curve, const Scale& x, const Scale&
   }
   switch (curve.style) {
     case Curve::Style::line:
-      canvas.line(points, curve.colour, curve.width, curve.dashed);
+      canvas.line(points, curve.color, curve.width, curve.dashed);
       break;
     case Curve::Style::points:
       for (const Point& point : points) {
         if (std::isfinite(point.x) && std::isfinite(point.y)) {
-          canvas.disc(point, curve.width, curve.colour);
+          canvas.disc(point, curve.width, curve.color);
         }
       }
       break;
@@ -107,7 +107,7 @@ void draw_curve(Canvas& canvas, const Curve& curve, const Scale& x, const Scale&
       for (std::size_t n = 0; n + 1 < points.size(); ++n) {
         if (std::isfinite(points[n].y)) {
           canvas.rectangle({points[n].x, points[n].y},
-                           {std::max(1.0, points[n + 1].x - points[n].x - 1), y.from - points[n].y}, curve.colour);
+                           {std::max(1.0, points[n + 1].x - points[n].x - 1), y.from - points[n].y}, curve.color);
         }
       }
       break;
@@ -122,12 +122,12 @@ void draw_legend(Canvas& canvas, const Chart& chart, double left, double right, 
       continue;
     }
     if (right - canvas.text_width(curve->label, 12) - 26 < left) return;
-    canvas.text({right, baseline}, curve->label, 12, colours::black, Anchor::right);
+    canvas.text({right, baseline}, curve->label, 12, colors::black, Anchor::right);
     right -= canvas.text_width(curve->label, 12) + 6;
     if (curve->style == Curve::Style::points) {
-      canvas.disc({right - 8, baseline - 4}, 4, curve->colour);
+      canvas.disc({right - 8, baseline - 4}, 4, curve->color);
     } else {
-      canvas.line(std::array{Point{right - 20, baseline - 4}, Point{right, baseline - 4}}, curve->colour, 3,
+      canvas.line(std::array{Point{right - 20, baseline - 4}, Point{right, baseline - 4}}, curve->color, 3,
                   curve->dashed);
     }
     right -= 38;
@@ -138,9 +138,9 @@ void draw_bands(Canvas& canvas, const Chart& chart, const Scale& x, const Scale&
   for (const Band& band : chart.bands) {
     const double from = std::max(x.position(band.from), x.from), to = std::min(x.position(band.to), x.to);
     if (!(to > from)) continue;
-    canvas.rectangle({from, y.to}, {to - from, y.from - y.to}, band.colour);
+    canvas.rectangle({from, y.to}, {to - from, y.from - y.to}, band.color);
     if (canvas.text_width(band.label, text - 2) < to - from - 4) {
-      canvas.text({(from + to) / 2, y.from - 4}, band.label, text - 2, colours::grey, Anchor::centre);
+      canvas.text({(from + to) / 2, y.from - 4}, band.label, text - 2, colors::gray, Anchor::center);
     }
   }
 }
@@ -160,13 +160,13 @@ void draw_panel(Canvas& canvas, const Chart& chart, double top, double height, c
   draw_bands(canvas, chart, x, y, style.text);
   for (const double tick : ticks_of(x, 7 * style.text)) {
     const double at = x.position(tick);
-    canvas.line(std::array{Point{at, y.from}, Point{at, y.to}}, colours::light, 1);
-    canvas.text({at, y.from + style.text + 4}, tick_label(x, tick), small, colours::black, Anchor::centre);
+    canvas.line(std::array{Point{at, y.from}, Point{at, y.to}}, colors::light, 1);
+    canvas.text({at, y.from + style.text + 4}, tick_label(x, tick), small, colors::black, Anchor::center);
   }
   for (const double tick : ticks_of(y, 3.5 * style.text)) {
     const double at = y.position(tick);
-    canvas.line(std::array{Point{x.from, at}, Point{x.to, at}}, colours::light, 1);
-    canvas.text({x.from - 5, at + 4}, tick_label(y, tick), small, colours::black, Anchor::right);
+    canvas.line(std::array{Point{x.from, at}, Point{x.to, at}}, colors::light, 1);
+    canvas.text({x.from - 5, at + 4}, tick_label(y, tick), small, colors::black, Anchor::right);
   }
   canvas.clip(corner, size);
   for (const Curve& curve : chart.curves) {
@@ -176,14 +176,14 @@ void draw_panel(Canvas& canvas, const Chart& chart, double top, double height, c
   for (const Mark& mark : chart.marks) {
     const double at = mark.vertical ? x.position(mark.at) : y.position(mark.at);
     if (mark.vertical) {
-      canvas.line(std::array{Point{at, y.from}, Point{at, y.to}}, mark.colour, 1.2, true);
+      canvas.line(std::array{Point{at, y.from}, Point{at, y.to}}, mark.color, 1.2, true);
       const bool fits = at + 4 + canvas.text_width(mark.label, small) < x.to;
-      canvas.text({fits ? at + 4 : at - 4, label_height}, mark.label, small, mark.colour,
+      canvas.text({fits ? at + 4 : at - 4, label_height}, mark.label, small, mark.color,
                   fits ? Anchor::left : Anchor::right);
       label_height += style.text + 2;
     } else {
-      canvas.line(std::array{Point{x.from, at}, Point{x.to, at}}, mark.colour, 1.2, true);
-      canvas.text({x.from + 6, at - 4}, mark.label, small, mark.colour);
+      canvas.line(std::array{Point{x.from, at}, Point{x.to, at}}, mark.color, 1.2, true);
+      canvas.text({x.from + 6, at - 4}, mark.label, small, mark.color);
     }
   }
   canvas.unclip();
@@ -191,10 +191,10 @@ void draw_panel(Canvas& canvas, const Chart& chart, double top, double height, c
     const double title = canvas.text_width(chart.title, style.text + 2);
     draw_legend(canvas, chart, corner.x + title + 12, corner.x + size.x, corner.y - 12);
   }
-  canvas.rectangle(corner, size, colours::black, false);
-  canvas.text({corner.x + size.x / 2, top + height - 0.8 * style.text}, chart.x.label, style.text, colours::black,
-              Anchor::centre);
-  canvas.text({1.3 * style.text, corner.y + size.y / 2}, chart.y.label, style.text, colours::black, Anchor::centre,
+  canvas.rectangle(corner, size, colors::black, false);
+  canvas.text({corner.x + size.x / 2, top + height - 0.8 * style.text}, chart.x.label, style.text, colors::black,
+              Anchor::center);
+  canvas.text({1.3 * style.text, corner.y + size.y / 2}, chart.y.label, style.text, colors::black, Anchor::center,
               true);
 }
 
@@ -208,7 +208,7 @@ void draw(Canvas& canvas, std::span<const Chart> panels, const ChartStyle& style
 }
 
 void write_png(std::span<const Chart> panels, const std::filesystem::path& file, int width, int height) {
-  Canvas canvas(width, height * static_cast<int>(panels.size()), colours::white);
+  Canvas canvas(width, height * static_cast<int>(panels.size()), colors::white);
   draw(canvas, panels);
   canvas.write_png(file);
 }

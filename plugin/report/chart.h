@@ -23,7 +23,7 @@ struct Curve {
   enum class Style { line, points, bars };
   std::string label;  ///< in the legend; empty: not there
   std::vector<double> x, y;
-  Colour colour = colours::blue;
+  Color color = colors::blue;
   Style style = Style::line;
   double width = 1.8;  ///< of the line, or radius of the points: pixels
   bool dashed = false;
@@ -33,7 +33,7 @@ struct Curve {
 struct Mark {
   double at = 0;
   std::string label;
-  Colour colour = colours::grey;
+  Color color = colors::gray;
   bool vertical = true;
 };
 
@@ -41,7 +41,7 @@ struct Mark {
 struct Band {
   double from = 0, to = 0;
   std::string label;
-  Colour colour = colours::light;
+  Color color = colors::light;
 };
 
 struct Chart {

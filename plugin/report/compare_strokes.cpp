@@ -126,10 +126,10 @@ std::vector<Chart> charts_of(const Comparison& comparison, const std::string& fi
   std::vector<Chart> charts{chart("Force of both", "force (N)"), chart("Force: second less first", "difference (N)"),
                             chart("Distance between the two ways", "distance (mm)")};
   charts[0].curves = {{.label = first, .x = comparison.along_mm, .y = comparison.first_n},
-                      {.label = second, .x = comparison.along_mm, .y = comparison.second_n, .colour = colours::orange}};
+                      {.label = second, .x = comparison.along_mm, .y = comparison.second_n, .color = colors::orange}};
   charts[0].y.minimum = 0;
-  charts[1].curves = {{.label = "", .x = comparison.along_mm, .y = difference, .colour = colours::vermilion}};
-  charts[2].curves = {{.label = "", .x = comparison.along_mm, .y = comparison.apart_mm, .colour = colours::green}};
+  charts[1].curves = {{.label = "", .x = comparison.along_mm, .y = difference, .color = colors::vermilion}};
+  charts[2].curves = {{.label = "", .x = comparison.along_mm, .y = comparison.apart_mm, .color = colors::green}};
   charts[2].y.minimum = 0;
   charts[2].y.maximum = std::max(0.5, 1.08 * comparison.most_apart_mm);
   return charts;

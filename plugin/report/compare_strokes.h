@@ -22,7 +22,7 @@ struct Comparison {
   double mean_difference_n = 0;           ///< mean of its size over the way
 };
 
-/// The two ways are cut into steps of half a millimetre of the hand, which is more than it trembles, so that neither
+/// The two ways are cut into steps of half a millimeter of the hand, which is more than it trembles, so that neither
 /// speed nor rest counts, and coupled in their order
 /// so that the sum of the squared distances of what is coupled is least (dynamic time warping: Sakoe and Chiba, IEEE
 /// Trans. ASSP 26, 1978). The force of a step is the mean over its frames; of several steps of the second that are

@@ -15,8 +15,8 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr std::array boundary_colours{colours::vermilion, colours::blue,   colours::green,
-                                      colours::purple,    colours::orange, colours::sky};
+constexpr std::array boundary_colors{colors::vermilion, colors::blue,   colors::green,
+                                      colors::purple,    colors::orange, colors::sky};
 
 glm::dvec3 vector_of(const double (&from)[3]) {
   return {from[0], from[1], from[2]};
@@ -46,7 +46,7 @@ Tracks tracks_of(const Recording& recording, const modes::Plan& plan) {
 SliceView view_of(const Tracks& tracks, const std::string& unit, const io::FieldSource& source) {
   const glm::dvec3 size = tracks.high - tracks.low;
   SliceView view;
-  view.centre_mm = 0.5 * (tracks.low + tracks.high);
+  view.center_mm = 0.5 * (tracks.low + tracks.high);
   view.extent_mm = std::max(60.0, 2.2 * std::max({size.x, size.y, size.z}));
   if (size.z <= size.x && size.z <= size.y) {
     view.right = {1, 0, 0};
@@ -69,7 +69,7 @@ SliceView view_of(const Tracks& tracks, const std::string& unit, const io::Field
   for (int n = 0; n < 4096; ++n) {
     const glm::dvec2 at{(n % 64) / 63.0 - 0.5, (n / 64) / 63.0 - 0.5};  // NOLINT: whole rows are meant
     const io::Sample sample =
-        source.sample(view.centre_mm + view.extent_mm * (at.x * view.right + at.y * view.down), io::FieldSet::value);
+        source.sample(view.center_mm + view.extent_mm * (at.x * view.right + at.y * view.down), io::FieldSet::value);
     if (sample.inside) {
       low = std::min(low, sample.value);
       high = std::max(high, sample.value);
@@ -93,9 +93,9 @@ void write_slice(const Tracks& tracks, const SliceView& view, const io::FieldSou
       last = tracks.probe_mm[n];
     }
   }
-  const std::array shown{Track{"probe: the stylus's tip", tracks.probe_mm, colours::orange, 2},
-                         Track{"proxy: what is felt there", tracks.proxy_mm, colours::sky, 2},
-                         Track{"force on the hand", {}, colours::green, 2}};
+  const std::array shown{Track{"probe: the stylus's tip", tracks.probe_mm, colors::orange, 2},
+                         Track{"proxy: what is felt there", tracks.proxy_mm, colors::sky, 2},
+                         Track{"force on the hand", {}, colors::green, 2}};
   write_slice_png(source, view, shown, arrows, "Path of the stylus through the scan", file);
 }
 
@@ -111,9 +111,9 @@ void write_force_depth(const Recording& recording, const Tracks& tracks, const S
   const glm::dvec3 origin = summary.holds.empty() ? tracks.probe_mm.front() : summary.holds.front().contact_mm;
   const auto depth_of = [&](const glm::dvec3& point) { return glm::dot(point - origin, inward); };
 
-  Curve in{.label = "force, going in", .x = {}, .y = {}, .colour = colours::vermilion, .width = 1.5};
-  Curve out{.label = "force, coming out", .x = {}, .y = {}, .colour = colours::sky, .width = 1.5};
-  Curve value{.label = "value at the proxy", .x = {}, .y = {}, .colour = colours::blue, .width = 1.5};
+  Curve in{.label = "force, going in", .x = {}, .y = {}, .color = colors::vermilion, .width = 1.5};
+  Curve out{.label = "force, coming out", .x = {}, .y = {}, .color = colors::sky, .width = 1.5};
+  Curve value{.label = "value at the proxy", .x = {}, .y = {}, .color = colors::blue, .width = 1.5};
   const auto deepest = std::max_element(tracks.probe_mm.begin(), tracks.probe_mm.end(),
                                         [&](const auto& a, const auto& b) { return depth_of(a) < depth_of(b); });
   const auto turn = static_cast<std::size_t>(deepest - tracks.probe_mm.begin());
@@ -131,7 +131,7 @@ void write_force_depth(const Recording& recording, const Tracks& tracks, const S
       named.push_back(hold.mode);
       marks.push_back({.at = depth_of(hold.contact_mm),
                        .label = fmt::format("{}: {:.0f} {}", display_name(scene, hold.mode), hold.value, unit),
-                       .colour = boundary_colours[(named.size() - 1) % boundary_colours.size()]});
+                       .color = boundary_colors[(named.size() - 1) % boundary_colors.size()]});
     }
   }
   const std::array panels{Chart{"Force against depth", {"depth of the probe (mm)"}, {"force (N)"}, {in, out}, marks},
@@ -145,7 +145,7 @@ void write_force_depth(const Recording& recording, const Tracks& tracks, const S
 
 void write_force_time(const Recording& recording, const modes::Scene& scene, const std::filesystem::path& file) {
   std::vector<Curve> by_mode(scene.modes.size());
-  Curve sent{.label = "sent to the device", .x = {}, .y = {}, .colour = colours::black, .width = 1.6};
+  Curve sent{.label = "sent to the device", .x = {}, .y = {}, .color = colors::black, .width = 1.6};
   std::size_t share = 0;
   for (const Frame& frame : recording.frames) {
     sent.x.push_back(frame.time_s);
@@ -165,7 +165,7 @@ void write_force_time(const Recording& recording, const modes::Scene& scene, con
   Chart chart{"Force over time, and which mode made it", {"time (s)"}, {"force (N)"}, {sent}, {}};
   for (std::size_t mode = 0; mode < by_mode.size(); ++mode) {
     by_mode[mode].label = display_name(scene, mode);
-    by_mode[mode].colour = boundary_colours[mode % boundary_colours.size()];
+    by_mode[mode].color = boundary_colors[mode % boundary_colors.size()];
     chart.curves.push_back(by_mode[mode]);
   }
   write_png(chart, file);
@@ -175,7 +175,7 @@ void write_tick_time(const Recording& recording, const Summary& summary, const s
   // Twenty bins a decade from 0.1 us to 10 ms.
   constexpr int bins = 100;
   Curve counts{
-      .label = "", .x = {}, .y = std::vector<double>(bins + 1, 0), .colour = colours::sky, .style = Curve::Style::bars};
+      .label = "", .x = {}, .y = std::vector<double>(bins + 1, 0), .color = colors::sky, .style = Curve::Style::bars};
   for (int bin = 0; bin <= bins; ++bin) {
     counts.x.push_back(0.1 * std::pow(10.0, bin / 20.0));
   }
@@ -187,7 +187,7 @@ void write_tick_time(const Recording& recording, const Summary& summary, const s
   Chart chart{"Time of a tick", {"time (us)", true, 0.1, 1e4}, {"ticks", true, 0.5}, {counts}, {}};
   chart.marks = {{.at = summary.tick_us.median, .label = fmt::format("median {:.2f} us", summary.tick_us.median)},
                  {.at = summary.tick_us.p999, .label = fmt::format("99.9 % {:.2f} us", summary.tick_us.p999)},
-                 {.at = 1000, .label = "1 ms: the tick's period", .colour = colours::vermilion}};
+                 {.at = 1000, .label = "1 ms: the tick's period", .color = colors::vermilion}};
   write_png(chart, file);
 }
 

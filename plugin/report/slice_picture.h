@@ -15,7 +15,7 @@ namespace palpate::plugin {
 /// The plane shown, and how bright. `right` and `down` are the screen's directions in the patient: unit and
 /// perpendicular.
 struct SliceView {
-  glm::dvec3 centre_mm{0};
+  glm::dvec3 center_mm{0};
   glm::dvec3 right{1, 0, 0};
   glm::dvec3 down{0, 1, 0};
   double extent_mm = 100;  ///< shown across the picture's width
@@ -26,7 +26,7 @@ struct SliceView {
 struct Track {
   std::string label;
   std::vector<glm::dvec3> points_mm;
-  Colour colour;
+  Color color;
   double width = 2;
 };
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-Colour colour_of(const modes::Scene& scene, std::size_t mode) {
-  return colour_from(scene.modes[mode].color, colours::vermilion);
+Color color_of(const modes::Scene& scene, std::size_t mode) {
+  return color_from(scene.modes[mode].color, colors::vermilion);
 }
 
 std::vector<double> depths_of(const Profile& profile) {
@@ -37,10 +37,10 @@ std::string who_pushes(const Profile& profile, const StrokePoint& point) {
 /// A curve for each boundary and kind of primitive that pushes, and one for where none does. Of one boundary the second
 /// kind is dashed.
 std::vector<Curve> force_curves(const Profile& profile, const std::vector<double>& depths) {
-  const auto empty = [&](const std::string& label, const Colour& colour) {
-    return Curve{.label = label, .x = depths, .y = std::vector<double>(depths.size(), not_a_number), .colour = colour};
+  const auto empty = [&](const std::string& label, const Color& color) {
+    return Curve{.label = label, .x = depths, .y = std::vector<double>(depths.size(), not_a_number), .color = color};
   };
-  Curve none = empty("", colours::grey);
+  Curve none = empty("", colors::gray);
   std::map<std::pair<std::size_t, solver::PrimitiveType>, Curve> by_pusher;
   for (std::size_t n = 0; n < depths.size(); ++n) {
     const StrokePoint& point = profile.stroke[n];
@@ -52,7 +52,7 @@ std::vector<Curve> force_curves(const Profile& profile, const std::vector<double
         const bool second = std::any_of(by_pusher.begin(), by_pusher.end(),
                                         [&](const auto& other) { return other.first.first == pusher.first; });
         found =
-            by_pusher.emplace(pusher, empty(who_pushes(profile, point), colour_of(profile.scene, pusher.first))).first;
+            by_pusher.emplace(pusher, empty(who_pushes(profile, point), color_of(profile.scene, pusher.first))).first;
         found->second.dashed = second;
       }
       curve = &found->second;
@@ -77,7 +77,7 @@ std::string tissue_of(const Profile& profile, double value) {
 }
 
 std::vector<Band> tissues_crossed(const Profile& profile, const std::vector<double>& depths) {
-  constexpr Colour darker{0.93, 0.93, 0.93}, lighter{0.98, 0.98, 0.98};
+  constexpr Color darker{0.93, 0.93, 0.93}, lighter{0.98, 0.98, 0.98};
   std::vector<Band> bands;
   std::string last;
   for (std::size_t n = 0; n < depths.size(); ++n) {
@@ -108,9 +108,9 @@ Profile thinned(const Profile& profile, std::size_t most) {
 
 std::vector<Chart> charts_of(const Profile& profile) {
   const std::vector<double> depths = depths_of(profile);
-  Curve passed{.label = "at the probe", .x = depths, .y = {}, .colour = colours::blue};
-  Curve held{.label = "at the proxy", .x = depths, .y = {}, .colour = colours::orange, .width = 1.2};
-  Curve ahead{.label = "", .x = depths, .y = {}, .colour = colours::green};
+  Curve passed{.label = "at the probe", .x = depths, .y = {}, .color = colors::blue};
+  Curve held{.label = "at the proxy", .x = depths, .y = {}, .color = colors::orange, .width = 1.2};
+  Curve ahead{.label = "", .x = depths, .y = {}, .color = colors::green};
   for (const StrokePoint& point : profile.stroke) {
     passed.y.push_back(point.value_passed);
     held.y.push_back(point.value);

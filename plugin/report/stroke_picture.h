@@ -29,7 +29,7 @@ Profile thinned(const Profile& profile, std::size_t most);
 /// How far the probe has come along the stroke, mm.
 double depth_of(const Profile& profile, std::size_t point);
 
-/// Force, in the colour of the boundary that pushes; value on the way and at the proxy, over the tissues crossed; how
+/// Force, in the color of the boundary that pushes; value on the way and at the proxy, over the tissues crossed; how
 /// far the probe is ahead of the proxy. All over the distance along the stroke, boundaries marked where they are met.
 std::vector<Chart> charts_of(const Profile& profile);
 

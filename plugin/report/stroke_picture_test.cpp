@@ -47,7 +47,7 @@ TEST(StrokePicture, CrossesTheTissuesInTheirOrder) {
   EXPECT_NEAR(bands[1].to, 14, 1e-9);
 }
 
-TEST(StrokePicture, ShowsEveryForceOnceInTheColourOfWhoPushes) {
+TEST(StrokePicture, ShowsEveryForceOnceInTheColorOfWhoPushes) {
   const Profile profile = through_the_skin();
   const std::vector<Curve> curves = charts_of(profile).front().curves;
   ASSERT_GT(curves.size(), 1U);
@@ -61,8 +61,8 @@ TEST(StrokePicture, ShowsEveryForceOnceInTheColourOfWhoPushes) {
       ++shown;
       if (profile.stroke[n].boundary &&
           curve.label.starts_with(display_name(profile.scene, *profile.stroke[n].boundary))) {
-        EXPECT_EQ(curve.colour.red,
-                  colour_from(profile.scene.modes[*profile.stroke[n].boundary].color, colours::vermilion).red);
+        EXPECT_EQ(curve.color.red,
+                  color_from(profile.scene.modes[*profile.stroke[n].boundary].color, colors::vermilion).red);
       }
     }
     EXPECT_GE(shown, 1U) << "point " << n;
@@ -99,10 +99,10 @@ TEST(StrokePicture, ItsTableHasALineAFrame) {
               ThrowsMessage<std::runtime_error>(HasSubstr("/nowhere/profile.csv")));
 }
 
-TEST(StrokePicture, ColoursAreReadOrReplaced) {
-  EXPECT_EQ(colour_from("#ff8000", {}).green, 128 / 255.0);
+TEST(StrokePicture, ColorsAreReadOrReplaced) {
+  EXPECT_EQ(color_from("#ff8000", {}).green, 128 / 255.0);
   for (const char* const wrong : {"", "red", "#ff80", "#gggggg", "#ff80000"}) {
-    EXPECT_EQ(colour_from(wrong, colours::blue).blue, colours::blue.blue) << wrong;
+    EXPECT_EQ(color_from(wrong, colors::blue).blue, colors::blue.blue) << wrong;
   }
 }
 

@@ -25,11 +25,11 @@ constexpr int samples = 260;  // of a slice, along each side
 constexpr double legend_row = 22;
 constexpr double axis_room = 86;  // left of the histogram
 
-Colour colour_of(const std::string& hex) {
+Color color_of(const std::string& hex) {
   const auto part = [&](std::size_t at) {
     return static_cast<double>(std::strtol(hex.substr(at, 2).c_str(), nullptr, 16)) / 255;
   };
-  return hex.size() == 7 ? Colour{part(1), part(3), part(5)} : colours::grey;
+  return hex.size() == 7 ? Color{part(1), part(3), part(5)} : colors::gray;
 }
 
 /// A slice through the scan's middle, as radiologists hang it.
@@ -40,7 +40,7 @@ struct Slice {
 constexpr std::array slices{Slice{"axial, from the feet", {1, 0, 0}, {0, 1, 0}},
                             Slice{"sagittal, from the left", {0, 1, 0}, {0, 0, -1}}};
 
-/// What a slice shows: the value in grey, and in colour the boundary that is strongest there.
+/// What a slice shows: the value in gray, and in color the boundary that is strongest there.
 class Painter {
  public:
   Painter(const modes::Suggestion& suggestion, const std::shared_ptr<const io::Volume>& volume)
@@ -74,7 +74,7 @@ class Painter {
     if (!sample.inside) {
       return {0, 0, 0};
     }
-    const double grey = std::clamp((sample.value - low_) / (high_ - low_), 0.0, 1.0) * 0.75;
+    const double gray = std::clamp((sample.value - low_) / (high_ - low_), 0.0, 1.0) * 0.75;
     const modes::Mode* felt = nullptr;
     double strongest = 0;
     for (const modes::ActiveMode& mode : felt_.plan->modes) {
@@ -84,14 +84,14 @@ class Painter {
         felt = &suggestion_.scene.modes[mode.scene_index];
       }
     }
-    Colour colour{grey, grey, grey};
+    Color color{gray, gray, gray};
     if (felt != nullptr) {
-      const Colour own = colour_of(felt->color);
+      const Color own = color_of(felt->color);
       const double part = std::min(1.0, strongest);
-      colour = {grey + part * (own.red - grey), grey + part * (own.green - grey), grey + part * (own.blue - grey)};
+      color = {gray + part * (own.red - gray), gray + part * (own.green - gray), gray + part * (own.blue - gray)};
     }
     const auto byte = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
-    return {byte(colour.red), byte(colour.green), byte(colour.blue)};
+    return {byte(color.red), byte(color.green), byte(color.blue)};
   }
 
   const modes::Suggestion& suggestion_;
@@ -112,11 +112,11 @@ void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, c
     }
   }
   const double most = std::log1p(*std::max_element(counts.begin(), counts.end()));
-  std::vector<unsigned char> grey(counts.size());
-  std::transform(counts.begin(), counts.end(), grey.begin(), [&](double count) {
+  std::vector<unsigned char> gray(counts.size());
+  std::transform(counts.begin(), counts.end(), gray.begin(), [&](double count) {
     return static_cast<unsigned char>(255 - std::lround(235 * std::log1p(count) / std::max(most, 1.0)));
   });
-  canvas.grey_image(grey, cells, cells, corner, {side, side});
+  canvas.gray_image(gray, cells, cells, corner, {side, side});
   const auto x_of = [&](double value) {
     return corner.x + side * (value - edges.values.low) / (edges.values.high - edges.values.low);
   };
@@ -124,16 +124,16 @@ void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, c
   for (const modes::Tissue& tissue : suggestion.scene.tissues) {
     if (std::isfinite(tissue.high)) {
       canvas.line(std::array{Point{x_of(tissue.high), corner.y}, Point{x_of(tissue.high), corner.y + side}},
-                  colours::grey, 1, true);
+                  colors::gray, 1, true);
       canvas.line(std::array{Point{corner.x, y_of(tissue.high)}, Point{corner.x + side, y_of(tissue.high)}},
-                  colours::grey, 1, true);
+                  colors::gray, 1, true);
     }
   }
   for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
-    const Colour colour = colour_of(suggestion.scene.modes[boundary.mode].color);
+    const Color color = color_of(suggestion.scene.modes[boundary.mode].color);
     const Point at{x_of(suggestion.typical[boundary.low]), y_of(suggestion.typical[boundary.high])};
-    canvas.disc(at, 9, colours::white);
-    canvas.disc(at, 7, colour);
+    canvas.disc(at, 9, colors::white);
+    canvas.disc(at, 7, color);
   }
   // Tissues that are much alike: every other number stands a row farther out.
   constexpr double widest = 44, highest = 14;  // pixels of a number
@@ -144,14 +144,14 @@ void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, c
     const double step = t == 0 ? side : at.x - x_of(suggestion.typical[t - 1]);
     out_x = !out_x && step < widest;
     out_y = !out_y && step < highest;
-    canvas.text({at.x, corner.y + side + (out_x ? 30 : 16)}, number, 12, colours::black, Anchor::centre);
-    canvas.text({corner.x - (out_y ? widest : 6), at.y + 4}, number, 12, colours::black, Anchor::right);
+    canvas.text({at.x, corner.y + side + (out_x ? 30 : 16)}, number, 12, colors::black, Anchor::center);
+    canvas.text({corner.x - (out_y ? widest : 6), at.y + 4}, number, 12, colors::black, Anchor::right);
   }
   const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
   canvas.text({corner.x + side / 2, corner.y + side + 50}, "value on the lower side of a boundary" + in_unit, 13,
-              colours::black, Anchor::centre);
-  canvas.text({corner.x - axis_room, corner.y + side / 2}, "value on the higher side" + in_unit, 13, colours::black,
-              Anchor::centre, true);
+              colors::black, Anchor::center);
+  canvas.text({corner.x - axis_room, corner.y + side / 2}, "value on the higher side" + in_unit, 13, colors::black,
+              Anchor::center, true);
   canvas.text(corner + Point{0, -8}, "which pairs of values boundaries lie between", 14);
 }
 
@@ -161,7 +161,7 @@ void write_suggestion_png(const modes::Suggestion& suggestion, const std::shared
                           const std::filesystem::path& file) {
   const auto rows = static_cast<double>(suggestion.boundaries.size());
   Canvas canvas(static_cast<int>(3 * side + 5 * margin + axis_room),
-                static_cast<int>(header + side + 3 * margin + 20 + legend_row * std::max(2.0, rows)), colours::white);
+                static_cast<int>(header + side + 3 * margin + 20 + legend_row * std::max(2.0, rows)), colors::white);
   const Painter painter(suggestion, volume);
   Point corner{margin, header};
   for (const Slice& slice : slices) {
@@ -174,7 +174,7 @@ void write_suggestion_png(const modes::Suggestion& suggestion, const std::shared
   double y = header + side + 2 * margin + 8;
   for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
     const modes::Mode& mode = suggestion.scene.modes[boundary.mode];
-    canvas.rectangle({margin, y - 12}, {28, 14}, colour_of(mode.color));
+    canvas.rectangle({margin, y - 12}, {28, 14}, color_of(mode.color));
     canvas.text({margin + 38, y},
                 fmt::format("{}: felt at {:.0f}{}{}; {:.0f} % of what lies at boundaries", mode.name, boundary.middle,
                             volume->unit.empty() ? "" : " ", volume->unit, 100 * boundary.share),

@@ -13,7 +13,7 @@
 
 namespace palpate::plugin {
 
-/// Corners of the box around all voxel centres, patient space, mm.
+/// Corners of the box around all voxel centers, patient space, mm.
 struct Box {
   glm::dvec3 low{0};
   glm::dvec3 high{0};

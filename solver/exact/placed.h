@@ -13,7 +13,7 @@
 
 namespace palpate::solver::internal {
 
-/// Not initialised by default: solvers keep short arrays of these on the stack.
+/// Not initialized by default: solvers keep short arrays of these on the stack.
 struct Placed {
   PrimitiveType type;
   double strength;       ///< N

@@ -54,7 +54,7 @@ struct PalpatePanel::Parts {
   void leave_views();
   void read_opacity();
   void study(const std::shared_ptr<const io::Volume>& volume);
-  void colour_views();
+  void color_views();
   void look(const Look& seen);
 
   PalpatePanel& dock;
@@ -143,7 +143,7 @@ void PalpatePanel::Parts::build() {
   });
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
     if (!proposing) edited = true;
-    if (pace == Pace::stepped) colour_views();
+    if (pace == Pace::stepped) color_views();
   });
   QObject::connect(&touching, &Touching::looked, &dock, [this](const Look& seen) { look(seen); });
   QObject::connect(&touching, &Touching::connection_changed, &dock, [this] {
@@ -257,14 +257,14 @@ void PalpatePanel::Parts::read_opacity() {
   }
 }
 
-void PalpatePanel::Parts::colour_views() {
+void PalpatePanel::Parts::color_views() {
   SCOPED_UNDO_EXCLUDE();  // follows from the scene
   if (!scan->source()) return;
   for (const ClinicalView& one : find_clinical_views()) {
     if (one.kind != ViewKind::volume) continue;
     pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
     if (!shown) continue;
-    colour_volume(*shown->getProxy(), model.scene(), low, high);
+    color_volume(*shown->getProxy(), model.scene(), low, high);
     one.view->render();
   }
   read_opacity();

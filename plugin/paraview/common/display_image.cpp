@@ -17,7 +17,7 @@
 namespace palpate::plugin {
 namespace {
 
-// The pitch of most slices: those without a gap behind them and without a neighbour too near.
+// The pitch of most slices: those without a gap behind them and without a neighbor too near.
 double median_pitch(const io::Geometry& geometry) {
   const auto& slices = geometry.slice_positions;
   std::vector<double> pitches;

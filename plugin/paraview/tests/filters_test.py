@@ -34,13 +34,13 @@ def distances(surface):
 
 
 def surfaces_are_in_the_right_place():
-    # The distance from the ball's centre, calculated at the points of the scan: what the filter makes of it is geometry alone.
+    # The distance from the ball's center, calculated at the points of the scan: what the filter makes of it is geometry alone.
     for name in ("straight", "oblique", "tilted"):
         voxel = min(core_info(phantom(name))["spacing_mm"])
-        from_centre = simple.Calculator(Input=open_series(phantom(name)), ResultArrayName="inside",
+        from_center = simple.Calculator(Input=open_series(phantom(name)), ResultArrayName="inside",
                                         Function="-sqrt(coordsX^2 + coordsY^2 + coordsZ^2)")
-        from_centre.UpdatePipeline()
-        worst, _, angle = distances(fetch(simple.PalpateTissueSurface(Input=from_centre, Values=[-RADIUS])))
+        from_center.UpdatePipeline()
+        worst, _, angle = distances(fetch(simple.PalpateTissueSurface(Input=from_center, Values=[-RADIUS])))
         print(f"  {name}: {worst:.4f} mm and {angle:.2f} degrees at most")
         expect(worst < 0.1 * voxel, f"{name}: a point is {worst:.3f} mm off, voxels of {voxel} mm")
         expect(angle < 3, f"{name}: a normal is {angle:.1f} degrees off")

@@ -50,7 +50,7 @@ class Picture:
         return [(x0, y0, x1, y1) for y0, y1 in rows for x0, x1 in columns]
 
     def mean(self, box, x, y):
-        """Mean grey of a patch about a place in a box, in parts of its size."""
+        """Mean gray of a patch about a place in a box, in parts of its size."""
         cx, cy = int(box[0] + x * (box[2] - box[0])), int(box[1] + y * (box[3] - box[1]))
         patch = [sum(self.at(cx + i, cy + j)) / 3 for i in range(-4, 5) for j in range(-4, 5)]
         return sum(patch) / len(patch)
@@ -113,7 +113,7 @@ def phantom(name, *arguments):
 def expect_brighter(picture, box, bright, dark, what):
     a, b = picture.mean(box, *bright), picture.mean(box, *dark)
     if not a > b + 60:
-        raise AssertionError(f"{what}: grey {a:.0f} at {bright}, {b:.0f} at {dark}")
+        raise AssertionError(f"{what}: gray {a:.0f} at {bright}, {b:.0f} at {dark}")
 
 
 def where_the_views_are():

@@ -48,7 +48,7 @@ SCENARIOS = [
     "a_series_is_picked",
     "a_bad_folder",
     "what_is_to_be_known_is_said",
-    "a_colour_is_chosen",
+    "a_color_is_chosen",
     "keys_step_in_the_views",
     "a_dragged_node_is_felt",
     "profile_follows_an_edit",

@@ -3,7 +3,7 @@
     xvfb-run -a pvpython plugin/paraview/tests/slice_speed.py build/bin \\
         build/lib/paraview-5.11/plugins/Palpate/Palpate.so build/plugin/paraview/tests/scratch
 
-The views are set up as the clinician's layout sets them up: ParaView's slice representation, a grey map, 300 x 300.
+The views are set up as the clinician's layout sets them up: ParaView's slice representation, a gray map, 300 x 300.
 """
 
 import time

@@ -69,7 +69,7 @@ class View:
         place = [LETTERS[found[n]][1] * float(found[n + 1]) for n in (1, 3, 5)]
         return place, None if found[7] is None else float(found[7])
 
-    def grey(self, at):
+    def gray(self, at):
         from paraview.vtk import vtkUnsignedCharArray
         pixels = vtkUnsignedCharArray()
         self.window.Render()
@@ -103,11 +103,11 @@ def expect_values_and_pixels_agree(name, view):
     seen = set()
     for (at, place, value), sample in zip(told, core):
         if sum(g * g for g in sample.get("gradient_per_mm", [1e9])) > 1:
-            continue  # at an edge the place as written, to a tenth of a millimetre, is not the pixel's
+            continue  # at an edge the place as written, to a tenth of a millimeter, is not the pixel's
         expect(value is not None and abs(value - sample["value"]) < 1, f"{name} at {place}: told {value}, core {sample}")
-        grey = 255 * min(max((value - LEVEL) / WIDTH + 0.5, 0), 1)
-        pixel = view.grey(at)
-        expect(max(abs(c - grey) for c in pixel) < 4, f"{name} at {at}: pixel {pixel} for {value} HU, not {grey:.0f}")
+        gray = 255 * min(max((value - LEVEL) / WIDTH + 0.5, 0), 1)
+        pixel = view.gray(at)
+        expect(max(abs(c - gray) for c in pixel) < 4, f"{name} at {at}: pixel {pixel} for {value} HU, not {gray:.0f}")
         seen.add(value)
     expect(len(seen) >= 2, f"{name}: only {seen} HU seen")
     print(f"{name}: {len(told)} places, values {sorted(seen)}")

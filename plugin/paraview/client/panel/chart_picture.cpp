@@ -14,7 +14,7 @@ namespace {
 constexpr ChartStyle axes_style{.left = 50, .right = 8, .top = 6, .bottom = 34, .text = 11, .titled = false};
 
 QImage drawn(const std::vector<Chart>& charts, int width, int height) {
-  Canvas canvas(width, height, colours::white);
+  Canvas canvas(width, height, colors::white);
   draw(canvas, charts, axes_style);
   return QImage(canvas.pixels().data(), width, height, 4 * width, QImage::Format_RGB32).copy();
 }

@@ -32,7 +32,7 @@ constexpr int at_rest_ms = 300;
 
 struct CurveEditor::Functions {
   vtkNew<vtkPiecewiseFunction> curve;  // 0 to 1, as the widget has it
-  vtkNew<vtkPVDiscretizableColorTransferFunction> colours;
+  vtkNew<vtkPVDiscretizableColorTransferFunction> colors;
   vtkNew<vtkCallbackCommand> modified;
 };
 
@@ -44,8 +44,8 @@ CurveEditor::CurveEditor(const QString& name, const QString& across, const QStri
   column->setSpacing(2);
   functions_->curve->AddPoint(0, 0);
   functions_->curve->AddPoint(1, 1);
-  functions_->colours->AddRGBPoint(0, 0.8, 0.8, 0.8);
-  functions_->colours->AddRGBPoint(1, 0.8, 0.8, 0.8);
+  functions_->colors->AddRGBPoint(0, 0.8, 0.8, 0.8);
+  functions_->colors->AddRGBPoint(1, 0.8, 0.8, 0.8);
   functions_->modified->SetClientData(this);
   functions_->modified->SetCallback(
       [](vtkObject*, unsigned long, void* self, void*) { static_cast<CurveEditor*>(self)->curve_modified(); });
@@ -54,7 +54,7 @@ CurveEditor::CurveEditor(const QString& name, const QString& across, const QStri
   widget_->setObjectName(name + QStringLiteral("Chart"));
   widget_->setMinimumHeight(110);
   widget_->setToolTip(tr("Drag a node; click for a new one; Delete takes the chosen one away; arrow keys move it."));
-  widget_->initialize(functions_->colours, false, functions_->curve, true);
+  widget_->initialize(functions_->colors, false, functions_->curve, true);
   widget_->installEventFilter(this);
   for (QWidget* const part : widget_->findChildren<QWidget*>()) part->installEventFilter(this);
   connect(widget_, &pqTransferFunctionWidget::currentPointChanged, this, [this] { show_node(); });
@@ -124,7 +124,7 @@ void CurveEditor::show_axes() {
   axes_->setToolTip(axes_->text());
 }
 
-void CurveEditor::set_curve(const modes::TransferFunction& curve, const QColor& colour) {
+void CurveEditor::set_curve(const modes::TransferFunction& curve, const QColor& color) {
   setting_ = true;
   interpolation_ = curve.interpolation();
   vtkPiecewiseFunction& shown = *functions_->curve;
@@ -136,9 +136,9 @@ void CurveEditor::set_curve(const modes::TransferFunction& curve, const QColor& 
     if (node.at > low && node.at < high) shown.AddPoint(node.at, std::clamp(node.value / top_, 0.0, 1.0));
   }
   shown.AddPoint(high, std::clamp(curve(high) / top_, 0.0, 1.0));
-  functions_->colours->RemoveAllPoints();
+  functions_->colors->RemoveAllPoints();
   for (const double at : {low, high}) {
-    functions_->colours->AddRGBPoint(at, colour.redF(), colour.greenF(), colour.blueF());
+    functions_->colors->AddRGBPoint(at, color.redF(), color.greenF(), color.blueF());
   }
   setting_ = false;
   widget_->render();
@@ -184,15 +184,15 @@ void CurveEditor::set_node(double at, double value) {
   const vtkIdType node = widget_->currentPoint();
   vtkPiecewiseFunction& shown = *functions_->curve;
   if (node < 0 || node >= shown.GetSize()) return;
-  double values[4], neighbour[4];
+  double values[4], neighbor[4];
   shown.GetNodeValue(static_cast<int>(node), values);
   const double gap = 1e-3 * (counts_.bins.high - counts_.bins.low);
   const bool is_end = node == 0 || node == shown.GetSize() - 1;
   if (!is_end) {
-    shown.GetNodeValue(static_cast<int>(node - 1), neighbour);
-    at = std::max(at, neighbour[0] + gap);
-    shown.GetNodeValue(static_cast<int>(node + 1), neighbour);
-    at = std::min(at, neighbour[0] - gap);
+    shown.GetNodeValue(static_cast<int>(node - 1), neighbor);
+    at = std::max(at, neighbor[0] + gap);
+    shown.GetNodeValue(static_cast<int>(node + 1), neighbor);
+    at = std::min(at, neighbor[0] - gap);
     values[0] = at;
   }
   values[1] = std::clamp(value / top_, 0.0, 1.0);

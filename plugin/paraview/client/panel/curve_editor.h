@@ -29,7 +29,7 @@ class CurveEditor : public QWidget {
   /// What it is drawn over, and the curve's greatest value.
   void set_frame(const Counts& counts, const QString& across, double top);
   /// Another curve from outside: does not tell of it.
-  void set_curve(const modes::TransferFunction& curve, const QColor& colour);
+  void set_curve(const modes::TransferFunction& curve, const QColor& color);
   modes::TransferFunction curve() const;
 
  signals:

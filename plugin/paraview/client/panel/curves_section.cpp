@@ -123,16 +123,16 @@ void CurvesSection::show_mode() {
   gate_->setVisible(gate != nullptr);
   if (!any) return;
   const modes::Mode& shown = scene.modes[mode()];
-  const QColor colour = colour_of(shown);
+  const QColor color = color_of(shown);
   const QString value = unit_.isEmpty() ? tr("value") : unit_;
   const QString gradient = unit_.isEmpty() ? tr("gradient per mm") : tr("%1 per mm").arg(unit_);
   const double top_n = std::max({scene.limits.force_n, shown.strength_n.maximum(), 0.1});
   strength_->set_frame(counts_of(shown.strength_of),
                        shown.strength_of == modes::Datum::gradient_magnitude ? gradient : value, top_n);
-  strength_->set_curve(shown.strength_n, colour);
+  strength_->set_curve(shown.strength_n, color);
   if (!gate) return;
   gate_->set_frame(study_->values, value, 1);
-  gate_->set_curve(gate->factor, colour);
+  gate_->set_curve(gate->factor, color);
 }
 
 void CurvesSection::use_preset(int index) {

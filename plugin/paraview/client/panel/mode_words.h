@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a mode of the scene is called and which colour it has, for people.
+/// What a mode of the scene is called and which color it has, for people.
 
 #include <QColor>
 #include <QString>
@@ -14,8 +14,8 @@ inline QString name_of(const modes::Scene& scene, std::size_t mode) {
   return QString::fromStdString(display_name(scene, mode));
 }
 
-/// Grey where it has none.
-inline QColor colour_of(const modes::Mode& mode) {
+/// Gray where it has none.
+inline QColor color_of(const modes::Mode& mode) {
   return mode.color.empty() ? QColor(128, 128, 128) : QColor(QString::fromStdString(mode.color));
 }
 

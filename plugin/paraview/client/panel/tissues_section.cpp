@@ -152,18 +152,18 @@ void TissuesSection::build_rows() {
                   [&](modes::Scene& s) { s.modes[n].enabled = checked; });
     });
     grid_->addWidget(on, row, 0);
-    auto* const colour = new QToolButton(rows_);
-    colour->setObjectName(QStringLiteral("palpateColour") + number);
-    colour->setFixedSize(18, 18);
-    colour->setToolTip(tr("Its colour, here and in the views"));
-    connect(colour, &QToolButton::clicked, this, [this, n] {
-      const QColor chosen = QColorDialog::getColor(colour_of(model_.scene().modes[n]), this, name_of(model_.scene(), n),
+    auto* const color = new QToolButton(rows_);
+    color->setObjectName(QStringLiteral("palpateColor") + number);
+    color->setFixedSize(18, 18);
+    color->setToolTip(tr("Its color, here and in the views"));
+    connect(color, &QToolButton::clicked, this, [this, n] {
+      const QColor chosen = QColorDialog::getColor(color_of(model_.scene().modes[n]), this, name_of(model_.scene(), n),
                                                    QColorDialog::DontUseNativeDialog);
       if (!chosen.isValid()) return;
-      model_.edit(tr("Colour %1").arg(name_of(model_.scene(), n)),
+      model_.edit(tr("Color %1").arg(name_of(model_.scene(), n)),
                   [&](modes::Scene& s) { s.modes[n].color = chosen.name().toStdString(); });
     });
-    grid_->addWidget(colour, row, 1);
+    grid_->addWidget(color, row, 1);
     auto* const name = new QLineEdit(rows_);
     name->setObjectName(QStringLiteral("palpateName") + number);
     name->setFrame(false);
@@ -214,8 +214,8 @@ void TissuesSection::show_values() {
     const modes::Mode& mode = scene.modes[shown_[row]];
     const QString number = QString::number(row);
     rows_->findChild<QCheckBox*>(QStringLiteral("palpateOn") + number)->setChecked(mode.enabled);
-    rows_->findChild<QToolButton*>(QStringLiteral("palpateColour") + number)
-        ->setStyleSheet(QStringLiteral("background: %1; border: 1px solid palette(dark)").arg(colour_of(mode).name()));
+    rows_->findChild<QToolButton*>(QStringLiteral("palpateColor") + number)
+        ->setStyleSheet(QStringLiteral("background: %1; border: 1px solid palette(dark)").arg(color_of(mode).name()));
     auto* const name = rows_->findChild<QLineEdit*>(QStringLiteral("palpateName") + number);
     if (!name->hasFocus() || name->text().isEmpty()) {
       name->setText(name_of(scene, shown_[row]));

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The panel's second section: the boundaries that can be felt, each with its switch, colour, name and strength.
+/// The panel's second section: the boundaries that can be felt, each with its switch, color, name and strength.
 
 #include <QWidget>
 

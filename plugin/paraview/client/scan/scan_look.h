@@ -1,6 +1,6 @@
 #pragma once
 
-/// How a scan is to look: grey windows for its slices, colours and opacity for its volume, from what it is and how its
+/// How a scan is to look: gray windows for its slices, colors and opacity for its volume, from what it is and how its
 /// values are spread.
 
 #include <optional>
@@ -37,7 +37,7 @@ std::vector<NamedWindow> windows_for(const Values& values);
 /// As vtkColorTransferFunction (value, red, green, blue) and vtkPiecewiseFunction (value, opacity, 0.5, 0) take them.
 struct VolumeLook {
   const char* name = "";
-  std::vector<double> colours;
+  std::vector<double> colors;
   std::vector<double> opacity;
 };
 

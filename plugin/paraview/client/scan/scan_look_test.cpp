@@ -119,7 +119,7 @@ TEST(VolumeLook, AscendsWhateverTheValuesAre) {
   for (const Values& values : {mr({}), mr(std::vector<double>(101, 7.0)), mr(made_of({{60, 25}, {40, 300}})), ct({})}) {
     const VolumeLook look = volume_look_for(values);
     for (std::size_t n = 4; n < look.opacity.size(); n += 4) EXPECT_GT(look.opacity[n], look.opacity[n - 4]);
-    for (std::size_t n = 4; n < look.colours.size(); n += 4) EXPECT_GT(look.colours[n], look.colours[n - 4]);
+    for (std::size_t n = 4; n < look.colors.size(); n += 4) EXPECT_GT(look.colors[n], look.colors[n - 4]);
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace palpate::plugin {
 
-/// The middle slice of a series, small and grey, in the series' own window or else that of its middle 98 percent. Empty
+/// The middle slice of a series, small and gray, in the series' own window or else that of its middle 98 percent. Empty
 /// where it cannot be read.
 QImage thumbnail_of(const io::Series& series);
 

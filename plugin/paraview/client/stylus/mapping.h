@@ -25,7 +25,7 @@ glm::dmat3 rotation_of(const Eye& eye);
 modes::WorkspaceSettings fit_scan(const modes::WorkspaceSettings& now);
 /// What the view shows in reach, turned as the view is: its height is the device's.
 modes::WorkspaceSettings fit_view(const Eye& eye, const glm::dvec3& half_extent_m);
-/// A millimetre of the patient for each of the hand, about what is in the middle now.
+/// A millimeter of the patient for each of the hand, about what is in the middle now.
 modes::WorkspaceSettings one_to_one(const modes::Workspace& now);
 
 }  // namespace palpate::plugin

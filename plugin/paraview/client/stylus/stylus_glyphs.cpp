@@ -45,8 +45,8 @@ glm::dmat3 standing_along(const glm::dvec3& direction) {
 }
 
 glm::dvec3 rgb_of(const modes::Scene& scene, std::uint32_t mode) {
-  const QColor colour = mode < scene.modes.size() ? colour_of(scene.modes[mode]) : QColor(Qt::gray);
-  return {colour.redF(), colour.greenF(), colour.blueF()};
+  const QColor color = mode < scene.modes.size() ? color_of(scene.modes[mode]) : QColor(Qt::gray);
+  return {color.redF(), color.greenF(), color.blueF()};
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ struct StylusGlyphs::Part {
     }
     actor->VisibilityOn();
   }
-  void colour(const glm::dvec3& rgb, double opacity) {
+  void color(const glm::dvec3& rgb, double opacity) {
     actor->GetProperty()->SetColor(rgb.x, rgb.y, rgb.z);
     actor->GetProperty()->SetOpacity(opacity);
   }
@@ -149,14 +149,14 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
   const glm::dmat3 upright(1);
   const auto sized = [&](double pixels) { return glm::dvec3(pixels * mm_per_pixel); };
   stylus_->place(look.probe_mm, upright, sized(stylus_pixels));
-  stylus_->colour({1, 1, 1}, opacity);
+  stylus_->color({1, 1, 1}, opacity);
   proxy_->place(look.proxy_mm, upright, sized(proxy_pixels));
-  proxy_->colour({1, 0.85, 0.2}, opacity);
+  proxy_->color({1, 0.85, 0.2}, opacity);
   if (const glm::dvec3 spring = look.proxy_mm - look.probe_mm; glm::length(spring) > mm_per_pixel) {
     const double thin = spring_pixels * mm_per_pixel;
     spring_->place((look.proxy_mm + look.probe_mm) / 2.0, standing_along(glm::normalize(spring)),
                    {thin, glm::length(spring), thin});
-    spring_->colour({1, 1, 1}, opacity);
+    spring_->color({1, 1, 1}, opacity);
   }
   const glm::dvec3 force_n = look.workspace.direction_to_patient(vector_of(look.frame.sent_n));
   if (const double newtons = glm::length(force_n); newtons > 0.02) {
@@ -165,29 +165,29 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
     const glm::dmat3 axes = standing_along(along);
     force_->place(look.proxy_mm + along * length / 2.0, axes, {thick, length, thick});
     tip_->place(look.proxy_mm + along * length, axes, sized(cone_pixels));
-    force_->colour({0.25, 0.8, 1}, opacity);
-    tip_->colour({0.25, 0.8, 1}, opacity);
+    force_->color({0.25, 0.8, 1}, opacity);
+    tip_->color({0.25, 0.8, 1}, opacity);
   }
   std::size_t planes = 0, rods = 0, balls = 0;
   for (const Share& share : look.shares) {
     const glm::dvec3 acts = look.workspace.direction_to_patient(vector_of(share.force_n));
     const double newtons = glm::length(acts);
     if (newtons < 0.01 || share.mode >= modes::of_scene_left) continue;
-    const glm::dvec3 colour = rgb_of(scene, share.mode);
+    const glm::dvec3 color = rgb_of(scene, share.mode);
     switch (static_cast<solver::PrimitiveType>(share.type)) {
       case solver::PrimitiveType::plane:
         if (planes < planes_.size()) {
           const glm::dmat3 axes = standing_along(acts / newtons);
           Part& plane = *planes_[planes++];
           plane.place(look.proxy_mm, {axes[0], axes[2], axes[1]}, sized(disc_pixels));
-          plane.colour(colour, 0.55 * opacity);
+          plane.color(color, 0.55 * opacity);
         }
         break;
       case solver::PrimitiveType::point:
         if (balls < balls_.size()) {
           Part& point = *balls_[balls++];
           point.place(look.proxy_mm, upright, sized(proxy_pixels * 1.6));
-          point.colour(colour, 0.4 * opacity);
+          point.color(color, 0.4 * opacity);
         }
         break;
       case solver::PrimitiveType::line:
@@ -197,7 +197,7 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
           const double thick = 2 * spring_pixels * mm_per_pixel;
           Part& line = *rods_[rods++];
           line.place(look.proxy_mm, standing_along(acts / newtons), {thick, rod_pixels * mm_per_pixel, thick});
-          line.colour(colour, 0.8 * opacity);
+          line.color(color, 0.8 * opacity);
         }
         break;
     }

@@ -21,9 +21,9 @@
 namespace palpate::plugin {
 namespace {
 
-/// Colours that the colour-blind can tell apart, too; and the state is always there in words.
+/// Colors that the color-blind can tell apart, too; and the state is always there in words.
 struct Lamp {
-  const char* colour;
+  const char* color;
   QString text;
 };
 
@@ -177,7 +177,7 @@ void StylusSection::build_workspace() {
         held ? touching_.live().specification() : device::SimulatedStylus().specification();
     return fit_view(eye_(), stylus.workspace_half_extent);
   });
-  add(2, "palpateOneToOne", tr("1:1"), tr("A millimetre of the patient for each of the hand."),
+  add(2, "palpateOneToOne", tr("1:1"), tr("A millimeter of the patient for each of the hand."),
       [this] { return one_to_one(touching_.live().plan() ? touching_.live().plan()->workspace : modes::Workspace{}); });
   row->addStretch(1);
   clutch_ = new QPushButton(tr("Clutch"), this);
@@ -287,7 +287,7 @@ void StylusSection::show_look(const Look& look) {
   const Lamp lamp = lamp_of(look);
   if (state_->text() != lamp.text) {
     state_->setText(lamp.text);
-    lamp_->setStyleSheet(QStringLiteral("background: %1; border-radius: 6px").arg(QLatin1String(lamp.colour)));
+    lamp_->setStyleSheet(QStringLiteral("background: %1; border-radius: 6px").arg(QLatin1String(lamp.color)));
   }
   const bool fault = look.connected && look.fresh && fault_of(look.frame) != device::Fault::none;
   const bool idle = look.connected && look.fresh && !look.clutched && state_of(look.frame) == device::State::idle;

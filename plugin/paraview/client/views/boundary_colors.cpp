@@ -16,7 +16,7 @@ constexpr double closest = 1e-3;  // of the whole range: nodes nearer to each ot
 
 struct Coat {
   double value = 0;
-  QColor colour;
+  QColor color;
   double opacity = 0;
 };
 
@@ -34,16 +34,16 @@ double felt_value(const modes::Mode& mode) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-void colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high) {
+void color_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high) {
   std::vector<Coat> coats;
   for (const modes::Mode& mode : scene.modes) {
     const double value = felt_value(mode);
     if (mode.type != "surface" || !mode.enabled || !(value > low && value < high)) continue;
-    coats.push_back({value, colour_of(mode), 0});
+    coats.push_back({value, color_of(mode), 0});
   }
-  vtkSMProxy* const colours = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
+  vtkSMProxy* const colors = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
   vtkSMProxy* const opacity = vtkSMPropertyHelper(&representation, "ScalarOpacityFunction").GetAsProxy();
-  if (coats.empty() || !colours || !opacity) return;
+  if (coats.empty() || !colors || !opacity) return;
   std::sort(coats.begin(), coats.end(), [](const Coat& a, const Coat& b) { return a.value < b.value; });
   // The outermost is a veil, the innermost solid, so that each is seen through those before it.
   for (std::size_t n = 0; n < coats.size(); ++n) {
@@ -72,12 +72,12 @@ void colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double
     const double from = n == 0 ? low : coat.value - ramp;
     for (const double at : {from, last ? high : coats[n + 1].value - 1.1 * ramp}) {
       if (!rgb.empty() && at <= rgb[rgb.size() - 4]) continue;
-      rgb.insert(rgb.end(), {at, coat.colour.redF(), coat.colour.greenF(), coat.colour.blueF()});
+      rgb.insert(rgb.end(), {at, coat.color.redF(), coat.color.greenF(), coat.color.blueF()});
     }
   }
-  vtkSMPropertyHelper(colours, "RGBPoints").Set(rgb.data(), static_cast<unsigned>(rgb.size()));
+  vtkSMPropertyHelper(colors, "RGBPoints").Set(rgb.data(), static_cast<unsigned>(rgb.size()));
   vtkSMPropertyHelper(opacity, "Points").Set(points.data(), static_cast<unsigned>(points.size()));
-  colours->UpdateVTKObjects();
+  colors->UpdateVTKObjects();
   opacity->UpdateVTKObjects();
 }
 

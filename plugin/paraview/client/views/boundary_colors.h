@@ -1,6 +1,6 @@
 #pragma once
 
-/// The boundaries' colours in the volume's rendering: each as a thin coat where it is felt.
+/// The boundaries' colors in the volume's rendering: each as a thin coat where it is felt.
 
 #include <vector>
 
@@ -15,9 +15,9 @@ namespace palpate::plugin {
 /// such gate.
 double felt_value(const modes::Mode& mode);
 
-/// Colours and opacity of the volume's representation for those boundaries of the scene that are switched on; leaves
+/// Colors and opacity of the volume's representation for those boundaries of the scene that are switched on; leaves
 /// them as they are where there is none.
-void colour_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high);
+void color_volume(vtkSMProxy& representation, const modes::Scene& scene, double low, double high);
 
 /// The opacity of a volume's representation as it is shown now, for each mm of the patient.
 std::vector<OpacityNode> opacity_of(vtkSMProxy& representation);

@@ -157,7 +157,7 @@ void ClinicalViews::show_point(const glm::dvec3& place) {
 
 void ClinicalViews::set_window(const Window& window) {
   window_->window = window;
-  if (window_->grey_map) plugin::set_window(*window_->grey_map, window);
+  if (window_->gray_map) plugin::set_window(*window_->gray_map, window);
   refresh();
 }
 
@@ -197,16 +197,16 @@ void ClinicalViews::show(pqPipelineSource& source) {
 
   prepare(image, lattice);
   window_->window = windows_.front().window;
-  plugin::set_window(*window_->grey_map, window_->window);
+  plugin::set_window(*window_->gray_map, window_->window);
   for (const auto& [plane, kind, cell] : places) {
     pqRenderView& view = *make_view(server, kind);
     layout->AssignView(cell, view.getViewProxy());
     vtkSMProxy& shown = show_as("Slice", image, view, lattice.array.c_str());
     const Sight sight = sight_of(plane, lattice.directions);
     vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight.index_axis));
-    vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->grey_map);
+    vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->gray_map);
     vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
-        .Set(vtkSMPropertyHelper(window_->grey_map, "ScalarOpacityFunction").GetAsProxy());
+        .Set(vtkSMPropertyHelper(window_->gray_map, "ScalarOpacityFunction").GetAsProxy());
     shown.UpdateVTKObjects();
     add_slice(lattice, plane, kind, view, shown, lattice.dimensions[sight.index_axis] / 2, false);
   }
@@ -237,7 +237,7 @@ void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice
   window_->value_at = [probe = std::make_shared<ValueProbe>(image)](const glm::dvec3& place) {
     return probe->at(place);
   };
-  window_->grey_map = grey_map(*pqActiveObjects::instance().activeServer());
+  window_->gray_map = gray_map(*pqActiveObjects::instance().activeServer());
   window_->changed = [this] { refresh(); };
 }
 
@@ -278,7 +278,7 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
   marker_.reset();
   views_.clear();
   prepare(image, lattice);
-  window_->window = window_of(*window_->grey_map);
+  window_->window = window_of(*window_->gray_map);
   for (const ClinicalView& open : find_clinical_views()) {
     pqDataRepresentation* const shown = source.getRepresentation(open.view);
     if (!shown) continue;

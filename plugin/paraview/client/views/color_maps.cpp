@@ -18,39 +18,39 @@ void set_numbers(vtkSMProxy& proxy, const char* property, const std::vector<doub
 
 }  // namespace
 
-vtkSMProxy* grey_map(pqServer& server) {
+vtkSMProxy* gray_map(pqServer& server) {
   vtkNew<vtkSMTransferFunctionManager> manager;
-  // With an opacity function of its own: ParaView's colour map editor crashes on a map without one.
-  vtkSMProxy* const map = manager->GetColorTransferFunction("PalpateGrey", server.proxyManager());
-  vtkSMPropertyHelper(map, "ColorSpace").Set(0);                  // RGB: grey stays grey
+  // With an opacity function of its own: ParaView's color map editor crashes on a map without one.
+  vtkSMProxy* const map = manager->GetColorTransferFunction("PalpateGray", server.proxyManager());
+  vtkSMPropertyHelper(map, "ColorSpace").Set(0);                  // RGB: gray stays gray
   vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode").Set(-1);  // never: the window is the radiologist's
   vtkSMPropertyHelper(map, "ScalarRangeInitialized").Set(1);
   map->UpdateVTKObjects();
   return map;
 }
 
-void set_window(vtkSMProxy& grey_map, const Window& window) {
+void set_window(vtkSMProxy& gray_map, const Window& window) {
   const double low = window.level - window.width / 2;
-  set_numbers(grey_map, "RGBPoints", {low, 0, 0, 0, low + window.width, 1, 1, 1});
-  grey_map.UpdateVTKObjects();
+  set_numbers(gray_map, "RGBPoints", {low, 0, 0, 0, low + window.width, 1, 1, 1});
+  gray_map.UpdateVTKObjects();
 }
 
-Window window_of(vtkSMProxy& grey_map) {
-  const std::vector<double> points = vtkSMPropertyHelper(&grey_map, "RGBPoints").GetDoubleArray();
+Window window_of(vtkSMProxy& gray_map) {
+  const std::vector<double> points = vtkSMPropertyHelper(&gray_map, "RGBPoints").GetDoubleArray();
   if (points.size() < 8) return {};
   const double low = points.front(), high = points[points.size() - 4];
   return {.level = (low + high) / 2, .width = high - low};
 }
 
 void set_volume_look(vtkSMProxy& representation, const VolumeLook& look) {
-  vtkSMProxy* const colours = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
+  vtkSMProxy* const colors = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
   vtkSMProxy* const opacity = vtkSMPropertyHelper(&representation, "ScalarOpacityFunction").GetAsProxy();
-  if (!colours || !opacity) return;
-  vtkSMPropertyHelper(colours, "ColorSpace").Set(0);
-  vtkSMPropertyHelper(colours, "AutomaticRescaleRangeMode").Set(-1);
-  set_numbers(*colours, "RGBPoints", look.colours);
+  if (!colors || !opacity) return;
+  vtkSMPropertyHelper(colors, "ColorSpace").Set(0);
+  vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode").Set(-1);
+  set_numbers(*colors, "RGBPoints", look.colors);
   set_numbers(*opacity, "Points", look.opacity);
-  colours->UpdateVTKObjects();
+  colors->UpdateVTKObjects();
   opacity->UpdateVTKObjects();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// ParaView's colour maps, as slices and volumes of a scan use them.
+/// ParaView's color maps, as slices and volumes of a scan use them.
 
 #include "plugin/paraview/client/scan/scan_look.h"
 
@@ -9,10 +9,10 @@ class vtkSMProxy;
 
 namespace palpate::plugin {
 
-/// The grey map of all slices, apart from the colours of the volume; made on first use, kept by state files.
-vtkSMProxy* grey_map(pqServer& server);
-void set_window(vtkSMProxy& grey_map, const Window& window);
-Window window_of(vtkSMProxy& grey_map);
+/// The gray map of all slices, apart from the colors of the volume; made on first use, kept by state files.
+vtkSMProxy* gray_map(pqServer& server);
+void set_window(vtkSMProxy& gray_map, const Window& window);
+Window window_of(vtkSMProxy& gray_map);
 
 /// Sets a look on the maps of a representation's array.
 void set_volume_look(vtkSMProxy& representation, const VolumeLook& look);

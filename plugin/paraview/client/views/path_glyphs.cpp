@@ -25,7 +25,7 @@ struct PathGlyphs::Parts {
   vtkNew<vtkActor> line_actor, ends_actor;
 };
 
-PathGlyphs::PathGlyphs(vtkPVRenderView& view, const QColor& colour) : parts_(std::make_unique<Parts>(view)) {
+PathGlyphs::PathGlyphs(vtkPVRenderView& view, const QColor& color) : parts_(std::make_unique<Parts>(view)) {
   const auto add = [&](vtkPolyData* data, vtkActor& actor) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(data);
@@ -33,7 +33,7 @@ PathGlyphs::PathGlyphs(vtkPVRenderView& view, const QColor& colour) : parts_(std
     actor.PickableOff();
     actor.VisibilityOff();
     actor.GetProperty()->SetLighting(false);
-    actor.GetProperty()->SetColor(colour.redF(), colour.greenF(), colour.blueF());
+    actor.GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
     parts_->layer.renderer().AddActor(&actor);
   };
   add(parts_->line, *parts_->line_actor);

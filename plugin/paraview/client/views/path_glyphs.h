@@ -13,7 +13,7 @@ namespace palpate::plugin {
 
 class PathGlyphs {
  public:
-  PathGlyphs(vtkPVRenderView& view, const QColor& colour);
+  PathGlyphs(vtkPVRenderView& view, const QColor& color);
   PathGlyphs(const PathGlyphs&) = delete;
   PathGlyphs& operator=(const PathGlyphs&) = delete;
   ~PathGlyphs();

@@ -10,7 +10,7 @@ void PathViews::set_views(const std::vector<ClinicalView>& views) {
   views_.clear();
   for (const ClinicalView& view : views) {
     auto& client = *vtkPVRenderView::SafeDownCast(view.view->getRenderViewProxy()->GetClientSideView());
-    views_.push_back({view.kind, view.view, std::make_unique<PathGlyphs>(client, colour_)});
+    views_.push_back({view.kind, view.view, std::make_unique<PathGlyphs>(client, color_)});
   }
 }
 

@@ -15,7 +15,7 @@ namespace palpate::plugin {
 
 class PathViews {
  public:
-  explicit PathViews(QColor colour) : colour_(std::move(colour)) {}
+  explicit PathViews(QColor color) : color_(std::move(color)) {}
 
   /// The views of a scan that has just been shown; empty: none.
   void set_views(const std::vector<ClinicalView>& views);
@@ -28,7 +28,7 @@ class PathViews {
     QPointer<pqRenderView> view;
     std::unique_ptr<PathGlyphs> glyphs;
   };
-  QColor colour_;
+  QColor color_;
   std::vector<One> views_;
 };
 

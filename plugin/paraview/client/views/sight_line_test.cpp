@@ -36,7 +36,7 @@ TEST(SightLine, WhatIsSeenIsTheSurfaceBehindWhatIsFaint) {
   const testdata::AnalyticSource ball(testdata::make_sphere(20, testdata::bone_hu), 0.5);
   const auto seen = first_seen(ball, bone_is_opaque, {3, -500, 0}, {3, 500, 0});
   ASSERT_TRUE(seen);
-  EXPECT_NEAR(seen->y, -std::sqrt(20 * 20 - 3 * 3), 2) << "half of the light is taken by the first millimetres";
+  EXPECT_NEAR(seen->y, -std::sqrt(20 * 20 - 3 * 3), 2) << "half of the light is taken by the first millimeters";
   EXPECT_EQ(seen->x, 3);
   EXPECT_FALSE(first_seen(ball, bone_is_opaque, {30, -500, 0}, {30, 500, 0})) << "beside it";
   EXPECT_FALSE(first_seen(ball, almost_nothing, {0, -60, 0}, {0, 60, 0})) << "air is not seen";

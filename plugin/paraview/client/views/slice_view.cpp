@@ -128,7 +128,7 @@ class SliceView::Mouse {
     Window& window = owner_.window_->window;
     window.width = std::max(start_.width * std::exp2(2 * right), 1e-3);
     window.level = start_.level - up * start_.width;
-    set_window(*owner_.window_->grey_map, window);
+    set_window(*owner_.window_->gray_map, window);
     if (owner_.window_->changed) owner_.window_->changed();
   }
 

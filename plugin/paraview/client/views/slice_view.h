@@ -27,7 +27,7 @@ enum class Pick { pressed, moved, let_go };
 
 /// What the slice views of a scan have in common.
 struct SharedWindow {
-  vtkSMProxy* grey_map = nullptr;
+  vtkSMProxy* gray_map = nullptr;
   Window window;
   std::function<void()> changed;  ///< after the window has been changed by hand
   Coordinates coordinates = Coordinates::letters;

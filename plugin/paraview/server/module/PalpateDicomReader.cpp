@@ -49,7 +49,7 @@ struct PalpateDicomReader::Scan {
 };
 
 // One process has the whole scan, whatever part of it is asked for, and so shares it with the stylus. A rank of several
-// holds its own part and its neighbours' voxels around it, no more: all ranks together hold the scan once.
+// holds its own part and its neighbors' voxels around it, no more: all ranks together hold the scan once.
 plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const std::array<int, 6>& extent,
                                             const io::Progress& progress) const {
   vtkMultiProcessController* const ranks = vtkMultiProcessController::GetGlobalController();
@@ -233,7 +233,7 @@ void PalpateDicomReader::find() {
   if (scan_->grid.resampled) tell("slices are unevenly spaced: the display is resampled, touch is not");
   if (!plugin::is_straight(scan_->grid)) {
     tell(
-        "this scan is oblique or tilted: ParaView's Contour, Clip and Iso Volume would misplace it by millimetres; use "
+        "this scan is oblique or tilted: ParaView's Contour, Clip and Iso Volume would misplace it by millimeters; use "
         "Palpate's Tissue Surface");
   }
 }

@@ -74,7 +74,7 @@ int PalpateFields::RequestUpdateExtent(vtkInformation*, vtkInformationVector** i
   std::array<int, 6> wanted{};
   image.Get(Pipeline::WHOLE_EXTENT(), whole.data());
   output->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), wanted.data());
-  // A part needs its neighbours' voxels as far as the gradient reaches.
+  // A part needs its neighbors' voxels as far as the gradient reaches.
   const double scale = scale_mm_ > 0 ? scale_mm_ : plugin::gradient_scale_of(scene_);
   const int reach = plugin::furthest_reach(image.Get(vtkDataObject::SPACING()), scale);
   for (std::size_t axis = 0; axis < 3 && wanted[0] <= wanted[1]; ++axis) {
@@ -112,7 +112,7 @@ int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vt
   result.ShallowCopy(&image);
   if (image.GetNumberOfPoints() == 0) return 1;
   try {
-    // The neighbours' voxels are read, and not passed on.
+    // The neighbors' voxels are read, and not passed on.
     plugin::cut_to(own_part(image, *output->GetInformationObject(0)), result);
     const auto volume = plugin::scan_of(image);
     plugin::FieldChoice choice{.gradient = make_gradient_,

@@ -43,7 +43,7 @@ int PalpateScene::RequestData(vtkInformation*, vtkInformationVector**, vtkInform
     vtkNew<vtkDoubleArray> strengths;
     names->SetName("Name");
     types->SetName("Type");
-    colors->SetName("Colour");
+    colors->SetName("Color");
     enabled->SetName("Switched on");
     strengths->SetName("Strength (N)");
     for (std::size_t n = 0; n < scene.modes.size(); ++n) {

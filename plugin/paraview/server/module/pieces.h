@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a rank of a parallel server has of an image: its own part, and its neighbours' voxels around that (ghosts).
+/// What a rank of a parallel server has of an image: its own part, and its neighbors' voxels around that (ghosts).
 
 #include <array>
 

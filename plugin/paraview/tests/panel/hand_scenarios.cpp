@@ -1,4 +1,4 @@
-// What the hand does with keys, colours and curves, by what is felt and seen.
+// What the hand does with keys, colors and curves, by what is felt and seen.
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -53,14 +53,14 @@ void keys_step_in_the_views() {
 
   // Away from the eye, from the front: into the patient, past the 6.5 mm of air that the phantom has before him.
   const int presses = press_until_felt(coronal, "Prior", 0.3);
-  expect(presses >= 7 && presses <= 20, "a step is a millimetre: " + std::to_string(presses) + " presses");
+  expect(presses >= 7 && presses <= 20, "a step is a millimeter: " + std::to_string(presses) + " presses");
   save_screen("keys");
   for (int n = 0; n < 10; ++n) press_key_in(coronal, "Next");
   wait_for("towards the eye it is free again", [] { return number("palpateForce") < 0.02; });
 }
 
-/// The volume's colours are the boundaries': the dialog changes scene, swatch and view, and undo all three.
-void a_colour_is_chosen() {
+/// The volume's colors are the boundaries': the dialog changes scene, swatch and view, and undo all three.
+void a_color_is_chosen() {
   scan_is_shown();
   const auto shown = [] {
     for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
@@ -81,18 +81,18 @@ void a_colour_is_chosen() {
     return false;
   };
   const std::string before = scene_text();
-  expect(!shown(), "the colour is a new one");
+  expect(!shown(), "the color is a new one");
   QTimer::singleShot(1500, [] {
     auto* const dialog = qobject_cast<QColorDialog*>(QApplication::activeModalWidget());
-    expect(dialog != nullptr, "the dialog of colours is open");
+    expect(dialog != nullptr, "the dialog of colors is open");
     dialog->setCurrentColor(QColor(0x12, 0x34, 0x56));
-    save_screen("colours");
+    save_screen("colors");
     dialog->accept();
   });
-  click("palpateColour0");
+  click("palpateColor0");
   wait_for(
-      "the colour is in the scene", [] { return scene_text().find("#123456") != std::string::npos; }, 10);
-  expect(find<QWidget>("palpateColour0").styleSheet().contains("#123456"), "its swatch has it");
+      "the color is in the scene", [] { return scene_text().find("#123456") != std::string::npos; }, 10);
+  expect(find<QWidget>("palpateColor0").styleSheet().contains("#123456"), "its swatch has it");
   wait_for("the volume has it", shown, 10);
   click("palpateCurvesSectionFold");
   click("palpateUndo");
@@ -137,7 +137,7 @@ void a_dragged_node_is_felt() {
 const Scenarios& hand_scenarios() {
   static const Scenarios scenarios{
       {"keys_step_in_the_views", keys_step_in_the_views},
-      {"a_colour_is_chosen", a_colour_is_chosen},
+      {"a_color_is_chosen", a_color_is_chosen},
       {"a_dragged_node_is_felt", a_dragged_node_is_felt},
   };
   return scenarios;

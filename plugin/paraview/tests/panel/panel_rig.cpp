@@ -152,8 +152,8 @@ QPoint proxy_in(QWidget& view) {
       int yellow = 0;
       for (int j = -half; j <= half; ++j) {
         for (int i = -half; i <= half; ++i) {
-          const QColor colour = picture.pixelColor(x + i, y + j);
-          if (colour.red() > 120 && colour.green() > 0.7 * colour.red() && colour.blue() < 0.45 * colour.red())
+          const QColor color = picture.pixelColor(x + i, y + j);
+          if (color.red() > 120 && color.green() > 0.7 * color.red() && color.blue() < 0.45 * color.red())
             ++yellow;
         }
       }
