@@ -13,7 +13,7 @@
 namespace palpate::solver {
 
 using internal::FineVec3;
-using internal::Hold;
+using internal::ForceRegion;
 using internal::length_of;
 using internal::Placed;
 
@@ -21,7 +21,7 @@ struct ExactScratch::Arrays {
   std::vector<Placed> placed;
   std::vector<Placed> moved;
   std::vector<Vec3> forces;
-  std::vector<Hold> hold;
+  std::vector<ForceRegion> hold;
   std::vector<std::uint32_t> met;
 
   void fit(std::size_t n) {
@@ -127,10 +127,10 @@ void Search::start_from_forces() {
     if (placed.type == PrimitiveType::directed_force) {
       continue;
     }
-    Hold hold;
+    ForceRegion hold;
     const Vec3 force = internal::project(placed, forces_[i], hold);
     sum += force;
-    if (hold == Hold::held && length_of(force) < placed.strength * (1 - 1e-12) && force != Vec3{0}) {
+    if (hold == ForceRegion::held && length_of(force) < placed.strength * (1 - 1e-12) && force != Vec3{0}) {
       lock(walk_.frame, placed_, static_cast<std::uint32_t>(i));
     }
   }
@@ -148,9 +148,9 @@ void Search::start_from_sweep() {
       if (placed.type != type) {
         continue;
       }
-      Hold hold;
+      ForceRegion hold;
       const Vec3 step = internal::project(placed, (placed.offset.hi() - z) * balance_.stiffness, hold);
-      if (hold == Hold::held && step != Vec3{0}) {
+      if (hold == ForceRegion::held && step != Vec3{0}) {
         if (type != PrimitiveType::plane) {
           walk_.frame = {};
         }

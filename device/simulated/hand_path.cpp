@@ -22,14 +22,14 @@ void check_path(std::span<const Waypoint> path) {
   }
 }
 
-Waypoint point_on(std::span<const Waypoint> path, Interpolation interpolation, double time) noexcept {
+Waypoint point_on(std::span<const Waypoint> path, PathInterpolation interpolation, double time) noexcept {
   const auto after = std::upper_bound(path.begin(), path.end(), time,
                                       [](double t, const Waypoint& waypoint) { return t < waypoint.time; });
   if (after == path.begin()) return {time, after->position, after->buttons};
   const Waypoint& from = *(after - 1);
   if (after == path.end()) return {time, from.position, from.buttons};
   double s = (time - from.time) / (after->time - from.time);
-  if (interpolation == Interpolation::minimum_jerk) s = s * s * s * (10 + s * (6 * s - 15));
+  if (interpolation == PathInterpolation::minimum_jerk) s = s * s * s * (10 + s * (6 * s - 15));
   return {time, from.position + s * (after->position - from.position), from.buttons};
 }
 

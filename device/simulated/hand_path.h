@@ -16,7 +16,7 @@ struct Waypoint {
   std::uint32_t buttons = 0;  ///< held from this waypoint to the next
 };
 
-enum class Interpolation : std::uint8_t {
+enum class PathInterpolation : std::uint8_t {
   linear,
   minimum_jerk,  ///< from rest to rest: T. Flash and N. Hogan, J. Neuroscience 5(7), 1985; 10 s^3 - 15 s^4 + 6 s^5
 };
@@ -25,6 +25,6 @@ enum class Interpolation : std::uint8_t {
 void check_path(std::span<const Waypoint> path);
 
 /// The path at a time: before its first waypoint that one, after its last that one. Checked paths only.
-Waypoint point_on(std::span<const Waypoint> path, Interpolation interpolation, double time) noexcept;
+Waypoint point_on(std::span<const Waypoint> path, PathInterpolation interpolation, double time) noexcept;
 
 }  // namespace palpate::device

@@ -44,7 +44,7 @@ SimulatedStylus::SimulatedStylus(const SimulatedDevice& device)
       steps_per_tick_(static_cast<std::int64_t>(std::ceil(1 / (device.rate * longest_step) - 1e-9))),
       delay_steps_(std::llround(device.delay * device.rate * static_cast<double>(steps_per_tick_))) {}
 
-void SimulatedStylus::follow(std::span<const Waypoint> path, Interpolation interpolation) {
+void SimulatedStylus::follow(std::span<const Waypoint> path, PathInterpolation interpolation) {
   check_path(path);
   path_.assign(path.begin(), path.end());
   interpolation_ = interpolation;

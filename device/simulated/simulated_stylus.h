@@ -45,7 +45,7 @@ class SimulatedStylus final : public Stylus {
   explicit SimulatedStylus(const SimulatedDevice& device = {});
 
   /// The hand follows these waypoints from open() on; copied. Not while ticking. Throws as check_path().
-  void follow(std::span<const Waypoint> path, Interpolation interpolation = Interpolation::minimum_jerk);
+  void follow(std::span<const Waypoint> path, PathInterpolation interpolation = PathInterpolation::minimum_jerk);
   /// The hand leaves its path and goes after this target (m); from one thread at a time, also while ticking. It stays
   /// there while the device is closed: opened again, it is there from the first tick on.
   void move_target(const Vec3& target, std::uint32_t buttons = 0) noexcept;
@@ -79,7 +79,7 @@ class SimulatedStylus final : public Stylus {
   std::int64_t steps_per_tick_;
   std::int64_t delay_steps_;
   std::vector<Waypoint> path_;
-  Interpolation interpolation_ = Interpolation::minimum_jerk;
+  PathInterpolation interpolation_ = PathInterpolation::minimum_jerk;
   Latest<LiveTarget> live_target_;
   std::atomic<SimulatedFault> fault_{SimulatedFault::none};
   std::atomic<State> state_{State::disconnected};

@@ -17,7 +17,7 @@ void FakeHand::advance(double now, const Vec3& force) noexcept {
   }
   while (time_ + step <= now - start_) {
     time_ += step;
-    const Waypoint aim = point_on(path_, Interpolation::minimum_jerk, time_);
+    const Waypoint aim = point_on(path_, PathInterpolation::minimum_jerk, time_);
     const Vec3 target = aim.position + tremor_(time_);
     buttons_ = aim.buttons;
     step_body(arm_, hand_, force, target, (target - target_) / step, step, body_);

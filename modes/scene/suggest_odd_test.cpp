@@ -46,8 +46,8 @@ bool has_boundary(const Suggestion& found, double low, double high, double toler
 }
 
 /// Every value changed, in floats; no longer HU.
-template <typename Change>
-io::Volume changed(const io::Volume& volume, const Change& change) {
+template <typename SceneChange>
+io::Volume changed(const io::Volume& volume, const SceneChange& change) {
   io::Volume made = volume;
   const glm::ivec3 size = volume.geometry.dimensions;
   std::vector<float> values;

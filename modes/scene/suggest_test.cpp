@@ -168,11 +168,11 @@ std::vector<double> depths_of_contact(const Suggestion& found, const io::FieldSo
   bool held = false;
   for (double depth = -25; depth < 25; depth += 0.02) {
     hand.move_to((inwards ? depth : -depth) * inward);
-    const bool holds = hand.result.hold == Hold::held && glm::length(hand.force()) > 0.2;
+    const bool holds = hand.result.hold == HoldState::held && glm::length(hand.force()) > 0.2;
     if (holds && !held) {
       depths.push_back(glm::dot(hand.proxy_mm(), inward));
     }
-    held = hand.result.hold == Hold::held && (held || holds);
+    held = hand.result.hold == HoldState::held && (held || holds);
   }
   return depths;
 }

@@ -14,19 +14,19 @@ constexpr double least_slope = 1e-150;
 
 }  // namespace
 
-void follow_level(const io::Sample& sample, const Vec3& place_mm, Contact& contact) noexcept {
-  if (contact.hold == Hold::none) {
+void follow_level(const io::Sample& sample, const Vec3& place_mm, HeldSurface& contact) noexcept {
+  if (contact.hold == HoldState::none) {
     contact.level = sample.value;
   } else {
     const Vec3 moved = place_mm - contact.place_mm;
     contact.level += 0.5 * glm::dot(contact.gradient + sample.gradient, moved);
-    if (contact.hold != Hold::held) {
+    if (contact.hold != HoldState::held) {
       contact.offset = 0;
-    } else if (contact.before != Hold::held) {
+    } else if (contact.before != HoldState::held) {
       contact.offset = contact.level - sample.value;
     }
     // Not while yielding: the strength is felt then, and a steep one would show every step of the level.
-    if (contact.hold != Hold::yielding) {
+    if (contact.hold != HoldState::yielding) {
       // A value that is not found nearby (a boundary that thins out) draws the proxy along a gentle slope, not through
       // it.
       const double reach = defaults::level_reach_mm * glm::length(sample.gradient);
@@ -39,8 +39,8 @@ void follow_level(const io::Sample& sample, const Vec3& place_mm, Contact& conta
   contact.gradient = sample.gradient;
 }
 
-Vec3 anchor_step_mm(Contact& contact) noexcept {
-  if (contact.hold != Hold::held) {
+Vec3 anchor_step_mm(HeldSurface& contact) noexcept {
+  if (contact.hold != HoldState::held) {
     contact.held_level = contact.level;
     return Vec3(0);
   }
@@ -53,7 +53,7 @@ Vec3 anchor_step_mm(Contact& contact) noexcept {
   return (step / slope) * contact.gradient;
 }
 
-double level_at_anchor(const Contact& contact, const Vec3& step_mm) noexcept {
+double level_at_anchor(const HeldSurface& contact, const Vec3& step_mm) noexcept {
   return contact.level + glm::dot(contact.gradient, step_mm);
 }
 

@@ -23,7 +23,7 @@
 
 namespace palpate::modes {
 
-enum class Hold : std::uint8_t {
+enum class HoldState : std::uint8_t {
   none,     ///< no surface was placed
   lifted,   ///< the proxy has left every surface on the side that it is pushed to
   held,     ///< on a surface
@@ -31,24 +31,24 @@ enum class Hold : std::uint8_t {
 };
 
 /// What is remembered of the surface at the proxy.
-struct Contact {
-  Hold hold = Hold::none;
-  Hold before = Hold::none;  ///< a frame earlier
-  double level = 0;          ///< at the last place sampled, the scan's unit
-  double offset = 0;         ///< of the level from V, where it began to hold
-  double held_level = 0;     ///< V_c
-  Vec3 place_mm{0};          ///< last place sampled, patient space
-  Vec3 gradient{0};          ///< there, per mm
+struct HeldSurface {
+  HoldState hold = HoldState::none;
+  HoldState before = HoldState::none;  ///< a frame earlier
+  double level = 0;                    ///< at the last place sampled, the scan's unit
+  double offset = 0;                   ///< of the level from V, where it began to hold
+  double held_level = 0;               ///< V_c
+  Vec3 place_mm{0};                    ///< last place sampled, patient space
+  Vec3 gradient{0};                    ///< there, per mm
 };
 
 /// Brings level, place and gradient up to date with a sample (value and gradient) taken at place_mm. In the tick.
-void follow_level(const io::Sample& sample, const Vec3& place_mm, Contact& contact) noexcept;
+void follow_level(const io::Sample& sample, const Vec3& place_mm, HeldSurface& contact) noexcept;
 
 /// From the place sampled to the anchor, mm of patient space: zero while nothing holds the proxy, at most
 /// defaults::anchor_step_mm long. Renews held_level where nothing holds it. In the tick.
-Vec3 anchor_step_mm(Contact& contact) noexcept;
+Vec3 anchor_step_mm(HeldSurface& contact) noexcept;
 
 /// The level at the anchor: what strengths there are read from.
-double level_at_anchor(const Contact& contact, const Vec3& step_mm) noexcept;
+double level_at_anchor(const HeldSurface& contact, const Vec3& step_mm) noexcept;
 
 }  // namespace palpate::modes

@@ -36,7 +36,7 @@ struct Ramp {
 };
 
 /// Presses 3 mm deep (1.2 N) into `from`, then holds still while it changes to `to`, and on for as long again.
-Ramp change(const Scenery& from, const Scenery& to) {
+Ramp change(const SceneOnData& from, const SceneOnData& to) {
   solver::Chain chain;
   Touch touch;
   const auto scratch = std::make_unique<StepScratch>();
@@ -67,20 +67,20 @@ Ramp change_scene(const Scene& from, const Scene& to, const Workspace& workspace
   return change({&before, &source}, {&after, &source});
 }
 
-TEST(Change, to_the_same_scene_is_not_felt) {
+TEST(SceneChange, to_the_same_scene_is_not_felt) {
   const Ramp ramp = change_scene(skin(2), skin(2));
   EXPECT_NEAR(glm::length(ramp.first_n), 1.2, 0.01);
   EXPECT_LE(ramp.largest_step_n, 1e-12);
 }
 
-TEST(Change, a_wall_that_is_switched_off_lets_go_within_the_ramp_and_never_steps) {
+TEST(SceneChange, a_wall_that_is_switched_off_lets_go_within_the_ramp_and_never_steps) {
   const Ramp ramp = change_scene(skin(2), scene_of({}));
   EXPECT_GT(glm::length(ramp.first_n), 1.1);
   EXPECT_EQ(ramp.last_n, Vec3(0));
   EXPECT_LE(ramp.largest_step_n, 0.02);  // of a slew limit of 1 N/ms
 }
 
-TEST(Change, a_stronger_wall_and_a_stiffer_coupling_come_in_by_the_ramp) {
+TEST(SceneChange, a_stronger_wall_and_a_stiffer_coupling_come_in_by_the_ramp) {
   Scene stiff = skin(2.5);
   stiff.stiffness_n_per_m = 800;
   const Ramp ramp = change_scene(skin(2), stiff);
@@ -88,7 +88,7 @@ TEST(Change, a_stronger_wall_and_a_stiffer_coupling_come_in_by_the_ramp) {
   EXPECT_LE(ramp.largest_step_n, 0.01);
 }
 
-TEST(Change, the_proxy_moves_with_a_moved_turned_and_scaled_workspace) {
+TEST(SceneChange, the_proxy_moves_with_a_moved_turned_and_scaled_workspace) {
   Workspace moved;
   moved.center_mm = {0.5, -0.3, -0.4};
   moved.mm_per_m = 900;
@@ -101,7 +101,7 @@ TEST(Change, the_proxy_moves_with_a_moved_turned_and_scaled_workspace) {
   EXPECT_GT(glm::length(ramp.last_n), 0.3);
 }
 
-TEST(Change, to_another_time_frame_moves_the_proxy_from_one_wall_to_the_other) {
+TEST(SceneChange, to_another_time_frame_moves_the_proxy_from_one_wall_to_the_other) {
   const auto before = slab_at(0), after = slab_at(1.5);
   const Plan plan = make_plan(skin(2), before.available(), {});
   const Ramp ramp = change({&plan, &before}, {&plan, &after});

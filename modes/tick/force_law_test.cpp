@@ -88,7 +88,7 @@ TEST(ForceLaw, increments_are_exact_while_held_on_a_flat_slab) {
     // Deeper first: coming back to 3 mm, the place where it is held could hold more than will be asked of it.
     hand.stroke(-5.0 * inward, 4.5 * inward, 2000);
     hand.stroke(4.5 * inward, 3.0 * inward, 300);
-    ASSERT_EQ(hand.result.hold, Hold::held);
+    ASSERT_EQ(hand.result.hold, HoldState::held);
     const Vec3 force = hand.force();
     const Vec3 probe = 3.0 * inward;
     std::mt19937 random(3);

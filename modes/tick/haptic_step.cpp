@@ -19,15 +19,15 @@ bool is_finite(const Vec3& v) {
 }
 
 /// What a sub-step is taken with: one scenery, or two while one gives way to the other.
-struct Setting {
-  Scenery to;
-  Scenery from;  ///< plan null: there is none
+struct SubStepInput {
+  SceneOnData to;
+  SceneOnData from;  ///< plan null: there is none
   double part = 1;
   Workspace workspace;
   double stiffness = 0;
 };
 
-Setting setting_of(const Change& change) {
+SubStepInput setting_of(const SceneChange& change) {
   const double part = std::clamp(change.part, 0.0, 1.0);
   return {.to = change.to,
           .from = change.from,
@@ -38,18 +38,19 @@ Setting setting_of(const Change& change) {
 }
 
 /// What one scenery has placed.
-struct Placed {
+struct PlacedScene {
   io::Sample sample;
   Vec3 anchor_m{0};
   std::size_t first = 0, end = 0;  ///< in the list of primitives
 };
 
-Placed place(const Scenery& scenery, double weight, std::uint8_t mark, const Workspace& workspace, const Vec3& proxy_m,
-             Contact& contact, PrimitiveList& list, StepScratch& scratch) {
+PlacedScene place(const SceneOnData& scenery, double weight, std::uint8_t mark, const Workspace& workspace,
+                  const Vec3& proxy_m, HeldSurface& contact, PrimitiveList& list, StepScratch& scratch) {
   const Plan& plan = *scenery.plan;
   const Vec3 place_mm = workspace.to_patient(proxy_m);
   scratch.watch.lap(scratch.times.map);
-  Placed placed{.sample = scenery.source->sample(place_mm, plan.fields), .anchor_m = proxy_m, .first = list.size()};
+  PlacedScene placed{
+      .sample = scenery.source->sample(place_mm, plan.fields), .anchor_m = proxy_m, .first = list.size()};
   scratch.watch.lap(scratch.times.sample);
   io::Sample felt = placed.sample;
   if (plan.holds_iso_surface && felt.inside) {
@@ -73,17 +74,17 @@ Placed place(const Scenery& scenery, double weight, std::uint8_t mark, const Wor
 }
 
 /// How the surfaces of a scenery hold the proxy: held on one of them goes before yielding through another.
-Hold hold_of(const Placed& placed, const Plan& plan, const StepResult& result, const Vec3& proxy_m) {
-  Hold hold = Hold::none;
+HoldState hold_of(const PlacedScene& placed, const Plan& plan, const StepResult& result, const Vec3& proxy_m) {
+  HoldState hold = HoldState::none;
   for (std::size_t i = placed.first; i < placed.end; ++i) {
     const solver::Primitive& primitive = result.primitives[i];
     const std::size_t mode = result.mode_of[i] & (of_scene_left - 1U);
     if (plan.modes[mode].holds && primitive.type == solver::PrimitiveType::plane) {
       const double distance = glm::dot(proxy_m - primitive.position, primitive.direction);
       if (std::abs(distance) <= contact_tolerance_m) {
-        return Hold::held;
+        return HoldState::held;
       }
-      hold = distance < 0 ? Hold::yielding : std::max(hold, Hold::lifted);
+      hold = distance < 0 ? HoldState::yielding : std::max(hold, HoldState::lifted);
     }
   }
   return hold;
@@ -95,7 +96,7 @@ bool is_answer(solver::Outcome outcome) {
 
 /// Solves the balance of the primitives in the result; false, and an outcome that says so, where there is no usable
 /// answer.
-bool solve(const Setting& setting, const Vec3& probe_m, std::span<Vec3> shares, solver::Chain& chain, Touch& touch,
+bool solve(const SubStepInput& setting, const Vec3& probe_m, std::span<Vec3> shares, solver::Chain& chain, Touch& touch,
            StepResult& result) {
   const solver::Balance balance{.stiffness = setting.stiffness,
                                 .probe = probe_m,
@@ -119,12 +120,13 @@ bool solve(const Setting& setting, const Vec3& probe_m, std::span<Vec3> shares, 
 }
 
 /// One sample, placement and solution at a probe position.
-StepResult sub_step(const Setting& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
+StepResult sub_step(const SubStepInput& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
                     StepScratch& scratch) {
   StepResult result;
   PrimitiveList list(scratch.primitives, scratch.mode_of);
-  const Placed to = place(setting.to, setting.part, 0, setting.workspace, touch.proxy_m, touch.contact, list, scratch);
-  Placed from;
+  const PlacedScene to =
+      place(setting.to, setting.part, 0, setting.workspace, touch.proxy_m, touch.contact, list, scratch);
+  PlacedScene from;
   if (setting.from.plan != nullptr) {
     from = place(setting.from, 1 - setting.part, of_scene_left, setting.workspace, touch.proxy_m, touch.leaving, list,
                  scratch);
@@ -145,7 +147,7 @@ StepResult sub_step(const Setting& setting, const Vec3& probe_m, Touch& touch, s
 }
 
 /// Within a step modes are counted as in the plan; whoever reads the result counts as in the scene.
-void name_scene_modes(const Setting& setting, std::span<std::uint8_t> mode_of) {
+void name_scene_modes(const SubStepInput& setting, std::span<std::uint8_t> mode_of) {
   for (std::uint8_t& mode : mode_of) {
     const auto mark = static_cast<std::uint8_t>(mode & of_scene_left);
     const Plan& plan = mark != 0 && setting.from.plan != nullptr ? *setting.from.plan : *setting.to.plan;
@@ -167,15 +169,15 @@ void follow_workspace(const Workspace& workspace, Touch& touch) {
 bool halt(const Vec3& old_proxy_m, double step_m, Touch& touch) {
   const Vec3 jump = touch.proxy_m - old_proxy_m;
   const double length = glm::length(jump);
-  if (length <= step_m || touch.contact.hold == Hold::held || touch.leaving.hold == Hold::held) {
+  if (length <= step_m || touch.contact.hold == HoldState::held || touch.leaving.hold == HoldState::held) {
     return false;
   }
   touch.proxy_m = old_proxy_m + jump * (step_m / length);
-  touch.contact.hold = touch.leaving.hold = Hold::none;
+  touch.contact.hold = touch.leaving.hold = HoldState::none;
   return true;
 }
 
-StepResult step_setting(const Setting& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
+StepResult step_setting(const SubStepInput& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
                         StepScratch& scratch) {
   scratch.times = {};
   scratch.watch.start();
@@ -229,19 +231,19 @@ StepResult step_setting(const Setting& setting, const Vec3& probe_m, Touch& touc
 StepResult step(const Plan& plan, const io::FieldSource& source, const Vec3& probe_m, Touch& touch,
                 solver::Chain& chain, StepScratch& scratch) noexcept {
   touch.changing = false;
-  const Setting setting{
+  const SubStepInput setting{
       .to = {&plan, &source}, .from = {}, .part = 1, .workspace = plan.workspace, .stiffness = plan.stiffness_n_per_m};
   return step_setting(setting, probe_m, touch, chain, scratch);
 }
 
-StepResult step(const Change& change, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
+StepResult step(const SceneChange& change, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
                 StepScratch& scratch) noexcept {
   if (!touch.changing) {
     touch.changing = true;
     touch.leaving = touch.contact;
     // On the same data the level goes on as it is; on other data there is another surface to be met.
     if (change.from.source != change.to.source) {
-      touch.contact = Contact{};
+      touch.contact = HeldSurface{};
     }
   }
   return step_setting(setting_of(change), probe_m, touch, chain, scratch);

@@ -50,10 +50,10 @@ struct Touch {
   Vec3 probe_m{0};  ///< device's frame, of the last good frame
   Vec3 proxy_m{0};
   Vec3 force_n{0};
-  Contact contact;        ///< with the surface that holds the proxy
+  HeldSurface contact;    ///< with the surface that holds the proxy
   Workspace workspace;    ///< of the last frame: the proxy stays where it is in the patient when this changes
   bool changing = false;  ///< whether the last frame was one of a change
-  Contact leaving;        ///< contact with the scene that is being left
+  HeldSurface leaving;    ///< contact with the scene that is being left
 };
 
 /// Room for one frame. Large: allocate it with the session, not in the tick.
@@ -75,8 +75,8 @@ struct StepResult {
   std::span<const Vec3> shares;  ///< N: each primitive's force on the proxy
   /// For each primitive, its index in the scene's modes; plus of_scene_left where it is one of the scene being left.
   std::span<const std::uint8_t> mode_of;
-  io::Sample sample;       ///< what was sampled, at the old proxy: only the plan's fields
-  Hold hold = Hold::none;  ///< how the surfaces hold the proxy
+  io::Sample sample;                 ///< what was sampled, at the old proxy: only the plan's fields
+  HoldState hold = HoldState::none;  ///< how the surfaces hold the proxy
   /// solved; capped: the best answer, with its true bound; refused or unsuitable: a fault, whose proxy and force are
   /// those of the last good frame, for the safety filter to bring to zero.
   solver::Outcome outcome = solver::Outcome::solved;
@@ -89,7 +89,7 @@ struct StepResult {
 };
 
 /// A scene on its data.
-struct Scenery {
+struct SceneOnData {
   const Plan* plan = nullptr;
   const io::FieldSource* source = nullptr;
 };
@@ -97,9 +97,9 @@ struct Scenery {
 /// A change of scene, scan, time frame or workspace on its way. Both sceneries act, each sampled once a sub-step at the
 /// proxy, with their strengths weighted (1 - part) and part; stiffness and workspace go from one to the other. So
 /// whatever the change, the force follows the ramp and never steps, and the proxy moves with the data.
-struct Change {
-  Scenery from;
-  Scenery to;
+struct SceneChange {
+  SceneOnData from;
+  SceneOnData to;
   double part = 0;  ///< 0 to 1, never less than in the frame before; at 1 the next frame steps `to` alone
 };
 
@@ -110,7 +110,7 @@ StepResult step(const Plan& plan, const io::FieldSource& source, const Vec3& pro
 
 /// A frame of a change. One change at a time: the next begins when this has ended. The chain has to hold the exact
 /// solver, for two scenes together can need it where neither does alone.
-StepResult step(const Change& change, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
+StepResult step(const SceneChange& change, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
                 StepScratch& scratch) noexcept;
 
 }  // namespace palpate::modes

@@ -122,7 +122,7 @@ TEST(HapticStep, a_surface_that_gives_way_does_not_carry_the_proxy_past_the_next
     hand.stroke({0, 0, 3}, {0, 0, -3.5}, 4000);
     if (most_halts > 0) {
       EXPECT_GT(hand.proxy_mm().z, -1.5);
-      EXPECT_EQ(hand.result.hold, Hold::held);
+      EXPECT_EQ(hand.result.hold, HoldState::held);
     } else {
       EXPECT_LT(hand.proxy_mm().z, -2.0) << "without halts the second is missed: else this test shows nothing";
     }

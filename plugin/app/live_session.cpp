@@ -28,7 +28,7 @@ LiveSession::~LiveSession() {
   disconnect();
 }
 
-Felt LiveSession::felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const {
+PreparedScene LiveSession::felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const {
   if (!volume) return {};
   const device::Specification& stylus = is_connected() ? specification_ : device::SimulatedStylus().specification();
   return prepare(suited(scene, stylus), volume, stylus.workspace_half_extent,
@@ -87,12 +87,12 @@ void LiveSession::connect(std::shared_ptr<device::Stylus> stylus) {
 void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file) {
   stylus_ = std::move(stylus);
   specification_ = stylus_->specification();
-  const Felt before =
+  const PreparedScene before =
       std::exchange(felt_, prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent,
                                    {.felt = felt_, .scene = scene_, .volume = volume_}));
   last_epoch_ = 0;
   try {
-    ring_ = std::make_unique<FrameRing>();
+    ring_ = std::make_unique<TickRing>();
     if (file) {
       recorder_ = std::make_unique<Recorder>(*ring_, *file,
                                              RecordingHeader{.palpate_version = PALPATE_VERSION,
@@ -127,7 +127,7 @@ std::optional<RecorderStatus> LiveSession::end() noexcept {
 std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
   if (servo_) {
     release();
-    Frame frame;
+    TickRecord frame;
     constexpr int longest_ms = 100;
     for (int ms = 0; ms < longest_ms; ++ms) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

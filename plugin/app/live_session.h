@@ -60,7 +60,7 @@ class LiveSession {
   void heartbeat();
 
   /// Frames of the session; null where none was begun yet. A new one with every connect().
-  const FrameRing* frames() const noexcept { return ring_.get(); }
+  const TickRing* frames() const noexcept { return ring_.get(); }
   std::uint64_t missed() const noexcept { return servo_ ? servo_->missed() : 0; }
   const device::RealtimeStatus* realtime() const noexcept { return servo_ ? &servo_->realtime() : nullptr; }
 
@@ -72,7 +72,7 @@ class LiveSession {
   std::optional<RecorderStatus> recording() const;
 
  private:
-  Felt felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const;
+  PreparedScene felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const;
   Snapshot snapshot(double change_s) const;
   SceneRecord record_of_scene(std::uint32_t epoch, double change_s) const;
   void publish(double change_s);
@@ -84,12 +84,12 @@ class LiveSession {
   std::shared_ptr<const io::Volume> volume_;
   mutable std::string scan_hash_;  // of the volume; empty until asked for: it reads all voxels
   modes::Scene scene_;
-  Felt felt_;
+  PreparedScene felt_;
   std::uint32_t last_epoch_ = 0;
   std::shared_ptr<device::Stylus> stylus_;
   device::Specification specification_;
   // In the order in which they lean on each other.
-  std::unique_ptr<FrameRing> ring_;
+  std::unique_ptr<TickRing> ring_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<Session> session_;
   std::unique_ptr<Servo> servo_;

@@ -33,8 +33,8 @@ std::shared_ptr<device::SimulatedStylus> pressing() {
   return held;
 }
 
-Frame last_frame(const LiveSession& live) {
-  Frame frame;
+TickRecord last_frame(const LiveSession& live) {
+  TickRecord frame;
   const std::uint64_t written = live.frames()->written();
   if (written > 0) live.frames()->read(written - 1, frame);
   return frame;
@@ -95,7 +95,7 @@ TEST(LiveSession, AnEditedStrengthNeedsNoNewFields) {
   const glm::dvec3 half_extent_m{0.08, 0.06, 0.06};
   const Prepared before{prepare(scene, volume, half_extent_m), scene, volume};
   scene.modes[0].strength_n = modes::TransferFunction(0.5);
-  const Felt edited = prepare(scene, volume, half_extent_m, before);
+  const PreparedScene edited = prepare(scene, volume, half_extent_m, before);
   EXPECT_EQ(edited.source, before.felt.source);
   EXPECT_NE(edited.plan, before.felt.plan);
   EXPECT_NE(prepare(scene, ball(), half_extent_m, before).source, before.felt.source) << "of another scan";

@@ -55,7 +55,7 @@ RecordingHeader header_of(const SessionRun& run, const device::Specification& sp
 /// What a person sees while it runs.
 class Watch {
  public:
-  Watch(const SessionRun& run, const FrameRing& ring, const Recorder& recorder) : recorder_(recorder) {
+  Watch(const SessionRun& run, const TickRing& ring, const Recorder& recorder) : recorder_(recorder) {
     if (run.live) {
       view_.emplace(ring, run.scene, run.unit);
     }
@@ -122,7 +122,7 @@ modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) 
   return scene;
 }
 
-Snapshot snapshot_of(const modes::Scene& scene, const Felt& felt, const device::Specification& stylus) {
+Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus) {
   return {.plan = felt.plan,
           .source = felt.source,
           .limits = limits_for(scene.limits, stylus),
@@ -146,7 +146,7 @@ bool stderr_is_terminal() {
 SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file) {
   const device::Specification specification = run.stylus->specification();
   SessionRunResult result;
-  FrameRing ring;
+  TickRing ring;
   Recorder recorder(ring, file, header_of(run, specification));
   recorder.note(SceneRecord{.epoch = 0,
                             .scene = modes::to_json(run.scene),

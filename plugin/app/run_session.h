@@ -19,7 +19,7 @@ namespace palpate::plugin {
 
 struct SessionRun {
   modes::Scene scene;
-  Felt felt;  ///< the scene on the scan
+  PreparedScene felt;  ///< the scene on the scan
   std::string scan_hash;
   std::string unit;  ///< the scan's
   std::shared_ptr<device::Stylus> stylus;
@@ -44,7 +44,7 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
 
 /// The snapshot of a scene on a scan for a stylus.
-Snapshot snapshot_of(const modes::Scene& scene, const Felt& felt, const device::Specification& stylus);
+Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus);
 
 /// The snapshot that a recording tells of, of the scan that it was recorded on. Throws std::invalid_argument for a
 /// scene that is none.

@@ -194,7 +194,7 @@ void load_once(const std::string& folder, bool first_force) {
   const io::Volume& volume = *shared;
   if (first_force) {
     // What stands between a loaded volume and a force: the fields, and a sample of them where the proxy is.
-    const Felt felt = prepare(scene_for("", volume), shared, glm::dvec3(0.1));
+    const PreparedScene felt = prepare(scene_for("", volume), shared, glm::dvec3(0.1));
     const glm::dvec3 middle = volume.geometry.to_patient(0.5 * glm::dvec3(volume.geometry.dimensions - 1));
     const io::Sample sample = felt.source->sample(middle, felt.plan->fields);
     fmt::print("gradient in the middle {:.3g} per mm\n", glm::length(sample.gradient));

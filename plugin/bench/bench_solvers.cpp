@@ -161,15 +161,13 @@ std::string csv_of(const std::vector<FamilySummary>& summaries) {
 void draw(const std::vector<FamilySummary>& summaries, const std::vector<Entrant>& entrants,
           const std::filesystem::path& path) {
   constexpr Color palette[] = {colors::black,  colors::green,  colors::sky, colors::vermilion,
-                                colors::orange, colors::purple, colors::blue};
+                               colors::orange, colors::purple, colors::blue};
   constexpr double floor = 1e-18;  // m: where an error of nothing is drawn
   Chart chart{.x = {.label = "median time (us); a point is a family of balances", .logarithmic = true},
               .y = {.label = "largest error against 128 bits (m)", .logarithmic = true}};
   for (std::size_t e = 0; e < entrants.size(); ++e) {
-    Curve curve{.label = entrants[e].name,
-                .color = palette[e % std::size(palette)],
-                .style = Curve::Style::points,
-                .width = 4};
+    Curve curve{
+        .label = entrants[e].name, .color = palette[e % std::size(palette)], .style = Curve::Style::points, .width = 4};
     for (const FamilySummary& s : summaries) {
       // The errors of stiff and far are those of their data: an ulp of 1e6 m, and of 1e12 N at 1e-3 N/m.
       if (s.solver != entrants[e].name || s.known == 0 || s.family == Family::stiff || s.family == Family::far_away) {

@@ -79,12 +79,12 @@ Walk press_on(const Arguments& arguments) {
   const auto stylus = std::make_shared<device::SimulatedStylus>();
   const device::Specification specification = stylus->specification();
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
-  Felt felt = prepare(scene, walk.volume, specification.workspace_half_extent);
+  PreparedScene felt = prepare(scene, walk.volume, specification.workspace_half_extent);
   const double end_s = follow_probe_path(arguments.path, *walk.volume, scene, felt, *stylus);
   walk.workspace = scene.workspace;
   Session session(snapshot_of(scene, felt, specification), stylus);
   for (int n = 0; n < static_cast<int>(end_s * specification.rate); ++n) {
-    const Frame& frame = session.tick();
+    const TickRecord& frame = session.tick();
     walk.poses_m.emplace_back(frame.probe_m[0], frame.probe_m[1], frame.probe_m[2]);
   }
   return walk;
@@ -93,7 +93,7 @@ Walk press_on(const Arguments& arguments) {
 Snapshot on(const Walk& walk, modes::Scene scene, const io::FieldOptions& options = {}) {
   scene.workspace = walk.workspace;
   const device::Specification specification = device::SimulatedStylus().specification();
-  Felt felt{.plan = plan_for(scene, *walk.volume, specification.workspace_half_extent), .source = nullptr};
+  PreparedScene felt{.plan = plan_for(scene, *walk.volume, specification.workspace_half_extent), .source = nullptr};
   felt.source = std::make_shared<const io::VolumeFields>(walk.volume, felt.plan->fields,
                                                          io::default_gradient_scale_mm(walk.volume->geometry), options);
   return snapshot_of(scene, felt, specification);

@@ -93,7 +93,7 @@ Outcome run_once(const Setting& setting, bool slide, const Solvers& solvers, dou
   const std::vector<device::Waypoint> path{{.time = 0, .position = -0.008 * into - 0.5 * reach * along},
                                            {.time = 0.5, .position = depth * into - 0.5 * reach * along},
                                            {.time = 0.5 + hold_s, .position = depth * into + 0.5 * reach * along}};
-  stylus.follow(path, device::Interpolation::linear);
+  stylus.follow(path, device::PathInterpolation::linear);
   stylus.open();
 
   solver::Chain chain(solvers.chain);

@@ -58,8 +58,8 @@ class Scans {
     device::Specification stylus;
     stylus.maximum_force = record.maximum_force_n;
     const auto air = std::make_shared<testdata::AnalyticSource>(testdata::make_sphere(1), 1.0);
-    const Felt felt{.plan = std::make_shared<const modes::Plan>(modes::make_plan(scene, air->available(), {})),
-                    .source = air};
+    const PreparedScene felt{.plan = std::make_shared<const modes::Plan>(modes::make_plan(scene, air->available(), {})),
+                             .source = air};
     return snapshot_of(scene, felt, stylus);
   }
 
@@ -86,12 +86,12 @@ class Judge {
   Judge(double force_limit_n, double slew_n_per_s, SoakResult& result)
       : force_limit_n_(force_limit_n), slew_n_per_s_(slew_n_per_s), result_(result) {}
   void look_at(const Recording& part) {
-    for (const Frame& frame : part.frames) look_at(frame);
+    for (const TickRecord& frame : part.frames) look_at(frame);
     for (const Gap& gap : part.gaps) result_.lost += gap.frames;
   }
 
  private:
-  void look_at(const Frame& frame) {
+  void look_at(const TickRecord& frame) {
     const glm::dvec3 sent(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2]);
     const double force = glm::length(sent);
     ++result_.ticks;
@@ -112,7 +112,9 @@ class Judge {
     last_n_ = sent;
   }
   /// The ramps' own change: the whole force within SafetyLimits::fall_time at the fastest.
-  static double fall_share(const Frame& frame) { return std::max(frame.dt_s, 1e-3) / device::SafetyLimits{}.fall_time; }
+  static double fall_share(const TickRecord& frame) {
+    return std::max(frame.dt_s, 1e-3) / device::SafetyLimits{}.fall_time;
+  }
 
  public:
   double rate_hz = 1000;
@@ -260,7 +262,7 @@ class Probing {
   std::mt19937_64 random_;
   std::shared_ptr<device::SimulatedStylus> stylus_;
   device::Specification specification_;
-  FrameRing ring_;
+  TickRing ring_;
   Scans scans_;
   Replayer replayer_;
   std::unique_ptr<Recorder> recorder_;

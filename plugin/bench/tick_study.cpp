@@ -58,7 +58,7 @@ void pause_now_and_then(std::size_t tick) {
 
 TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::span<const glm::dvec3> poses_m,
                       std::size_t ticks, double rate_hz) {
-  FrameRing ring(1024);
+  TickRing ring(1024);
   Session session(snapshot, std::make_shared<WalkingStylus>(poses_m), &ring);
   TickRow row{.what = what, .ticks = ticks};
   std::vector<double> us(ticks);
@@ -67,7 +67,7 @@ TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::sp
   std::uint64_t primitives = 0, bricks = 0, sub_steps = 0;
   const auto tick = [&](std::size_t n) {
     const std::uint64_t begun = modes::clock_count();
-    const Frame& frame = session.tick();
+    const TickRecord& frame = session.tick();
     us[n] = static_cast<double>(modes::clock_count() - begun) * us_per_count;
     for (std::size_t stage = 0; stage < stage_count; ++stage) stages[stage] += frame.stage_ns[stage];
     primitives += frame.share_count;

@@ -83,7 +83,7 @@ void run(const ProfileOptions& options) {
   }
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   const modes::Scene scene = scene_for(options.scene, *volume);
-  const Felt felt = prepare(scene, volume, glm::dvec3(0.1));
+  const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.1));
   const Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, options.speed),
                         .plan = felt.plan,
                         .scene = scene,

@@ -46,7 +46,7 @@ std::string replayed(const Recording& recording, const std::function<void(Record
 }
 
 std::string of_little_room() {
-  FrameRing ring(16);
+  TickRing ring(16);
   Recorder recorder(ring, fresh_path("room.h5"), {}, {.spare_bytes = std::uintmax_t{1} << 62U});
   return recorder.finish().why;
 }
@@ -102,7 +102,7 @@ std::vector<Provoked> provoke_recordings() {
       {"the replay is not the session that was recorded: was the recording changed, or made by another version?",
        replayed(recording,
                 [](Recording& changed) {
-                  for (Frame& frame : changed.frames) frame.proxy_m[0] += 0.001;
+                  for (TickRecord& frame : changed.frames) frame.proxy_m[0] += 0.001;
                 })},
       {"the recording is empty: no frame of it was written", said_when([&] { RecordedSession({}, scan); })},
       {"the recording was made on another scan: its hash is {}, this one's {}; open the scan that was felt",

@@ -17,7 +17,7 @@
 namespace palpate::plugin {
 namespace {
 
-std::vector<PathPoint> path_for(const ProbePathOption& option, const Felt& felt, const Box& box) {
+std::vector<PathPoint> path_for(const ProbePathOption& option, const PreparedScene& felt, const Box& box) {
   if (!option.file.empty()) {
     return read_path_csv(option.file);
   }
@@ -66,8 +66,8 @@ void add_probe_path_option(CLI::App& command, ProbePathOption& option) {
   command.add_option("--to", option.to, "where it is directed (default: the middle, at the same height)");
 }
 
-double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene, Felt& felt,
-                         device::SimulatedStylus& stylus) {
+double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene,
+                         PreparedScene& felt, device::SimulatedStylus& stylus) {
   const glm::dvec3 half_extent_m = stylus.specification().workspace_half_extent;
   const std::vector<PathPoint> path = path_for(option, felt, bounding_box(volume.geometry));
   if (!scene.workspace.center_mm) {

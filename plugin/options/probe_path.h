@@ -29,7 +29,7 @@ void add_probe_path_option(CLI::App& command, ProbePathOption& option);
 /// Makes the hand follow the path and returns its end, s. Where the scene names no center of the workspace, the path's
 /// middle becomes it, in the scene and in the plan. Throws InputRefused where the path leaves the workspace, and what
 /// reading the path or feeling its way throws.
-double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene, Felt& felt,
-                         device::SimulatedStylus& stylus);
+double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene,
+                         PreparedScene& felt, device::SimulatedStylus& stylus);
 
 }  // namespace palpate::plugin

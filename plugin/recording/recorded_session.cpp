@@ -20,9 +20,9 @@ glm::dvec3 vector_of(const double (&from)[3]) {
 
 /// Leaves the frames of these scenes, and their shares.
 std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>& epochs) {
-  std::vector<Share> shares;
+  std::vector<PrimitiveRecord> shares;
   std::size_t kept = 0, share = 0;
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     const std::size_t next = share + frame.share_count;
     if (epochs.count(frame.scene_epoch) > 0) {
       shares.insert(shares.end(), recording.shares.begin() + static_cast<std::ptrdiff_t>(share),
@@ -56,7 +56,7 @@ RecordedSession::RecordedSession(Recording recording, const io::Volume& volume) 
   first_share_.reserve(size());
   std::size_t share = 0;
   std::uint32_t last = recording_.frames.front().scene_epoch;
-  for (const Frame& frame : recording_.frames) {
+  for (const TickRecord& frame : recording_.frames) {
     first_share_.push_back(share);
     share += frame.share_count;
     if (settings_.count(frame.scene_epoch) > 0) continue;
@@ -83,11 +83,11 @@ double RecordedSession::duration_s() const noexcept {
 std::size_t RecordedSession::frame_at(double seconds) const noexcept {
   const double at = recording_.frames.front().time_s + seconds;
   const auto later = std::upper_bound(recording_.frames.begin(), recording_.frames.end(), at,
-                                      [](double time, const Frame& frame) { return time < frame.time_s; });
+                                      [](double time, const TickRecord& frame) { return time < frame.time_s; });
   return later == recording_.frames.begin() ? 0 : static_cast<std::size_t>(later - recording_.frames.begin()) - 1;
 }
 
-std::span<const Share> RecordedSession::shares(std::size_t n) const {
+std::span<const PrimitiveRecord> RecordedSession::shares(std::size_t n) const {
   return std::span(recording_.shares).subspan(first_share_[n], recording_.frames[n].share_count);
 }
 

@@ -30,8 +30,8 @@ class RecordedSession {
   /// s after the first frame.
   double time_s(std::size_t n) const noexcept;
 
-  const Frame& frame(std::size_t n) const { return recording_.frames[n]; }
-  std::span<const Share> shares(std::size_t n) const;
+  const TickRecord& frame(std::size_t n) const { return recording_.frames[n]; }
+  std::span<const PrimitiveRecord> shares(std::size_t n) const;
   const modes::Scene& scene(std::size_t n) const;
   /// Where the hand's reach was; on its way while a change of the scene was.
   modes::Workspace workspace(std::size_t n) const;

@@ -16,7 +16,7 @@ constexpr std::uint64_t most_of_batch = 4096;  // frames: bounds memory, and the
 
 }  // namespace
 
-Recorder::Recorder(const FrameRing& ring, std::filesystem::path file, const RecordingHeader& header,
+Recorder::Recorder(const TickRing& ring, std::filesystem::path file, const RecordingHeader& header,
                    RecorderOptions options)
     : ring_(ring),
       options_(std::move(options)),
@@ -134,7 +134,7 @@ void Recorder::write_frames(std::uint64_t until) {
   frames_.clear();
   shares_.clear();
   Gap gap;
-  Frame frame;
+  TickRecord frame;
   std::uint64_t n = next();
   // A lost frame of the ring has no number to tell: its place in the file does.
   const auto lose = [&](std::uint64_t frames) {

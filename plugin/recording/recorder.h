@@ -1,7 +1,7 @@
 #pragma once
 
 /// Records a session while it runs: a thread of its own takes the frames from the ring and writes them. The servo never
-/// waits for it. A disk that is slow costs nothing until the ring has gone round (FrameRing::default_frames: 65 s at 1
+/// waits for it. A disk that is slow costs nothing until the ring has gone round (TickRing::default_frames: 65 s at 1
 /// kHz); what is lost beyond that is counted and marked in the file. A disk that is full, or gone, ends the recording
 /// and not the session; what was flushed (once a second) stays readable.
 
@@ -41,7 +41,7 @@ class Recorder {
  public:
   /// Records what the ring gets from now on to the file, which is `<file>.partial` until finish(). The ring has to
   /// outlive the recorder. Throws std::runtime_error naming the file where it cannot be made.
-  Recorder(const FrameRing& ring, std::filesystem::path file, const RecordingHeader& header,
+  Recorder(const TickRing& ring, std::filesystem::path file, const RecordingHeader& header,
            RecorderOptions options = {});
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -71,7 +71,7 @@ class Recorder {
   void write_frames(std::uint64_t until);
   void stop(const std::string& why);
 
-  const FrameRing& ring_;
+  const TickRing& ring_;
   RecorderOptions options_;
   std::filesystem::path file_;
   mutable std::mutex mutex_;  // of the events, the status and the end; never taken by the servo
@@ -83,8 +83,8 @@ class Recorder {
   std::atomic<std::uint64_t> next_;                                // frame of the ring
   // The recording thread's.
   RecordingWriter writer_;
-  std::vector<Frame> frames_;
-  std::vector<Share> shares_;
+  std::vector<TickRecord> frames_;
+  std::vector<PrimitiveRecord> shares_;
   std::thread thread_;
 };
 

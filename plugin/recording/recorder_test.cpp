@@ -17,17 +17,17 @@ namespace {
 
 using namespace testing;
 
-Frame numbered(std::uint64_t n) {
-  Frame frame;
+TickRecord numbered(std::uint64_t n) {
+  TickRecord frame;
   frame.index = n;
   frame.time_s = 1e-3 * static_cast<double>(n);
   frame.share_count = 1;
   return frame;
 }
 
-void push(FrameRing& ring, std::uint64_t first, std::uint64_t count) {
+void push(TickRing& ring, std::uint64_t first, std::uint64_t count) {
   for (std::uint64_t n = first; n < first + count; ++n) {
-    const Share share{.frame = n};
+    const PrimitiveRecord share{.frame = n};
     ring.push(numbered(n), {&share, 1});
   }
 }
@@ -36,7 +36,7 @@ const RecordingHeader header{.palpate_version = "1.2.3", .device = "simulated", 
 
 TEST(Recorder, WritesEveryFrameInOrderWithWhatTheSessionWasGiven) {
   const auto file = fresh_path("all.h5");
-  FrameRing ring(1024);
+  TickRing ring(1024);
   Recorder recorder(ring, file, header);
   recorder.note(SceneRecord{.epoch = 0, .scene = R"({"a":"ü\n"})", .scan_hash = "x", .half_extent_m = {1, 2, 0.1}});
   recorder.note(StylusRecord{.epoch = 3, .name = "falcon", .force_axes = 3, .maximum_force_n = 8});
@@ -64,7 +64,7 @@ TEST(Recorder, WritesEveryFrameInOrderWithWhatTheSessionWasGiven) {
 
 TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
   const auto file = fresh_path("slow.h5");
-  FrameRing ring(1024);
+  TickRing ring(1024);
   std::atomic<bool> held{true};
   Recorder recorder(ring, file, header, {.before_write = [&] {
                       while (held) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -89,7 +89,7 @@ TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
   EXPECT_EQ(marked, status.lost);
   // Every number is in the file or in a gap.
   std::uint64_t next = 0;
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     for (const Gap& gap : recording.gaps) next += gap.first_frame == next ? gap.frames : 0;
     ASSERT_EQ(frame.index, next);
     ++next;
@@ -99,7 +99,7 @@ TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
 
 TEST(Recorder, LittleRoomOnTheDiskEndsTheRecordingInGoodOrder) {
   const auto file = fresh_path("room.h5");
-  FrameRing ring(1024);
+  TickRing ring(1024);
   Recorder recorder(ring, file, header, {.spare_bytes = std::uintmax_t{1} << 62U});
   push(ring, 0, 100);
   const RecorderStatus status = recorder.finish();
@@ -117,13 +117,13 @@ TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit most{1U << 20U, 1U << 20U};
     setrlimit(RLIMIT_FSIZE, &most);
-    FrameRing ring(1U << 14U);
+    TickRing ring(1U << 14U);
     Recorder recorder(ring, file, header);
     std::uint64_t n = 0;
     for (int i = 0; i < 1000 && !recorder.status().stopped; ++i) {
       recorder.wait_for_room();
       for (std::uint64_t k = 0; k < 1000; ++k, ++n) {
-        Frame frame = numbered(n);
+        TickRecord frame = numbered(n);
         frame.share_count = 0;
         frame.value = static_cast<double>(n * 0x9E3779B97F4A7C15U);  // does not pack well
         frame.force_n[0] = frame.value * 1.37;
@@ -150,7 +150,7 @@ TEST(Recorder, AfterACrashWhatWasFlushedCanBeRead) {
   ASSERT_EQ(pipe(ready), 0);
   const pid_t child = fork();
   if (child == 0) {
-    FrameRing ring(1U << 14U);
+    TickRing ring(1U << 14U);
     Recorder recorder(ring, file, header);
     recorder.note(SceneRecord{.epoch = 0, .scene = "{}", .scan_hash = "x"});
     for (std::uint64_t n = 0;; n += 50) {

@@ -98,8 +98,8 @@ Recording read_recording(const std::filesystem::path& file) {
     recording.header.seed = std::stod(read_text(input, "seed"));
     recording.header.rate_hz = std::stod(read_text(input, "rate_hz"));
     // Frames first: what a writer adds meanwhile is shares of later ones.
-    recording.frames = read_table<Frame>(input, "frames", frame_row_type());
-    recording.shares = read_table<Share>(input, "shares", share_row_type());
+    recording.frames = read_table<TickRecord>(input, "frames", frame_row_type());
+    recording.shares = read_table<PrimitiveRecord>(input, "shares", share_row_type());
     keep_whole_frames(recording);
     const Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "read what is in it");
     const auto events = read_table<char>(input, "events", byte);

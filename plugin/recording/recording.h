@@ -4,8 +4,8 @@
 /// written, and columns that hardly change cost little; in its single-writer mode (SWMR), in which what is in the file
 /// can be read at any moment, also after a crash.
 ///
-///   /frames   one row a tick: the members of Frame
-///   /shares   one row a primitive and tick: the members of Share
+///   /frames   one row a tick: the members of TickRecord
+///   /shares   one row a primitive and tick: the members of PrimitiveRecord
 ///   /events   lines of JSON: scenes as they came, styluses, and frames that were lost
 ///   /palpate_version, /device, /scan_hash, /seed, /rate_hz   texts
 ///
@@ -32,7 +32,7 @@ struct RecordingHeader {
 
 /// A scene as it was published, with all that is needed to make its Snapshot again.
 struct SceneRecord {
-  std::uint32_t epoch = 0;  ///< Frame::scene_epoch
+  std::uint32_t epoch = 0;  ///< TickRecord::scene_epoch
   std::string scene;        ///< JSON
   std::string scan_hash;
   glm::dvec3 half_extent_m{0};   ///< of the stylus that the workspace was placed for
@@ -41,7 +41,7 @@ struct SceneRecord {
 };
 
 struct StylusRecord {
-  std::uint32_t epoch = 0;  ///< Frame::stylus_epoch
+  std::uint32_t epoch = 0;  ///< TickRecord::stylus_epoch
   std::string name;
   int force_axes = 3;
   double maximum_force_n = 1e9;
@@ -55,8 +55,8 @@ struct Gap {
 
 struct Recording {
   RecordingHeader header;
-  std::vector<Frame> frames;
-  std::vector<Share> shares;  ///< frame by frame, in the order of the primitives
+  std::vector<TickRecord> frames;
+  std::vector<PrimitiveRecord> shares;  ///< frame by frame, in the order of the primitives
   std::vector<SceneRecord> scenes;
   std::vector<StylusRecord> styluses;
   std::vector<Gap> gaps;

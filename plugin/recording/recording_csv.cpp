@@ -29,7 +29,7 @@ void write_csv(const Recording& recording, const std::filesystem::path& file) tr
     out.print(",{}_ns", stage);
   }
   out.print("\n");
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     out.print("{},{},{},{},{}", frame.index, frame.time_s, frame.dt_s, frame.pose_time_s, frame.heartbeat_s);
     print_all(out, frame.probe_m);
     print_all(out, frame.proxy_m);

@@ -35,46 +35,46 @@ Handle make_row_type(std::size_t size, std::span<const Member> members) {
 Handle frame_row_type() {
   const hid_t f64 = H5T_NATIVE_DOUBLE;
   const hid_t u32 = H5T_NATIVE_UINT32;
-  const Member members[] = {{"index", offsetof(Frame, index), H5T_NATIVE_UINT64},
-                            {"time_s", offsetof(Frame, time_s), f64},
-                            {"dt_s", offsetof(Frame, dt_s), f64},
-                            {"pose_time_s", offsetof(Frame, pose_time_s), f64},
-                            {"heartbeat_s", offsetof(Frame, heartbeat_s), f64},
-                            {"probe_m", offsetof(Frame, probe_m), f64, 3},
-                            {"proxy_m", offsetof(Frame, proxy_m), f64, 3},
-                            {"force_n", offsetof(Frame, force_n), f64, 3},
-                            {"sent_n", offsetof(Frame, sent_n), f64, 3},
-                            {"value", offsetof(Frame, value), f64},
-                            {"residual_n", offsetof(Frame, residual_n), f64},
-                            {"error_bound_m", offsetof(Frame, error_bound_m), f64},
-                            {"change_part", offsetof(Frame, change_part), f64},
-                            {"scene_epoch", offsetof(Frame, scene_epoch), u32},
-                            {"sub_steps", offsetof(Frame, sub_steps), u32},
-                            {"halts", offsetof(Frame, halts), u32},
-                            {"iterations", offsetof(Frame, iterations), u32},
-                            {"solver", offsetof(Frame, solver), u32},
-                            {"outcome", offsetof(Frame, outcome), u32},
-                            {"safety", offsetof(Frame, safety), u32},
-                            {"share_count", offsetof(Frame, share_count), u32},
-                            {"buttons", offsetof(Frame, buttons), u32},
-                            {"fresh", offsetof(Frame, fresh), u32},
-                            {"stylus_state", offsetof(Frame, stylus_state), u32},
-                            {"stylus_epoch", offsetof(Frame, stylus_epoch), u32},
-                            {"commands", offsetof(Frame, commands), u32},
-                            {"from_brick", offsetof(Frame, from_brick), u32},
-                            {"missed", offsetof(Frame, missed), u32},
-                            {"late_ns", offsetof(Frame, late_ns), u32},
-                            {"stage_ns", offsetof(Frame, stage_ns), u32, stage_count}};
-  return make_row_type(sizeof(Frame), members);
+  const Member members[] = {{"index", offsetof(TickRecord, index), H5T_NATIVE_UINT64},
+                            {"time_s", offsetof(TickRecord, time_s), f64},
+                            {"dt_s", offsetof(TickRecord, dt_s), f64},
+                            {"pose_time_s", offsetof(TickRecord, pose_time_s), f64},
+                            {"heartbeat_s", offsetof(TickRecord, heartbeat_s), f64},
+                            {"probe_m", offsetof(TickRecord, probe_m), f64, 3},
+                            {"proxy_m", offsetof(TickRecord, proxy_m), f64, 3},
+                            {"force_n", offsetof(TickRecord, force_n), f64, 3},
+                            {"sent_n", offsetof(TickRecord, sent_n), f64, 3},
+                            {"value", offsetof(TickRecord, value), f64},
+                            {"residual_n", offsetof(TickRecord, residual_n), f64},
+                            {"error_bound_m", offsetof(TickRecord, error_bound_m), f64},
+                            {"change_part", offsetof(TickRecord, change_part), f64},
+                            {"scene_epoch", offsetof(TickRecord, scene_epoch), u32},
+                            {"sub_steps", offsetof(TickRecord, sub_steps), u32},
+                            {"halts", offsetof(TickRecord, halts), u32},
+                            {"iterations", offsetof(TickRecord, iterations), u32},
+                            {"solver", offsetof(TickRecord, solver), u32},
+                            {"outcome", offsetof(TickRecord, outcome), u32},
+                            {"safety", offsetof(TickRecord, safety), u32},
+                            {"share_count", offsetof(TickRecord, share_count), u32},
+                            {"buttons", offsetof(TickRecord, buttons), u32},
+                            {"fresh", offsetof(TickRecord, fresh), u32},
+                            {"stylus_state", offsetof(TickRecord, stylus_state), u32},
+                            {"stylus_epoch", offsetof(TickRecord, stylus_epoch), u32},
+                            {"commands", offsetof(TickRecord, commands), u32},
+                            {"from_brick", offsetof(TickRecord, from_brick), u32},
+                            {"missed", offsetof(TickRecord, missed), u32},
+                            {"late_ns", offsetof(TickRecord, late_ns), u32},
+                            {"stage_ns", offsetof(TickRecord, stage_ns), u32, stage_count}};
+  return make_row_type(sizeof(TickRecord), members);
 }
 
 Handle share_row_type() {
-  const Member members[] = {{"frame", offsetof(Share, frame), H5T_NATIVE_UINT64},
-                            {"mode", offsetof(Share, mode), H5T_NATIVE_UINT32},
-                            {"type", offsetof(Share, type), H5T_NATIVE_UINT32},
-                            {"strength_n", offsetof(Share, strength_n), H5T_NATIVE_DOUBLE},
-                            {"force_n", offsetof(Share, force_n), H5T_NATIVE_DOUBLE, 3}};
-  return make_row_type(sizeof(Share), members);
+  const Member members[] = {{"frame", offsetof(PrimitiveRecord, frame), H5T_NATIVE_UINT64},
+                            {"mode", offsetof(PrimitiveRecord, mode), H5T_NATIVE_UINT32},
+                            {"type", offsetof(PrimitiveRecord, type), H5T_NATIVE_UINT32},
+                            {"strength_n", offsetof(PrimitiveRecord, strength_n), H5T_NATIVE_DOUBLE},
+                            {"force_n", offsetof(PrimitiveRecord, force_n), H5T_NATIVE_DOUBLE, 3}};
+  return make_row_type(sizeof(PrimitiveRecord), members);
 }
 
 std::string to_line(const SceneRecord& scene) {

@@ -25,7 +25,7 @@ Recording random_recording(std::size_t frames) {
                       .scan_hash = "0123456789abcdef",
                       .seed = 42};
   for (std::size_t n = 0; n < frames; ++n) {
-    Frame frame;
+    TickRecord frame;
     frame.index = n;
     frame.time_s = 1e-3 * static_cast<double>(n);
     frame.probe_m[1] = normal(random);
@@ -51,8 +51,8 @@ TEST(Recording, ReadsBackToTheLastBit) {
   EXPECT_EQ(read.header.seed, written.header.seed);
   ASSERT_EQ(read.frames.size(), written.frames.size());
   ASSERT_EQ(read.shares.size(), written.shares.size());
-  EXPECT_EQ(std::memcmp(read.frames.data(), written.frames.data(), sizeof(Frame) * read.frames.size()), 0);
-  EXPECT_EQ(std::memcmp(read.shares.data(), written.shares.data(), sizeof(Share) * read.shares.size()), 0);
+  EXPECT_EQ(std::memcmp(read.frames.data(), written.frames.data(), sizeof(TickRecord) * read.frames.size()), 0);
+  EXPECT_EQ(std::memcmp(read.shares.data(), written.shares.data(), sizeof(PrimitiveRecord) * read.shares.size()), 0);
 }
 
 TEST(Recording, AnEmptySessionIsARecordingToo) {

@@ -114,7 +114,7 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, const RecordingHead
 
 RecordingWriter::~RecordingWriter() = default;
 
-void RecordingWriter::append(std::span<const Frame> frames, std::span<const Share> shares) {
+void RecordingWriter::append(std::span<const TickRecord> frames, std::span<const PrimitiveRecord> shares) {
   naming(file_, [&] {
     // In this order: a frame in the file has its shares there.
     append_rows(open_->shares, shares.data(), shares.size());

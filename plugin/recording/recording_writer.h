@@ -21,7 +21,7 @@ class RecordingWriter {
   ~RecordingWriter();
 
   /// Whole frames with all their shares.
-  void append(std::span<const Frame> frames, std::span<const Share> shares);
+  void append(std::span<const TickRecord> frames, std::span<const PrimitiveRecord> shares);
   void append(const SceneRecord& scene);
   void append(const StylusRecord& stylus);
   void append(const Gap& gap);

@@ -24,11 +24,11 @@ struct Poses {
   std::vector<device::State> states;
 };
 
-Poses poses_of(std::span<const Frame> frames) {
+Poses poses_of(std::span<const TickRecord> frames) {
   Poses poses;
   poses.readings.reserve(frames.size());
   poses.states.reserve(frames.size());
-  for (const Frame& frame : frames) {
+  for (const TickRecord& frame : frames) {
     poses.readings.push_back({.time = frame.pose_time_s,
                               .position = vector_of(frame.probe_m),
                               .buttons = frame.buttons,
@@ -73,7 +73,7 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
   return *found;
 }
 
-void compare(const Frame& recorded, const Frame& repeated, Replay& result) {
+void compare(const TickRecord& recorded, const TickRecord& repeated, Replay& result) {
   ++result.frames;
   if (!same_in_replay(recorded, repeated)) {
     ++result.different;
@@ -94,7 +94,7 @@ struct Replayer::Progress {
     return std::make_shared<RecordedStylus>(poses, find_epoch(styluses, epoch, "stylus"), rate_hz);
   }
   Snapshot snapshot(std::uint32_t epoch) const { return make_snapshot(find_epoch(scenes, epoch, "scene")); }
-  void repeat_commands(std::span<const Frame> coming);
+  void repeat_commands(std::span<const TickRecord> coming);
 
   SnapshotMaker make_snapshot;
   Replay result;
@@ -109,8 +109,8 @@ struct Replayer::Progress {
 };
 
 /// Asks of the session what was asked of it before the first of the coming frames.
-void Replayer::Progress::repeat_commands(std::span<const Frame> coming) {
-  const Frame& frame = coming.front();
+void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
+  const TickRecord& frame = coming.front();
   if (frame.scene_epoch != scene_epoch) {
     // Some that were published were never taken; they have numbers, too.
     const Snapshot taken = snapshot(frame.scene_epoch);
@@ -118,7 +118,7 @@ void Replayer::Progress::repeat_commands(std::span<const Frame> coming) {
   }
   if ((frame.commands & command::change_stylus) != 0) {
     const auto taken = std::find_if(coming.begin(), coming.end(),
-                                    [&](const Frame& later) { return later.stylus_epoch != stylus_epoch; });
+                                    [&](const TickRecord& later) { return later.stylus_epoch != stylus_epoch; });
     // One that the recording ends before is as good as the one before it: nothing is read from it.
     const auto changed = stylus(taken == coming.end() ? stylus_epoch : taken->stylus_epoch);
     const std::uint32_t epoch = taken == coming.end() ? stylus_epoch + 1 : taken->stylus_epoch;
@@ -148,7 +148,7 @@ void Replayer::feed(const Recording& part) {
   while (unbroken < part.frames.size() && part.frames[unbroken].index == progress.next + unbroken) {
     ++unbroken;
   }
-  const std::span<const Frame> frames = std::span(part.frames).first(unbroken);
+  const std::span<const TickRecord> frames = std::span(part.frames).first(unbroken);
   progress.next += unbroken;
   progress.result.after_gap += part.frames.size() - unbroken;
   if (frames.empty()) {
@@ -161,7 +161,7 @@ void Replayer::feed(const Recording& part) {
     progress.session = std::make_unique<Session>(progress.snapshot(0), progress.stylus(0));
   }
   for (std::size_t n = 0; n < frames.size(); ++n) {
-    const Frame& frame = frames[n];
+    const TickRecord& frame = frames[n];
     progress.repeat_commands(frames.subspan(n));
     compare(frame,
             progress.session->tick({.time_s = frame.time_s,

@@ -21,7 +21,7 @@ Snapshot make_again(const SceneRecord& record) {
 /// A session in which everything happens: scenes, time frames, styluses, faults, a commander that falls silent.
 Recording eventful_session(const std::filesystem::path& file) {
   const auto held = stylus(press());
-  FrameRing ring;
+  TickRing ring;
   Recorder recorder(ring, file, {.rate_hz = 1000});
   const auto note_stylus = [&](std::uint32_t epoch, const device::Specification& what) {
     recorder.note(StylusRecord{epoch, what.name, what.force_axes, what.maximum_force});
@@ -81,7 +81,7 @@ TEST(Replay, AnEventfulSessionIsTheSameToTheLastBit) {
   const Recording recording = eventful_session(fresh_path("eventful.h5"));
   ASSERT_EQ(recording.frames.size(), 8000U);
   std::map<std::uint32_t, int> faults, scenes, styluses;
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     ++faults[static_cast<std::uint32_t>(fault_of(frame))];
     ++scenes[frame.scene_epoch];
     ++styluses[frame.stylus_epoch];

@@ -73,7 +73,7 @@ TEST(RecordedSession, IsWhereTheHandWasInThePatient) {
   for (std::size_t n = 0; n < session.size(); ++n) {
     const auto& probe = recording.frames[n].probe_m;
     ASSERT_EQ(session.probe_mm(n), workspace.to_patient({probe[0], probe[1], probe[2]}));
-    for (const Share& share : session.shares(n)) ASSERT_EQ(share.frame, session.frame(n).index);
+    for (const PrimitiveRecord& share : session.shares(n)) ASSERT_EQ(share.frame, session.frame(n).index);
     shares += session.shares(n).size();
     ASSERT_EQ(session.frame_at(session.time_s(n)), n);
   }

@@ -48,7 +48,8 @@ std::string tissue_name(const modes::Scene& scene, const std::string& unit, doub
   return fmt::format("value {:.0f}", value);
 }
 
-std::string live_line(const Frame& frame, const std::string& tissue, double longest_tick_us, std::uint64_t missed) {
+std::string live_line(const TickRecord& frame, const std::string& tissue, double longest_tick_us,
+                      std::uint64_t missed) {
   const double depth_mm = 1e3 * glm::length(vector_of(frame.proxy_m) - vector_of(frame.probe_m));
   std::string line = fmt::format(
       "{:7.1f} s  {:5.2f} N  {:5.1f} mm deep  {:<14} {:<10} +-{:.0e} m  tick {:6.1f} us  missed {}", frame.time_s,
@@ -62,7 +63,7 @@ std::string live_line(const Frame& frame, const std::string& tissue, double long
   return line;
 }
 
-LiveView::LiveView(const FrameRing& ring, const modes::Scene& scene, std::string unit)
+LiveView::LiveView(const TickRing& ring, const modes::Scene& scene, std::string unit)
     : ring_(ring), scene_(scene), unit_(std::move(unit)) {}
 
 LiveView::~LiveView() {
@@ -72,7 +73,7 @@ LiveView::~LiveView() {
 void LiveView::show() {
   const std::uint64_t written = ring_.written();
   next_ = std::max(next_, ring_.oldest());
-  Frame frame;
+  TickRecord frame;
   bool any = false;
   double longest_us = 0;
   for (; next_ < written; ++next_) {

@@ -14,7 +14,7 @@ class LiveView {
  public:
   /// `unit` is the scan's: CT's tissues are named by their HU where the scene names none. Both have to outlive the
   /// view.
-  LiveView(const FrameRing& ring, const modes::Scene& scene, std::string unit);
+  LiveView(const TickRing& ring, const modes::Scene& scene, std::string unit);
   /// Clears the line.
   ~LiveView();
   LiveView(const LiveView&) = delete;
@@ -25,7 +25,7 @@ class LiveView {
   void show();
 
  private:
-  const FrameRing& ring_;
+  const TickRing& ring_;
   const modes::Scene& scene_;
   std::string unit_;
   std::uint64_t next_ = 0;
@@ -36,6 +36,6 @@ class LiveView {
 std::string tissue_name(const modes::Scene& scene, const std::string& unit, double value);
 
 /// The line for a frame: force, depth, tissue, solver, error bound, tick, missed ticks, and what is wrong.
-std::string live_line(const Frame& frame, const std::string& tissue, double longest_tick_us, std::uint64_t missed);
+std::string live_line(const TickRecord& frame, const std::string& tissue, double longest_tick_us, std::uint64_t missed);
 
 }  // namespace palpate::plugin

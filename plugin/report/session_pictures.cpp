@@ -16,7 +16,7 @@ namespace palpate::plugin {
 namespace {
 
 constexpr std::array boundary_colors{colors::vermilion, colors::blue,   colors::green,
-                                      colors::purple,    colors::orange, colors::sky};
+                                     colors::purple,    colors::orange, colors::sky};
 
 glm::dvec3 vector_of(const double (&from)[3]) {
   return {from[0], from[1], from[2]};
@@ -31,7 +31,7 @@ struct Tracks {
 
 Tracks tracks_of(const Recording& recording, const modes::Plan& plan) {
   Tracks tracks;
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     tracks.probe_mm.push_back(plan.workspace.to_patient(vector_of(frame.probe_m)));
     tracks.proxy_mm.push_back(plan.workspace.to_patient(vector_of(frame.proxy_m)));
     tracks.force_n.push_back(plan.workspace.direction_to_patient(vector_of(frame.sent_n)));
@@ -126,7 +126,7 @@ void write_force_depth(const Recording& recording, const Tracks& tracks, const S
   }
   std::vector<Mark> marks;
   std::vector<std::size_t> named;
-  for (const Hold& hold : summary.holds) {
+  for (const HeldStretch& hold : summary.holds) {
     if (std::find(named.begin(), named.end(), hold.mode) == named.end()) {
       named.push_back(hold.mode);
       marks.push_back({.at = depth_of(hold.contact_mm),
@@ -147,7 +147,7 @@ void write_force_time(const Recording& recording, const modes::Scene& scene, con
   std::vector<Curve> by_mode(scene.modes.size());
   Curve sent{.label = "sent to the device", .x = {}, .y = {}, .color = colors::black, .width = 1.6};
   std::size_t share = 0;
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     sent.x.push_back(frame.time_s);
     sent.y.push_back(glm::length(vector_of(frame.sent_n)));
     std::vector<glm::dvec3> force(scene.modes.size(), glm::dvec3(0));
@@ -179,7 +179,7 @@ void write_tick_time(const Recording& recording, const Summary& summary, const s
   for (int bin = 0; bin <= bins; ++bin) {
     counts.x.push_back(0.1 * std::pow(10.0, bin / 20.0));
   }
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     const double bin = std::floor(20 * std::log10(std::max(0.1, tick_us(frame)) / 0.1));
     counts.y[static_cast<std::size_t>(std::min<double>(bins - 1, bin))] += 1;
   }

@@ -57,8 +57,7 @@ void draw_letters(Canvas& canvas, const SliceView& view) {
   const double middle_y = header + (canvas.height() - header) / 2.0;
   label(canvas, {canvas.width() - 10.0, middle_y}, orientation_letters(view.right), 20, colors::yellow, Anchor::right);
   label(canvas, {10, middle_y}, orientation_letters(-view.right), 20, colors::yellow);
-  label(canvas, {middle_x, canvas.height() - 10.0}, orientation_letters(view.down), 20, colors::yellow,
-        Anchor::center);
+  label(canvas, {middle_x, canvas.height() - 10.0}, orientation_letters(view.down), 20, colors::yellow, Anchor::center);
   label(canvas, {middle_x, header + 22}, orientation_letters(-view.down), 20, colors::yellow, Anchor::center);
 }
 

@@ -27,7 +27,7 @@ Profile through_the_skin() {
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
   scene.tissues = {{.name = "air, \"outside\"", .low = -2000, .high = -500, .softness = 50},
                    {.name = "flesh", .low = -500, .high = 3000, .softness = 50}};
-  const Felt felt = prepare(scene, volume, glm::dvec3(0.1));
+  const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.1));
   return {.stroke = run_stroke(*felt.plan, *felt.source, {0, -29, 0}, {0, -15, 0}, 50),
           .plan = felt.plan,
           .scene = scene,

@@ -95,7 +95,7 @@ class Painter {
   }
 
   const modes::Suggestion& suggestion_;
-  Felt felt_;
+  PreparedScene felt_;
   Box box_;
   double low_ = 0, high_ = 1;
 };

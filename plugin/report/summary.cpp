@@ -31,10 +31,10 @@ bool is_surface(const modes::Plan& plan, std::size_t mode) {
 }
 
 /// The surface that pushes most in a frame, if one is felt.
-std::optional<std::size_t> holding_surface(std::span<const Share> shares, const modes::Plan& plan) {
+std::optional<std::size_t> holding_surface(std::span<const PrimitiveRecord> shares, const modes::Plan& plan) {
   std::optional<std::size_t> most;
   double largest = felt_n;
-  for (const Share& share : shares) {
+  for (const PrimitiveRecord& share : shares) {
     const double force = glm::length(vector_of(share.force_n));
     if (force > largest && is_surface(plan, share.mode)) {
       largest = force;
@@ -44,7 +44,7 @@ std::optional<std::size_t> holding_surface(std::span<const Share> shares, const 
   return most;
 }
 
-void extend_holds(std::vector<Hold>& holds, std::size_t mode, const Frame& frame, const modes::Plan& plan) {
+void extend_holds(std::vector<HeldStretch>& holds, std::size_t mode, const TickRecord& frame, const modes::Plan& plan) {
   const bool goes_on = !holds.empty() && holds.back().mode == mode && frame.time_s - holds.back().end_s < same_hold_s;
   if (!goes_on) {
     holds.push_back({.mode = mode,
@@ -59,7 +59,7 @@ void extend_holds(std::vector<Hold>& holds, std::size_t mode, const Frame& frame
 
 }  // namespace
 
-double tick_us(const Frame& frame) {
+double tick_us(const TickRecord& frame) {
   return 1e-3 * std::accumulate(std::begin(frame.stage_ns), std::end(frame.stage_ns), 0.0);
 }
 
@@ -83,9 +83,9 @@ Summary summarize(const Recording& recording, const modes::Plan& plan) {
   summary.duration_s = recording.frames.back().time_s - recording.frames.front().time_s;
   std::vector<double> times;
   times.reserve(recording.frames.size());
-  std::span<const Share> shares(recording.shares);
+  std::span<const PrimitiveRecord> shares(recording.shares);
   device::Fault fault = device::Fault::none;
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     const auto own = shares.first(frame.share_count);
     shares = shares.subspan(frame.share_count);
     if (const auto mode = holding_surface(own, plan)) {
@@ -145,7 +145,7 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
   if (summary.holds.empty()) {
     text += "  nothing: no boundary pushed with more than 0.05 N\n";
   }
-  for (const Hold& hold : summary.holds) {
+  for (const HeldStretch& hold : summary.holds) {
     text += fmt::format("  {:6.3f} to {:6.3f} s  {:<12} met at {}, value {:.0f}; up to {:.2f} N\n", hold.begin_s,
                         hold.end_s, display_name(scene, hold.mode), patient_coordinates(hold.contact_mm), hold.value,
                         hold.peak_n);
@@ -169,7 +169,7 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
 
 std::string to_json(const Summary& summary, const modes::Scene& scene) {
   nlohmann::json holds = nlohmann::json::array();
-  for (const Hold& hold : summary.holds) {
+  for (const HeldStretch& hold : summary.holds) {
     holds.push_back({{"boundary", display_name(scene, hold.mode)},
                      {"begin_s", hold.begin_s},
                      {"end_s", hold.end_s},

@@ -13,7 +13,7 @@
 namespace palpate::plugin {
 
 /// A stretch of frames in which one surface, above all others, held the proxy.
-struct Hold {
+struct HeldStretch {
   std::size_t mode = 0;  ///< index into the scene's modes
   double begin_s = 0;
   double end_s = 0;
@@ -29,7 +29,7 @@ struct Percentiles {
 struct Summary {
   double duration_s = 0;
   std::size_t frames = 0;
-  std::vector<Hold> holds;
+  std::vector<HeldStretch> holds;
   double peak_sent_n = 0;
   std::size_t analytical = 0, exact = 0, descent = 0, capped = 0, refused = 0;  ///< frames
   double largest_error_bound_m = 0;
@@ -41,7 +41,7 @@ struct Summary {
 };
 
 /// The time of a frame in all its stages, microseconds.
-double tick_us(const Frame& frame);
+double tick_us(const TickRecord& frame);
 
 Percentiles percentiles_of(std::vector<double> values);
 

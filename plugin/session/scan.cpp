@@ -54,14 +54,14 @@ std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io:
   return std::make_shared<const modes::Plan>(std::move(plan));
 }
 
-Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-             const glm::dvec3& device_half_extent_m) {
+PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+                      const glm::dvec3& device_half_extent_m) {
   return prepare(scene, volume, device_half_extent_m, {});
 }
 
-Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-             const glm::dvec3& device_half_extent_m, const Prepared& before) {
-  Felt felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
+PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+                      const glm::dvec3& device_half_extent_m, const Prepared& before) {
+  PreparedScene felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
   if (before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
       before.felt.plan->slices == felt.plan->slices && before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
       before.scene.sampling == scene.sampling) {

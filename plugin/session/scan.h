@@ -35,22 +35,22 @@ std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io:
                                             const glm::dvec3& device_half_extent_m);
 
 /// A scene on a scan: the plan, and the fields that this plan needs and no more.
-struct Felt {
+struct PreparedScene {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
 };
-Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-             const glm::dvec3& device_half_extent_m);
+PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+                      const glm::dvec3& device_half_extent_m);
 
 /// What was prepared before.
 struct Prepared {
-  Felt felt;
+  PreparedScene felt;
   modes::Scene scene;
   std::shared_ptr<const io::Volume> volume;
 };
 /// The same, with the fields that were prepared before where the scene still needs just these of that scan: a scene
 /// that is being edited is then there at once.
-Felt prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-             const glm::dvec3& device_half_extent_m, const Prepared& before);
+PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+                      const glm::dvec3& device_half_extent_m, const Prepared& before);
 
 }  // namespace palpate::plugin

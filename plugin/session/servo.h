@@ -31,7 +31,7 @@ class Servo {
   /// What the system allowed.
   const device::RealtimeStatus& realtime() const noexcept { return realtime_; }
   std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
-  /// Deadlines that went by without a tick; each is in the Frame::missed of the tick that came after.
+  /// Deadlines that went by without a tick; each is in the TickRecord::missed of the tick that came after.
   std::uint64_t missed() const noexcept { return missed_.load(std::memory_order_relaxed); }
 
  private:

@@ -30,7 +30,7 @@ void run_at(double rate_hz) {
   model.rate = rate_hz;
   const auto held = std::make_shared<device::SimulatedStylus>(model);
   held->follow(hold());
-  FrameRing ring;
+  TickRing ring;
   Recorder recorder(ring, file, {.rate_hz = rate_hz});
   SceneRecord scene{.epoch = 0, .scene = "ct-skin-and-bone", .scan_hash = "frame 0"};
   recorder.note(scene);
@@ -59,7 +59,7 @@ void run_at(double rate_hz) {
   const Recording recording = read_recording(file);
   ASSERT_EQ(recording.frames.size(), ticks);
   std::uint64_t missed_in_frames = 0;
-  for (const Frame& frame : recording.frames) {
+  for (const TickRecord& frame : recording.frames) {
     missed_in_frames += frame.missed;
     // The time of a frame is its deadline: ticks and missed ones together.
     ASSERT_NEAR(frame.time_s * rate_hz, static_cast<double>(frame.index + missed_in_frames), 1e-6);

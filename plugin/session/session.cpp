@@ -89,7 +89,7 @@ Session::Session(std::shared_ptr<const modes::Plan> plan, std::shared_ptr<const 
     : Session({.plan = std::move(plan), .source = std::move(source), .limits = limits},
               std::shared_ptr<device::Stylus>(&stylus, [](device::Stylus*) {})) {}
 
-Session::Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, FrameRing* ring)
+Session::Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring)
     : scratch_(std::make_unique<modes::StepScratch>()),
       ring_(ring),
       rate_hz_(stylus->specification().rate),
@@ -202,7 +202,7 @@ modes::StepResult Session::step(const device::Reading& reading) noexcept {
     return modes::step(*to.plan, *to.source, reading.position, touch_, setting_->chain, *scratch_);
   }
   const Snapshot& from = leaving_->snapshot;
-  const modes::Change change{
+  const modes::SceneChange change{
       .from = {from.plan.get(), from.source.get()}, .to = {to.plan.get(), to.source.get()}, .part = part_};
   const modes::StepResult result = modes::step(change, reading.position, touch_, *setting_->changing_chain, *scratch_);
   if (part_ >= 1) {
@@ -223,12 +223,12 @@ device::SafetyLimits Session::limits() const noexcept {
   return limits;
 }
 
-const Frame& Session::tick() noexcept {
+const TickRecord& Session::tick() noexcept {
   const double time = static_cast<double>(ticks_) / rate_hz_;
   return tick({.time_s = time, .heartbeat_s = time});
 }
 
-const Frame& Session::tick(const Beat& beat) noexcept {
+const TickRecord& Session::tick(const Beat& beat) noexcept {
   modes::Stopwatch watch;
   watch.start();
   std::array<std::uint64_t, stage_count> counts{};

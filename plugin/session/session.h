@@ -48,27 +48,28 @@ class Session {
   Session(std::shared_ptr<const modes::Plan> plan, std::shared_ptr<const io::FieldSource> source,
           device::Stylus& stylus, const device::SafetyLimits& limits);
   /// The same; the ring (may be null, has to outlive the session) gets every frame.
-  Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, FrameRing* ring = nullptr);
+  Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring = nullptr);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   /// Zero force, stylus closed. No thread may be ticking any more.
   ~Session();
 
   // --- The servo. Does not allocate, free, lock, log, throw or call the system.
-  const Frame& tick(const Beat& beat) noexcept;
+  const TickRecord& tick(const Beat& beat) noexcept;
   /// The same, in even steps of the first stylus' rate, by a driver that is always there.
-  const Frame& tick() noexcept;
+  const TickRecord& tick() noexcept;
   /// What each primitive did in the last tick's last sub-step.
-  std::span<const Share> shares() const noexcept { return {shares_.data(), frame_.share_count}; }
+  std::span<const PrimitiveRecord> shares() const noexcept { return {shares_.data(), frame_.share_count}; }
   device::Fault fault() const noexcept { return safety_.fault; }
 
   // --- Whoever commands.
   /// Goes over to another scene, scan, time frame or workspace. One change at a time: where one is on its way, the next
-  /// begins when it has ended, and of several that wait the last one counts. Returns Frame::scene_epoch of its frames.
+  /// begins when it has ended, and of several that wait the last one counts. Returns TickRecord::scene_epoch of its
+  /// frames.
   std::uint32_t publish(const Snapshot& next);
   /// Goes over to another stylus: opened here, and once the force has fallen the servo takes it, with the force ramped
   /// up from zero. Throws what Stylus::open() throws; the session then goes on with the one that it has. Null: none is
-  /// held until the next. Returns Frame::stylus_epoch of its frames.
+  /// held until the next. Returns TickRecord::stylus_epoch of its frames.
   std::uint32_t change_stylus(std::shared_ptr<device::Stylus> stylus);
   /// Whether the servo has taken the stylus of the last change_stylus().
   bool holds_stylus(std::uint32_t epoch) const noexcept {
@@ -120,9 +121,9 @@ class Session {
   device::EnergyState energy_;
   modes::Touch touch_;
   std::unique_ptr<modes::StepScratch> scratch_;
-  Frame frame_;
-  std::array<Share, modes::most_primitives> shares_{};
-  FrameRing* ring_;
+  TickRecord frame_;
+  std::array<PrimitiveRecord, modes::most_primitives> shares_{};
+  TickRing* ring_;
   double rate_hz_;
   double ns_per_count_;
   std::uint64_t ticks_ = 0;
@@ -131,14 +132,14 @@ class Session {
 /// The safety filter's limits for a scene on a device: never above what the device can do.
 device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device);
 
-/// Frame::safety holds both.
+/// TickRecord::safety holds both.
 constexpr std::uint32_t pack_safety(device::State state, device::Fault fault) {
   return static_cast<std::uint32_t>(state) | static_cast<std::uint32_t>(fault) << 8U;
 }
-constexpr device::State state_of(const Frame& frame) {
+constexpr device::State state_of(const TickRecord& frame) {
   return static_cast<device::State>(frame.safety & 0xFFU);
 }
-constexpr device::Fault fault_of(const Frame& frame) {
+constexpr device::Fault fault_of(const TickRecord& frame) {
   return static_cast<device::Fault>(frame.safety >> 8U);
 }
 

@@ -142,7 +142,7 @@ TEST(SessionChange, ArmingAgainForgetsWhatWasTouchedBefore) {
 
 TEST(SessionChange, ASilentCommanderRampsTheForceToZero) {
   Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
-  Frame frame;
+  TickRecord frame;
   for (int n = 0; n < 4600; ++n) {
     const double time = 1e-3 * n;
     frame = session.tick({.time_s = time, .heartbeat_s = std::min(time, 2.0)});
@@ -158,7 +158,7 @@ TEST(SessionChange, TheStagesOfAFrameAddUp) {
   Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
   std::uint64_t sums[stage_count] = {};
   for (int n = 0; n < 2000; ++n) {
-    const Frame& frame = session.tick();
+    const TickRecord& frame = session.tick();
     for (std::size_t stage = 0; stage < stage_count; ++stage) {
       ASSERT_LT(frame.stage_ns[stage], 1000000000U) << stage_names[stage] << ": below zero, wrapped";
       sums[stage] += frame.stage_ns[stage];

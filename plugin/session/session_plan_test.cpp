@@ -54,7 +54,7 @@ TEST(SessionPlan, SamplesThePlansFieldsAndTheValueOnceAFrameToShowIt) {
   Session session(of(one_surface, source), held);
   int expected = 0;
   for (int n = 0; n < 3000; ++n) {
-    const Frame& frame = session.tick();
+    const TickRecord& frame = session.tick();
     expected += static_cast<int>(frame.sub_steps + frame.halts);
   }
   const modes::Plan plan = *of(one_surface, source).plan;
@@ -134,7 +134,7 @@ TEST(SessionPlan, AStylusWithoutMotorsIsNotDamped) {
     Session session(of(one_surface, slab()), std::make_shared<device::ReplayStylus>(readings, specification));
     double most = 0;
     for (int n = 0; n < 3000; ++n) {
-      const Frame& frame = session.tick();
+      const TickRecord& frame = session.tick();
       if (n > 1000) most = std::max(most, glm::distance(vector_of(frame.sent_n), vector_of(frame.force_n)));
     }
     return most;

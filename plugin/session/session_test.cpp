@@ -37,16 +37,16 @@ const std::vector<device::Waypoint> press{
     {.time = 4, .position = {0, -0.018, 0}}, {.time = 4.5, .position = {0, -0.018, 0}},
     {.time = 5.5, .position = {0, 0.02, 0}}, {.time = 6, .position = {0, 0.02, 0}}};
 
-std::vector<Frame> run(device::Stylus& stylus, std::size_t ticks) {
+std::vector<TickRecord> run(device::Stylus& stylus, std::size_t ticks) {
   Session session(plan_of("ct-skin-and-bone"), slab(), stylus, limits_for(modes::Limits{}, stylus.specification()));
-  std::vector<Frame> frames;
+  std::vector<TickRecord> frames;
   for (std::size_t n = 0; n < ticks; ++n) {
     frames.push_back(session.tick());
   }
   return frames;
 }
 
-std::vector<Frame> press_once(std::uint64_t seed) {
+std::vector<TickRecord> press_once(std::uint64_t seed) {
   device::SimulatedDevice model;
   model.hand.tremor_seed = seed;
   device::SimulatedStylus stylus(model);
@@ -54,19 +54,19 @@ std::vector<Frame> press_once(std::uint64_t seed) {
   return run(stylus, 6000);
 }
 
-bool same(const std::vector<Frame>& a, const std::vector<Frame>& b) {
+bool same(const std::vector<TickRecord>& a, const std::vector<TickRecord>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_in_replay);
 }
 
 TEST(Session, SkinThenBoneThenNothing) {
-  const std::vector<Frame> frames = press_once(1);
+  const std::vector<TickRecord> frames = press_once(1);
   const auto force_at = [&](double time) { return frames[static_cast<std::size_t>(time * 1000)].sent_n[1]; };
   EXPECT_EQ(force_at(0.5), 0) << "nothing is felt in the air";
   EXPECT_GT(force_at(2.4), 0.3) << "the skin pushes up";
   EXPECT_LT(force_at(2.4), 1.2);
   EXPECT_GT(force_at(4.4), 1.2) << "the bone pushes harder than the skin ever does";
   EXPECT_EQ(force_at(5.9), 0) << "lifted off";
-  for (const Frame& frame : frames) {
+  for (const TickRecord& frame : frames) {
     EXPECT_LE(glm::length(glm::dvec3(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2])), 3.0 + 1e-12);
     EXPECT_EQ(static_cast<solver::Outcome>(frame.outcome), solver::Outcome::solved);
     EXPECT_LT(frame.error_bound_m, 1e-12);
@@ -79,9 +79,9 @@ TEST(Session, SameSeedSameBits) {
 }
 
 TEST(Session, ReplayedPosesGiveTheSameForces) {
-  const std::vector<Frame> recorded = press_once(3);
+  const std::vector<TickRecord> recorded = press_once(3);
   std::vector<device::Reading> readings;
-  for (const Frame& frame : recorded) {
+  for (const TickRecord& frame : recorded) {
     readings.push_back(
         {.time = frame.time_s, .position = {frame.probe_m[0], frame.probe_m[1], frame.probe_m[2]}, .fresh = true});
   }
@@ -104,7 +104,7 @@ TEST(Session, TheWindTunnelsFramesShowTheSolver) {
     Session session(plan, flow, stylus, limits_for(scene.limits, stylus.specification()));
     std::array<int, 4> count{};
     for (int n = 0; n < 4000; ++n) {
-      const Frame& frame = session.tick();
+      const TickRecord& frame = session.tick();
       // Solved, or the best answer at the cap on work: either way certified, to less than the device's position step.
       EXPECT_LT(frame.error_bound_m, 0.02e-3) << n;
       ++count[frame.solver];
@@ -134,7 +134,7 @@ TEST(Session, APoseThatIsNotANumberLetsGo) {
   }
   EXPECT_GT(session.tick().sent_n[1], 0.3);
   stylus.inject(device::SimulatedFault::not_a_number);
-  const Frame& frame = session.tick();
+  const TickRecord& frame = session.tick();
   EXPECT_EQ(glm::length(glm::dvec3(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2])), 0);
   EXPECT_NE(session.fault(), device::Fault::none);
   stylus.inject(device::SimulatedFault::none);

@@ -36,7 +36,7 @@ std::vector<device::Waypoint> through_the_ball() {
 }
 
 TEST(SessionTrap, NothingIsCaughtInASessionInWhichEverythingHappens) {
-  FrameRing ring(8192);
+  TickRing ring(8192);
   const auto file = fresh_path("trap.h5");
   Recorder recorder(ring, file, {});
   const auto held = stylus(through_the_ball());
@@ -77,7 +77,7 @@ TEST(SessionTrap, NothingIsCaughtInASessionInWhichEverythingHappens) {
     if (n % 3000 == 2999) held->inject(device::SimulatedFault::not_a_number);
     {
       const device::TickTrap trap;
-      const Frame& frame = session.tick();
+      const TickRecord& frame = session.tick();
       most = std::max(most, glm::length(vector_of(frame.sent_n)));
     }
     if (n % 20 == 0) {

@@ -4,8 +4,8 @@
 
 namespace palpate::plugin {
 
-bool same_in_replay(const Frame& a, const Frame& b) noexcept {
-  return std::memcmp(&a, &b, offsetof(Frame, from_brick)) == 0;
+bool same_in_replay(const TickRecord& a, const TickRecord& b) noexcept {
+  return std::memcmp(&a, &b, offsetof(TickRecord, from_brick)) == 0;
 }
 
 }  // namespace palpate::plugin

@@ -15,7 +15,7 @@ constexpr const char* stage_names[stage_count] = {"read",  "map",    "sample", "
                                                   "solve", "filter", "write",  "observe"};
 
 /// What one primitive did to the proxy. Device frame.
-struct Share {
+struct PrimitiveRecord {
   std::uint64_t frame = 0;  ///< index of the frame
   std::uint32_t mode = 0;   ///< index into the scene's modes; plus modes::of_scene_left where that scene is being left
   std::uint32_t type = 0;   ///< solver::PrimitiveType
@@ -23,13 +23,13 @@ struct Share {
   double force_n[3] = {};   ///< N, on the proxy
 };
 
-/// What was asked of the session at a frame: bits of Frame::commands.
+/// What was asked of the session at a frame: bits of TickRecord::commands.
 namespace command {
 constexpr std::uint32_t arm = 1, disarm = 2, clear_fault = 4, change_stylus = 8;
 }
 
 /// Device frame: m, N, s.
-struct Frame {
+struct TickRecord {
   std::uint64_t index = 0;
   double time_s = 0;  ///< since the session began, counted in deadlines: not the clock's
   double dt_s = 0;
@@ -62,10 +62,10 @@ struct Frame {
   std::uint32_t late_ns = 0;     ///< how long after its deadline this tick began
   std::uint32_t stage_ns[stage_count] = {};
 };
-static_assert(sizeof(Frame) == 8 + 20 * 8 + (16 + stage_count) * 4,
+static_assert(sizeof(TickRecord) == 8 + 20 * 8 + (16 + stage_count) * 4,
               "no padding: frames are compared and written as bytes");
 
 /// Whether two frames are the same to the last bit in all that a replay repeats.
-bool same_in_replay(const Frame& a, const Frame& b) noexcept;
+bool same_in_replay(const TickRecord& a, const TickRecord& b) noexcept;
 
 }  // namespace palpate::plugin

@@ -2,13 +2,13 @@
 
 namespace palpate::plugin {
 
-void FrameRing::push(const Frame& frame, std::span<const Share> shares) noexcept {
+void TickRing::push(const TickRecord& frame, std::span<const PrimitiveRecord> shares) noexcept {
   const std::uint64_t first = shares_.written();
-  for (const Share& share : shares) shares_.push(share);
+  for (const PrimitiveRecord& share : shares) shares_.push(share);
   frames_.push({frame, first});
 }
 
-bool FrameRing::read(std::uint64_t n, Frame& frame, std::vector<Share>* shares) const {
+bool TickRing::read(std::uint64_t n, TickRecord& frame, std::vector<PrimitiveRecord>* shares) const {
   Entry entry;
   if (!frames_.read(n, entry)) return false;
   if (shares != nullptr) {

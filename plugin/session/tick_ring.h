@@ -12,15 +12,15 @@
 
 namespace palpate::plugin {
 
-class FrameRing {
+class TickRing {
  public:
   /// 65 s of frames at 1 kHz, with four primitives in each: 30 MB. The recorder's backlog.
   static constexpr std::size_t default_frames = 1U << 16U;
 
-  explicit FrameRing(std::size_t frames = default_frames) : frames_(frames), shares_(4 * frames) {}
+  explicit TickRing(std::size_t frames = default_frames) : frames_(frames), shares_(4 * frames) {}
 
   /// Servo, wait-free.
-  void push(const Frame& frame, std::span<const Share> shares) noexcept;
+  void push(const TickRecord& frame, std::span<const PrimitiveRecord> shares) noexcept;
 
   std::size_t capacity() const noexcept { return frames_.capacity(); }
   /// Frames ever written: the next one's number. (A session's frames are numbered in step.)
@@ -29,15 +29,15 @@ class FrameRing {
 
   /// Any thread: a frame, and its shares where they are asked for, appended. False where either was overwritten:
   /// nothing is appended then.
-  bool read(std::uint64_t n, Frame& frame, std::vector<Share>* shares = nullptr) const;
+  bool read(std::uint64_t n, TickRecord& frame, std::vector<PrimitiveRecord>* shares = nullptr) const;
 
  private:
   struct Entry {
-    Frame frame;
+    TickRecord frame;
     std::uint64_t first_share = 0;
   };
   BroadcastRing<Entry> frames_;
-  BroadcastRing<Share> shares_;
+  BroadcastRing<PrimitiveRecord> shares_;
 };
 
 }  // namespace palpate::plugin

@@ -40,7 +40,7 @@ FineVec3 unit(const FineVec3& v) {
   return times(near, correction);
 }
 
-bool lock_plane(Frame& frame, std::span<const Placed> primitives, const Placed& plane) {
+bool lock_plane(ActiveSet& frame, std::span<const Placed> primitives, const Placed& plane) {
   if (frame.rank == 3) {
     return false;
   }
@@ -70,7 +70,7 @@ bool lock_plane(Frame& frame, std::span<const Placed> primitives, const Placed& 
 
 }  // namespace
 
-bool lock(Frame& frame, std::span<const Placed> primitives, std::uint32_t i) {
+bool lock(ActiveSet& frame, std::span<const Placed> primitives, std::uint32_t i) {
   const Placed& primitive = primitives[i];
   switch (primitive.type) {
     case PrimitiveType::directed_force:
@@ -98,8 +98,8 @@ bool lock(Frame& frame, std::span<const Placed> primitives, std::uint32_t i) {
   return true;
 }
 
-Frame without(const Frame& frame, std::span<const Placed> primitives, int j) {
-  Frame rest;
+ActiveSet without(const ActiveSet& frame, std::span<const Placed> primitives, int j) {
+  ActiveSet rest;
   for (int i = 0; i < frame.count; ++i) {
     if (i != j) {
       lock(rest, primitives, frame.locked[i]);
@@ -108,7 +108,7 @@ Frame without(const Frame& frame, std::span<const Placed> primitives, int j) {
   return rest;
 }
 
-void settle(const Frame& frame, std::span<const Placed> primitives, FineVec3& z) {
+void settle(const ActiveSet& frame, std::span<const Placed> primitives, FineVec3& z) {
   // The second pass takes away what the first one's roundings left.
   for (int pass = 0; pass < 2; ++pass) {
     for (int j = 0; j < frame.count; ++j) {
@@ -128,7 +128,7 @@ void settle(const Frame& frame, std::span<const Placed> primitives, FineVec3& z)
   }
 }
 
-double doubt_of(const Frame& frame, std::span<const Placed> primitives, const FineVec3& z) {
+double doubt_of(const ActiveSet& frame, std::span<const Placed> primitives, const FineVec3& z) {
   double doubt = 0;
   for (int j = 0; j < frame.count; ++j) {
     const Placed& primitive = primitives[frame.locked[j]];
@@ -143,7 +143,7 @@ double doubt_of(const Frame& frame, std::span<const Placed> primitives, const Fi
   return doubt;
 }
 
-FineVec3 within(const Frame& frame, const FineVec3& v) {
+FineVec3 within(const ActiveSet& frame, const FineVec3& v) {
   if (frame.rank == 0) {
     return v;
   }
@@ -156,7 +156,7 @@ FineVec3 within(const Frame& frame, const FineVec3& v) {
   return fine(Vec3{0});
 }
 
-void share(const Frame& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]) {
+void share(const ActiveSet& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]) {
   Vec3 rest = needed;
   // Backwards: the last normal is orthogonal to all the other planes, and to the line.
   for (int j = frame.count - 1; j >= 0; --j) {

@@ -11,7 +11,7 @@
 namespace palpate::solver::internal {
 
 /// What is locked: nothing; a point; a line and perhaps a plane that it crosses; or one to three planes.
-struct Frame {
+struct ActiveSet {
   int count = 0;  ///< locked primitives
   int rank = 0;   ///< directions that they fix: 3 for a point, 2 for a line, 1 for a plane
   std::uint32_t locked[3];
@@ -26,21 +26,21 @@ struct Frame {
 
 /// Locks primitive i too. False, and nothing done, where it is not independent of what is locked, or of a kind that
 /// does not go with it.
-bool lock(Frame& frame, std::span<const Placed> primitives, std::uint32_t i);
+bool lock(ActiveSet& frame, std::span<const Placed> primitives, std::uint32_t i);
 
 /// Everything locked but the j-th.
-Frame without(const Frame& frame, std::span<const Placed> primitives, int j);
+ActiveSet without(const ActiveSet& frame, std::span<const Placed> primitives, int j);
 
 /// Moves z onto the flat.
-void settle(const Frame& frame, std::span<const Placed> primitives, FineVec3& z);
+void settle(const ActiveSet& frame, std::span<const Placed> primitives, FineVec3& z);
 
 /// How far the exact flat may pass z, m, after settle().
-double doubt_of(const Frame& frame, std::span<const Placed> primitives, const FineVec3& z);
+double doubt_of(const ActiveSet& frame, std::span<const Placed> primitives, const FineVec3& z);
 
 /// The part of v within the flat.
-FineVec3 within(const Frame& frame, const FineVec3& v);
+FineVec3 within(const ActiveSet& frame, const FineVec3& v);
 
 /// The force of each locked primitive (any size) that together have the part of `needed` that is across the flat.
-void share(const Frame& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]);
+void share(const ActiveSet& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]);
 
 }  // namespace palpate::solver::internal

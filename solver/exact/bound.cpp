@@ -27,8 +27,8 @@ double leeway(const Placed& primitive, const FineVec3& z, bool leniently) {
   return leniently ? hard_tolerance * (size_of(primitive.offset) + size_of(z)) : 0;
 }
 
-Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
-                     bool leniently) {
+Contribution share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
+                            bool leniently) {
   const double s = plane.strength;
   Depth depth = depth_of(plane, z);
   depth.error += doubt;
@@ -51,8 +51,8 @@ Share share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& force, 
   return {plane.direction * given, 4 * unit_roundoff * given, slack, backward, slack > 0};
 }
 
-Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
-                         bool leniently) {
+Contribution share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3& force, double stiffness,
+                                double doubt, bool leniently) {
   const double s = attractor.strength;
   const bool hard = std::isinf(s);
   Miss miss = miss_of(attractor, z);
@@ -91,8 +91,8 @@ Share share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3&
 
 }  // namespace
 
-Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
-               bool leniently) {
+Contribution share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt,
+                      bool leniently) {
   switch (primitive.type) {
     case PrimitiveType::directed_force:
       return {primitive.direction * primitive.strength, 4 * unit_roundoff * primitive.strength, 0, 0, false};
@@ -113,7 +113,7 @@ Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineV
   double backward_slack = 0;
   Placed room;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
-    Share share;
+    Contribution share;
     if (flat.has(i)) {
       // On the exact flat its own primitives have no slack: only their force bodies are asked.
       Placed met = primitives.at(i, room);

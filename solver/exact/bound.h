@@ -10,7 +10,7 @@
 namespace palpate::solver::internal {
 
 /// What a primitive contributes to the law at a point: an admissible force and its slack.
-struct Share {
+struct Contribution {
   Vec3 force{0};              ///< N
   double force_error = 0;     ///< N: rounding of the force
   double slack = 0;           ///< J
@@ -20,8 +20,8 @@ struct Share {
 
 /// The cheaper of the full force at z (no slack) and the admissible force nearest to `force` (with its slack).
 /// doubt: how far z may be from the point meant, m.
-Share share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt = 0,
-               bool leniently = false);
+Contribution share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt = 0,
+                      bool leniently = false);
 
 /// A flat that holds the proxy: of which primitives, and how far the exact one passes the point taken for it.
 struct Flat {

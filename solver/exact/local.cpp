@@ -50,7 +50,7 @@ bool add_attractor(const Walk& walk, const Placed& attractor, const FineVec3& z,
 
 }  // namespace
 
-Local look(const Walk& walk, const FineVec3& z, const Frame& frame) {
+Local look(const Walk& walk, const FineVec3& z, const ActiveSet& frame) {
   Local local;
   local.hessian = Symmetric3::identity(walk.stiffness);
   local.gradient = z.hi() * walk.stiffness - walk.pull;
@@ -72,7 +72,7 @@ Local look(const Walk& walk, const FineVec3& z, const Frame& frame) {
   return local;
 }
 
-double slope(const Walk& walk, const Local& local, const Frame& frame, const FineVec3& way) {
+double slope(const Walk& walk, const Local& local, const ActiveSet& frame, const FineVec3& way) {
   double sum = glm::dot(local.gradient, way.hi());
   for (const std::uint32_t i : walk.met.first(local.met)) {
     const Placed& primitive = walk.primitives[i];
@@ -98,7 +98,7 @@ double speed_across(const Placed& attractor, const Vec3& way) {
   return length_of(attractor.type == PrimitiveType::line ? way - q * glm::dot(q, way) : way);
 }
 
-Vec3 newton_step(const Frame& frame, const Local& local, double stiffness) {
+Vec3 newton_step(const ActiveSet& frame, const Local& local, double stiffness) {
   const Symmetric3& hessian = local.hessian;
   const Vec3 wanted = -local.gradient;
   if (frame.rank == 0) {

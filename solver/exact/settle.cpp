@@ -29,14 +29,14 @@ struct Holding {
 };
 
 // A point, else a line, else the plane with the largest angle to what is locked.
-bool lock_best(const Holding& holding, Frame& frame) {
+bool lock_best(const Holding& holding, ActiveSet& frame) {
   std::uint32_t best = 0;
   double best_size = 0;
   for (std::uint32_t i = 0; i < holding.count; ++i) {
     const PrimitiveType type = holding.placed[i].type;
     double size = 0;
     if (type == PrimitiveType::plane) {
-      Frame with = frame;
+      ActiveSet with = frame;
       size = lock(with, holding.all(), i) ? std::abs(with.size[with.count - 1]) : 0;
     } else if (frame.count == 0) {
       size = type == PrimitiveType::point ? 4 : 3;
@@ -50,7 +50,7 @@ bool lock_best(const Holding& holding, Frame& frame) {
 }
 
 // Two lines of one position meet there and nowhere else.
-bool meets_another_line(const Holding& holding, const Frame& frame, std::uint32_t& other) {
+bool meets_another_line(const Holding& holding, const ActiveSet& frame, std::uint32_t& other) {
   if (frame.count != 1 || frame.rank != 2) {
     return false;
   }
@@ -66,7 +66,7 @@ bool meets_another_line(const Holding& holding, const Frame& frame, std::uint32_
 }
 
 Flat settle(const Holding& holding, FineVec3& z) {
-  Frame frame;
+  ActiveSet frame;
   Flat flat;
   if (!lock_best(holding, frame)) {
     return flat;
@@ -106,7 +106,7 @@ bool has_full_size(const Placed& primitive, const Vec3& force) {
 
 // Moves z within the flat to where the attractor's direction is that of its force: by the rounding of z, which close to
 // the attractor turns the direction by far more than that of the force.
-void align(const Placed& attractor, const Vec3& force, const Frame& frame, FineVec3& z) {
+void align(const Placed& attractor, const Vec3& force, const ActiveSet& frame, FineVec3& z) {
   const Miss miss = miss_of(attractor, z);
   const Vec3 step = (miss.vector - fine(force * (miss.length / length_of(force)))).hi();
   z = z + within(frame, fine(step));
@@ -114,7 +114,7 @@ void align(const Placed& attractor, const Vec3& force, const Frame& frame, FineV
 
 }  // namespace
 
-Settled settle_on(const Frame& frame, std::span<const Placed> placed, double stiffness, const FineVec3& z,
+Settled settle_on(const ActiveSet& frame, std::span<const Placed> placed, double stiffness, const FineVec3& z,
                   std::span<const Vec3> forces) {
   Settled settled{z, {}};
   Flat flat;
@@ -136,7 +136,7 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
   Placed room;
   for (std::size_t i = 0; i < primitives.size() && !held.is_full(); ++i) {
     const Placed& primitive = primitives.at(i, room);
-    const Share share = share_of(primitive, z, forces[i], stiffness);
+    const Contribution share = share_of(primitive, z, forces[i], stiffness);
     const bool is_slipping = share.slack > 0 && has_full_size(primitive, forces[i]);
     if (is_slipping) {
       slipping = static_cast<std::uint32_t>(i);
@@ -156,7 +156,7 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
     // Between sticking and slipping, where friction rests for as long as the probe does, the proxy is nearly but not
     // quite on one attractor, which pulls with all its strength.
     Settled free{z, {}};
-    Frame frame;
+    ActiveSet frame;
     while (frame.rank < 3 && lock_best(inside, frame)) {
     }
     Flat rest;

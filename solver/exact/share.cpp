@@ -11,14 +11,14 @@ namespace palpate::solver::internal {
 namespace {
 
 // The same as project(), and adds its derivative to `derivative`.
-Vec3 project(const Placed& primitive, const Vec3& force, Hold& hold, Symmetric3& derivative) {
+Vec3 project(const Placed& primitive, const Vec3& force, ForceRegion& hold, Symmetric3& derivative) {
   const double s = primitive.strength;
   const Vec3& q = primitive.direction;
   if (primitive.type == PrimitiveType::plane) {
     const double wanted = glm::dot(force, q);
     const double t = std::max(0.0, std::min(s, wanted));
-    hold = wanted <= 0 ? Hold::idle : (wanted < s ? Hold::held : Hold::full);
-    if (hold == Hold::held) {
+    hold = wanted <= 0 ? ForceRegion::idle : (wanted < s ? ForceRegion::held : ForceRegion::full);
+    if (hold == ForceRegion::held) {
       derivative.add_dyad(q, 1);
     }
     return q * t;
@@ -26,13 +26,13 @@ Vec3 project(const Placed& primitive, const Vec3& force, Hold& hold, Symmetric3&
   const bool line = primitive.type == PrimitiveType::line;
   const Vec3 inside = line ? force - q * glm::dot(q, force) : force;
   const double size = length_of(inside);
-  hold = size < s ? Hold::held : Hold::full;
+  hold = size < s ? ForceRegion::held : ForceRegion::full;
   const double shrink = size > s ? s / size : 1;
   derivative.add_identity(shrink);
   if (line) {
     derivative.add_dyad(q, -shrink);
   }
-  if (hold == Hold::full && size > 0) {
+  if (hold == ForceRegion::full && size > 0) {
     derivative.add_dyad(inside / size, -shrink);
   }
   return inside * shrink;
@@ -43,7 +43,7 @@ struct Sharing {
   std::span<const std::uint32_t> which;
   Vec3 wanted{0};
   std::span<const Vec3> from;
-  std::span<Hold> hold;
+  std::span<ForceRegion> hold;
   double reluctance = 0;  // what p is held back by, times p
 
   // What is missing with p, and minus its derivative.
@@ -99,13 +99,13 @@ Vec3 find_potential(const Sharing& sharing, double tolerance, Symmetric3& deriva
 
 }  // namespace
 
-Vec3 project(const Placed& primitive, const Vec3& force, Hold& hold) {
+Vec3 project(const Placed& primitive, const Vec3& force, ForceRegion& hold) {
   Symmetric3 ignored = Symmetric3::identity(0);
   return project(primitive, force, hold, ignored);
 }
 
 Vec3 share_out(std::span<const Placed> primitives, std::span<const std::uint32_t> which, const Vec3& wanted,
-               double tolerance, std::span<Vec3> forces, std::span<Hold> hold) {
+               double tolerance, std::span<Vec3> forces, std::span<ForceRegion> hold) {
   Sharing sharing{primitives, which, wanted, forces, hold, 1e-2};
   for (const std::uint32_t i : which) {
     forces[i] = Vec3{0};

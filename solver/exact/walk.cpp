@@ -39,7 +39,7 @@ class Walker {
   int run();
 
  private:
-  Local look(const FineVec3& z, const Frame& frame);
+  Local look(const FineVec3& z, const ActiveSet& frame);
   bool is_arrived(FineVec3& way);
   bool release(FineVec3& way);
   bool part(FineVec3& way);
@@ -47,7 +47,7 @@ class Walker {
   bool lock_plane(const FineVec3& way, Bracket& bracket, double middle);
   std::uint32_t crossed_plane(const FineVec3& way, const Bracket& bracket, double& at) const;
   bool lock_attractor(const FineVec3& way, Bracket& bracket);
-  bool lock_at(const Frame& frame, const FineVec3& near);
+  bool lock_at(const ActiveSet& frame, const FineVec3& near);
 
   Walk& walk_;
   int cap_;
@@ -58,7 +58,7 @@ class Walker {
   std::uint32_t released_ = none;  // lets go of the proxy at the start of the way: not to be locked along it
 };
 
-Local Walker::look(const FineVec3& z, const Frame& frame) {
+Local Walker::look(const FineVec3& z, const ActiveSet& frame) {
   ++looks_;
   return internal::look(walk_, z, frame);
 }
@@ -86,7 +86,7 @@ int Walker::run() {
   return looks_;
 }
 
-double free_part(const Frame& frame, const Vec3& v) {
+double free_part(const ActiveSet& frame, const Vec3& v) {
   if (frame.rank == 3) {
     return 0;
   }
@@ -100,7 +100,7 @@ double free_part(const Frame& frame, const Vec3& v) {
 // Whether this is the minimum on the flat, as far as rounding lets that be known; otherwise Newton's step to it. Where
 // more is met than is locked the step says nothing.
 bool Walker::is_arrived(FineVec3& way) {
-  const Frame& frame = walk_.frame;
+  const ActiveSet& frame = walk_.frame;
   const double left = free_part(frame, here_.gradient);
   if (here_.met > static_cast<std::size_t>(frame.count) || left <= 2 * unit_roundoff * here_.size + here_.noise) {
     return true;
@@ -114,7 +114,7 @@ bool Walker::is_arrived(FineVec3& way) {
 
 // Shares the force needed among what is locked; where one cannot exert its share it is let go, and the way found.
 bool Walker::release(FineVec3& way) {
-  Frame& frame = walk_.frame;
+  ActiveSet& frame = walk_.frame;
   Vec3 forces[3];
   share(frame, walk_.primitives, here_.gradient, forces);
   double worst = 16 * unit_roundoff * here_.size;
@@ -174,7 +174,7 @@ bool Walker::part(FineVec3& way) {
     const double along = std::abs(glm::dot(primitive.direction, missing));
     const bool stays = (primitive.type == PrimitiveType::plane && along <= aligned * size) ||
                        (primitive.type == PrimitiveType::line && along >= (1 - aligned) * size);
-    if (!(stays && walk_.hold[i] == Hold::held && lock(walk_.frame, walk_.primitives, i))) {
+    if (!(stays && walk_.hold[i] == ForceRegion::held && lock(walk_.frame, walk_.primitives, i))) {
       rest.gradient -= walk_.forces[i];
     }
   }
@@ -258,7 +258,7 @@ bool Walker::lock_plane(const FineVec3& way, Bracket& bracket, double middle) {
     return false;
   }
   const Placed& primitive = walk_.primitives[plane];
-  Frame frame = walk_.frame;
+  ActiveSet frame = walk_.frame;
   const bool independent = lock(frame, walk_.primitives, plane);
   FineVec3 there = walk_.z + way * at;
   settle(frame, walk_.primitives, there);
@@ -305,7 +305,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
     const Local local = look(there, walk_.frame);
     const double slope_there = slope(walk_, local, walk_.frame, way);
     if (walk_.primitives.size() <= 16 || std::abs(slope_there) <= primitive.strength * speed) {
-      Frame frame;
+      ActiveSet frame;
       if (line && walk_.frame.rank == 1) {
         lock(frame, walk_.primitives, i);
         if (lock(frame, walk_.primitives, walk_.frame.locked[0]) && lock_at(frame, there)) {
@@ -326,7 +326,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
 }
 
 // Locks what is in the frame, if the energy on it is less than here: by its slope there in the direction of here.
-bool Walker::lock_at(const Frame& frame, const FineVec3& near) {
+bool Walker::lock_at(const ActiveSet& frame, const FineVec3& near) {
   FineVec3 there = near;
   settle(frame, walk_.primitives, there);
   const Local local = look(there, frame);

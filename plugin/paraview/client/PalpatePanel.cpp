@@ -55,11 +55,11 @@ struct PalpatePanel::Parts {
   void read_opacity();
   void study(const std::shared_ptr<const io::Volume>& volume);
   void color_views();
-  void look(const Look& seen);
+  void look(const SessionStatus& seen);
 
   PalpatePanel& dock;
   SceneModel model;
-  Touching touching;
+  SessionController touching;
   StylusViews views;
   ServerWatch servers;
   Fold* scan_fold = nullptr;
@@ -129,7 +129,7 @@ void PalpatePanel::Parts::build() {
   QObject::connect(scan, &ScanSection::closing, &dock, [this] { leave_views(); });
   QObject::connect(scan, &ScanSection::out_of_reach, &dock, [this](const QString& why) { touching.set_no_scan(why); });
   QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const auto& volume) { show_scan(volume); });
-  QObject::connect(&touching, &Touching::recorded, recordings, [this](const QString& file) {
+  QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
     recordings_fold->set_open(true);
     recordings->open(file);
   });
@@ -145,15 +145,15 @@ void PalpatePanel::Parts::build() {
     if (!proposing) edited = true;
     if (pace == Pace::stepped) color_views();
   });
-  QObject::connect(&touching, &Touching::looked, &dock, [this](const Look& seen) { look(seen); });
-  QObject::connect(&touching, &Touching::connection_changed, &dock, [this] {
+  QObject::connect(&touching, &SessionController::looked, &dock, [this](const SessionStatus& seen) { look(seen); });
+  QObject::connect(&touching, &SessionController::connection_changed, &dock, [this] {
     modes->refresh();
     servers.be_attentive(touching.live().is_connected());
   });
   // The threads end before ParaView goes, and before a server takes the views away.
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
     studies.cancel();
-    QObject::disconnect(&touching, &Touching::recorded, recordings, nullptr);  // nobody looks at it any more
+    QObject::disconnect(&touching, &SessionController::recorded, recordings, nullptr);  // nobody looks at it any more
     touching.disconnect_stylus();
   });
   QObject::connect(&servers, &ServerWatch::leaving, &dock,
@@ -270,7 +270,7 @@ void PalpatePanel::Parts::color_views() {
   read_opacity();
 }
 
-void PalpatePanel::Parts::look(const Look& seen) {
+void PalpatePanel::Parts::look(const SessionStatus& seen) {
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
   // A recording that stands still does not keep the slices from being leafed through.
   const bool moved = seen.connected || std::exchange(followed, seen.frame.index) != seen.frame.index;

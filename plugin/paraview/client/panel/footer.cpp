@@ -29,7 +29,7 @@ QLabel* make_value(QWidget* parent, const char* name, const QString& tip) {
 
 }  // namespace
 
-Footer::Footer(Touching& touching, const SceneModel& model, QWidget* parent)
+Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* parent)
     : QWidget(parent), touching_(touching), model_(model) {
   setObjectName(QStringLiteral("palpateFooter"));
   auto* const grid = new QGridLayout(this);
@@ -70,8 +70,8 @@ Footer::Footer(Touching& touching, const SceneModel& model, QWidget* parent)
   grid->addWidget(release_, 5, 0, 1, 3);
   grid->setColumnStretch(0, 2);
   grid->setColumnStretch(1, 3);
-  connect(&touching, &Touching::looked, this, [this](const Look& look) { show_look(look); });
-  connect(&touching, &Touching::connection_changed, this, [this] { show_connection(); });
+  connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
+  connect(&touching, &SessionController::connection_changed, this, [this] { show_connection(); });
   show_connection();
 }
 
@@ -95,7 +95,7 @@ void Footer::toggle_recording() {
   if (!file.isEmpty()) touching_.record(file.toStdString());
 }
 
-void Footer::show_look(const Look& look) {
+void Footer::show_look(const SessionStatus& look) {
   if (!look.connected && !look.replayed) {
     force_->setText(QStringLiteral("–"));
     depth_->setText(tr("no stylus"));
@@ -104,7 +104,7 @@ void Footer::show_look(const Look& look) {
     tick_->setText(QStringLiteral("–"));
     return;
   }
-  const Frame& frame = look.frame;
+  const TickRecord& frame = look.frame;
   strip_->set_limit(model_.scene().limits.force_n);
   strip_->add(look.peak_n);
   force_->setText(tr("%1 N").arg(look.force_n, 0, 'f', 2));

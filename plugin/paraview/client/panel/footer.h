@@ -4,7 +4,7 @@
 
 #include <QWidget>
 
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 
 class QLabel;
 class QPushButton;
@@ -17,14 +17,14 @@ class Footer : public QWidget {
   Q_OBJECT
 
  public:
-  explicit Footer(Touching& touching, const SceneModel& model, QWidget* parent = nullptr);
+  explicit Footer(SessionController& touching, const SceneModel& model, QWidget* parent = nullptr);
 
  private:
-  void show_look(const Look& look);
+  void show_look(const SessionStatus& look);
   void show_connection();
   void toggle_recording();
 
-  Touching& touching_;
+  SessionController& touching_;
   const SceneModel& model_;
   QLabel* tissue_;
   QLabel* force_;

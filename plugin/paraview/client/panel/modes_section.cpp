@@ -38,7 +38,7 @@ constexpr double first_strength_n = 0.3;
 
 }  // namespace
 
-ModesSection::ModesSection(SceneModel& model, Touching& touching, QWidget* parent)
+ModesSection::ModesSection(SceneModel& model, SessionController& touching, QWidget* parent)
     : QWidget(parent), model_(model), touching_(touching) {
   setObjectName(QStringLiteral("palpateModes"));
   auto* const column = new QVBoxLayout(this);

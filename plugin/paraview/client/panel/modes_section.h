@@ -4,7 +4,7 @@
 
 #include <QWidget>
 
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -18,7 +18,7 @@ class ModesSection : public QWidget {
   Q_OBJECT
 
  public:
-  ModesSection(SceneModel& model, Touching& touching, QWidget* parent = nullptr);
+  ModesSection(SceneModel& model, SessionController& touching, QWidget* parent = nullptr);
 
   /// The plan is shown anew.
   void refresh();
@@ -33,7 +33,7 @@ class ModesSection : public QWidget {
   void set(const QString& what, const std::function<void(modes::Mode&)>& change);
 
   SceneModel& model_;
-  Touching& touching_;
+  SessionController& touching_;
   QListWidget* list_;
   QLabel* summary_;
   QComboBox* side_;

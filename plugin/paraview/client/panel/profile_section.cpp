@@ -30,7 +30,7 @@ QString text_of(const glm::dvec3& place) {
 
 }  // namespace
 
-ProfileSection::ProfileSection(Touching& touching, SceneModel& model, QWidget* parent)
+ProfileSection::ProfileSection(SessionController& touching, SceneModel& model, QWidget* parent)
     : QWidget(parent),
       touching_(touching),
       path_(QColor(230, 80, 210)),
@@ -59,7 +59,7 @@ ProfileSection::ProfileSection(Touching& touching, SceneModel& model, QWidget* p
       },
       [this](const QString& problem) { tell(problem, true); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { run(); });
-  connect(&touching, &Touching::connection_changed, this, [this] { run(); });
+  connect(&touching, &SessionController::connection_changed, this, [this] { run(); });
   show_nothing({});
 }
 

@@ -11,7 +11,7 @@
 
 #include "plugin/paraview/client/panel/latest_job.h"
 #include "plugin/paraview/client/panel/save_buttons.h"
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 #include "plugin/paraview/client/views/path_views.h"
 #include "plugin/paraview/client/views/slice_view.h"
 #include "plugin/report/stroke_picture.h"
@@ -28,7 +28,7 @@ class ProfileSection : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ProfileSection(Touching& touching, SceneModel& model, QWidget* parent = nullptr);
+  explicit ProfileSection(SessionController& touching, SceneModel& model, QWidget* parent = nullptr);
   ~ProfileSection() override;
 
   /// The views of a scan that has just been shown; empty: none, and the points are forgotten.
@@ -68,7 +68,7 @@ class ProfileSection : public QWidget {
   void point_at(double depth_mm);
   void tell(const QString& text, bool problem);
 
-  Touching& touching_;
+  SessionController& touching_;
   QPushButton* pick_ = nullptr;
   QLineEdit* from_ = nullptr;
   QLineEdit* to_ = nullptr;

@@ -71,7 +71,7 @@ QString ask_for_recording(QWidget* parent) {
 
 }  // namespace
 
-RecordingsSection::RecordingsSection(Touching& touching, QWidget* parent)
+RecordingsSection::RecordingsSection(SessionController& touching, QWidget* parent)
     : QWidget(parent),
       touching_(touching),
       first_path_(QColor(86, 180, 233)),
@@ -106,8 +106,8 @@ RecordingsSection::RecordingsSection(Touching& touching, QWidget* parent)
     const auto& scan = touching_.live().scan();
     return playback_.look(scan ? scan->unit : std::string());
   });
-  connect(&touching, &Touching::looked, this, [this] { show_player(); });
-  connect(&touching, &Touching::connection_changed, this, [this] {
+  connect(&touching, &SessionController::looked, this, [this] { show_player(); });
+  connect(&touching, &SessionController::connection_changed, this, [this] {
     if (touching_.live().is_connected()) playback_.pause();
     show_player();
   });

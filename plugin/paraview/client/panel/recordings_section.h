@@ -27,7 +27,7 @@ class RecordingsSection : public QWidget {
   Q_OBJECT
 
  public:
-  explicit RecordingsSection(Touching& touching, QWidget* parent = nullptr);
+  explicit RecordingsSection(SessionController& touching, QWidget* parent = nullptr);
   ~RecordingsSection() override;
 
   /// The views of a scan that has just been shown; empty: none, and the recordings are forgotten.
@@ -56,7 +56,7 @@ class RecordingsSection : public QWidget {
   void show_paths();
   void tell(const QString& text, bool problem = false);
 
-  Touching& touching_;
+  SessionController& touching_;
   Playback playback_;
   Opened first_, second_;
   std::shared_ptr<const Comparison> both_;

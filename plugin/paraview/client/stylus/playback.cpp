@@ -42,8 +42,8 @@ void Playback::advance() {
   playing_ = false;
 }
 
-Look Playback::look(const std::string& unit) {
-  Look look;
+SessionStatus Playback::look(const std::string& unit) {
+  SessionStatus look;
   if (!session_ || !seen_) return look;
   advance();
   const std::size_t n = session_->frame_at(at_s_);

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 #include "plugin/recording/recorded_session.h"
 
 namespace palpate::plugin {
@@ -27,7 +27,7 @@ class Playback {
   double at_s() const { return at_s_; }
 
   /// As far as it has come by now.
-  Look look(const std::string& unit);
+  SessionStatus look(const std::string& unit);
 
  private:
   void advance();

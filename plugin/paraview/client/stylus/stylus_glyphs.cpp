@@ -143,7 +143,7 @@ void StylusGlyphs::hide() {
   }
 }
 
-void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel) {
+void StylusGlyphs::show(const SessionStatus& look, const modes::Scene& scene, double faint, double mm_per_pixel) {
   hide();
   const double opacity = 1 - (1 - seen_faintly) * faint;
   const glm::dmat3 upright(1);
@@ -169,7 +169,7 @@ void StylusGlyphs::show(const Look& look, const modes::Scene& scene, double fain
     tip_->color({0.25, 0.8, 1}, opacity);
   }
   std::size_t planes = 0, rods = 0, balls = 0;
-  for (const Share& share : look.shares) {
+  for (const PrimitiveRecord& share : look.shares) {
     const glm::dvec3 acts = look.workspace.direction_to_patient(vector_of(share.force_n));
     const double newtons = glm::length(acts);
     if (newtons < 0.01 || share.mode >= modes::of_scene_left) continue;

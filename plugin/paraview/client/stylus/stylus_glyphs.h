@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "modes/scene/scene.h"
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 
 class vtkPVRenderView;
 
@@ -24,7 +24,7 @@ class StylusGlyphs {
   ~StylusGlyphs();
 
   /// `faint`: 0 to 1, how much of it is hidden; `mm_per_pixel` keeps their size on the screen.
-  void show(const Look& look, const modes::Scene& scene, double faint, double mm_per_pixel);
+  void show(const SessionStatus& look, const modes::Scene& scene, double faint, double mm_per_pixel);
   void hide();
 
  private:

@@ -26,7 +26,7 @@ constexpr float before_all = 20;
 }  // namespace
 
 struct StylusHand::State {
-  State(Touching& touching_now, vtkPVRenderView& view_now)
+  State(SessionController& touching_now, vtkPVRenderView& view_now)
       : touching(touching_now), view(view_now), interactor(view_now.GetInteractor()) {
     command->SetClientData(this);
     command->SetCallback([](vtkObject*, unsigned long event, void* self, void*) {
@@ -71,7 +71,7 @@ struct StylusHand::State {
   }
   bool is_on_handle() {
     const int* const at = interactor->GetEventPosition();
-    const Look& look = touching.last();
+    const SessionStatus& look = touching.last();
     for (const glm::dvec3& part : {look.proxy_mm, look.probe_mm}) {
       const glm::dvec3 display = display_of(part);
       if (std::hypot(display.x - at[0], display.y - at[1]) > handle_pixels) continue;
@@ -138,7 +138,7 @@ struct StylusHand::State {
     return false;
   }
 
-  Touching& touching;
+  SessionController& touching;
   vtkPVRenderView& view;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor;
   vtkNew<vtkCallbackCommand> command;
@@ -148,7 +148,8 @@ struct StylusHand::State {
   glm::dvec3 plane_through{0}, target{1e9};
 };
 
-StylusHand::StylusHand(Touching& touching, vtkPVRenderView& view) : state_(std::make_unique<State>(touching, view)) {}
+StylusHand::StylusHand(SessionController& touching, vtkPVRenderView& view)
+    : state_(std::make_unique<State>(touching, view)) {}
 
 StylusHand::~StylusHand() = default;
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 
 class vtkPVRenderView;
 
@@ -13,7 +13,7 @@ namespace palpate::plugin {
 
 class StylusHand {
  public:
-  StylusHand(Touching& touching, vtkPVRenderView& view);
+  StylusHand(SessionController& touching, vtkPVRenderView& view);
   StylusHand(const StylusHand&) = delete;
   StylusHand& operator=(const StylusHand&) = delete;
   ~StylusHand();

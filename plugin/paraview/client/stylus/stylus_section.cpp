@@ -27,7 +27,7 @@ struct Lamp {
   QString text;
 };
 
-Lamp lamp_of(const Look& look) {
+Lamp lamp_of(const SessionStatus& look) {
   const auto tr = [](const char* text) { return StylusSection::tr(text); };
   if (!look.connected) return {"#808080", tr("not connected")};
   if (look.clutched) return {"#56b4e9", tr("clutched: move your hand or the view freely")};
@@ -53,7 +53,7 @@ Lamp lamp_of(const Look& look) {
 
 }  // namespace
 
-StylusSection::StylusSection(Touching& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent)
+StylusSection::StylusSection(SessionController& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent)
     : QWidget(parent), touching_(touching), model_(model), eye_(std::move(eye)) {
   setObjectName(QStringLiteral("palpateStylus"));
   auto* const column = new QVBoxLayout(this);
@@ -68,14 +68,14 @@ StylusSection::StylusSection(Touching& touching, SceneModel& model, std::functio
   message_->setTextFormat(Qt::PlainText);
   message_->hide();
   column->addWidget(message_);
-  connect(&touching, &Touching::told, this, [this](const QString& text, bool problem) {
+  connect(&touching, &SessionController::told, this, [this](const QString& text, bool problem) {
     message_->setText(text);
     message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
     message_->setVisible(!text.isEmpty());
   });
-  connect(&touching, &Touching::clutch_button_let_go, this, [this] { clutch(false); });
-  connect(&touching, &Touching::connection_changed, this, [this] { show_connection(); });
-  connect(&touching, &Touching::looked, this, [this](const Look& look) { show_look(look); });
+  connect(&touching, &SessionController::clutch_button_let_go, this, [this] { clutch(false); });
+  connect(&touching, &SessionController::connection_changed, this, [this] { show_connection(); });
+  connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { show_scene(); });
   find_devices();
   show_connection();
@@ -283,7 +283,7 @@ void StylusSection::show_scene() {
                        : tr("no scan yet"));
 }
 
-void StylusSection::show_look(const Look& look) {
+void StylusSection::show_look(const SessionStatus& look) {
   const Lamp lamp = lamp_of(look);
   if (state_->text() != lamp.text) {
     state_->setText(lamp.text);

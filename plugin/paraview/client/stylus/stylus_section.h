@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 #include "plugin/paraview/client/stylus/mapping.h"
 
 class QCheckBox;
@@ -24,7 +24,7 @@ class StylusSection : public QWidget {
 
  public:
   /// `eye` tells what the 3D view looks at.
-  StylusSection(Touching& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent = nullptr);
+  StylusSection(SessionController& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent = nullptr);
 
   bool slices_follow() const;
 
@@ -37,11 +37,11 @@ class StylusSection : public QWidget {
   void show_choice();
   void show_connection();
   void show_scene();
-  void show_look(const Look& look);
+  void show_look(const SessionStatus& look);
   void remap(const QString& what, const modes::WorkspaceSettings& settings);
   void clutch(bool on);
 
-  Touching& touching_;
+  SessionController& touching_;
   SceneModel& model_;
   std::function<Eye()> eye_;
   QComboBox* device_ = nullptr;

@@ -37,10 +37,10 @@ double visible_height_mm(vtkCamera& camera) {
 }  // namespace
 
 struct StylusViews::OneView {
-  OneView(Touching& touching, const ClinicalView& of)
+  OneView(SessionController& touching, const ClinicalView& of)
       : kind(of.kind), view(of.view), client(client_view(*of.view)), glyphs(*client), hand(touching, *client) {}
 
-  bool has_moved(const Look& look, double mm_per_pixel) const {
+  bool has_moved(const SessionStatus& look, double mm_per_pixel) const {
     const auto moved = [&](const glm::dvec3& a, const glm::dvec3& b) {
       return glm::length(a - b) > moved_pixels * mm_per_pixel;
     };
@@ -55,13 +55,13 @@ struct StylusViews::OneView {
   StylusGlyphs glyphs;
   StylusHand hand;
   std::unique_ptr<VolumePick> pick;
-  Look drawn;
+  SessionStatus drawn;
   qint64 next_ms = 0;
   qint64 moved_ms = 0;
   bool coarse = false;  ///< drawn last with less detail than it can have
 };
 
-StylusViews::StylusViews(Touching& touching, const SceneModel& model) : touching_(touching), model_(model) {}
+StylusViews::StylusViews(SessionController& touching, const SceneModel& model) : touching_(touching), model_(model) {}
 
 StylusViews::~StylusViews() = default;
 
@@ -112,7 +112,7 @@ bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far)
   return true;
 }
 
-void StylusViews::show(const Look& look) {
+void StylusViews::show(const SessionStatus& look) {
   std::erase_if(views_, [](const auto& one) { return !one->view; });
   if (views_.empty()) return;
   follow_scan();

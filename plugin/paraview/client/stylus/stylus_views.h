@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 #include "plugin/paraview/client/stylus/stylus_glyphs.h"
 #include "plugin/paraview/client/stylus/stylus_hand.h"
 #include "plugin/paraview/client/views/clinical_views.h"
@@ -22,7 +22,7 @@ struct Eye;
 
 class StylusViews {
  public:
-  StylusViews(Touching& touching, const SceneModel& model);
+  StylusViews(SessionController& touching, const SceneModel& model);
   StylusViews(const StylusViews&) = delete;
   StylusViews& operator=(const StylusViews&) = delete;
   ~StylusViews();
@@ -32,7 +32,7 @@ class StylusViews {
   /// What the volume's rendering hides.
   void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
   /// Draws those views anew in which something has moved, none so often that the program would stand still.
-  void show(const Look& look);
+  void show(const SessionStatus& look);
   /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
   /// again.
   void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { pick_ = std::move(pick); }
@@ -44,7 +44,7 @@ class StylusViews {
   void follow_scan();
   bool pick(Pick what, const glm::dvec3& near, const glm::dvec3& far);
 
-  Touching& touching_;
+  SessionController& touching_;
   const SceneModel& model_;
   std::vector<std::unique_ptr<OneView>> views_;
   std::vector<OpacityNode> opacity_;

@@ -117,7 +117,7 @@ int PalpateForceProfile::RequestData(vtkInformation*, vtkInformationVector** inp
     const auto volume = plugin::scan_of(image);
     const modes::Scene scene = plugin::scene_of(scene_, *volume);
     constexpr glm::dvec3 any_reach(0.1);  // only a scene that fits itself to a device depends on it
-    const plugin::Felt felt = plugin::prepare(scene, volume, any_reach);
+    const plugin::PreparedScene felt = plugin::prepare(scene, volume, any_reach);
     const auto stroke =
         plugin::run_stroke(*felt.plan, *felt.source, {from_[0], from_[1], from_[2]}, {to_[0], to_[1], to_[2]}, speed_);
     fill(*vtkTable::GetData(output), stroke, scene);

@@ -153,8 +153,7 @@ QPoint proxy_in(QWidget& view) {
       for (int j = -half; j <= half; ++j) {
         for (int i = -half; i <= half; ++i) {
           const QColor color = picture.pixelColor(x + i, y + j);
-          if (color.red() > 120 && color.green() > 0.7 * color.red() && color.blue() < 0.45 * color.red())
-            ++yellow;
+          if (color.red() > 120 && color.green() > 0.7 * color.red() && color.blue() < 0.45 * color.red()) ++yellow;
         }
       }
       if (yellow > most) {

@@ -16,17 +16,18 @@
 #include "device/simulated/simulated_stylus.h"
 #include "modes/scene/workspace.h"
 #include "plugin/app/live_session.h"
+#include "plugin/app/stylus_choice.h"
 #include "plugin/paraview/client/panel/scene_model.h"
 
 namespace palpate::plugin {
 
 /// What has been felt since the last look, and the last frame.
-struct Look {
+struct SessionStatus {
   bool connected = false;
   bool replayed = false;  ///< of a recording: nothing is felt
   bool fresh = false;     ///< whether there is a frame
-  Frame frame;
-  std::vector<Share> shares;
+  TickRecord frame;
+  std::vector<PrimitiveRecord> shares;
   modes::Workspace workspace;           ///< of the frame
   glm::dvec3 probe_mm{0}, proxy_mm{0};  ///< patient space
   std::string tissue;
@@ -40,19 +41,12 @@ struct Look {
   bool is_seen() const { return fresh && (connected || replayed); }
 };
 
-/// Which stylus is meant.
-struct StylusChoice {
-  std::string device;    ///< "simulated", "falcon", ..., perhaps @ADDRESS
-  std::string firmware;  ///< file of the Falcon's firmware
-  std::string settings;  ///< file of a WoodenHaptics' geometry
-};
-
-class Touching : public QObject {
+class SessionController : public QObject {
   Q_OBJECT
 
  public:
-  explicit Touching(SceneModel& model, QObject* parent = nullptr);
-  ~Touching() override;
+  explicit SessionController(SceneModel& model, QObject* parent = nullptr);
+  ~SessionController() override;
 
   void set_scan(std::shared_ptr<const io::Volume> volume);
   /// There is none to be felt, and the stylus is let go; connecting is refused with `why`, where that is said.
@@ -60,7 +54,7 @@ class Touching : public QObject {
   const QString& why_no_scan() const { return why_no_scan_; }
   const LiveSession& live() const { return live_; }
   /// What was seen last.
-  const Look& last() const { return look_; }
+  const SessionStatus& last() const { return look_; }
 
   void connect_stylus(const StylusChoice& choice);
   void disconnect_stylus();
@@ -79,7 +73,7 @@ class Touching : public QObject {
   bool may_remap() const;
 
   /// What is looked at while no stylus is held.
-  void show_instead(std::function<Look()> look) { instead_ = std::move(look); }
+  void show_instead(std::function<SessionStatus()> look) { instead_ = std::move(look); }
 
   // The simulated stylus' hand, for mouse and keyboard.
   bool has_simulated() const { return simulated_ != nullptr && live_.is_connected(); }
@@ -95,7 +89,7 @@ class Touching : public QObject {
  signals:
   /// The stylus' clutch button was let go: whoever knows how the views are turned unclutches.
   void clutch_button_let_go();
-  void looked(const palpate::plugin::Look& look);
+  void looked(const palpate::plugin::SessionStatus& look);
   void connection_changed();
   void told(const QString& message, bool problem);
   /// A recording has been written, whole.
@@ -121,8 +115,8 @@ class Touching : public QObject {
   bool clutched_ = false;
   bool mouse_off_ = false;
   glm::dvec3 clutched_at_mm_{0};
-  Look look_;
-  std::function<Look()> instead_;
+  SessionStatus look_;
+  std::function<SessionStatus()> instead_;
   QString recording_to_;
   QTimer heart_, looks_;
 };

@@ -1,4 +1,4 @@
-#include "plugin/paraview/client/panel/touching.h"
+#include "plugin/paraview/client/panel/session_controller.h"
 
 #include <algorithm>
 #include <exception>
@@ -23,7 +23,7 @@ glm::dvec3 vector_of(const double (&from)[3]) {
 
 }  // namespace
 
-Touching::Touching(SceneModel& model, QObject* parent) : QObject(parent), model_(model) {
+SessionController::SessionController(SceneModel& model, QObject* parent) : QObject(parent), model_(model) {
   connect(&model, &SceneModel::changed, this, [this](Pace pace) { follow_scene(pace); });
   connect(&heart_, &QTimer::timeout, this, [this] { live_.heartbeat(); });
   connect(&looks_, &QTimer::timeout, this, [this] { look(); });
@@ -32,11 +32,11 @@ Touching::Touching(SceneModel& model, QObject* parent) : QObject(parent), model_
   looks_.start(look_ms);
 }
 
-Touching::~Touching() {
+SessionController::~SessionController() {
   live_.disconnect();
 }
 
-void Touching::set_no_scan(const QString& why) {
+void SessionController::set_no_scan(const QString& why) {
   why_no_scan_ = why;
   live_.set_scan(nullptr);
   simulated_.reset();
@@ -45,7 +45,7 @@ void Touching::set_no_scan(const QString& why) {
   emit connection_changed();
 }
 
-void Touching::set_scan(std::shared_ptr<const io::Volume> volume) {
+void SessionController::set_scan(std::shared_ptr<const io::Volume> volume) {
   why_no_scan_.clear();
   try {
     live_.set_scan(std::move(volume));
@@ -57,7 +57,7 @@ void Touching::set_scan(std::shared_ptr<const io::Volume> volume) {
   emit connection_changed();
 }
 
-void Touching::follow_scene(Pace pace) {
+void SessionController::follow_scene(Pace pace) {
   try {
     live_.set_scene(model_.scene(), pace);
     if (live_.plan()) before_ = std::exchange(now_, live_.plan()->workspace);
@@ -68,7 +68,7 @@ void Touching::follow_scene(Pace pace) {
 }
 
 /// In front of the patient: a finger's breadth before what is met first on the way to the middle.
-glm::dvec3 Touching::first_place() const {
+glm::dvec3 SessionController::first_place() const {
   const io::Volume& volume = *live_.scan();
   const Box box = bounding_box(volume.geometry);
   const io::VolumeFields fields(live_.scan(), io::FieldSet::value, 1, {.brick_bytes = 0, .background = false});
@@ -89,7 +89,7 @@ glm::dvec3 Touching::first_place() const {
   return {middle.x, std::max(met->first - before_mm, box.low.y), middle.z};
 }
 
-void Touching::connect_stylus(const StylusChoice& choice) {
+void SessionController::connect_stylus(const StylusChoice& choice) {
   if (!live_.scan() && !why_no_scan_.isEmpty()) {
     emit told(why_no_scan_, true);
     return;
@@ -122,7 +122,7 @@ void Touching::connect_stylus(const StylusChoice& choice) {
   emit connection_changed();
 }
 
-void Touching::disconnect_stylus() {
+void SessionController::disconnect_stylus() {
   const auto recorded_now = live_.disconnect();
   simulated_.reset();
   clutched_ = false;
@@ -131,21 +131,21 @@ void Touching::disconnect_stylus() {
   tell_recorded(recorded_now);
 }
 
-void Touching::feel() {
+void SessionController::feel() {
   clutched_ = false;
   live_.feel();
 }
 
-void Touching::release() {
+void SessionController::release() {
   live_.release();
 }
 
-void Touching::clear_fault() {
+void SessionController::clear_fault() {
   live_.clear_fault();
   live_.feel();
 }
 
-void Touching::record(const std::string& file) {
+void SessionController::record(const std::string& file) {
   try {
     if (simulated_) move_hand(look_.probe_mm);  // where the new session finds it
     live_.record(file);
@@ -158,7 +158,7 @@ void Touching::record(const std::string& file) {
   emit connection_changed();
 }
 
-void Touching::stop_recording() {
+void SessionController::stop_recording() {
   try {
     tell_recorded(live_.stop_recording());
   } catch (const std::exception& error) {
@@ -167,7 +167,7 @@ void Touching::stop_recording() {
   emit connection_changed();
 }
 
-void Touching::tell_recorded(const std::optional<RecorderStatus>& status) {
+void SessionController::tell_recorded(const std::optional<RecorderStatus>& status) {
   if (!status) return;
   emit told(status->stopped ? QString::fromStdString(status->why)
                             : tr("Recorded: %1 frames, %2 lost.").arg(status->written).arg(status->lost),
@@ -175,14 +175,14 @@ void Touching::tell_recorded(const std::optional<RecorderStatus>& status) {
   if (!status->stopped) emit recorded(recording_to_);
 }
 
-void Touching::clutch() {
+void SessionController::clutch() {
   if (!live_.is_connected() || clutched_) return;
   clutched_ = true;
   clutched_at_mm_ = look_.probe_mm;
   live_.release();
 }
 
-void Touching::unclutch(const glm::dmat3& rotation) {
+void SessionController::unclutch(const glm::dmat3& rotation) {
   if (!std::exchange(clutched_, false)) return;
   const glm::dvec3 hand_m = vector_of(look_.frame.probe_m);
   const modes::Workspace held{.center_mm = {}, .rotation = rotation, .mm_per_m = now_.mm_per_m};
@@ -194,23 +194,23 @@ void Touching::unclutch(const glm::dmat3& rotation) {
   live_.feel();
 }
 
-bool Touching::may_remap() const {
+bool SessionController::may_remap() const {
   return !live_.is_connected() || clutched_ || look_.force_n == 0;
 }
 
-void Touching::move_hand(const glm::dvec3& patient_mm) {
+void SessionController::move_hand(const glm::dvec3& patient_mm) {
   letting_go_ = false;
   hand_mm_ = patient_mm;
   if (simulated_) simulated_->move_target(now_.to_device(patient_mm));
 }
 
-void Touching::let_go() {
+void SessionController::let_go() {
   letting_go_ = simulated_ != nullptr;
   hand_mm_.reset();
 }
 
 /// To the proxy and a little beyond: the arm's own friction keeps a hand that goes no farther inside.
-void Touching::give_way() {
+void SessionController::give_way() {
   constexpr double nothing_n = 0.02, beyond = 0.5;
   if (!letting_go_ || !simulated_) return;
   const glm::dvec3 proxy_m = vector_of(look_.frame.proxy_m);
@@ -218,7 +218,7 @@ void Touching::give_way() {
   if (look_.force_n < nothing_n) letting_go_ = false;
 }
 
-void Touching::obey_buttons(std::uint32_t buttons) {
+void SessionController::obey_buttons(std::uint32_t buttons) {
   const std::uint32_t pressed = buttons & ~buttons_;
   const std::uint32_t let = buttons_ & ~buttons;
   buttons_ = buttons;
@@ -227,13 +227,13 @@ void Touching::obey_buttons(std::uint32_t buttons) {
   if ((let & clutch_button) != 0) emit clutch_button_let_go();
 }
 
-void Touching::look() {
-  const FrameRing* const ring = live_.frames();
+void SessionController::look() {
+  const TickRing* const ring = live_.frames();
   look_.connected = live_.is_connected();
   look_.clutched = clutched_;
   look_.peak_n = 0;
   if (!look_.connected) {
-    look_ = instead_ ? instead_() : Look{};
+    look_ = instead_ ? instead_() : SessionStatus{};
     emit looked(look_);
     return;
   }
@@ -252,7 +252,7 @@ void Touching::look() {
     std::nth_element(ticks.begin(), middle, ticks.end());
     look_.tick_us = *middle;
   }
-  const Frame& frame = look_.frame;
+  const TickRecord& frame = look_.frame;
   look_.workspace = modes::between(before_, now_, frame.change_part);
   look_.probe_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(frame.probe_m));
   look_.proxy_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(frame.proxy_m));
