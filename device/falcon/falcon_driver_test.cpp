@@ -103,7 +103,7 @@ TEST(FalconDriver, TheGripFeelsTheForceAskedFor) {
   for (const Vec3& force : {Vec3(1, 0, 0), Vec3(0, -2, 0), Vec3(0.5, 0.5, -1)}) {
     bench.run(0.5, force);
     EXPECT_LT(glm::length(bench.fake.falcon.force() - force), 0.01);
-    EXPECT_GT(glm::dot(bench.stylus->read().position, force), 0) << "the hand gives way";
+    EXPECT_GT(glm::dot(bench.stylus->read().position, force), 0) << "the simulated hand relaxes";
   }
 }
 

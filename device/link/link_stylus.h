@@ -17,7 +17,7 @@
 namespace palpate::device {
 
 struct LinkStylusOptions {
-  bool threaded = true;      ///< false: whoever owns the stylus calls service()
+  bool threaded = true;      ///< false: the owner of the stylus calls service()
   double force_age = 0.020;  ///< s: a force that write_force() does not renew becomes zero
   int priority = 60;         ///< SCHED_FIFO of the thread, above the servo's; where not allowed it goes without
   GuardianSettings guardian;

@@ -37,7 +37,7 @@ struct SafetyInput {
   State device = State::idle;  ///< Stylus::state(); anything but idle, ramping and active gives no force
   Vec3 force{0};               ///< N: asked for
   double force_time = 0;       ///< s, same clock as `time`: when that force was computed
-  double heartbeat_time = 0;   ///< s, same clock: when whoever commands was last seen alive
+  double heartbeat_time = 0;   ///< s, same clock: when the controlling thread was last seen alive
 };
 
 struct SafetyResult {

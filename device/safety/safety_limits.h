@@ -15,7 +15,7 @@ struct SafetyLimits {
   double force_age = 0.010;         ///< s: an older force counts as zero
   double pose_age = 0.010;          ///< s without a new pose: the force counts as zero
   double stall_time = 0.100;        ///< s of either age, or between two ticks: a fault
-  double heartbeat_time = 2.0;      ///< s without a sign of life of whoever commands: a fault
+  double heartbeat_time = 2.0;      ///< s without a sign of life of the controlling thread: a fault
 };
 
 }  // namespace palpate::device

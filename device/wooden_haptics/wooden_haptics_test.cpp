@@ -156,7 +156,7 @@ TEST(WoodenHapticsDriver, TheHandFeelsTheForceAskedFor) {
   for (const Vec3& force : {Vec3(1, 0, 0), Vec3(0, -2, 0), Vec3(0.5, 0.5, -1)}) {
     bench.run(0.4, force);
     EXPECT_LT(glm::length(bench.arm.force() - force), 0.02);
-    EXPECT_GT(glm::dot(bench.stylus->read().position, force), 0) << "the hand gives way";
+    EXPECT_GT(glm::dot(bench.stylus->read().position, force), 0) << "the simulated hand relaxes";
   }
 }
 

@@ -94,7 +94,7 @@ TEST(Bricks, AreOnlyWhereTheyWerePrepared) {
   EXPECT_FALSE(fields.sample({20, 0, 0}, FieldSet::value).from_brick);
 }
 
-/// Of a region, bricks are computed of its voxels and of no others, wherever the point goes and whoever asks.
+/// Of a region, bricks are computed of its voxels and of no others, wherever the point goes and whichever thread asks.
 TEST(Bricks, AreComputedOfTheirRegionAlone) {
   std::mutex counting;
   std::vector<int> times(70);  // each slice was computed, of how many bricks

@@ -36,7 +36,7 @@ struct JointHistogram {
 };
 
 /// Counts every voxel, block by block: no gradient of the whole volume is kept. `threads` 0: all cores; the counts do
-/// not depend on them. Throws std::invalid_argument for bins that are none, Cancelled.
+/// not depend on them. Throws std::invalid_argument for empty bins, Cancelled.
 JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                const Bins& magnitudes, const Progress& progress = {}, int threads = 0);
 
@@ -54,7 +54,7 @@ struct LowHighHistogram {
 
 /// Counts the voxels whose gradient's magnitude is above the least (per mm), but for padding; of a volume of more than
 /// some millions of voxels, evenly spread ones. `threads` 0: all cores; the counts do not depend on them. Throws
-/// std::invalid_argument for bins that are none, Cancelled.
+/// std::invalid_argument for empty bins, Cancelled.
 LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                     double least_magnitude, const Progress& progress = {}, int threads = 0);
 

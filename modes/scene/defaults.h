@@ -37,7 +37,7 @@ inline constexpr double level_reach_mm = 1.0;
 // frame.
 inline constexpr double sub_step_mm = 0.1;
 inline constexpr int most_sub_steps = 8;
-/// Farthest that the proxy jumps unsampled when a surface gives way, mm of patient: thin beside a boundary that a CT
+/// Farthest that the proxy jumps unsampled when a surface yields, mm of patient: thin beside a boundary that a CT
 /// can show. And the most halts of a frame.
 inline constexpr double proxy_step_mm = 0.125;
 inline constexpr int most_halts = 32;

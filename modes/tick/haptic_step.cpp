@@ -18,7 +18,7 @@ bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// What a sub-step is taken with: one scenery, or two while one gives way to the other.
+/// What a sub-step is taken with: one scene, or two while one replaces the other.
 struct SubStepInput {
   SceneOnData to;
   SceneOnData from;  ///< plan null: there is none
@@ -146,7 +146,7 @@ StepResult sub_step(const SubStepInput& setting, const Vec3& probe_m, Touch& tou
   return result;
 }
 
-/// Within a step modes are counted as in the plan; whoever reads the result counts as in the scene.
+/// Within a step modes are counted as in the plan; the caller counts as in the scene.
 void name_scene_modes(const SubStepInput& setting, std::span<std::uint8_t> mode_of) {
   for (std::uint8_t& mode : mode_of) {
     const auto mark = static_cast<std::uint8_t>(mode & of_scene_left);

@@ -9,11 +9,11 @@
 /// sampled, placed and solved in full; their number comes from the travel alone, never from the clock, so that a
 /// session can be replayed.
 ///
-/// The proxy can jump where the probe does not: when a surface gives way it is up to s / k from the probe, 2.5 mm for
+/// The proxy can jump where the probe does not: when a surface yields it is up to s / k from the probe, 2.5 mm for
 /// 1 N at 400 N/m, and would pass a thin tissue, or the edge of the next one, in one frame. So a sub-step that would
 /// carry it farther than Subdivision::proxy_step_mm halts it on the way, and is sampled, placed and solved again there,
 /// at the same probe position; the last halt of a frame (most_halts) lets it go. Every frame still ends in a balance
-/// that is solved in full, and where no surface gives way there is no halt.
+/// that is solved in full, and where no surface yields there is no halt.
 
 #include <array>
 #include <cstddef>

@@ -118,7 +118,7 @@ TEST(HapticStep, a_surface_that_gives_way_does_not_carry_the_proxy_past_the_next
   for (const int most_halts : {16, 0}) {
     scene.subdivision.most_halts = most_halts;
     Hand hand(scene, membranes);
-    // The first gives way at 1 N, 2.5 mm deep; what it lets go of would pass the second, which holds 2.5 N.
+    // The first yields at 1 N, 2.5 mm deep; what it lets go of would pass the second, which holds 2.5 N.
     hand.stroke({0, 0, 3}, {0, 0, -3.5}, 4000);
     if (most_halts > 0) {
       EXPECT_GT(hand.proxy_mm().z, -1.5);

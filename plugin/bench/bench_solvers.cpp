@@ -39,7 +39,7 @@ struct SolversArguments {
 struct Result {
   Outcome outcome = Outcome::unsuitable;
   Vec3 proxy{0};
-  double bound = std::numeric_limits<double>::infinity();  // m: certified afterwards, whoever solved
+  double bound = std::numeric_limits<double>::infinity();  // m: certified afterwards, for each solver
   double error = std::numeric_limits<double>::infinity();  // m: against the reference
   double microseconds = 0;
 

@@ -48,7 +48,7 @@ class Recorder {
   /// As finish(), but silent.
   ~Recorder();
 
-  // From whoever commands: what the session was given, before it is published.
+  // From the controlling thread: what the session was given, before it is published.
   void note(const SceneRecord& scene);
   void note(const StylusRecord& stylus);
 

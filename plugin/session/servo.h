@@ -14,8 +14,8 @@ namespace palpate::plugin {
 class Servo {
  public:
   /// Starts to tick, with SCHED_FIFO and locked memory where the system allows it (realtime() says). The session has to
-  /// outlive the servo; while the servo runs only whoever commands may call the session. Throws std::invalid_argument
-  /// for a rate that no servo has.
+  /// outlive the servo; while the servo runs only the controlling thread may call the session. Throws
+  /// std::invalid_argument for a rate that no servo has.
   explicit Servo(Session& session, double rate_hz = 1000);
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;

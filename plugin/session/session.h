@@ -37,7 +37,7 @@ struct Snapshot {
 /// When a tick is: from the session's driver. Recorded, so that a replay can repeat it.
 struct Beat {
   double time_s = 0;       ///< since the session began; ascending
-  double heartbeat_s = 0;  ///< when whoever commands was last seen alive, same clock
+  double heartbeat_s = 0;  ///< when the controlling thread was last seen alive, same clock
   std::uint32_t missed = 0, late_ns = 0;
 };
 
@@ -105,12 +105,12 @@ class Session {
   Handover<Held> styluses_;
   std::atomic<std::uint32_t> commands_{command::arm};
   std::atomic<std::uint32_t> stylus_epoch_{0};
-  // Of whoever commands.
+  // Of the controlling thread.
   std::uint32_t last_setting_ = 0;
   std::uint32_t last_stylus_ = 0;
   // The servo's.
   Setting* setting_ = nullptr;
-  Setting* leaving_ = nullptr;  ///< the setting that gives way to it; null: settled
+  Setting* leaving_ = nullptr;  ///< the setting that it replaces; null: settled
   double change_began_s_ = 0;
   double part_ = 1;
   Held* held_ = nullptr;

@@ -34,7 +34,7 @@ struct TickRecord {
   double time_s = 0;  ///< since the session began, counted in deadlines: not the clock's
   double dt_s = 0;
   double pose_time_s = 0;  ///< of the pose, on the device's own clock
-  double heartbeat_s = 0;  ///< time_s at which whoever commands was last seen alive
+  double heartbeat_s = 0;  ///< time_s at which the controlling thread was last seen alive
   double probe_m[3] = {};
   double proxy_m[3] = {};
   double force_n[3] = {};    ///< of the coupling, before damping and the safety filter

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The process's scans: whoever wants the voxels of a series (the reader, a filter, the panel) gets the same ones,
+/// The process's scans: all who want the voxels of a series (the reader, a filter, the panel) gets the same ones,
 /// loaded once. The store itself keeps nothing alive: a scan goes when its last user lets go.
 
 #include <array>

@@ -80,14 +80,14 @@ class SessionController : public QObject {
   void move_hand(const glm::dvec3& patient_mm);
   /// Where the hand wants to be, mm, patient space: where it was put last, or where the stylus is.
   glm::dvec3 hand_mm() const { return hand_mm_.value_or(look_.probe_mm); }
-  /// The hand gives way until nothing pushes it.
+  /// The simulated hand relaxes until nothing pushes it.
   void let_go();
   /// While the mouse means something else, it does not take the stylus.
   void keep_mouse_off(bool off) { mouse_off_ = off; }
   bool takes_mouse() const { return has_simulated() && !mouse_off_; }
 
  signals:
-  /// The stylus' clutch button was let go: whoever knows how the views are turned unclutches.
+  /// The stylus' clutch button was let go: the stylus views, which know how they are turned, unclutch.
   void clutch_button_let_go();
   void looked(const palpate::plugin::SessionStatus& look);
   void connection_changed();
@@ -110,7 +110,7 @@ class SessionController : public QObject {
   modes::Workspace before_, now_;  // of the last two scenes
   std::uint64_t next_frame_ = 0;
   std::uint32_t buttons_ = 0;
-  std::optional<glm::dvec3> hand_mm_;  // while the workspace stays and it does not give way
+  std::optional<glm::dvec3> hand_mm_;  // while the workspace stays and it does not relax
   bool letting_go_ = false;
   bool clutched_ = false;
   bool mouse_off_ = false;

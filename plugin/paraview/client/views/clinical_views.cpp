@@ -181,7 +181,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
   auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
   const ImageLattice lattice = lattice_of(image);
 
-  // A fresh session has one empty view; it gives way, so that there is one tab with the scan in it and nothing else.
+  // A fresh session has one empty view; it is replaced, so that there is one tab with the scan in it and nothing else.
   auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
   vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
   if (auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());

@@ -17,7 +17,7 @@ class vtkTextActor;
 
 namespace palpate::plugin {
 
-/// In the view's lower left corner; turns with the camera, whoever turns it. What points away is dim.
+/// In the view's lower left corner; turns with the camera. What points away is dim.
 class OrientationMarker {
  public:
   explicit OrientationMarker(vtkPVRenderView& view);

@@ -16,7 +16,7 @@ class vtkTextActor;
 
 namespace palpate::plugin {
 
-/// Letters at the four edges, which follow the camera whoever turns it; what is shown in the upper left corner, what is
+/// Letters at the four edges, which follow the camera; what is shown in the upper left corner, what is
 /// under the pointer below it.
 class SliceOverlay {
  public:

@@ -40,7 +40,7 @@ void PanelTest::on_startup() {
     const bool without = name.starts_with("without_");
     QWidget* const shown = widget(without ? "pqClientMainWindow" : "PalpatePanel");
     if (!shown || !shown->isVisible() || (!without && is_opening())) return;
-    // ParaView handles events in the middle of loading a state file: whoever takes a turn then holds it up.
+    // ParaView handles events in the middle of loading a state file: an event handled then holds it up.
     if (name == "a_session_is_restored" && !find<QWidget>("palpateConnect").isEnabled()) return;
     waiting->stop();
     int result = 1;

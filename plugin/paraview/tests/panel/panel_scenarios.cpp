@@ -35,7 +35,7 @@ void four_clicks() {
 void letting_go() {
   feel();
   let_go();
-  wait_for("the hand gives way", [] { return number("palpateForce") < 0.05; });
+  wait_for("the simulated hand relaxes", [] { return number("palpateForce") < 0.05; });
 }
 
 void escape_releases() {

@@ -27,7 +27,7 @@ void record_a_press(const QString& file) {
   press();
   let_go();
   wait_for(
-      "the hand gives way", [] { return number("palpateForce") < 0.05; }, 10);
+      "the simulated hand relaxes", [] { return number("palpateForce") < 0.05; }, 10);
   click("palpateRecord");
   wait_for(
       "the recording is written and open",
