@@ -177,6 +177,9 @@ std::vector<Provoked> provoke_programs() {
       {"{}: cannot be written; is the folder there, is it yours to write, and is there room?",
        said("suggest " + scan + " -o " + no_file.string())},
       {"{} of {} line{} could not be solved: see \"error\" in the answers", said("solve < " + letter)},
+      {"{}: exists and is not an empty folder; choose another or remove it",
+       said("probe " + small_ball() + " -o " + two.parent_path().string())},
+      {"{}: cannot make a folder in it ({})", said("probe " + small_ball() + " -o /proc/out")},
       {"palpate-bench tick needs a SERIES, or --sphere", output_of(PALPATE_BENCH " tick")},
       {"there is no scan to feel yet: open one first", said_when([] {
          LiveSession session;
