@@ -32,7 +32,7 @@ endif()
 foreach(file IN LISTS files)
   # What is never shipped: tests, benchmarks, rigs and fakes, the programs that are compared with, the benchmark program.
   set(shipped TRUE)
-  if(file MATCHES "_(test|benchmark)\\.cpp$|/testing/|/tests/|/messages/|/peers/|/fuzz/|^testdata/|^plugin/bench/")
+  if(file MATCHES "_(test|benchmark)\\.cpp$|/testing/|/tests/|/messages/|/peers/|/fuzz/|^testdata/|^plugin/bench/|^plugin/examples/")
     set(shipped FALSE)
   endif()
   string(REGEX MATCH "^[a-z]+" module ${file})

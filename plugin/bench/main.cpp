@@ -15,6 +15,7 @@
 #include "plugin/bench/extremes_study.h"
 #include "plugin/bench/loop_studies.h"
 #include "plugin/options/run_program.h"
+#include "plugin/options/version.h"
 
 namespace palpate::plugin {
 namespace {
@@ -47,7 +48,7 @@ void add_stability(CLI::App& bench) {
 int main(int argc, char** argv) {
   using namespace palpate::plugin;
   CLI::App program{"Error against run time, as tables, CSV files and pictures.", "palpate-bench"};
-  program.set_version_flag("--version", PALPATE_VERSION);
+  program.set_version_flag("--version", version_text());
   add_stability(program);
   add_bench_fields(program);
   add_bench_load(program);

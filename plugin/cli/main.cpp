@@ -4,6 +4,7 @@
 
 #include "plugin/cli/commands.h"
 #include "plugin/options/run_program.h"
+#include "plugin/options/version.h"
 
 int main(int argc, char** argv) {
   using namespace palpate::plugin;
@@ -12,7 +13,7 @@ int main(int argc, char** argv) {
       "Research software, not a medical device.\n\n"
       "A first session:  palpate info FOLDER;  palpate probe FOLDER --scene ct-skin-and-bone -o OUT",
       "palpate"};
-  program.set_version_flag("--version", PALPATE_VERSION);
+  program.set_version_flag("--version", version_text());
   add_info(program);
   add_sample(program);
   add_solve(program);
