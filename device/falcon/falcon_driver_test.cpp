@@ -141,6 +141,21 @@ TEST(FalconDriver, AHugeForceSaturatesInItsDirection) {
   EXPECT_FALSE(bench.fake.falcon.is_pushing());
 }
 
+/// No safety filter here, and motors that could do three times as much: what limits is the driver.
+TEST(FalconDriver, HoldsItsOwnForceLimit) {
+  FalconSettings settings;
+  settings.maximum_force = 2;
+  Bench bench({}, settings);
+  bench.home();
+  EXPECT_EQ(bench.stylus->specification().maximum_force, 2);
+  for (const Vec3& force : {Vec3(1, 0, 1), Vec3(3, 0, 0), Vec3(0, -2.5, 1), Vec3(1e6, 1e6, -1e6), Vec3(0, 0, 2.2)}) {
+    bench.run(0.05, force);
+    const Vec3 expected = force * std::min(1.0, 2 / glm::length(force));
+    EXPECT_LT(glm::length(bench.fake.falcon.force() - expected), 0.02) << force.x << ' ' << force.y << ' ' << force.z;
+  }
+  EXPECT_LT(glm::length(bench.fake.falcon.strongest_force()), 2.02);
+}
+
 TEST(FalconDriver, UploadsTheFirmwareItIsGiven) {
   FakeFalconOptions options;
   options.firmware_loaded = false;

@@ -148,7 +148,8 @@ SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, 
   const Vec3 clamped = clamp_length(wanted, limits.force);
   // A tick that comes late may not use the time that it missed to make a step.
   const double elapsed = input.time > state.time ? std::min(input.time - state.time, limits.force_age) : 0;
-  const Vec3 change = clamp_length(clamped - state.slewed_force, limits.slew * elapsed);
+  const double slew_time = std::min(elapsed, limits.slew_time);
+  const Vec3 change = clamp_length(clamped - state.slewed_force, limits.slew * slew_time);
   result.clamped = clamped != wanted;
   result.slewed = change != clamped - state.slewed_force;
   state.slewed_force = result.slewed ? state.slewed_force + change : clamped;

@@ -260,7 +260,7 @@ TEST(SafetyFilter, ALateTickIsAFaultAndNeverAStep) {
   session.input.force = Vec3(3, 0, 0);
   session.step(0.09);
   EXPECT_EQ(session.result.fault, Fault::none);
-  EXPECT_LE(glm::length(session.result.force), session.limits.slew * session.limits.force_age);
+  EXPECT_LE(glm::length(session.result.force), session.limits.slew * session.limits.slew_time);
   session.step(0.11);
   EXPECT_EQ(session.result.fault, Fault::tick_late);
 }
@@ -335,7 +335,8 @@ TEST(SafetyFilter, HoldsItsLimitsAgainstAnything) {
     ASSERT_TRUE(std::isfinite(length)) << i;
     ASSERT_LE(length, limits.force) << i;
     const double usable = std::min(elapsed, limits.force_age);
-    const double most = (limits.slew + limits.force / limits.fall_time) * usable + 1e-9;
+    const double slewed = limits.slew * std::min(elapsed, limits.slew_time);
+    const double most = slewed + limits.force / limits.fall_time * usable + 1e-9;
     ASSERT_TRUE(result.force == Vec3(0) || glm::length(result.force - before) <= most) << i;
     if (!state.armed && result.gain == 0) {
       ASSERT_EQ(result.force, Vec3(0));

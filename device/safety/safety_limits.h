@@ -8,6 +8,7 @@ struct SafetyLimits {
   double force = 3.0;               ///< N: the longest force vector asked of a device
   double device_force = 1e9;        ///< N: the device's own Specification::maximum_force
   double slew = 1000.0;             ///< N/s; below stiffness x speed (here 400 N/m x 1 m/s) contact turns unstable
+  double slew_time = 0.002;         ///< s: the longest time of a tick that the slew counts: a late tick makes no step
   double ramp_time = 0.5;           ///< s from armed to full force, and back to zero when the commander is silent
   double fall_time = 0.05;          ///< s from full force to zero after a fault or when disarmed
   double speed = 1.0;               ///< m/s: the fastest hand that forces are given to

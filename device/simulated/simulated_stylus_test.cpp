@@ -46,6 +46,24 @@ TEST(SimulatedStylus, ForcesMoveItByForceOverTheHandsStiffness) {
   EXPECT_NEAR(glm::length(stylus.read().position - Vec3(1, -2, 0.5) / 500.0), 0, 1e-9);
 }
 
+/// No safety filter here: the hand moves by the force that the device can give, over the hand's stiffness.
+TEST(SimulatedStylus, HoldsItsOwnForceLimit) {
+  SimulatedDevice device = without_tremor();
+  device.position_step = 0;
+  device.arm.coulomb_friction = 0;
+  device.maximum_force = 2;
+  for (const Vec3& force : {Vec3(1, 1, 0.5), Vec3(3, 0, 4), Vec3(0, -1e6, 1e6)}) {
+    SimulatedStylus stylus(device);
+    stylus.open();
+    for (int i = 0; i < 2000; ++i) {
+      stylus.read();
+      stylus.write_force(force);
+    }
+    const Vec3 expected = force * std::min(1.0, 2 / glm::length(force));
+    EXPECT_NEAR(glm::length(stylus.read().position - expected / 500.0), 0, 1e-9);
+  }
+}
+
 TEST(SimulatedStylus, FrictionHoldsBackNoMoreThanItsForce) {
   SimulatedStylus stylus(without_tremor());
   stylus.open();

@@ -179,6 +179,21 @@ TEST(WoodenHapticsDriver, AWallAtItsStiffnessLimitIsQuiet) {
   EXPECT_GT(ringing(4 * limit, 0), 3 * ringing(limit, 0)) << "or nothing could be seen here";
 }
 
+/// No safety filter here, and a current limit that would allow more: what limits is the driver.
+TEST(WoodenHapticsDriver, HoldsItsOwnForceLimit) {
+  FakeWoodenHapticsOptions options;
+  options.arm.maximum_force = 1.5;
+  Bench bench(options);
+  bench.home();
+  EXPECT_EQ(bench.stylus->specification().maximum_force, 1.5);
+  for (const Vec3& force : {Vec3(1, 0, 1), Vec3(2, 0, 0), Vec3(0, -2.5, 1), Vec3(0, 0, 1.7)}) {
+    bench.run(0.05, force);
+    const Vec3 expected = force * std::min(1.0, 1.5 / glm::length(force));
+    EXPECT_LT(glm::length(bench.arm.force() - expected), 0.02) << force.x << ' ' << force.y << ' ' << force.z;
+  }
+  EXPECT_LT(glm::length(bench.arm.strongest_force()), 1.52);
+}
+
 TEST(WoodenHapticsDriver, StartsAFirmwareThatWaits) {
   Bench bench;
   bench.home();

@@ -72,6 +72,56 @@ TEST(TransferFunction, monotone_cubic_never_leaves_the_range_of_its_two_nodes_an
   }
 }
 
+/// The cubic of Hermite with the slopes that the paper gives (F. N. Fritsch, J. Butland, 1984, equation for the
+/// weighted harmonic mean, alpha = (1 + h2 / (h1 + h2)) / 3), written as it is there.
+double published_cubic(const std::vector<Node>& nodes, double at) {
+  const auto slope = [&](std::size_t i) {
+    if (i == 0 || i + 1 == nodes.size()) return 0.0;
+    const double h1 = nodes[i].at - nodes[i - 1].at, h2 = nodes[i + 1].at - nodes[i].at;
+    const double s1 = (nodes[i].value - nodes[i - 1].value) / h1, s2 = (nodes[i + 1].value - nodes[i].value) / h2;
+    if (s1 * s2 <= 0) return 0.0;
+    const double alpha = (1 + h2 / (h1 + h2)) / 3;
+    return s1 * s2 / (alpha * s2 + (1 - alpha) * s1);
+  };
+  if (at <= nodes.front().at) return nodes.front().value;
+  if (at >= nodes.back().at) return nodes.back().value;
+  std::size_t i = 0;
+  while (nodes[i + 1].at <= at) ++i;
+  const double h = nodes[i + 1].at - nodes[i].at, t = (at - nodes[i].at) / h;
+  return (1 + 2 * t) * (1 - t) * (1 - t) * nodes[i].value + t * (1 - t) * (1 - t) * h * slope(i) +
+         t * t * (3 - 2 * t) * nodes[i + 1].value + t * t * (t - 1) * h * slope(i + 1);
+}
+
+TEST(TransferFunction, monotone_cubic_is_the_published_one_between_nodes_unevenly_apart) {
+  std::mt19937 random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto nodes = random_nodes(random);
+    const TransferFunction function(nodes, Interpolation::monotone_cubic);
+    for (int n = 0; n < 50; ++n) {
+      const double at = std::uniform_real_distribution<double>(nodes.front().at - 5, nodes.back().at + 5)(random);
+      EXPECT_NEAR(function(at), published_cubic(nodes, at), 1e-10);
+    }
+  }
+  // By hand: slopes 1 and 1/2 on widths 1 and 2 give 9/13.
+  const TransferFunction known({{0, 0}, {1, 1}, {3, 2}}, Interpolation::monotone_cubic);
+  EXPECT_NEAR((known(1 + 1e-6) - known(1 - 1e-6)) / 2e-6, 9.0 / 13, 1e-6);
+}
+
+TEST(TransferFunction, knows_its_least_and_its_most) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto nodes = random_nodes(random);
+    const TransferFunction function(nodes);
+    double least = nodes[0].value, most = nodes[0].value;
+    for (const Node& node : nodes) {
+      least = std::min(least, node.value);
+      most = std::max(most, node.value);
+    }
+    EXPECT_EQ(function.minimum(), least);
+    EXPECT_EQ(function.maximum(), most);
+  }
+}
+
 TEST(TransferFunction, refuses_unusable_nodes_by_their_index) {
   const auto message = [](std::vector<Node> nodes) {
     try {

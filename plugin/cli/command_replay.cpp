@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -85,7 +86,7 @@ void run(const ReplayOptions& options) {
     }
   }
   // Another build may differ by what both certify; more than that is another session.
-  if (!(result.largest_proxy_m <= result.largest_bound_m)) {
+  if (!(result.largest_proxy_m <= result.largest_bound_m) || !std::isfinite(result.largest_force_n)) {
     throw InputRefused(
         "the replay is not the session that was recorded: was the recording changed, or made by another version?");
   }

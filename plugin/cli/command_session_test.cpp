@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -68,6 +69,32 @@ TEST(CommandSession, ComparesTwoRecordingsOfOneStroke) {
   const Outcome refused = palpate("compare " + both + other.string());
   EXPECT_EQ(refused.exit, 1);
   EXPECT_THAT(refused.output, ::testing::AllOf(HasSubstr("recording.h5"), HasSubstr("another scan")));
+}
+
+/// A recording that was changed is not the session, also where what was put in is no number.
+TEST(CommandSession, AChangedRecordingIsRefusedByReplay) {
+  const auto out = fresh_path("unchanged");
+  ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 2 -o " + out.string()).exit, 0);
+  const Recording original = read_recording(out / "recording.h5");
+  const auto exit_of = [&](const auto& change) {
+    Recording recording = original;
+    change(recording.frames);
+    const auto file = fresh_path("changed.h5");
+    write_recording(recording, file);
+    const Outcome outcome = palpate("replay " + file.string() + " " + phantom().string());
+    EXPECT_THAT(outcome.output, HasSubstr(outcome.exit == 0 ? "the same to the last bit" : "is not the session"));
+    return outcome.exit;
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(exit_of([](auto&) {}), 0);
+  EXPECT_EQ(exit_of([](auto& frames) { frames[500].proxy_m[1] += 1e-3; }), 1);
+  EXPECT_EQ(exit_of([](auto& frames) { frames[500].proxy_m[2] = nan; }), 1);
+  EXPECT_EQ(exit_of([](auto& frames) { frames[500].sent_n[0] = nan; }), 1);
+  EXPECT_EQ(exit_of([](auto& frames) {
+              frames[500].proxy_m[0] = 1;
+              frames[600].proxy_m[0] = nan;
+            }),
+            1);
 }
 
 TEST(CommandSession, AnotherScanIsNotTheOneThatWasFelt) {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -73,18 +75,27 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
   return *found;
 }
 
+/// Infinity where only one of the two is a number: no difference is larger, and none after it makes it forgotten.
+double apart(const double (&recorded)[3], const double (&repeated)[3]) {
+  if (std::memcmp(recorded, repeated, sizeof recorded) == 0) {
+    return 0;
+  }
+  const double distance = glm::length(vector_of(recorded) - vector_of(repeated));
+  return std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance;
+}
+
 void compare(const TickRecord& recorded, const TickRecord& repeated, Replay& result) {
   ++result.frames;
   if (!same_in_replay(recorded, repeated)) {
     ++result.different;
     result.first_different = result.first_different.value_or(recorded.index);
   }
-  const auto larger = [](double& largest, double value) {
-    if (!(value <= largest)) largest = value;  // a NaN counts
-  };
-  larger(result.largest_proxy_m, glm::length(vector_of(recorded.proxy_m) - vector_of(repeated.proxy_m)));
-  larger(result.largest_force_n, glm::length(vector_of(recorded.sent_n) - vector_of(repeated.sent_n)));
-  larger(result.largest_bound_m, recorded.error_bound_m + repeated.error_bound_m);
+  result.largest_proxy_m = std::max(result.largest_proxy_m, apart(recorded.proxy_m, repeated.proxy_m));
+  result.largest_force_n = std::max(result.largest_force_n, apart(recorded.sent_n, repeated.sent_n));
+  const double bound = recorded.error_bound_m + repeated.error_bound_m;
+  if (std::isfinite(bound)) {  // an answer without a bound excuses nothing
+    result.largest_bound_m = std::max(result.largest_bound_m, bound);
+  }
 }
 
 }  // namespace

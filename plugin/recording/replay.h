@@ -20,8 +20,9 @@ struct Replay {
   std::uint64_t frames = 0;                      ///< replayed
   std::uint64_t different = 0;                   ///< that are not the same to the last bit (same_in_replay)
   std::optional<std::uint64_t> first_different;  ///< index of the frame
-  double largest_proxy_m = 0;                    ///< largest distance between the recorded and the repeated proxy
-  double largest_force_n = 0;                    ///< of what was sent
+  /// Largest distance between the recorded and the repeated proxy; infinity where one of them is not a number.
+  double largest_proxy_m = 0;
+  double largest_force_n = 0;   ///< the same of what was sent
   double largest_bound_m = 0;   ///< largest sum of a frame's two certified bounds: what two builds may differ by
   std::uint64_t after_gap = 0;  ///< frames that cannot be replayed, since some before them were lost
 };

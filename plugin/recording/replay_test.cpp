@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <random>
 
@@ -106,6 +107,41 @@ TEST(Replay, FindsTheFrameThatDiffers) {
   const Replay other = replay(recording, [](const SceneRecord& record) { return snapshot(record.scene, slab(0.4)); });
   EXPECT_GT(other.different, 100U);
   EXPECT_GT(other.largest_proxy_m, 1e-5);
+}
+
+/// The largest differences are those of the whole recording, whatever comes after them and wherever numbers are
+/// missing.
+TEST(Replay, ADifferenceIsNotForgottenAfterOneThatIsNoNumber) {
+  const Recording original = eventful_session(fresh_path("nan.h5"));
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const int axis : {0, 1, 2}) {
+    Recording recording = original;
+    recording.frames[2000].proxy_m[axis] += 1e-2;
+    recording.frames[2000].sent_n[axis] -= 0.5;
+    EXPECT_NEAR(replay(recording, make_again).largest_proxy_m, 1e-2, 1e-14);
+    EXPECT_NEAR(replay(recording, make_again).largest_force_n, 0.5, 1e-14);
+    recording.frames[3000].proxy_m[axis] = nan;
+    recording.frames[3000].sent_n[axis] = nan;
+    recording.frames[5000].proxy_m[axis] += 1e-9;
+    recording.frames[5000].sent_n[axis] += 1e-9;
+    const Replay result = replay(recording, make_again);
+    EXPECT_EQ(result.different, 3U);
+    EXPECT_EQ(result.first_different, 2000U);
+    EXPECT_EQ(result.largest_proxy_m, infinity);
+    EXPECT_EQ(result.largest_force_n, infinity);
+  }
+}
+
+/// What two builds may differ by is the sum of the two bounds of one tick; a tick without a bound excuses nothing.
+TEST(Replay, TellsTheLargestBoundOfTheTwoTogether) {
+  Recording recording = eventful_session(fresh_path("bound.h5"));
+  const double own = recording.frames[3000].error_bound_m;  // the repeated one's
+  recording.frames[3000].error_bound_m = 1e-3;
+  EXPECT_NEAR(replay(recording, make_again).largest_bound_m, 1e-3 + own, 1e-15);
+  recording.frames[3500].error_bound_m = std::numeric_limits<double>::infinity();
+  recording.frames[3600].error_bound_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NEAR(replay(recording, make_again).largest_bound_m, 1e-3 + own, 1e-15);
 }
 
 TEST(Replay, StopsAtTheFirstGapAndSaysHowManyCameAfter) {

@@ -101,6 +101,34 @@ TEST(SessionChange, AnotherStylusStartsFromZeroForce) {
   EXPECT_LT(watched.largest_step_n, 0.2 * slew_n);
 }
 
+/// What may be sent is what the stylus held now can take, from the tick that it is taken in, in both directions.
+TEST(SessionChange, EachStylusHasItsOwnForceLimit) {
+  const auto held = [](double maximum_n) {
+    device::SimulatedDevice model;
+    model.maximum_force = maximum_n;
+    auto made = std::make_shared<device::SimulatedStylus>(model);
+    made->follow(hold());
+    return made;
+  };
+  const auto felt = snapshot("ct-skin-and-bone", slab());
+  Session session(felt, held(5));
+  const auto longest_n = [&](int ticks) {
+    double longest = 0;
+    for (int n = 0; n < ticks; ++n) longest = std::max(longest, glm::length(vector_of(session.tick().sent_n)));
+    return longest;
+  };
+  EXPECT_GT(longest_n(2000), 0.5);
+  for (const double limit : {0.3, 5.0, 0.2}) {
+    const std::uint32_t epoch = session.change_stylus(held(limit));
+    for (int n = 0; n < 100 && !session.holds_stylus(epoch); ++n) session.tick();
+    ASSERT_TRUE(session.holds_stylus(epoch));
+    const double longest = longest_n(2000);
+    EXPECT_LE(longest, limit);
+    EXPECT_GT(longest, std::min(0.9 * limit, 0.5)) << "reached, or nothing is shown here";
+    session.collect();
+  }
+}
+
 TEST(SessionChange, UnpluggedThenPluggedInAgain) {
   const auto held = stylus(hold());
   Session session(snapshot("ct-skin-and-bone", slab()), held);

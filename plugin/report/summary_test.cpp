@@ -1,0 +1,214 @@
+/// The numbers and words of a session's summary, compared with a recording whose every number is chosen to be told from
+/// every other.
+
+#include "plugin/report/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "modes/testing/test_rig.h"
+#include "plugin/session/session.h"
+#include "testdata/analytic.h"
+
+namespace palpate::plugin {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr double stiffness = 500;  // N/m: residuals in N and in m differ by this
+
+modes::Scene scene_of_two() {
+  modes::Mode skin = modes::testing::surface(modes::TransferFunction(1.0));
+  skin.name = "skin";
+  modes::Mode grip;
+  grip.type = "friction";
+  grip.strength_n = modes::TransferFunction(0.1);
+  modes::Mode bone = modes::testing::surface(modes::TransferFunction(2.0));
+  modes::Scene scene = modes::testing::scene_of({skin, grip, bone});
+  scene.name = "two";
+  scene.stiffness_n_per_m = stiffness;
+  return scene;
+}
+
+modes::Plan plan_of(const modes::Scene& scene) {
+  modes::Workspace workspace;
+  workspace.center_mm = {-10, 20, 30};
+  return modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, workspace);
+}
+
+/// A frame every millisecond, each with two shares: of the surface given and of friction.
+class Made {
+ public:
+  TickRecord& add(std::uint32_t surface, double surface_n) {
+    TickRecord frame;
+    frame.index = recording.frames.size();
+    frame.time_s = 2 + 1e-3 * static_cast<double>(frame.index);
+    frame.share_count = 2;
+    frame.solver = static_cast<std::uint32_t>(solver::SolverKind::analytical);
+    recording.shares.push_back({.frame = frame.index, .mode = surface, .force_n = {0, surface_n, 0}});
+    recording.shares.push_back({.frame = frame.index, .mode = 1, .force_n = {7, 0, 0}});
+    recording.frames.push_back(frame);
+    return recording.frames.back();
+  }
+  Summary summary() const { return summarize(recording, plan_of(scene_of_two())); }
+  std::string text() const { return to_text(summary(), scene_of_two(), "a scan", "a stylus"); }
+  nlohmann::json json() const { return nlohmann::json::parse(to_json(summary(), scene_of_two())); }
+
+  Recording recording;
+};
+
+TEST(Summary, LargestsAreOfTheirOwnQuantityAndUnit) {
+  Made made;
+  for (int n = 0; n < 20; ++n) made.add(0, 0);
+  made.recording.frames[3].sent_n[0] = 3;  // 5 N together
+  made.recording.frames[3].sent_n[2] = -4;
+  made.recording.frames[4].force_n[1] = 9;
+  made.recording.frames[5].residual_n = 2e-9;
+  made.recording.frames[6].error_bound_m = 7e-13;
+  const Summary summary = made.summary();
+  EXPECT_EQ(summary.frames, 20U);
+  EXPECT_NEAR(summary.duration_s, 0.019, 1e-12);
+  EXPECT_DOUBLE_EQ(summary.peak_sent_n, 5);
+  EXPECT_DOUBLE_EQ(summary.largest_residual_m, 2e-9 / stiffness);
+  EXPECT_DOUBLE_EQ(summary.largest_error_bound_m, 7e-13);
+  EXPECT_THAT(
+      made.text(),
+      AllOf(HasSubstr("largest force sent to the device: 5.00 N"),
+            HasSubstr("certified error of the proxy at most 7.0e-13 m; residual / k at most 4.0e-12 m"),
+            HasSubstr("Palpate session: 0.0 s, 20 frames"), HasSubstr("scan      a scan"), HasSubstr("scene     two"),
+            HasSubstr("device    a stylus"), HasSubstr("nothing: no boundary pushed"), HasSubstr("no fault")));
+  EXPECT_EQ(made.json()["peak_sent_n"], 5);
+  EXPECT_DOUBLE_EQ(made.json()["largest_residual_m"], 2e-9 / stiffness);
+  EXPECT_DOUBLE_EQ(made.json()["largest_error_bound_m"], 7e-13);
+  EXPECT_NEAR(made.json()["duration_s"], 0.019, 1e-12);
+  EXPECT_EQ(made.json()["frames"], 20);
+}
+
+TEST(Summary, MissedTicksAreNotLostFrames) {
+  Made made;
+  for (int n = 0; n < 5; ++n) made.add(0, 0).missed = n == 2 ? 3 : n == 4 ? 8 : 0;
+  made.recording.gaps = {{.first_frame = 2, .frames = 40}, {.first_frame = 90, .frames = 2}};
+  EXPECT_EQ(made.summary().missed, 11U);
+  EXPECT_EQ(made.summary().lost, 42U);
+  EXPECT_THAT(made.text(), HasSubstr("Missed ticks     11; frames lost to the recording 42\n"));
+  EXPECT_EQ(made.json()["missed_ticks"], 11);
+  EXPECT_EQ(made.json()["lost_frames"], 42);
+}
+
+TEST(Summary, SolversAndOutcomesAreCountedApart) {
+  Made made;
+  const auto add = [&](int count, solver::SolverKind kind, solver::Outcome outcome) {
+    for (int n = 0; n < count; ++n) {
+      TickRecord& frame = made.add(0, 0);
+      frame.solver = static_cast<std::uint32_t>(kind);
+      frame.outcome = static_cast<std::uint32_t>(outcome);
+    }
+  };
+  add(1, solver::SolverKind::analytical, solver::Outcome::solved);
+  add(2, solver::SolverKind::exact, solver::Outcome::solved);
+  add(4, solver::SolverKind::descent, solver::Outcome::capped);
+  add(8, solver::SolverKind::none, solver::Outcome::refused);
+  add(16, solver::SolverKind::none, solver::Outcome::unsuitable);
+  EXPECT_THAT(made.text(), HasSubstr("analytical 1 frames, exact 2, descent 4; work cap hit 4, refused 24\n"));
+  EXPECT_EQ(made.json()["solver_frames"],
+            nlohmann::json({{"analytical", 1}, {"exact", 2}, {"descent", 4}, {"capped", 4}, {"refused", 24}}));
+}
+
+TEST(Summary, PercentilesAreTheOrderedValues) {
+  std::vector<double> values;
+  for (int n = 1000; n >= 0; --n) values.push_back(n);
+  const Percentiles all = percentiles_of(values);
+  EXPECT_EQ(all.median, 500);
+  EXPECT_EQ(all.p99, 990);
+  EXPECT_EQ(all.p999, 999);
+  EXPECT_EQ(all.largest, 1000);
+  EXPECT_EQ(percentiles_of({}).largest, 0);
+
+  Made made;
+  for (std::uint32_t n = 0; n <= 1000; ++n) {
+    TickRecord& frame = made.add(0, 0);
+    for (std::size_t stage = 0; stage < stage_count; ++stage) frame.stage_ns[stage] = 1000 * n;
+  }
+  EXPECT_THAT(made.text(),
+              HasSubstr("Time of a tick   median 4000.00 us, 99 % 7920.00 us, 99.9 % 7992.00 us, largest 8000.0 us\n"));
+  EXPECT_EQ(made.json()["tick_us"],
+            nlohmann::json({{"median", 4000.0}, {"p99", 7920.0}, {"p999", 7992.0}, {"largest", 8000.0}}));
+}
+
+/// A hold is of the surface that pushes most, from its first frame to its last; friction is none, however hard.
+TEST(Summary, HoldsAreOfTheSurfaceThatPushes) {
+  Made made;
+  for (int n = 0; n < 300; ++n) {
+    // In the air; on the skin from 0.1 s to 0.149 s with a gap of 20 ms; on the bone from 0.2 s to 0.249 s.
+    const bool skin = n >= 100 && n < 150 && (n < 120 || n >= 140);
+    const bool bone = n >= 200 && n < 250;
+    TickRecord& frame = made.add(bone ? 2 : 0, skin || bone ? 0.3 : 0.04);
+    frame.value = n;
+    frame.proxy_m[0] = 1e-3 * n;
+    frame.force_n[1] = n == 110 ? 1.25 : n == 220 ? 2.5 : n == 180 ? 9 : 0.5;
+  }
+  const Summary summary = made.summary();
+  ASSERT_EQ(summary.holds.size(), 2U);
+  EXPECT_EQ(summary.holds[0].mode, 0U);
+  EXPECT_NEAR(summary.holds[0].begin_s, 2.100, 1e-9);
+  EXPECT_NEAR(summary.holds[0].end_s, 2.149, 1e-9);
+  EXPECT_EQ(summary.holds[0].value, 100);
+  EXPECT_EQ(summary.holds[0].peak_n, 1.25);
+  // The device's x is the patient's; the workspace lies at (-10, 20, 30) mm.
+  EXPECT_NEAR(summary.holds[0].contact_mm.x, 90, 1e-9);
+  EXPECT_NEAR(summary.holds[0].contact_mm.y, 20, 1e-9);
+  EXPECT_NEAR(summary.holds[0].contact_mm.z, 30, 1e-9);
+  EXPECT_EQ(summary.holds[1].mode, 2U);
+  EXPECT_NEAR(summary.holds[1].begin_s, 2.200, 1e-9);
+  EXPECT_EQ(summary.holds[1].peak_n, 2.5);
+  EXPECT_THAT(
+      made.text(),
+      AllOf(HasSubstr("   2.100 to  2.149 s  skin         met at L 90.0 P 20.0 H 30.0 mm, value 100; up to 1.25 N\n"),
+            HasSubstr("   2.200 to  2.249 s  surface      met at L 190.0 P 20.0 H 30.0 mm, value 200; up to 2.50 N\n"),
+            Not(HasSubstr("nothing:"))));
+  const nlohmann::json holds = made.json()["holds"];
+  ASSERT_EQ(holds.size(), 2U);
+  EXPECT_EQ(holds[0]["boundary"], "skin");
+  EXPECT_EQ(holds[1]["boundary"], "surface");
+  EXPECT_EQ(holds[1]["value"], 200);
+  EXPECT_EQ(holds[1]["peak_n"], 2.5);
+  EXPECT_NEAR(holds[1]["contact_mm"][0], 190, 1e-9);
+}
+
+/// LPS: x grows towards the patient's left, y towards the back (posterior), z towards the head (DICOM PS3.3
+/// C.7.6.2.1.1).
+TEST(Summary, SidesOfThePatient) {
+  EXPECT_EQ(patient_coordinates({12.34, 4, 88.06}), "L 12.3 P 4.0 H 88.1 mm");
+  EXPECT_EQ(patient_coordinates({-12.34, 4, 88.06}), "R 12.3 P 4.0 H 88.1 mm");
+  EXPECT_EQ(patient_coordinates({12.34, -4, 88.06}), "L 12.3 A 4.0 H 88.1 mm");
+  EXPECT_EQ(patient_coordinates({12.34, 4, -88.06}), "L 12.3 P 4.0 F 88.1 mm");
+}
+
+TEST(Summary, EachFaultIsToldOnceWithItsTimeAndAdvice) {
+  Made made;
+  for (int n = 0; n < 100; ++n) {
+    const auto fault = n < 20   ? device::Fault::none
+                       : n < 40 ? device::Fault::device_lost
+                       : n < 60 ? device::Fault::none
+                                : device::Fault::speed_exceeded;
+    made.add(0, 0).safety = pack_safety(device::State::fault, fault);
+  }
+  const Summary summary = made.summary();
+  EXPECT_THAT(summary.faults, ElementsAre(StartsWith("at 2.020 s: device lost (The stylus is gone"),
+                                          StartsWith("at 2.060 s: speed exceeded (The stylus moved faster")));
+  EXPECT_THAT(made.text(), AllOf(HasSubstr("  " + summary.faults[0] + "\n"), HasSubstr("  " + summary.faults[1] + "\n"),
+                                 Not(HasSubstr("no fault"))));
+  EXPECT_EQ(made.json()["faults"].size(), 2U);
+}
+
+}  // namespace
+}  // namespace palpate::plugin
