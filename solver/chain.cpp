@@ -20,7 +20,7 @@ Solution solve_in_order(const Balance& balance, const ChainOptions& options, Exa
       return solution;
     }
     if (!options.exact && !options.descent && solution.error_bound > 0 && solution.error_bound <= unfelt) {
-      // Whoever has left out the others knows that this one solves the configuration; rounding has loosened the bound.
+      // The others were left out because this one solves the configuration; rounding has loosened the bound.
       solution.outcome = Outcome::capped;
       return solution;
     }

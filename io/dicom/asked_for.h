@@ -5,7 +5,7 @@
 namespace palpate::io::internal {
 
 /// Whether the reader asks for this attribute (group << 16 | element) of a dataset: no others are parsed. What lies in
-/// a sequence goes with it. Whoever asks for another one gets std::logic_error (dicom_value.h): it has to be added.
+/// a sequence goes with it. Asking for another one throws std::logic_error (dicom_value.h): add it here.
 bool is_asked_for(std::uint32_t tag);
 
 }  // namespace palpate::io::internal

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "io/quantile.h"
+
 namespace palpate::io::internal {
 namespace {
 
@@ -19,13 +21,6 @@ std::vector<double> intervals_of(const Geometry& geometry) {
     intervals.push_back(glm::dot(geometry.slice_positions[k] - geometry.slice_positions[k - 1], normal));
   }
   return intervals;
-}
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // A second slice distance that the protocol asked for comes in runs; lost slices come one by one.
@@ -68,7 +63,7 @@ Geometry stack_geometry(int columns, int rows, const Placement& reference, std::
 
   geometry.step = (slices.back() - slices.front()) / static_cast<double>(slices.size() - 1);
   const auto intervals = intervals_of(geometry);
-  const double median = median_of(intervals);
+  const double median = quantile(intervals, 0.5);
   for (std::size_t k = 0; k < intervals.size(); ++k) {
     const Vec3 step = slices[k + 1] - slices[k];
     if (glm::length(step - geometry.step) > uniform_tolerance * glm::length(geometry.step)) geometry.uniform = false;
@@ -86,7 +81,7 @@ Geometry stack_geometry(int columns, int rows, const Placement& reference, std::
 std::vector<std::string> geometry_warnings(const Geometry& geometry) {
   std::vector<std::string> warnings;
   const auto intervals = intervals_of(geometry);
-  const double median = median_of(intervals);
+  const double median = quantile(intervals, 0.5);
   for (const int k : geometry.gaps) {
     const double interval = intervals[static_cast<std::size_t>(k)];
     const auto missing = std::max(1L, std::lround(interval / median) - 1);

@@ -62,7 +62,7 @@ JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kerne
 LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                     double least_magnitude, const Progress& progress, int threads) {
   check(values, "values");
-  constexpr std::uint64_t enough_voxels = 4'000'000;  // far more than the bins can show
+  constexpr std::uint64_t enough_voxels = 1'000'000;  // far more than the bins can show
   const std::uint64_t stride = 1 + volume.offset(0, 0, volume.geometry.dimensions.z) / enough_voxels;
   LowHighHistogram all{values, {}, 0};
   all.counts.resize(static_cast<std::size_t>(values.count) * static_cast<std::size_t>(values.count));

@@ -7,6 +7,9 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "io/quantile.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -40,12 +43,7 @@ double median_step(const std::vector<double>& heights, double otherwise) {
   for (std::size_t k = 1; k < heights.size(); ++k) {
     steps.push_back(heights[k] - heights[k - 1]);
   }
-  if (steps.empty()) {
-    return otherwise;
-  }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? otherwise : quantile(std::move(steps), 0.5);
 }
 
 class Builder {

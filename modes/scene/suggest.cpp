@@ -7,7 +7,9 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
+#include "io/quantile.h"
 #include "modes/scene/defaults.h"
 #include "modes/scene/hills.h"
 
@@ -56,16 +58,9 @@ Spread spread_of(const io::Volume& volume) {
       }
     }
   }
-  const auto quantile = [](std::vector<double>& sorted, double part) {
-    if (sorted.empty()) {
-      return 0.0;
-    }
-    const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
-    return sorted[static_cast<std::size_t>(at)];
-  };
   // The median of |a - b| is 0.954 standard deviations of Gaussian noise; edges are too few to matter.
-  return {quantile(values, outer_share), quantile(values, 1 - outer_share), quantile(differences, 0.5) / 0.954};
+  return {io::quantile(values, outer_share), io::quantile(values, 1 - outer_share),
+          io::quantile(std::move(differences), 0.5) / 0.954};
 }
 
 std::string name_by_hu(double value) {

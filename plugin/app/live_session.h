@@ -1,7 +1,8 @@
 #pragma once
 
-/// A session as a panel runs it: scan, scene and stylus come and go in any order, each change at once and ramped; the
-/// servo runs while a stylus is held. All of it from one thread, which has to call heartbeat().
+/// A session as the panel runs it. Scan, scene and stylus may be set and removed in any order; each change takes effect
+/// at once and is ramped. The servo runs while a stylus is held. All calls come from one thread, which also has to call
+/// heartbeat().
 
 #include <filesystem>
 #include <memory>
@@ -18,10 +19,10 @@
 
 namespace palpate::plugin {
 
-/// How a change comes.
+/// How fast a change of scene takes effect.
 enum class Pace {
-  stepped,  ///< at once: takes the scene's whole ramp
-  dragged   ///< one of many small ones, by hand: is to be felt at once, for the hand is its ramp
+  stepped,  ///< one step: takes the scene's whole ramp
+  dragged   ///< one of many small steps of a drag: felt at once, because the drag itself is gradual
 };
 
 class LiveSession {
@@ -32,8 +33,8 @@ class LiveSession {
   /// As disconnect().
   ~LiveSession();
 
-  /// Another scan, or another frame of it; null: none, and the stylus is let go. Throws std::invalid_argument where the
-  /// scene cannot be felt on it.
+  /// Another scan, or another frame of it; null: none, and the stylus is disconnected. Throws std::invalid_argument
+  /// where the scene cannot be felt on it.
   void set_scan(std::shared_ptr<const io::Volume> volume);
   /// Throws std::invalid_argument, naming the key, for a scene that is not valid; the last one then goes on.
   void set_scene(const modes::Scene& scene, Pace pace = Pace::stepped);

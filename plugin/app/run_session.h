@@ -46,7 +46,7 @@ modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
 /// The snapshot of a scene on a scan for a stylus.
 Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus);
 
-/// The snapshot that a recording tells of, of the scan that it was recorded on. Throws std::invalid_argument for a
+/// The snapshot of a recording, on the scan that it was recorded on. Throws std::invalid_argument for a
 /// scene that is none.
 Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume);
 

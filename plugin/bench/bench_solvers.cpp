@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/fresh_folder.h"
+#include "io/quantile.h"
 #include "plugin/bench/solver_entrants.h"
 #include "plugin/bench/whole_tick_study.h"
 #include "plugin/report/chart.h"
@@ -75,15 +76,7 @@ Result run_once(const Entrant& entrant, const Problem& problem) {
   return result;
 }
 
-/// Value at a fraction of the sorted values; 0 of none.
-double quantile(std::vector<double> values, double fraction) {
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-FamilySummary summarise(Family family, const std::string& name, const std::vector<Result>& results) {
+FamilySummary summarize(Family family, const std::string& name, const std::vector<Result>& results) {
   FamilySummary summary{.family = family, .solver = name};
   std::vector<double> bounds, errors, times;
   for (const Result& result : results) {
@@ -97,14 +90,14 @@ FamilySummary summarise(Family family, const std::string& name, const std::vecto
     if (std::isfinite(result.error)) errors.push_back(result.error);
     times.push_back(result.microseconds);
   }
-  summary.bound_median = quantile(bounds, 0.5);
-  summary.bound_worst = quantile(bounds, 1);
+  summary.bound_median = io::quantile(bounds, 0.5);
+  summary.bound_worst = io::quantile(bounds, 1);
   summary.known = errors.size();
-  summary.error_median = quantile(errors, 0.5);
-  summary.error_worst = quantile(errors, 1);
-  summary.time_median = quantile(times, 0.5);
-  summary.time_p99 = quantile(times, 0.99);
-  summary.time_worst = quantile(times, 1);
+  summary.error_median = io::quantile(errors, 0.5);
+  summary.error_worst = io::quantile(errors, 1);
+  summary.time_median = io::quantile(times, 0.5);
+  summary.time_p99 = io::quantile(times, 0.99);
+  summary.time_worst = io::quantile(times, 1);
   return summary;
 }
 
@@ -124,7 +117,7 @@ std::vector<FamilySummary> run_family(Family family, const std::vector<Entrant>&
   }
   std::vector<FamilySummary> summaries;
   for (std::size_t e = 0; e < entrants.size(); ++e) {
-    summaries.push_back(summarise(family, entrants[e].name, results[e]));
+    summaries.push_back(summarize(family, entrants[e].name, results[e]));
   }
   return summaries;
 }
@@ -203,7 +196,7 @@ void run_counts(const std::vector<Entrant>& entrants, const std::filesystem::pat
       for (std::uint64_t seed = 0; seed < (count > 500 ? 8 : 40); ++seed) {
         times.push_back(run_once(entrant, make_problem(Family::many, seed, count)).microseconds);
       }
-      const double median = quantile(times, 0.5);
+      const double median = io::quantile(times, 0.5);
       fmt::print("{:>14.2f}", median);
       csv += fmt::format(",{:.4f}", median);
       curves[column].x.push_back(static_cast<double>(count));

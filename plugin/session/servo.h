@@ -15,14 +15,14 @@ class Servo {
  public:
   /// Starts to tick, with SCHED_FIFO and locked memory where the system allows it (realtime() says). The session has to
   /// outlive the servo; while the servo runs only the controlling thread may call the session. Throws
-  /// std::invalid_argument for a rate that no servo has.
+  /// std::invalid_argument where the rate is out of range.
   explicit Servo(Session& session, double rate_hz = 1000);
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
   /// Stops.
   ~Servo();
 
-  /// Whoever commands is alive: to be called at least every half second, or the force is ramped to zero
+  /// Says that the controlling thread is alive. Call it at least every half second, or the force is ramped to zero
   /// (device::SafetyLimits::heartbeat_time).
   void heartbeat() noexcept { heartbeats_.fetch_add(1, std::memory_order_relaxed); }
   /// Returns when the last tick has ended; the thread that called it may tick the session from then on.

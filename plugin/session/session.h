@@ -1,12 +1,11 @@
 #pragma once
 
-/// The session that ties a scan, a scene and a stylus, a tick at a time: read the pose, step the balance, filter the
-/// force, write it, and leave a frame.
+/// Connects a scan, a scene and a stylus. Each tick reads the pose, steps the balance, filters the force, writes it,
+/// and leaves a tick record.
 ///
-/// Two threads meet here. The servo calls tick() and shares(). Whoever commands (a panel, the command line; one thread
-/// at a time) calls the rest: scenes, scans, time frames and styluses are handed over as wholes, and the servo goes
-/// over to them at a tick of its own, the force ramped, never stepped. Where one thread does both, every call takes
-/// effect in the next tick.
+/// Two threads meet here. The servo calls tick() and shares(). All other functions are called from one controlling
+/// thread at a time (the panel's or the command line's). Scenes, scans, frames and styluses are replaced whole, between
+/// two ticks; the force is ramped across the change. Where one thread does both, a call takes effect in the next tick.
 
 #include <array>
 #include <atomic>
@@ -26,7 +25,7 @@
 
 namespace palpate::plugin {
 
-/// What is felt: a scene on a scan or one of its time frames. Immutable once it is published; shared by pointer.
+/// What is felt: a scene on a scan or on one of its frames. Immutable once it is published; shared by pointer.
 struct Snapshot {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
@@ -34,7 +33,7 @@ struct Snapshot {
   double change_s = 0.5;  ///< s: how long the change to it takes
 };
 
-/// When a tick is: from the session's driver. Recorded, so that a replay can repeat it.
+/// The time of a tick, from the session's driver. Recorded, so that a replay can repeat it.
 struct Beat {
   double time_s = 0;       ///< since the session began; ascending
   double heartbeat_s = 0;  ///< when the controlling thread was last seen alive, same clock
@@ -47,7 +46,7 @@ class Session {
   /// throws.
   Session(std::shared_ptr<const modes::Plan> plan, std::shared_ptr<const io::FieldSource> source,
           device::Stylus& stylus, const device::SafetyLimits& limits);
-  /// The same; the ring (may be null, has to outlive the session) gets every frame.
+  /// The same; the ring (may be null, has to outlive the session) gets every tick record.
   Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring = nullptr);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -62,14 +61,13 @@ class Session {
   std::span<const PrimitiveRecord> shares() const noexcept { return {shares_.data(), frame_.share_count}; }
   device::Fault fault() const noexcept { return safety_.fault; }
 
-  // --- Whoever commands.
-  /// Goes over to another scene, scan, time frame or workspace. One change at a time: where one is on its way, the next
-  /// begins when it has ended, and of several that wait the last one counts. Returns TickRecord::scene_epoch of its
-  /// frames.
+  // --- The controlling thread.
+  /// Changes to another scene, scan, frame or workspace. One change at a time: the next begins when the one under way
+  /// has ended; of several that wait, the last counts. Returns the TickRecord::scene_epoch of its ticks.
   std::uint32_t publish(const Snapshot& next);
-  /// Goes over to another stylus: opened here, and once the force has fallen the servo takes it, with the force ramped
-  /// up from zero. Throws what Stylus::open() throws; the session then goes on with the one that it has. Null: none is
-  /// held until the next. Returns TickRecord::stylus_epoch of its frames.
+  /// Changes to another stylus. It is opened here; the servo takes it once the force has fallen, and ramps the force up
+  /// from zero. Throws what Stylus::open() throws, and the session then keeps its stylus. Null: none is held until the
+  /// next. Returns the TickRecord::stylus_epoch of its ticks.
   std::uint32_t change_stylus(std::shared_ptr<device::Stylus> stylus);
   /// Whether the servo has taken the stylus of the last change_stylus().
   bool holds_stylus(std::uint32_t epoch) const noexcept {

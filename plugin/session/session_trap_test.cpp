@@ -43,7 +43,7 @@ TEST(SessionTrap, NothingIsCaughtInASessionInWhichEverythingHappens) {
   Session session(snapshot("ct-skin-and-bone", ball()), held, &ring);
   const std::shared_ptr<const io::FieldSource> others[] = {ball(), slab(), ball()};
   std::atomic<bool> done{false};
-  // Whoever commands, on a thread of its own: by the frames that it sees, not by the clock.
+  // The controlling thread: it goes by the ticks that it sees, not by the clock.
   std::thread commander([&] {
     std::uint64_t next = 300;
     for (int what = 0; !done; ++what) {

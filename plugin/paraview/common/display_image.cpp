@@ -8,9 +8,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "io/quantile.h"
 #include "plugin/paraview/common/even_copy.h"
 #include "plugin/paraview/common/shared_voxels.h"
 
@@ -22,9 +24,7 @@ double median_pitch(const io::Geometry& geometry) {
   const auto& slices = geometry.slice_positions;
   std::vector<double> pitches;
   for (std::size_t k = 0; k + 1 < slices.size(); ++k) pitches.push_back(glm::distance(slices[k], slices[k + 1]));
-  const auto middle = pitches.begin() + static_cast<std::ptrdiff_t>(pitches.size() / 2);
-  std::nth_element(pitches.begin(), middle, pitches.end());
-  return *middle;
+  return io::quantile(std::move(pitches), 0.5);
 }
 
 /// Offset in the part's voxels of a point of the grid.

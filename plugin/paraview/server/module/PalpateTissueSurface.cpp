@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 
+#include "plugin/paraview/common/all_cores.h"
 #include "plugin/paraview/server/module/pieces.h"
 
 using namespace palpate;
@@ -101,7 +102,7 @@ int PalpateTissueSurface::RequestData(vtkInformation*, vtkInformationVector** in
   edges->ComputeScalarsOn();
   edges->SetNumberOfContours(static_cast<int>(values_.size()));
   for (std::size_t n = 0; n < values_.size(); ++n) edges->SetValue(static_cast<int>(n), values_[n]);
-  edges->Update();
+  plugin::on_all_cores([&] { edges->Update(); });
   vtkPolyData& surface = *vtkPolyData::GetData(output);
   surface.ShallowCopy(edges->GetOutput());
   vtkInformation& asked = *output->GetInformationObject(0);

@@ -7,14 +7,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "io/errors.h"
 #include "io/fields/volume_fields.h"
 #include "modes/types/mode_type.h"
+#include "plugin/paraview/common/all_cores.h"
 #include "plugin/paraview/server/module/scan_of_image.h"
 #include "plugin/session/scan.h"
 
@@ -88,13 +92,22 @@ class Fields {
 /// work(0) ... work(count - 1) on all cores, some at a time so that progress is told and cancelling works.
 template <typename Work>
 void for_pieces(std::size_t count, const io::Progress& progress, const Work& work) {
-  const auto at_a_time = static_cast<std::size_t>(4 * std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1));
+  const std::size_t at_a_time = 4 * std::max(std::thread::hardware_concurrency(), 1U);
+  std::mutex failing;
+  std::exception_ptr failure;  // of the first piece that failed: none may leave its thread
+  const auto try_pieces = [&](vtkIdType one, vtkIdType last) {
+    try {
+      for (; one < last; ++one) work(static_cast<std::size_t>(one));
+    } catch (...) {
+      const std::scoped_lock lock(failing);
+      failure = std::current_exception();
+    }
+  };
   for (std::size_t begin = 0; begin < count; begin += at_a_time) {
     if (progress && !progress(static_cast<double>(begin) / static_cast<double>(count))) throw io::Cancelled();
     const std::size_t end = std::min(begin + at_a_time, count);
-    vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end), 1, [&](vtkIdType one, vtkIdType last) {
-      for (; one < last; ++one) work(static_cast<std::size_t>(one));
-    });
+    on_all_cores([&] { vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end), 1, try_pieces); });
+    if (failure) std::rethrow_exception(failure);
   }
 }
 
