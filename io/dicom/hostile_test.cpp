@@ -143,7 +143,7 @@ long mib_to_load(const fs::path& folder) {
   return got == sizeof used ? used : -1;
 }
 
-TEST(Hostile, LoadingHoldsLittleMoreThanTheVolume) {
+TEST(SharedHostile, LoadingHoldsLittleMoreThanTheVolume) {
   const fs::path data = PALPATE_SHARED_DATA;
   if (!fs::exists(data))
     GTEST_SKIP() << "needs the shared series, whose size tells peak memory from noise: not at " << data;

