@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -160,6 +161,33 @@ struct GradientKernel::Weights {
   }
 };
 
+double largest_gradient_scale_mm(const Geometry& geometry) noexcept {
+  // Of the reach, all but what the nearest slices of a tilted stack are displaced by; these always count.
+  const Vec3 normal = glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j));
+  const auto& slices = geometry.slice_positions;
+  const std::array<std::pair<Vec3, double>, 2> rows{
+      {{geometry.direction_i, geometry.spacing_i}, {geometry.direction_j, geometry.spacing_j}}};
+  constexpr double reach = internal::largest_radius - 1;
+  double largest = std::numeric_limits<double>::infinity();
+  for (const auto& [direction, spacing] : rows) {
+    largest = std::min(largest, reach * spacing / internal::cut_off);
+    for (std::size_t k = 1; k < slices.size(); ++k) {
+      const Vec3 step = slices[k] - slices[k - 1];
+      const double between = std::abs(glm::dot(step, normal));
+      const double shift = std::abs(glm::dot(step, direction));
+      const double tilt = between > 0 ? shift / between : 0;
+      const double left = std::max(reach * spacing - shift, spacing);
+      largest = std::min({largest, left / internal::cut_off, reach * spacing / (internal::cut_off * (1 + tilt))});
+    }
+  }
+  constexpr std::size_t beyond = internal::largest_radius + 1;
+  for (std::size_t k = beyond; k < slices.size(); ++k) {
+    const double between = std::abs(glm::dot(slices[k] - slices[k - beyond], normal));
+    largest = std::min(largest, 0.999 * between / internal::cut_off);
+  }
+  return largest;
+}
+
 double default_gradient_scale_mm(const Geometry& geometry) noexcept {
   constexpr double least_mm = 1.5;
   constexpr double in_plane_voxels = 2;
@@ -171,8 +199,9 @@ double default_gradient_scale_mm(const Geometry& geometry) noexcept {
     between =
         std::min(between, std::abs(glm::dot(geometry.slice_positions[k] - geometry.slice_positions[k - 1], normal)));
   }
-  return std::max(
+  const double wanted = std::max(
       {least_mm, in_plane_voxels * std::max(geometry.spacing_i, geometry.spacing_j), slice_spacings * between});
+  return std::min(wanted, largest_gradient_scale_mm(geometry));
 }
 
 GradientKernel::GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm) {

@@ -28,7 +28,10 @@
 
 namespace palpate::io {
 
-/// max(1.5 mm, 2 in-plane voxels, 0.6 slice spacing): mm.
+/// What a derivative of Gaussian can span on this grid: mm. A larger scale is refused.
+double largest_gradient_scale_mm(const Geometry& geometry) noexcept;
+
+/// max(1.5 mm, 2 in-plane voxels, 0.6 slice spacing), but no more than the largest: mm.
 double default_gradient_scale_mm(const Geometry& geometry) noexcept;
 
 /// A box of voxels.

@@ -380,5 +380,40 @@ TEST(Gradient, CanBeCancelled) {
   EXPECT_THROW(GradientKernel(volume, 1.5).whole([](double) { return false; }), Cancelled);
 }
 
+// 5 mm slices every 20 mm of a scan with pixels of 0.3 mm, and beyond: felt by a gradient that nobody chose, which the
+// kernel has to be able to compute. The truth: of a linear value the gradient is known, at every scale.
+TEST(Gradient, DefaultScaleIsOneThatCanBeComputedHoweverWideTheGaps) {
+  for (const double slice_mm : {10.0, 20.0, 40.0, 100.0}) {
+    for (const double tilt : {0.0, 15.0, 30.0}) {
+      Geometry geometry;
+      geometry.dimensions = {180, 140, 5};
+      geometry.spacing_i = 0.3;
+      geometry.spacing_j = 0.4;
+      geometry.step = {0, slice_mm * std::tan(glm::radians(tilt)), slice_mm};
+      for (int k = 0; k < 5; ++k) geometry.slice_positions.push_back(static_cast<double>(k) * geometry.step);
+      auto volume = std::make_shared<Volume>();
+      volume->geometry = geometry;
+      std::vector<float> voxels;
+      const Vec3 slope{3, -2, 5};
+      for (int k = 0; k < 5; ++k) {
+        for (int j = 0; j < 140; ++j) {
+          for (int i = 0; i < 180; ++i) {
+            voxels.push_back(static_cast<float>(glm::dot(slope, geometry.to_patient({i, j, k}))));
+          }
+        }
+      }
+      volume->voxels = std::move(voxels);
+      const double scale = default_gradient_scale_mm(geometry);
+      EXPECT_GT(scale, 0.3);
+      const GradientKernel kernel(volume, scale);
+      std::array<glm::vec3, 1> found{};
+      kernel.at_cell({{90, 70, 2}, {1, 1, 1}}, found);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(found[0][axis], slope[axis], 0.01) << slice_mm << " mm, tilt " << tilt << " axis " << axis;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io
