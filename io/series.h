@@ -23,7 +23,10 @@ struct Series {
   std::string study_uid;    ///< StudyInstanceUID
   std::string modality;     ///< Modality: "CT", "MR", ...
   std::string description;  ///< SeriesDescription
-  std::string unit;         ///< of the rescaled values: "HU", or empty where the modality has none
+  /// Where several volumes lie in one another under one UID, what tells this one from the others, such as
+  /// "acquisition 2"; else empty.
+  std::string part;
+  std::string unit;  ///< of the rescaled values: "HU", or empty where the modality has none
 
   std::vector<std::filesystem::path> files;    ///< that hold its slices, in the order of the slices
   std::vector<std::string> transfer_syntaxes;  ///< UIDs, sorted, each once

@@ -26,6 +26,8 @@ bool is_asked_for(std::uint32_t tag) {
                                  DCM_PatientID,
                                  DCM_SequenceName,
                                  DCM_SliceThickness,
+                                 DCM_ConvolutionKernel,
+                                 DCM_ImageLaterality,
                                  DCM_EchoTime,
                                  DCM_SpacingBetweenSlices,
                                  DCM_TriggerTime,

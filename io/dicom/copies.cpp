@@ -22,7 +22,7 @@ bool same_place_and_time(const FileHeader& a, const FileHeader& b) {
     if (x.placement.has_value() != y.placement.has_value()) return false;
     return !x.placement || glm::distance(x.placement->position, y.placement->position) < rounding;
   };
-  return a.acquired == b.acquired &&
+  return a.acquisition_time == b.acquisition_time && a.content_time == b.content_time &&
          std::equal(a.planes.begin(), a.planes.end(), b.planes.begin(), b.planes.end(), same_place);
 }
 

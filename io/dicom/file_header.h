@@ -33,6 +33,8 @@ std::optional<Placement> make_placement(const std::vector<double>& position, con
 /// What may tell apart images at one position, the most telling first.
 enum class Label {
   image_type,
+  kernel,
+  laterality,
   echo_time,
   b_value,
   diffusion_direction,
@@ -41,7 +43,7 @@ enum class Label {
   trigger_time,
   acquisition
 };
-constexpr std::size_t label_count = 8;
+constexpr std::size_t label_count = 10;
 /// One text a label, numbers as text; empty where unknown.
 using Labels = std::array<std::string, label_count>;
 
@@ -94,8 +96,9 @@ struct FileHeader {
   std::string unit;
   Series::Identity identity;
   double instance_number = 0;
-  std::string acquired;  ///< date and time of the acquisition and of the content, only to be compared
-  double thickness = 0;  ///< SliceThickness, mm; 0 where unknown
+  std::string acquisition_time;  ///< date and time, only to be compared
+  std::string content_time;      ///< as acquisition_time
+  double thickness = 0;          ///< SliceThickness, mm; 0 where unknown
 
   PixelFormat format;
   int columns = 0;  ///< of one image (of a tile of a mosaic)

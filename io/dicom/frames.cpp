@@ -43,10 +43,11 @@ Positions gather_positions(const SeriesSource& source, std::vector<Slice> slices
   // Unreadable copies last, so that they never displace a good one; then as acquired.
   const auto order = [&](const Slice& s) {
     const FileHeader& file = source.file_of(s);
-    return std::tuple(!file.defect.empty(), file.acquired, file.instance_number, s.file, s.plane);
+    return std::tuple(!file.defect.empty(), file.acquisition_time, file.content_time, file.instance_number, s.file,
+                      s.plane);
   };
   std::stable_sort(slices.begin(), slices.end(), [&](const Slice& a, const Slice& b) { return height(a) < height(b); });
-  const double same_place = 0.02 * std::min(reference.spacing_i, reference.spacing_j);
+  const double same_place = same_place_mm(reference);
   Positions positions;
   double last = 0;
   for (const Slice& slice : slices) {
@@ -115,23 +116,30 @@ std::vector<std::size_t> dividing_labels(const SeriesSource& source, const Posit
 // What all of a frame has in common and other frames have not.
 std::string name_of(const SeriesSource& source, const std::vector<Slice>& frame,
                     const std::vector<std::size_t>& telling, std::size_t rank, bool ranked) {
-  static constexpr std::array before{
-      "", "echo time ", "b = ", "direction ", "velocity along ", "time point ", "trigger delay ", "acquisition "};
-  static constexpr std::array after{"", " ms", " s/mm2", "", "", "", " ms", ""};
   std::string name;
   for (const std::size_t label : telling) {
     const auto value_of = [&](const Slice& slice) { return source.plane_of(slice).labels[label]; };
     const std::string value = value_of(frame.front());
     const bool common = std::all_of(frame.begin(), frame.end(), [&](const Slice& s) { return value_of(s) == value; });
     if (value.empty() || !common) continue;
-    name += (name.empty() ? "" : ", ") + std::string(before[label]) + value + after[label];
+    name += (name.empty() ? "" : ", ") + label_text(static_cast<Label>(label), value);
   }
   if (ranked) name += (name.empty() ? "image " : ", image ") + std::to_string(rank + 1);
-  std::replace(name.begin(), name.end(), '\\', ' ');
   return name;
 }
 
 }  // namespace
+
+std::string label_text(Label label, const std::string& value) {
+  static constexpr std::array before{"",           "kernel ",         "side ",       "echo time ",     "b = ",
+                                     "direction ", "velocity along ", "time point ", "trigger delay ", "acquisition "};
+  static constexpr std::array after{"", "", "", " ms", " s/mm2", "", "", "", " ms", ""};
+  static_assert(before.size() == label_count && after.size() == label_count);
+  const auto n = static_cast<std::size_t>(label);
+  std::string text = before.at(n) + value + after.at(n);
+  std::replace(text.begin(), text.end(), '\\', ' ');
+  return text;
+}
 
 FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slices) {
   FrameSplit split;
@@ -163,11 +171,11 @@ FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slic
   std::size_t largest = 0;
   for (const auto& [key, frame] : frames) largest = std::max(largest, frame.size());
   const auto is_frame = [&](const auto& entry) { return 2 * entry.second.size() > largest || frames.size() == 1; };
-  const bool ranked =
+  split.ranked =
       std::any_of(frames.begin(), frames.end(), [&](const auto& f) { return f.first.back() > 0 && is_frame(f); });
   for (auto& entry : frames) {
     if (is_frame(entry)) {
-      split.names.push_back(name_of(source, entry.second, telling, entry.first.back(), ranked));
+      split.names.push_back(name_of(source, entry.second, telling, entry.first.back(), split.ranked));
       split.frames.push_back(std::move(entry.second));
     } else {
       split.left_over.insert(split.left_over.end(), entry.second.begin(), entry.second.end());

@@ -12,8 +12,12 @@ namespace palpate::io::internal {
 struct FrameSplit {
   std::vector<std::vector<SeriesSource::Slice>> frames;  ///< slices of each, ascending along the normal
   std::vector<std::string> names;                        ///< what tells each from the others; one a frame
+  bool ranked = false;  ///< whether labels do not tell all of them apart, so that their order has to
   std::vector<SeriesSource::Slice> left_over;  ///< images at a place that another one has, without being a frame
 };
+
+/// A label's value in words, such as "b = 1000 s/mm2".
+std::string label_text(Label label, const std::string& value);
 
 /// Images of one orientation and size -> frames. Two images are at one position where they are closer along the normal
 /// than 2 % of a pixel. Frames are told apart by the labels (b-value, echo, ...) that take the same few values all over

@@ -9,6 +9,7 @@
 #include "io/dicom/copies.h"
 #include "io/dicom/frames.h"
 #include "io/dicom/series_source.h"
+#include "io/dicom/stack_parts.h"
 #include "io/dicom/stacking.h"
 
 namespace palpate::io::internal {
@@ -90,25 +91,79 @@ Geometry geometry_of(const SeriesSource& source, const SeriesSource::Frame& fram
                         file.thickness);
 }
 
-// One stack of images that fit together, as a series with its frames.
-Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, std::vector<SkippedFile>& skipped) {
-  Series series;
-  describe(files.file_of(stack.front()), series);
-  auto source = std::make_shared<SeriesSource>(files);
-  const FrameSplit split = split_into_frames(*source, stack);
-
+// The frames of each part, with the slices of damaged files as lost; returns the slices that can be read.
+std::vector<Slice> add_frames(const std::vector<const StackPart*>& parts, SeriesSource& source, Series& series,
+                              std::vector<Slice>& left_over) {
   std::vector<Slice> read;
-  for (const auto& slices : split.frames) {
-    SeriesSource::Frame& frame = source->frames.emplace_back();
-    for (const Slice& slice : slices) {
-      if (source->file_of(slice).defect.empty()) {
-        frame.slices.push_back(slice);
-        read.push_back(slice);
-      } else {
-        frame.lost.push_back(source->plane_of(slice).placement->position);
+  for (const StackPart* part : parts) {
+    FrameSplit split = split_into_frames(source, part->slices);
+    left_over.insert(left_over.end(), split.left_over.begin(), split.left_over.end());
+    for (std::size_t f = 0; f < split.frames.size(); ++f) {
+      SeriesSource::Frame& frame = source.frames.emplace_back();
+      for (const Slice& slice : split.frames[f]) {
+        if (source.file_of(slice).defect.empty()) {
+          frame.slices.push_back(slice);
+          read.push_back(slice);
+        } else {
+          frame.lost.push_back(source.plane_of(slice).placement->position);
+        }
       }
+      const std::string& name = split.names[f];
+      const bool both = parts.size() > 1 && !name.empty();
+      series.frame_names.push_back(parts.size() > 1 ? part->name + (both ? ", " : "") + name : name);
     }
   }
+  return read;
+}
+
+// A frame of which nothing is left costs that frame, not the others.
+void drop_empty_frames(SeriesSource& source, Series& series) {
+  const auto most = std::ranges::max(source.frames, {}, [](const auto& f) { return f.slices.size(); }).slices.size();
+  for (std::size_t f = source.frames.size(); f-- > 0 && most > 1;) {
+    const SeriesSource::Frame& frame = source.frames[f];
+    if (frame.slices.size() > 1) continue;
+    const std::string& name = series.frame_names[f];
+    series.warnings.push_back((name.empty() ? "frame " + std::to_string(f) : name) +
+                              " is left out: " + std::to_string(frame.slices.size()) + " of its " +
+                              std::to_string(frame.slices.size() + frame.lost.size()) +
+                              " images can be read; the other frames are numbered anew");
+    source.frames.erase(source.frames.begin() + static_cast<std::ptrdiff_t>(f));
+    series.frame_names.erase(series.frame_names.begin() + static_cast<std::ptrdiff_t>(f));
+  }
+}
+
+// Frames of one volume may lie a little apart, where the scanner followed a head.
+void remark_on_moving_frames(const SeriesSource& source, Series& series) {
+  double apart = 0;
+  const Placement* reference = nullptr;
+  std::array<double, 2> first{};
+  for (const SeriesSource::Frame& frame : source.frames) {
+    if (frame.slices.empty() || !frame.lost.empty()) continue;
+    const auto height = [&](const Slice& s) { return height_of(source.plane_of(s).placement->position, *reference); };
+    if (reference == nullptr) {
+      reference = &*source.plane_of(frame.slices.front()).placement;
+      first = {height(frame.slices.front()), height(frame.slices.back())};
+    }
+    if (frame.slices.size() != source.frames.front().slices.size()) continue;
+    apart = std::max(
+        {apart, std::abs(height(frame.slices.front()) - first[0]), std::abs(height(frame.slices.back()) - first[1])});
+  }
+  if (reference != nullptr && apart > same_place_mm(*reference)) {
+    series.warnings.push_back("its frames lie up to " + millimeters(apart) + " apart: each is felt where it is");
+  }
+}
+
+// Stacks of images that fit together, as a series with its frames.
+Series make_series(const SeriesSource& files, const std::vector<const StackPart*>& parts,
+                   std::vector<SkippedFile>& skipped) {
+  Series series;
+  std::vector<Slice> stack;
+  for (const StackPart* part : parts) stack.insert(stack.end(), part->slices.begin(), part->slices.end());
+  describe(files.file_of(stack.front()), series);
+  auto source = std::make_shared<SeriesSource>(files);
+  std::vector<Slice> left_over;
+  const std::vector<Slice> read = add_frames(parts, *source, series, left_over);
+  drop_empty_frames(*source, series);
   std::set<std::uint32_t> unreadable;
   for (const Slice& slice : stack) {
     if (!source->file_of(slice).defect.empty()) unreadable.insert(slice.file);
@@ -117,7 +172,7 @@ Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, s
     const FileHeader& header = (*source->files)[file];
     series.warnings.push_back(name_of(header) + " is left out: " + header.defect);
   }
-  for (const Slice& slice : split.left_over) {
+  for (const Slice& slice : left_over) {
     const FileHeader& file = source->file_of(slice);
     if (!file.defect.empty()) continue;
     skipped.push_back({file.path, "another image of its series lies at its position and nothing tells them apart"});
@@ -127,9 +182,11 @@ Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, s
   add_remarks(*source, stack, series);
   list_files(*source, read, series);
   series.frames_per_position = static_cast<int>(source->frames.size());
-  series.frame_names = split.names;
   series.geometry = geometry_of(*source, source->frames.front(), stack.front());
-  for (auto& warning : geometry_warnings(series.geometry)) series.warnings.push_back(std::move(warning));
+  for (auto& warning : geometry_warnings(series.geometry, files.file_of(stack.front()).thickness)) {
+    series.warnings.push_back(std::move(warning));
+  }
+  remark_on_moving_frames(*source, series);
   for (std::size_t f = 1; f < source->frames.size(); ++f) {
     if (source->frames[f].slices.size() == source->frames.front().slices.size()) continue;
     series.warnings.push_back("frame " + std::to_string(f) + " has " + std::to_string(source->frames[f].slices.size()) +
@@ -144,6 +201,21 @@ Series make_series(const SeriesSource& files, const std::vector<Slice>& stack, s
   if (source->frames.front().slices.empty()) source->frames.clear();
   series.source = std::move(source);
   return series;
+}
+
+// Images that fit together, as one series or, where stacks lie in one another, as several.
+std::vector<Series> series_of(const SeriesSource& files, const std::vector<Slice>& stack,
+                              std::vector<SkippedFile>& skipped) {
+  const PartedStack parted = part_stack(files, stack);
+  std::map<int, std::vector<const StackPart*>> volumes;
+  for (const StackPart& part : parted.parts) volumes[part.volume].push_back(&part);
+  std::vector<Series> result;
+  for (const auto& [number, parts] : volumes) {
+    Series& series = result.emplace_back(make_series(files, parts, skipped));
+    if (volumes.size() > 1) series.part = parts.front()->name;
+    series.warnings.insert(series.warnings.end(), parted.doubts.begin(), parted.doubts.end());
+  }
+  return result;
 }
 
 // All files of one series.
@@ -171,7 +243,9 @@ void group_one_series(std::vector<FileHeader> headers, std::vector<Series>& resu
 
   std::vector<Series> found;
   found.reserve(stacks.size());
-  for (const auto& stack : stacks) found.push_back(make_series(source, stack, skipped));
+  for (const auto& stack : stacks) {
+    for (Series& series : series_of(source, stack, skipped)) found.push_back(std::move(series));
+  }
   const auto first_unusable =
       std::stable_partition(found.begin(), found.end(), [](const Series& s) { return s.usable; });
   if (first_unusable == found.begin()) {

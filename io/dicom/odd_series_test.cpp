@@ -247,5 +247,37 @@ TEST(OddSeries, FramesThatAreNotDescribedAreLeftOutWithAWord) {
   EXPECT_THAT(series.warnings, ElementsAre(HasSubstr("3 of its 5 frames")));
 }
 
+// One time of a series came damaged: that time is left out, whichever it is.
+TEST(OddSeries, DamagedTimePointCostsThatTimePoint) {
+  for (const int damaged : {0, 2, 4}) {
+    for (const int readable : {0, 1}) {
+      const TestFolder folder;
+      for (int n = 0; n < 20; ++n) {
+        const int time = n / 4;
+        TestImage image;
+        image.z = 2.0 * (n % 4);
+        image.value = [n](int i, int) { return 100 * n + i; };
+        image.edit = [time](DcmDataset& d) { put(d, DCM_TemporalPositionIdentifier, std::to_string(1 + time)); };
+        const fs::path path = folder / std::to_string(n);
+        write(image, path);
+        if (time == damaged && n % 4 >= readable) fs::resize_file(path, fs::file_size(path) - 20);
+      }
+      const Series series = find_in(folder).series.at(0);
+      EXPECT_TRUE(series.usable);
+      ASSERT_EQ(series.frames_per_position, 4) << damaged;
+      EXPECT_THAT(series.warnings,
+                  Contains("time point " + std::to_string(damaged + 1) + " is left out: " + std::to_string(readable) +
+                           " of its 4 images can be read; the other frames are numbered anew"));
+      for (int frame = 0; frame < 4; ++frame) {
+        const int time = frame < damaged ? frame : frame + 1;
+        EXPECT_EQ(series.frame_names.at(static_cast<std::size_t>(frame)), "time point " + std::to_string(time + 1));
+        const Volume volume = load_frame(series, frame);
+        ASSERT_EQ(volume.geometry.dimensions.z, 4);
+        for (int k = 0; k < 4; ++k) EXPECT_EQ(volume.value_at(5, 1, k), 100 * (4 * time + k) + 5);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io

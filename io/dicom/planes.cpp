@@ -58,6 +58,8 @@ Labels labels_of(const FunctionalGroups& groups) {
     at(labels, Label::image_type) +=
         groups.text(sequence, DCM_FrameType) + groups.text(sequence, DCM_ComplexImageComponent);
   }
+  at(labels, Label::kernel) = groups.text(DCM_CTReconstructionSequence, DCM_ConvolutionKernel);
+  at(labels, Label::laterality) = groups.text(DCM_FrameAnatomySequence, DCM_FrameLaterality);
   at(labels, Label::echo_time) = label_of(groups.number(DCM_MREchoSequence, DCM_EffectiveEchoTime));
   at(labels, Label::b_value) = label_of(groups.number(DCM_MRDiffusionSequence, DCM_DiffusionBValue));
   if (DcmItem* diffusion = groups.group(DCM_MRDiffusionSequence)) {
@@ -126,6 +128,8 @@ Plane classic_plane(DcmItem& dataset, FileHeader& header) {
   read_rescale(&dataset, header, plane);
   plane.window = window_of(number_of(dataset, DCM_WindowCenter), number_of(dataset, DCM_WindowWidth));
   at(plane.labels, Label::image_type) = header.image_type;
+  at(plane.labels, Label::kernel) = text_of(dataset, DCM_ConvolutionKernel);
+  at(plane.labels, Label::laterality) = text_of(dataset, DCM_ImageLaterality);
   at(plane.labels, Label::echo_time) = label_of(number_of(dataset, DCM_EchoTime));
   at(plane.labels, Label::b_value) = label_of(b_value_of(dataset));
   at(plane.labels, Label::diffusion_direction) = text_of(dataset, DCM_DiffusionGradientOrientation);

@@ -33,6 +33,8 @@ bool in_even_run(const std::vector<double>& intervals, std::size_t at) {
   return last - first >= 2;
 }
 
+}  // namespace
+
 std::string millimeters(double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.2f", value);
@@ -40,10 +42,12 @@ std::string millimeters(double value) {
   return std::string(text.data()) + " mm";
 }
 
-}  // namespace
-
 double height_of(const Vec3& position, const Placement& reference) {
   return glm::dot(position, glm::normalize(glm::cross(reference.direction_i, reference.direction_j)));
+}
+
+double same_place_mm(const Placement& reference) {
+  return 0.02 * std::min(reference.spacing_i, reference.spacing_j);
 }
 
 Geometry stack_geometry(int columns, int rows, const Placement& reference, std::vector<Vec3> positions,
@@ -78,7 +82,7 @@ Geometry stack_geometry(int columns, int rows, const Placement& reference, std::
   return geometry;
 }
 
-std::vector<std::string> geometry_warnings(const Geometry& geometry) {
+std::vector<std::string> geometry_warnings(const Geometry& geometry, double thickness) {
   std::vector<std::string> warnings;
   const auto intervals = intervals_of(geometry);
   const double median = quantile(intervals, 0.5);
@@ -95,6 +99,12 @@ std::vector<std::string> geometry_warnings(const Geometry& geometry) {
     warnings.push_back(even ? "slices are displaced sideways against each other: each is used where it is"
                             : "slices are unevenly spaced, " + millimeters(*least) + " to " + millimeters(*most) +
                                   " apart: each is used where it is");
+  }
+  constexpr double half = 0.55;
+  if (median > 0 && median <= half * thickness) {
+    warnings.push_back("slices are " + millimeters(thickness) + " thick and " + millimeters(median) +
+                       " apart, so that neighbors overlap: one scan with overlap, or two in one series that nothing "
+                       "tells apart; compare neighboring slices");
   }
   return warnings;
 }

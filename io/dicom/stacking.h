@@ -10,8 +10,14 @@
 
 namespace palpate::io::internal {
 
+/// With two decimals and the unit, in every locale.
+std::string millimeters(double value);
+
 /// How far an image lies along direction_i x direction_j of `reference`, mm.
 double height_of(const Vec3& position, const Placement& reference);
+
+/// What is closer along the normal lies at one position: 2 % of a pixel, mm.
+double same_place_mm(const Placement& reference);
 
 /// Geometry of parallel slices. `positions` ascend along the normal; `lost` are positions where a slice is known to
 /// exist that cannot be read. `thickness` (mm) is the step of a single slice.
@@ -23,6 +29,7 @@ Geometry stack_geometry(int columns, int rows, const Placement& reference, std::
                         std::span<const Vec3> lost, double thickness);
 
 /// What a user should know of it: missing slices with their place, uneven steps. One sentence each; may be empty.
-std::vector<std::string> geometry_warnings(const Geometry& geometry);
+/// `thickness` (mm, 0 where unknown) is that of a slice: where neighbors overlap by half of it, that is said.
+std::vector<std::string> geometry_warnings(const Geometry& geometry, double thickness);
 
 }  // namespace palpate::io::internal

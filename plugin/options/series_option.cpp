@@ -115,6 +115,7 @@ std::string describe_series(std::size_t number, const io::Series& series) {
     text += fmt::format("  {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm", g.dimensions.x, g.dimensions.y,
                         g.dimensions.z, g.spacing_i, g.spacing_j, g.slice_spacing());
   }
+  if (!series.part.empty()) text += ", " + series.part;
   if (series.frames_per_position > 1) text += fmt::format(", {} frames", series.frames_per_position);
   if (!series.usable) text += "  (not a volume)";
   return text + "  " + series.uid;

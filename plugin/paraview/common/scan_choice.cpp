@@ -48,6 +48,7 @@ std::string scan_label(const io::Series& series) {
   const glm::ivec3& size = series.geometry.dimensions;
   std::string label = fmt::format("{} {}, {} x {} x {}", series.modality,
                                   series.description.empty() ? "series" : series.description, size.x, size.y, size.z);
+  if (!series.part.empty()) label += ", " + series.part;
   if (series.frames_per_position > 1) label += fmt::format(" x {}", series.frames_per_position);
   return series.usable ? label : label + " (not a volume)";
 }

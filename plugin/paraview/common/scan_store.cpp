@@ -67,11 +67,16 @@ class Shelf {
   std::map<Key, std::shared_ptr<Slot>> slots_;
 };
 
-// First file, series UID, frame, extent (of a part).
-using ScanKey = std::tuple<std::filesystem::path, std::string, int, std::array<int, 6>>;
+// First file, series UID, where its first voxel and its axes are (one file and UID may hold several volumes), frame,
+// extent (of a part).
+using ScanKey = std::tuple<std::filesystem::path, std::string, std::array<double, 9>, int, std::array<int, 6>>;
 
 ScanKey key_of(const io::Series& series, int frame, const std::array<int, 6>& extent = {}) {
-  return {series.files.empty() ? std::filesystem::path() : series.files.front(), series.uid, frame, extent};
+  const io::Geometry& g = series.geometry;
+  const io::Vec3 first = g.slice_positions.empty() ? io::Vec3(0) : g.slice_positions.front();
+  const std::array<double, 9> place{first.x,         first.y,         first.z,         g.direction_i.x, g.direction_i.y,
+                                    g.direction_i.z, g.direction_j.x, g.direction_j.y, g.direction_j.z};
+  return {series.files.empty() ? std::filesystem::path() : series.files.front(), series.uid, place, frame, extent};
 }
 
 Shelf<std::filesystem::path, io::Catalogue>& catalogues() {
