@@ -3,8 +3,11 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdatset.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcdicent.h>
+#include <dcmtk/dcmdata/dcdict.h>
 #include <dcmtk/dcmdata/dcistrmb.h>
 #include <dcmtk/dcmdata/dcistrmf.h>
+#include <dcmtk/dcmdata/dcsequen.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <dcmtk/dcmdata/dcxfer.h>
 
@@ -99,6 +102,36 @@ class FileBytes final : public ByteSource {
   std::vector<std::byte> window_;
 };
 
+constexpr std::uint64_t longest_header = 1U << 28;  // five times the header of 10 000 enhanced frames
+
+[[noreturn]] void refuse_long_header() {
+  throw DicomError("its header is larger than 256 MiB");
+}
+
+// Of a source, no more bytes than a header may have: a deflated one may grow a thousandfold.
+class HeaderBytes final : public ByteSource {
+ public:
+  explicit HeaderBytes(ByteSource& source) : source_(source) {}
+
+  std::size_t read(std::span<std::byte> into) override {
+    take(into.size());
+    return source_.read(into);
+  }
+  bool skip(std::uint64_t count) override {
+    take(count);
+    return source_.skip(count);
+  }
+
+ private:
+  void take(std::uint64_t count) {
+    if (count > left_) refuse_long_header();
+    left_ -= count;
+  }
+
+  ByteSource& source_;
+  std::uint64_t left_ = longest_header;
+};
+
 class InflatedBytes final : public ByteSource {
  public:
   InflatedBytes(const std::filesystem::path& path, std::uint64_t at)
@@ -132,11 +165,111 @@ class InflatedBytes final : public ByteSource {
 // What DCMTK is to parse by: the file's own syntax, or one written alike where DCMTK does not know that, or where the
 // file is not written as it says.
 E_TransferSyntax syntax_of(const DatasetStart& start) {
+  if (start.deflated) return EXS_LittleEndianExplicit;  // as it is once it has been inflated
   const DcmXfer known(start.transfer_syntax.c_str());
   const bool as_it_says = (known.isExplicitVR() == OFTrue) == start.encoding.explicit_vr;
   if (!start.transfer_syntax.empty() && known.getXfer() != EXS_Unknown && as_it_says) return known.getXfer();
   if (!start.encoding.explicit_vr) return EXS_LittleEndianImplicit;
   return start.encoding.big_endian ? EXS_BigEndianExplicit : EXS_LittleEndianExplicit;
+}
+
+// Archives that did not know an attribute wrote it with the VR UN. Its value is then one of implicit VR, little endian
+// (PS3.5 6.2.2), and is read as that wherever the dictionary knows it.
+class Bytes final : public ByteSource {
+ public:
+  explicit Bytes(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  std::size_t read(std::span<std::byte> into) override {
+    const std::size_t count = std::min(into.size(), rest_.size());
+    std::copy_n(rest_.begin(), count, into.begin());
+    rest_ = rest_.subspan(count);
+    return count;
+  }
+  bool skip(std::uint64_t count) override {
+    if (count > rest_.size()) return false;
+    rest_ = rest_.subspan(count);
+    return true;
+  }
+
+ private:
+  std::span<const std::byte> rest_;
+};
+
+std::vector<std::byte> wanted_bytes(ByteSource& source, const DatasetShape& shape) {
+  std::vector<std::byte> bytes;
+  std::uint64_t at = 0;
+  for (const DatasetShape::Stretch& stretch : shape.wanted) {
+    const std::size_t kept = bytes.size();
+    bytes.resize(kept + (stretch.end - stretch.begin));
+    if (!source.skip(stretch.begin - at) || source.read(std::span(bytes).subspan(kept)) != bytes.size() - kept) {
+      throw DicomError("truncated in its header");
+    }
+    at = stretch.end;
+  }
+  return bytes;
+}
+
+bool wants_all(std::uint32_t) {
+  return true;
+}
+
+bool is_in_dictionary(const DcmTagKey& key) {
+  const DcmDataDictionary& dictionary = dcmDataDict.rdlock();
+  const DcmDictEntry* entry = dictionary.findEntry(key, nullptr);
+  const bool known = entry != nullptr && entry->getEVR() != EVR_UN && entry->getEVR() != EVR_UNKNOWN;
+  dcmDataDict.rdunlock();
+  return known;
+}
+
+// The same element as it would be read without a VR; null where its bytes are none.
+std::unique_ptr<DcmElement> with_known_vr(DcmElement& unknown) {
+  Uint8* value = nullptr;
+  const std::uint32_t length = unknown.getLength();
+  if (length > 0 && (unknown.getUint8Array(value).bad() || value == nullptr)) return nullptr;
+  std::vector<std::byte> bytes;
+  const auto add = [&](std::uint32_t number, std::size_t size) {
+    for (std::size_t n = 0; n < size; ++n) bytes.push_back(static_cast<std::byte>(number >> 8 * n));
+  };
+  add(unknown.getGTag(), 2);
+  add(unknown.getETag(), 2);
+  add(length, 4);
+  const auto content = std::as_bytes(std::span(value, length));
+  bytes.insert(bytes.end(), content.begin(), content.end());
+  try {
+    Bytes source(bytes);
+    check_structure(source, Encoding{false, false}, wants_all);
+  } catch (const DicomError&) {
+    return nullptr;
+  }
+  DcmInputBufferStream stream;
+  stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+  stream.setEos();
+  DcmDataset dataset;
+  dataset.transferInit();
+  const OFCondition read = dataset.read(stream, EXS_LittleEndianImplicit, EGL_noChange, DCM_MaxReadLength);
+  dataset.transferEnd();
+  if (read.bad() || dataset.card() != 1) return nullptr;
+  return std::unique_ptr<DcmElement>(dataset.remove(static_cast<unsigned long>(0)));
+}
+
+void settle_unknown(DcmItem& item) {
+  std::vector<DcmElement*> elements;
+  DcmObject* object = nullptr;
+  while ((object = item.nextInContainer(object)) != nullptr) elements.push_back(dynamic_cast<DcmElement*>(object));
+  for (DcmElement* element : elements) {
+    if (element == nullptr) continue;
+    if (element->getVR() == EVR_UN && element->getGTag() % 2 == 0 && is_in_dictionary(element->getTag())) {
+      std::unique_ptr<DcmElement> known = with_known_vr(*element);
+      if (!known || item.insert(known.get(), OFTrue).bad()) continue;
+      element = known.release();
+    }
+    if (auto* sequence = dynamic_cast<DcmSequenceOfItems*>(element)) {
+      DcmObject* inside = nullptr;
+      while ((inside = sequence->nextInContainer(inside)) != nullptr) {
+        if (auto* inner = dynamic_cast<DcmItem*>(inside)) settle_unknown(*inner);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -177,34 +310,35 @@ std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const Da
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
                                          const DatasetStart& start, DcmDataset& dataset) {
   DatasetShape shape;
-  OFCondition read = EC_Normal;
+  // Pixels, and what nobody asks for, stay out: DCMTK takes a microsecond an element.
+  std::vector<std::byte> wanted;
   // The syntax is given, so that DCMTK never guesses another one than was checked.
   dataset.transferInit();
   if (start.deflated) {
-    shape = check_structure(*inflated(path, start), start.encoding, is_asked_for);
-    DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(start.at));
-    read = dataset.readUntilTag(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength, DCM_PixelData);
+    const auto once = inflated(path, start);
+    HeaderBytes bytes(*once);
+    shape = check_structure(bytes, start.encoding, is_asked_for);
+    wanted = wanted_bytes(*inflated(path, start), shape);
   } else {
     FileBytes bytes(file, start.at);
     shape = check_structure(bytes, start.encoding, is_asked_for);
-    constexpr std::uint64_t longest = 1U << 28;  // five times the header of 10 000 enhanced frames
-    if (shape.header_end > longest) throw DicomError("its header is larger than 256 MiB");
-    // Pixels, and what nobody asks for, stay out: DCMTK takes a microsecond an element.
-    std::vector<std::byte> before(shape.header_end);
-    file.read(start.at, before);
+    if (shape.header_end > longest_header) refuse_long_header();
+    wanted.resize(shape.header_end);
+    file.read(start.at, wanted);
     std::size_t kept = 0;
     for (const DatasetShape::Stretch& stretch : shape.wanted) {
-      std::memmove(before.data() + kept, before.data() + stretch.begin, stretch.end - stretch.begin);
+      std::memmove(wanted.data() + kept, wanted.data() + stretch.begin, stretch.end - stretch.begin);
       kept += stretch.end - stretch.begin;
     }
-    before.resize(kept);
-    DcmInputBufferStream stream;
-    stream.setBuffer(before.data(), static_cast<offile_off_t>(before.size()));
-    stream.setEos();
-    read = dataset.read(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength);
+    wanted.resize(kept);
   }
+  DcmInputBufferStream stream;
+  stream.setBuffer(wanted.data(), static_cast<offile_off_t>(wanted.size()));
+  stream.setEos();
+  const OFCondition read = dataset.read(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength);
   dataset.transferEnd();
   if (read.bad()) throw DicomError(std::string("damaged header: ") + read.text());
+  if (shape.has_unknown) settle_unknown(dataset);
   return shape.pixels;
 }
 

@@ -35,8 +35,8 @@ void read_identity(DcmItem& item, FileHeader& header) {
   header.identity.patient_id = utf8_of(text_of(item, DCM_PatientID), characters);
   header.identity.study_date = text_of(item, DCM_StudyDate);
   header.instance_number = number_of(item, DCM_InstanceNumber).value_or(0);
-  header.acquired = text_of(item, DCM_AcquisitionDate) + text_of(item, DCM_AcquisitionTime) + ' ' +
-                    text_of(item, DCM_ContentDate) + text_of(item, DCM_ContentTime);
+  header.acquisition_time = text_of(item, DCM_AcquisitionDate) + text_of(item, DCM_AcquisitionTime);
+  header.content_time = text_of(item, DCM_ContentDate) + text_of(item, DCM_ContentTime);
   header.thickness = number_of(item, DCM_SliceThickness).value_or(0);
 }
 
@@ -147,7 +147,10 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
   try {
     if (encapsulated) {
       header.coding = PixelCoding::encapsulated;
-      header.fragments = find_fragments(file, header.pixels_at, frames);
+      Encapsulated found = find_fragments(file, header.pixels_at, frames);
+      header.fragments = std::move(found.frames);
+      if (!found.has_end)
+        header.remarks.emplace_back("its compressed pixels have no end mark; they are read as they are");
       check_density(header.transfer_syntax, header.format, frames, file.size());
     } else if (header.start.deflated) {
       header.coding = PixelCoding::deflated;

@@ -23,11 +23,17 @@ struct Items {
   std::vector<std::uint32_t> offset_table;
   std::vector<Fragment> fragments;
   std::uint64_t first_item_at = 0;  // the offset table counts from here
+  bool has_end = true;
 };
 
 Items read_items(const InputFile& file, std::uint64_t at) {
   Items items;
   for (bool first = true;; first = false) {
+    // Some writers leave out the item that ends the sequence: what is there is whole.
+    if (!first && (at > file.size() || file.size() - at < 8)) {
+      items.has_end = false;
+      return items;
+    }
     std::array<std::byte, 8> head{};
     file.read(at, head);
     const std::uint32_t tag = little_endian(head);
@@ -94,7 +100,7 @@ std::vector<std::size_t> starts_of(const InputFile& file, const Items& items, st
 
 }  // namespace
 
-std::vector<std::vector<Fragment>> find_fragments(const InputFile& file, std::uint64_t pixels_at, std::size_t frames) {
+Encapsulated find_fragments(const InputFile& file, std::uint64_t pixels_at, std::size_t frames) {
   const Items items = read_items(file, pixels_at);
   if (items.fragments.empty() || frames == 0) throw DicomError("no pixels in it");
   auto starts = starts_of(file, items, frames);
@@ -103,10 +109,10 @@ std::vector<std::vector<Fragment>> find_fragments(const InputFile& file, std::ui
                      std::to_string(frames) + " frames");
   }
   starts.push_back(items.fragments.size());
-  std::vector<std::vector<Fragment>> result(frames);
+  Encapsulated result{std::vector<std::vector<Fragment>>(frames), items.has_end};
   for (std::size_t f = 0; f < frames; ++f) {
-    result[f].assign(items.fragments.begin() + static_cast<std::ptrdiff_t>(starts[f]),
-                     items.fragments.begin() + static_cast<std::ptrdiff_t>(starts[f + 1]));
+    result.frames[f].assign(items.fragments.begin() + static_cast<std::ptrdiff_t>(starts[f]),
+                            items.fragments.begin() + static_cast<std::ptrdiff_t>(starts[f + 1]));
   }
   return result;
 }

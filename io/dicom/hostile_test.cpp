@@ -4,8 +4,10 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <random>
 
@@ -241,6 +243,82 @@ TEST(Hostile, RandomDamageCostsAtMostThatSlice) {
     }
   }
   EXPECT_LT(peak_mib() - before, 256);
+}
+
+/// Deflates (RFC 1951) as it goes, so that what is inflated need not be held.
+class Deflater {
+ public:
+  Deflater() {
+    if (deflateInit2(&stream_, 6, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
+  }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+  ~Deflater() { deflateEnd(&stream_); }
+  void add(std::string bytes, int flush = Z_NO_FLUSH) {
+    stream_.next_in = reinterpret_cast<Bytef*>(bytes.data());
+    stream_.avail_in = static_cast<uInt>(bytes.size());
+    do {
+      std::array<char, 1U << 16> out{};
+      stream_.next_out = reinterpret_cast<Bytef*>(out.data());
+      stream_.avail_out = out.size();
+      deflate(&stream_, flush);
+      deflated.append(out.data(), out.size() - stream_.avail_out);
+    } while (stream_.avail_out == 0);
+  }
+  std::string deflated;
+
+ private:
+  z_stream stream_{};
+};
+
+/// A deflated image that has a private element of so many zeros in front of all that places it.
+void write_deflated(const fs::path& path, int mib_of_zeros) {
+  TestImage image;
+  image.value = [](int i, int j) { return 10 * j + i; };
+  write(image, path);
+  std::string plain = read_file(path);
+  const std::size_t at = plain.find(std::string("\x08\x00\x08\x00", 4));
+  std::string meta = plain.substr(0, at);
+  const std::size_t syntax = meta.find("1.2.840.10008.1.2.1");
+  meta.replace(syntax, 20, std::string("1.2.840.10008.1.2.1.99"));  // longer by two
+  const std::size_t length = syntax - 2;
+  meta[length] = static_cast<char>(meta[length] + 2);
+  const std::size_t group = meta.find(std::string("\x02\x00\x00\x00UL\x04\x00", 8)) + 8;
+  meta[group] = static_cast<char>(meta[group] + 2);
+  const std::string dataset = plain.substr(at);
+  const std::size_t patient = dataset.find(std::string("\x18\x00\x50\x00", 4));
+  Deflater deflater;
+  deflater.add(dataset.substr(0, patient));
+  const std::uint32_t size = static_cast<std::uint32_t>(mib_of_zeros) << 20;
+  std::string element("\x11\x00\x01\x10OB\0\0", 8);
+  for (int n = 0; n < 4; ++n) element += static_cast<char>(size >> 8 * n);
+  deflater.add(element);
+  for (int n = 0; n < mib_of_zeros; ++n) deflater.add(std::string(1U << 20, '\0'));
+  deflater.add(dataset.substr(patient), Z_FINISH);
+  write_file(path, meta + deflater.deflated);
+}
+
+// What a few megabytes may grow to is bounded as what lies there in full would be.
+TEST(Hostile, DeflatedHeaderCountsByWhatComesOut) {
+  const TestFolder folder;
+  write_deflated(folder / "bomb", 1000);
+  EXPECT_LT(fs::file_size(folder / "bomb"), 2U << 20);
+  const long before = peak_mib();
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(only_reason(folder), "its header is larger than 256 MiB");
+  EXPECT_LT(peak_mib() - before, 64);
+  if (!under_sanitizer) EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+// What nobody asks for costs no memory there, either.
+TEST(Hostile, DeflatedPrivateElementCostsNoMemory) {
+  const TestFolder folder;
+  write_deflated(folder / "heavy", 200);
+  const long before = peak_mib();
+  const Catalogue found = find_series(std::array{folder.path()});
+  EXPECT_LT(peak_mib() - before, 64);
+  ASSERT_THAT(found.series, SizeIs(1));
+  EXPECT_EQ(load(found.series[0]).value_at(5, 3, 0), 35);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "io/load.h"
+#include "io/testing/test_coders.h"
 #include "io/testing/test_image.h"
 
 namespace palpate::io {
@@ -21,6 +22,8 @@ using internal::TestFolder;
 using internal::TestImage;
 using internal::write;
 using internal::write_stack;
+using testing::Contains;
+using testing::HasSubstr;
 using testing::SizeIs;
 
 void write_bare(const TestImage& image, const fs::path& path, E_TransferSyntax syntax, E_FileWriteMode mode,
@@ -97,6 +100,31 @@ TEST(OddFiles, ValuesOfOddLengthAreRead) {
   const Series series = find_in(folder).series.at(0);
   EXPECT_EQ(series.modality, "CT");
   EXPECT_EQ(load(series).value_at(3, 2, 1), 132);
+}
+
+// PS3.5 A.4: a sequence delimiter ends the fragments. Some writers leave it out.
+TEST(OddFiles, CompressedPixelsWithoutTheirEndMarkAreRead) {
+  internal::register_encoders();
+  for (const E_TransferSyntax syntax : {EXS_RLELossless, EXS_JPEGProcess14SV1}) {
+    for (const std::uintmax_t cut : {4U, 8U}) {
+      const TestFolder folder;
+      write_stack(folder.path(), 3, [&](int, TestImage& image) { image.syntax = syntax; });
+      for (const auto& entry : fs::directory_iterator(folder.path())) {
+        fs::resize_file(entry.path(), fs::file_size(entry.path()) - cut);
+      }
+      const Catalogue found = find_in(folder);
+      ASSERT_THAT(found.series, SizeIs(1));
+      EXPECT_THAT(found.skipped, SizeIs(0));
+      EXPECT_TRUE(found.series[0].usable);
+      EXPECT_THAT(found.series[0].warnings,
+                  Contains("its compressed pixels have no end mark; they are read as they are"));
+      EXPECT_EQ(load(found.series[0]).value_at(3, 2, 1), 132);
+    }
+    const TestFolder folder;
+    write_stack(folder.path(), 3, [&](int, TestImage& image) { image.syntax = syntax; });
+    fs::resize_file(folder / "s1.dcm", fs::file_size(folder / "s1.dcm") - 12);  // four bytes of the pixels, too
+    EXPECT_THAT(find_in(folder).skipped.at(0).reason, HasSubstr("truncated"));
+  }
 }
 
 }  // namespace

@@ -41,40 +41,45 @@ void clean_bits(const FileHeader& header, std::span<std::uint16_t> values) {
   }
 }
 
-void read_deflated(const FileHeader& header, std::uint64_t offset, std::span<std::byte> bytes) {
-  const auto source = inflated(header.path, header.start);
-  if (!source->skip(header.pixels_at + offset) || source->read(bytes) != bytes.size()) {
-    throw DicomError("truncated: its deflated pixels end early");
-  }
-}
-
-void read_uncompressed(const FileHeader& header, const InputFile& file, std::uint64_t offset,
-                       std::span<std::byte> bytes) {
-  if (header.coding == PixelCoding::deflated) {
-    read_deflated(header, offset, bytes);
-  } else {
-    file.read(header.pixels_at + offset, bytes);
-  }
-}
-
 }  // namespace
 
 PixelReader::PixelReader(const FileHeader& header) : header_(header), file_(header.path) {}
 
-void PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) const {
+void PixelReader::read_deflated(std::uint64_t offset, std::span<std::byte> bytes) {
+  const std::uint64_t at = header_.pixels_at + offset;
+  if (!inflated_ || at < inflated_to_) {
+    inflated_ = inflated(header_.path, header_.start);
+    inflated_to_ = 0;
+  }
+  if (!inflated_->skip(at - inflated_to_) || inflated_->read(bytes) != bytes.size()) {
+    inflated_.reset();
+    throw DicomError("truncated: its deflated pixels end early");
+  }
+  inflated_to_ = at + bytes.size();
+}
+
+void PixelReader::read_uncompressed(std::uint64_t offset, std::span<std::byte> bytes) {
+  if (header_.coding == PixelCoding::deflated) {
+    read_deflated(offset, bytes);
+  } else {
+    file_.read(header_.pixels_at + offset, bytes);
+  }
+}
+
+void PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
   const PixelFormat& format = header_.format;
   const std::size_t frame_bytes = format.bytes_per_frame();
   if (header_.coding == PixelCoding::encapsulated) {
     decode_frame(header_.transfer_syntax, format, read_fragments(file_, header_.fragments.at(frame)), values);
   } else if (format.bits_allocated == 16) {
-    read_uncompressed(header_, file_, frame * frame_bytes, std::as_writable_bytes(values));
+    read_uncompressed(frame * frame_bytes, std::as_writable_bytes(values));
     if (header_.big_endian != (std::endian::native == std::endian::big)) swap_bytes(values);
   } else {
     // 8-bit pixels in 16-bit words: big-endian files hold the second pixel first, and a word may straddle two frames.
     const std::uint64_t start = frame * frame_bytes;
     const std::uint64_t lead = header_.swapped_words ? start % 2 : 0;
     std::vector<std::uint8_t> bytes(lead + frame_bytes + (header_.swapped_words ? (lead + frame_bytes) % 2 : 0));
-    read_uncompressed(header_, file_, start - lead, std::as_writable_bytes(std::span(bytes)));
+    read_uncompressed(start - lead, std::as_writable_bytes(std::span(bytes)));
     for (std::size_t i = 0; header_.swapped_words && i + 1 < bytes.size(); i += 2) std::swap(bytes[i], bytes[i + 1]);
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(lead), values.size(), values.begin());
   }

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 
+#include "io/dicom/dataset.h"
 #include "io/dicom/file_header.h"
 #include "io/dicom/input_file.h"
 
@@ -18,11 +19,17 @@ class PixelReader {
   /// The stored values of a frame as the file holds it (all of a mosaic), rows * columns of them, sign extended; bits
   /// outside BitsStored, such as overlays, are removed, but for padding that needs them. Signed ones are to be read as
   /// int16. Throws DicomError with a reason that does not name the file.
-  void read(std::uint32_t frame, std::span<std::uint16_t> values) const;
+  void read(std::uint32_t frame, std::span<std::uint16_t> values);
 
  private:
+  void read_uncompressed(std::uint64_t offset, std::span<std::byte> bytes);
+  void read_deflated(std::uint64_t offset, std::span<std::byte> bytes);
+
   const FileHeader& header_;
   InputFile file_;
+  // A deflated file is inflated once for frames that are read in their order.
+  std::unique_ptr<ByteSource> inflated_;
+  std::uint64_t inflated_to_ = 0;
 };
 
 }  // namespace palpate::io::internal

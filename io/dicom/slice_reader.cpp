@@ -79,7 +79,9 @@ std::vector<SliceUnit> slice_units(const Reading& reading) {
     const bool same_file = !units.empty() && slices[units.back().front()].file == slices[k].file;
     const bool same_frame =
         same_file && source.plane_of(slices[units.back().back()]).frame == source.plane_of(slices[k]).frame;
-    if (!same_frame && !(same_file && units.back().size() < most)) units.emplace_back();
+    const bool one_go =
+        same_file && source.file_of(slices[k]).coding == PixelCoding::deflated;  // inflated from its start
+    if (!same_frame && !one_go && !(same_file && units.back().size() < most)) units.emplace_back();
     units.back().push_back(k);
   }
   return units;

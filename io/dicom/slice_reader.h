@@ -32,7 +32,8 @@ struct Reading {
 constexpr float float_padding = std::numeric_limits<float>::lowest();
 
 /// Slices that come from one file, in the order of its frames, as indices into the reading's slices: the file is opened
-/// once and a mosaic is decoded once. At most 16 frames, so that all cores share a multi-frame file.
+/// once and a mosaic is decoded once. At most 16 frames, so that all cores share a multi-frame file; all
+/// of a deflated one, which can only be inflated from its start.
 using SliceUnit = std::vector<std::size_t>;
 std::vector<SliceUnit> slice_units(const Reading& reading);
 

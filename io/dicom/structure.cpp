@@ -142,6 +142,7 @@ class Walk {
     level.last_tag = tag;
     const Encoding inside = level.encoding;
     const Head is = head();
+    shape_.has_unknown |= is.vr == "UN";
     if (is.vr == "SQ" || is.length == undefined_length) {
       const Encoding implicit{false, false};  // PS3.5 6.2.2: the content of an unknown sequence
       push(tag == pixel_data ? Holds::fragments : Holds::items, is.length, is.vr == "UN" ? implicit : inside);

@@ -46,6 +46,7 @@ struct DatasetShape {
     std::uint64_t end = 0;
   };
   std::vector<Stretch> wanted;
+  bool has_unknown = false;  ///< whether an element is written with the VR UN
 };
 
 /// Walks over a dataset up to the place of its pixel data without building anything. Throws DicomError where a parser
