@@ -11,6 +11,7 @@
 #include "io/dicom/series_source.h"
 #include "io/dicom/stack_parts.h"
 #include "io/dicom/stacking.h"
+#include "io/fields/gradient.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -153,6 +154,16 @@ void remark_on_moving_frames(const SeriesSource& source, Series& series) {
   }
 }
 
+// The gradient spans slices up to a distance; beyond it, edges are found in the slices alone.
+void remark_on_wide_gaps(Series& series) {
+  const Geometry& g = series.geometry;
+  constexpr double spans = 2;  // scales, from which on the next slice has little weight
+  if (g.dimensions.z < 2 || g.slice_spacing() <= spans * largest_gradient_scale_mm(g)) return;
+  series.warnings.push_back("slices are " + millimeters(g.slice_spacing()) + " apart and pixels " +
+                            millimeters(std::min(g.spacing_i, g.spacing_j)) +
+                            ": edges are felt as each slice shows them, and hardly from one slice to the next");
+}
+
 // Stacks of images that fit together, as a series with its frames.
 Series make_series(const SeriesSource& files, const std::vector<const StackPart*>& parts,
                    std::vector<SkippedFile>& skipped) {
@@ -187,6 +198,7 @@ Series make_series(const SeriesSource& files, const std::vector<const StackPart*
     series.warnings.push_back(std::move(warning));
   }
   remark_on_moving_frames(*source, series);
+  remark_on_wide_gaps(series);
   for (std::size_t f = 1; f < source->frames.size(); ++f) {
     if (source->frames[f].slices.size() == source->frames.front().slices.size()) continue;
     series.warnings.push_back("frame " + std::to_string(f) + " has " + std::to_string(source->frames[f].slices.size()) +

@@ -307,7 +307,9 @@ TEST(Hostile, DeflatedHeaderCountsByWhatComesOut) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(only_reason(folder), "its header is larger than 256 MiB");
   EXPECT_LT(peak_mib() - before, 64);
-  if (!under_sanitizer) EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  if (!under_sanitizer) {
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  }
 }
 
 // What nobody asks for costs no memory there, either.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "io/load.h"
@@ -86,6 +87,19 @@ TEST(OddPlaces, ReformatsOfAnotherPixelSpacingAreAVolumeOfTheirOwn) {
   ASSERT_THAT(found.series, SizeIs(2));
   EXPECT_EQ(found.series[0].geometry.dimensions.z, 3);  // in the order of their files
   EXPECT_EQ(found.series[1].geometry.dimensions.z, 4);
+}
+
+TEST(OddPlaces, WideGapsAreToldOf) {
+  for (const double step : {10.0, 40.0}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 5, [step](int k, TestImage& image) { image.z = step * k; });
+    const std::string told =
+        "slices are 40.00 mm apart and pixels 0.50 mm: edges are felt as each slice shows them, and hardly from one "
+        "slice to the next";
+    const Series series = find_in(folder).series.at(0);
+    EXPECT_TRUE(series.usable);
+    EXPECT_EQ(std::ranges::count(series.warnings, told), step > 20 ? 1 : 0);
+  }
 }
 
 }  // namespace

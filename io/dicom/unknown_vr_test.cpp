@@ -3,8 +3,11 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcostrmb.h>
 #include <dcmtk/dcmdata/dcsequen.h>
+#include <dcmtk/dcmdata/dcvrobow.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <memory>
 
 #include "io/load.h"
 #include "io/testing/test_image.h"
@@ -43,7 +46,9 @@ void make_unknown(DcmDataset& d) {
     const DcmTagKey key = element->getTag();
     if (key == DCM_SOPClassUID || key == DCM_SOPInstanceUID || key == DCM_PixelData) continue;
     const std::vector<Uint8> value = implicit_value(*element);
-    succeed(d.putAndInsertUint8Array(DcmTag(key, EVR_UN), value.data(), static_cast<unsigned long>(value.size())));
+    auto unknown = std::make_unique<DcmOtherByteOtherWord>(DcmTag(key, EVR_UN));
+    succeed(unknown->putUint8Array(value.data(), static_cast<unsigned long>(value.size())));
+    succeed(d.insert(unknown.release(), OFTrue));
   }
 }
 
@@ -70,7 +75,7 @@ TEST(UnknownVr, KnownAttributesAreReadAsWhatTheyAre) {
   EXPECT_EQ(volume.geometry.dimensions, glm::ivec3(6, 4, 4));
   EXPECT_EQ(volume.geometry.spacing_i, 0.75);
   EXPECT_EQ(volume.geometry.step.z, 2);
-  EXPECT_EQ(volume.value_at(5, 1, 2), 2 * 215 - 1024);
+  EXPECT_EQ(volume.value_at(5, 1, 2), 2 * 251 - 1024);
   EXPECT_TRUE(volume.is_padding(3, 2, 1));
 }
 
@@ -104,7 +109,7 @@ TEST(UnknownVr, FunctionalGroupsAreRead) {
   const Volume volume = load(found.series[0]);
   ASSERT_EQ(volume.geometry.dimensions.z, 3);
   EXPECT_EQ(volume.geometry.slice_positions[2].z, 7);
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(volume.value_at(4, 1, k), (k + 1) * 14);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(volume.value_at(4, 1, k), (k + 1) * 41);
 }
 
 }  // namespace
