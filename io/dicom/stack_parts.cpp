@@ -56,6 +56,7 @@ std::vector<Class> by_value(const std::vector<Slice>& slices, const Value& value
   std::map<decltype(value_of(slices.front())), std::vector<Slice>> by;
   for (const Slice& slice : slices) by[value_of(slice)].push_back(slice);
   std::vector<Class> classes;
+  classes.reserve(by.size());
   for (auto& [value, of_it] : by) classes.push_back({name_of(value, classes.size()), std::move(of_it), {}});
   return classes;
 }
