@@ -15,6 +15,7 @@
 #include "solver/analytical.h"
 #include "solver/certify.h"
 #include "solver/chain.h"
+#include "solver/exact.h"
 #include "solver/testing/problems.h"
 #include "solver/testing/reference.h"
 
@@ -205,6 +206,36 @@ TEST(Laws, AtRestTheForceIsConstantToTheLastBit) {
       ASSERT_EQ(force, first) << "frame " << frame;
     }
   });
+}
+
+/// How much work the seeded balances are: counted, so the same on every machine. A slip in the search costs work long
+/// before it costs an answer, for the certificate has it go on. Sums of 1000 balances a family, a fiftieth above what
+/// was counted.
+TEST(Laws, TheWorkIsWhatItWas) {
+  struct Budget {
+    Family family;
+    std::uint64_t cold, warm;
+  };
+  constexpr Budget budgets[] = {
+      {Family::allowed, 1008, 1005}, {Family::oblique, 1605, 1835},       {Family::co_located, 2167, 2769},
+      {Family::spread, 5155, 3595},  {Family::near_parallel, 3994, 3119}, {Family::edge, 1392, 2578},
+      {Family::stiff, 2442, 1964},   {Family::hard, 2352, 2029},          {Family::far_away, 2877, 2485},
+      {Family::tiny, 1517, 1579},
+  };
+  ExactScratch scratch(128);
+  for (const Budget& budget : budgets) {
+    std::uint64_t cold = 0, warm = 0;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+      Problem problem = make_problem(budget.family, seed);
+      std::vector<Vec3> forces(problem.primitives.size());
+      cold += static_cast<std::uint64_t>(solve_exact(problem.balance(), forces, scratch).iterations);
+      Random random(seed);
+      problem.probe += random.unit_vector() * 1e-5;
+      warm += static_cast<std::uint64_t>(solve_exact(problem.balance(), forces, scratch, Start::warm).iterations);
+    }
+    EXPECT_LE(50 * cold, 51 * budget.cold) << name_of(budget.family) << " cold: " << cold;
+    EXPECT_LE(50 * warm, 51 * budget.warm) << name_of(budget.family) << " warm: " << warm;
+  }
 }
 
 // Puts one thing wrong; returns what has to be said about it.

@@ -1,0 +1,114 @@
+/// The law of certify.h at a point, against the same law written plainly: what each primitive contributes, with its
+/// given force or its full one, whichever is cheaper.
+
+#include "solver/exact/bound.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "solver/testing/problems.h"
+
+namespace palpate::solver::internal {
+namespace {
+
+struct Plain {
+  Vec3 force{0};
+  double slack = 0;
+};
+
+/// An admissible force near to the one given, and phi(x) - F . (x_i - x) of it.
+Plain given_of(const Primitive& primitive, const Vec3& miss, const Vec3& force) {
+  const double s = primitive.strength;
+  const Vec3& q = primitive.direction;
+  switch (primitive.type) {
+    case PrimitiveType::directed_force:
+      return {q * s, 0};
+    case PrimitiveType::plane: {
+      const double depth = glm::dot(miss, q);
+      const double given = std::clamp(glm::dot(force, q), 0.0, s);
+      return {q * given, depth > 0 ? (s - given) * depth : -given * depth};
+    }
+    default: {
+      const bool is_line = primitive.type == PrimitiveType::line;
+      const Vec3 across = is_line ? miss - q * glm::dot(q, miss) : miss;
+      Vec3 given = is_line ? force - q * glm::dot(q, force) : force;
+      if (glm::length(given) > s) given *= s / glm::length(given);
+      return {given, s * glm::length(across) - glm::dot(given, across)};
+    }
+  }
+}
+
+Plain cheaper_of(const Primitive& primitive, const Vec3& x, const Vec3& force, double stiffness) {
+  const Plain given = given_of(primitive, primitive.position - x, force);
+  const Vec3 full = force_on(primitive, x);
+  const Vec3 change = full - given.force;
+  return glm::dot(change, change) <= stiffness * given.slack ? Plain{full, 0} : given;
+}
+
+double law(double residual, double slack, double stiffness) {
+  return (residual + std::sqrt(residual * residual + 4 * stiffness * slack)) / (2 * stiffness);
+}
+
+TEST(Bound, IsTheLawOfWhatEachPrimitiveContributes) {
+  int with_slack = 0;
+  for (const Family family : {Family::oblique, Family::co_located, Family::spread}) {
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+      const Problem problem = make_problem(family, seed);
+      Random random(seed);
+      const double size = random.log_uniform(1e-5, 1e-2);
+      const Vec3 x = problem.previous_proxy + random.normal_vector(size);
+      std::vector<Vec3> forces;
+      Vec3 sum(0);
+      double slack = 0;
+      for (const Primitive& primitive : problem.primitives) {
+        forces.push_back(random.normal_vector(0.5 * std::max(0.1, primitive.strength)));
+        const Plain plain = cheaper_of(primitive, x, forces.back(), problem.stiffness);
+        sum += plain.force;
+        slack += plain.slack;
+      }
+      with_slack += slack > 0 ? 1 : 0;
+      const double residual = glm::length(problem.stiffness * (x - problem.probe) - sum);
+      const Bound bound = bound_at(PlacedPrimitives(problem.primitives, problem.probe), problem.stiffness,
+                                   exact_difference(x, problem.probe), {}, forces);
+      SCOPED_TRACE(::testing::Message() << name_of(family) << " " << seed);
+      ASSERT_NEAR(bound.residual, residual, 1e-9 * (1 + residual));
+      ASSERT_NEAR(bound.slack, slack, 1e-12 + 1e-9 * slack);
+      const double expected = law(residual, slack, problem.stiffness);
+      ASSERT_NEAR(bound.error, expected, 1e-9 * expected + 1e-13);
+      // Away from every primitive, what its data's rounding may forgive is nothing to speak of.
+      ASSERT_LE(bound.backward_error, bound.error);
+      ASSERT_NEAR(bound.backward_error, expected, 1e-6 * expected + 1e-12);
+    }
+  }
+  EXPECT_GT(with_slack, 1000);
+}
+
+/// What a primitive may be moved by the rounding of its data is forgiven in one of the bounds and not in the other.
+TEST(Bound, ForgivesTheRoundingOfTheDataInTheBackwardErrorAlone) {
+  constexpr double stiffness = 400, strength = 1;
+  const Vec3 probe(0.1, 0.2, 0.3);
+  for (const double ulps : {0.5, 1.0, 100.0}) {
+    // A plane's half force holds the proxy 0.2 ulp of the coordinates off the plane.
+    const double off = ulps * std::numeric_limits<double>::epsilon() * 0.01;
+    const Vec3 normal(0, 1, 0);
+    const std::vector<Primitive> primitives{make_plane(strength, probe + Vec3(0, 0.01, 0), normal)};
+    const std::vector<Vec3> forces{0.5 * normal};
+    const FineVec3 z = exact_difference(primitives[0].position, probe) - fine(normal * off);
+    const Bound bound = bound_at(PlacedPrimitives(primitives, probe), stiffness, z, {}, forces);
+    const double residual = std::abs(stiffness * z.y.hi - 0.5);
+    EXPECT_GE(bound.error, law(residual, 0.5 * off, stiffness));
+    if (ulps <= 1) {
+      EXPECT_NEAR(bound.backward_error, residual / stiffness, 1e-15);
+    } else {
+      EXPECT_GT(bound.backward_error, law(residual, 0.4 * off, stiffness));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::solver::internal
