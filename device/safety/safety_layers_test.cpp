@@ -288,6 +288,34 @@ TEST(SafetyLayers, EachFaultFallsInItsTime) {
   }
 }
 
+/// What is not a number is nothing to slew or ramp from: the force is zero in that tick, however slow both are, and
+/// what was felt before does not come back with the next number.
+TEST(SafetyLayers, WhatIsNotANumberEndsTheForceAtOnce) {
+  for (const double odd : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const bool of_pose : {true, false}) {
+        Session session;
+        session.push(Vec3(1, 1, 1));
+        session.limits.slew = 1;
+        session.limits.fall_time = 100;
+        session.limits.ramp_time = 100;
+        (of_pose ? session.input.reading.position : session.input.force)[axis] = odd;
+        const SafetyResult result = session.step();
+        EXPECT_EQ(result.force, Vec3(0));
+        EXPECT_EQ(result.gain, 0);
+        EXPECT_EQ(result.fault, of_pose ? Fault::pose_not_finite : Fault::force_not_finite);
+        session.input.reading.position = Vec3(0);
+        session.input.force = Vec3(1, 1, 1);
+        EXPECT_EQ(session.step().force, Vec3(0));
+        clear_fault(session.state);
+        EXPECT_TRUE(arm(session.state));
+        session.step();
+        EXPECT_LT(glm::length(session.step().force), 1e-4) << "ramped and slewed from zero";
+      }
+    }
+  }
+}
+
 TEST(SafetyLayers, ADeviceThatCannotPushGetsNothing) {
   for (const State state :
        {State::disconnected, State::idle, State::homing, State::ramping, State::active, State::fault}) {

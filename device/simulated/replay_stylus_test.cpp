@@ -38,6 +38,7 @@ TEST(ReplayStylus, ReturnsEachReadingOnceThenTheLastNotFresh) {
 
 TEST(ReplayStylus, RefusesAnEmptyRecording) {
   EXPECT_THROW(ReplayStylus({}).open(), std::runtime_error);
+  EXPECT_FALSE(ReplayStylus({}).read().fresh);
 }
 
 TEST(ReplayStylus, RepeatsTheStatesToo) {

@@ -46,6 +46,26 @@ TEST(SimulatedStylus, ForcesMoveItByForceOverTheHandsStiffness) {
   EXPECT_NEAR(glm::length(stylus.read().position - Vec3(1, -2, 0.5) / 500.0), 0, 1e-9);
 }
 
+/// Whatever was felt before: opened again, closed meanwhile or not, it is as new.
+TEST(SimulatedStylus, OpenedAgainItIsAsNew) {
+  for (const bool closed : {true, false}) {
+    SimulatedStylus fresh(without_tremor()), used(without_tremor());
+    fresh.open();
+    used.open();
+    for (int i = 0; i < 300; ++i) {
+      used.read();
+      used.write_force(Vec3(5, -3, 2));
+    }
+    if (closed) used.close();
+    used.open();
+    for (int i = 0; i < 50; ++i) {
+      ASSERT_EQ(used.read().position, fresh.read().position) << i;
+      ASSERT_EQ(used.body().position, fresh.body().position) << i;
+      for (SimulatedStylus* stylus : {&used, &fresh}) stylus->write_force(i < 20 ? Vec3(0) : Vec3(1, 0, 0));
+    }
+  }
+}
+
 /// No safety filter here: the hand moves by the force that the device can give, over the hand's stiffness.
 TEST(SimulatedStylus, HoldsItsOwnForceLimit) {
   SimulatedDevice device = without_tremor();

@@ -194,6 +194,15 @@ TEST(WoodenHapticsDriver, HoldsItsOwnForceLimit) {
   EXPECT_LT(glm::length(bench.arm.strongest_force()), 1.52);
 }
 
+TEST(WoodenHapticsDriver, ComesUpAtAnyTimeOfTheClock) {
+  Bench bench;
+  bench.bench.time = 5000;
+  bench.stylus->open();
+  bench.run(0.1);
+  EXPECT_GT(bench.arm.reports(), 50U);
+  EXPECT_NE(bench.stylus->state(), State::fault);
+}
+
 TEST(WoodenHapticsDriver, StartsAFirmwareThatWaits) {
   Bench bench;
   bench.home();
@@ -277,6 +286,9 @@ TEST(WoodenHapticsSettings, WrongOnesAreRefusedByName) {
                {R"({"torque_constant": [0, 1, 1]})", "torque constant of axis a"},
                {R"({"encoder_sign": [1, 1, 2]})", "encoder sign of axis c"},
                {R"({"current_limit": 30})", "current limit"},
+               {R"({"stiffness_limit": 0})", "stiffness limit"},
+               {R"({"maximum_force": 0})", "largest force"},
+               {R"({"maximum_force": 20.1})", "largest force"},
                {R"([1, 2])", "not a JSON object"},
                {R"({"address": )", "wooden.json"}};
   for (const auto& example : wrong) {
