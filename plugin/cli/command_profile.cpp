@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -33,7 +34,13 @@ nlohmann::json vector(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
-std::string to_json(const std::vector<StrokePoint>& stroke, const modes::Scene& scene) {
+/// A boundary that was met, and how well its place is known.
+struct Met {
+  Contact contact;
+  std::optional<double> known_to_mm;
+};
+
+std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Met>& met, const modes::Scene& scene) {
   nlohmann::json json{{"position_mm", nlohmann::json::array()}, {"proxy_mm", nlohmann::json::array()},
                       {"force_n", nlohmann::json::array()},     {"value", nlohmann::json::array()},
                       {"solver", nlohmann::json::array()},      {"error_bound_m", nlohmann::json::array()},
@@ -48,10 +55,18 @@ std::string to_json(const std::vector<StrokePoint>& stroke, const modes::Scene& 
     json["boundary"].push_back(point.boundary ? nlohmann::json(display_name(scene, *point.boundary))
                                               : nlohmann::json());
   }
+  json["met"] = nlohmann::json::array();
+  for (const Met& boundary : met) {
+    const StrokePoint& first = stroke[boundary.contact.first];
+    json["met"].push_back({{"boundary", display_name(scene, boundary.contact.boundary)},
+                           {"proxy_mm", vector(first.proxy_mm)},
+                           {"peak_n", boundary.contact.peak_n},
+                           {"known_to_mm", number(boundary.known_to_mm.value_or(NAN))}});
+  }
   return json.dump();
 }
 
-void print_text(const std::vector<StrokePoint>& stroke, const modes::Plan& plan, const modes::Scene& scene) {
+void print_text(const std::vector<StrokePoint>& stroke, const std::vector<Met>& met, const modes::Scene& scene) {
   fmt::print("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
   const glm::dvec3 from = stroke.front().position_mm;
   const glm::dvec3 along = glm::normalize(stroke.back().position_mm - from);
@@ -67,11 +82,11 @@ void print_text(const std::vector<StrokePoint>& stroke, const modes::Plan& plan,
     }
   }
   fmt::print("\n");
-  for (const Contact& contact : contacts_of(stroke, plan, met_n)) {
+  for (const auto& [contact, known] : met) {
     const StrokePoint& first = stroke[contact.first];
-    fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N\n", display_name(scene, contact.boundary),
-               glm::dot(first.proxy_mm - from, along), patient_coordinates(first.proxy_mm), first.value,
-               contact.peak_n);
+    fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N{}\n",
+               display_name(scene, contact.boundary), glm::dot(first.proxy_mm - from, along),
+               patient_coordinates(first.proxy_mm), first.value, contact.peak_n, known_to_text(known));
   }
 }
 
@@ -91,10 +106,15 @@ void run(const ProfileOptions& options) {
                         .limit_n = scene.limits.force_n};
   if (!options.picture.empty()) write_png(charts_of(profile), options.picture);
   if (!options.table.empty()) write_csv(profile, options.table);
+  std::vector<Met> met;
+  for (const Contact& contact : contacts_of(profile.stroke, *felt.plan, met_n)) {
+    met.push_back(
+        {contact, known_to_mm(*felt.source, volume->geometry, scene, profile.stroke[contact.first].proxy_mm)});
+  }
   if (options.json) {
-    fmt::print("{}\n", to_json(profile.stroke, scene));
+    fmt::print("{}\n", to_json(profile.stroke, met, scene));
   } else {
-    print_text(profile.stroke, *felt.plan, scene);
+    print_text(profile.stroke, met, scene);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "device/safety/safety_filter.h"
+#include "io/fields/boundary_uncertainty.h"
 #include "plugin/session/session.h"
 #include "solver/solution.h"
 
@@ -137,6 +138,24 @@ std::string patient_coordinates(const glm::dvec3& position_mm) {
                      std::abs(position_mm.z));
 }
 
+std::optional<double> known_to_mm(const io::FieldSource& source, const io::Geometry& geometry,
+                                  const modes::Scene& scene, const glm::dvec3& place_mm) {
+  if (!io::contains(source.available(), io::FieldSet::value | io::FieldSet::gradient)) return std::nullopt;
+  const io::ValueMethod method =
+      scene.sampling.gradient == io::GradientMethod::cubic ? io::ValueMethod::cubic : scene.sampling.value;
+  const double mm = io::uncertainty_at(source, geometry, method, place_mm).two_sigma_mm;
+  return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
+}
+
+std::string known_to_text(const std::optional<double>& mm) {
+  return mm ? fmt::format("; known to +-{:.2g} mm", *mm) : "";
+}
+
+void add_uncertainty(Summary& summary, const modes::Scene& scene, const io::FieldSource& source,
+                     const io::Geometry& geometry) {
+  for (HeldStretch& hold : summary.holds) hold.known_to_mm = known_to_mm(source, geometry, scene, hold.contact_mm);
+}
+
 std::string to_text(const Summary& summary, const modes::Scene& scene, const std::string& scan,
                     const std::string& device) {
   std::string text = fmt::format("Palpate session: {:.1f} s, {} frames\n\n", summary.duration_s, summary.frames);
@@ -146,9 +165,9 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
     text += "  nothing: no boundary pushed with more than 0.05 N\n";
   }
   for (const HeldStretch& hold : summary.holds) {
-    text += fmt::format("  {:6.3f} to {:6.3f} s  {:<12} met at {}, value {:.0f}; up to {:.2f} N\n", hold.begin_s,
+    text += fmt::format("  {:6.3f} to {:6.3f} s  {:<12} met at {}, value {:.0f}; up to {:.2f} N{}\n", hold.begin_s,
                         hold.end_s, display_name(scene, hold.mode), patient_coordinates(hold.contact_mm), hold.value,
-                        hold.peak_n);
+                        hold.peak_n, known_to_text(hold.known_to_mm));
   }
   text += fmt::format("  largest force sent to the device: {:.2f} N\n\n", summary.peak_sent_n);
   text += "How it was solved\n";
@@ -176,6 +195,7 @@ std::string to_json(const Summary& summary, const modes::Scene& scene) {
                      {"contact_mm", {hold.contact_mm.x, hold.contact_mm.y, hold.contact_mm.z}},
                      {"value", hold.value},
                      {"peak_n", hold.peak_n}});
+    if (hold.known_to_mm) holds.back()["known_to_mm"] = *hold.known_to_mm;
   }
   const nlohmann::json json{{"duration_s", summary.duration_s},
                             {"frames", summary.frames},

@@ -3,9 +3,12 @@
 /// What a session came to, in numbers and in words.
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/fields/field_source.h"
+#include "io/geometry.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
 #include "plugin/recording/recording.h"
@@ -20,6 +23,9 @@ struct HeldStretch {
   glm::dvec3 contact_mm{0};  ///< proxy when it began, patient space
   double value = 0;          ///< of the scan there
   double peak_n = 0;         ///< largest force of the coupling meanwhile
+  /// The true boundary is within this of contact_mm in 95 of 100 places (io/fields/boundary_uncertainty.h), mm; none
+  /// where it was not asked for or cannot be said.
+  std::optional<double> known_to_mm = std::nullopt;
 };
 
 struct Percentiles {
@@ -46,6 +52,15 @@ double tick_us(const TickRecord& frame);
 Percentiles percentiles_of(std::vector<double> values);
 
 Summary summarize(const Recording& recording, const modes::Plan& plan);
+
+/// How well the place of a felt boundary is known there, mm; none where the source has no gradient or nothing rises.
+std::optional<double> known_to_mm(const io::FieldSource& source, const io::Geometry& geometry,
+                                  const modes::Scene& scene, const glm::dvec3& place_mm);
+/// "; known to 0.2 mm", or nothing.
+std::string known_to_text(const std::optional<double>& mm);
+/// Fills HeldStretch::known_to_mm.
+void add_uncertainty(Summary& summary, const modes::Scene& scene, const io::FieldSource& source,
+                     const io::Geometry& geometry);
 
 /// For a person. `scan` describes the scan without naming the patient.
 std::string to_text(const Summary& summary, const modes::Scene& scene, const std::string& scan,
