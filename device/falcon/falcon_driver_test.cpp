@@ -141,6 +141,28 @@ TEST(FalconDriver, AHugeForceSaturatesInItsDirection) {
   EXPECT_FALSE(bench.fake.falcon.is_pushing());
 }
 
+/// A dead pose is told by this alone: what was read is not fresh when it is read again.
+TEST(FalconDriver, APoseIsFreshOnce) {
+  Bench bench;
+  bench.home();
+  int fresh = 0;
+  bench.run(0.5, [&](const Reading& reading) {
+    fresh += reading.fresh ? 1 : 0;
+    const Reading again = bench.stylus->read();
+    EXPECT_FALSE(again.fresh);
+    EXPECT_EQ(again.position, reading.position);
+    return Vec3(0);
+  });
+  EXPECT_GT(fresh, 400);
+  bench.fake.falcon.faults.silent = true;
+  bench.run(0.002);
+  bench.stylus->read();
+  bench.run(0.05, [&](const Reading& reading) {
+    EXPECT_FALSE(reading.fresh);
+    return Vec3(0);
+  });
+}
+
 /// No safety filter here, and motors that could do three times as much: what limits is the driver.
 TEST(FalconDriver, HoldsItsOwnForceLimit) {
   FalconSettings settings;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -179,6 +180,18 @@ TEST(WoodenHapticsDriver, AWallAtItsStiffnessLimitIsQuiet) {
   EXPECT_GT(ringing(4 * limit, 0), 3 * ringing(limit, 0)) << "or nothing could be seen here";
 }
 
+TEST(WoodenHapticsDriver, APoseIsFreshOnce) {
+  Bench bench;
+  bench.home();
+  int fresh = 0;
+  bench.run(0.5, [&](const Reading& reading) {
+    fresh += reading.fresh ? 1 : 0;
+    EXPECT_FALSE(bench.stylus->read().fresh);
+    return Vec3(0);
+  });
+  EXPECT_GT(fresh, 300);
+}
+
 /// No safety filter here, and a current limit that would allow more: what limits is the driver.
 TEST(WoodenHapticsDriver, HoldsItsOwnForceLimit) {
   FakeWoodenHapticsOptions options;
@@ -277,6 +290,46 @@ TEST(WoodenHapticsSettings, AreReadFromJson) {
   EXPECT_EQ(settings.lower_length, 0.205) << "absent keys keep their defaults";
 }
 
+/// Every key sets what it is named after, and nothing else: values that no default has.
+TEST(WoodenHapticsSettings, EveryKeyIsRead) {
+  const auto s = read_wooden_haptics(write_settings(
+      R"({"address": "/dev/hidraw7", "capstan_diameter": [0.011, 0.012, 0.013], "body_diameter": [0.161, 0.122, 0.123],
+          "base_height": 0.081, "lower_length": 0.206, "upper_length": 0.246, "origin": [0.221, 0.001, 0.082],
+          "workspace_radius": 0.101, "torque_constant": [0.031, 0.032, 0.033], "counts_per_turn": [2001, 2002, 2003],
+          "encoder_sign": [-1, 1, -1], "motor_aligned": [true, false, true], "home_counts": [11, 12, 13],
+          "current_limit": 2.1, "maximum_force": 5.1, "stiffness_limit": 1001, "guarded": false})"));
+  EXPECT_EQ(s.address, "/dev/hidraw7");
+  EXPECT_EQ(s.capstan_diameter, (std::array{0.011, 0.012, 0.013}));
+  EXPECT_EQ(s.body_diameter, (std::array{0.161, 0.122, 0.123}));
+  EXPECT_EQ(s.base_height, 0.081);
+  EXPECT_EQ(s.lower_length, 0.206);
+  EXPECT_EQ(s.upper_length, 0.246);
+  EXPECT_EQ(s.origin, (std::array{0.221, 0.001, 0.082}));
+  EXPECT_EQ(s.workspace_radius, 0.101);
+  EXPECT_EQ(s.torque_constant, (std::array{0.031, 0.032, 0.033}));
+  EXPECT_EQ(s.counts_per_turn, (std::array{2001, 2002, 2003}));
+  EXPECT_EQ(s.encoder_sign, (std::array{-1, 1, -1}));
+  EXPECT_EQ(s.motor_aligned, (std::array{true, false, true}));
+  EXPECT_EQ(s.home_counts, (std::array{11, 12, 13}));
+  EXPECT_EQ(s.current_limit, 2.1);
+  EXPECT_EQ(s.maximum_force, 5.1);
+  EXPECT_EQ(s.stiffness_limit, 1001);
+  EXPECT_FALSE(s.guarded);
+}
+
+TEST(WoodenHapticsSettings, DefaultsAreThoseOfThePublishedArm) {
+  const WoodenHapticsSettings s;
+  EXPECT_EQ(s.capstan_diameter, (std::array{0.010, 0.010, 0.010}));
+  EXPECT_EQ(s.body_diameter, (std::array{0.160, 0.120, 0.120}));
+  EXPECT_EQ(s.counts_per_turn, (std::array{2000, 2000, 2000}));
+  EXPECT_EQ(s.torque_constant, (std::array{0.0259, 0.0259, 0.0259}));
+  EXPECT_EQ(s.encoder_sign, (std::array{1, 1, 1}));
+  EXPECT_EQ(s.home_counts, (std::array{0, 0, 0}));
+  EXPECT_EQ(s.current_limit, 2);
+  EXPECT_EQ(s.maximum_force, 5);
+  EXPECT_TRUE(s.guarded);
+}
+
 TEST(WoodenHapticsSettings, WrongOnesAreRefusedByName) {
   const struct {
     const char* json;
@@ -287,6 +340,18 @@ TEST(WoodenHapticsSettings, WrongOnesAreRefusedByName) {
                {R"({"encoder_sign": [1, 1, 2]})", "encoder sign of axis c"},
                {R"({"current_limit": 30})", "current limit"},
                {R"({"stiffness_limit": 0})", "stiffness limit"},
+               {R"({"capstan_diameter": [0.01, 0, 0.01]})", "diameters of axis b"},
+               {R"({"body_diameter": [0.16, 0.12, 0.01]})", "diameters of axis c"},
+               {R"({"counts_per_turn": [2000, 0, 2000]})", "counts per turn of axis b"},
+               {R"({"encoder_sign": [0, 1, 1]})", "encoder sign of axis a"},
+               {R"({"home_counts": [0, 32768, 0]})", "home counts of axis b"},
+               {R"({"home_counts": [-32769, 0, 0]})", "home counts of axis a"},
+               {R"({"lower_length": 0})", "lengths of the bodies"},
+               {R"({"upper_length": 0})", "lengths of the bodies"},
+               {R"({"workspace_radius": 0})", "radius"},
+               {R"({"workspace_radius": 1.01})", "radius"},
+               {R"({"current_limit": 0})", "current limit"},
+               {R"({"current_limit": 3.01})", "current limit"},
                {R"({"maximum_force": 0})", "largest force"},
                {R"({"maximum_force": 20.1})", "largest force"},
                {R"([1, 2])", "not a JSON object"},
