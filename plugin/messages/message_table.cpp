@@ -94,12 +94,29 @@ void append_literals(const std::string& code, std::string& all) {
   }
 }
 
-constexpr std::array openers = {
-    "DicomError(", "runtime_error(",   "invalid_argument(",  "InputRefused(",  "WrongUsage(",
-    " Refused(",   "refuse(",          "refuse_choice(",     "require(",       "warnings.push_back(",
-    "defect = ",   "unfit = ",         "skipped.push_back(", "emit told(",     "refused(",
-    " tell(tr(",   "notes << tr(",     "print(stderr",       "fprintf(stderr", "fputs(",
-    "warn(",       "stop(fmt::format("};
+constexpr std::array openers = {"DicomError(",
+                                "ArchiveError(",
+                                "runtime_error(",
+                                "invalid_argument(",
+                                "InputRefused(",
+                                "WrongUsage(",
+                                " Refused(",
+                                "refuse(",
+                                "refuse_choice(",
+                                "require(",
+                                "warnings.push_back(",
+                                "defect = ",
+                                "unfit = ",
+                                "skipped.push_back(",
+                                "emit told(",
+                                "refused(",
+                                " tell(tr(",
+                                "notes << tr(",
+                                "print(stderr",
+                                "fprintf(stderr",
+                                "fputs(",
+                                "warn(",
+                                "stop(fmt::format("};
 
 }  // namespace
 

@@ -86,6 +86,7 @@ const std::vector<NotShown> not_shown = {
     NotShown{": has infinite strength, but the best answer found stays {} m away: the hard constraints seem to have no "
              "common point",
              a_solver_at_fault},
+    NotShown{"archive {}: the OpenSSL that is installed cannot do TLS 1.2", "an OpenSSL of ten years ago"},
     NotShown{"make a table", "HDF5 has no memory left"},
     NotShown{"the soak found what may not be: see above", "a servo at fault"},
     NotShown{"palpate: could not start again without thread caches; the heap's figures are off by what they hold",

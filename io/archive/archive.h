@@ -1,0 +1,55 @@
+#pragma once
+
+/// An archive (PACS) that speaks DICOM over the network: where it is, what it and this program are called, and what is
+/// asked of it. DICOM PS3.4 Annex C (query and retrieve, study root), Annex B (storage), Annex A (verification).
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace palpate::io {
+
+/// What an archive, or the way to it, refused. The message names the archive as the user does and says what to set
+/// where. It never holds a patient's name or identifier.
+class ArchiveError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Files in PEM. The archive's certificate is checked against `authorities`; ours is shown to it.
+struct Tls {
+  bool used = false;
+  std::filesystem::path authorities;  ///< certificates trusted to sign the archive's
+  std::filesystem::path certificate;  ///< ours; empty: none is shown, and nothing can be sent to us by C-MOVE
+  std::filesystem::path key;          ///< its private key, without a pass phrase
+
+  bool operator==(const Tls&) const = default;
+};
+
+struct Archive {
+  std::string name;  ///< what the user calls it
+  std::string host;
+  int port = 104;
+  std::string called;                      ///< the archive's AE title, 1 to 16 characters
+  std::string calling;                     ///< our AE title, as the archive knows us
+  bool uses_get = false;                   ///< fetch with C-GET; false: with C-MOVE to our own storage service
+  std::string listen_address = "0.0.0.0";  ///< IPv4 address on which C-MOVE's images are awaited
+  int listen_port = 11112;                 ///< and the port; both have to be known to the archive
+  Tls tls;
+  int silence_s = 30;  ///< s: give up where the archive says nothing for so long
+
+  bool operator==(const Archive&) const = default;
+};
+
+/// Throws ArchiveError naming the setting that no archive can have.
+void check(const Archive& archive);
+
+/// C-ECHO: whether the archive answers and knows us. Throws ArchiveError saying why not.
+void echo(const Archive& archive);
+
+/// Asked now and then, on the thread that asked for the work; false ends it with io::Cancelled.
+using KeepGoing = std::function<bool()>;
+
+}  // namespace palpate::io

@@ -1,0 +1,292 @@
+#include "io/archive/fetch.h"
+
+#include <dcmtk/config/osconfig.h>
+// DCMTK's configuration comes first.
+#include <dcmtk/dcmdata/dctk.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "io/archive/association.h"
+#include "io/archive/find.h"
+#include "io/archive/inbox.h"
+#include "io/archive/status_words.h"
+#include "io/archive/store_server.h"
+#include "io/errors.h"
+
+namespace palpate::io {
+namespace {
+
+constexpr std::size_t largest_answer = 8U << 20U;  // bytes; an answer may list the UIDs that failed
+
+/// How C-MOVE or C-GET ended: the last answer's counts.
+struct Ended {
+  std::uint16_t status = 0;
+  int failed = 0;
+  std::string which;  ///< SOP instances that failed, where it says so
+};
+
+DcmDataset keys_of(const Wanted& wanted) {
+  DcmDataset keys;
+  keys.putAndInsertString(DCM_QueryRetrieveLevel, wanted.series_uid.empty() ? "STUDY" : "SERIES");
+  keys.putAndInsertString(DCM_StudyInstanceUID, wanted.study_uid.c_str());
+  if (!wanted.series_uid.empty()) keys.putAndInsertString(DCM_SeriesInstanceUID, wanted.series_uid.c_str());
+  return keys;
+}
+
+std::string words_of(const Wanted& wanted) {
+  return wanted.series_uid.empty() ? "study " + wanted.study_uid : "series " + wanted.series_uid;
+}
+
+[[noreturn]] void refuse(const Archive& archive, const Wanted& wanted, const std::string& why) {
+  throw ArchiveError(fmt::format("archive {} did not send {}: {}", archive.name, words_of(wanted), why));
+}
+
+/// Tells the watcher what has come, not more often than a screen shows.
+class Teller {
+ public:
+  Teller(const FetchWatcher& watcher, const Inbox& inbox, int expected)
+      : watcher_(watcher), inbox_(inbox), expected_(expected) {}
+  bool operator()() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ > std::chrono::milliseconds(50)) {
+      last_ = now;
+      tell();
+    }
+    return going_;
+  }
+  bool tell() {
+    going_ = going_ && (!watcher_ || watcher_({inbox_.files(), inbox_.bytes(), expected_}));
+    return going_;
+  }
+
+ private:
+  const FetchWatcher& watcher_;
+  const Inbox& inbox_;
+  int expected_;
+  bool going_ = true;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+/// The instances that an answer says could not be sent, in a few words.
+std::string failed_instances(Association& association, const Command& command, T_DIMSE_DataSetType type) {
+  if (type == DIMSE_DATASET_NULL) return {};
+  OFString list;
+  association.receive_dataset(command.context, largest_answer)
+      ->findAndGetOFStringArray(DCM_FailedSOPInstanceUIDList, list);
+  std::string words = list.c_str();
+  std::ranges::replace(words, '\\', ' ');
+  constexpr std::size_t most = 200;  // three or so
+  if (words.size() > most) words = words.substr(0, words.rfind(' ', most)) + " ...";
+  std::ranges::replace_if(
+      words, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return words;
+}
+
+bool is_pending(std::uint16_t status) {
+  return status == STATUS_Pending;
+}
+
+Ended move(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& teller, std::string& turned_away) {
+  constexpr const char* model = UID_MOVEStudyRootQueryRetrieveInformationModel;
+  StoreServer server(archive, inbox);
+  Association association(archive, {{model, uncompressed_syntaxes()}});
+  Command ask;
+  ask.context = association.context_for(model);
+  ask.message.CommandField = DIMSE_C_MOVE_RQ;
+  T_DIMSE_C_MoveRQ& request = ask.message.msg.CMoveRQ;
+  request.MessageID = association.next_message_id();
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, model, sizeof request.AffectedSOPClassUID);
+  OFStandard::strlcpy(request.MoveDestination, archive.calling.c_str(), sizeof request.MoveDestination);
+  DcmDataset keys = keys_of(wanted);
+  association.send(ask, &keys);
+  std::uint64_t seen = 0;
+  const KeepGoing keep_going = [&] {
+    if (inbox.bytes() != seen) association.watch().heard();  // it is silent here while it sends there
+    seen = inbox.bytes();
+    server.rethrow();
+    return teller();
+  };
+  try {
+    while (true) {
+      const Command command = association.receive(keep_going);
+      if (command.message.CommandField != DIMSE_C_MOVE_RSP) refuse(archive, wanted, "it answered with something else");
+      const T_DIMSE_C_MoveRSP& answer = command.message.msg.CMoveRSP;
+      const std::string which = failed_instances(association, command, answer.DataSetType);
+      server.rethrow();
+      if (!teller()) throw Cancelled();
+      if (!is_pending(answer.DimseStatus)) {
+        turned_away = server.turned_away();
+        return {answer.DimseStatus, answer.NumberOfFailedSubOperations, which};
+      }
+    }
+  } catch (...) {
+    association.give_up();
+    throw;
+  }
+}
+
+std::vector<Proposal> proposals_for_get() {
+  std::vector<Proposal> proposals = {{UID_GETStudyRootQueryRetrieveInformationModel, uncompressed_syntaxes()}};
+  // A context for each encoding: the archive chooses one a context, and some send only what they hold.
+  for (const char* kind : {UID_CTImageStorage, UID_MRImageStorage, UID_EnhancedCTImageStorage,
+                           UID_EnhancedMRImageStorage, UID_PositronEmissionTomographyImageStorage}) {
+    proposals.push_back({kind, uncompressed_syntaxes(), true});
+    for (const std::string& syntax : compressed_syntaxes()) proposals.push_back({kind, {syntax}, true});
+  }
+  for (const char* kind :
+       {UID_SegmentationStorage, UID_RTStructureSetStorage, UID_LegacyConvertedEnhancedCTImageStorage,
+        UID_LegacyConvertedEnhancedMRImageStorage, UID_LegacyConvertedEnhancedPETImageStorage,
+        UID_EnhancedPETImageStorage, UID_SecondaryCaptureImageStorage, UID_XRay3DAngiographicImageStorage,
+        UID_BasicTextSRStorage, UID_EnhancedSRStorage, UID_ComprehensiveSRStorage, UID_Comprehensive3DSRStorage,
+        UID_ParametricMapStorage, UID_SpatialRegistrationStorage, UID_SurfaceSegmentationStorage,
+        UID_UltrasoundImageStorage, UID_NuclearMedicineImageStorage, UID_RTDoseStorage,
+        UID_XRayRadiationDoseSRStorage}) {
+    proposals.push_back({kind, uncompressed_syntaxes(), true});
+  }
+  return proposals;
+}
+
+Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& teller) {
+  constexpr const char* model = UID_GETStudyRootQueryRetrieveInformationModel;
+  Association association(archive, proposals_for_get());
+  Command ask;
+  ask.context = association.context_for(model);
+  ask.message.CommandField = DIMSE_C_GET_RQ;
+  T_DIMSE_C_GetRQ& request = ask.message.msg.CGetRQ;
+  request.MessageID = association.next_message_id();
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, model, sizeof request.AffectedSOPClassUID);
+  DcmDataset keys = keys_of(wanted);
+  association.send(ask, &keys);
+  const KeepGoing keep_going = [&] { return teller(); };
+  try {
+    while (true) {
+      Command command = association.receive(keep_going);
+      if (command.message.CommandField == DIMSE_C_STORE_RQ) {
+        OFCondition broken;
+        const T_DIMSE_C_StoreRQ& stored = command.message.msg.CStoreRQ;
+        Command answer;
+        answer.context = command.context;
+        answer.message.CommandField = DIMSE_C_STORE_RSP;
+        T_DIMSE_C_StoreRSP& response = answer.message.msg.CStoreRSP;
+        response.DimseStatus =
+            inbox.store(*association.get(), association.watch(), archive.silence_s, command, keep_going, broken);
+        if (broken.bad()) {
+          refuse(archive, wanted, fmt::format("the connection broke after {} images; fetch it again", inbox.files()));
+        }
+        response.MessageIDBeingRespondedTo = stored.MessageID;
+        response.DataSetType = DIMSE_DATASET_NULL;
+        response.opts = O_STORE_AFFECTEDSOPCLASSUID | O_STORE_AFFECTEDSOPINSTANCEUID;
+        OFStandard::strlcpy(response.AffectedSOPClassUID, stored.AffectedSOPClassUID,
+                            sizeof response.AffectedSOPClassUID);
+        OFStandard::strlcpy(response.AffectedSOPInstanceUID, stored.AffectedSOPInstanceUID,
+                            sizeof response.AffectedSOPInstanceUID);
+        association.send(answer);
+      } else if (command.message.CommandField == DIMSE_C_GET_RSP) {
+        const T_DIMSE_C_GetRSP& answer = command.message.msg.CGetRSP;
+        const std::string which = failed_instances(association, command, answer.DataSetType);
+        if (!is_pending(answer.DimseStatus)) {
+          return {answer.DimseStatus, answer.NumberOfFailedSubOperations, which};
+        }
+      } else {
+        refuse(archive, wanted, "it answered with something else");
+      }
+    }
+  } catch (...) {
+    association.give_up();
+    throw;
+  }
+}
+
+/// What the last answer means for the user. Throws ArchiveError where nothing is worth keeping.
+void judge(const Archive& archive, const Wanted& wanted, const Ended& ended, std::size_t came, std::size_t unasked,
+           const std::string& turned_away, Fetched& result) {
+  const std::string destination =
+      fmt::format("have {} entered there as a destination, with this machine's address and port {}", archive.calling,
+                  archive.listen_port);
+  if (ended.status == 0xA801)
+    refuse(archive, wanted, fmt::format("it does not know us as a place to send to: {}", destination));
+  const bool partly = ended.status == STATUS_Success || ended.status == 0xB000 || ended.failed > 0;
+  if (!partly) refuse(archive, wanted, status_words(ended.status));
+  if (came == 0 && unasked > 0) {
+    refuse(archive, wanted, "it sent something else, which was not kept: tell who runs it");
+  }
+  if (came == 0 && !turned_away.empty()) {
+    refuse(archive, wanted,
+           fmt::format("{} when it sent, and was turned away: --called has to be its AE title and --calling the one it "
+                       "sends to",
+                       turned_away));
+  }
+  if (came == 0 && archive.uses_get) {
+    refuse(archive, wanted,
+           ended.failed > 0 ? fmt::format("all {} of its images failed", ended.failed)
+                            : std::string("it has no images of it"));
+  }
+  if (came == 0) {
+    refuse(archive, wanted,
+           fmt::format("nothing arrived here: {}, and check that no firewall is between", destination));
+  }
+  if (ended.failed > 0) {
+    result.complete = false;
+    result.warnings.push_back(
+        fmt::format("{} of {} images of {} could not be sent by archive {}{}: fetch it again, or tell who runs it",
+                    ended.failed, came + static_cast<std::size_t>(ended.failed), words_of(wanted), archive.name,
+                    ended.which.empty() ? "" : " (" + ended.which + ")"));
+  }
+  if (unasked > 0) {
+    result.warnings.push_back(fmt::format("archive {} also sent {} objects that were not asked for; they were not kept",
+                                          archive.name, unasked));
+  }
+}
+
+/// A series may grow while it is fetched.
+void warn_of_growth(const Archive& archive, const Wanted& wanted, std::size_t came, const KeepGoing& keep_going,
+                    std::vector<std::string>& warnings) {
+  const std::string& uid = wanted.series_uid.empty() ? wanted.study_uid : wanted.series_uid;
+  const int now = find_uid(archive, uid, keep_going).images;
+  if (now > static_cast<int>(came)) {
+    warnings.push_back(
+        fmt::format("archive {} now holds {} images of {}, and {} came: it may still be growing; fetch it again",
+                    archive.name, now, words_of(wanted), came));
+  }
+}
+
+}  // namespace
+
+Fetched fetch(const Archive& archive, const std::vector<std::string>& uids, const std::filesystem::path& folder,
+              const FetchLimits& limits, const FetchWatcher& watcher) {
+  std::vector<Wanted> all;
+  all.reserve(uids.size());
+  Inbox inbox(folder, limits);
+  Teller asking(watcher, inbox, -1);
+  const KeepGoing keep_going = [&] { return asking(); };
+  int expected = 0;
+  for (const std::string& uid : uids) {
+    all.push_back(find_uid(archive, uid, keep_going));
+    expected = all.back().images < 0 || expected < 0 ? -1 : expected + all.back().images;
+  }
+  Fetched result;
+  Teller teller(watcher, inbox, expected);
+  for (const Wanted& wanted : all) {
+    const std::size_t before = inbox.files(), unasked_before = inbox.unasked();
+    std::string turned_away;
+    inbox.expect(wanted);
+    const Ended ended =
+        archive.uses_get ? get(archive, wanted, inbox, teller) : move(archive, wanted, inbox, teller, turned_away);
+    if (!teller.tell()) throw Cancelled();
+    const std::size_t came = inbox.files() - before;
+    judge(archive, wanted, ended, came, inbox.unasked() - unasked_before, turned_away, result);
+    if (ended.failed == 0) warn_of_growth(archive, wanted, came, keep_going, result.warnings);
+  }
+  result.files = inbox.files();
+  result.bytes = inbox.bytes();
+  result.series = inbox.finish();
+  return result;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,52 @@
+#pragma once
+
+/// Asking an archive what it holds: studies by patient, id, date, modality and description, and their series.
+
+#include <string>
+#include <vector>
+
+#include "io/archive/archive.h"
+
+namespace palpate::io {
+
+/// Empty: anything. Texts are UTF-8; * and ? are the archive's wildcards.
+struct ArchiveQuery {
+  std::string patient;      ///< part of the name
+  std::string patient_id;   ///< the whole of it
+  std::string date;         ///< YYYYMMDD, YYYYMMDD-YYYYMMDD, or with one side left out
+  std::string modality;     ///< CT, MR, ...
+  std::string description;  ///< part of the study's description
+  std::size_t most_studies = 100;
+  bool with_series = true;
+};
+
+struct ArchivedSeries {
+  std::string uid, modality, description;
+  int number = 0;
+  int images = 0;
+};
+
+struct ArchivedStudy {
+  std::string uid, date, description, patient, patient_id;
+  std::vector<ArchivedSeries> series;
+};
+
+struct Found {
+  std::vector<ArchivedStudy> studies;  ///< the latest first
+  bool more = false;                   ///< the archive holds more than were asked for
+};
+
+/// C-FIND, study root. Throws ArchiveError, and Cancelled where keep_going says so.
+Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& keep_going = {});
+
+/// A study, or a series of one.
+struct Wanted {
+  std::string study_uid;
+  std::string series_uid;  ///< empty: the whole study
+  int images = -1;         ///< as the archive counts them; -1: it does not say
+};
+
+/// What a UID names there. Throws ArchiveError where the archive holds neither a study nor a series of that UID.
+Wanted find_uid(const Archive& archive, const std::string& uid, const KeepGoing& keep_going = {});
+
+}  // namespace palpate::io

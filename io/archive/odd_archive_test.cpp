@@ -1,0 +1,384 @@
+// What is said and left behind when an archive misbehaves: testing/odd_archive_main.cpp, a program of its own.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <string>
+
+#include "io/archive/archive.h"
+#include "io/archive/fetch.h"
+#include "io/archive/find.h"
+#include "io/archive/send.h"
+#include "io/archive/testing/process.h"
+#include "io/archive/testing/says.h"
+#include "io/errors.h"
+#include "io/fresh_folder.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::says;
+
+class OddArchive {
+ public:
+  explicit OddArchive(const std::string& behavior)
+      : archive_(settings()),
+        process_({ODD_ARCHIVE, behavior, std::to_string(archive_.listen_port)}),
+        folder_(temporary_folder()) {
+    archive_.port = std::stoi("0" + process_.read_line());
+  }
+  Archive& archive() { return archive_; }
+  testing::Process& process() { return process_; }
+  fs::path folder() const { return blocked_ ? fs::path("/dev/null/fetched") : folder_.path() / "fetched"; }
+  /// From now on the folder cannot be made.
+  void no_folder() { blocked_ = true; }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder_.path()), {}));
+  }
+
+  /// What a fetch is refused with; nothing may be left of it.
+  std::string refused_fetch(const FetchLimits& limits = {}) {
+    std::string said = "no refusal";
+    try {
+      fetch(archive_, {"1.2.3"}, folder(), limits);
+    } catch (const ArchiveError& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(entries(), 0U) << "something was left in the folder";
+    EXPECT_FALSE(testing::is_listening(archive_.listen_port));
+    return said;
+  }
+  std::string refused_echo() {
+    try {
+      echo(archive_);
+    } catch (const ArchiveError& error) {
+      return error.what();
+    }
+    return "no refusal";
+  }
+
+ private:
+  static Archive settings() {
+    Archive archive;
+    archive.name = "odd";
+    archive.host = "127.0.0.1";
+    archive.called = "ODD";
+    archive.calling = "PALPATE";
+    archive.uses_get = true;
+    archive.listen_address = "127.0.0.1";
+    archive.listen_port = testing::free_port();
+    archive.silence_s = 2;
+    return archive;
+  }
+  Archive archive_;
+  testing::Process process_;
+  FreshFolder folder_;
+  bool blocked_ = false;
+};
+
+TEST(OddArchive, ThatBehavesIsFetchedFrom) {
+  OddArchive odd("good");
+  const Fetched fetched = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+  EXPECT_EQ(fetched.files, 2U) << "one came twice";
+  EXPECT_TRUE(fetched.warnings.empty());
+}
+
+TEST(OddArchive, ThatIsNotThereCannotBeReached) {
+  Archive nowhere;
+  nowhere.name = "nowhere";
+  nowhere.host = "127.0.0.1";
+  nowhere.port = testing::free_port();
+  nowhere.called = nowhere.calling = "X";
+  EXPECT_THROW(
+      {
+        try {
+          echo(nowhere);
+        } catch (const ArchiveError& error) {
+          EXPECT_TRUE(says(error.what(),
+                           "{} cannot be reached ({}): check --host and --port, and that no firewall is between"));
+          throw;
+        }
+      },
+      ArchiveError);
+}
+
+TEST(OddArchive, ThatHasNoAddressIsSaid) {
+  Archive unknown{.name = "a", .host = "no-such-machine.invalid", .port = 104, .called = "CALLED", .calling = "US"};
+  try {
+    echo(unknown);
+    ADD_FAILURE() << "not refused";
+  } catch (const ArchiveError& error) {
+    EXPECT_TRUE(says(error.what(), "{}: no machine of that name is known: check --host"));
+  }
+}
+
+TEST(OddArchive, ThatRefusesIsQuoted) {
+  EXPECT_TRUE(
+      says(OddArchive("wrong-called").refused_echo(), "{} is not known there as {}: set --called to its own AE title"));
+  EXPECT_TRUE(says(
+      OddArchive("wrong-calling").refused_echo(),
+      "{} does not know us as {}: have this AE title entered there with this machine's address, or set --calling"));
+  EXPECT_TRUE(says(
+      OddArchive("refuse").refused_echo(),
+      "{} refused the association and did not say why: check --called ({}), and that --calling ({}) is known there"));
+  EXPECT_TRUE(says(OddArchive("busy").refused_echo(), "{} is too busy to talk to us: try again later"));
+}
+
+TEST(OddArchive, ThatIsNoneIsToldFromOne) {
+  EXPECT_TRUE(says(OddArchive("not-dicom").refused_echo(),
+                   "{} broke the connection off: it ended, or does not speak DICOM{} on that port"));
+  OddArchive secure("not-dicom");
+  secure.archive().tls = {true, "/no/such.pem", "", ""};
+  EXPECT_TRUE(says(secure.refused_echo(),
+                   "archive {}: {} {} cannot be used for TLS: it has to be a readable file in PEM; give the right one "
+                   "with `palpate archive add`"));
+}
+
+TEST(OddArchive, ThatIsSilentIsGivenUp) {
+  OddArchive silent("silent");
+  silent.archive().silence_s = 1;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(says(silent.refused_echo(),
+                   "{} has said nothing for {} s: it is too busy, or another program listens on that port"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+TEST(OddArchive, ThatRefusesToFindSaysWhy) {
+  EXPECT_TRUE(says(OddArchive("refuses-find").refused_fetch(), "archive {} refused the question: {}"));
+  EXPECT_TRUE(says(OddArchive("dies-at-find").refused_fetch(),
+                   "{} broke the connection off: it ended, or does not speak DICOM{} on that port"));
+  EXPECT_TRUE(
+      says(OddArchive("huge-answer").refused_fetch(), "{} sent an answer of more than {} bytes, which is no answer"));
+}
+
+TEST(OddArchive, ThatFindsWithoutEndIsStopped) {
+  OddArchive odd("endless-find");
+  ArchiveQuery query;
+  query.most_studies = 5;
+  query.with_series = false;
+  const Found found = find(odd.archive(), query);
+  EXPECT_EQ(found.studies.size(), 5U);
+  EXPECT_TRUE(found.more);
+  EXPECT_THAT(odd.process().read_line(), HasSubstr("canceled 0FFF"));
+  EXPECT_EQ(found.studies.front().patient, "M\xC3\xBCller^Zo\xC3\xAB") << "Latin-1 as UTF-8";
+}
+
+TEST(OddArchive, ThatDoesNotKnowWhereToSendSaysWhatToEnter) {
+  OddArchive odd("unknown-destination");
+  odd.archive().uses_get = false;
+  const std::string said = odd.refused_fetch();
+  EXPECT_TRUE(says(said, "it does not know us as a place to send to: {}"));
+  EXPECT_TRUE(says(said, "have {} entered there as a destination, with this machine's address and port {}"));
+  EXPECT_THAT(said, HasSubstr(std::to_string(odd.archive().listen_port)));
+}
+
+TEST(OddArchive, ThatAnswersOtherThanAskedIsGivenUp) {
+  EXPECT_TRUE(says(OddArchive("offers-nothing").refused_echo(),
+                   "{} does not offer us this service ({}): have it allowed there for {}"));
+  EXPECT_TRUE(says(OddArchive("refuses-echo").refused_echo(), "archive {} answered, and refused the echo: {}"));
+  EXPECT_TRUE(says(OddArchive("garbage").refused_fetch(), "{} sent an answer that is no DICOM dataset"));
+  EXPECT_TRUE(says(OddArchive("echoes").refused_fetch(), "archive {} answered a question with something else"));
+  EXPECT_TRUE(says(OddArchive("echoes-at-get").refused_fetch(), "it answered with something else"));
+}
+
+TEST(OddArchive, ThatHasNothingSaysSo) {
+  EXPECT_TRUE(says(OddArchive("empty").refused_fetch(), "it has no images of it"));
+  EXPECT_TRUE(says(OddArchive("all-fail").refused_fetch(), "all {} of its images failed"));
+}
+
+TEST(OddArchive, ThatAlsoSendsAnotherStudyIsToldOf) {
+  OddArchive odd("partly-unasked");
+  const Fetched fetched = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+  EXPECT_EQ(fetched.files, 1U);
+  ASSERT_FALSE(fetched.warnings.empty());
+  EXPECT_TRUE(
+      says(fetched.warnings.front(), "archive {} also sent {} objects that were not asked for; they were not kept"));
+}
+
+/// While it lives, no file of this process can be longer.
+class ShortFiles {
+ public:
+  explicit ShortFiles(rlim_t bytes) {
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit shorter{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &shorter);
+  }
+  ShortFiles(const ShortFiles&) = delete;
+  ShortFiles& operator=(const ShortFiles&) = delete;
+  ~ShortFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+// A file of 3 GB that is refused in its midst, and one so small that it waits in a buffer until it is closed.
+TEST(OddArchive, MeetsAFullDisk) {
+  for (const char* const behavior : {"without-end", "good"}) {
+    OddArchive odd(behavior);
+    std::string said;
+    {
+      const ShortFiles disk(behavior == std::string("good") ? 100 : 1U << 20U);
+      said = odd.refused_fetch();
+    }
+    EXPECT_TRUE(says(
+        said, "{} cannot be written ({}): make room, or name another folder with -o; nothing is left of this fetch"));
+  }
+  OddArchive odd("good");
+  odd.no_folder();
+  EXPECT_THAT(odd.refused_fetch(), HasSubstr("cannot be written (Not a directory)"));
+}
+
+TEST(OddArchive, ThatSendsElsewhereIsFoundOut) {
+  OddArchive odd("sends-nothing");
+  odd.archive().uses_get = false;
+  EXPECT_TRUE(says(odd.refused_fetch(), "nothing arrived here: {}, and check that no firewall is between"));
+}
+
+TEST(OddArchive, ThatSendsUnderAnotherTitleIsTurnedAway) {
+  OddArchive odd("stranger");
+  odd.archive().uses_get = false;
+  EXPECT_TRUE(says(odd.refused_fetch(),
+                   "STRANGER{} when it sent, and was turned away: --called has to be its AE title and --calling the "
+                   "one it sends to"));
+  EXPECT_EQ(odd.process().read_line(), "stranger 3") << "an A-ASSOCIATE-RJ";
+}
+
+TEST(OddArchive, ThatSendsAnotherStudyIsNotBelieved) {
+  OddArchive odd("unasked");
+  EXPECT_TRUE(says(odd.refused_fetch(), "it sent something else, which was not kept: tell who runs it"));
+  EXPECT_THAT(odd.process().read_line(), HasSubstr("stored C000"));
+}
+
+TEST(OddArchive, ThatPutsPathsInUidsWritesNowhereElse) {
+  OddArchive odd("paths");
+  const Fetched fetched = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+  EXPECT_EQ(fetched.files, 2U);
+  for (const auto& entry : fs::recursive_directory_iterator(odd.folder())) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(name.starts_with("series-") || name.starts_with("image-")) << name;
+  }
+  EXPECT_FALSE(fs::exists("/tmp/evil"));
+  EXPECT_FALSE(fs::exists("/etc/evil"));
+}
+
+TEST(OddArchive, ThatFailsInPartIsCounted) {
+  OddArchive odd("half");
+  const Fetched fetched = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+  EXPECT_EQ(fetched.files, 1U);
+  EXPECT_FALSE(fetched.complete);
+  ASSERT_EQ(fetched.warnings.size(), 1U);
+  EXPECT_THAT(fetched.warnings.front(), HasSubstr("3 of 4 images of study 1.2.3"));
+  EXPECT_THAT(fetched.warnings.front(), HasSubstr("(1.2.3.6 1.2.3.7 1.2.3.8)"));
+  EXPECT_TRUE(says(fetched.warnings.front(),
+                   "{} of {} images of {} could not be sent by archive {}{}: fetch it again, or tell who runs it"));
+}
+
+TEST(OddArchive, ThatGrowsIsNoticed) {
+  OddArchive odd("grows");
+  const Fetched fetched = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+  ASSERT_EQ(fetched.warnings.size(), 1U);
+  EXPECT_TRUE(says(fetched.warnings.front(),
+                   "archive {} now holds {} images of {}, and {} came: it may still be growing; fetch it again"));
+}
+
+TEST(OddArchive, ThatIsOutOfResourcesIsQuoted) {
+  EXPECT_TRUE(says(OddArchive("out-of-resources").refused_fetch(), "archive {} did not send {}: {}(status A702)"));
+}
+
+TEST(OddArchive, ThatDiesMidwayLeavesNothing) {
+  EXPECT_TRUE(says(OddArchive("dies-midway").refused_fetch(), "the connection broke after {} images; fetch it again"));
+}
+
+TEST(OddArchive, ThatFallsSilentMidwayLeavesNothing) {
+  OddArchive odd("falls-silent");
+  odd.archive().silence_s = 1;
+  EXPECT_TRUE(says(odd.refused_fetch(), "the connection broke after {} images; fetch it again"));
+}
+
+TEST(OddArchive, ThatSendsAByteAWhileIsGivenUp) {
+  const auto begin = std::chrono::steady_clock::now();
+  OddArchive odd("drips");
+  odd.archive().silence_s = 1;
+  EXPECT_TRUE(says(odd.refused_fetch(), "the connection broke after {} images; fetch it again"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(8));
+}
+
+TEST(OddArchive, ThatSendsWithoutEndIsBounded) {
+  FetchLimits limits;
+  limits.bytes = 64U << 20U;
+  EXPECT_TRUE(says(OddArchive("without-end").refused_fetch(limits),
+                   "more than {} MiB came: fetch series by series, or allow more with --most-mib"));
+}
+
+TEST(OddArchive, ACanceledFetchEndsSoon) {
+  OddArchive odd("without-end");
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(fetch(odd.archive(), {"1.2.3"}, odd.folder(), {},
+                     [&](const FetchProgress&) {
+                       return std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(300);
+                     }),
+               Cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+  EXPECT_EQ(odd.entries(), 0U);
+}
+
+TEST(OddArchive, ThatDoesNotTakeAFileIsQuoted) {
+  const fs::path series = fs::path(PALPATE_SHARED_DATA) / "mr_tx_uncompressed_explicit_4";
+  if (!fs::exists(series)) GTEST_SKIP() << "no series in " << PALPATE_SHARED_DATA;
+  const fs::path file = fs::directory_iterator(series)->path();
+  OddArchive refuses("refuses-store");
+  const Sent sent = send(refuses.archive(), {file});
+  EXPECT_EQ(sent.files, 0U);
+  ASSERT_EQ(sent.not_sent.size(), 1U);
+  EXPECT_TRUE(says(sent.not_sent.front().why, "archive {} did not take it: {}"));
+  OddArchive offers_nothing("offers-nothing");
+  EXPECT_TRUE(says(send(offers_nothing.archive(), {file}).not_sent.at(0).why, "archive {} does not take {} as {}"));
+  OddArchive odd("echoes-at-store");
+  try {
+    send(odd.archive(), {file});
+    ADD_FAILURE() << "not refused";
+  } catch (const ArchiveError& error) {
+    EXPECT_TRUE(says(error.what(), "archive {} answered a file with something else"));
+  }
+}
+
+TEST(ArchiveSettings, ThatCannotBeAreRefused) {
+  const Archive archive{.name = "a", .host = "h", .port = 104, .called = "CALLED", .calling = "US"};
+  EXPECT_NO_THROW(check(archive));
+  const auto refused = [&](const char* message, auto change) {
+    Archive wrong = archive;
+    change(wrong);
+    try {
+      check(wrong);
+      ADD_FAILURE() << "not refused: " << message;
+    } catch (const ArchiveError& error) {
+      EXPECT_TRUE(says(error.what(), message));
+    }
+  };
+  refused("--host has to be a machine's name or address", [](Archive& a) { a.host = ""; });
+  refused("a port is a number from 1 to 65535", [](Archive& a) { a.port = 65536; });
+  refused("a port is a number from 1 to 65535", [](Archive& a) { a.listen_port = 0; });
+  refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.called = "LONGER THAN SIXTEEN"; });
+  refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.calling = "  "; });
+  refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.calling = "A\\B"; });
+  refused("the time to wait has to be 1 to 3600 s", [](Archive& a) { a.silence_s = 0; });
+  refused("TLS needs --tls-ca, the certificate of who signed the archive's", [](Archive& a) { a.tls.used = true; });
+  refused("C-MOVE with TLS needs --tls-certificate and --tls-key, since the archive then connects to us; or set --get",
+          [](Archive& a) {
+            a.tls = {true, "ca.pem", "", ""};
+          });
+  refused("--tls-certificate and --tls-key go together", [](Archive& a) { a.tls = {true, "ca.pem", "own.pem", ""}; });
+}
+
+}  // namespace
+}  // namespace palpate::io

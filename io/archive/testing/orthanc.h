@@ -1,0 +1,34 @@
+#pragma once
+
+/// A real archive for tests: Debian's Orthanc, started on this machine with an empty store and ended with its object.
+
+#include <filesystem>
+#include <memory>
+
+#include "io/archive/archive.h"
+#include "io/archive/testing/process.h"
+
+namespace palpate::io::testing {
+
+/// Empty where Orthanc is not installed.
+std::filesystem::path orthanc_program();
+
+/// Certificates of an authority of the test's own, made with openssl: authority.pem, and for `archive` and `palpate` a
+/// .pem and a .key. False where openssl is missing.
+bool make_certificates(const std::filesystem::path& folder);
+
+class Orthanc {
+ public:
+  /// Everything lies in `folder`, which is made. With TLS where `certificates` is given. Throws std::runtime_error with
+  /// its log where it does not start.
+  explicit Orthanc(const std::filesystem::path& folder, const std::filesystem::path& certificates = {});
+
+  /// How we reach it: it knows us as PALPATE and sends to our port.
+  const Archive& archive() const noexcept { return archive_; }
+
+ private:
+  Archive archive_;
+  std::unique_ptr<Process> process_;
+};
+
+}  // namespace palpate::io::testing
