@@ -61,6 +61,8 @@ std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Me
     json["met"].push_back({{"boundary", display_name(scene, boundary.contact.boundary)},
                            {"proxy_mm", vector(first.proxy_mm)},
                            {"peak_n", boundary.contact.peak_n},
+                           {"strength_n", boundary.contact.strength_n},
+                           {"full_strength_n", boundary.contact.full_strength_n},
                            {"known_to_mm", number(boundary.known_to_mm.value_or(NAN))}});
   }
   return json.dump();
@@ -84,9 +86,10 @@ void print_text(const std::vector<StrokePoint>& stroke, const std::vector<Met>& 
   fmt::print("\n");
   for (const auto& [contact, known] : met) {
     const StrokePoint& first = stroke[contact.first];
-    fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N{}\n",
+    fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N{}{}\n",
                display_name(scene, contact.boundary), glm::dot(first.proxy_mm - from, along),
-               patient_coordinates(first.proxy_mm), first.value, contact.peak_n, known_to_text(known));
+               patient_coordinates(first.proxy_mm), first.value, contact.peak_n, known_to_text(known),
+               strength_to_text(contact));
   }
 }
 
@@ -106,8 +109,10 @@ void run(const ProfileOptions& options) {
                         .limit_n = scene.limits.force_n};
   if (!options.picture.empty()) write_png(charts_of(profile), options.picture);
   if (!options.table.empty()) write_csv(profile, options.table);
+  std::vector<Contact> contacts = contacts_of(profile.stroke, *felt.plan, met_n);
+  add_strengths(contacts, profile.stroke, *felt.plan, *felt.source);
   std::vector<Met> met;
-  for (const Contact& contact : contacts_of(profile.stroke, *felt.plan, met_n)) {
+  for (const Contact& contact : contacts) {
     met.push_back(
         {contact, known_to_mm(*felt.source, volume->geometry, scene, profile.stroke[contact.first].proxy_mm)});
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -102,6 +103,28 @@ std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const mode
     held = now;
   }
   return contacts;
+}
+
+void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> stroke, const modes::Plan& plan,
+                   const io::FieldSource& source) {
+  for (Contact& contact : contacts) {
+    for (const modes::ActiveMode& mode : plan.modes) {
+      if (mode.scene_index != contact.boundary) continue;
+      contact.full_strength_n = mode.strength.most_n();
+      for (std::size_t n = contact.first; n <= contact.last; ++n) {
+        const io::Sample sample = source.sample(stroke[n].proxy_mm, plan.fields);
+        if (sample.inside) contact.strength_n = std::max(contact.strength_n, mode.strength(sample));
+      }
+    }
+  }
+}
+
+std::string strength_to_text(const Contact& contact) {
+  constexpr double noticeably = 0.75;
+  const double part = contact.full_strength_n > 0 ? contact.strength_n / contact.full_strength_n : 1;
+  return part > 0.01 && part < noticeably
+             ? fmt::format("; {:.2f} of its {:.2g} N: thin or faint there", part, contact.full_strength_n)
+             : "";
 }
 
 }  // namespace palpate::plugin

@@ -39,6 +39,8 @@ struct Contact {
   std::size_t first = 0;     ///< point at which the proxy was first held
   std::size_t last = 0;      ///< last point before it yielded or let go
   double peak_n = 0;
+  double strength_n = 0;       ///< the most that the boundary takes along this stretch of the scan
+  double full_strength_n = 0;  ///< the most that its transfer function gives anywhere
 };
 
 /// N: a boundary that pushes less is not worth telling of.
@@ -46,5 +48,10 @@ constexpr double met_n = 0.05;
 
 /// The surfaces met along a stroke, in order: where a surface mode pushes with more than threshold_n.
 std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const modes::Plan& plan, double threshold_n);
+/// Fills strength_n and full_strength_n from what the boundary's mode reads at the proxy.
+void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> stroke, const modes::Plan& plan,
+                   const io::FieldSource& source);
+/// "; 0.31 of its 2.5 N: thin or faint there" where a boundary takes less than three quarters of its full strength.
+std::string strength_to_text(const Contact& contact);
 
 }  // namespace palpate::plugin
