@@ -52,8 +52,9 @@ def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), lon
     home = scratch("panel-home")
     shutil.rmtree(home, ignore_errors=True)
     os.makedirs(os.path.join(home, ".config", "ParaView"))
-    with open(os.path.join(home, ".config", "ParaView", "ParaView5.11.0.ini"), "w") as settings:
-        settings.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
+    for version in ("5.11.0", "5.13.2"):  # Debian 12's and 13's
+        with open(os.path.join(home, ".config", "ParaView", f"ParaView{version}.ini"), "w") as settings:
+            settings.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
     environment = dict(os.environ, PV_PLUGIN_CONFIG_FILE=plugin_list(*plugins), HOME=home,
                        PALPATE_PANEL_TEST=scenario, PALPATE_PICTURES=SCRATCH, LIBGL_ALWAYS_SOFTWARE="1", **more)
     if folder:

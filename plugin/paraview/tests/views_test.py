@@ -30,7 +30,9 @@ def expect(condition, message):
 
 
 def run_events(seconds):
-    qt = ctypes.CDLL("libQt5Core.so.5")
+    # ParaView's own, which is in this process already.
+    with open("/proc/self/maps") as maps:
+        qt = ctypes.CDLL(next(line.split()[-1] for line in maps if re.search(r"libQt[56]Core\.so", line)))
     process = qt._ZN16QCoreApplication13processEventsE6QFlagsIN10QEventLoop17ProcessEventsFlagEEi
     until = time.monotonic() + seconds
     while time.monotonic() < until:
