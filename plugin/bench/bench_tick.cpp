@@ -15,6 +15,7 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/app/errors.h"
 #include "plugin/app/run_session.h"
+#include "plugin/bench/place_study.h"
 #include "plugin/bench/sphere_study.h"
 #include "plugin/bench/tick_study.h"
 #include "plugin/options/probe_path.h"
@@ -32,6 +33,7 @@ struct Arguments {
   std::size_t ticks = 200000;
   int largest = 1024;
   bool sphere = false;
+  bool place = false;
 };
 
 /// Rows on stdout, kept for the CSV.
@@ -195,6 +197,8 @@ void run(const Arguments& arguments, const std::filesystem::path& folder) {
   std::string csv;
   if (arguments.sphere) {
     csv = run_sphere_study();
+  } else if (arguments.place) {
+    csv = run_place_study();
   } else {
     Rows rows;
     tabulate_series(arguments, rows);
@@ -202,7 +206,8 @@ void run(const Arguments& arguments, const std::filesystem::path& folder) {
     fmt::print("\nCHAI3D's voxel haptics, measured elsewhere and not run here: 4.8 to 28 us a tick.\n");
     csv = rows.csv();
   }
-  if (!folder.empty()) write_text(folder / (arguments.sphere ? "sphere.csv" : "tick.csv"), csv);
+  if (!folder.empty())
+    write_text(folder / (arguments.sphere ? "sphere.csv" : arguments.place ? "place.csv" : "tick.csv"), csv);
 }
 
 }  // namespace
@@ -215,6 +220,7 @@ void add_bench_tick(CLI::App& bench) {
   command->get_option("SERIES")->required(false);
   add_probe_path_option(*command, arguments->path);
   command->add_flag("--sphere", arguments->sphere, "a sphere of 5 cm, 128^3 and 256^3, instead of a series");
+  command->add_flag("--place", arguments->place, "how far the felt boundary is from the true one, against time");
   command->add_option("--ticks", arguments->ticks, "of each row")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{100000000}))
       ->capture_default_str();
@@ -223,8 +229,8 @@ void add_bench_tick(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "also write a CSV file to this folder; new or empty");
   command->callback([arguments] {
-    if (arguments->series.path.empty() && !arguments->sphere) {
-      throw WrongUsage("palpate-bench tick needs a SERIES, or --sphere");
+    if (arguments->series.path.empty() && !arguments->sphere && !arguments->place) {
+      throw WrongUsage("palpate-bench tick needs a SERIES, --sphere or --place");
     }
     io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) { run(*arguments, folder); });
   });

@@ -180,7 +180,7 @@ std::vector<Provoked> provoke_programs() {
       {"{}: exists and is not an empty folder; choose another or remove it",
        said("probe " + small_ball() + " -o " + two.parent_path().string())},
       {"{}: cannot make a folder in it ({})", said("probe " + small_ball() + " -o /proc/out")},
-      {"palpate-bench tick needs a SERIES, or --sphere", output_of(PALPATE_BENCH " tick")},
+      {"palpate-bench tick needs a SERIES, --sphere or --place", output_of(PALPATE_BENCH " tick")},
       {"there is no scan to feel yet: open one first", said_when([] {
          LiveSession session;
          session.connect(std::make_shared<device::SimulatedStylus>());

@@ -1,0 +1,109 @@
+#include "plugin/bench/place_study.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "io/fields/boundary_uncertainty.h"
+#include "io/fields/volume_fields.h"
+#include "modes/scene/plan.h"
+#include "modes/scene/scene_json.h"
+#include "modes/tick/haptic_step.h"
+#include "plugin/bench/tick_study.h"
+#include "plugin/report/summary.h"
+#include "solver/chain.h"
+#include "testdata/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+using glm::dvec3;
+
+constexpr double radius_mm = 20, depth_mm = 1, noise_hu = 20;
+constexpr double travel_mm = 0.5;  // of the probe in a tick: fast enough that sub-steps matter
+constexpr int circles = 6;
+
+struct Row {
+  double off_rms_mm = 0, stated_mm = 0;
+  Percentiles us;
+};
+
+Row slide(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene) {
+  const modes::Plan plan = modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, {});
+  const io::VolumeFields fields(volume, plan.fields, io::default_gradient_scale_mm(volume->geometry),
+                                modes::field_options(scene.sampling));
+  const io::ValueMethod method =
+      scene.sampling.gradient == io::GradientMethod::cubic ? io::ValueMethod::cubic : scene.sampling.value;
+  solver::Chain chain;
+  const auto scratch = std::make_unique<modes::StepScratch>();
+  std::vector<double> us;
+  double squares = 0, stated = 0, count = 0, stated_count = 0;
+  for (int circle = 0; circle < circles; ++circle) {
+    const dvec3 a = glm::normalize(dvec3(1, 0.3 * circle - 0.7, 0.5));
+    const dvec3 b = glm::normalize(glm::cross(a, dvec3(0.2, 0.7, -0.1 * circle)));
+    modes::Touch touch;
+    const auto move_to = [&](const dvec3& at_mm) {
+      fields.prepare(at_mm, 3);
+      const dvec3 probe_m = plan.workspace.to_device(at_mm);
+      const std::uint64_t begun = modes::clock_count();
+      modes::step(plan, fields, probe_m, touch, chain, *scratch);
+      us.push_back(1e-3 * static_cast<double>(modes::clock_count() - begun) / modes::counts_per_ns());
+    };
+    for (double r = radius_mm + 3; r > radius_mm - depth_mm; r -= 0.05) move_to(r * a);
+    const double turn = travel_mm / radius_mm;
+    for (int n = 0; n * turn < 2 * std::numbers::pi; ++n) {
+      move_to((radius_mm - depth_mm) * (std::cos(turn * n) * a + std::sin(turn * n) * b));
+      const dvec3 proxy = plan.workspace.to_patient(touch.proxy_m);
+      const double off = glm::length(proxy) - radius_mm;
+      squares += off * off;
+      count += 1;
+      if (n % 8 != 0) continue;
+      const double known = io::uncertainty_at(fields, volume->geometry, method, proxy).two_sigma_mm;
+      if (!std::isfinite(known)) continue;
+      stated += known;
+      stated_count += 1;
+    }
+  }
+  return {.off_rms_mm = std::sqrt(squares / count),
+          .stated_mm = stated / stated_count,
+          .us = percentiles_of(std::move(us))};
+}
+
+}  // namespace
+
+std::string run_place_study() {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(radius_mm), testdata::make_geometry({.size = glm::ivec3(56)}),
+                     {.noise = noise_hu, .seed = 11}));
+  fmt::print("A ball of {} mm in voxels of 1 mm, {} HU of noise, slid along {} mm deep, {} mm a tick\n\n", radius_mm,
+             noise_hu, depth_mm, travel_mm);
+  fmt::print("{:<10} {:<20} {:>12} {:>14} {:>18} {:>12} {:>10}\n", "value", "gradient", "sub-step, mm", "off, rms, mm",
+             "stated 2 sigma, mm", "tick, us", "p99.9, us");
+  std::string csv = "value,gradient,sub_step_mm,off_rms_mm,stated_two_sigma_mm,tick_median_us,tick_p999_us\n";
+  run_as_servo([&] {
+    for (const char* value : {"cubic", "trilinear"}) {
+      for (const char* gradient : {"gaussian", "central_differences", "cubic"}) {
+        for (const double step_mm : {2.0, 0.5, 0.1}) {
+          const modes::Scene scene =
+              modes::scene_from_json(fmt::format(R"({{"version": 1, "sampling": {{"value": "{}", "gradient": "{}"}},
+                "subdivision": {{"step_mm": {}}}, "modes": [{{"type": "surface",
+                "strength_n": {{"of": "value", "nodes": [[-490, 0], [-470, 3]]}}}}]}})",
+                                                 value, gradient, step_mm),
+                                     "place");
+          const Row row = slide(volume, scene);
+          fmt::print("{:<10} {:<20} {:>12} {:>14.3f} {:>18.3f} {:>12.2f} {:>10.2f}\n", value, gradient, step_mm,
+                     row.off_rms_mm, row.stated_mm, row.us.median, row.us.p999);
+          csv += fmt::format("{},{},{},{},{},{},{}\n", value, gradient, step_mm, row.off_rms_mm, row.stated_mm,
+                             row.us.median, row.us.p999);
+        }
+      }
+    }
+  });
+  return csv;
+}
+
+}  // namespace palpate::plugin
