@@ -21,6 +21,7 @@
 #include "io/series.h"
 #include "modes/testing/test_rig.h"
 #include "testdata/sanitized.h"
+#include "testdata/scan.h"
 
 namespace palpate::modes {
 namespace {
@@ -153,6 +154,21 @@ void walk_through(const std::string& name, const std::shared_ptr<const io::Volum
   EXPECT_TRUE(repeats(std::min(frames(), frames() / 10 + 500), roomy)) << "the same seed gave other forces";
   EXPECT_TRUE(repeats(std::min(frames(), frames() / 50 + 500), {.brick_bytes = 0, .background = false}))
       << "other forces without bricks";
+}
+
+/// On phantoms, scanned as oddly as scans are: oblique, tilted, not square, uneven, with a slice missing and noise.
+TEST(Walk, through_an_odd_scan_with_every_mode_on_stays_finite_bounded_certified_and_repeatable) {
+  testdata::Grid grid;
+  grid.size = {64, 56, 40};
+  grid.spacing = {0.7, 0.9, 1.6};
+  grid.tilt_degrees = 12;
+  grid.uneven_mm = 0.3;
+  grid.missing = {20};
+  grid = testdata::rotated(grid, glm::normalize(Vec3(1, 2, 3)), 30);
+  testdata::Phantom head = testdata::make_sphere(18);
+  head.bodies.push_back(testdata::make_sphere(12, testdata::bone_hu).bodies.front());
+  walk_through("an odd scan",
+               std::make_shared<const io::Volume>(testdata::scan(head, testdata::make_geometry(grid), {.noise = 15})));
 }
 
 TEST(SharedWalk, through_every_shared_scan_with_every_mode_on_stays_finite_bounded_certified_and_repeatable) {

@@ -2,13 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "plugin/testing/command_rig.h"
 
@@ -148,6 +151,129 @@ TEST(SharedSeriesOption, SeveralSeriesAndNoneChosenIsWrongUsage) {
   const Outcome unreadable = palpate(sample + "--series 4");
   EXPECT_EQ(unreadable.exit, 1);
   EXPECT_THAT(unreadable.output, HasSubstr("none of its images can be read"));
+}
+
+/// A phantom on a grid that is oblique, tilted and not square, written as DICOM: every number that is asked for is
+/// known from the grid and the scan.
+struct Known {
+  io::Volume volume;
+  fs::path folder;
+};
+Known known_series(const char* name, const testdata::SeriesLabel& label = {}) {
+  testdata::Grid grid;
+  grid.size = {20, 18, 12};
+  grid.spacing = {0.8, 0.6, 1.5};
+  grid.center = {12, -34, 56};
+  grid.tilt_degrees = 10;
+  grid = testdata::rotated(grid, glm::normalize(glm::dvec3(1, 2, 3)), 25);
+  Known known{testdata::scan(testdata::make_sphere(60), testdata::make_geometry(grid), {.noise = 20}),
+              fresh_path(name)};
+  testdata::write_series(known.volume, known.folder, label);
+  return known;
+}
+
+std::vector<double> numbers(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+TEST(CommandInfo, SaysWhatTheGridIs) {
+  testdata::SeriesLabel label;
+  label.description = "oblique ball";
+  const Known known = known_series("known", label);
+  const io::Geometry& g = known.volume.geometry;
+  const Outcome outcome = palpate("info --json " + known.folder.string(), false);
+  ASSERT_EQ(outcome.exit, 0);
+  const Json all = Json::parse(outcome.output);
+  EXPECT_TRUE(all.at("skipped").empty());
+  ASSERT_EQ(all.at("series").size(), 1U);
+  const Json& s = all.at("series").at(0);
+  EXPECT_EQ(s.at("modality"), "CT");
+  EXPECT_EQ(s.at("description"), "oblique ball");
+  EXPECT_EQ(s.at("files"), 12);
+  EXPECT_EQ(s.at("dimensions"), Json({20, 18, 12}));
+  EXPECT_EQ(s.at("unit"), "HU");
+  EXPECT_EQ(s.at("uniform"), true);
+  EXPECT_EQ(s.at("usable"), true);
+  expect_near(s.at("origin_mm"), numbers(g.slice_positions.front()), 1e-6, "origin_mm");
+  expect_near(s.at("direction_i"), numbers(g.direction_i), 1e-6, "direction_i");
+  expect_near(s.at("direction_j"), numbers(g.direction_j), 1e-6, "direction_j");
+  expect_near(s.at("step_mm"), numbers(g.step), 1e-6, "step_mm");
+  // Between slices along their normal: less than the step of a tilted gantry is long.
+  const double apart = glm::dot(g.step, glm::normalize(glm::cross(g.direction_i, g.direction_j)));
+  EXPECT_LT(apart, 0.99 * glm::length(g.step));
+  expect_near(s.at("spacing_mm"), Json({0.8, 0.6, apart}), 1e-5, "spacing_mm");
+  double least = 1e9, most = -1e9, sum = 0;
+  for (int k = 0; k < 12; ++k) {
+    for (int j = 0; j < 18; ++j) {
+      for (int i = 0; i < 20; ++i) {
+        const double value = known.volume.value_at(i, j, k);
+        least = std::min(least, value);
+        most = std::max(most, value);
+        sum += value;
+      }
+    }
+  }
+  EXPECT_EQ(s.at("minimum"), least);
+  EXPECT_EQ(s.at("maximum"), most);
+  EXPECT_NEAR(s.at("mean"), sum / (20 * 18 * 12), 1e-6);
+}
+
+TEST(CommandSample, GivesTheVoxelAtItsCenterAndSaysWhatIsOutside) {
+  const Known known = known_series("sampled");
+  const io::Geometry& g = known.volume.geometry;
+  std::string points;
+  std::vector<double> values;
+  for (int n = 0; n < 40; ++n) {
+    const glm::ivec3 at(7 * n % 20, 5 * n % 18, 11 * n % 12);
+    const glm::dvec3 p = g.slice_positions[static_cast<std::size_t>(at.z)] + (at.x * g.spacing_i) * g.direction_i +
+                         (at.y * g.spacing_j) * g.direction_j;
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), " %.6f,%.6f,%.6f", p.x, p.y, p.z);
+    points += text.data();
+    values.push_back(known.volume.value_at(at.x, at.y, at.z));
+  }
+  const Outcome outcome = palpate("sample --json " + known.folder.string() + " --at" + points, false);
+  ASSERT_EQ(outcome.exit, 0);
+  const Json samples = Json::parse(outcome.output);
+  ASSERT_EQ(samples.size(), values.size());
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    EXPECT_NEAR(samples[n].value("value", std::nan("")), values[n], 0.05) << n << " " << samples[n];
+    EXPECT_EQ(samples[n].at("gradient_per_mm").size(), 3U);
+  }
+  const Outcome outside = palpate("sample --json " + known.folder.string() + " --at 0,0,5000", false);
+  EXPECT_EQ(Json::parse(outside.output), Json::parse(R"([{"position_mm": [0.0, 0.0, 5000.0], "outside": true}])"));
+}
+
+TEST(SeriesOption, SeveralSeriesAreToldApartAndNoneChosenIsWrongUsage) {
+  const fs::path both = fresh_path("both");
+  fs::create_directory(both);
+  testdata::SeriesLabel first, second;
+  first.description = "THIN";
+  first.number = 3;
+  second.description = "THICK";
+  second.number = 4;
+  const Known thin = known_series("both/thin", first), thick = known_series("both/thick", second);
+  const glm::dvec3 middle = thin.volume.geometry.to_patient({10, 9, 6});
+  std::array<char, 128> at{};
+  std::snprintf(at.data(), at.size(), " --at %.6f,%.6f,%.6f ", middle.x, middle.y, middle.z);
+  const std::string sample = "sample " + both.string() + at.data();
+  const Outcome none = palpate(sample);
+  EXPECT_EQ(none.exit, 2);
+  EXPECT_THAT(none.output, ::testing::AllOf(HasSubstr("holds 2 series"), HasSubstr("THIN"), HasSubstr("THICK")));
+  EXPECT_EQ(palpate(sample + "--series 1").exit, 0);
+  EXPECT_EQ(palpate(sample + "--series 2").exit, 0);
+  EXPECT_EQ(palpate(sample + "--series 99").exit, 2);
+  EXPECT_EQ(palpate(sample + "--series 1.2.3").exit, 2);
+  EXPECT_EQ(palpate(sample + "--series 1 --frame 1").exit, 2);
+}
+
+TEST(CommandInfo, ShowsWhoseScanItIsOnRequestOnly) {
+  testdata::SeriesLabel label;
+  label.subject = "PLASTIC^HEAD";
+  const fs::path scan = known_series("named", label).folder;
+  EXPECT_THAT(palpate("info " + scan.string()).output, Not(HasSubstr("PLASTIC")));
+  EXPECT_THAT(palpate("info --json " + scan.string()).output, Not(HasSubstr("PLASTIC")));
+  EXPECT_THAT(palpate("info --patient " + scan.string()).output, HasSubstr("PLASTIC"));
 }
 
 TEST(SeriesOption, NothingToUseIsRefusedWithAReason) {
