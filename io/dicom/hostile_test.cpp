@@ -81,6 +81,24 @@ std::string only_reason(const TestFolder& folder) {
   return found.skipped.empty() ? "" : found.skipped[0].reason;
 }
 
+constexpr std::array codings{EXS_RLELossless, EXS_JPEGProcess14SV1, EXS_JPEGLSLossless, EXS_JPEG2000LosslessOnly};
+
+/// Three slices of 32 x 32, s0.dcm to s2.dcm, compressed.
+void write_coded(const fs::path& folder, E_TransferSyntax syntax) {
+  internal::register_encoders();
+  write_stack(folder, 3, [syntax](int, TestImage& image) {
+    image.columns = image.rows = 32;
+    image.value = [](int i, int j) { return 13 * i + 7 * j; };
+    image.syntax = syntax;
+    image.edit = [syntax, &image](DcmDataset& d) {
+      const auto coded = syntax == EXS_JPEGLSLossless         ? internal::jpeg_ls(32, 32, 16, 0, image.value)
+                         : syntax == EXS_JPEG2000LosslessOnly ? internal::jpeg2000(32, 32, 16, false, image.value)
+                                                              : std::vector<Uint8>();
+      if (!coded.empty()) internal::encapsulate(d, syntax, {coded}, 1U << 20);
+    };
+  });
+}
+
 TEST(Hostile, ClaimedSizesCostNoMemory) {
   const long before = peak_mib();
   for (const bool many_frames : {false, true}) {
@@ -101,21 +119,9 @@ TEST(Hostile, ClaimedSizesCostNoMemory) {
       for (const Series& series : find_series(std::array{folder.path()}).series) EXPECT_FALSE(series.usable);
     }
   }
-  internal::register_encoders();
-  for (const E_TransferSyntax syntax :
-       {EXS_RLELossless, EXS_JPEGProcess14SV1, EXS_JPEGLSLossless, EXS_JPEG2000LosslessOnly}) {
+  for (const E_TransferSyntax syntax : codings) {
     const TestFolder folder;
-    write_stack(folder.path(), 3, [syntax](int, TestImage& image) {
-      image.columns = image.rows = 32;
-      image.value = [](int i, int j) { return 13 * i + 7 * j; };
-      image.syntax = syntax;
-      image.edit = [syntax, &image](DcmDataset& d) {
-        const auto coded = syntax == EXS_JPEGLSLossless         ? internal::jpeg_ls(32, 32, 16, 0, image.value)
-                           : syntax == EXS_JPEG2000LosslessOnly ? internal::jpeg2000(32, 32, 16, false, image.value)
-                                                                : std::vector<Uint8>();
-        if (!coded.empty()) internal::encapsulate(d, syntax, {coded}, 1U << 20);
-      };
-    });
+    write_coded(folder.path(), syntax);
     ASSERT_TRUE(find_series(std::array{folder.path()}).series.at(0).usable);
     for (int k = 0; k < 3; ++k) {
       const fs::path file = folder / (internal::numbered("s", k) + ".dcm");
@@ -243,6 +249,11 @@ TEST(Hostile, RandomDamageCostsAtMostThatSlice) {
   const TestFolder plain;
   write(TestImage(), plain / "plain");
   seeds.push_back(plain / "plain");
+  std::array<TestFolder, codings.size()> coded;
+  for (std::size_t n = 0; n < codings.size(); ++n) {
+    write_coded(coded[n].path(), codings[n]);
+    seeds.push_back(coded[n] / "s1.dcm");
+  }
   const long before = peak_mib();
   std::mt19937 random(20240229);
   for (const fs::path& seed : seeds) {
