@@ -63,24 +63,29 @@ void LiveSession::publish(double change_s) {
   last_epoch_ = session_->publish(snapshot(change_s));
 }
 
-void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume) {
-  if (!volume) disconnect();
-  felt_ = felt_of(scene_, volume);
+void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene) {
+  if (!volume) {
+    disconnect();
+    modes::validate(scene);
+  }
+  felt_ = felt_of(scene, volume);
+  scene_ = scene;
   if (volume != volume_) scan_hash_.clear();
   volume_ = std::move(volume);
   publish(scene_.limits.ramp_s);
 }
 
 void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
-  modes::validate(scene);
+  if (!volume_) modes::validate(scene);  // else its plan does
   felt_ = felt_of(scene, volume_);
   scene_ = scene;
   publish(pace == Pace::dragged ? std::min(dragged_s, scene.limits.ramp_s) : scene.limits.ramp_s);
 }
 
-void LiveSession::connect(std::shared_ptr<device::Stylus> stylus) {
+void LiveSession::connect(std::shared_ptr<device::Stylus> stylus, Start start) {
   if (!volume_) throw std::runtime_error("there is no scan to feel yet: open one first");
   disconnect();
+  start_ = start;
   begin(std::move(stylus), {});
 }
 
@@ -108,6 +113,7 @@ void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optio
                                    .maximum_force_n = specification_.maximum_force});
     }
     session_ = std::make_unique<Session>(snapshot(scene_.limits.ramp_s), stylus_, ring_.get());
+    if (start_ == Start::released) session_->disarm();  // before the first tick
     servo_ = std::make_unique<Servo>(*session_, specification_.rate);
   } catch (...) {
     end();
@@ -141,10 +147,12 @@ std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
 }
 
 void LiveSession::feel() noexcept {
+  start_ = Start::feeling;
   if (session_) session_->arm();
 }
 
 void LiveSession::release() noexcept {
+  start_ = Start::released;
   if (session_) session_->disarm();
 }
 
@@ -161,7 +169,9 @@ void LiveSession::heartbeat() {
 void LiveSession::record(const std::filesystem::path& file) {
   if (!is_connected()) throw std::runtime_error("no stylus is held: connect one, then record");
   std::shared_ptr<device::Stylus> stylus = stylus_;
+  const Start before = start_;
   disconnect();
+  start_ = before;
   try {
     begin(stylus, file);
   } catch (...) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "device/stylus.h"
 #include "io/volume.h"
@@ -35,7 +36,9 @@ class LiveSession {
 
   /// Another scan, or another frame of it; null: none, and the stylus is disconnected. Throws std::invalid_argument
   /// where the scene cannot be felt on it.
-  void set_scan(std::shared_ptr<const io::Volume> volume);
+  void set_scan(std::shared_ptr<const io::Volume> volume) { set_scan(std::move(volume), modes::Scene(scene_)); }
+  /// The same with another scene, in one change. The scene is not felt before, on no scan.
+  void set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene);
   /// Throws std::invalid_argument, naming the key, for a scene that is not valid; the last one then goes on.
   void set_scene(const modes::Scene& scene, Pace pace = Pace::stepped);
   const std::shared_ptr<const io::Volume>& scan() const noexcept { return volume_; }
@@ -45,9 +48,11 @@ class LiveSession {
   /// N/m: what is felt, for a scene may ask for more than the stylus renders stably.
   double stiffness_n_per_m() const noexcept { return felt_.plan ? felt_.plan->stiffness_n_per_m : 0; }
 
-  /// Opens the stylus; the force is ramped up. Throws what Stylus::open() throws, and std::runtime_error without a
-  /// scan.
-  void connect(std::shared_ptr<device::Stylus> stylus);
+  /// Whether forces are on from the first tick.
+  enum class Start { released, feeling };
+  /// Opens the stylus; where it starts feeling, the force is ramped up. Throws what Stylus::open() throws, and
+  /// std::runtime_error without a scan.
+  void connect(std::shared_ptr<device::Stylus> stylus, Start start = Start::feeling);
   /// The force falls to zero, then the stylus is closed and the recording ends, if there is one: its status is
   /// returned. Blocks for a tenth of a second.
   std::optional<RecorderStatus> disconnect() noexcept;
@@ -87,6 +92,7 @@ class LiveSession {
   modes::Scene scene_;
   PreparedScene felt_;
   std::uint32_t last_epoch_ = 0;
+  Start start_ = Start::feeling;  // as a session that begins now does: what was asked for last
   std::shared_ptr<device::Stylus> stylus_;
   device::Specification specification_;
   // In the order in which they lean on each other.

@@ -11,15 +11,21 @@
 #include <vtkSMProxyLocator.h>
 #include <vtkSMSourceProxy.h>
 
+#include <QAbstractButton>
+#include <QAbstractSlider>
 #include <QAbstractSpinBox>
+#include <QApplication>
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QTimer>
 #include <QVBoxLayout>
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <utility>
 
 #include "plugin/paraview/client/panel/column_scroll.h"
@@ -30,18 +36,30 @@
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/recordings_section.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
+#include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/remote/server_watch.h"
 #include "plugin/paraview/client/scan/first_folder.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/mapping.h"
+#include "plugin/paraview/client/stylus/start_place.h"
 #include "plugin/paraview/client/stylus/stylus_section.h"
 #include "plugin/paraview/client/stylus/stylus_views.h"
 #include "plugin/paraview/client/views/boundary_colors.h"
+#include "plugin/paraview/client/views/flow_views.h"
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/session/scan.h"
 
 using namespace palpate;
 using namespace palpate::plugin;
+
+namespace {
+
+void focus_marked_view() {
+  if (QApplication::activeModalWidget() || QApplication::activePopupWidget()) return;
+  if (pqView* const marked = pqActiveObjects::instance().activeView()) marked->widget()->setFocus();
+}
+
+}  // namespace
 
 /// In the order in which they lean on each other.
 struct PalpatePanel::Parts {
@@ -49,8 +67,13 @@ struct PalpatePanel::Parts {
 
   void build();
   void leave(const QString& why);
+  void leave_server();
+  void note_scan(const ScanHandle& handle);
   void adopt_state();
-  void show_scan(const std::shared_ptr<const io::Volume>& volume);
+  void show_scan(const ScanHandle& handle);
+  void show_frame(const ScanHandle& handle);
+  void name_felt();
+  glm::dvec3 start_of(const device::Specification& stylus);
   void leave_views();
   void read_opacity();
   void study(const std::shared_ptr<const io::Volume>& volume);
@@ -60,10 +83,12 @@ struct PalpatePanel::Parts {
   PalpatePanel& dock;
   SceneModel model;
   SessionController touching;
+  FlowViews flow;
   StylusViews views;
   ServerWatch servers;
   Fold* scan_fold = nullptr;
   Fold* recordings_fold = nullptr;
+  Footer* footer = nullptr;
   ScanSection* scan = nullptr;
   TissuesSection* tissues = nullptr;
   StylusSection* stylus = nullptr;
@@ -123,12 +148,23 @@ void PalpatePanel::Parts::build() {
   halves->setContentsMargins(0, 0, 0, 0);
   halves->setSpacing(0);
   halves->addWidget(new ColumnScroll(QStringLiteral("palpateScroll"), content, whole), 1);
-  halves->addWidget(new Footer(touching, model, whole));
+  halves->addWidget(footer = new Footer(touching, model, whole));
   dock.setWidget(whole);
 
-  QObject::connect(scan, &ScanSection::closing, &dock, [this] { leave_views(); });
+  QObject::connect(scan, &ScanSection::closing, &dock, [this] {
+    touching.release();  // before another scan takes its place
+    leave_views();
+  });
   QObject::connect(scan, &ScanSection::out_of_reach, &dock, [this](const QString& why) { touching.set_no_scan(why); });
-  QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const auto& volume) { show_scan(volume); });
+  QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const ScanHandle& handle) { show_scan(handle); });
+  QObject::connect(scan, &ScanSection::frame_shown, &dock, [this](const ScanHandle& handle) { show_frame(handle); });
+  QObject::connect(stylus, &StylusSection::stylus_wanted, &dock, [this] {
+    SCOPED_UNDO_EXCLUDE();
+    if (touching.last().is_seen()) scan->views().show_point(touching.last().proxy_mm);
+  });
+  scan->views().set_slice_shown([this](SliceView& slice) { flow.show(slice); });
+  scan->views().set_leafed([this] { stylus->pause_following(); });
+  touching.set_start([this](const device::Specification& device) { return start_of(device); });
   QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
     recordings_fold->set_open(true);
     recordings->open(file);
@@ -156,8 +192,7 @@ void PalpatePanel::Parts::build() {
     QObject::disconnect(&touching, &SessionController::recorded, recordings, nullptr);  // nobody looks at it any more
     touching.disconnect_stylus();
   });
-  QObject::connect(&servers, &ServerWatch::leaving, &dock,
-                   [this] { leave(tr("ParaView left the server: the stylus was let go, and a recording closed.")); });
+  QObject::connect(&servers, &ServerWatch::leaving, &dock, [this] { leave_server(); });
   QObject::connect(&servers, &ServerWatch::lost, &dock, [this] {
     leave(
         tr("The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without its "
@@ -165,6 +200,19 @@ void PalpatePanel::Parts::build() {
   });
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
   open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
+}
+
+/// In good order: another server, none, or a new session.
+void PalpatePanel::Parts::leave_server() {
+  if (remote_server()) {
+    const bool records = touching.live().recording().has_value();
+    leave(records ? tr("ParaView left the server: the stylus was let go, and a recording closed.")
+                  : tr("ParaView left the server: the stylus was let go."));
+    return;
+  }
+  touching.keep_off(tr("ParaView's session ended, and the scan went with it. Open a scan, then press Feel"));
+  scan->server_gone();
+  leave_views();
 }
 
 /// All that a server has goes, and what is held of it is let go: first the force, and the recording with it.
@@ -178,31 +226,40 @@ void PalpatePanel::Parts::leave(const QString& why) {
 
 /// What a state file has restored is taken over: scan, scene and views.
 void PalpatePanel::Parts::adopt_state() {
+  touching.release();
   const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
   pqPipelineSource* reader = nullptr;
+  pqPipelineSource* scene = nullptr;
   for (pqPipelineSource* const source : sources) {
     const std::string kind = source->getProxy()->GetXMLName();
     if (kind == "PalpateDicomReader") reader = source;
-    if (kind == "PalpateScene") model.adopt(*source);
+    if (kind == "PalpateScene") scene = source;
   }
-  if (!reader || reader == scan->source()) return;
+  const bool another = reader && reader != scan->source();
+  if (another) touching.expect_scan();
+  if (scene) model.adopt(*scene);
+  if (!another) return;
   restoring = true;
   scan->adopt(*reader);
 }
 
-void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& volume) {
+void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   pqServer* const server = pqActiveObjects::instance().activeServer();
   if (!server) return;
   proposing = true;
   const bool restored = std::exchange(restoring, false) && model.source();
+  touching.release();
   if (!restored) {
-    modes::Scene scene = scene_for("", *volume);
+    modes::Scene scene = scene_for("", *handle.volume);
     scene.workspace.fit = true;
-    if (!touching.live().is_connected()) touching.set_scan(nullptr);
+    touching.expect_scan();  // the scene is for this scan, not for the last one
     model.open(*server, scene);
   }
-  touching.set_scan(volume);
-  const std::vector<ClinicalView> shown = find_clinical_views();
+  touching.set_scan(handle.volume);
+  model.forget_steps();
+  tissues->forget_scan();
+  if (restored) tissues->set_restored();
+  const std::vector<ClinicalView> shown = scan->views().views();
   profile->set_views(shown);
   recordings->set_views(shown);
   views.set_views(shown);  // last: the stylus is drawn over the paths
@@ -210,14 +267,71 @@ void PalpatePanel::Parts::show_scan(const std::shared_ptr<const io::Volume>& vol
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
   low = lattice.values.low;
   high = lattice.values.high;
+  flow.set_views(shown);
+  flow.set_volume(handle.volume);
+  touching.begin_outside();
   proposing = false;
   edited = restored;
-  scan_fold->set_note(QString::fromStdString(describe_scan(*volume)));
-  scan_fold->set_open(scan->has_notes());
-  study(volume);
+  note_scan(handle);
+  scan_fold->set_open(scan->has_notes() || handle.frames > 1);
+  study(handle.volume);
+}
+
+void PalpatePanel::Parts::show_frame(const ScanHandle& handle) {
+  touching.set_scan(handle.volume);
+  flow.set_volume(handle.volume);
+  note_scan(handle);
+}
+
+void PalpatePanel::Parts::note_scan(const ScanHandle& handle) {
+  const QString scan_words = QString::fromStdString(describe_scan(*handle.volume));
+  scan_fold->set_note(handle.frames > 1 ? QStringLiteral("%1, %2").arg(scan_words, handle.frame_in_words())
+                                        : scan_words);
+}
+
+/// Scan, frame and scene: what the stylus has, whatever is looked at.
+void PalpatePanel::Parts::name_felt() {
+  const ScanHandle& handle = scan->handle();
+  if (!handle.volume) {
+    footer->set_felt(tr("No scan is open."));
+    return;
+  }
+  const QStringList others = scan->others_shown();
+  const QString felt = tr("Felt: %1. Scene: %2.").arg(handle.in_words(), tissues->scene_in_words());
+  footer->set_felt(others.isEmpty() ? felt
+                                    : felt + QLatin1Char(' ') +
+                                          tr("Also shown, not felt: %1.").arg(others.join(QStringLiteral(", "))));
+}
+
+/// In sight, in reach and outside of anything felt.
+glm::dvec3 PalpatePanel::Parts::start_of(const device::Specification& of) {
+  const LiveSession& live = touching.live();
+  const auto plan = live.plan();
+  const auto& volume = live.scan();
+  const auto in_reach = [&](const glm::dvec3& place) {
+    constexpr double margin = 0.95;
+    const glm::dvec3 at = glm::abs(plan->workspace.to_device(place));
+    return glm::all(glm::lessThan(at, margin * of.workspace_half_extent));
+  };
+  const StartPlace start = find_start_place(
+      volume, *plan, live.scene().gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)), in_reach,
+      [this](const glm::dvec3& place) { return views.shows(place); });
+  if (!start.outside) {
+    QMetaObject::invokeMethod(
+        &dock,
+        [this] {
+          emit touching.told(
+              tr("No place outside the patient is in reach: the stylus begins inside. Choose Reach: Scan "
+                 "before you press Feel."),
+              true);
+        },
+        Qt::QueuedConnection);
+  }
+  return start.place_mm;
 }
 
 void PalpatePanel::Parts::leave_views() {
+  flow.set_views({});
   views.set_views({});
   profile->set_views({});
   recordings->set_views({});
@@ -249,7 +363,7 @@ void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume)
 /// What is seen of the volume, as it is shown now.
 void PalpatePanel::Parts::read_opacity() {
   if (!scan->source()) return;
-  for (const ClinicalView& one : find_clinical_views()) {
+  for (const ClinicalView& one : scan->views().views()) {
     if (one.kind != ViewKind::volume) continue;
     if (pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view)) {
       views.set_opacity(opacity_of(*shown->getProxy()));
@@ -260,7 +374,7 @@ void PalpatePanel::Parts::read_opacity() {
 void PalpatePanel::Parts::color_views() {
   SCOPED_UNDO_EXCLUDE();  // follows from the scene
   if (!scan->source()) return;
-  for (const ClinicalView& one : find_clinical_views()) {
+  for (const ClinicalView& one : scan->views().views()) {
     if (one.kind != ViewKind::volume) continue;
     pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
     if (!shown) continue;
@@ -274,6 +388,8 @@ void PalpatePanel::Parts::look(const SessionStatus& seen) {
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
   // A recording that stands still does not keep the slices from being leafed through.
   const bool moved = seen.connected || std::exchange(followed, seen.frame.index) != seen.frame.index;
+  if (seen.connected) touching.keep_off(scan->why_not_felt());
+  name_felt();
   if (seen.is_seen() && moved && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
   views.show(seen);
 }
@@ -292,6 +408,17 @@ PalpatePanel::~PalpatePanel() {
 bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
   const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
   if (pressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) parts_->touching.release();
+  // A button that was clicked is done with: the arrow keys are the marked view's again.
+  if (event->type() == QEvent::MouseButtonRelease && qobject_cast<QAbstractButton*>(watched) &&
+      isAncestorOf(static_cast<QWidget*>(watched))) {
+    QTimer::singleShot(0, this, [] { focus_marked_view(); });
+  }
+  // A number changes only where it was clicked: focus that a hidden button leaves behind is not to come to it.
+  if (event->type() == QEvent::Polish && isAncestorOf(qobject_cast<QWidget*>(watched)) &&
+      (qobject_cast<QAbstractSpinBox*>(watched) || qobject_cast<QComboBox*>(watched) ||
+       qobject_cast<QAbstractSlider*>(watched))) {
+    static_cast<QWidget*>(watched)->setFocusPolicy(Qt::ClickFocus);
+  }
   // The wheel scrolls the column: a force limit that the pointer happens to pass over is not to change.
   if (event->type() == QEvent::Wheel && isAncestorOf(qobject_cast<QWidget*>(watched)) &&
       (qobject_cast<QAbstractSpinBox*>(watched) || qobject_cast<QComboBox*>(watched)) &&

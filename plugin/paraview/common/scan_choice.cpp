@@ -25,8 +25,8 @@ bool has_file(const io::Series& series, const std::filesystem::path& path) {
 
 [[noreturn]] void refuse(const io::Catalogue& catalogue, const std::string& why) {
   std::string there;
-  for (std::size_t n = 0; n < catalogue.series.size(); ++n) {
-    there += fmt::format("\n  {}  {}", scan_name(catalogue, n), scan_label(catalogue.series[n]));
+  for (std::size_t n = 0; n < scan_count(catalogue); ++n) {
+    there += fmt::format("\n  {}  {}", scan_name(catalogue, n), scan_label(scan_at(catalogue, n)));
   }
   if (there.empty() && !catalogue.skipped.empty()) {
     there = fmt::format(" no image among {} files; the first, {}: {}", catalogue.skipped.size(),
@@ -37,7 +37,17 @@ bool has_file(const io::Series& series, const std::filesystem::path& path) {
 
 }  // namespace
 
+std::size_t scan_count(const io::Catalogue& catalogue) {
+  return catalogue.series.size() + catalogue.velocity_fields.size();
+}
+
+const io::Series& scan_at(const io::Catalogue& catalogue, std::size_t index) {
+  return is_velocity(catalogue, index) ? catalogue.velocity_fields[index - catalogue.series.size()]
+                                       : catalogue.series[index];
+}
+
 std::string scan_name(const io::Catalogue& catalogue, std::size_t index) {
+  if (is_velocity(catalogue, index)) return scan_at(catalogue, index).uid;  // of its series, joined
   const std::string& uid = catalogue.series[index].uid;
   const auto end = catalogue.series.begin() + static_cast<std::ptrdiff_t>(index);
   const auto before = std::count_if(catalogue.series.begin(), end, [&](const auto& s) { return s.uid == uid; });
@@ -55,7 +65,7 @@ std::string scan_label(const io::Series& series) {
 
 std::vector<std::size_t> choices(const io::Catalogue& catalogue, const std::filesystem::path& path) {
   const auto& all = catalogue.series;
-  std::vector<std::size_t> order(all.size());
+  std::vector<std::size_t> order(scan_count(catalogue));
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::error_code ignored;
   const auto first = std::filesystem::is_regular_file(path, ignored)
@@ -69,7 +79,7 @@ std::vector<std::size_t> choices(const io::Catalogue& catalogue, const std::file
 std::size_t choose_scan(const io::Catalogue& catalogue, const std::string& name, const std::filesystem::path& path) {
   const std::string where = path.filename().string();
   if (!name.empty()) {
-    for (std::size_t n = 0; n < catalogue.series.size(); ++n) {
+    for (std::size_t n = 0; n < scan_count(catalogue); ++n) {
       if (scan_name(catalogue, n) == name) return n;
     }
     refuse(catalogue, fmt::format("{}: no series {}", where, name));

@@ -5,8 +5,9 @@ Arguments as in panel_program.py; main_thread, which is a measurement, can be as
 
 import os
 import shutil
+import subprocess
 
-from panel_program import SCRATCH, ball, main, phantom, run
+from panel_program import PROGRAMS, SCRATCH, ball, main, phantom, run, scratch
 
 
 def both():
@@ -30,7 +31,36 @@ def mixed():
     return folder if os.path.isdir(folder) else None
 
 
+def flow():
+    """A 4D-flow study: magnitude, three velocities, and what they are together."""
+    folder = scratch("panel-flow")
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "flow", "-o", folder], check=True)
+    return folder
+
+
+def numbered(name, *arguments):
+    """The ball with the scanner's image numbers the other way round; and where its image 1 lies."""
+    folder = phantom(name, "sphere", "--radius", "25", *arguments)
+    files = sorted(os.listdir(folder))
+    for n, file in enumerate(files):
+        subprocess.run(["dcmodify", "-nb", "-m", f"(0020,0013)={len(files) - n}", os.path.join(folder, file)], check=True)
+    for file in files:
+        dump = subprocess.run(["dcmdump", "+P", "0020,0013", "+P", "0020,0032", os.path.join(folder, file)], check=True,
+                              capture_output=True, text=True).stdout
+        values = [line.split("[")[1].split("]")[0].strip() for line in dump.splitlines() if "[" in line]
+        if values[0] == "1":
+            os.environ["PALPATE_FIRST_H"] = values[1].split("\\")[2]
+    return folder
+
+
 FOLDERS = {
+    "slices_are_scrolled": lambda: numbered("numbered"),
+    "slices_are_scrolled_upside_down": lambda: numbered("upside-down", "--orientation", "1,0,0,0,-1,0"),
+    "frames_are_felt_as_shown": flow,
+    "a_flow_is_shown_and_felt": flow,
+    "undo_belongs_to_a_scan": both,
+    "no_scan_shown_no_force": both,
     "the_scan_changes_in_mid_contact": both,
     "a_series_is_picked": mixed,
     "a_bad_folder": bad,
@@ -53,6 +83,17 @@ SCENARIOS = [
     "a_dragged_node_is_felt",
     "profile_follows_an_edit",
     "recordings_are_replayed_and_compared",
+    "no_scan_shown_no_force",
+    "a_reset_session_has_no_force",
+    "a_loaded_state_has_no_force",
+    "undo_belongs_to_a_scan",
+    "frames_are_felt_as_shown",
+    "a_scene_without_its_field_is_refused",
+    "a_flow_is_shown_and_felt",
+    "the_hand_begins_in_sight",
+    "keys_go_to_the_marked_view",
+    "slices_are_scrolled",
+    "slices_are_scrolled_upside_down",
     "closed_in_mid_contact",
 ]
 

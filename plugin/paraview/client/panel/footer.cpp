@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QStandardPaths>
@@ -12,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "plugin/paraview/client/panel/force_strip.h"
+#include "plugin/paraview/client/stylus/session_state.h"
 #include "solver/solution.h"
 
 namespace palpate::plugin {
@@ -46,6 +48,10 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
   large.setPointSizeF(large.pointSizeF() * 1.4);
   large.setBold(true);
   force_->setFont(large);
+  felt_ = make_value(this, "palpateFelt", tr("Scan, frame and scene that the stylus feels"));
+  felt_->setWordWrap(true);
+  felt_->setText(tr("No scan is open."));
+  grid->addWidget(felt_, 6, 0, 1, 3);
   grid->addWidget(force_, 0, 0);
   grid->addWidget(depth_, 0, 1, 1, 2);
   grid->addWidget(tissue_, 1, 0, 1, 3);
@@ -59,7 +65,7 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
       tr("Keeps every tick in a file that can be repeated to the last bit. No patient's name goes into it."));
   connect(record_, &QPushButton::clicked, this, [this] { toggle_recording(); });
   grid->addWidget(record_, 4, 2);
-  release_ = new QPushButton(tr("Release force  (Esc)"), this);
+  release_ = new QPushButton(tr("Release  (Esc)"), this);
   release_->setObjectName(QStringLiteral("palpateRelease"));
   release_->setMinimumHeight(38);
   release_->setStyleSheet(
@@ -67,7 +73,26 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
                      "QPushButton:pressed { background: #7a0016 }"
                      "QPushButton:disabled { background: palette(mid); color: palette(dark) }"));
   connect(release_, &QPushButton::clicked, this, [this] { touching_.release(); });
-  grid->addWidget(release_, 5, 0, 1, 3);
+  release_->setMinimumWidth(120);
+  auto* const row = new QHBoxLayout;
+  lamp_ = new QLabel(this);
+  lamp_->setObjectName(QStringLiteral("palpateLamp"));
+  lamp_->setFixedSize(12, 12);
+  row->addWidget(lamp_);
+  state_ = new QLabel(this);
+  state_->setObjectName(QStringLiteral("palpateState"));
+  state_->setWordWrap(true);
+  state_->setTextFormat(Qt::PlainText);
+  state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  row->addWidget(state_, 1);
+  feel_ = new QPushButton(tr("Feel"), this);
+  feel_->setObjectName(QStringLiteral("palpateFeel"));
+  feel_->setMinimumHeight(38);
+  connect(feel_, &QPushButton::clicked, this,
+          [this] { state_line_of(touching_.last()).fault_latched ? touching_.clear_fault() : touching_.feel(); });
+  row->addWidget(feel_);
+  row->addWidget(release_);
+  grid->addLayout(row, 5, 0, 1, 3);
   grid->setColumnStretch(0, 2);
   grid->setColumnStretch(1, 3);
   connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
@@ -95,7 +120,29 @@ void Footer::toggle_recording() {
   if (!file.isEmpty()) touching_.record(file.toStdString());
 }
 
+void Footer::set_felt(const QString& words) {
+  if (felt_->text() == words) return;
+  felt_->setText(words);
+  felt_->setToolTip(words);
+}
+
+void Footer::show_state(const SessionStatus& look) {
+  const StateLine line = state_line_of(look);
+  feel_->setText(line.fault_latched ? tr("Clear fault") : tr("Feel"));
+  feel_->setEnabled(line.fault_latched || line.state == SessionState::ready);
+  if (state_->text() == line.words) return;
+  state_->setText(line.words);
+  state_->setToolTip(line.words);
+  // Colors that the color-blind can tell apart, too; and the state is always there in words.
+  const char* color = "#808080";
+  if (line.state == SessionState::ready) color = "#56b4e9";
+  if (line.state == SessionState::feeling) color = "#009e73";
+  if (line.state == SessionState::stopped) color = "#d55e00";
+  lamp_->setStyleSheet(QStringLiteral("background: %1; border-radius: 6px").arg(QLatin1String(color)));
+}
+
 void Footer::show_look(const SessionStatus& look) {
+  show_state(look);
   if (!look.connected && !look.replayed) {
     force_->setText(QStringLiteral("–"));
     depth_->setText(tr("no stylus"));

@@ -19,8 +19,12 @@ class Footer : public QWidget {
  public:
   explicit Footer(SessionController& touching, const SceneModel& model, QWidget* parent = nullptr);
 
+  /// What is felt, in words: scan, frame, scene.
+  void set_felt(const QString& words);
+
  private:
   void show_look(const SessionStatus& look);
+  void show_state(const SessionStatus& look);
   void show_connection();
   void toggle_recording();
 
@@ -34,6 +38,10 @@ class Footer : public QWidget {
   ForceStrip* strip_;
   QPushButton* record_;
   QPushButton* release_;
+  QPushButton* feel_ = nullptr;
+  QLabel* lamp_ = nullptr;
+  QLabel* state_ = nullptr;
+  QLabel* felt_ = nullptr;
 };
 
 }  // namespace palpate::plugin

@@ -51,9 +51,11 @@ void SceneModel::open(pqServer& server, const modes::Scene& scene) {
   propose(scene);
 }
 
-void SceneModel::propose(const modes::Scene& scene) {
+bool SceneModel::propose(const modes::Scene& scene) {
   SCOPED_UNDO_EXCLUDE();
-  if (take(scene, Pace::stepped)) keep({});
+  if (!take(scene, Pace::stepped)) return false;
+  keep({});
+  return true;
 }
 
 void SceneModel::adopt(pqPipelineSource& source) {
@@ -70,16 +72,32 @@ void SceneModel::follow_source() {
   if (text == text_ || text.empty()) return;
   try {
     const modes::Scene scene = text.front() == '{' ? modes::scene_from_json(text, "scene") : modes::load_scene(text);
-    text_ = text;
-    take(scene, Pace::stepped);
+    if (take(scene, Pace::stepped)) {
+      text_ = text;
+      return;
+    }
   } catch (const std::exception& error) {
     emit refused(QString::fromUtf8(error.what()));
   }
+  put_back();
+}
+
+/// The pipeline has a scene that was refused: it gets the one that is felt.
+void SceneModel::put_back() {
+  text_ = modes::to_json(scene_);
+  keeping_ = true;
+  {
+    SCOPED_UNDO_EXCLUDE();
+    vtkSMPropertyHelper(source_->getProxy(), "Scene").Set(text_.c_str());
+    source_->getProxy()->UpdateVTKObjects();
+  }
+  source_->setModifiedState(pqProxy::UNMODIFIED);
+  keeping_ = false;
 }
 
 bool SceneModel::take(const modes::Scene& scene, Pace pace) {
   try {
-    modes::validate(scene);
+    commit_ ? commit_(scene, pace) : modes::validate(scene);
   } catch (const std::exception& error) {
     emit refused(QString::fromUtf8(error.what()));
     return false;
@@ -131,6 +149,10 @@ void SceneModel::undo() {
 
 void SceneModel::redo() {
   if (auto* const stack = pqApplicationCore::instance()->getUndoStack(); stack && stack->canRedo()) stack->redo();
+}
+
+void SceneModel::forget_steps() {
+  if (auto* const stack = pqApplicationCore::instance()->getUndoStack()) stack->clear();
 }
 
 }  // namespace palpate::plugin

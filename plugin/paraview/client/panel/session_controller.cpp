@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 #include <utility>
 
-#include "io/fields/volume_fields.h"
+#include "modes/scene/scene.h"
 #include "plugin/app/stylus_choice.h"
 #include "plugin/report/live_view.h"
 #include "plugin/report/summary.h"
+#include "plugin/session/scene_fit.h"
 
 namespace palpate::plugin {
 namespace {
@@ -21,10 +23,14 @@ glm::dvec3 vector_of(const double (&from)[3]) {
   return {from[0], from[1], from[2]};
 }
 
+void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
+  if (const std::string why = why_not_felt(scene, volume); !why.empty()) throw std::invalid_argument(why);
+}
+
 }  // namespace
 
 SessionController::SessionController(SceneModel& model, QObject* parent) : QObject(parent), model_(model) {
-  connect(&model, &SceneModel::changed, this, [this](Pace pace) { follow_scene(pace); });
+  model.set_commit([this](const modes::Scene& scene, Pace pace) { commit(scene, pace); });
   connect(&heart_, &QTimer::timeout, this, [this] { live_.heartbeat(); });
   connect(&looks_, &QTimer::timeout, this, [this] { look(); });
   looks_.setTimerType(Qt::PreciseTimer);
@@ -33,11 +39,13 @@ SessionController::SessionController(SceneModel& model, QObject* parent) : QObje
 }
 
 SessionController::~SessionController() {
+  model_.set_commit({});
   live_.disconnect();
 }
 
 void SessionController::set_no_scan(const QString& why) {
   why_no_scan_ = why;
+  feels_ = false;
   live_.set_scan(nullptr);
   simulated_.reset();
   clutched_ = false;
@@ -47,46 +55,34 @@ void SessionController::set_no_scan(const QString& why) {
 
 void SessionController::set_scan(std::shared_ptr<const io::Volume> volume) {
   why_no_scan_.clear();
+  expects_scan_ = false;
+  QString problem;
   try {
-    live_.set_scan(std::move(volume));
+    if (volume) refuse_misfit(model_.scene(), *volume);
+    live_.set_scan(std::move(volume), model_.scene());
   } catch (const std::exception& error) {
+    feels_ = false;
     live_.set_scan(nullptr);
-    emit told(QString::fromUtf8(error.what()), true);
+    problem = QString::fromUtf8(error.what());
   }
   if (live_.plan()) before_ = now_ = live_.plan()->workspace;
   emit connection_changed();
+  if (!problem.isEmpty()) emit told(problem, true);
 }
 
-void SessionController::follow_scene(Pace pace) {
-  try {
-    live_.set_scene(model_.scene(), pace);
-    if (live_.plan()) before_ = std::exchange(now_, live_.plan()->workspace);
-    if (before_ != now_) hand_mm_.reset();
-  } catch (const std::exception& error) {
-    emit told(QString::fromUtf8(error.what()), true);
+void SessionController::commit(const modes::Scene& scene, Pace pace) {
+  if (expects_scan_) {
+    modes::validate(scene);
+    return;
   }
+  if (live_.scan()) refuse_misfit(scene, *live_.scan());
+  live_.set_scene(scene, pace);
+  follow_workspace();
 }
 
-/// In front of the patient: a finger's breadth before what is met first on the way to the middle.
-glm::dvec3 SessionController::first_place() const {
-  const io::Volume& volume = *live_.scan();
-  const Box box = bounding_box(volume.geometry);
-  const io::VolumeFields fields(live_.scan(), io::FieldSet::value, 1, {.brick_bytes = 0, .background = false});
-  const glm::dvec3 middle = (box.low + box.high) / 2.0;
-  constexpr double step_mm = 1, before_mm = 15, tissue_part = 0.15;
-  double lowest = 1e300, highest = -1e300;
-  std::vector<std::pair<double, double>> along;  // y, value
-  for (double y = box.low.y; y < middle.y; y += step_mm) {
-    const io::Sample sample = fields.sample({middle.x, y, middle.z}, io::FieldSet::value);
-    if (!sample.inside) continue;
-    along.emplace_back(y, sample.value);
-    lowest = std::min(lowest, sample.value);
-    highest = std::max(highest, sample.value);
-  }
-  const double tissue = volume.unit == "HU" ? -300 : lowest + tissue_part * (highest - lowest);
-  const auto met = std::find_if(along.begin(), along.end(), [&](const auto& at) { return at.second > tissue; });
-  if (met == along.end()) return middle;
-  return {middle.x, std::max(met->first - before_mm, box.low.y), middle.z};
+void SessionController::follow_workspace() {
+  if (live_.plan()) before_ = std::exchange(now_, live_.plan()->workspace);
+  if (before_ != now_) hand_mm_.reset();
 }
 
 void SessionController::connect_stylus(const StylusChoice& choice) {
@@ -94,77 +90,98 @@ void SessionController::connect_stylus(const StylusChoice& choice) {
     emit told(why_no_scan_, true);
     return;
   }
+  QString problem;
   try {
     const auto stylus =
         make_stylus({.device = choice.device, .firmware = choice.firmware, .settings = choice.settings});
     simulated_ = std::dynamic_pointer_cast<device::SimulatedStylus>(stylus);
-    live_.connect(stylus);
+    feels_ = clutched_ = false;
     look_ = {};  // of a recording, perhaps
     hand_mm_.reset();
     buttons_ = 0;
-    before_ = now_ = live_.plan()->workspace;
     next_frame_ = 0;
-    clutched_ = false;
-    if (simulated_) {
-      // Its hand begins in the middle of the patient: nothing is felt before it has come to its place.
-      live_.release();
-      move_hand(first_place());
-      constexpr int there_ms = 900;
-      QTimer::singleShot(there_ms, this, [this, held = std::weak_ptr(simulated_)] {
-        if (held.lock() == simulated_ && simulated_ && !clutched_) live_.feel();
-      });
+    if (live_.plan()) {
+      before_ = now_ = live_.plan()->workspace;
+      if (simulated_ && start_) move_hand(start_(stylus->specification()));  // before the first tick
     }
-    emit told({}, false);
+    live_.connect(stylus, LiveSession::Start::released);
+    before_ = now_ = live_.plan()->workspace;
   } catch (const std::exception& error) {
     simulated_.reset();
-    emit told(QString::fromUtf8(error.what()), true);
+    problem = QString::fromUtf8(error.what());
   }
   emit connection_changed();
+  emit told(problem, true);
 }
 
 void SessionController::disconnect_stylus() {
   const auto recorded_now = live_.disconnect();
   simulated_.reset();
-  clutched_ = false;
+  clutched_ = feels_ = false;
   look();
   emit connection_changed();
   tell_recorded(recorded_now);
 }
 
+void SessionController::begin_outside() {
+  if (has_simulated() && !feels_ && start_) move_hand(start_(live_.specification()));
+}
+
 void SessionController::feel() {
+  if (!live_.is_connected()) return;
+  if (!kept_off_.isEmpty()) {
+    emit told(kept_off_, true);
+    return;
+  }
   clutched_ = false;
+  feels_ = true;
   live_.feel();
+  emit told({}, false);
 }
 
 void SessionController::release() {
+  feels_ = feels_after_clutch_ = false;
   live_.release();
 }
 
+void SessionController::keep_off(const QString& why) {
+  if (why == kept_off_) return;
+  kept_off_ = why;
+  if (!why.isEmpty()) release();
+}
+
 void SessionController::clear_fault() {
+  release();
   live_.clear_fault();
-  live_.feel();
 }
 
 void SessionController::record(const std::string& file) {
+  QString problem;
   try {
     if (simulated_) move_hand(look_.probe_mm);  // where the new session finds it
     live_.record(file);
     recording_to_ = QString::fromStdString(file);
     next_frame_ = 0;
-    emit told(tr("Recording: the session began anew, so that it can be repeated to the last bit."), false);
   } catch (const std::exception& error) {
-    emit told(QString::fromUtf8(error.what()), true);
+    problem = QString::fromUtf8(error.what());
   }
   emit connection_changed();
+  problem.isEmpty()
+      ? emit told(tr("Recording: the session began anew, so that it can be repeated to the last bit."), false)
+      : emit told(problem, true);
 }
 
 void SessionController::stop_recording() {
+  std::optional<RecorderStatus> status;
+  QString problem;
   try {
-    tell_recorded(live_.stop_recording());
+    status = live_.stop_recording();
   } catch (const std::exception& error) {
-    emit told(QString::fromUtf8(error.what()), true);
+    problem = QString::fromUtf8(error.what());
   }
   emit connection_changed();
+  tell_recorded(status);
+  if (!problem.isEmpty()) emit told(problem, true);
 }
 
 void SessionController::tell_recorded(const std::optional<RecorderStatus>& status) {
@@ -179,6 +196,7 @@ void SessionController::clutch() {
   if (!live_.is_connected() || clutched_) return;
   clutched_ = true;
   clutched_at_mm_ = look_.probe_mm;
+  feels_after_clutch_ = std::exchange(feels_, false);
   live_.release();
 }
 
@@ -191,7 +209,7 @@ void SessionController::unclutch(const glm::dmat3& rotation) {
     scene.workspace = {.center_mm = center, .rotation = rotation, .scale = now_.mm_per_m / 1e3, .fit = false};
   });
   before_ = now_;  // nothing is shown on its way: hand and patient were parted
-  live_.feel();
+  if (std::exchange(feels_after_clutch_, false)) feel();
 }
 
 bool SessionController::may_remap() const {
@@ -231,6 +249,7 @@ void SessionController::look() {
   const TickRing* const ring = live_.frames();
   look_.connected = live_.is_connected();
   look_.clutched = clutched_;
+  look_.kept_off = kept_off_;
   look_.peak_n = 0;
   if (!look_.connected) {
     look_ = instead_ ? instead_() : SessionStatus{};
@@ -253,6 +272,8 @@ void SessionController::look() {
     look_.tick_us = *middle;
   }
   const TickRecord& frame = look_.frame;
+  if (fault_of(frame) != device::Fault::none) feels_ = false;
+  look_.feels = feels_;
   look_.workspace = modes::between(before_, now_, frame.change_part);
   look_.probe_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(frame.probe_m));
   look_.proxy_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(frame.proxy_m));

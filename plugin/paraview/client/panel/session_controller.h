@@ -36,6 +36,8 @@ struct SessionStatus {
   double tick_us = 0;        ///< median since the last look
   std::uint64_t missed = 0;  ///< since the stylus was connected
   bool clutched = false;
+  bool feels = false;  ///< forces were asked for, and have not been taken away since
+  QString kept_off;    ///< why there is no force until that has gone; empty: nothing keeps it away
   std::shared_ptr<const modes::Scene> scene;  ///< that was felt; null: the panel's
 
   bool is_seen() const { return fresh && (connected || replayed); }
@@ -48,7 +50,10 @@ class SessionController : public QObject {
   explicit SessionController(SceneModel& model, QObject* parent = nullptr);
   ~SessionController() override;
 
+  /// Another scan, or another frame of it, with the scene that the model has. The force is ramped over.
   void set_scan(std::shared_ptr<const io::Volume> volume);
+  /// Until the next set_scan() a scene only has to be valid: it is meant for the scan to come.
+  void expect_scan() { expects_scan_ = true; }
   /// There is none to be felt, and the stylus is let go; connecting is refused with `why`, where that is said.
   void set_no_scan(const QString& why);
   const QString& why_no_scan() const { return why_no_scan_; }
@@ -56,10 +61,18 @@ class SessionController : public QObject {
   /// What was seen last.
   const SessionStatus& last() const { return look_; }
 
+  /// Where a simulated stylus begins: asked once the scene is planned.
+  void set_start(std::function<glm::dvec3(const device::Specification&)> start) { start_ = std::move(start); }
+  /// Without a force: only feel() turns it on.
   void connect_stylus(const StylusChoice& choice);
   void disconnect_stylus();
+  /// Another scan is in the views: a simulated stylus goes where it would begin there.
+  void begin_outside();
   void feel();
   void release();
+  /// The force is taken away, and feel() refused, until this is called with an empty reason.
+  void keep_off(const QString& why);
+  /// Leaves the stylus without a force.
   void clear_fault();
   void record(const std::string& file);
   void stop_recording();
@@ -98,10 +111,10 @@ class SessionController : public QObject {
  private:
   void give_way();
   void tell_recorded(const std::optional<RecorderStatus>& status);
-  void follow_scene(Pace pace);
+  void commit(const modes::Scene& scene, Pace pace);
+  void follow_workspace();
   void look();
   void obey_buttons(std::uint32_t buttons);
-  glm::dvec3 first_place() const;
 
   SceneModel& model_;
   LiveSession live_;
@@ -113,6 +126,11 @@ class SessionController : public QObject {
   std::optional<glm::dvec3> hand_mm_;  // while the workspace stays and it does not relax
   bool letting_go_ = false;
   bool clutched_ = false;
+  bool feels_ = false;
+  bool feels_after_clutch_ = false;
+  bool expects_scan_ = false;
+  QString kept_off_;
+  std::function<glm::dvec3(const device::Specification&)> start_;
   bool mouse_off_ = false;
   glm::dvec3 clutched_at_mm_{0};
   SessionStatus look_;

@@ -6,6 +6,7 @@
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -27,6 +28,19 @@ namespace palpate::plugin {
 namespace {
 
 constexpr double strongest_n = 20;
+
+/// How the hand reaches the scan and is protected is the user's, whichever scene is felt.
+modes::Scene with_hand_of(modes::Scene scene, const modes::Scene& now) {
+  scene.workspace = now.workspace;
+  scene.limits = now.limits;
+  scene.stiffness_n_per_m = now.stiffness_n_per_m;
+  return scene;
+}
+
+/// What is felt in it, to tell scenes apart.
+std::string text_of(const modes::Scene& scene) {
+  return modes::to_json(with_hand_of(scene, {}));
+}
 
 }  // namespace
 
@@ -54,10 +68,13 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   scenes_ = new QComboBox(this);
   scenes_->setObjectName(QStringLiteral("palpateScenes"));
   scenes_->setToolTip(tr("A scene says what is felt. The first was found in this scan."));
-  scenes_->addItem(tr("Found in this scan"));
+  scenes_->addItem(QString());
+  choices_.push_back({tr("Found in this scan"), {}, {}});
   for (const std::string& name : modes::starting_scenes()) {
-    scenes_->addItem(QString::fromStdString(modes::load_scene(name).name), QString::fromStdString(name));
+    const modes::Scene scene = modes::load_scene(name);
+    add_choice(QString::fromStdString(scene.name), scene);
   }
+  show_origin();
   connect(scenes_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) { choose_scene(index); });
   scenes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   scenes_->setMinimumContentsLength(10);
@@ -75,40 +92,101 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   message_->setStyleSheet(QStringLiteral("color: #b00020"));
   message_->hide();
   column->addWidget(message_);
-  connect(&model, &SceneModel::changed, this, [this](Pace) {
+  connect(&model, &SceneModel::changed, this, [this](Pace pace) {
     message_->hide();
+    if (pace == Pace::stepped) follow_origin();
     show_values();
   });
   connect(&model, &SceneModel::refused, this, [this](const QString& why) {
     message_->setText(why);
     message_->show();
+    show_origin();
     show_values();
   });
   build_rows();
 }
 
 void TissuesSection::set_proposed(const modes::Scene& scene) {
-  proposed_ = scene;
-  scenes_->setCurrentIndex(0);
+  choices_.front().scene = scene;
+  choices_.front().text = text_of(scene);
+  follow_origin();
+}
+
+void TissuesSection::forget_scan() {
+  choices_.front() = {tr("Found in this scan"), {}, {}};
+  edited_from_.clear();
+  follow_origin();
+}
+
+void TissuesSection::set_restored() {
+  choice_ = add_choice(tr("Restored with the state"), model_.scene());
+  follow_origin();
+}
+
+QString TissuesSection::scene_in_words() const {
+  return scenes_->currentText();
+}
+
+int TissuesSection::add_choice(const QString& label, const modes::Scene& scene) {
+  const auto same = std::ranges::find(choices_, label, &Choice::label);
+  const auto item = static_cast<int>(same - choices_.begin());
+  if (same == choices_.end()) {
+    choices_.push_back({label, scene, text_of(scene)});
+    scenes_->addItem(label);
+  } else {
+    *same = {label, scene, text_of(scene)};
+  }
+  return item;
+}
+
+/// An edit leaves the choice that it was made of, and undoing it leads back there.
+void TissuesSection::follow_origin() {
+  const std::string text = text_of(model_.scene());
+  const auto is_this = [&](int item) { return choices_[static_cast<std::size_t>(item)].text == text; };
+  std::optional<int> found;
+  if (choosing_ && is_this(*choosing_)) found = choosing_;
+  if (!found && is_this(choice_)) found = choice_;
+  for (int item = 0; !found && item < static_cast<int>(choices_.size()); ++item) {
+    if (is_this(item)) found = item;
+  }
+  edited_ = !found;
+  if (found) {
+    choice_ = *found;
+  } else {
+    choice_ = edited_from_.emplace(text, choice_).first->second;
+  }
+  show_origin();
+}
+
+void TissuesSection::show_origin() {
+  const QSignalBlocker quiet(scenes_);
+  for (int item = 0; item < static_cast<int>(choices_.size()); ++item) {
+    const QString& label = choices_[static_cast<std::size_t>(item)].label;
+    scenes_->setItemText(item, item == choice_ && edited_ ? tr("%1, edited").arg(label) : label);
+  }
+  scenes_->setCurrentIndex(choice_);
 }
 
 void TissuesSection::choose_scene(int index) {
-  const std::string name = scenes_->itemData(index).toString().toStdString();
-  model_.edit(tr("Choose scene"), [&](modes::Scene& scene) {
-    modes::Scene chosen = name.empty() ? proposed_ : modes::load_scene(name);
-    chosen.workspace = scene.workspace;  // what the hand reaches, and how it is protected, is not the scene's to say
-    chosen.limits = scene.limits;
-    chosen.stiffness_n_per_m = scene.stiffness_n_per_m;
-    scene = chosen;
-  });
+  if (choices_[static_cast<std::size_t>(index)].text.empty()) {  // still being looked for
+    show_origin();
+    return;
+  }
+  choose(index, tr("Choose scene"));
+}
+
+void TissuesSection::choose(int item, const QString& what) {
+  choosing_ = item;
+  model_.edit(
+      what, [&](modes::Scene& scene) { scene = with_hand_of(choices_[static_cast<std::size_t>(item)].scene, scene); });
+  choosing_.reset();
 }
 
 void TissuesSection::open_file() {
   const QString file = QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scenes (*.json)"));
   if (file.isEmpty()) return;
   try {
-    const modes::Scene scene = modes::load_scene(file.toStdString());
-    model_.edit(tr("Open scene"), [&](modes::Scene& now) { now = scene; });
+    choose(add_choice(QFileInfo(file).fileName(), modes::load_scene(file.toStdString())), tr("Open scene"));
   } catch (const std::exception& error) {
     emit model_.refused(QString::fromUtf8(error.what()));
   }
@@ -138,8 +216,10 @@ void TissuesSection::build_rows() {
   shown_.clear();
   shown_types_.clear();
   for (const modes::Mode& mode : scene.modes) shown_types_.push_back(mode.type);
+  // Where it has no boundaries, as in a flow, whatever else it has.
+  const bool any_surface = std::ranges::any_of(scene.modes, [](const auto& mode) { return mode.type == "surface"; });
   for (std::size_t n = 0; n < scene.modes.size(); ++n) {
-    if (scene.modes[n].type != "surface") continue;
+    if (any_surface && scene.modes[n].type != "surface") continue;
     const int row = static_cast<int>(shown_.size());
     shown_.push_back(n);
     const QString number = QString::number(row);

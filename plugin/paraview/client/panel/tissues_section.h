@@ -4,6 +4,11 @@
 
 #include <QWidget>
 
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "plugin/paraview/client/panel/scene_model.h"
 
 class QComboBox;
@@ -21,16 +26,36 @@ class TissuesSection : public QWidget {
 
   /// The scene that was proposed for the scan: first of the scenes to choose from.
   void set_proposed(const modes::Scene& scene);
+  /// Another scan is shown: nothing was found in it yet.
+  void forget_scan();
+  /// The scene that the model has came with a state file.
+  void set_restored();
+  /// What the scene is: where it came from, and whether it was edited since.
+  QString scene_in_words() const;
 
  private:
   void build_rows();
   void show_values();
   void choose_scene(int index);
+  void choose(int item, const QString& what);
+  int add_choice(const QString& label, const modes::Scene& scene);
+  void follow_origin();
+  void show_origin();
   void open_file();
   void save_file();
 
   SceneModel& model_;
-  modes::Scene proposed_;
+  /// A scene to choose from: an item of the box.
+  struct Choice {
+    QString label;
+    modes::Scene scene;
+    std::string text;  ///< of what is felt in it; empty: there is none yet
+  };
+  std::vector<Choice> choices_;
+  std::map<std::string, int> edited_from_;  // text of an edited scene -> the choice that it was made of
+  int choice_ = 0;
+  std::optional<int> choosing_;
+  bool edited_ = false;
   QComboBox* scenes_;
   QLabel* message_;
   QScrollArea* scroll_;

@@ -1,4 +1,5 @@
 #include <pqServer.h>
+#include <pqTimeKeeper.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
@@ -8,6 +9,8 @@
 #include <QProgressBar>
 #include <QPushButton>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 
 #include "plugin/paraview/client/scan/scan_section.h"
@@ -65,7 +68,7 @@ void ScanSection::fetch() {
         tell(notes.isEmpty() ? found.said : notes + QLatin1Char('\n') + found.said, !found.volume);
         copy_->setVisible(!found.volume);
         if (found.volume) {
-          emit scan_shown(found.volume);
+          take({.path = path_, .name = {}, .catalogue = {}, .volume = found.volume});
         } else {
           emit out_of_reach(found.said);
         }
@@ -86,6 +89,9 @@ void ScanSection::server_gone() {
   on_server_.reset();
   copy_->hide();
   set_busy(false);
+  frame_loader_.cancel();
+  handle_ = {};
+  show_frame();
 }
 
 void ScanSection::adopt(pqPipelineSource& reader) {
@@ -115,9 +121,12 @@ void ScanSection::adopt(pqPipelineSource& reader) {
           tell(text(refused.what()), true);
           return;
         }
+        const int frames = scan_at(*catalogue, series).frames_per_position;
+        const double time = source_ ? source_->getServer()->getTimeKeeper()->getTime() : 0;
+        const int frame = static_cast<int>(std::clamp(std::round(time), 0.0, frames - 1.0));
         loader_.load(
-            catalogue->series[series], 0, [](double) {},
-            [this, catalogue, path, name, series](const auto& volume, const std::string& why) {
+            scan_at(*catalogue, series), frame, [](double) {},
+            [this, catalogue, path, name, series, frame](const auto& volume, const std::string& why) {
               if (!volume || !source_) {
                 tell(text(why), true);
                 return;
@@ -125,8 +134,9 @@ void ScanSection::adopt(pqPipelineSource& reader) {
               source_->updatePipeline();
               views_.adopt(*source_);
               list_windows();
-              say_what_to_know({path, name, catalogue, series, volume});
-              emit scan_shown(volume);
+              const Loaded loaded{path, name, catalogue, series, volume, frame};
+              say_what_to_know(loaded);
+              take(loaded);
             });
       });
 }

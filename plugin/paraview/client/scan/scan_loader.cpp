@@ -83,8 +83,8 @@ void ScanLoader::find_copies(std::vector<std::string> places, const std::string&
           if (!std::filesystem::exists(place, ignored)) continue;
           try {
             const auto catalogue = find_scans(place, tell);
-            for (std::size_t n = 0; n < catalogue->series.size(); ++n) {
-              const bool same_size = catalogue->series[n].geometry.dimensions == size;
+            for (std::size_t n = 0; n < scan_count(*catalogue); ++n) {
+              const bool same_size = scan_at(*catalogue, n).geometry.dimensions == size;
               if (same_size && scan_name(*catalogue, n) == name) copies.push_back({catalogue, n});
             }
           } catch (const io::DicomError&) {  // not readable: no copy
@@ -100,7 +100,7 @@ void ScanLoader::load_copy(std::vector<ScanCopy> copies, const std::string& hash
       [copies = std::move(copies), hash](const io::Progress& tell) -> std::shared_ptr<const io::Volume> {
         for (const ScanCopy& copy : copies) {
           try {
-            auto volume = load_scan(copy.catalogue->series[copy.series], 0, tell);
+            auto volume = load_scan(scan_at(*copy.catalogue, copy.series), 0, tell);
             if (hash_of(*volume) == hash) return volume;
           } catch (const io::DicomError&) {  // the next may be whole
           }

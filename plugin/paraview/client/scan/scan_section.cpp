@@ -30,8 +30,10 @@
 #include <algorithm>
 #include <exception>
 
+#include "plugin/paraview/client/scan/animation_time.h"
 #include "plugin/paraview/common/display_image.h"
 #include "plugin/paraview/common/scan_choice.h"
+#include "plugin/session/scan.h"
 
 namespace palpate::plugin {
 namespace {
@@ -107,6 +109,8 @@ void ScanSection::build() {
   connect(window_, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) { apply_window(choice); });
   window->addWidget(window_, 1);
   column->addLayout(window);
+
+  column->addWidget(frames_ = build_frames());
 
   auto* const ras = new QCheckBox(tr("Places under the pointer in RAS"), this);
   ras->setObjectName(QStringLiteral("palpateRas"));
@@ -190,7 +194,7 @@ void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std
   }
   catalogue_ = std::move(catalogue);
   for (const std::size_t n : choices(*catalogue_, path_)) {
-    const io::Series& series = catalogue_->series[n];
+    const io::Series& series = scan_at(*catalogue_, n);
     auto* const item = new QListWidgetItem(text(scan_label(series)), series_);
     item->setData(Qt::UserRole, static_cast<qulonglong>(n));
     // Shown to verify the patient, never stored: only where the pointer rests.
@@ -210,11 +214,11 @@ void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std
     tell(tr("No image series in this folder (%n file(s) looked at): choose the one that holds the DICOM files.",
             nullptr, static_cast<int>(catalogue_->skipped.size())),
          true);
-  } else if (usable == 1) {
+  } else if (usable == 1 && catalogue_->velocity_fields.empty()) {
     series_->setCurrentRow(0);
     load(choices(*catalogue_, path_).front());
   } else {
-    tell(tr("%n series: choose one.", nullptr, static_cast<int>(catalogue_->series.size())));
+    tell(tr("%n series: choose one.", nullptr, static_cast<int>(scan_count(*catalogue_))));
   }
 }
 
@@ -224,11 +228,11 @@ void ScanSection::load(std::size_t series) {
     show({.path = path_, .name = on_server_->series[series].name, .catalogue = {}, .volume = {}});
     return;
   }
-  if (!catalogue_ || series >= catalogue_->series.size()) return;
+  if (!catalogue_ || series >= scan_count(*catalogue_)) return;
   set_busy(true, tr("Loading"));
   tell({});
   loader_.load(
-      catalogue_->series[series], 0, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      scan_at(*catalogue_, series), 0, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
       [this, catalogue = catalogue_, path = path_, series](const auto& volume, const std::string& error) {
         if (volume) show({path, scan_name(*catalogue, series), catalogue, series, volume});
         set_busy(false);
@@ -259,6 +263,9 @@ void ScanSection::show_now(const Loaded& loaded) {
     emit closing();
     if (!loaded.volume) emit out_of_reach({});
     views_.close();
+    handle_ = {};
+    frame_loader_.cancel();
+    coming_.reset();
     if (source_) builder.destroy(source_);
     source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
     if (!source_) {
@@ -273,20 +280,43 @@ void ScanSection::show_now(const Loaded& loaded) {
       proxy.UpdateVTKObjects();
     }
     source_->updatePipeline();
+    set_animation_time(loaded.frame);  // another series: the time starts anew
     // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
     // takes that for a change.
     QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
     views_.show(*source_);
     list_windows();
     say_what_to_know(loaded);
-    if (loaded.volume) {
-      emit scan_shown(loaded.volume);
-    } else {
-      fetch();
-    }
+    take(loaded);
+    if (!loaded.volume) fetch();
   } catch (const std::exception& error) {
     tell(text(error.what()), true);
   }
+}
+
+/// What is shown from now on is this.
+void ScanSection::take(const Loaded& loaded) {
+  catalogue_shown_ = loaded.catalogue;
+  series_shown_ = loaded.series;
+  if (!loaded.volume) {
+    felt_source_.clear();
+    return;
+  }
+  handle_ = {.series = source_->getSMName(), .volume = loaded.volume, .frame = loaded.frame};
+  felt_source_ = source_;
+  if (loaded.catalogue) {
+    const io::Series& series = scan_at(*loaded.catalogue, loaded.series);
+    handle_.series = text(scan_label(series));
+    handle_.frames = series.frames_per_position;
+    handle_.frame_names = series.frame_names;
+  } else {
+    handle_.series = text(describe_scan(*loaded.volume));
+    handle_.frames =
+        std::max(1, static_cast<int>(vtkSMPropertyHelper(source_->getProxy(), "TimestepValues").GetNumberOfElements()));
+  }
+  watch_time();
+  show_frame();
+  emit scan_shown(handle_);
 }
 
 void ScanSection::list_windows() {
@@ -306,7 +336,7 @@ void ScanSection::say_what_to_know(const Loaded& loaded) {
     tell(notes.join(QStringLiteral("\n")));
     return;
   }
-  const io::Series& shown = loaded.catalogue->series[loaded.series];
+  const io::Series& shown = scan_at(*loaded.catalogue, loaded.series);
   for (const std::string& warning : shown.warnings) notes << text(warning);
   for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
   if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");

@@ -5,6 +5,7 @@
 #include <pqPipelineSource.h>
 
 #include <QPointer>
+#include <QStringList>
 #include <QWidget>
 
 #include <memory>
@@ -13,6 +14,7 @@
 
 #include "plugin/paraview/client/remote/server_scan.h"
 #include "plugin/paraview/client/remote/server_series.h"
+#include "plugin/paraview/client/scan/scan_handle.h"
 #include "plugin/paraview/client/scan/scan_loader.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 
@@ -21,6 +23,7 @@ class QLabel;
 class QListWidget;
 class QProgressBar;
 class QPushButton;
+class QSlider;
 
 namespace palpate::plugin {
 
@@ -41,6 +44,12 @@ class ScanSection : public QWidget {
   bool has_notes() const;
   ClinicalViews& views() { return views_; }
   pqPipelineSource* source() const { return source_; }
+  /// What is shown and can be felt; without a volume where there is nothing.
+  const ScanHandle& handle() const { return handle_; }
+  /// Why what the views show is not what the stylus would feel, and what to do; empty where it is.
+  QString why_not_felt() const;
+  /// Scans that are seen in some view beside the one that is felt: their names in the pipeline.
+  QStringList others_shown() const;
 
  signals:
   /// The views of the scan that is shown are about to go.
@@ -48,7 +57,9 @@ class ScanSection : public QWidget {
   /// A server's scan is in the views, or on its way there, and cannot be felt: yet, or, where it is said why, at all.
   void out_of_reach(const QString& why);
   /// Another scan is in the views, and can be felt.
-  void scan_shown(const std::shared_ptr<const palpate::io::Volume>& volume);
+  void scan_shown(const palpate::plugin::ScanHandle& handle);
+  /// Another frame of it is in the views, and can be felt.
+  void frame_shown(const palpate::plugin::ScanHandle& handle);
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -65,9 +76,17 @@ class ScanSection : public QWidget {
     std::shared_ptr<const io::Catalogue> catalogue;
     std::size_t series = 0;
     std::shared_ptr<const io::Volume> volume;  ///< held until the reader has it; null: the server has it
+    int frame = 0;
   };
   void show(const Loaded& loaded);
   void show_now(const Loaded& loaded);
+  void take(const Loaded& loaded);
+  QWidget* build_frames();
+  void go_to_frame(int frame);
+  void follow_time();
+  void watch_time();
+  void show_frame();
+  int frame_of_time() const;
   void open_on_server();
   void fetch();
   void ask_copy();
@@ -84,6 +103,9 @@ class ScanSection : public QWidget {
   QPushButton* cancel_ = nullptr;
   QPushButton* copy_ = nullptr;
   QComboBox* window_ = nullptr;
+  QWidget* frames_ = nullptr;
+  QSlider* frame_ = nullptr;
+  QLabel* frame_text_ = nullptr;
   QLabel* message_ = nullptr;
 
   std::string path_;
@@ -92,9 +114,16 @@ class ScanSection : public QWidget {
   std::vector<std::string> copies_;          // folders of this machine that were named
   bool showing_ = false;
   QPointer<pqPipelineSource> source_;
+  QPointer<pqPipelineSource> felt_source_;  // what the handle is of
+  ScanHandle handle_;
+  std::size_t series_shown_ = 0;                          // in its catalogue
+  std::shared_ptr<const io::Catalogue> catalogue_shown_;  // null: a server's
+  std::shared_ptr<const io::Volume> coming_;  // loaded before the views go to it, so that they need not wait
+  QMetaObject::Connection time_;
   ClinicalViews views_;
   ScanLoader thumbnails_;
   ServerScan server_scan_;
+  ScanLoader frame_loader_;
   ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
 };
 

@@ -1,6 +1,7 @@
 #include "plugin/paraview/client/stylus/stylus_glyphs.h"
 
 #include <vtkActor.h>
+#include <vtkBillboardTextActor3D.h>
 #include <vtkConeSource.h>
 #include <vtkCylinderSource.h>
 #include <vtkDiskSource.h>
@@ -12,6 +13,7 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
+#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <cmath>
@@ -130,11 +132,22 @@ StylusGlyphs::StylusGlyphs(vtkPVRenderView& view) : layer_(std::make_unique<Over
   tip_ = add(cone);
   stylus_ = add(ball);
   proxy_ = add(ball);
+  caption_ = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+  caption_->SetDisplayOffset(10, 8);
+  caption_->PickableOff();
+  caption_->VisibilityOff();
+  vtkTextProperty& style = *caption_->GetTextProperty();
+  style.SetFontSize(12);
+  style.SetColor(1, 1, 1);
+  style.SetBackgroundColor(0, 0, 0);
+  style.SetBackgroundOpacity(0.6);
+  layer_->renderer().AddActor(caption_);
 }
 
 StylusGlyphs::~StylusGlyphs() = default;
 
 void StylusGlyphs::hide() {
+  caption_->VisibilityOff();
   for (const Part* part : {stylus_.get(), proxy_.get(), spring_.get(), force_.get(), tip_.get()}) {
     part->actor->VisibilityOff();
   }
@@ -143,8 +156,14 @@ void StylusGlyphs::hide() {
   }
 }
 
-void StylusGlyphs::show(const SessionStatus& look, const modes::Scene& scene, double faint, double mm_per_pixel) {
+void StylusGlyphs::show(const SessionStatus& look, const modes::Scene& scene, double faint, double mm_per_pixel,
+                        const std::string& caption) {
   hide();
+  if (!caption.empty()) {
+    caption_->SetInput(caption.c_str());
+    caption_->SetPosition(look.proxy_mm.x, look.proxy_mm.y, look.proxy_mm.z);
+    caption_->VisibilityOn();
+  }
   const double opacity = 1 - (1 - seen_faintly) * faint;
   const glm::dmat3 upright(1);
   const auto sized = [&](double pixels) { return glm::dvec3(pixels * mm_per_pixel); };

@@ -16,43 +16,8 @@
 #include <utility>
 
 #include "device/found_devices.h"
-#include "device/safety/safety_filter.h"
 
 namespace palpate::plugin {
-namespace {
-
-/// Colors that the color-blind can tell apart, too; and the state is always there in words.
-struct Lamp {
-  const char* color;
-  QString text;
-};
-
-Lamp lamp_of(const SessionStatus& look) {
-  const auto tr = [](const char* text) { return StylusSection::tr(text); };
-  if (!look.connected) return {"#808080", tr("not connected")};
-  if (look.clutched) return {"#56b4e9", tr("clutched: move your hand or the view freely")};
-  if (!look.fresh) return {"#e69f00", tr("starting")};
-  if (const device::Fault fault = fault_of(look.frame); fault != device::Fault::none) {
-    return {"#d55e00", QString::fromUtf8(device::advice_for(fault))};
-  }
-  switch (state_of(look.frame)) {
-    case device::State::active:
-      return {"#009e73", tr("active: forces are on")};
-    case device::State::ramping:
-      return {"#e69f00", tr("forces are coming up or down")};
-    case device::State::homing:
-      return {"#e69f00", tr("homing: move the stylus as its maker says")};
-    case device::State::idle:
-      return {"#808080", tr("released: no force")};
-    case device::State::disconnected:
-    case device::State::fault:
-      break;
-  }
-  return {"#d55e00", tr("the stylus does not answer")};
-}
-
-}  // namespace
-
 StylusSection::StylusSection(SessionController& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent)
     : QWidget(parent), touching_(touching), model_(model), eye_(std::move(eye)) {
   setObjectName(QStringLiteral("palpateStylus"));
@@ -74,7 +39,11 @@ StylusSection::StylusSection(SessionController& touching, SceneModel& model, std
     message_->setVisible(!text.isEmpty());
   });
   connect(&touching, &SessionController::clutch_button_let_go, this, [this] { clutch(false); });
-  connect(&touching, &SessionController::connection_changed, this, [this] { show_connection(); });
+  connect(&touching, &SessionController::connection_changed, this, [this] {
+    message_->hide();  // it was about what was before
+    message_->clear();
+    show_connection();
+  });
   connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { show_scene(); });
   find_devices();
@@ -105,23 +74,6 @@ void StylusSection::build_connection(QWidget& parent) {
   file_->setObjectName(QStringLiteral("palpateDeviceFile"));
   file_->hide();
   column->addWidget(file_);
-  auto* const state_row = new QHBoxLayout;
-  lamp_ = new QLabel(&parent);
-  lamp_->setObjectName(QStringLiteral("palpateLamp"));
-  lamp_->setFixedSize(12, 12);
-  state_row->addWidget(lamp_, 0, Qt::AlignTop);
-  state_ = new QLabel(&parent);
-  state_->setObjectName(QStringLiteral("palpateState"));
-  state_->setWordWrap(true);
-  state_row->addWidget(state_, 1);
-  clear_ = new QPushButton(tr("Feel"), &parent);
-  clear_->setObjectName(QStringLiteral("palpateFeel"));
-  connect(clear_, &QPushButton::clicked, this, [this] {
-    fault_of(touching_.last().frame) == device::Fault::none ? touching_.feel() : touching_.clear_fault();
-  });
-  clear_->hide();
-  state_row->addWidget(clear_, 0, Qt::AlignTop);
-  column->addLayout(state_row);
 }
 
 void StylusSection::build_limits() {
@@ -199,14 +151,32 @@ void StylusSection::build_workspace() {
   follow_->setObjectName(QStringLiteral("palpateFollow"));
   follow_->setToolTip(tr("The slices through the proxy are shown as it moves."));
   follow_->setChecked(true);
+  connect(follow_, &QCheckBox::toggled, this, [this](bool on) {
+    if (on) go_to_stylus();
+  });
+  go_ = new QToolButton(this);
+  go_->setObjectName(QStringLiteral("palpateGoToStylus"));
+  go_->setText(tr("Go to stylus"));
+  go_->setToolTip(tr("Shows the slices through the stylus. They follow it again after you have leafed through them."));
+  connect(go_, &QToolButton::clicked, this, [this] { go_to_stylus(); });
   auto* const ticks = new QHBoxLayout;
   ticks->addWidget(follow_);
+  ticks->addWidget(go_);
   ticks->addWidget(turn_, 1);
   column->addLayout(ticks);
 }
 
 bool StylusSection::slices_follow() const {
-  return follow_->isChecked();
+  return follow_->isChecked() && !leafing_;
+}
+
+void StylusSection::pause_following() {
+  leafing_ = true;
+}
+
+void StylusSection::go_to_stylus() {
+  leafing_ = false;
+  emit stylus_wanted();
 }
 
 void StylusSection::find_devices() {
@@ -242,7 +212,8 @@ void StylusSection::connect_or_not() {
   touching_.connect_stylus({.device = device.toStdString(),
                             .firmware = kind == QLatin1String("falcon") ? file : std::string(),
                             .settings = kind == QLatin1String("wooden_haptics") ? file : std::string()});
-  if (static bool said = false; touching_.live().is_connected() && !std::exchange(said, true)) {
+  if (static bool said = false;
+      touching_.live().is_connected() && message_->text().isEmpty() && !std::exchange(said, true)) {
     message_->setText(
         tr("Research software, not a medical device: it must not guide a diagnosis or a treatment. "
            "Esc takes the force away at any time."));
@@ -260,6 +231,7 @@ void StylusSection::show_connection() {
   device_->setEnabled(!held);
   file_->setEnabled(!held);
   clutch_->setEnabled(held);
+  if (!held) leafing_ = false;
   if (held) {
     const device::Specification& stylus = live.specification();
     own_->setText(stylus.force_axes > 0 ? tr("its own: %1 N/m, %2 N (%3 N for long)")
@@ -284,18 +256,10 @@ void StylusSection::show_scene() {
 }
 
 void StylusSection::show_look(const SessionStatus& look) {
-  const Lamp lamp = lamp_of(look);
-  if (state_->text() != lamp.text) {
-    state_->setText(lamp.text);
-    lamp_->setStyleSheet(QStringLiteral("background: %1; border-radius: 6px").arg(QLatin1String(lamp.color)));
-  }
-  const bool fault = look.connected && look.fresh && fault_of(look.frame) != device::Fault::none;
-  const bool idle = look.connected && look.fresh && !look.clutched && state_of(look.frame) == device::State::idle;
-  clear_->setVisible(fault || idle);
-  clear_->setText(fault ? tr("Clear fault") : tr("Feel"));
   clutch_->setChecked(look.clutched);
   const bool may = touching_.may_remap();
   for (QToolButton* const fit : fits_) fit->setEnabled(may);
+  go_->setEnabled(look.is_seen());
 }
 
 void StylusSection::remap(const QString& what, const modes::WorkspaceSettings& settings) {

@@ -26,7 +26,14 @@ class StylusSection : public QWidget {
   /// `eye` tells what the 3D view looks at.
   StylusSection(SessionController& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent = nullptr);
 
+  /// Whether the slices follow the stylus now: not while the user leafs through them.
   bool slices_follow() const;
+  /// The user leafs through slices: they stay until *Go to stylus*.
+  void pause_following();
+
+ signals:
+  /// The slices through the stylus are to be shown.
+  void stylus_wanted();
 
  private:
   void build_connection(QWidget& parent);
@@ -40,6 +47,7 @@ class StylusSection : public QWidget {
   void show_look(const SessionStatus& look);
   void remap(const QString& what, const modes::WorkspaceSettings& settings);
   void clutch(bool on);
+  void go_to_stylus();
 
   SessionController& touching_;
   SceneModel& model_;
@@ -47,9 +55,6 @@ class StylusSection : public QWidget {
   QComboBox* device_ = nullptr;
   QLineEdit* file_ = nullptr;
   QPushButton* connect_ = nullptr;
-  QLabel* lamp_ = nullptr;
-  QLabel* state_ = nullptr;
-  QPushButton* clear_ = nullptr;
   QDoubleSpinBox* stiffness_ = nullptr;
   QDoubleSpinBox* limit_ = nullptr;
   QLabel* own_ = nullptr;
@@ -58,7 +63,9 @@ class StylusSection : public QWidget {
   QPushButton* clutch_ = nullptr;
   QCheckBox* turn_ = nullptr;
   QCheckBox* follow_ = nullptr;
+  QToolButton* go_ = nullptr;
   QLabel* message_ = nullptr;
+  bool leafing_ = false;
 };
 
 }  // namespace palpate::plugin

@@ -4,8 +4,10 @@
 #include <vtkCamera.h>
 #include <vtkMath.h>
 #include <vtkPVRenderView.h>
+#include <vtkRenderer.h>
 #include <vtkSMRenderViewProxy.h>
 
+#include <QCoreApplication>
 #include <QWidget>
 
 #include <algorithm>
@@ -14,6 +16,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "plugin/paraview/client/stylus/mapping.h"
+#include "plugin/paraview/client/views/slice_overlay.h"
 #include "plugin/paraview/client/views/volume_pick.h"
 
 namespace palpate::plugin {
@@ -34,11 +37,27 @@ double visible_height_mm(vtkCamera& camera) {
              : 2 * camera.GetDistance() * std::tan(vtkMath::RadiansFromDegrees(camera.GetViewAngle()) / 2);
 }
 
+/// "12 mm in front": of the slice.
+QString distance_in_words(Plane plane, double off_mm) {
+  const auto translated = [](const char* text) { return QCoreApplication::translate("StylusViews", text); };
+  const bool up = off_mm > 0;
+  const QString way = plane == Plane::axial ? (up ? translated("%1 mm above") : translated("%1 mm below"))
+                      : plane == Plane::coronal
+                          ? (up ? translated("%1 mm in front") : translated("%1 mm behind"))
+                          : (up ? translated("%1 mm to the left") : translated("%1 mm to the right"));
+  return way.arg(std::abs(off_mm), 0, 'f', 0);
+}
+
 }  // namespace
 
 struct StylusViews::OneView {
   OneView(SessionController& touching, const ClinicalView& of)
-      : kind(of.kind), view(of.view), client(client_view(*of.view)), glyphs(*client), hand(touching, *client) {}
+      : kind(of.kind),
+        view(of.view),
+        slice(of.slice),
+        client(client_view(*of.view)),
+        glyphs(*client),
+        hand(touching, *client) {}
 
   bool has_moved(const SessionStatus& look, double mm_per_pixel) const {
     const auto moved = [&](const glm::dvec3& a, const glm::dvec3& b) {
@@ -46,16 +65,26 @@ struct StylusViews::OneView {
     };
     return look.is_seen() != drawn.is_seen() || look.clutched != drawn.clutched ||
            moved(look.probe_mm, drawn.probe_mm) || moved(look.proxy_mm, drawn.proxy_mm) ||
-           std::abs(look.force_n - drawn.force_n) > 0.02 || look.shares.size() != drawn.shares.size();
+           std::lround(off_plane_mm(look)) != drawn_off_mm || std::abs(look.force_n - drawn.force_n) > 0.02 ||
+           look.shares.size() != drawn.shares.size();
+  }
+
+  /// Of the slice that is shown: how far the stylus is off it. 0: on it, or no slice.
+  double off_plane_mm(const SessionStatus& look) const {
+    if (!slice || !look.is_seen()) return 0;
+    const double off_mm = slice->off_plane_mm(look.proxy_mm);
+    return std::abs(off_mm) > std::max(slice->half_pitch_mm(), 0.5) ? off_mm : 0;
   }
 
   ViewKind kind;
   QPointer<pqRenderView> view;
+  QPointer<SliceView> slice;
   vtkSmartPointer<vtkPVRenderView> client;
   StylusGlyphs glyphs;
   StylusHand hand;
   std::unique_ptr<VolumePick> pick;
   SessionStatus drawn;
+  long drawn_off_mm = 0;
   qint64 next_ms = 0;
   qint64 moved_ms = 0;
   bool coarse = false;  ///< drawn last with less detail than it can have
@@ -88,6 +117,25 @@ Eye StylusViews::eye() const {
     return eye;
   }
   return {};
+}
+
+bool StylusViews::shows(const glm::dvec3& place) {
+  follow_scan();
+  constexpr double half = 0.5;
+  for (const auto& one : views_) {
+    if (!one->view) continue;
+    if (one->slice) {
+      if (!one->slice->shows(place)) return false;
+      continue;
+    }
+    double x = place.x, y = place.y, z = place.z;
+    one->client->GetRenderer()->WorldToView(x, y, z);
+    if (!is_clear_of_texts((x + 1) / 2, (y + 1) / 2)) return false;
+    glm::dvec3 eye;
+    one->client->GetActiveCamera()->GetPosition(&eye.x);
+    if (values_ && hidden_part(*values_, opacity_, eye, place) > half) return false;
+  }
+  return true;
 }
 
 void StylusViews::follow_scan() {
@@ -133,8 +181,14 @@ void StylusViews::show(const SessionStatus& look) {
         glm::dvec3 eye;
         camera.GetPosition(&eye.x);
         const bool volume = one.kind == ViewKind::volume;
-        const double faint = volume && values_ ? hidden_part(*values_, opacity_, eye, look.proxy_mm) : 0;
-        one.glyphs.show(look, look.scene ? *look.scene : model_.scene(), faint, mm_per_pixel);
+        const double off_mm = one.off_plane_mm(look);
+        one.drawn_off_mm = std::lround(off_mm);
+        constexpr double faint_off_plane = 0.85;
+        const double faint = off_mm != 0         ? faint_off_plane
+                             : volume && values_ ? hidden_part(*values_, opacity_, eye, look.proxy_mm)
+                                                 : 0;
+        one.glyphs.show(look, look.scene ? *look.scene : model_.scene(), faint, mm_per_pixel,
+                        off_mm != 0 ? distance_in_words(one.slice->plane(), off_mm).toStdString() : std::string());
       } else {
         one.glyphs.hide();
       }

@@ -38,6 +38,8 @@ class StylusViews {
   void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { pick_ = std::move(pick); }
   /// What the 3D view looks at.
   Eye eye() const;
+  /// Whether a place of the patient is seen well in every view: not at an edge, under a text or behind something.
+  bool shows(const glm::dvec3& place);
 
  private:
   struct OneView;

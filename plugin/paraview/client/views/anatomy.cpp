@@ -46,6 +46,18 @@ glm::dvec3 turned_towards(const glm::dvec3& vector, const glm::dvec3& aim) {
 
 }  // namespace
 
+glm::dvec3 upwards(Plane plane) {
+  switch (plane) {
+    case Plane::axial:
+      return {0, 0, 1};
+    case Plane::coronal:
+      return {0, -1, 0};
+    case Plane::sagittal:
+      break;
+  }
+  return {1, 0, 0};
+}
+
 std::string letters_of(const glm::dvec3& direction) {
   constexpr std::array<std::array<char, 2>, 3> names{{{'L', 'R'}, {'P', 'A'}, {'H', 'F'}}};
   constexpr double visible = 0.17365;  // sin 10 degrees

@@ -19,6 +19,10 @@ std::string place_text(const glm::dvec3& place_mm, Coordinates coordinates = Coo
 
 enum class Plane { axial, coronal, sagittal };
 
+/// Where a turn of the wheel leads, a unit vector: towards the head in axial slices, the front in coronal ones, the
+/// left in sagittal ones.
+glm::dvec3 upwards(Plane plane);
+
 /// How a slice is looked at.
 struct Sight {
   int index_axis = 2;         ///< the slice is one of constant index along this axis

@@ -98,6 +98,13 @@ double half_extent(const ImageLattice& lattice, const glm::dvec3& direction) {
   return half;
 }
 
+/// As the scanner counts its own slices; those across them, the way the wheel goes.
+SliceNumbers numbers_of(const ImageLattice& lattice, Plane plane, const Sight& sight) {
+  constexpr int scanners_axis = 2;
+  if (sight.index_axis == scanners_axis) return {.from_last = lattice.counted_from_last};
+  return {.from_last = glm::dot(lattice.directions[static_cast<std::size_t>(sight.index_axis)], upwards(plane)) < 0};
+}
+
 constexpr struct {
   Plane plane;
   ViewKind kind;
@@ -106,16 +113,6 @@ constexpr struct {
               {Plane::sagittal, ViewKind::sagittal, 5},
               {Plane::coronal, ViewKind::coronal, 4}};
 }  // namespace
-
-std::vector<ClinicalView> find_clinical_views() {
-  std::vector<ClinicalView> found;
-  for (pqRenderView* const view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    for (const ViewKind kind : {ViewKind::axial, ViewKind::sagittal, ViewKind::coronal, ViewKind::volume}) {
-      if (view->getSMName() == name_of(kind)) found.push_back({kind, view});
-    }
-  }
-  return found;
-}
 
 ClinicalViews::~ClinicalViews() = default;
 
@@ -143,10 +140,16 @@ void ClinicalViews::refresh() {
 
 std::vector<ClinicalView> ClinicalViews::views() const {
   std::vector<ClinicalView> open;
-  for (const auto& [kind, view] : views_) {
-    if (view) open.push_back({kind, view});
+  for (const auto& [kind, view, slice] : views_) {
+    if (view) open.push_back({kind, view, slice});
   }
   return open;
+}
+
+void ClinicalViews::refresh_values() {
+  for (const auto& slice : slices_) {
+    if (slice) slice->refresh_pointer();
+  }
 }
 
 void ClinicalViews::show_point(const glm::dvec3& place) {
@@ -252,6 +255,7 @@ void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind
                                       .sight = sight,
                                       .slices = slices,
                                       .slice = slice,
+                                      .numbers = numbers_of(lattice, plane, sight),
                                       .first_mm = glm::dot(lattice.origin, sight.along),
                                       .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
                                       .center_mm = lattice.center(),
@@ -259,7 +263,7 @@ void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind
                                       .half_width_mm = half_extent(lattice, right),
                                       .keeps_camera = restored},
                                      window_));
-  views_.push_back({kind, &view});
+  views_.push_back({kind, &view, slices_.back()});
 }
 
 void ClinicalViews::add_volume(pqRenderView& volume_view) {
@@ -267,7 +271,7 @@ void ClinicalViews::add_volume(pqRenderView& volume_view) {
       *vtkPVRenderView::SafeDownCast(volume_view.getRenderViewProxy()->GetClientSideView()));
   // The view may also be closed by hand, and its renderer with it.
   QObject::connect(&volume_view, &QObject::destroyed, &lifetime_, [this] { marker_.reset(); });
-  views_.push_back({ViewKind::volume, &volume_view});
+  views_.push_back({ViewKind::volume, &volume_view, nullptr});
   pqActiveObjects::instance().setActiveView(&volume_view);
 }
 
@@ -279,15 +283,20 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
   views_.clear();
   prepare(image, lattice);
   window_->window = window_of(*window_->gray_map);
-  for (const ClinicalView& open : find_clinical_views()) {
-    pqDataRepresentation* const shown = source.getRepresentation(open.view);
+  // By what they show: their names are in the language of the program that saved them.
+  for (pqView* const one : source.getViews()) {
+    auto* const view = qobject_cast<pqRenderView*>(one);
+    pqDataRepresentation* const shown = view ? source.getRepresentation(view) : nullptr;
     if (!shown) continue;
-    if (open.kind == ViewKind::volume) {
-      add_volume(*open.view);
-      continue;
-    }
-    const auto* const place = std::ranges::find_if(places, [&](const auto& of) { return of.kind == open.kind; });
-    add_slice(lattice, place->plane, open.kind, *open.view, *shown->getProxy(),
+    const std::string type = vtkSMPropertyHelper(shown->getProxy(), "Representation").GetAsString();
+    if (type == "Volume" && !marker_) add_volume(*view);
+    if (type != "Slice") continue;
+    const int mode = vtkSMPropertyHelper(shown->getProxy(), "SliceMode").GetAsInt();
+    const auto* const place = std::ranges::find_if(
+        places, [&](const auto& of) { return slice_mode(sight_of(of.plane, lattice.directions).index_axis) == mode; });
+    const bool taken = std::ranges::any_of(views_, [&](const OpenView& other) { return other.kind == place->kind; });
+    if (taken) continue;
+    add_slice(lattice, place->plane, place->kind, *view, *shown->getProxy(),
               vtkSMPropertyHelper(shown->getProxy(), "Slice").GetAsInt(), true);
   }
   refresh();

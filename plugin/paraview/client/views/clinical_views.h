@@ -21,10 +21,8 @@ enum class ViewKind { axial, sagittal, coronal, volume };
 struct ClinicalView {
   ViewKind kind = ViewKind::volume;
   pqRenderView* view = nullptr;
+  SliceView* slice = nullptr;  ///< null: the volume's. Goes with the view
 };
-
-/// The clinical views among all that are open, by their names: also those that a state file has restored.
-std::vector<ClinicalView> find_clinical_views();
 
 class ClinicalViews {
  public:
@@ -52,6 +50,12 @@ class ClinicalViews {
   std::vector<ClinicalView> views() const;
   /// Moves every slice view to the slice nearest to a place in the patient, mm. Cheap where none changes.
   void show_point(const glm::dvec3& place);
+  /// Called when the user leafs through slices.
+  void set_leafed(std::function<void()> leafed) { window_->leafed = std::move(leafed); }
+  /// Called when a slice view shows another slice.
+  void set_slice_shown(std::function<void(SliceView&)> shown) { window_->slice_shown = std::move(shown); }
+  /// Another frame is shown: what is told of the place under the pointer follows.
+  void refresh_values();
 
  private:
   void prepare(vtkSMSourceProxy& image, const ImageLattice& lattice);
@@ -67,6 +71,7 @@ class ClinicalViews {
   struct OpenView {
     ViewKind kind;
     QPointer<pqRenderView> view;
+    QPointer<SliceView> slice;
   };
   std::vector<OpenView> views_;
   QObject lifetime_;  // its end ends what is connected to the views

@@ -37,6 +37,7 @@ ImageLattice lattice_of(vtkSMSourceProxy& source) {
   vtkPVArrayInformation* const scalars = points.GetAttributeInformation(vtkDataSetAttributes::SCALARS);
   if (!scalars) throw std::runtime_error("this series has no values: see the messages");
   lattice.array = scalars->GetName();
+  lattice.counted_from_last = vtkSMPropertyHelper(&source, "CountedFromLast", true).GetAsInt() != 0;
   Values& values = lattice.values;
   const char* const modality = vtkSMPropertyHelper(&source, "Modality").GetAsString();
   values.modality = modality ? modality : "";

@@ -22,7 +22,8 @@ struct ImageLattice {
   glm::dvec3 spacing{1};
   std::array<glm::dvec3, 3> directions{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};  ///< unit
   glm::dvec3 origin{0};
-  std::string array;  ///< name of the point scalars
+  std::string array;               ///< name of the point scalars
+  bool counted_from_last = false;  ///< the scanner's image numbers descend along the slices
   Values values;
 
   glm::dvec3 center() const;

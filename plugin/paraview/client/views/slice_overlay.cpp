@@ -8,6 +8,7 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "plugin/paraview/client/views/anatomy.h"
@@ -28,6 +29,16 @@ constexpr std::array<Place, 6> places{{{0.985, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CEN
 constexpr std::size_t letters = 4, corner = 4, pointer = 5;
 
 }  // namespace
+
+bool is_clear_of_texts(double x, double y) {
+  constexpr double edge = 0.05, letter = 0.1, half_letter = 0.07, corner_width = 0.5, corner_height = 0.22;
+  const auto inside = [](double at, double margin) { return at > margin && at < 1 - margin; };
+  if (!inside(x, edge) || !inside(y, edge)) return false;
+  const bool under_side_letter = !inside(x, letter) && std::abs(y - 0.5) < half_letter;
+  const bool under_upper_letter = !inside(y, letter) && std::abs(x - 0.5) < half_letter;
+  const bool under_corner = x < corner_width && y > 1 - corner_height;
+  return !under_side_letter && !under_upper_letter && !under_corner;
+}
 
 SliceOverlay::SliceOverlay(vtkPVRenderView& view) : renderer_(view.GetNonCompositedRenderer()), view_(view) {
   for (std::size_t n = 0; n < texts_.size(); ++n) {

@@ -18,6 +18,9 @@ namespace palpate::plugin {
 
 /// Letters at the four edges, which follow the camera; what is shown in the upper left corner, what is
 /// under the pointer below it.
+/// Whether a place of a view (0 to 1, from the left and from below) is away from its edges and from all texts.
+bool is_clear_of_texts(double x, double y);
+
 class SliceOverlay {
  public:
   explicit SliceOverlay(vtkPVRenderView& view);

@@ -91,19 +91,21 @@ class SliceView::Mouse {
       case vtkCommand::MouseMoveEvent:
         if (!dragging_) {
           if (picking_) pick(Pick::moved);
-          owner_.tell_of(at[0], at[1]);
+          owner_.pointer_ = {at[0], at[1]};
+          owner_.refresh_pointer();
           return;
         }
         drag_to(at[0], at[1]);
         break;
       case vtkCommand::LeaveEvent:
-        owner_.set_pointer_text({});
+        owner_.pointer_.reset();
+        if (owner_.overlay_->set_pointer({})) owner_.view_.render();
         return;
       case vtkCommand::MouseWheelForwardEvent:
-        owner_.show_slice(owner_.setup_.slice + 1);
+        owner_.leaf(1);
         break;
       case vtkCommand::MouseWheelBackwardEvent:
-        owner_.show_slice(owner_.setup_.slice - 1);
+        owner_.leaf(-1);
         break;
       default:
         return;
@@ -173,7 +175,16 @@ void SliceView::show_slice(int slice) {
   vtkSMPropertyHelper(&representation_, "Slice").Set(setup_.slice);
   representation_.UpdateVTKObjects();
   refresh_text();
+  if (pointer_) tell_of((*pointer_)[0], (*pointer_)[1]);
+  if (window_->slice_shown) window_->slice_shown(*this);
   view_.render();
+}
+
+void SliceView::leaf(int steps) {
+  if (window_->leafed) window_->leafed();
+  // Towards head, front and left, whichever way the voxels run.
+  const double up = glm::dot(setup_.sight.along, upwards(setup_.plane)) * setup_.pitch_mm;
+  show_slice(setup_.slice + (up > 0 ? steps : -steps));
 }
 
 void SliceView::show_point(const glm::dvec3& place) {
@@ -194,23 +205,47 @@ glm::dvec3 SliceView::place_under(int x, int y) const {
   return seen + along * ((height - glm::dot(seen, setup_.sight.along)) / glm::dot(along, setup_.sight.along));
 }
 
-void SliceView::tell_of(int x, int y) {
+bool SliceView::tell_of(int x, int y) {
   const glm::dvec3 place = place_under(x, y);
   QString text = QString::fromStdString(place_text(place, window_->coordinates));
   if (const auto value = window_->value_at ? window_->value_at(place) : std::nullopt) {
     text += QStringLiteral("   %1 %2").arg(*value, 0, 'g', 6).arg(window_->unit);
   }
-  set_pointer_text(text.trimmed());
+  return overlay_->set_pointer(text.trimmed());
 }
 
-void SliceView::set_pointer_text(const QString& text) {
-  if (overlay_->set_pointer(text)) view_.render();
+void SliceView::refresh_pointer() {
+  if (pointer_ && tell_of((*pointer_)[0], (*pointer_)[1])) view_.render();
+}
+
+double SliceView::off_plane_mm(const glm::dvec3& place) const {
+  const double height = setup_.first_mm + setup_.slice * setup_.pitch_mm;
+  const double along = glm::dot(place, setup_.sight.along) - height;
+  return glm::dot(setup_.sight.along, upwards(setup_.plane)) > 0 ? along : -along;
+}
+
+glm::dvec3 SliceView::place_at(const glm::dvec2& off_middle_mm) const {
+  const Sight& sight = setup_.sight;
+  const double height = setup_.first_mm + setup_.slice * setup_.pitch_mm;
+  const glm::dvec3 middle = setup_.center_mm + sight.along * (height - glm::dot(setup_.center_mm, sight.along));
+  return middle + off_middle_mm.x * glm::cross(sight.along, sight.up) + off_middle_mm.y * sight.up;
+}
+
+double SliceView::half_pitch_mm() const {
+  return std::abs(setup_.pitch_mm) / 2;
+}
+
+bool SliceView::shows(const glm::dvec3& place) const {
+  vtkRenderer& renderer = *client_view(view_)->GetRenderer();
+  double x = place.x, y = place.y, z = place.z;
+  renderer.WorldToView(x, y, z);
+  return is_clear_of_texts((x + 1) / 2, (y + 1) / 2);
 }
 
 void SliceView::refresh_text() {
   overlay_->set_corner(QStringLiteral("%1  %2 / %3\nW %4  L %5")
                            .arg(name_of(setup_.plane))
-                           .arg(setup_.slice + 1)
+                           .arg(number_of(setup_.numbers, setup_.slice, setup_.slices))
                            .arg(setup_.slices)
                            .arg(window_->window.width, 0, 'f', 0)
                            .arg(window_->window.level, 0, 'f', 0));

@@ -9,11 +9,13 @@
 
 #include <array>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 
 #include "plugin/paraview/client/views/anatomy.h"
 #include "plugin/paraview/client/views/color_maps.h"
+#include "plugin/paraview/client/views/slice_numbers.h"
 
 class pqRenderView;
 class vtkSMProxy;
@@ -21,6 +23,7 @@ class vtkSMProxy;
 namespace palpate::plugin {
 
 class SliceOverlay;
+class SliceView;
 
 /// What the left button does while places are being picked.
 enum class Pick { pressed, moved, let_go };
@@ -36,6 +39,9 @@ struct SharedWindow {
   QString unit;
   /// Gets the left button instead of the window while it is set.
   std::function<void(Pick, const glm::dvec3& place)> pick;
+  /// Called when the user goes to another slice.
+  std::function<void()> leafed;
+  std::function<void(SliceView&)> slice_shown;
 };
 
 struct SliceSetup {
@@ -43,6 +49,7 @@ struct SliceSetup {
   Sight sight;
   int slices = 1;
   int slice = 0;
+  SliceNumbers numbers;
   double first_mm = 0;      ///< of the first slice along `sight.along`, in patient space
   double pitch_mm = 1;      ///< from slice to slice along `sight.along`; negative where they run towards the eye
   glm::dvec3 center_mm{0};  ///< of the volume
@@ -62,19 +69,35 @@ class SliceView : public QObject {
   /// The slice nearest to a place in the patient, mm; drawn anew only where it is another one.
   void show_point(const glm::dvec3& place);
   void refresh_text();
+  /// Tells anew what is under the pointer, if it is in the view.
+  void refresh_pointer();
+  /// How far a place lies from the slice that is shown, mm along wheel_direction().
+  double off_plane_mm(const glm::dvec3& place) const;
+  /// Half of the way to the next slice, mm: what lies nearer is on this one.
+  double half_pitch_mm() const;
+  /// Whether a place is seen well: inside the view and under none of its texts.
+  bool shows(const glm::dvec3& place) const;
+  Plane plane() const { return setup_.plane; }
+  const Sight& sight() const { return setup_.sight; }
+  /// Half the size of the scan as this view sees it, mm: to the right and up.
+  glm::dvec2 half_size_mm() const { return {setup_.half_width_mm, setup_.half_height_mm}; }
+  /// A place on the slice that is shown, mm from the middle of the scan to the right and up.
+  glm::dvec3 place_at(const glm::dvec2& off_middle_mm) const;
 
  private:
   class Mouse;
   void place_camera();
   glm::dvec3 place_under(int x, int y) const;
-  void tell_of(int x, int y);
-  void set_pointer_text(const QString& text);
+  /// A step of the wheel: towards the patient's head, front or left for +1.
+  void leaf(int steps);
+  bool tell_of(int x, int y);
 
   pqRenderView& view_;
   vtkSMProxy& representation_;
   SliceSetup setup_;
   std::shared_ptr<SharedWindow> window_;
   std::unique_ptr<SliceOverlay> overlay_;
+  std::optional<std::array<int, 2>> pointer_;  // while it is in the view
   std::unique_ptr<Mouse> mouse_;
 };
 

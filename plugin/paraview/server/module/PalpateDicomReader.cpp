@@ -28,6 +28,7 @@
 #include "plugin/paraview/common/display_image.h"
 #include "plugin/paraview/common/scan_choice.h"
 #include "plugin/paraview/common/scan_store.h"
+#include "plugin/paraview/common/slice_order.h"
 #include "plugin/paraview/server/module/value_shares.h"
 
 using namespace palpate;
@@ -44,7 +45,7 @@ struct PalpateDicomReader::Scan {
   std::shared_ptr<const io::Volume> probed;  // the slice that was probed last, where the volume does not have it
   int probed_slice = -1;
 
-  const io::Series& series() const { return catalogue->series[chosen]; }
+  const io::Series& series() const { return plugin::scan_at(*catalogue, chosen); }
   plugin::Part load(int wanted_frame, const std::array<int, 6>& extent, const io::Progress& progress) const;
 };
 
@@ -56,7 +57,8 @@ plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const std::array<i
   const auto& size = grid.dimensions;
   const bool all = extent == std::array<int, 6>{0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1};
   const bool in_parts = ranks && ranks->GetNumberOfProcesses() > 1 && !grid.resampled && !all &&
-                        series().frames_per_position == 1 && extent[4] <= extent[5];
+                        series().frames_per_position == 1 && !plugin::is_velocity(*catalogue, chosen) &&
+                        extent[4] <= extent[5];
   if (!in_parts) return plugin::whole_part(plugin::load_scan(series(), wanted_frame, progress), grid);
   if (const auto whole = plugin::held_scan(series(), wanted_frame)) return plugin::whole_part(whole, grid);
   if (volume && part_extent && plugin::contains(*part_extent, extent)) return {volume, *part_extent, true};
@@ -132,6 +134,10 @@ double* PalpateDicomReader::GetLattice() {
     for (std::size_t n = 0; n < lattice_.size(); ++n) lattice_[n] = rows[n / 3][static_cast<int>(n % 3)];
   }
   return lattice_.data();
+}
+
+bool PalpateDicomReader::GetCountedFromLast() {
+  return scan_ && plugin::counted_from_last(scan_->series());
 }
 
 const char* PalpateDicomReader::GetModality() {
@@ -217,8 +223,8 @@ void PalpateDicomReader::find() {
   messages_->Reset();
   for (const std::size_t n : plugin::choices(*found->catalogue, file_name_)) {
     series_uids_->InsertNextValue(plugin::scan_name(*found->catalogue, n));
-    series_labels_->InsertNextValue(plugin::scan_label(found->catalogue->series[n]));
-    series_usable_->InsertNextValue(found->catalogue->series[n].usable ? 1 : 0);
+    series_labels_->InsertNextValue(plugin::scan_label(plugin::scan_at(*found->catalogue, n)));
+    series_usable_->InsertNextValue(plugin::scan_at(*found->catalogue, n).usable ? 1 : 0);
   }
   found->chosen = plugin::choose_scan(*found->catalogue, series_uid_, file_name_);
   const io::Series& series = found->series();

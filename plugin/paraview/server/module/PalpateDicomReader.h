@@ -53,6 +53,9 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   /// only the bounds otherwise. Zeros before UpdateInformation().
   double* GetLattice() VTK_SIZEHINT(18);
 
+  /// Whether the scanner's image numbers descend along the slices.
+  bool GetCountedFromLast();
+
   /// DICOM Modality of the series: "CT", "MR", ... Empty before UpdateInformation().
   const char* GetModality();
   /// Level and width of the window that the series asks for; width 0 where it asks for none.

@@ -5,6 +5,13 @@
 #include <pqCoreUtilities.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <vtkCommand.h>
+#include <vtkPVRenderView.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkTextActor.h>
 
 #include <QApplication>
 #include <QFile>
@@ -20,6 +27,7 @@
 #include <QTimer>
 #include <QtTest/QTest>
 
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -136,6 +144,48 @@ QWidget& view(const char* name) {
     if (one->getSMName() == QLatin1String(name)) return *one->widget();
   }
   throw std::runtime_error(std::string("there is no view ") + name);
+}
+
+namespace {
+
+pqRenderView& render_view(const char* name) {
+  for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    if (one->getSMName() == QLatin1String(name)) return *one;
+  }
+  throw std::runtime_error(std::string("there is no view ") + name);
+}
+
+/// Of the texts over a slice: four letters, the corner, the pointer.
+QString overlay_text(const char* name, int which) {
+  auto* const client = vtkPVRenderView::SafeDownCast(render_view(name).getRenderViewProxy()->GetClientSideView());
+  vtkPropCollection& props = *client->GetNonCompositedRenderer()->GetViewProps();
+  int at = 0;
+  for (int n = 0; n < props.GetNumberOfItems(); ++n) {
+    auto* const text = vtkTextActor::SafeDownCast(props.GetItemAsObject(n));
+    if (text && at++ == which) return text->GetInput() ? QString::fromUtf8(text->GetInput()) : QString();
+  }
+  throw std::runtime_error(std::string("there are no texts over ") + name);
+}
+
+}  // namespace
+
+QString corner_text(const char* view) {
+  return overlay_text(view, 4);
+}
+
+QString pointer_text(const char* view) {
+  return overlay_text(view, 5);
+}
+
+void turn_wheel(const char* name, int steps) {
+  vtkRenderWindowInteractor& interactor = *render_view(name).getRenderViewProxy()->GetInteractor();
+  const QSize size = render_view(name).widget()->size();
+  interactor.SetEventInformation(size.width() / 2, size.height() / 2);
+  interactor.InvokeEvent(vtkCommand::MouseMoveEvent);
+  for (int n = 0; n < std::abs(steps); ++n) {
+    interactor.InvokeEvent(steps > 0 ? vtkCommand::MouseWheelForwardEvent : vtkCommand::MouseWheelBackwardEvent);
+  }
+  QTest::qWait(200);
 }
 
 QPoint proxy_in(QWidget& view) {

@@ -49,6 +49,11 @@ void press_key_in(QWidget& view, const char* key);
 QWidget& view(const char* name);
 /// The middle of the stylus' yellow proxy in a view's picture, pixels.
 QPoint proxy_in(QWidget& view);
+/// What stands in the corner of a slice view, and what is told of the place under its pointer.
+QString corner_text(const char* view);
+QString pointer_text(const char* view);
+/// The pointer in the middle of a view, and its wheel turned: up for more than 0.
+void turn_wheel(const char* view, int steps);
 /// Brings it into sight, as a user scrolls.
 void scroll_to(QWidget& to);
 void move_pointer(const QWidget& in, const QPoint& at);

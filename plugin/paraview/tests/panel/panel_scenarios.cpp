@@ -44,11 +44,11 @@ void escape_releases() {
   wait_for(
       "the force is zero", [] { return number("palpateForce") == 0; }, 5);
   wait_for(
-      "it says so", [] { return label("palpateState").startsWith("released"); }, 5);
+      "it says so", [] { return label("palpateState").startsWith("Ready"); }, 5);
   save_screen("released");
   click("palpateFeel");
   wait_for(
-      "forces are on again", [] { return label("palpateState").startsWith("active"); }, 10);
+      "forces are on again", [] { return forces_are_on(); }, 10);
 }
 
 void escape_releases_under_a_dialog() {
@@ -126,14 +126,21 @@ void a_fault_is_cleared() {
   wait_for(
       "the fault is told",
       [] {
-        return label("palpateState").contains("program") || find<QPushButton>("palpateFeel").text() == "Clear fault";
+        return label("palpateState").startsWith("Stopped: The panel stopped answering") &&
+               find<QPushButton>("palpateFeel").text() == "Clear fault";
       },
       10);
   save_screen("fault");
   expect(number("palpateForce") == 0, "the force was taken away");
+  click("palpateFeel");  // "Clear fault"
+  wait_for(
+      "it is ready, and no more", [] { return label("palpateState").startsWith("Ready: no force"); }, 10);
+  wait_ms(1000);
+  expect(label("palpateState").startsWith("Ready: no force") && number("palpateForce") == 0,
+         "clearing a fault turns no force on");
   click("palpateFeel");
   wait_for(
-      "forces are on again", [] { return label("palpateState").startsWith("active"); }, 10);
+      "forces are on again", [] { return forces_are_on(); }, 10);
 }
 
 void the_view_is_clutched() {
@@ -147,7 +154,7 @@ void the_view_is_clutched() {
   const std::string before = scene_text();
   click("palpateClutch");
   wait_for(
-      "forces are on again", [] { return label("palpateState").startsWith("active"); }, 10);
+      "forces are on again", [] { return forces_are_on(); }, 10);
   expect(scene_text() != before, "the mapping is turned as the view is");
 }
 
@@ -262,7 +269,7 @@ void run_scenario(const std::string& name) {
   wait_ms(1000);
   for (const Scenarios* const some :
        {&scenarios, &hand_scenarios(), &heap_scenarios(), &picture_scenarios(), &profile_scenarios(),
-        &recording_scenarios(), &remote_scenarios(), &story_scenarios()}) {
+        &recording_scenarios(), &remote_scenarios(), &shown_scenarios(), &story_scenarios()}) {
     if (const auto found = some->find(name); found != some->end()) return found->second();
   }
   throw std::runtime_error("there is no scenario " + name);

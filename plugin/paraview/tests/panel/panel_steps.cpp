@@ -36,9 +36,25 @@ void scan_is_shown() {
   wait_ms(1500);
 }
 
+bool forces_are_on() {
+  return label("palpateState").startsWith("Feeling: forces are on");
+}
+
+void turn_forces_on() {
+  auto& feel = find<QPushButton>("palpateFeel");
+  wait_for("it is known what the stylus does", [] { return !label("palpateState").isEmpty(); });
+  wait_for("forces are on", [&] {
+    if (feel.isEnabled() && !label("palpateState").startsWith("Feeling")) {
+      click("palpateFeel");  // or "Clear fault" before it
+      wait_ms(100);
+    }
+    return forces_are_on();
+  });
+}
+
 void connect_stylus() {
   click("palpateConnect");
-  wait_for("forces are on", [] { return label("palpateState").startsWith("active"); });
+  turn_forces_on();
   wait_ms(1500);
 }
 
@@ -61,8 +77,7 @@ void press() {
     if (n > 0) {  // a busy machine's servo had taken the force away, and the hand went through: to the front again
       drag(sagittal, from, QPoint(20, from.y()), true);
       wait_ms(2000);
-      if (find<QPushButton>("palpateFeel").isVisible()) click("palpateFeel");
-      wait_for("forces are on", [] { return label("palpateState").startsWith("active"); });
+      turn_forces_on();
       from = proxy_in(sagittal);
     }
     drag(sagittal, from, from + QPoint(4, 0), false);  // the front is on the left
@@ -88,8 +103,7 @@ void press_once() {
   };
   constexpr int tries = 5;
   for (int n = 0; n < tries; ++n) {
-    if (find<QPushButton>("palpateFeel").isVisible()) click("palpateFeel");
-    wait_for("forces are on", [] { return label("palpateState").startsWith("active"); });
+    turn_forces_on();
     QPoint at = proxy_in(view("Sagittal"));
     send(vtkCommand::LeftButtonPressEvent, at);
     if (n > 0) {  // it went through when the force was taken away

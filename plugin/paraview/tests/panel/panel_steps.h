@@ -17,13 +17,18 @@ const Scenarios& picture_scenarios();
 const Scenarios& profile_scenarios();
 const Scenarios& recording_scenarios();
 const Scenarios& remote_scenarios();
+const Scenarios& shown_scenarios();
 const Scenarios& story_scenarios();
 
 /// The JSON text of the scene in the pipeline; empty where there is none.
 std::string scene_text();
 /// Waits for the scan and its tissues.
 void scan_is_shown();
+/// Connects, and turns the forces on.
 void connect_stylus();
+/// Feel, after a fault is cleared where there is one.
+void turn_forces_on();
+bool forces_are_on();
 /// Presses from the front, slowly, until something is felt; the button stays down.
 void press();
 /// The same, and lets go, by the view's own events instead of the display's pointer, which takes long; once more where

@@ -97,11 +97,10 @@ void guide_pictures() {
   save_section("stylus", "palpateStylusSection");
   QThread::sleep(3);  // as if the program hung: the servo takes the force away
   wait_for("the fault is told", [] { return find<QPushButton>("palpateFeel").text() == "Clear fault"; });
-  save_section("fault", "palpateStylusSection");
-  click("palpateFeel");
-  wait_for("forces are on again", [] { return label("palpateState").startsWith("active"); });
+  save_widget("fault", "palpateFooter");
+  turn_forces_on();
   press_key(Qt::Key_Escape);
-  wait_for("it is released", [] { return label("palpateState").startsWith("released"); });
+  wait_for("it is released", [] { return label("palpateState").startsWith("Ready"); });
   click("palpateConnect");
   auto& slider = find<QSlider>("palpateScrub");
   slider.setValue(slider.maximum() * 9 / 10);

@@ -22,7 +22,7 @@ void record_a_press(const QString& file) {
       label("palpateStylusMessage") == "Recording: the session began anew, so that it can be repeated to the last bit.",
       "it is said that the session began anew");
   wait_for(
-      "forces are on", [] { return label("palpateState").startsWith("active"); }, 20);
+      "forces are on", [] { return forces_are_on(); }, 20);
   wait_ms(1500);
   press();
   let_go();
@@ -45,7 +45,7 @@ void recordings_are_replayed_and_compared() {
   record_a_press(folder + "/second.h5");
   click("palpateConnect");
   wait_for(
-      "the stylus is let go", [] { return label("palpateState") == "not connected"; }, 10);
+      "the stylus is let go", [] { return label("palpateState").startsWith("Off"); }, 10);
 
   auto& slider = find<QSlider>("palpateScrub");
   double most = 0;

@@ -100,7 +100,7 @@ void feel_patiently(bool recorded) {
     const QPoint inside = proxy_in(sagittal);
     drag(sagittal, inside, QPoint(from.x() - 2, from.y()), true);
     wait_ms(2000);
-    if (find<QPushButton>("palpateFeel").isVisible()) click("palpateFeel");
+    turn_forces_on();
     wait_ms(2000);
   }
   expect(false, "a force is felt");
@@ -119,7 +119,7 @@ void remote_probe() {
   save_screen("remote");
   pqApplicationCore::instance()->getObjectBuilder()->removeServer(active_server());
   wait_for(
-      "nothing is held", [] { return label("palpateState").startsWith("not connected"); }, 10);
+      "nothing is held", [] { return label("palpateState").startsWith("Off"); }, 10);
   expect(number("palpateForce") == 0, "the force was taken away");
   expect(label("palpateStylusMessage")
              .contains("ParaView left the server: the stylus was let go, and a recording closed."),
@@ -204,7 +204,7 @@ void remote_killed() {
     if (!asks) return;
     looking.stop();
     // At once: the panel is told before ParaView is.
-    const bool zero = number("palpateForce") == 0 && label("palpateState").startsWith("not connected");
+    const bool zero = number("palpateForce") == 0 && label("palpateState").startsWith("Off");
     const bool said =
         label("palpateStylusMessage")
             .contains(

@@ -156,7 +156,7 @@ void a_session_is_saved() {
   QFile::remove(recording);
   name_file("palpateRecord", recording);
   wait_for("it is recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; });
-  wait_for("forces are on", [] { return label("palpateState").startsWith("active"); });
+  wait_for("forces are on", [] { return forces_are_on(); });
   wait_ms(1500);
   press_once();
   wait_ms(500);

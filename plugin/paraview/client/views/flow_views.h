@@ -1,0 +1,38 @@
+#pragma once
+
+/// A velocity field as arrows on the slices that are shown: the part of it that lies in the slice, by its direction and
+/// speed.
+
+#include <QPointer>
+
+#include <memory>
+#include <vector>
+
+#include "io/fields/field_source.h"
+#include "io/volume.h"
+#include "plugin/paraview/client/views/clinical_views.h"
+
+namespace palpate::plugin {
+
+class FlowViews {
+ public:
+  FlowViews();
+  ~FlowViews();
+  FlowViews(const FlowViews&) = delete;
+  FlowViews& operator=(const FlowViews&) = delete;
+
+  /// The views of a scan that has just been shown; empty: none.
+  void set_views(const std::vector<ClinicalView>& views);
+  /// What is drawn; nothing where it is no vector field.
+  void set_volume(const std::shared_ptr<const io::Volume>& volume);
+  /// Draws the arrows of the slice that a view shows now.
+  void show(SliceView& slice);
+
+ private:
+  struct One;
+  std::vector<std::unique_ptr<One>> views_;
+  std::shared_ptr<const io::FieldSource> field_;
+  double fastest_ = 0;  // in the volume
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,43 @@
+#include "plugin/session/scene_fit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/fields/volume_fields.h"
+#include "modes/scene/plan.h"
+#include "modes/scene/strength.h"
+#include "modes/types/mode_type.h"
+
+namespace palpate::plugin {
+namespace {
+
+io::FieldSet fields_read_by(const modes::Mode& mode) {
+  io::FieldSet reads = modes::find_mode_type(mode.type)->reads(mode) | modes::field_of(mode.strength_of);
+  for (const modes::Gate& gate : mode.gates) reads = reads | modes::field_of(gate.of);
+  return reads;
+}
+
+io::FieldSet without(io::FieldSet set, io::FieldSet taken) {
+  return static_cast<io::FieldSet>(static_cast<unsigned>(set) & ~static_cast<unsigned>(taken));
+}
+
+}  // namespace
+
+std::string why_not_felt(const modes::Scene& scene, const io::Volume& volume) {
+  const io::FieldSet available = io::fields_of(volume);
+  io::FieldSet missing = io::FieldSet::none;
+  for (const modes::Mode& mode : scene.modes) {
+    if (!mode.enabled || !modes::find_mode_type(mode.type)) continue;
+    const io::FieldSet lacks = without(fields_read_by(mode), available);
+    if (lacks == io::FieldSet::none) return {};
+    missing = missing | lacks;
+  }
+  if (missing == io::FieldSet::none) return {};
+  const std::string name = scene.name.empty() ? "this scene" : "the scene \"" + scene.name + "\"";
+  return fmt::format(
+      "{} cannot be felt on this scan, which has no {}: {}, or choose another scene", name,
+      fmt::join(modes::names_of(missing), ", "),
+      io::contains(missing, io::FieldSet::vector) ? "open a velocity field (phase contrast)" : "open another scan");
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,16 @@
+#pragma once
+
+/// Whether a scene can be felt on a scan at all.
+
+#include <string>
+
+#include "io/volume.h"
+#include "modes/scene/scene.h"
+
+namespace palpate::plugin {
+
+/// Why nothing of the scene could be felt on this scan: every mode that is switched on reads a field that the scan does
+/// not have. Empty where something can be felt, or where nothing is switched on.
+std::string why_not_felt(const modes::Scene& scene, const io::Volume& volume);
+
+}  // namespace palpate::plugin
