@@ -29,6 +29,13 @@ QLabel* make_value(QWidget* parent, const char* name, const QString& tip) {
   return label;
 }
 
+/// "-302 HU, soft tissue"; only the value where the tissue has no name. Units other than HU are not whole numbers.
+QString value_text(double value, const QString& unit, const QString& tissue) {
+  const QString number = unit == QLatin1String("HU") ? QString::number(value, 'f', 0) : QString::number(value, 'g', 4);
+  const QString text = unit.isEmpty() ? number : QStringLiteral("%1 %2").arg(number, unit);
+  return tissue.startsWith(QLatin1String("value ")) ? text : QStringLiteral("%1, %2").arg(text, tissue);
+}
+
 }  // namespace
 
 Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* parent)
@@ -159,9 +166,8 @@ void Footer::show_look(const SessionStatus& look) {
   depth_->setText(look.force_n > 0 ? tr("%1 mm past the boundary").arg(depth_mm, 0, 'f', 1) : tr("nothing held"));
   const QString tissue = QString::fromStdString(look.tissue);
   const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
-  tissue_->setText(std::isfinite(frame.value)
-                       ? tr("%1 %2, %3").arg(frame.value, 0, 'f', 0).arg(QString::fromStdString(unit), tissue)
-                       : tr("outside the scan"));
+  tissue_->setText(std::isfinite(frame.value) ? value_text(frame.value, QString::fromStdString(unit), tissue)
+                                              : tr("outside the scan"));
   const double error_mm = 1e3 * frame.error_bound_m;
   constexpr double small_mm = 1e-9;
   solver_->setText(tr("%1 solver, error below %2 mm")

@@ -1,18 +1,23 @@
 // What is shown is what is felt: where it is not, there is no force, and the panel says why.
 
 #include <pqActiveObjects.h>
+#include <pqAnimationManager.h>
+#include <pqAnimationScene.h>
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
 #include <pqDataRepresentation.h>
 #include <pqDeleteReaction.h>
 #include <pqObjectBuilder.h>
+#include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
+#include <pqTimeKeeper.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
+#include <QAction>
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
@@ -20,6 +25,7 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSlider>
 
 #include <cmath>
 #include <cstdlib>
@@ -38,12 +44,23 @@ pqPipelineSource& reader() {
   throw std::runtime_error("there is no scan in the pipeline");
 }
 
+/// Another number for another reader; 0: none.
+unsigned reader_in_pipeline() {
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+    if (source->getProxy()->GetXMLName() == std::string("PalpateDicomReader")) return source->getProxy()->GetGlobalID();
+  }
+  return 0;
+}
+
 void choose_series(int row) {
+  const unsigned before = reader_in_pipeline();
   auto& series = find<QListWidget>("palpateSeries");
   wait_for("the series are listed", [&] { return series.count() > row; });
   scroll_to(series);
   series.scrollToItem(series.item(row));
   click(*series.viewport(), series.visualItemRect(series.item(row)).center());
+  wait_for("another scan is in the pipeline",
+           [&] { return reader_in_pipeline() != 0 && reader_in_pipeline() != before; });
   scan_is_shown();
 }
 
@@ -102,8 +119,8 @@ void no_scan_shown_no_force() {
   pqActiveObjects::instance().setActiveSource(second);
   expect_stopped("is active in the Pipeline Browser");
   let_go();
-  pqDataRepresentation* const also = builder.createDataRepresentation(
-      second->getOutputPort(0), pqActiveObjects::instance().activeView());
+  pqDataRepresentation* const also =
+      builder.createDataRepresentation(second->getOutputPort(0), pqActiveObjects::instance().activeView());
   also->setVisible(true);
   wait_for(
       "it is said which one is not felt",
@@ -202,8 +219,8 @@ void undo_belongs_to_a_scan() {
   const QString reach = label("palpateScale");
   name_file("palpateOpenScene", file);
   wait_for(
-      "the scene is called by its file", [] { return find<QComboBox>("palpateScenes").currentText() == "my scene.json"; },
-      5);
+      "the scene is called by its file",
+      [] { return find<QComboBox>("palpateScenes").currentText() == "my scene.json"; }, 5);
   expect(label("palpateScale") == reach, "the reach is the user's");
   save_screen("scene-named");
   // With a stylus connected, another series gets a scene that says what it is.
@@ -229,8 +246,7 @@ void expect_begins_in_sight() {
     constexpr int edge = 10;
     expect(in.rect().adjusted(edge, edge, -edge, -edge).contains(at), std::string("it is well inside ") + name);
     const bool under_letter = std::abs(at.x() - in.width() / 2) < 12 && (at.y() < 26 || at.y() > in.height() - 26);
-    const bool under_side_letter =
-        std::abs(at.y() - in.height() / 2) < 12 && (at.x() < 26 || at.x() > in.width() - 26);
+    const bool under_side_letter = std::abs(at.y() - in.height() / 2) < 12 && (at.x() < 26 || at.x() > in.width() - 26);
     expect(!under_letter && !under_side_letter, std::string("it is under no letter in ") + name);
   }
 }
@@ -274,8 +290,7 @@ void keys_go_to_the_marked_view() {
     QWidget* const focus = QApplication::focusWidget();
     return focus && (focus == &coronal || coronal.isAncestorOf(focus));
   };
-  wait_for(
-      "the marked view has the keys after Feel", in_view, 5);
+  wait_for("the marked view has the keys after Feel", in_view, 5);
   const QPoint at = proxy_in(coronal);
   for (int n = 0; n < 8; ++n) press_key(Qt::Key_Up);
   wait_for(
@@ -286,10 +301,10 @@ void keys_go_to_the_marked_view() {
   click(stiffness, QPoint(20, stiffness.height() / 2));
   press_key(Qt::Key_Up);
   wait_for(
-      "the number that was clicked has changed", [&] { return stiffness.value() == before + stiffness.singleStep(); }, 5);
+      "the number that was clicked has changed", [&] { return stiffness.value() == before + stiffness.singleStep(); },
+      5);
   click("palpateRelease");
-  wait_for(
-      "the marked view has the keys after Release", in_view, 5);
+  wait_for("the marked view has the keys after Release", in_view, 5);
   press_key(Qt::Key_Up);
   wait_ms(300);
   expect(stiffness.value() == before + stiffness.singleStep(), "the number stays");
@@ -298,7 +313,8 @@ void keys_go_to_the_marked_view() {
 
 double part_of_place(const QString& text, const char* plus, const char* minus) {
   const auto match =
-      QRegularExpression(QStringLiteral("([%1%2]) ([0-9.]+)").arg(QLatin1String(plus), QLatin1String(minus))).match(text);
+      QRegularExpression(QStringLiteral("([%1%2]) ([0-9.]+)").arg(QLatin1String(plus), QLatin1String(minus)))
+          .match(text);
   if (!match.hasMatch()) throw std::runtime_error("no place is told: " + text.toStdString());
   return (match.captured(1) == QLatin1String(plus) ? 1 : -1) * match.captured(2).toDouble();
 }
@@ -325,7 +341,8 @@ void slices_are_scrolled() {
   // To the image that the scanner calls number 1.
   const double first_h = qEnvironmentVariable("PALPATE_FIRST_H").toDouble();
   turn_wheel("Axial", first_h > 0 ? 200 : -200);
-  expect(slice_number("Axial") == 1, "the scanner's first image is number 1, not " + corner_text("Axial").toStdString());
+  expect(slice_number("Axial") == 1,
+         "the scanner's first image is number 1, not " + corner_text("Axial").toStdString());
   expect(std::abs(part_of_place(pointer_text("Axial"), "H", "F") - first_h) < 0.11, "and lies where it says");
 
   // Following does not undo scrolling.
@@ -344,6 +361,137 @@ void slices_are_scrolled() {
       "Go to stylus leads back", [&] { return slice_number("Axial") == through; }, 5);
 }
 
+/// The row of the list whose text has these words.
+int row_with(const QString& words) {
+  auto& series = find<QListWidget>("palpateSeries");
+  wait_for("the series are listed", [&] { return series.count() > 1; });
+  for (int row = 0; row < series.count(); ++row) {
+    if (series.item(row)->text().contains(words)) return row;
+  }
+  throw std::runtime_error("no series is listed with " + words.toStdString());
+}
+
+/// The free stream of the phantom goes up and down by half of itself in five times of a cycle.
+double stream_at(int time) {
+  constexpr double pulsation = 0.5, pi = 3.14159265358979;
+  return 1 + pulsation * std::sin(2 * pi * time / 5);
+}
+
+bool is_near(double a, double b, double part) {
+  return std::abs(a - b) <= part * std::abs(b);
+}
+
+/// Whoever drives the time, views and stylus have the same frame: slider, ParaView's own buttons, ParaView's time.
+void frames_are_felt_as_shown() {
+  choose_series(row_with("velocity of"));
+  expect(find<QSlider>("palpateFrame").maximum() == 4, "there are five frames to slide over");
+  click("palpateConnect");
+  wait_ms(1500);
+  // To a place in the stream, off the sphere: by the mouse, without a force.
+  QWidget& sagittal = view("Sagittal");
+  const QPoint from = proxy_in(sagittal);
+  drag(sagittal, from, QPoint(sagittal.width() / 3, sagittal.height() / 3), true);
+  wait_ms(2500);
+  const double felt_first = number("palpateTissue");
+  expect(felt_first > 0, "the stylus is in the stream: " + label("palpateTissue").toStdString());
+  turn_wheel("Axial", 0);  // the pointer in the middle of it
+  const auto expect_frame = [&](int frame, const std::string& by) {
+    wait_for(
+        by + " leads to frame " + std::to_string(frame + 1),
+        [&] {
+          return label("palpateFrameText").endsWith(QStringLiteral("%1 of 5").arg(frame + 1)) &&
+                 label("palpateFelt").contains(QStringLiteral("%1 of 5.").arg(frame + 1)) &&
+                 find<QSlider>("palpateFrame").value() == frame;
+        },
+        20);
+    wait_for(
+        by + ": what is felt is the frame's: " + label("palpateTissue").toStdString(),
+        [&] { return is_near(number("palpateTissue") / felt_first, stream_at(frame) / stream_at(0), 0.04); }, 10);
+  };
+  const auto pqtime = [] { return pqActiveObjects::instance().activeServer()->getTimeKeeper()->getTime(); };
+  find<QSlider>("palpateFrame").setValue(1);
+  expect_frame(1, "the slider");
+  expect(pqtime() == 1, "ParaView's time is the same");
+  save_screen("frame-2");
+  const auto trigger = [](const char* action) {
+    auto* const found = pqCoreUtilities::mainWidget()->findChild<QAction*>(QString::fromLatin1(action));
+    expect(found != nullptr, std::string("ParaView has ") + action);
+    found->trigger();
+  };
+  trigger("actionVCRLastFrame");
+  expect_frame(4, "ParaView's Last");
+  trigger("actionVCRPreviousFrame");
+  expect_frame(3, "ParaView's Back");
+  trigger("actionVCRFirstFrame");
+  expect_frame(0, "ParaView's First");
+  click("palpateFrameLast");
+  expect_frame(4, "the panel's Last");
+  expect(pqtime() == 4, "ParaView's time is the last");
+  pqPVApplicationCore::instance()->animationManager()->getActiveScene()->setAnimationTime(2);
+  expect_frame(2, "ParaView's time");
+  // While it is felt the force goes over in a ramp, and the stylus stays.
+  turn_forces_on();
+  find<QSlider>("palpateFrame").setValue(1);
+  expect_frame(1, "the slider");
+  expect(label("palpateState").startsWith("Feeling") || label("palpateState").startsWith("Stopped: The"),
+         "another frame takes no force away");
+  // Another series begins at its first frame.
+  find<QPushButton>("palpateRelease").click();
+  choose_series(row_with("magnitude"));
+  expect(pqtime() == 0 && find<QSlider>("palpateFrame").value() == 0, "another series: the time starts anew");
+}
+
+void a_flow_is_shown_and_felt() {
+  choose_series(row_with("velocity of"));
+  expect(find<QComboBox>("palpateScenes").currentText().startsWith("Flow"),
+         "the scene is Flow: " + find<QComboBox>("palpateScenes").currentText().toStdString());
+  expect(find<QCheckBox>("palpateOn0").isChecked(), "its modes can be switched");
+  save_screen("flow");
+  connect_stylus();
+  expect(number("palpateForce") < 0.05, "nothing is felt where it begins");
+  QWidget& sagittal = view("Sagittal");
+  const QPoint from = proxy_in(sagittal);
+  drag(sagittal, from, QPoint(sagittal.width() / 3, sagittal.height() / 3), false);
+  wait_for(
+      "the flow pushes", [] { return number("palpateForce") > 0.05; }, 20);
+  save_screen("flow-felt");
+  let_go();
+}
+
+/// Refused before anything is connected, in words, and the scene that can be felt stays.
+void a_scene_without_its_field_is_refused() {
+  scan_is_shown();
+  const std::string before = scene_text();
+  auto& scenes = find<QComboBox>("palpateScenes");
+  const QString named = scenes.currentText();
+  const int flow = scenes.findText("Flow");
+  expect(flow > 0, "Flow is offered");
+  scenes.setCurrentIndex(flow);
+  emit scenes.activated(flow);
+  wait_for(
+      "it is refused in words",
+      [] {
+        return label("palpateSceneMessage") ==
+               "the scene \"Flow\" cannot be felt on this scan, which has no vector field: open a velocity field "
+               "(phase "
+               "contrast), or choose another scene";
+      },
+      5);
+  expect(scene_text() == before, "the scene in the pipeline is the one that can be felt");
+  expect(scenes.currentText() == named, "and the box says so");
+  save_screen("scene-refused");
+  // Also where somebody else puts it into the pipeline.
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+    if (source->getProxy()->GetXMLName() != std::string("PalpateScene")) continue;
+    vtkSMPropertyHelper(source->getProxy(), "Scene").Set("flow");
+    source->getProxy()->UpdateVTKObjects();
+  }
+  wait_ms(500);
+  expect(scene_text() == before, "what is refused does not stay in the pipeline");
+  connect_stylus();
+  press();
+}
+
 }  // namespace
 
 const Scenarios& shown_scenarios() {
@@ -352,6 +500,9 @@ const Scenarios& shown_scenarios() {
       {"a_reset_session_has_no_force", a_reset_session_has_no_force},
       {"a_loaded_state_has_no_force", a_loaded_state_has_no_force},
       {"undo_belongs_to_a_scan", undo_belongs_to_a_scan},
+      {"frames_are_felt_as_shown", frames_are_felt_as_shown},
+      {"a_flow_is_shown_and_felt", a_flow_is_shown_and_felt},
+      {"a_scene_without_its_field_is_refused", a_scene_without_its_field_is_refused},
       {"the_hand_begins_in_sight", the_hand_begins_in_sight},
       {"keys_go_to_the_marked_view", keys_go_to_the_marked_view},
       {"slices_are_scrolled", slices_are_scrolled},
