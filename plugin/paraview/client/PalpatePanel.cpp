@@ -3,6 +3,7 @@
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
+#include <pqQVTKWidget.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
@@ -56,7 +57,17 @@ namespace {
 
 void focus_marked_view() {
   if (QApplication::activeModalWidget() || QApplication::activePopupWidget()) return;
-  if (pqView* const marked = pqActiveObjects::instance().activeView()) marked->widget()->setFocus();
+  pqView* const marked = pqActiveObjects::instance().activeView();
+  if (!marked) return;
+  auto* const frame = qobject_cast<pqQVTKWidget*>(marked->widget());
+  QWidget* const picture = frame ? frame->renderWidget() : marked->widget();
+  // What is drawn may be a window of its own, in a container that hands the keys on.
+  for (QWidget* const child : picture->findChildren<QWidget*>()) {
+    if (!child->inherits("QWindowContainer")) continue;
+    child->setFocus();
+    return;
+  }
+  picture->setFocus();
 }
 
 }  // namespace

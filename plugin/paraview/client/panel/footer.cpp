@@ -58,7 +58,7 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
   felt_ = make_value(this, "palpateFelt", tr("Scan, frame and scene that the stylus feels"));
   felt_->setWordWrap(true);
   felt_->setText(tr("No scan is open."));
-  grid->addWidget(felt_, 6, 0, 1, 3);
+  grid->addWidget(felt_, 7, 0, 1, 3);
   grid->addWidget(force_, 0, 0);
   grid->addWidget(depth_, 0, 1, 1, 2);
   grid->addWidget(tissue_, 1, 0, 1, 3);
@@ -92,14 +92,16 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
   state_->setTextFormat(Qt::PlainText);
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   row->addWidget(state_, 1);
+  grid->addLayout(row, 5, 0, 1, 3);
+  auto* const buttons = new QHBoxLayout;
   feel_ = new QPushButton(tr("Feel"), this);
   feel_->setObjectName(QStringLiteral("palpateFeel"));
   feel_->setMinimumHeight(38);
   connect(feel_, &QPushButton::clicked, this,
           [this] { state_line_of(touching_.last()).fault_latched ? touching_.clear_fault() : touching_.feel(); });
-  row->addWidget(feel_);
-  row->addWidget(release_);
-  grid->addLayout(row, 5, 0, 1, 3);
+  buttons->addWidget(feel_, 1);
+  buttons->addWidget(release_, 1);
+  grid->addLayout(buttons, 6, 0, 1, 3);
   grid->setColumnStretch(0, 2);
   grid->setColumnStretch(1, 3);
   connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });

@@ -314,6 +314,7 @@ void ScanSection::take(const Loaded& loaded) {
     handle_.frames =
         std::max(1, static_cast<int>(vtkSMPropertyHelper(source_->getProxy(), "TimestepValues").GetNumberOfElements()));
   }
+  pqActiveObjects::instance().setActiveSource(source_);  // what ParaView's own panels are about
   watch_time();
   show_frame();
   emit scan_shown(handle_);

@@ -55,7 +55,7 @@ QWidget* ScanSection::build_frames() {
   const auto add = [&](const char* name, const char* sign, const QString& tip, auto frame) {
     add_tool_button(*row, *box, name, QString::fromUtf8(sign), tip, [this, frame] { go_to_frame(frame()); });
   };
-  add("palpateFrameFirst", "⏮", tr("First frame"), [] { return 0; });
+  add("palpateFrameFirst", "|◀", tr("First frame"), [] { return 0; });
   add("palpateFrameBack", "◀", tr("One frame back"), [this] { return handle_.frame - 1; });
   frame_ = new QSlider(Qt::Horizontal, box);
   frame_->setObjectName(QStringLiteral("palpateFrame"));
@@ -63,7 +63,7 @@ QWidget* ScanSection::build_frames() {
   connect(frame_, &QSlider::valueChanged, this, [this](int frame) { go_to_frame(frame); });
   row->addWidget(frame_, 1);
   add("palpateFrameNext", "▶", tr("One frame on"), [this] { return handle_.frame + 1; });
-  add("palpateFrameLast", "⏭", tr("Last frame"), [this] { return handle_.frames - 1; });
+  add("palpateFrameLast", "▶|", tr("Last frame"), [this] { return handle_.frames - 1; });
   column->addLayout(row);
   box->hide();
   return box;
@@ -149,8 +149,7 @@ QString ScanSection::why_not_felt() const {
 
 QStringList ScanSection::others_shown() const {
   QStringList names;
-  for (auto* const source :
-       pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
     if (source != source_ && is_scan(*source) && is_seen(*source)) names << source->getSMName();
   }
   return names;

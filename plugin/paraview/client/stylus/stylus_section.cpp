@@ -231,7 +231,7 @@ void StylusSection::show_connection() {
   device_->setEnabled(!held);
   file_->setEnabled(!held);
   clutch_->setEnabled(held);
-  if (!held) leafing_ = false;
+  leafing_ = false;  // whoever takes the stylus wants to see it
   if (held) {
     const device::Specification& stylus = live.specification();
     own_->setText(stylus.force_axes > 0 ? tr("its own: %1 N/m, %2 N (%3 N for long)")

@@ -40,6 +40,13 @@ QString name_of(Plane plane) {
   return translated("Sagittal");
 }
 
+/// Whole, as HU are; with digits where that would say nothing.
+QString window_number(double value) {
+  constexpr double small = 20;
+  return std::abs(value) < small && value != std::round(value) ? QString::number(value, 'g', 3)
+                                                               : QString::number(value, 'f', 0);
+}
+
 vtkPVRenderView* client_view(const pqRenderView& view) {
   return vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
 }
@@ -247,8 +254,7 @@ void SliceView::refresh_text() {
                            .arg(name_of(setup_.plane))
                            .arg(number_of(setup_.numbers, setup_.slice, setup_.slices))
                            .arg(setup_.slices)
-                           .arg(window_->window.width, 0, 'f', 0)
-                           .arg(window_->window.level, 0, 'f', 0));
+                           .arg(window_number(window_->window.width), window_number(window_->window.level)));
 }
 
 }  // namespace palpate::plugin

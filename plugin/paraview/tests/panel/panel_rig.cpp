@@ -119,6 +119,10 @@ void press_key(int key) {
   QTest::keyClick(focus ? focus : &main_window(), static_cast<Qt::Key>(key));
 }
 
+void type_key(const char* key) {
+  xdotool({QStringLiteral("key"), QString::fromLatin1(key)});
+}
+
 void name_file(const char* button, const QString& file) {
   constexpr int open_ms = 800;
   bool named = false;

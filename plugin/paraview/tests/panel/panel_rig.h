@@ -38,6 +38,8 @@ int clicks();
 void click(const char* name);
 void click(QWidget& on, const QPoint& at);
 void press_key(int key);
+/// By the display, wherever the pointer is: goes to what has the keyboard. By X11's name of the key.
+void type_key(const char* key);
 /// Clicks on a button that asks for a file, and names it.
 void name_file(const char* button, const QString& file);
 /// The same where it is to be written at once.
