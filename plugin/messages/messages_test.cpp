@@ -100,6 +100,13 @@ const std::vector<NotShown> not_shown = {
     NotShown{"The voxels did not arrive as the server sent them: open the scan again.", of_paraview},
     NotShown{"This machine has not enough memory for the scan, which has to be felt here.", of_paraview},
     NotShown{"Fetched from the server before.", of_paraview},
+    NotShown{"ParaView left the server: the stylus was let go.", of_paraview},
+    NotShown{"ParaView's session ended, and the scan went with it. Open a scan, then press Feel", of_paraview},
+    NotShown{"the scan is still being read. Wait until it is shown, then press Feel", of_paraview},
+    NotShown{"the views show %1, and the stylus has %2. Go back to that one, then press Feel", of_paraview},
+    NotShown{"No place outside the patient is in reach: the stylus begins inside. Choose Reach: Scan before you press "
+             "Feel.",
+             of_paraview},
     NotShown{"this series could not be read: see the messages", of_paraview},
     NotShown{"this series has no values: see the messages", of_paraview},
 };

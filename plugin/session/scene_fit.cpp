@@ -35,9 +35,9 @@ std::string why_not_felt(const modes::Scene& scene, const io::Volume& volume) {
   if (missing == io::FieldSet::none) return {};
   const std::string name = scene.name.empty() ? "this scene" : "the scene \"" + scene.name + "\"";
   return fmt::format(
-      "{} cannot be felt on this scan, which has no {}: {}, or choose another scene", name,
-      fmt::join(modes::names_of(missing), ", "),
-      io::contains(missing, io::FieldSet::vector) ? "open a velocity field (phase contrast)" : "open another scan");
+      "{} cannot be felt on this scan, which has no {}: open a velocity field (phase contrast), or choose another "
+      "scene",
+      name, fmt::join(modes::names_of(missing), ", "));
 }
 
 }  // namespace palpate::plugin

@@ -40,7 +40,8 @@ ScanStudy study_scan(const std::shared_ptr<const io::Volume>& volume, const io::
   constexpr double suggesting = 0.6;  // of the work
   ScanStudy study;
   study.suggested = modes::suggest(volume, [&](double done) { return progress(suggesting * done); }).scene;
-  if (study.suggested.modes.empty()) study.suggested = scene_for("", *volume);
+  // The steps in a flow's speed are no boundaries: it is felt along.
+  if (study.suggested.modes.empty() || volume->vectors) study.suggested = scene_for("", *volume);
   const auto [low, high] = range_of(*volume);
   const double scale_mm = io::default_gradient_scale_mm(volume->geometry);
   // At the middle of a step of the whole range, blurred by the Gaussian, it is as steep as this.

@@ -14,7 +14,7 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr int most_cells = 48;   // along the longest side
+constexpr int most_cells = 48;  // along the longest side
 constexpr double finger_mm = 15;
 
 /// Cells of even size over the scan's box.
@@ -91,6 +91,11 @@ std::vector<bool> outside_of(const Grid& grid, const std::vector<bool>& tissue) 
   return outside;
 }
 
+std::vector<bool> inverted(std::vector<bool> marked) {
+  marked.flip();
+  return marked;
+}
+
 bool is_felt(const modes::Plan& plan, const io::FieldSource& fields, const glm::dvec3& place) {
   const io::Sample sample = fields.sample(place, plan.fields);
   return sample.inside && std::ranges::any_of(plan.modes, [&](const modes::ActiveMode& mode) {
@@ -118,7 +123,11 @@ StartPlace find_start_place(const std::shared_ptr<const io::Volume>& volume, con
   const double threshold = volume->unit == "HU" ? -300 : lowest + 0.15 * (highest - lowest);
   std::vector<bool> tissue(grid.size());
   for (std::size_t n = 0; n < grid.size(); ++n) tissue[n] = values[n] > threshold;
-  const std::vector<bool> outside = outside_of(grid, tissue);
+  // A flow has no inside: what counts is that nothing is felt, as in the padding around a vessel.
+  if (volume->vectors) {
+    for (std::size_t n = 0; n < grid.size(); ++n) tissue[n] = is_felt(plan, fields, grid.place(grid.cell(n)));
+  }
+  const std::vector<bool> outside = volume->vectors ? inverted(tissue) : outside_of(grid, tissue);
   const std::vector<int> clearance = steps_from(grid, tissue);
 
   glm::dvec3 wanted = grid.place(grid.count() / 2);
@@ -139,8 +148,7 @@ StartPlace find_start_place(const std::shared_ptr<const io::Volume>& volume, con
     constexpr double enough_mm = 5, never_mm = 1e4;
     const double clear_mm = clearance[n] < 0 ? enough_mm : clearance[n] * cell_mm;
     const double off = glm::distance(place, wanted);
-    candidates.push_back(
-        {off + 4 * std::max(0.0, enough_mm - clear_mm) + (outside[n] ? 0 : never_mm), n});
+    candidates.push_back({off + 4 * std::max(0.0, enough_mm - clear_mm) + (outside[n] ? 0 : never_mm), n});
   }
   std::ranges::sort(candidates, {}, &Candidate::cost);
   // The nearest that is all that is wanted; else the nearest that is outside; else the nearest.

@@ -100,7 +100,7 @@ void no_scan_shown_no_force() {
   expect(label("palpateFelt").startsWith("Felt: CT "), "the panel names what is felt");
   save_screen("felt-named");
   set_scan_visible(false);
-  expect_stopped("no view shows the scan");
+  expect_stopped("no view shows the scan. Show it again (the eye in the Pipeline Browser), then press Feel");
   save_screen("no-scan-hidden");
   let_go();
   set_scan_visible(true);
@@ -117,7 +117,9 @@ void no_scan_shown_no_force() {
   second->getProxy()->UpdateVTKObjects();
   second->updatePipeline();
   pqActiveObjects::instance().setActiveSource(second);
-  expect_stopped("is active in the Pipeline Browser");
+  expect_stopped("another scan, ");
+  expect_stopped(", is active in the Pipeline Browser. Choose ");
+  expect_stopped(" there, then press Feel");
   let_go();
   pqDataRepresentation* const also =
       builder.createDataRepresentation(second->getOutputPort(0), pqActiveObjects::instance().activeView());
@@ -134,7 +136,7 @@ void no_scan_shown_no_force() {
   // The reader is deleted in mid-contact.
   press();
   builder.destroy(&first);
-  expect_stopped("the scan is no longer in the pipeline");
+  expect_stopped("the scan is no longer in the pipeline. Open a scan, then press Feel");
   expect(find<QPushButton>("palpateConnect").text() == "Disconnect", "the stylus is still connected");
   save_screen("no-scan-deleted");
   let_go();
