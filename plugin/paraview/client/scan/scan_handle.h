@@ -1,7 +1,7 @@
 #pragma once
 
-/// The scan that is shown and felt: one handle for the reader, the views, the stylus and whatever else reads it, so that
-/// all of them mean the same series and the same frame.
+/// The scan that is shown and felt: one handle for the reader, the views, the stylus and whatever else reads it, so
+/// that all of them mean the same series and the same frame.
 
 #include <QString>
 

@@ -17,8 +17,8 @@ enum class SessionState {
 
 struct StateLine {
   SessionState state = SessionState::off;
-  QString words;              ///< begins with the state's name
-  bool fault_latched = false; ///< which the user's hand has to clear
+  QString words;               ///< begins with the state's name
+  bool fault_latched = false;  ///< which the user's hand has to clear
 };
 
 StateLine state_line_of(const SessionStatus& look);

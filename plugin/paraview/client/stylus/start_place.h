@@ -12,9 +12,9 @@
 namespace palpate::plugin {
 
 struct StartPlace {
-  glm::dvec3 place_mm{0};   ///< patient space
-  bool outside = false;     ///< in front of or beside the patient, with nothing felt there
-  bool seen = false;        ///< in every view
+  glm::dvec3 place_mm{0};  ///< patient space
+  bool outside = false;    ///< in front of or beside the patient, with nothing felt there
+  bool seen = false;       ///< in every view
 };
 
 /// The best of an even grid over the scan: nearest to a finger's breadth in front of what is met first on the way from

@@ -29,7 +29,9 @@ constexpr double least_part = 0.03;  // of the fastest: slower is not drawn
 
 struct FlowViews::One {
   explicit One(const ClinicalView& of)
-      : slice(of.slice), view(of.view), layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())) {
+      : slice(of.slice),
+        view(of.view),
+        layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(lines);
     actor->SetMapper(mapper);
