@@ -32,8 +32,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "panel_rig.h"
-#include "panel_steps.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
 
 namespace {
 
