@@ -1,12 +1,16 @@
 #include "plugin/recording/recording.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
-
 #include <fstream>
+#include <map>
 #include <random>
+#include <sstream>
+#include <string>
+#include <type_traits>
 
 #include "plugin/testing/test_files.h"
 
@@ -53,6 +57,68 @@ TEST(Recording, ReadsBackToTheLastBit) {
   ASSERT_EQ(read.shares.size(), written.shares.size());
   EXPECT_EQ(std::memcmp(read.frames.data(), written.frames.data(), sizeof(TickRecord) * read.frames.size()), 0);
   EXPECT_EQ(std::memcmp(read.shares.data(), written.shares.data(), sizeof(PrimitiveRecord) * read.shares.size()), 0);
+}
+
+/// Each column holds the member that it is named after: every number here is another.
+TEST(Recording, ItsCsvHasEveryMemberUnderItsName) {
+  TickRecord frame;
+  std::map<std::string, std::string> expected;
+  double number = 1000.5;
+  const auto set = [&](const char* name, auto& member) {
+    number += 1;
+    member = static_cast<std::remove_reference_t<decltype(member)>>(number);
+    expected[name] = fmt::format("{}", member);
+  };
+  const auto set_vector = [&](const std::string& name, double(&member)[3]) {
+    set((name + "_x").c_str(), member[0]);
+    set((name + "_y").c_str(), member[1]);
+    set((name + "_z").c_str(), member[2]);
+  };
+  set("index", frame.index);
+  set("time_s", frame.time_s);
+  set("dt_s", frame.dt_s);
+  set("pose_time_s", frame.pose_time_s);
+  set("heartbeat_s", frame.heartbeat_s);
+  set_vector("probe_m", frame.probe_m);
+  set_vector("proxy_m", frame.proxy_m);
+  set_vector("force_n", frame.force_n);
+  set_vector("sent_n", frame.sent_n);
+  set("value", frame.value);
+  set("residual_n", frame.residual_n);
+  set("error_bound_m", frame.error_bound_m);
+  set("change_part", frame.change_part);
+  set("scene_epoch", frame.scene_epoch);
+  set("sub_steps", frame.sub_steps);
+  set("halts", frame.halts);
+  set("iterations", frame.iterations);
+  set("solver", frame.solver);
+  set("outcome", frame.outcome);
+  set("safety", frame.safety);
+  set("share_count", frame.share_count);
+  set("buttons", frame.buttons);
+  set("fresh", frame.fresh);
+  set("stylus_state", frame.stylus_state);
+  set("stylus_epoch", frame.stylus_epoch);
+  set("commands", frame.commands);
+  set("from_brick", frame.from_brick);
+  set("missed", frame.missed);
+  set("late_ns", frame.late_ns);
+  for (const char* stage : {"read", "map", "sample", "modes", "solve", "filter", "write", "observe"}) {
+    set((std::string(stage) + "_ns").c_str(), frame.stage_ns[expected.size() - 37]);
+  }
+  Recording recording;
+  recording.frames = {frame};
+  const auto file = fresh_path("named.csv");
+  write_csv(recording, file);
+  std::ifstream lines(file);
+  std::string names, values;
+  std::getline(lines, names);
+  std::getline(lines, values);
+  std::istringstream name_stream(names), value_stream(values);
+  std::map<std::string, std::string> told;
+  std::string name, value;
+  while (std::getline(name_stream, name, ',') && std::getline(value_stream, value, ',')) told[name] = value;
+  EXPECT_EQ(told, expected);
 }
 
 TEST(Recording, AnEmptySessionIsARecordingToo) {

@@ -73,6 +73,52 @@ TEST(Session, SkinThenBoneThenNothing) {
   }
 }
 
+/// What a tick's record says, against what was there: the stylus' pose, the scan at the proxy, the coupling's law and
+/// the balance of the shares.
+TEST(Session, EveryNumberOfItsRecordIsWhatItIsCalled) {
+  device::SimulatedStylus stylus;
+  stylus.follow(press);
+  const auto plan = plan_of("ct-skin-and-bone");
+  const auto source = slab();
+  Session session(plan, source, stylus, limits_for(modes::Limits{}, stylus.specification()));
+  const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
+  int held = 0;
+  double before = 0;
+  for (std::uint64_t n = 0; n < 4600; ++n) {
+    const glm::dvec3 grip = stylus.read().position;  // reading twice in a tick gives the same pose
+    const double time = 1e-3 * static_cast<double>(n) + 7;
+    const TickRecord record = session.tick({.time_s = time,
+                                            .heartbeat_s = time - 0.25,
+                                            .missed = static_cast<std::uint32_t>(n % 5),
+                                            .late_ns = static_cast<std::uint32_t>(100 + n % 7)});
+    ASSERT_EQ(record.index, n);
+    ASSERT_EQ(record.time_s, time);
+    ASSERT_NEAR(record.dt_s, time - before, 1e-12);
+    before = time;
+    ASSERT_EQ(record.heartbeat_s, time - 0.25);
+    ASSERT_NEAR(record.pose_time_s, 1e-3 * static_cast<double>(n), 1e-9) << "on the device's own clock";
+    ASSERT_EQ(record.missed, n % 5);
+    ASSERT_EQ(record.late_ns, 100 + n % 7);
+    ASSERT_EQ(vector(record.probe_m), grip);
+    const glm::dvec3 coupling = plan->stiffness_n_per_m * (vector(record.proxy_m) - vector(record.probe_m));
+    ASSERT_LT(glm::length(vector(record.force_n) - coupling), 1e-12);
+    const glm::dvec3 proxy_mm = plan->workspace.to_patient(vector(record.proxy_m));
+    ASSERT_EQ(record.value, source->sample(proxy_mm, io::FieldSet::value).value);
+    ASSERT_EQ(record.share_count, session.shares().size());
+    glm::dvec3 balance = -vector(record.force_n);
+    for (const PrimitiveRecord& share : session.shares()) {
+      balance += vector(share.force_n);
+      ASSERT_EQ(share.frame, n);
+      ASSERT_LE(glm::length(vector(share.force_n)), share.strength_n * (1 + 1e-12));
+    }
+    ASSERT_NEAR(record.residual_n, glm::length(balance), 1e-15);
+    ASSERT_EQ(record.change_part, 1);
+    ASSERT_EQ(record.scene_epoch, 0U);
+    held += glm::length(coupling) > 0.3 ? 1 : 0;
+  }
+  EXPECT_GT(held, 1000);
+}
+
 TEST(Session, SameSeedSameBits) {
   EXPECT_TRUE(same(press_once(5), press_once(5)));
   EXPECT_FALSE(same(press_once(5), press_once(6)));

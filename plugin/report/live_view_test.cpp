@@ -1,0 +1,62 @@
+/// The line that is written over while a session runs: each number in its place and unit.
+
+#include "plugin/report/live_view.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "device/safety/safety_filter.h"
+#include "plugin/session/session.h"
+#include "solver/solution.h"
+
+namespace palpate::plugin {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+TickRecord record() {
+  TickRecord record;
+  record.time_s = 12.34;
+  record.sent_n[0] = 0.3;
+  record.sent_n[2] = -0.4;  // 0.5 N together
+  record.force_n[1] = 9;    // not what is sent
+  record.probe_m[1] = -0.008;
+  record.proxy_m[1] = -0.002;  // 6 mm deep
+  record.error_bound_m = 3e-15;
+  record.solver = static_cast<std::uint32_t>(solver::SolverKind::exact);
+  record.safety = pack_safety(device::State::active, device::Fault::none);
+  return record;
+}
+
+TEST(LiveLine, HasEachNumberInItsPlace) {
+  EXPECT_EQ(live_line(record(), "bone", 45.6, 7),
+            "   12.3 s   0.50 N    6.0 mm deep  bone           exact      +-3e-15 m  tick   45.6 us  missed 7");
+}
+
+TEST(LiveLine, SaysWhatIsWrong) {
+  TickRecord faulty = record();
+  faulty.safety = pack_safety(device::State::fault, device::Fault::speed_exceeded);
+  EXPECT_THAT(live_line(faulty, "bone", 1, 0), EndsWith("missed 0  FAULT: speed exceeded"));
+  TickRecord ramping = record();
+  ramping.safety = pack_safety(device::State::ramping, device::Fault::none);
+  EXPECT_THAT(live_line(ramping, "bone", 1, 0), EndsWith("missed 0  " + std::string(name_of(device::State::ramping))));
+}
+
+TEST(TissueName, IsTheScenesOrCtsOrTheValue) {
+  modes::Scene scene;
+  EXPECT_EQ(tissue_name(scene, "HU", std::nan("")), "outside");
+  EXPECT_EQ(tissue_name(scene, "HU", -1000), "air");
+  EXPECT_EQ(tissue_name(scene, "HU", 1e5), "metal");
+  EXPECT_EQ(tissue_name(scene, "", 123.4), "value 123");
+  scene.tissues = {{"dark", 0, 10, 1, ""}, {"bright", 10, 20, 1, ""}};
+  EXPECT_EQ(tissue_name(scene, "HU", 0), "dark");
+  EXPECT_EQ(tissue_name(scene, "", 10), "dark") << "the first that holds it";
+  EXPECT_EQ(tissue_name(scene, "", 20), "bright");
+  EXPECT_EQ(tissue_name(scene, "", 20.5), "value 20");
+}
+
+}  // namespace
+}  // namespace palpate::plugin
