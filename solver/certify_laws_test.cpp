@@ -143,6 +143,29 @@ TEST(CertifyLaws, SlackAloneGivesTheDistanceExactly) {
   }
 }
 
+/// Friction that has just slipped: a point pulls with all its strength from next to nothing away, on a plane that
+/// holds. The answer is exact, and the certificate says so, whatever the rounding of what lies on the plane.
+TEST(CertifyLaws, AnExactAnswerNextToSlippingIsCertified) {
+  int tight = 0, tried = 0;
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    const Vec3 normal = random.unit_vector(), along = across(normal, random);
+    const Vec3 anchor = random.normal_vector(0.02);
+    const double friction = random.uniform(0.1, 1), surface = random.uniform(1, 2),
+                 away = random.log_uniform(1e-9, 1e-6);
+    const Vec3 proxy = anchor + along * away;
+    const std::array primitives{make_plane(surface, anchor, normal), make_point(friction, anchor)};
+    const std::array forces{normal * (0.5 * surface), along * -friction};
+    const Vec3 probe = proxy - (forces[0] + forces[1]) / stiffness;
+    const Balance balance{stiffness, probe, anchor, primitives};
+    const Certificate certificate = certify(balance, proxy, forces);
+
+    ++tried;
+    tight += certificate.error_bound <= 20 * promised_accuracy(balance, proxy, forces) ? 1 : 0;
+  }
+  EXPECT_EQ(tight, tried);
+}
+
 /// Of a free proxy the residual alone speaks: bound = r / k, and the numbers that are told are r and no slack.
 TEST(CertifyLaws, ResidualAloneIsTheForceThatIsMissing) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
