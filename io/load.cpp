@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "io/dicom/series_source.h"
 #include "io/dicom/slice_reader.h"
@@ -137,9 +138,15 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
     failed.push_back(k);
     volume.warnings.push_back(source.file_of(slices[k]).path.filename().string() + " is left out: " + why);
   };
+  std::set<std::string> oddities;
+  const auto note_oddity = [&](const std::string& what) {
+    const std::lock_guard lock(failed_mutex);
+    oddities.insert(what);
+  };
   const std::vector<internal::SliceUnit> units = internal::slice_units(reading);
   internal::parallel_for(
-      units.size(), [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure); },
+      units.size(),
+      [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure, note_oddity); },
       options.progress, options.threads);
   if (failed.size() == slices.size())
     throw DicomError(name + " cannot be read: " + volume.warnings.front() + "; send the series again");
@@ -147,6 +154,7 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   std::sort(failed.begin(), failed.end());
   std::sort(volume.warnings.begin(), volume.warnings.end());
   volume.warnings.erase(std::unique(volume.warnings.begin(), volume.warnings.end()), volume.warnings.end());
+  volume.warnings.insert(volume.warnings.end(), oddities.begin(), oddities.end());
   drop_slices(failed, size, volume.voxels);
 
   std::vector<Vec3> positions;

@@ -115,17 +115,24 @@ class HeaderBytes final : public ByteSource {
 
   std::size_t read(std::span<std::byte> into) override {
     take(into.size());
-    return source_.read(into);
+    const std::size_t got = source_.read(into);
+    if (got < into.size()) check_damage();
+    return got;
   }
   bool skip(std::uint64_t count) override {
     take(count);
-    return source_.skip(count);
+    const bool skipped = source_.skip(count);
+    if (!skipped) check_damage();
+    return skipped;
   }
 
  private:
   void take(std::uint64_t count) {
     if (count > left_) refuse_long_header();
     left_ -= count;
+  }
+  void check_damage() const {
+    if (const std::string why = source_.damage(); !why.empty()) throw DicomError("damaged header: " + why);
   }
 
   ByteSource& source_;
@@ -157,6 +164,7 @@ class InflatedBytes final : public ByteSource {
     }
     return true;
   }
+  std::string damage() const override { return stream_.status().bad() ? stream_.status().text() : ""; }
 
  private:
   DcmInputFileStream stream_;

@@ -11,7 +11,7 @@
 namespace palpate::io::internal {
 namespace {
 
-using Decoder = void (*)(const PixelFormat&, std::span<const std::byte>, std::span<std::uint16_t>);
+using Decoder = std::string (*)(const PixelFormat&, std::span<const std::byte>, std::span<std::uint16_t>);
 
 struct Syntax {
   const char* uid;
@@ -56,12 +56,12 @@ void check_density(const std::string& transfer_syntax, const PixelFormat& format
   }
 }
 
-void decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
-                  std::span<std::uint16_t> values) {
+std::string decode_frame(const std::string& transfer_syntax, const PixelFormat& format,
+                         std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   const Syntax* syntax = find_syntax(transfer_syntax);
   if (syntax == nullptr) throw DicomError("its compression is unknown here: " + transfer_syntax);
   check_density(transfer_syntax, format, 1, bytes.size());
-  syntax->decoder(format, bytes, values);
+  return syntax->decoder(format, bytes, values);
 }
 
 }  // namespace palpate::io::internal

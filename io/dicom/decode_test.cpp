@@ -255,6 +255,70 @@ TEST(DecodeDamaged, SliceWithATruncatedStreamIsNotFilledUp) {
   }
 }
 
+// NEMA's own WG04 images are coded like this: decoders say a word and go on.
+TEST(DecodeOdd, LossyJpegThatNamesNoFrequenciesIsReadWhole) {
+  register_encoders();
+  for (const E_TransferSyntax syntax : {EXS_JPEGProcess1, EXS_JPEGProcess2_4}) {
+    const bool is_8_bit = syntax == EXS_JPEGProcess1;
+    const TestFolder folder;
+    write_stack(folder.path(), 3, [=](int k, TestImage& image) {
+      image.columns = 64;
+      image.rows = 48;
+      image.syntax = syntax;
+      image.edit = [=](DcmDataset& d) {
+        put(d, DCM_BitsStored, is_8_bit ? 8 : 12);
+        put(d, DCM_HighBit, is_8_bit ? 7 : 11);
+        if (!is_8_bit) return;
+        put(d, DCM_BitsAllocated, 8);
+        std::vector<Uint8> pixels;
+        for (int n = 0; n < 64 * 48; ++n) pixels.push_back(static_cast<Uint8>(n % 64 + n / 64 + 20 * k));
+        succeed(d.putAndInsertUint8Array(DCM_PixelData, pixels.data(), static_cast<unsigned long>(pixels.size())));
+      };
+    });
+    const Volume truth = load(find_series(std::array{folder.path()}).series.at(0));
+    EXPECT_EQ(truth.geometry.dimensions.z, 3);
+    EXPECT_THAT(truth.warnings, testing::IsEmpty());
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
+      const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+      const auto scan = bytes.find(std::string("\xFF\xDA\x00\x08\x01", 5));
+      ASSERT_NE(scan, std::string::npos);
+      ASSERT_EQ(bytes[scan + 8], 63);
+      file.clear();
+      file.seekp(static_cast<std::streamoff>(scan + 8));
+      file.put(0);
+    }
+    const Volume volume = load(find_series(std::array{folder.path()}).series.at(0));
+    EXPECT_EQ(volume.voxels, truth.voxels);
+    EXPECT_THAT(volume.warnings, testing::ElementsAre("its JPEG images name a range of frequencies that they do not "
+                                                      "have; they are read whole"));
+  }
+}
+
+TEST(DecodeOdd, JpegLsWithZerosBeforeItsEndIsReadWhole) {
+  for (const std::size_t zeros : {1U, 2U}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 3, [=](int k, TestImage& image) {
+      image.columns = 64;
+      image.rows = 64;
+      image.value = [k](int i, int j) { return noise(k, i, j); };
+      image.syntax = EXS_JPEGLSLossless;
+      image.edit = [=, &image](DcmDataset& d) {
+        std::vector<Uint8> bytes = jpeg_ls(64, 64, 16, 0, image.value);
+        bytes.insert(bytes.end() - 2, zeros, 0);
+        encapsulate(d, EXS_JPEGLSLossless, {bytes}, 1U << 20);
+      };
+    });
+    const Volume volume = load(find_series(std::array{folder.path()}).series.at(0));
+    ASSERT_EQ(volume.geometry.dimensions.z, 3);
+    for (int k = 0; k < 3; ++k) {
+      for (int n = 0; n < 64 * 64; ++n) ASSERT_EQ(volume.value_at(n % 64, n / 64, k), noise(k, n % 64, n / 64));
+    }
+    EXPECT_THAT(volume.warnings,
+                testing::ElementsAre("its JPEG-LS images hold zeros before their end; they are whole without these"));
+  }
+}
+
 TEST(JpegFrame, IsReadFromItsMarker) {
   const std::array<unsigned char, 21> jpeg{0xFF, 0xD8, 0xFF, 0xE0, 0x00, 0x04, 1, 2, 0xFF, 0xFF, 0xC3,
                                            0x00, 0x0B, 0x0C, 0x01, 0x02, 0x03, 4, 1, 0,    0};

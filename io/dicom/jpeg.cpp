@@ -5,6 +5,7 @@
 #include <dcmtk/dcmjpeg/djdijg8.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "io/dicom/decode.h"
@@ -27,12 +28,38 @@ class StrictDecompressor final : public Decompressor {
   mutable bool damaged_ = false;
 };
 
+// A sequential scan codes all 64 frequencies (ISO 10918-1 B.2.3: Ss = 0, Se = 63, Ah = Al = 0), whatever its header
+// says: decoders go on after a word about it, which here would be an error. Returns whether there was anything to mend.
+bool mend_scan_headers(std::vector<Uint8>& bytes) {
+  bool mended = false;
+  bool sequential = false;
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size()) {
+    const int marker = bytes[at + 1];
+    if (bytes[at] != 0xFF || marker == 0 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD8)) {
+      ++at;
+      continue;
+    }
+    const std::size_t end = at + 2 + (std::size_t{bytes[at + 2]} << 8 | bytes[at + 3]);
+    if (marker == 0xC0 || marker == 0xC1) sequential = true;
+    if (marker == 0xDA && sequential && end <= bytes.size() && end >= at + 8) {
+      const std::array<Uint8, 3> whole{0, 63, 0};
+      const auto said = bytes.begin() + static_cast<std::ptrdiff_t>(end - whole.size());
+      mended |= !std::equal(whole.begin(), whole.end(), said);
+      std::copy(whole.begin(), whole.end(), said);
+    }
+    at = std::max(end, at + 2);
+  }
+  return mended;
+}
+
 template <typename Decompressor>
-void decompress(std::span<const std::byte> bytes, std::span<std::byte> samples) {
+std::string decompress(std::span<const std::byte> bytes, std::span<std::byte> samples) {
   const DJCodecParameter parameters(ECC_lossyYCbCr, EDC_never, EUC_never, EPC_default);
   StrictDecompressor<Decompressor> decompressor(parameters, OFFalse);
   std::vector<Uint8> input(bytes.size() + bytes.size() % 2);  // the decoder wants to be able to write to it
   std::transform(bytes.begin(), bytes.end(), input.begin(), [](std::byte b) { return std::to_integer<Uint8>(b); });
+  const bool mended = mend_scan_headers(input);
   OFCondition result = decompressor.init();
   if (result.good()) {
     result =
@@ -41,6 +68,7 @@ void decompress(std::span<const std::byte> bytes, std::span<std::byte> samples) 
   }
   if (result.bad()) throw DicomError(std::string("damaged: its JPEG image cannot be decoded (") + result.text() + ")");
   if (decompressor.damaged()) throw DicomError("damaged: its JPEG image holds errors");
+  return mended ? "its JPEG images name a range of frequencies that they do not have; they are read whole" : "";
 }
 
 }  // namespace
@@ -91,7 +119,7 @@ void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bit
   }
 }
 
-void decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+std::string decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   const auto frame = jpeg_frame(bytes);
   if (!frame) throw DicomError("damaged: no JPEG image in its compressed pixels");
   // Before anything is decoded: these numbers decide how much memory that takes.
@@ -102,14 +130,13 @@ void decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, st
   }
   check_huffman_tables(bytes, frame->precision > 12 ? 16 : 15);  // the 16-bit decoder's table is longer by one
   if (frame->precision > 12) {
-    decompress<DJDecompressIJG16Bit>(bytes, std::as_writable_bytes(values));
-  } else if (frame->precision > 8) {
-    decompress<DJDecompressIJG12Bit>(bytes, std::as_writable_bytes(values));
-  } else {
-    std::vector<std::uint8_t> small(values.size());
-    decompress<DJDecompressIJG8Bit>(bytes, std::as_writable_bytes(std::span(small)));
-    std::copy(small.begin(), small.end(), values.begin());
+    return decompress<DJDecompressIJG16Bit>(bytes, std::as_writable_bytes(values));
   }
+  if (frame->precision > 8) return decompress<DJDecompressIJG12Bit>(bytes, std::as_writable_bytes(values));
+  std::vector<std::uint8_t> small(values.size());
+  std::string note = decompress<DJDecompressIJG8Bit>(bytes, std::as_writable_bytes(std::span(small)));
+  std::copy(small.begin(), small.end(), values.begin());
+  return note;
 }
 
 }  // namespace palpate::io::internal

@@ -65,7 +65,8 @@ void note_damage(const char* /*message*/, void* damaged) {
 
 }  // namespace
 
-void decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+std::string decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes,
+                            std::span<std::uint16_t> values) {
   Source source{bytes};
   const bool bare = bytes.size() > 2 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0x4F};
   const Stream stream = stream_of(source);
@@ -98,6 +99,7 @@ void decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes
   // Sign and unused bits are treated as for every other coder, by what the file says of them.
   std::transform(component.data, component.data + values.size(), values.begin(),
                  [](OPJ_INT32 v) { return static_cast<std::uint16_t>(v); });
+  return {};
 }
 
 }  // namespace palpate::io::internal

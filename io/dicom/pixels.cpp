@@ -66,11 +66,12 @@ void PixelReader::read_uncompressed(std::uint64_t offset, std::span<std::byte> b
   }
 }
 
-void PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
+std::string PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
   const PixelFormat& format = header_.format;
   const std::size_t frame_bytes = format.bytes_per_frame();
+  std::string note;
   if (header_.coding == PixelCoding::encapsulated) {
-    decode_frame(header_.transfer_syntax, format, read_fragments(file_, header_.fragments.at(frame)), values);
+    note = decode_frame(header_.transfer_syntax, format, read_fragments(file_, header_.fragments.at(frame)), values);
   } else if (format.bits_allocated == 16) {
     read_uncompressed(frame * frame_bytes, std::as_writable_bytes(values));
     if (header_.big_endian != (std::endian::native == std::endian::big)) swap_bytes(values);
@@ -84,6 +85,7 @@ void PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(lead), values.size(), values.begin());
   }
   clean_bits(header_, values);
+  return note;
 }
 
 }  // namespace palpate::io::internal

@@ -38,7 +38,7 @@ void unpack(std::span<const std::byte> packed, std::span<std::uint8_t> bytes) {
 
 }  // namespace
 
-void decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+std::string decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   constexpr std::size_t header_size = 64;
   const auto segments = static_cast<std::size_t>(format.bits_allocated / 8);
   if (bytes.size() < header_size) refuse("are missing");
@@ -52,6 +52,7 @@ void decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std
     unpack(bytes.subspan(start, end - start), segment);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(values[i] << 8 | segment[i]);
   }
+  return {};
 }
 
 }  // namespace palpate::io::internal

@@ -88,7 +88,8 @@ std::vector<SliceUnit> slice_units(const Reading& reading) {
 }
 
 void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& voxels,
-               const std::function<void(std::size_t, const char*)>& failed) {
+               const std::function<void(std::size_t, const char*)>& failed,
+               const std::function<void(const std::string&)>& noted) {
   const SeriesSource& source = reading.source;
   const Slices& slices = reading.frame.slices;
   const FileHeader& file = source.file_of(slices[unit.front()]);
@@ -96,18 +97,22 @@ void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& vo
   std::optional<PixelReader> reader;
   std::vector<std::uint16_t> frame;
   std::optional<std::uint32_t> held;
+  const auto read = [&](std::uint32_t wanted, std::span<std::uint16_t> values) {
+    const std::string note = reader->read(wanted, values);
+    if (!note.empty()) noted(note);
+  };
   for (const std::size_t k : unit) {
     try {
       if (!reader) reader.emplace(file);
       const std::uint32_t wanted = source.plane_of(slices[k]).frame;
       if (const auto target = in_place(file, k * size, voxels); !target.empty()) {
-        reader->read(wanted, target);
+        read(wanted, target);
         continue;
       }
       if (held != wanted) {
         held.reset();
         frame.resize(static_cast<std::size_t>(file.format.columns) * static_cast<std::size_t>(file.format.rows));
-        reader->read(wanted, frame);
+        read(wanted, frame);
         held = wanted;
       }
       place_slice(reading, slices[k], frame, k * size, voxels);

@@ -38,8 +38,10 @@ using SliceUnit = std::vector<std::size_t>;
 std::vector<SliceUnit> slice_units(const Reading& reading);
 
 /// Reads a unit's slices to their places in `voxels`, which hold all of the reading's: as stored where they are of 16
-/// bits, rescaled where they are floats. Calls failed(k, reason) for those that cannot be read.
+/// bits, rescaled where they are floats. Calls failed(k, reason) for those that cannot be read, and noted(what) where
+/// pixels were read that are not coded as they should be.
 void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& voxels,
-               const std::function<void(std::size_t, const char*)>& failed);
+               const std::function<void(std::size_t, const char*)>& failed,
+               const std::function<void(const std::string&)>& noted);
 
 }  // namespace palpate::io::internal

@@ -26,6 +26,8 @@ class ByteSource {
   virtual std::size_t read(std::span<std::byte> into) = 0;
   /// Moves on; false where the bytes end before that.
   virtual bool skip(std::uint64_t count) = 0;
+  /// What is wrong with the bytes where they ended before their end; empty where nothing is.
+  virtual std::string damage() const { return {}; }
 };
 
 /// The pixel data element of a dataset.

@@ -161,7 +161,7 @@ std::vector<Provoked> provoke_pixels() {
        of_coded_file([](std::string& b) { b[b.rfind("\xFE\xFF\x00\xE0"s) + 2] = 7; })},
       {"truncated: its compressed pixels end early",
        of_coded_file([](std::string& b) { b[b.rfind("\xFE\xFF\x00\xE0"s) + 6] = 7; })},
-      {"truncated: the file ends early", of_coded_file([](std::string& b) { b.resize(b.size() - 8); })},
+      {"truncated: the file ends early", of_coded_file([](std::string& b) { b.resize(b.find("\xFE\xFF\x00\xE0"s)); })},
       {"no pixels in it", of_coded(EXS_RLELossless, {})},
       {"damaged: {} bytes cannot hold {} pixels",
        of_coded(EXS_RLELossless, Bytes(100, 7), [](DcmDataset& d) { put(d, DCM_Rows, 60000); })},
