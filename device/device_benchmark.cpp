@@ -89,7 +89,7 @@ void falcon_reply_decoded(benchmark::State& state) {
 BENCHMARK(falcon_reply_decoded);
 
 void wooden_haptics_forward(benchmark::State& state) {
-  const WoodenHapticsSettings settings;
+  const WoodenHapticsSettings settings = wooden_haptics_preset("2015");
   std::array<int, 3> counts{1000, 2000, -500};
   for (auto _ : state) {
     benchmark::DoNotOptimize(counts);
@@ -99,7 +99,7 @@ void wooden_haptics_forward(benchmark::State& state) {
 BENCHMARK(wooden_haptics_forward);
 
 void wooden_haptics_force_to_currents(benchmark::State& state) {
-  const WoodenHapticsSettings settings;
+  const WoodenHapticsSettings settings = wooden_haptics_preset("2015");
   for (auto _ : state) {
     benchmark::DoNotOptimize(
         wooden_haptics_currents(settings, wooden_haptics_torques(settings, {0.1, 0.5, 0.4}, {1, 2, -1})));

@@ -3,6 +3,7 @@
 /// A haptic stylus, in its own frame: x to the user's right, y up, z towards the user; meters, newtons, seconds.
 
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 
@@ -15,6 +16,7 @@ struct Specification {
   std::string name;
   int position_axes = 3;           ///< degrees of freedom sensed
   int force_axes = 3;              ///< degrees of freedom actuated; 0 for a pointing device
+  int orientation_axes = 0;        ///< degrees of freedom sensed beside the position
   Vec3 workspace_half_extent{0};   ///< m, about the origin
   double position_resolution = 0;  ///< m: one step of the position
   double maximum_force = 0;        ///< N, peak
@@ -30,7 +32,8 @@ struct Reading {
   double time = 0;   ///< s since the stylus was opened, on the device's own clock
   Vec3 position{0};  ///< m
   std::uint32_t buttons = 0;
-  bool fresh = false;  ///< whether the position is new since the previous read
+  bool fresh = false;                  ///< whether the position is new since the previous read
+  glm::dquat orientation{1, 0, 0, 0};  ///< of the stylus, where the device senses it
 };
 
 class Stylus {

@@ -27,17 +27,18 @@ void FalconProtocol::connect(Link& link) {
   robot_position_ = newton_start;
   command_due_ = true;
   asked_again_ = false;
+  doubt_.forget();
 }
 
 void FalconProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
   if (const std::optional<FalconReply> reply = replies_.feed(packet)) {
     command_due_ = true;
     replied_ = now;
-    take(*reply);
+    take(*reply, now);
   }
 }
 
-void FalconProtocol::take(const FalconReply& reply) noexcept {
+void FalconProtocol::take(const FalconReply& reply, double now) noexcept {
   if (status_.state == State::fault) return;
   status_.buttons = reply.buttons;
   const bool homed = std::all_of(reply.homed.begin(), reply.homed.end(), [](bool leg) { return leg; });
@@ -53,7 +54,11 @@ void FalconProtocol::take(const FalconReply& reply) noexcept {
                   reply.encoders[static_cast<std::size_t>(leg)] * settings_.geometry.angle_per_count;
   }
   const std::optional<Vec3> position = falcon_position(settings_.geometry, angles, robot_position_);
-  if (!position) return fail(LinkFault::unreachable_pose);
+  if (!position) {
+    if (doubt_.lasts(now)) fail(LinkFault::unreachable_pose);
+    return;
+  }
+  doubt_.ends(now);
   robot_position_ = *position;
   status_.position = *position - Vec3(0, 0, settings_.geometry.center);
   status_.state = State::idle;
@@ -72,7 +77,7 @@ std::size_t FalconProtocol::step(const Vec3& force, double now, std::span<std::u
   if (asked_again_ && command_due_ && now - replied_ < surplus_time) return 0;
   asked_again_ = !command_due_;
   // A command that is repeated for want of a reply carries no force: nobody knows where the grip is.
-  const bool may_push = command_due_ && status_.state == State::idle;
+  const bool may_push = command_due_ && status_.state == State::idle && !doubt_.is_doubtful();
   FalconCommand command;
   command.lights = status_.state == State::idle ? falcon_green : falcon_red;
   if (may_push) {

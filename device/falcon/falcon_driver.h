@@ -7,6 +7,7 @@
 #include "device/falcon/falcon.h"
 #include "device/falcon/falcon_protocol.h"
 #include "device/link/link_stylus.h"
+#include "device/link/pose_doubt.h"
 #include "device/link/protocol.h"
 
 namespace palpate::device {
@@ -31,13 +32,14 @@ class FalconProtocol final : public Protocol {
   const ProtocolStatus& status() const noexcept override { return status_; }
 
  private:
-  void take(const FalconReply& reply) noexcept;
+  void take(const FalconReply& reply, double now) noexcept;
   void fail(LinkFault fault) noexcept;
 
   FalconSettings settings_;
   ProtocolStatus status_;
   FalconReplies replies_;
   Vec3 robot_position_{0};
+  PoseDoubt doubt_{1e6};  // at the edge of the reach poses come and go
   bool command_due_ = true;
   bool asked_again_ = false;
   double sent_ = 0;

@@ -238,7 +238,9 @@ TEST(FalconDriver, SaysWhatIsMissing) {
   settings.firmware_file = write_image(some_image());
   Bench silent(options, settings);
   silent.fake.falcon.faults.silent = true;
-  expect_refusal(silent, "does not answer the greeting");
+  const double begun = silent.fake.time;
+  expect_refusal(silent, "is its power supply plugged in");
+  EXPECT_LT(silent.fake.time - begun, 3) << "s that the caller waits";
 }
 
 TEST(FalconDriver, AStalledServoIsAnsweredWithZeros) {
@@ -335,6 +337,21 @@ TEST(FalconDriver, AnImpossiblePoseIsAFaultAndNoForce) {
   bench.fake.falcon.faults.impossible_pose = false;
   bench.run(0.1, Vec3(1, 0, 0));
   EXPECT_EQ(bench.stylus->state(), State::fault) << "until it is opened again";
+}
+
+TEST(FalconDriver, APoseBeyondTheReachIsHeldWithoutForceUntilItIsBack) {
+  Bench bench;
+  bench.home();
+  bench.run(0.1, Vec3(1, 0, 0));
+  const Vec3 before = bench.stylus->read().position;
+  bench.fake.falcon.faults.impossible_pose = true;
+  bench.run(0.02, Vec3(1, 0, 0));
+  EXPECT_LT(glm::distance(bench.stylus->read().position, before), 1e-3);
+  EXPECT_FALSE(bench.fake.falcon.is_pushing());
+  bench.fake.falcon.faults.impossible_pose = false;
+  bench.run(0.05, Vec3(1, 0, 0));
+  EXPECT_EQ(bench.stylus->state(), State::idle);
+  EXPECT_TRUE(bench.fake.falcon.is_pushing());
 }
 
 TEST(FalconDriver, UnpluggedAndSilentAreFaults) {

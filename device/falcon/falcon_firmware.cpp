@@ -30,7 +30,11 @@ constexpr std::uint16_t baud_1500k = 0x0002;
 constexpr std::uint16_t eight_n_one = 0x0008;
 
 constexpr std::size_t chunk = 62;               // what one USB packet carries beside the chip's two status bytes
+constexpr double greeting_patience = 1.5;       // s
+constexpr double upload_patience = 15.0;        // s: an image takes less than one
 constexpr std::size_t largest_image = 1 << 20;  // images seen are 7 to 9 kB
+
+constexpr const char* mute = "it does not answer the greeting; is its power supply plugged in and switched on?";
 
 struct Request {
   std::uint8_t request;
@@ -47,7 +51,7 @@ void configure(FalconLink& link, std::initializer_list<Request> requests) {
 }
 
 bool send_now(Link& link, std::span<const std::uint8_t> bytes) {
-  return link.flush(1.0) && link.send(bytes) && link.flush(1.0);
+  return link.flush(0.2) && link.send(bytes) && link.flush(0.2);
 }
 
 /// Collects bytes until `wanted` of them are there or the time is over.
@@ -81,7 +85,8 @@ bool answers_run_packets(Link& link) {
 bool greet(FalconLink& link) {
   constexpr std::array<std::uint8_t, 3> question{0x0a, 0x43, 0x0d};
   constexpr std::array<std::uint8_t, 4> answer{0x0a, 0x44, 0x2c, 0x0d};
-  for (int attempt = 0; attempt < 100 && !link.lost(); ++attempt) {
+  const double start = link.now();
+  while (!link.lost() && link.now() - start < greeting_patience) {
     if (!send_now(link, question)) continue;
     // Some stacks put a zero byte in front.
     const auto bytes = receive_bytes(link, answer.size(), 0.050);
@@ -101,7 +106,7 @@ std::string upload(FalconLink& link, const std::vector<std::uint8_t>& image) {
                    {modem, rts_low},
                    {modem, dtr_low},
                    {modem, dtr_high}});
-  if (!greet(link)) return "it does not answer the greeting";
+  if (!greet(link)) return mute;
   configure(link, {{modem, dtr_low}, {baud, baud_140k}});
   constexpr std::array<std::uint8_t, 1> begin{'A'};
   if (!send_now(link, begin)) return "it does not take the start of the upload";
@@ -142,8 +147,11 @@ void connect_falcon(FalconLink& link, const std::string& firmware_file) {
   }
   const std::vector<std::uint8_t> image = read_image(firmware_file);
   std::string trouble;
-  for (int attempt = 0; attempt < 10 && !link.lost(); ++attempt) {
+  const double start = link.now();
+  for (int attempt = 0; attempt < 10 && !link.lost() && link.now() - start < upload_patience; ++attempt) {
     trouble = upload(link, image);
+    // Whoever does not even greet is mute, and asking again would take the caller's time.
+    if (trouble == mute) break;
     if (!trouble.empty()) continue;
     enter_run_mode(link);
     if (answers_run_packets(link)) return;

@@ -1,7 +1,11 @@
 #include "device/falcon/falcon_usb.h"
 
+#include <fcntl.h>
 #include <libusb.h>
+#include <linux/usbdevice_fs.h>
+#include <sys/ioctl.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +15,7 @@
 
 #include "device/falcon/falcon.h"
 #include "device/falcon/falcon_driver.h"
+#include "device/falcon/falcon_protocol.h"
 #include "device/link/realtime.h"
 
 namespace palpate::device {
@@ -45,11 +50,26 @@ Context open_context() {
   return Context(context);
 }
 
-std::string address_of(libusb_device* device) {
+std::string node_of(libusb_device* device) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%03u:%03u", libusb_get_bus_number(device),
                 libusb_get_device_address(device));
   return text.data();
+}
+
+/// The socket that it is plugged into ("1-2.3": bus 1, port 2, port 3 of the hub there), which stays the same when it
+/// is plugged in again; the kernel's number does not.
+std::string address_of(libusb_device* device) {
+  std::array<std::uint8_t, 7> ports{};  // as deep as USB goes
+  const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
+  if (depth <= 0) return node_of(device);
+  std::string address = std::to_string(libusb_get_bus_number(device));
+  for (int i = 0; i < depth; ++i) address += (i == 0 ? '-' : '.') + std::to_string(ports[static_cast<std::size_t>(i)]);
+  return address;
+}
+
+bool is_at(libusb_device* device, const std::string& address) {
+  return address.empty() || address_of(device) == address || node_of(device) == address;
 }
 
 /// Calls visit(device) for every Falcon.
@@ -72,7 +92,7 @@ Handle open_handle(libusb_context* context, const std::string& address) {
   int failed = 0;
   int matching = 0;
   visit_falcons(context, [&](libusb_device* device) {
-    if (!address.empty() && address_of(device) != address) return;
+    if (!is_at(device, address)) return;
     libusb_device_handle* opened = nullptr;
     if (++matching == 1) failed = libusb_open(device, &opened);
     handle = opened != nullptr ? Handle(opened) : std::move(handle);
@@ -248,6 +268,30 @@ std::vector<FoundDevice> find_falcons() {
 
 std::unique_ptr<FalconLink> open_falcon_usb(const std::string& address) {
   return std::make_unique<FalconUsb>(address);
+}
+
+bool take_falcon_and_send_zeros(const std::string& address) noexcept {
+  libusb_context* opened_context = nullptr;
+  if (libusb_init(&opened_context) != 0) return false;
+  const Context context(opened_context);
+  bool sent = false;
+  visit_falcons(context.get(), [&](libusb_device* device) {
+    if (!is_at(device, address)) return;
+    std::array<char, 32> path{};
+    std::snprintf(path.data(), path.size(), "/dev/bus/usb/%03u/%03u", libusb_get_bus_number(device),
+                  libusb_get_device_address(device));
+    const int node = open(path.data(), O_RDWR | O_CLOEXEC);
+    if (node < 0) return;
+    // Without flags the kernel takes the interface from whoever has it, a process, too.
+    usbdevfs_disconnect_claim claim{};
+    auto zero = encode(FalconCommand{});
+    usbdevfs_bulktransfer bulk{endpoint_out, static_cast<unsigned>(zero.size()), 100, zero.data()};
+    bool taken = ioctl(node, USBDEVFS_DISCONNECT_CLAIM, &claim) == 0;
+    for (int i = 0; i < 3 && taken; ++i) taken = ioctl(node, USBDEVFS_BULK, &bulk) >= 0;
+    sent = sent || taken;
+    close(node);
+  });
+  return sent;
 }
 
 std::unique_ptr<Stylus> make_falcon(const FalconSettings& settings) {

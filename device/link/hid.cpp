@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <stdexcept>
 
@@ -54,8 +55,10 @@ class HidLink final : public Link {
   std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept override {
     if (lost_) return 0;
     const int milliseconds = static_cast<int>(std::ceil(timeout * 1e3));
+    errno = 0;
     const int size = hid_read_timeout(device_.get(), packet.data(), packet.size(), milliseconds);
-    if (size < 0) lost_ = true;
+    // A signal that is handled meanwhile is no unplugging.
+    if (size < 0 && errno != EINTR) lost_ = true;
     return size > 0 ? static_cast<std::size_t>(size) : 0;
   }
 

@@ -1,9 +1,10 @@
 #include "device/link/link_stylus.h"
 
-#include <array>
+#include <algorithm>
+#include <chrono>
 #include <limits>
+#include <utility>
 
-#include "device/link/realtime.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -22,6 +23,14 @@ const char* name_of(LinkFault fault) {
       return "unreachable pose";
     case LinkFault::unhomed:
       return "lost its home";
+    case LinkFault::held_up:
+      return "the program was stopped or held up";
+    case LinkFault::slept:
+      return "the machine slept";
+    case LinkFault::forces_refused:
+      return "it does not take forces";
+    case LinkFault::own_safety:
+      return "its own safety took the force away";
   }
   return "unknown";
 }
@@ -31,15 +40,18 @@ namespace {
 // At a period of 8 ms and a delay of as much, the linear bound of stiffness.h lies below a wall of 400 N/m.
 constexpr double rate_window = 0.25;  // s
 constexpr std::uint64_t fewest_in_window = 30;
+constexpr double longest_gap = 0.25;    // s between two exchanges: longer, and this process was stopped
+constexpr double shortest_sleep = 0.1;  // s: of a machine that was suspended
 
 }  // namespace
 
+LinkStylus::LinkStylus(Specification specification, std::unique_ptr<Driver> driver, const LinkStylusOptions& options)
+    : specification_(std::move(specification)), driver_(std::move(driver)), options_(options) {}
+
 LinkStylus::LinkStylus(Specification specification, std::unique_ptr<Protocol> protocol, LinkMaker make_link,
                        const LinkStylusOptions& options)
-    : specification_(std::move(specification)),
-      protocol_(std::move(protocol)),
-      make_link_(std::move(make_link)),
-      options_(options) {}
+    : LinkStylus(std::move(specification), std::make_unique<PacketDriver>(std::move(protocol), std::move(make_link)),
+                 options) {}
 
 LinkStylus::~LinkStylus() {
   close();
@@ -50,15 +62,17 @@ void LinkStylus::open() {
   // The guardian first: from the moment when a force can be sent, somebody can take it back.
   guardian_ = start_guardian(options_.guardian);
   try {
-    link_ = make_link_();
-    protocol_->connect(*link_);
+    driver_->connect();
   } catch (...) {
-    link_.reset();
     guardian_.reset();
     throw;
   }
-  opened_ = news_time_ = window_start_ = link_->now();
-  news_ = window_news_ = protocol_->status().news;
+  connected_ = true;
+  driver_->describe(specification_);
+  opened_ = exchange_time_ = news_time_ = window_start_ = driver_->now();
+  asleep_ = options_.asleep();
+  news_ = window_news_ = driver_->status().news;
+  load_ = {};
   force_.store(Vec3(0));
   force_.load();
   force_time_ = -std::numeric_limits<double>::infinity();
@@ -66,66 +80,82 @@ void LinkStylus::open() {
   reading_.store({});
   reading_.load();
   fault_.store(LinkFault::none, std::memory_order_relaxed);
-  state_.store(protocol_->status().state, std::memory_order_relaxed);
+  state_.store(driver_->status().state, std::memory_order_relaxed);
   if (!options_.threaded) return;
   stop_.store(false, std::memory_order_relaxed);
-  thread_ = std::thread([this] {
-    make_thread_realtime(options_.priority);
-    while (!stop_.load(std::memory_order_relaxed)) exchange(1e-3, false);
-  });
+  thread_ = std::thread([this] { run(); });
+}
+
+void LinkStylus::run() noexcept {
+  make_thread_realtime(options_.priority);
+  while (!stop_.load(std::memory_order_relaxed)) {
+    if (driver_->lost()) {
+      // Nothing to wait for any more: a link that is gone returns at once.
+      fail(LinkFault::unplugged);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    } else {
+      exchange(1e-3, false);
+    }
+  }
 }
 
 void LinkStylus::close() noexcept {
-  if (!link_) return;
+  if (!connected_) return;
   if (thread_.joinable()) {
     stop_.store(true, std::memory_order_relaxed);
     thread_.join();
   }
   send_zeros();
-  link_.reset();
-  if (guardian_) guardian_->dismiss();
+  const bool lost = driver_->lost();
+  driver_->disconnect();
+  connected_ = false;
+  if (guardian_) lost ? guardian_->hand_over() : guardian_->dismiss();
   guardian_.reset();
   state_.store(State::disconnected, std::memory_order_relaxed);
 }
 
 void LinkStylus::send_zeros() noexcept {
   // Two poses after the first zero: the device has taken it, not only the wire.
-  const double start = link_->now();
-  const std::uint64_t enough = protocol_->status().news + 3;
-  while (!link_->lost() && link_->now() - start < 0.050 && protocol_->status().news < enough) exchange(1e-3, true);
-  link_->flush(0.020);
+  const double start = driver_->now();
+  const std::uint64_t enough = driver_->status().news + 3;
+  while (!driver_->lost() && driver_->now() - start < 0.050 && driver_->status().news < enough) exchange(1e-3, true);
+  driver_->flush(0.020);
 }
 
 void LinkStylus::service(double timeout) noexcept {
-  if (link_ && !options_.threaded) exchange(timeout, false);
+  if (connected_ && !options_.threaded) exchange(timeout, false);
 }
 
 void LinkStylus::exchange(double timeout, bool closing) noexcept {
-  std::array<std::uint8_t, 64> packet{};
-  // The newest packet wins; the bound keeps a babbling device from holding the thread.
-  std::size_t size = link_->receive(packet, timeout);
-  for (int i = 0; size > 0 && i < 64; ++i) {
-    protocol_->receive(std::span(packet).first(size), link_->now());
-    size = link_->receive(packet, 0);
-  }
-  const double now = link_->now();
-  const ProtocolStatus& status = protocol_->status();
-  if (link_->lost()) fail(LinkFault::unplugged);
+  driver_->take(timeout);
+  const double now = driver_->now();
+  const ProtocolStatus& status = driver_->status();
+  if (driver_->lost()) fail(LinkFault::unplugged);
   if (status.news != news_) {
     news_ = status.news;
     news_time_ = now;
-    reading_.store({now - opened_, status.position, status.buttons, true});
+    reading_.store({now - opened_, status.position, status.buttons, true, status.orientation});
   }
   if (status.state == State::fault) fail(status.fault);
-  if (now - news_time_ > protocol_->longest_silence()) fail(LinkFault::silent);
+  if (now - news_time_ > driver_->longest_silence()) fail(LinkFault::silent);
   judge_rate(now);
+  judge_clocks(now);
 
+  const Vec3 force = force_for(now, closing);
+  driver_->give(force);
+  if (guardian_) guardian_->beat(force != Vec3(0));
+  exchange_time_ = now;
+  if (fault() == LinkFault::none) state_.store(driver_->status().state, std::memory_order_relaxed);
+}
+
+Vec3 LinkStylus::force_for(double now, bool closing) noexcept {
   if (force_.has_news()) force_time_ = now;
   const Vec3 newest = force_.load();
   const bool may_push = !closing && fault() == LinkFault::none && now - force_time_ <= options_.force_age;
-  const std::size_t due = protocol_->step(may_push ? newest : Vec3(0), now, packet);
-  if (due > 0) link_->send(std::span(packet).first(due));
-  if (fault() == LinkFault::none) state_.store(protocol_->status().state, std::memory_order_relaxed);
+  const SustainedLimit limit{specification_.continuous_force, specification_.maximum_force};
+  const Vec3 force = may_push ? clamp_length(newest, load_.allowed(limit)) : Vec3(0);
+  load_.add(limit, glm::length(force), now - exchange_time_);
+  return force;
 }
 
 void LinkStylus::judge_rate(double now) noexcept {
@@ -135,6 +165,13 @@ void LinkStylus::judge_rate(double now) noexcept {
   if (fair && news_ - window_news_ < fewest_in_window) fail(LinkFault::slow);
   window_start_ = now;
   window_news_ = news_;
+}
+
+void LinkStylus::judge_clocks(double now) noexcept {
+  // Whoever was stopped (Ctrl-Z, a debugger) or slept does not know where the hand is now: nothing is pushed again
+  // before the user opens the device anew.
+  if (now - exchange_time_ > longest_gap) fail(LinkFault::held_up);
+  if (options_.asleep() - asleep_ > shortest_sleep) fail(LinkFault::slept);
 }
 
 void LinkStylus::fail(LinkFault fault) noexcept {

@@ -1,17 +1,18 @@
 #pragma once
 
-/// The stylus that every packet driver is: a thread of its own exchanges packets, and the servo tick only swaps values
-/// with it, wait-free. The thread is also the first watchdog: a force that is not renewed becomes zero there.
+/// The stylus that every driver is: a thread of its own drives the device, and the servo tick only swaps values with
+/// it, wait-free. The thread is also the first watchdog: a force that is not renewed becomes zero there.
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <thread>
 
+#include "device/link/driver.h"
 #include "device/link/latest.h"
-#include "device/link/link.h"
-#include "device/link/protocol.h"
+#include "device/link/packet_driver.h"
+#include "device/link/realtime.h"
 #include "device/safety/guardian.h"
+#include "device/safety/sustained.h"
 #include "device/stylus.h"
 
 namespace palpate::device {
@@ -21,17 +22,19 @@ struct LinkStylusOptions {
   double force_age = 0.020;  ///< s: a force that write_force() does not renew becomes zero
   int priority = 60;         ///< SCHED_FIFO of the thread, above the servo's; where not allowed it goes without
   GuardianSettings guardian;
+  double (*asleep)() noexcept = time_asleep;  ///< s that the machine has slept: a jump is a fault
 };
 
 class LinkStylus final : public Stylus {
  public:
-  /// Opens the device; throws std::runtime_error naming it and what to do.
-  using LinkMaker = std::function<std::unique_ptr<Link>()>;
+  using LinkMaker = device::LinkMaker;
 
+  LinkStylus(Specification specification, std::unique_ptr<Driver> driver, const LinkStylusOptions& options = {});
   LinkStylus(Specification specification, std::unique_ptr<Protocol> protocol, LinkMaker make_link,
              const LinkStylusOptions& options = {});
   ~LinkStylus() override;
 
+  /// Of the kind of device; once open, of this one.
   Specification specification() const override { return specification_; }
   void open() override;
   void close() noexcept override;
@@ -44,17 +47,19 @@ class LinkStylus final : public Stylus {
   void service(double timeout) noexcept;
 
  private:
+  void run() noexcept;
   void exchange(double timeout, bool closing) noexcept;
   void judge_rate(double now) noexcept;
+  void judge_clocks(double now) noexcept;
+  Vec3 force_for(double now, bool closing) noexcept;
   void fail(LinkFault fault) noexcept;
   void send_zeros() noexcept;
 
   Specification specification_;
-  std::unique_ptr<Protocol> protocol_;
-  LinkMaker make_link_;
+  std::unique_ptr<Driver> driver_;
   LinkStylusOptions options_;
-  std::unique_ptr<Link> link_;
   std::unique_ptr<Guardian> guardian_;
+  bool connected_ = false;
   std::thread thread_;
   std::atomic<bool> stop_{false};
   std::atomic<State> state_{State::disconnected};
@@ -65,11 +70,14 @@ class LinkStylus final : public Stylus {
   Latest<Vec3> force_;
   // The exchanging thread's.
   double opened_ = 0;
+  double exchange_time_ = 0;
+  double asleep_ = 0;
   double force_time_ = 0;
   double news_time_ = 0;
   std::uint64_t news_ = 0;
   double window_start_ = 0;
   std::uint64_t window_news_ = 0;
+  SustainedLoad load_;
   // The servo's.
   Reading last_reading_;
 };

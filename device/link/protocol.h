@@ -12,7 +12,18 @@
 namespace palpate::device {
 
 /// Why a driver gave up, until it is opened again.
-enum class LinkFault : std::uint8_t { none, unplugged, silent, slow, unreachable_pose, unhomed };
+enum class LinkFault : std::uint8_t {
+  none,
+  unplugged,
+  silent,
+  slow,
+  unreachable_pose,
+  unhomed,
+  held_up,         ///< this process was stopped, or its thread held up
+  slept,           ///< the machine was suspended
+  forces_refused,  ///< the device takes forces and gives none
+  own_safety       ///< the device's own safety took the force away
+};
 const char* name_of(LinkFault fault);
 
 struct ProtocolStatus {
@@ -21,6 +32,7 @@ struct ProtocolStatus {
   Vec3 position{0};  ///< m, device frame; always finite
   std::uint32_t buttons = 0;
   std::uint64_t news = 0;  ///< how many poses there have been
+  glm::dquat orientation{1, 0, 0, 0};
 };
 
 class Protocol {
@@ -32,6 +44,8 @@ class Protocol {
 
   /// Brings the device into its working state. Throws std::runtime_error naming it and what to do.
   virtual void connect(Link& link) = 0;
+  /// The link is about to go; `lost`: the device went before.
+  virtual void disconnected(bool /*lost*/) noexcept {}
   /// A packet that arrived.
   virtual void receive(std::span<const std::uint8_t> packet, double now) noexcept = 0;
   /// After all that arrived: the packet to send now (its size; 0 when none is due), for this force (N).
@@ -39,6 +53,10 @@ class Protocol {
   virtual const ProtocolStatus& status() const noexcept = 0;
   /// s without a new pose after which the device counts as dead.
   virtual double longest_silence() const noexcept { return 0.100; }
+  /// The largest packet, bytes.
+  virtual std::size_t packet_size() const noexcept { return 64; }
+  /// What the connected device says of itself, where it says anything.
+  virtual void describe(Specification& /*specification*/) const {}
 };
 
 }  // namespace palpate::device

@@ -69,4 +69,10 @@ double monotonic_time() noexcept {
   return static_cast<double>(now_ns()) * 1e-9;
 }
 
+double time_asleep() noexcept {
+  timespec boot{};
+  clock_gettime(CLOCK_BOOTTIME, &boot);
+  return static_cast<double>(boot.tv_sec * second + boot.tv_nsec - now_ns()) * 1e-9;
+}
+
 }  // namespace palpate::device

@@ -43,4 +43,7 @@ class Metronome {
 /// s of CLOCK_MONOTONIC.
 double monotonic_time() noexcept;
 
+/// s that the machine has slept since it was started: CLOCK_MONOTONIC stands still meanwhile, so that no age shows it.
+double time_asleep() noexcept;
+
 }  // namespace palpate::device

@@ -23,17 +23,28 @@ namespace {
 struct Rig {
   std::string name;
   std::string watchdog;  ///< of the device's own, where nobody can reach it
+  bool own_watchdog = false;
   std::shared_ptr<Stylus> stylus;
   std::function<double()> now;     ///< s
   std::function<void()> exchange;  ///< lets some time go by
   std::function<bool()> is_pushing;
   std::function<void()> unplug, silence, shorten, garble, impossible;
   std::function<void(double)> delay;  ///< s on top of every answer
+  std::function<void()> unhome;
+  std::function<void(double)> stop;  ///< the program, for some seconds
+
+  bool is_arithmetic() const { return name == "simulated"; }
 };
+
+double asleep_s = 0;
+double asleep() noexcept {
+  return asleep_s;
+}
 
 LinkStylusOptions in_this_thread() {
   LinkStylusOptions options;
   options.threaded = false;
+  options.asleep = &asleep;
   return options;
 }
 
@@ -44,6 +55,7 @@ Rig falcon() {
   FakeFalconFaults* const faults = &bench->falcon.faults;
   return {"Falcon",
           "unknown: switch it off",
+          false,
           stylus,
           [bench] { return bench->time; },
           [stylus] { stylus->service(0.2e-3); },
@@ -53,7 +65,9 @@ Rig falcon() {
           [faults] { faults->most_payload = 3; },
           [faults] { faults->garble_every = 2; },
           [faults] { faults->impossible_pose = true; },
-          [faults](double delay) { faults->reply_delay = delay; }};
+          [faults](double delay) { faults->reply_delay = delay; },
+          [faults] { faults->home_lost = true; },
+          [bench](double seconds) { bench->time += seconds; }};
 }
 
 Rig wooden_haptics() {
@@ -65,6 +79,7 @@ Rig wooden_haptics() {
   FakeWoodenHapticsFaults* const faults = &arm->faults;
   return {"WoodenHaptics",
           "0.5 s",
+          true,
           stylus,
           [bench] { return bench->time; },
           [stylus] { stylus->service(0.2e-3); },
@@ -74,7 +89,9 @@ Rig wooden_haptics() {
           [faults] { faults->short_every = 10; },
           [faults] { faults->garble_every = 2; },
           [faults] { faults->impossible_pose = true; },
-          [faults](double delay) { faults->report_delay = delay; }};
+          [faults](double delay) { faults->report_delay = delay; },
+          [faults] { faults->button_pressed = true; },
+          [bench](double seconds) { bench->time += seconds; }};
 }
 
 Rig simulated() {
@@ -82,6 +99,7 @@ Rig simulated() {
   auto time = std::make_shared<double>(0);
   return {"simulated",
           "none",
+          false,
           stylus,
           [time] { return *time; },
           [time] { *time += 1e-3; },
@@ -91,7 +109,9 @@ Rig simulated() {
           {},
           {},
           [stylus] { stylus->inject(SimulatedFault::not_a_number); },
-          {}};
+          {},
+          {},
+          [time](double seconds) { *time += seconds; }};
 }
 
 /// A session at 1 kHz of the rig's own time: reads, filters, writes.
@@ -103,6 +123,7 @@ struct Session {
   bool scene_runs = true;
   bool servo_runs = true;
   bool commander_lives = true;
+  double carried = 0;  // m/s: as if the hand were thrown to the right
   double scene_time = 0;
   double commander_time = 0;
 
@@ -118,6 +139,7 @@ struct Session {
     input.time = rig.now();
     input.reading = rig.stylus->read();
     input.device = rig.stylus->state();
+    input.reading.position.x += carried * input.time;
     input.force = asked;
     if (scene_runs) scene_time = input.time;
     if (commander_lives) commander_time = input.time;
@@ -190,6 +212,25 @@ TEST(FaultTable, EveryFaultEndsWithoutForce) {
          return s.rig.name != "simulated";  // which has no time but the servo's
        },
        0.03},
+      {"hand at 3 m/s",
+       [](Session& s) {
+         s.carried = 3;
+         return true;
+       },
+       0.1},
+      {"home lost", [](Session& s) { return apply(s.rig.unhome); }, 0.01},
+      {"program stopped for 1 s",
+       [](Session& s) {
+         s.rig.stop(1);
+         return true;
+       },
+       0.06},
+      {"machine asleep for 30 s",
+       [](Session& s) {
+         asleep_s += 30;
+         return !s.rig.is_arithmetic();  // which no machine's sleep moves
+       },
+       0.06},
       {"dead UI", [](Session& s) { return !(s.commander_lives = false); }, 2.6, true, 3},
   };
 
@@ -216,10 +257,17 @@ TEST(FaultTable, EveryFaultEndsWithoutForce) {
         EXPECT_TRUE(quiet) << where;
         EXPECT_LE(pushed, one.zero_within) << where;
       } else {
+        // Nobody can send it a zero: what the table tells is the force that stays on the device, and that nothing is
+        // asked of it any more.
         EXPECT_EQ(session.result.state, State::fault) << where;
+        EXPECT_EQ(session.result.force, Vec3(0)) << where;
+        EXPECT_TRUE(session.rig.is_arithmetic() || quiet == session.rig.own_watchdog)
+            << where << ": with the device's own watchdog or without";
       }
     }
   }
+  std::puts("while a program is stopped its guardian sends the zeros: Guardian.*, and tests device.usb.*");
+  std::puts("without a guardian, a device is left to its own watchdog: `palpate devices` and the panel say so");
   std::puts("SIGINT, SIGTERM and SIGKILL: the guardian sends the zeros; tests device.usb.*");
 }
 

@@ -1,7 +1,9 @@
 #include "device/safety/guardian.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,13 +11,37 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <new>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
 
 namespace palpate::device {
 
-void Guardian::dismiss() noexcept {
+namespace {
+
+constexpr int beat_descriptor = 3;  // of the guardian
+
+struct SharedMemory {
+  int descriptor = -1;
+  GuardianBeat* beat = nullptr;
+};
+
+SharedMemory share_beat() {
+  SharedMemory shared;
+  shared.descriptor = memfd_create("palpate-beat", MFD_CLOEXEC);
+  if (shared.descriptor < 0 || ftruncate(shared.descriptor, sizeof(GuardianBeat)) != 0) return shared;
+  void* const memory = mmap(nullptr, sizeof(GuardianBeat), PROT_READ | PROT_WRITE, MAP_SHARED, shared.descriptor, 0);
+  if (memory != MAP_FAILED) shared.beat = new (memory) GuardianBeat;
+  return shared;
+}
+
+}  // namespace
+
+void Guardian::end(char word) noexcept {
   if (pid_ <= 0) return;
-  const char word = 'q';
   // It may have ended already; then the pipe is broken, and SIGPIPE must not end the session.
   struct sigaction ignore {};
   struct sigaction before {};
@@ -28,6 +54,7 @@ void Guardian::dismiss() noexcept {
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
   }
   pid_ = 0;
+  munmap(shared_, sizeof(GuardianBeat));
 }
 
 std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
@@ -36,9 +63,16 @@ std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
     throw std::runtime_error(std::string("guardian of the stylus: no pipe: ") + std::strerror(errno));
   }
+  const SharedMemory shared = share_beat();
+  if (shared.beat == nullptr) {
+    if (shared.descriptor >= 0) ::close(shared.descriptor);
+    for (const int end : pipe_ends) ::close(end);
+    throw std::runtime_error(std::string("guardian of the stylus: no shared memory: ") + std::strerror(errno));
+  }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, pipe_ends[0], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, shared.descriptor, beat_descriptor);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   // A group of its own: Ctrl-C in a terminal goes to the session, which the guardian has to survive.
@@ -52,21 +86,53 @@ std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   ::close(pipe_ends[0]);
+  ::close(shared.descriptor);
   if (failed != 0) {
     ::close(pipe_ends[1]);
+    munmap(shared.beat, sizeof(GuardianBeat));
     throw std::runtime_error("guardian of the stylus: cannot start " + program + ": " + std::strerror(failed) +
                              "; install palpate once more, or name the program in PALPATE_GUARDIAN");
   }
-  return std::make_unique<Guardian>(pid, pipe_ends[1]);
+  return std::make_unique<Guardian>(pid, pipe_ends[1], shared.beat);
 }
+
+namespace {
+
+std::string running_program() {
+  std::array<char, 4096> self{};
+  const ssize_t length = readlink("/proc/self/exe", self.data(), self.size() - 1);
+  return {self.data(), length > 0 ? static_cast<std::size_t>(length) : 0};
+}
+
+/// Of the file that this code was loaded from: the program, or the plug-in in another's.
+std::string own_file() {
+  Dl_info info{};
+  const bool found = dladdr(reinterpret_cast<const void*>(&guardian_program), &info) != 0 && info.dli_fname != nullptr;
+  std::error_code failed;
+  const auto file = std::filesystem::weakly_canonical(found ? info.dli_fname : "", failed);
+  return failed ? std::string() : file.string();
+}
+
+/// Beside the running program, then in the folders above the plug-in: in a build's bin/, or where it was installed.
+std::vector<std::string> guardian_candidates() {
+  std::vector<std::string> candidates;
+  const std::string program = running_program();
+  candidates.push_back(program.substr(0, program.rfind('/') + 1) + "palpate-guardian");
+  for (std::filesystem::path at = std::filesystem::path(own_file()).parent_path(); at.has_relative_path();
+       at = at.parent_path()) {
+    for (const char* below : {"palpate-guardian", "bin/palpate-guardian", "libexec/palpate/palpate-guardian"}) {
+      candidates.push_back(at / below);
+    }
+  }
+  candidates.emplace_back(PALPATE_GUARDIAN_PATH);
+  return candidates;
+}
+
+}  // namespace
 
 std::string guardian_program() {
   if (const char* named = std::getenv("PALPATE_GUARDIAN")) return named;
-  std::array<char, 4096> self{};
-  const ssize_t length = readlink("/proc/self/exe", self.data(), self.size() - 1);
-  const std::string path(self.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
-  for (const std::string& candidate :
-       {path.substr(0, path.rfind('/') + 1) + "palpate-guardian", std::string(PALPATE_GUARDIAN_PATH)}) {
+  for (const std::string& candidate : guardian_candidates()) {
     if (access(candidate.c_str(), X_OK) == 0) return candidate;
   }
   return {};

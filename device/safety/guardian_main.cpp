@@ -1,6 +1,9 @@
 // palpate-guardian KIND ADDRESS: waits on its standard input, a pipe from the session. A 'q' there is a session that
-// closed its device itself. The end of the pipe without it is a session that died: zeros are sent.
+// closed its device itself, a 'w' one whose device is gone. The end of the pipe without either is a session that died:
+// zeros are sent. Descriptor 3 is memory where the session counts its exchanges with the device: a count that stands
+// still while there is a force is a session that was stopped.
 
+#include <poll.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -9,25 +12,93 @@
 #include <cstdio>
 
 #include "device/link/realtime.h"
+#include "device/safety/guardian.h"
 #include "device/safety/zero_force.h"
+
+namespace {
+
+using palpate::device::GuardianBeat;
+
+constexpr int beat_descriptor = 3;
+constexpr int look_every_ms = 20;
+constexpr int looks_until_stopped = 10;   // 0.2 s: a device takes a force that is older for no force of ours
+constexpr double wait_for_device = 60.0;  // s
+
+void tell(bool stopped, const char* kind, bool zeroed, double begun) {
+  std::fprintf(stderr,
+               stopped ? "palpate-guardian: the session stands still while it pushes; %s (%s, %.0f ms)\n"
+                       : "palpate-guardian: the session ended without closing its stylus; %s (%s, %.0f ms)\n",
+               zeroed ? "zero force was sent" : "THE STYLUS COULD NOT BE REACHED: switch it off", kind,
+               (palpate::device::monotonic_time() - begun) * 1e3);
+}
+
+const GuardianBeat* session_beat() {
+  void* const memory = mmap(nullptr, sizeof(GuardianBeat), PROT_READ, MAP_SHARED, beat_descriptor, 0);
+  return memory == MAP_FAILED ? nullptr : static_cast<const GuardianBeat*>(memory);
+}
+
+/// Notices a session that pushes and stands still.
+class Watch {
+ public:
+  explicit Watch(const GuardianBeat* beat) : beat_(beat) {}
+  /// Every look_every_ms; true once for each time that the session stops.
+  bool stopped() {
+    if (beat_ == nullptr) return false;
+    const auto count = beat_->count.load(std::memory_order_relaxed);
+    const bool still = count == count_ && beat_->pushing.load(std::memory_order_relaxed) != 0;
+    count_ = count;
+    looks_ = still ? looks_ + 1 : 0;
+    return looks_ == looks_until_stopped;
+  }
+
+ private:
+  const GuardianBeat* beat_;
+  std::uint32_t count_ = 0;
+  int looks_ = 0;
+};
+
+/// 'q', 'w', or 0 for the end of the pipe.
+char wait_for_word(const char* kind, const char* address) {
+  Watch watch(session_beat());
+  for (;;) {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    const int ready = poll(&input, 1, look_every_ms);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) {
+      if (!watch.stopped()) continue;
+      const double begun = palpate::device::monotonic_time();
+      const bool zeroed = palpate::device::send_zero_force(kind, address, 0.5, true);
+      tell(true, kind, zeroed, begun);
+      continue;
+    }
+    char word = 0;
+    const ssize_t got = read(STDIN_FILENO, &word, 1);
+    if (got < 0 && errno == EINTR) continue;
+    return got == 1 ? word : '\0';
+  }
+}
+
+}  // namespace
 
 int main(int count, char** arguments) {
   if (count != 3) {
     std::fputs("palpate-guardian KIND ADDRESS is started by palpate, never by hand\n", stderr);
     return 2;
   }
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT}) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP}) std::signal(signal, SIG_IGN);
   palpate::device::become_realtime(70);
-  char word = 0;
-  ssize_t got = 0;
-  while ((got = read(STDIN_FILENO, &word, 1)) < 0 && errno == EINTR) {
+  const char* const kind = arguments[1];
+  const char* const address = arguments[2];
+  const char word = wait_for_word(kind, address);
+  if (word == 'q') return 0;
+  if (word == 'w') {
+    // The session waits for this process only, not for what goes on in its child.
+    if (fork() != 0) return 0;
+    palpate::device::send_zero_force(kind, address, wait_for_device);
+    return 0;
   }
-  if (got == 1 && word == 'q') return 0;
-  const double start = palpate::device::monotonic_time();
-  const bool zeroed = palpate::device::send_zero_force(arguments[1], arguments[2], 2.0);
-  const double took = palpate::device::monotonic_time() - start;
-  std::fprintf(stderr, "palpate-guardian: the session ended without closing its stylus; %s (%s, %.0f ms)\n",
-               zeroed ? "zero force was sent" : "THE STYLUS COULD NOT BE REACHED: switch it off", arguments[1],
-               took * 1e3);
+  const double begun = palpate::device::monotonic_time();
+  const bool zeroed = palpate::device::send_zero_force(kind, address, 2.0);
+  tell(false, kind, zeroed, begun);
   return zeroed ? 0 : 1;
 }

@@ -61,8 +61,9 @@ bool send_zeros_to_hid(const std::string& address) {
   return taken > 0;
 }
 
-bool try_once(const std::string& kind, const std::string& address) {
+bool try_once(const std::string& kind, const std::string& address, bool take_away) {
   try {
+    if (kind == "falcon" && take_away) return take_falcon_and_send_zeros(address);
     if (kind == "falcon") return send_zeros_to_falcon(address);
     return kind == "wooden_haptics" && send_zeros_to_hid(address);
   } catch (const std::exception&) {
@@ -72,10 +73,10 @@ bool try_once(const std::string& kind, const std::string& address) {
 
 }  // namespace
 
-bool send_zero_force(const std::string& kind, const std::string& address, double patience) {
+bool send_zero_force(const std::string& kind, const std::string& address, double patience, bool take_away) {
   const double start = monotonic_time();
   do {
-    if (try_once(kind, address)) return true;
+    if (try_once(kind, address, take_away)) return true;
     const timespec pause{0, 500'000};
     nanosleep(&pause, nullptr);
   } while (monotonic_time() - start < patience);

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint8_t motion_report = 1;
 constexpr std::uint8_t rotation_report = 2;
 constexpr std::uint8_t button_report = 3;
-constexpr double longest_step = 0.05;  // s: a thread held up for longer makes no jump of the pose
+constexpr double report_patience = 0.15;  // s: a puck that is held tells it every 8 to 16 ms
+constexpr double longest_step = 0.05;     // s: a thread held up for longer makes no jump of the pose
 
 double word(std::span<const std::uint8_t> bytes, std::size_t index) {
   return static_cast<std::int16_t>(bytes[2 * index] | bytes[2 * index + 1] << 8);
@@ -39,10 +40,10 @@ void SpaceMouseProtocol::connect(Link& link) {
   status_.state = State::idle;
   status_.news = news;
   deflection_ = Vec3(0);
-  time_ = link.now();
+  time_ = told_ = link.now();
 }
 
-void SpaceMouseProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/) noexcept {
+void SpaceMouseProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
   if (packet.size() < 2) return;
   const std::uint8_t report = packet.front();
   const auto payload = packet.subspan(1);
@@ -56,6 +57,7 @@ void SpaceMouseProtocol::receive(std::span<const std::uint8_t> packet, double /*
   // Translation alone (6 bytes), or with rotation behind it (12 bytes, newer and wireless pucks): the first six bytes
   // are the same. Rotation comes in a report of its own otherwise, and is not used.
   if (report == rotation_report || report != motion_report || payload.size() < 6) return;
+  told_ = now;
   // The puck's x is right, its y towards the user, its z down.
   const Vec3 raw = Vec3(word(payload, 0), -word(payload, 2), word(payload, 1)) / settings_.full_deflection;
   for (int axis = 0; axis < 3; ++axis) {
@@ -68,6 +70,8 @@ void SpaceMouseProtocol::receive(std::span<const std::uint8_t> packet, double /*
 std::size_t SpaceMouseProtocol::step(const Vec3& /*force*/, double now, std::span<std::uint8_t> /*packet*/) noexcept {
   const double elapsed = std::clamp(now - time_, 0.0, longest_step);
   time_ = now;
+  // Its report of zeros may be lost: the pose must not drift on.
+  if (now - told_ > report_patience) deflection_ = Vec3(0);
   status_.position = glm::clamp(status_.position + settings_.speed * elapsed * deflection_, -settings_.half_extent,
                                 settings_.half_extent);
   ++status_.news;

@@ -57,6 +57,17 @@ TEST(SpaceMouse, StaysWhereItIsWhenLetGo) {
   EXPECT_TRUE(later.fresh);
 }
 
+TEST(SpaceMouse, DoesNotDriftWhenTheReportOfItsRestIsLost) {
+  Bench bench;
+  bench.puck.deflect(Vec3(350, 0, 0));
+  bench.run(0.2);
+  bench.puck.loses_zero = true;
+  bench.puck.deflect(Vec3(0));
+  const Vec3 there = bench.run(0.2).position;
+  EXPECT_LT(there.x, 0.04);
+  EXPECT_EQ(bench.run(1).position, there);
+}
+
 TEST(SpaceMouse, ADeadZoneHidesASmallDeflection) {
   Bench bench;
   bench.puck.deflect(Vec3(27, -27, 27));

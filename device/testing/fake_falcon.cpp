@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 namespace palpate::device {
 
@@ -15,6 +14,8 @@ constexpr std::uint16_t baud_1500k = 0x0002;
 constexpr double wire_time = 0.25e-3;  // s: 32 bytes at 1.5 Mbaud and the firmware's own time
 
 // Before it is homed a Falcon counts from wherever it was switched on.
+constexpr std::size_t packet_size = 16;
+constexpr double center = 0.120;  // m along z: the middle of what the grip reaches
 constexpr int unhomed_offset = 1234;
 constexpr double out_count = 400;  // the index marks, passed on the way out and then on the way in
 constexpr double in_count = 300;
@@ -81,11 +82,8 @@ void FakeFalcon::write(std::span<const std::uint8_t> bytes, double now) {
     if (!firmware_runs()) continue;
     command_bytes_.push_back(byte);
     if (command_bytes_.front() != '<') command_bytes_.clear();
-    if (command_bytes_.size() < falcon_packet_size) continue;
-    // A command and a reply are coded alike; bit 0 of the flags is the homing mode.
-    if (const auto words = decode_falcon_reply(command_bytes_)) {
-      run({words->encoders, (words->buttons & 1) != 0, 0}, now);
-    }
+    if (command_bytes_.size() < packet_size) continue;
+    if (const auto command = read_public_falcon_packet(command_bytes_)) run(*command, now);
     command_bytes_.clear();
   }
 }
@@ -115,42 +113,40 @@ void FakeFalcon::boot_byte(std::uint8_t byte, double now) {
   }
 }
 
+Vec3 FakeFalcon::grip() const {
+  return hand_.body().position + Vec3(0, 0, center);
+}
+
 std::array<double, 3> FakeFalcon::true_counts() const {
-  const auto angles = falcon_angles(geometry_, hand_.body().position + Vec3(0, 0, geometry_.center));
-  std::array<double, 3> counts{};
-  for (std::size_t i = 0; i < 3 && angles; ++i) {
-    counts[i] = std::round(((*angles)[static_cast<int>(i)] - geometry_.angle_at_zero) / geometry_.angle_per_count);
-  }
+  std::array<double, 3> counts = public_falcon_counts(grip()).value_or(std::array<double, 3>{});
+  for (double& count : counts) count = std::round(count);
   return counts;
 }
 
-void FakeFalcon::run(const FalconCommand& command, double now) {
+void FakeFalcon::run(const PublicFalconPacket& command, double now) {
+  constexpr std::uint8_t homing_mode = 1;
   ++commands_;
   hand_.advance(now, force_);
-  motors_ = command.motors;
+  motors_ = command.numbers;
   if (is_pushing()) pushed_until_ = now;
-  Vec3 torques;
-  for (int i = 0; i < 3; ++i) torques[i] = -command.motors[static_cast<std::size_t>(i)] / options_.motor_gain;
-  const auto jacobian = falcon_jacobian(geometry_, hand_.body().position + Vec3(0, 0, geometry_.center));
-  force_ = jacobian ? glm::transpose(*jacobian) * torques : Vec3(0);
+  force_ = public_falcon_force(grip(), motors_, options_.motor_gain);
   if (glm::length(force_) > glm::length(strongest_)) strongest_ = force_;
 
   const std::array<double, 3> counts = true_counts();
-  FalconCommand answer;  // a reply is coded like a command
+  std::array<int, 3> answer{};
   std::uint8_t flags = static_cast<std::uint8_t>(hand_.buttons() & 15);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!command.homing) homed_[i] = was_out_[i] = false;
+    if ((command.flags & homing_mode) == 0) homed_[i] = was_out_[i] = false;
     was_out_[i] = was_out_[i] || counts[i] >= out_count;
     homed_[i] = homed_[i] || (was_out_[i] && counts[i] <= in_count);
-    answer.motors[i] = static_cast<int>(counts[i]) + (homed_[i] ? 0 : unhomed_offset);
-    if (faults.impossible_pose) answer.motors[i] = i == 0 ? 4000 : -4000;
-    if (homed_[i]) flags = static_cast<std::uint8_t>(flags | 0x10 << i);
+    answer[i] = static_cast<int>(counts[i]) + (homed_[i] ? 0 : unhomed_offset);
+    if (faults.impossible_pose) answer[i] = i == 0 ? 4000 : -4000;
+    if (homed_[i] && !faults.home_lost) flags = static_cast<std::uint8_t>(flags | 0x10 << i);
   }
-  auto packet = encode(answer);
-  packet[13] = static_cast<std::uint8_t>(0x41 + flags);
+  auto packet = public_falcon_packet(answer, flags);
   const auto nth = [&](int every) { return every > 0 && commands_ % static_cast<std::uint64_t>(every) == 0; };
   if (nth(faults.drop_every)) return;
-  if (nth(faults.garble_every)) packet[commands_ % falcon_packet_size] = 0xff;
+  if (nth(faults.garble_every)) packet[commands_ % packet.size()] = 0xff;
   reply(packet, now);
 }
 

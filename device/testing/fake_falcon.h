@@ -10,9 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "device/falcon/falcon_kinematics.h"
-#include "device/falcon/falcon_protocol.h"
 #include "device/testing/fake_hand.h"
+#include "device/testing/public_falcon.h"
 
 namespace palpate::device {
 
@@ -34,6 +33,7 @@ struct FakeFalconFaults {
   int garble_every = 0;           ///< each n-th reply has a byte broken
   int drop_every = 0;             ///< each n-th reply is lost
   bool impossible_pose = false;   ///< encoders that no Falcon can have
+  bool home_lost = false;         ///< as if it had been switched off and on
   int corrupt_echoes = 0;         ///< this many of the upload's echoes have a bit wrong
 };
 
@@ -62,12 +62,12 @@ class FakeFalcon {
 
  private:
   void boot_byte(std::uint8_t byte, double now);
-  void run(const FalconCommand& command, double now);
+  void run(const PublicFalconPacket& command, double now);
+  Vec3 grip() const;  // m, the Falcon's frame
   void reply(std::span<const std::uint8_t> bytes, double now);
   std::array<double, 3> true_counts() const;
 
   FakeFalconOptions options_;
-  FalconGeometry geometry_;
   FakeHand hand_;
 
   std::uint16_t baud_ = 0x4138;

@@ -33,6 +33,7 @@ std::optional<std::size_t> FakeSpaceMouse::read(std::span<std::uint8_t> report, 
   if (now < next_ || (deflection_ == Vec3(0) && reported_ == Vec3(0))) return std::nullopt;
   next_ = now + 8e-3;
   reported_ = deflection_;
+  if (loses_zero && deflection_ == Vec3(0)) return std::nullopt;
   ++report_count_;
   report[0] = 1;
   for (std::size_t i = 0; i < 3; ++i) {

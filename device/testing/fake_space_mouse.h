@@ -23,6 +23,8 @@ class FakeSpaceMouse final : public FakeHid {
   void write(std::span<const std::uint8_t> /*report*/, double /*now*/) override {}
   bool is_pushing(double /*now*/) const override { return false; }
 
+  bool loses_zero = false;  ///< the report that says that it was let go never arrives
+
   std::uint64_t reports() const noexcept { return report_count_; }
 
  private:

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <numbers>
 #include <utility>
+
+#include "device/testing/public_wooden_haptics.h"
 
 namespace palpate::device {
 
@@ -28,35 +27,24 @@ int word(std::span<const std::uint8_t> report, std::size_t index) {
   return static_cast<std::int16_t>(report[2 * index] | report[2 * index + 1] << 8);
 }
 
-/// The motors' counts per radian of a body, signed.
-double counts_per_radian(const WoodenHapticsSettings& s, std::size_t axis) {
-  const double direction = s.motor_aligned[axis] ? -1 : 1;
-  return s.encoder_sign[axis] * direction * s.counts_per_turn[axis] / (2 * std::numbers::pi) * s.body_diameter[axis] /
-         s.capstan_diameter[axis];
+PublicHost host_of(std::size_t report_size) {
+  return report_size == 8 ? PublicHost::woody_2016 : PublicHost::haptikfabriken;
+}
+
+/// Whole counts where the hand is.
+std::array<int, 3> rounded(const Vec3& counts) {
+  return {static_cast<int>(std::lround(counts.x)), static_cast<int>(std::lround(counts.y)),
+          static_cast<int>(std::lround(counts.z))};
 }
 
 }  // namespace
 
-Vec3 wooden_haptics_inverse(const WoodenHapticsSettings& s, const Vec3& position) {
-  const double x = position.z + s.origin[0];
-  const double y = position.x + s.origin[1];
-  const double height = position.y + s.origin[2] - s.base_height;
-  const double reach = std::hypot(x, y);
-  const double distance = std::hypot(reach, height);
-  const double cosine = (s.lower_length * s.lower_length + distance * distance - s.upper_length * s.upper_length) /
-                        (2 * s.lower_length * distance);
-  const double lower = std::atan2(reach, height) - std::acos(cosine);
-  const double upper = std::atan2(reach - s.lower_length * std::sin(lower), s.lower_length * std::cos(lower) - height);
-  return {std::atan2(y, x), lower, upper};
-}
-
-WoodenHapticsSettings arm_with_home_at(const Vec3& position) {
-  WoodenHapticsSettings settings;
-  const Vec3 angles = wooden_haptics_inverse(settings, position);
-  for (std::size_t i = 0; i < 3; ++i) {
-    settings.home_counts[i] =
-        static_cast<int>(std::lround(angles[static_cast<int>(i)] * counts_per_radian(settings, i)));
-  }
+WoodenHapticsSettings arm_with_home_at(const Vec3& position, std::size_t report_size) {
+  WoodenHapticsSettings settings = wooden_haptics_preset(report_size == 8 ? "2016" : "2015");
+  std::array<int, 3> counts = rounded(public_wooden_counts(host_of(report_size), position));
+  // The older host counts from its home, where the driver has -6000.
+  if (report_size == 8) counts[2] -= 6000;
+  settings.home_counts = counts;
   return settings;
 }
 
@@ -75,17 +63,8 @@ HidIdentity FakeWoodenHaptics::identity() const {
   return {0x1234, 0x0006, "WoodenHaptics", std::move(descriptor), false};
 }
 
-Vec3 FakeWoodenHaptics::angles() const {
-  return wooden_haptics_inverse(options_.arm, hand_.body().position);
-}
-
 std::array<int, 3> FakeWoodenHaptics::true_counts() const {
-  const Vec3 now = angles();
-  std::array<int, 3> counts{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    counts[i] = static_cast<int>(std::lround(now[static_cast<int>(i)] * counts_per_radian(options_.arm, i)));
-  }
-  return counts;
+  return rounded(public_wooden_counts(host_of(options_.report_size), hand_.body().position));
 }
 
 std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> report, double now) {
@@ -106,7 +85,7 @@ std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> repor
     report[2 * i] = static_cast<std::uint8_t>(value & 0xff);
     report[2 * i + 1] = static_cast<std::uint8_t>((value >> 8) & 0xff);
   }
-  if (size != 8) report[12] = button_latched_ ? 1 : 0;
+  if (size != 8) report[12] = button_latched_ || faults.button_pressed ? 1 : 0;
   waits_for_output_ = true;
   ++reports_;
   const auto nth = [&](int every) { return every > 0 && reports_ % static_cast<std::uint64_t>(every) == 0; };
@@ -136,20 +115,9 @@ void FakeWoodenHaptics::write(std::span<const std::uint8_t> report, double now) 
   }
   if (milliamperes_ != std::array<int, 3>{}) pushed_until_ = now;
 
-  // Force from torques: the torques of the three unit forces are the Jacobian's rows.
-  Vec3 torques;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double direction = options_.arm.motor_aligned[i] ? -1 : 1;
-    torques[static_cast<int>(i)] = milliamperes_[i] * 1e-3 * direction * options_.arm.torque_constant[i] *
-                                   options_.arm.body_diameter[i] / options_.arm.capstan_diameter[i];
-  }
-  glm::dmat3 torques_of_unit_forces;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 unit(0);
-    unit[axis] = 1;
-    torques_of_unit_forces[axis] = wooden_haptics_torques(options_.arm, angles(), unit);
-  }
-  force_ = glm::inverse(torques_of_unit_forces) * torques;
+  const std::array<int, 3> counts = true_counts();
+  force_ = public_wooden_force(host_of(options_.report_size), Vec3(counts[0], counts[1], counts[2]),
+                               1e-3 * Vec3(milliamperes_[0], milliamperes_[1], milliamperes_[2]));
   if (glm::length(force_) > glm::length(strongest_)) strongest_ = force_;
   if (waits_for_output_) next_report_ = std::max(next_report_ + 1e-3, now);
   waits_for_output_ = false;

@@ -11,8 +11,8 @@
 
 namespace palpate::device {
 
-/// The default arm, whose user takes this pose (m, device's frame) for the home pose.
-WoodenHapticsSettings arm_with_home_at(const Vec3& position);
+/// Settings for the arm of such reports, whose user takes this pose (m, device's frame) for the home pose.
+WoodenHapticsSettings arm_with_home_at(const Vec3& position, std::size_t report_size = 14);
 
 struct FakeWoodenHapticsOptions {
   WoodenHapticsSettings arm = arm_with_home_at(Vec3(0));
@@ -29,6 +29,7 @@ struct FakeWoodenHapticsFaults {
   int drop_every = 0;       ///< each n-th report is lost on the way
   int garble_every = 0;     ///< each n-th report has its bytes turned over
   bool impossible_pose = false;
+  bool button_pressed = false;  ///< held down from now on
 };
 
 class FakeWoodenHaptics final : public FakeHid {
@@ -52,7 +53,6 @@ class FakeWoodenHaptics final : public FakeHid {
   std::uint64_t odd_outputs() const noexcept { return odd_outputs_; }  ///< of another size than its reports have
 
  private:
-  Vec3 angles() const;
   std::array<int, 3> true_counts() const;
   bool watchdog_bites(double now) const { return now - last_output_ > 0.5; }
 
@@ -72,9 +72,5 @@ class FakeWoodenHaptics final : public FakeHid {
   std::uint64_t outputs_ = 0;
   std::uint64_t odd_outputs_ = 0;
 };
-
-/// The angles of a position above the arm's lower body ("elbow up"); m in the device's frame. The position must be
-/// within reach.
-Vec3 wooden_haptics_inverse(const WoodenHapticsSettings& settings, const Vec3& position);
 
 }  // namespace palpate::device

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <thread>
@@ -49,6 +51,15 @@ int run_client(const Scenario& scenario, const std::string& client, const std::s
   return pid < 0 ? 127 : wait_for(pid);
 }
 
+/// Those that this process has; its clients' guardians become its own.
+void end_children() {
+  std::ifstream file("/proc/self/task/" + std::to_string(getpid()) + "/children");
+  for (pid_t child = 0; file >> child;) {
+    kill(child, SIGKILL);
+    wait_for(child);
+  }
+}
+
 }  // namespace
 
 /// Of the fake, at one time.
@@ -70,9 +81,9 @@ Play::Play(const Scenario& scenario) : scenario_(scenario) {
   } else if (scenario.kind == "wooden_haptics") {
     FakeWoodenHapticsOptions options;
     const std::array<int, 3>& home = options.arm.home_counts;
-    file_ = files_.write("settings.json", "{\"address\": \"" + scenario.address + "\", \"home_counts\": [" +
-                                              std::to_string(home[0]) + ", " + std::to_string(home[1]) + ", " +
-                                              std::to_string(home[2]) + "]}");
+    file_ = files_.write("settings.json", "{\"preset\": \"2015\", \"address\": \"" + scenario.address +
+                                              "\", \"home_counts\": [" + std::to_string(home[0]) + ", " +
+                                              std::to_string(home[1]) + ", " + std::to_string(home[2]) + "]}");
     options.button_time = monotonic_time() + 0.3;
     hid = std::make_unique<FakeWoodenHaptics>(options);
   } else if (scenario.kind == "space_mouse") {
@@ -123,6 +134,8 @@ int Play::run(const std::string& client) {
     outcome = look();
   }
   const double zero_after = monotonic_time() - ended;
+  // One whose device was unplugged waits for it to come back: as it should, but not here.
+  if (scenario_.name == "unplug" && scenario_.kind != "space_mouse") end_children();
   const int guardian = wait_for(-1);
 
   // An unplugged device is its own watchdog's affair; nobody can tell one what may not be opened anything at all.

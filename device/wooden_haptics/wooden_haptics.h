@@ -14,7 +14,9 @@ namespace palpate::device {
 /// Meters, newton meters per ampere, amperes; per axis in the order a (base), b (lower body), c (upper body). Boards
 /// and arms differ: keep yours in a JSON file whose keys are these names (read_wooden_haptics).
 struct WoodenHapticsSettings {
-  std::string address;  ///< the hidraw path; needed, since other devices share its USB ids
+  std::string preset;          ///< which arm these settings began with; needed: a wrong one pushes many times too hard
+  std::string address;         ///< the hidraw path; needed, since other devices share its USB ids
+  bool short_reports = false;  ///< firmware of 2016: reports of 8 bytes, no calibration button
   std::array<double, 3> capstan_diameter{0.010, 0.010, 0.010};
   std::array<double, 3> body_diameter{0.160, 0.120, 0.120};
   double base_height = 0.080;                     ///< Ln
@@ -27,14 +29,19 @@ struct WoodenHapticsSettings {
   std::array<int, 3> encoder_sign{1, 1, 1};
   std::array<bool, 3> motor_aligned{false, true, false};  ///< motor and body turn the same way
   std::array<int, 3> home_counts{0, 0, 0};                ///< encoders in the home pose; of the 2019 arm {0, 0, 6000}
-  double current_limit = 2.0;                             ///< A: all three are scaled down together
-  double maximum_force = 5.0;                             ///< N
-  double stiffness_limit = 1000;                          ///< N/m
-  bool guarded = true;                                    ///< start a guardian process where palpate-guardian is found
+  double current_limit = 2.0;       ///< A: all three are scaled down together; the amplifiers bear it for 4 s
+  double continuous_current = 1.0;  ///< A that each motor bears for ever
+  double maximum_force = 5.0;       ///< N
+  double stiffness_limit = 1000;    ///< N/m
+  bool guarded = true;              ///< start a guardian process where palpate-guardian is found
 };
 
-/// Throws std::runtime_error naming the file, the key and what is wrong with it. Keys that are absent keep their
-/// defaults.
+/// "2015" and "2019" are the arms of haptikfabrikenapi (14 bytes), "2016" is that of woody-experimental (8 bytes; its
+/// firmware counts and its board turns the other way), "woody" haptikfabrikenapi's default. Throws std::runtime_error
+/// naming them for another name.
+WoodenHapticsSettings wooden_haptics_preset(const std::string& name);
+/// Throws std::runtime_error naming the file, the key and what is wrong with it. The key "preset" is needed; keys that
+/// are absent have the preset's values.
 WoodenHapticsSettings read_wooden_haptics(const std::string& json_file);
 /// Throws std::runtime_error naming the value that no arm can have.
 void check(const WoodenHapticsSettings& settings);

@@ -45,11 +45,13 @@ void WoodenHapticsProtocol::connect(Link& link) {
   status_.state = State::homing;
   status_.news = news;
   report_size_ = 0;
-  calibrated_ = button_ = reply_due_ = started_ = false;
+  calibrated_ = keeps_home_;
+  button_ = reply_due_ = started_ = false;
   starts_ = 0;
+  doubt_.forget();
   std::array<std::uint8_t, 64> packet{};
   const double start = link.now();
-  while (status_.news == news) {
+  while (report_size_ == 0) {
     if (link.lost() || link.now() - start > 1.0) {
       throw std::runtime_error(
           "WoodenHaptics at " + settings_.address +
@@ -60,16 +62,40 @@ void WoodenHapticsProtocol::connect(Link& link) {
     const std::size_t due = step(Vec3(0), link.now(), packet);
     if (due > 0) link.send(std::span(packet).first(due));
   }
+  keeps_home_ = false;
+  if ((report_size_ == report_2016) != settings_.short_reports) {
+    throw std::runtime_error("WoodenHaptics at " + settings_.address + ": it sends reports of " +
+                             std::to_string(report_size_) + " bytes, which the preset " + settings_.preset +
+                             " does not have; 2016 is the one with reports of 8 bytes");
+  }
 }
 
-void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/) noexcept {
+void WoodenHapticsProtocol::disconnected(bool lost) noexcept {
+  keeps_home_ = !lost && calibrated_ && status_.state == State::idle;
+}
+
+std::array<int, 3> WoodenHapticsProtocol::within_load(std::array<int, 3> milliamperes, double elapsed) noexcept {
+  const SustainedLimit limit{settings_.continuous_current, settings_.current_limit};
+  double factor = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double asked = 1e-3 * std::abs(milliamperes[i]);
+    if (asked > 0) factor = std::min(factor, loads_[i].allowed(limit) / asked);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    milliamperes[i] = static_cast<int>(factor * milliamperes[i]);
+    loads_[i].add(limit, 1e-3 * milliamperes[i], elapsed);
+  }
+  return milliamperes;
+}
+
+void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
   const bool known = packet.size() == report_2016 || packet.size() == report_hid || packet.size() == report_teensy;
   if (!known || (report_size_ != 0 && packet.size() != report_size_)) {
     ++refused_;
     return;
   }
   const std::array<int, 3> counts{word(packet, 0), word(packet, 1), word(packet, 2)};
-  if (report_size_ == 0 && packet.size() == report_2016) {
+  if (report_size_ == 0 && packet.size() == report_2016 && !keeps_home_) {
     // No button: the arm was opened in its home pose.
     for (std::size_t i = 0; i < 3; ++i) offset_[i] = settings_.home_counts[i] - counts[i];
     calibrated_ = true;
@@ -85,13 +111,13 @@ void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double
     }
     button_ = pressed;
   }
-  take(counts);
+  take(counts, now);
 }
 
-void WoodenHapticsProtocol::take(const std::array<int, 3>& counts) noexcept {
+void WoodenHapticsProtocol::take(const std::array<int, 3>& counts, double now) noexcept {
   if (status_.state == State::fault) return;
-  ++status_.news;
   if (!calibrated_ || button_) {
+    ++status_.news;
     status_.state = State::homing;
     return;
   }
@@ -99,8 +125,12 @@ void WoodenHapticsProtocol::take(const std::array<int, 3>& counts) noexcept {
   for (std::size_t i = 0; i < 3; ++i) homed[i] = counts[i] + offset_[i];
   const Vec3 angles = wooden_haptics_angles(settings_, homed);
   const Vec3 position = wooden_haptics_position(settings_, angles);
-  if (!could_be(angles) || glm::length(position) > reach_in_radii * settings_.workspace_radius)
-    return fail(LinkFault::unreachable_pose);
+  if (!could_be(angles) || glm::length(position) > reach_in_radii * settings_.workspace_radius) {
+    if (doubt_.lasts(now)) fail(LinkFault::unreachable_pose);
+    return;
+  }
+  doubt_.ends(now);
+  ++status_.news;
   angles_ = angles;
   status_.position = position;
   status_.state = State::idle;
@@ -124,8 +154,9 @@ std::size_t WoodenHapticsProtocol::step(const Vec3& force, double now, std::span
     put_word(packet, 3, set_encoders);
     for (std::size_t i = 0; i < 3; ++i) put_word(packet, 4 + i, settings_.home_counts[i]);
   } else if (reply_due_ && status_.state == State::idle) {
-    const Vec3 torques = wooden_haptics_torques(settings_, angles_, clamp_length(force, settings_.maximum_force));
-    const std::array<int, 3> currents = wooden_haptics_currents(settings_, torques);
+    const Vec3 wanted = doubt_.is_doubtful() ? Vec3(0) : clamp_length(force, settings_.maximum_force);
+    const Vec3 torques = wooden_haptics_torques(settings_, angles_, wanted);
+    const std::array<int, 3> currents = within_load(wooden_haptics_currents(settings_, torques), now - sent_);
     for (std::size_t i = 0; i < 3; ++i) put_word(packet, i, currents[i]);
   }
   reply_due_ = false;

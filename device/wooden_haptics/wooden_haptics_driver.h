@@ -3,7 +3,9 @@
 #include <optional>
 
 #include "device/link/link_stylus.h"
+#include "device/link/pose_doubt.h"
 #include "device/link/protocol.h"
+#include "device/safety/sustained.h"
 #include "device/wooden_haptics/wooden_haptics.h"
 
 namespace palpate::device {
@@ -19,6 +21,7 @@ class WoodenHapticsProtocol final : public Protocol {
   explicit WoodenHapticsProtocol(const WoodenHapticsSettings& settings) : settings_(settings) {}
 
   void connect(Link& link) override;
+  void disconnected(bool lost) noexcept override;
   void receive(std::span<const std::uint8_t> packet, double now) noexcept override;
   std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept override;
   const ProtocolStatus& status() const noexcept override { return status_; }
@@ -26,7 +29,8 @@ class WoodenHapticsProtocol final : public Protocol {
   std::uint64_t refused_packets() const noexcept { return refused_; }
 
  private:
-  void take(const std::array<int, 3>& counts) noexcept;
+  void take(const std::array<int, 3>& counts, double now) noexcept;
+  std::array<int, 3> within_load(std::array<int, 3> milliamperes, double elapsed) noexcept;
   void fail(LinkFault fault) noexcept;
 
   WoodenHapticsSettings settings_;
@@ -36,9 +40,12 @@ class WoodenHapticsProtocol final : public Protocol {
   bool calibrated_ = false;
   bool button_ = false;  // the calibration button's latch, as the last report has it
   Vec3 angles_{0};
+  PoseDoubt doubt_{0.25};  // reports have no checksum: many that cannot be mean that others are wrong, too
   bool reply_due_ = false;
   bool started_ = false;
   double sent_ = 0;
+  std::array<SustainedLoad, 3> loads_;  // of the motors
+  bool keeps_home_ = false;             // it was closed and not unplugged: its counters have counted on
   int starts_ = 0;
   std::uint64_t refused_ = 0;
 };

@@ -27,9 +27,15 @@ void take(Json& left, const char* key, T& value) {
   left.erase(found);
 }
 
+constexpr const char* preset_names = "2015, 2016, 2019 or woody";
+
 WoodenHapticsSettings settings_of(Json json) {
   if (!json.is_object()) throw std::runtime_error("it is not a JSON object");
-  WoodenHapticsSettings s;
+  std::string preset;
+  take(json, "preset", preset);
+  WoodenHapticsSettings s = wooden_haptics_preset(preset);
+  take(json, "short_reports", s.short_reports);
+  take(json, "continuous_current", s.continuous_current);
   take(json, "address", s.address);
   take(json, "capstan_diameter", s.capstan_diameter);
   take(json, "body_diameter", s.body_diameter);
@@ -54,6 +60,28 @@ WoodenHapticsSettings settings_of(Json json) {
 
 }  // namespace
 
+WoodenHapticsSettings wooden_haptics_preset(const std::string& name) {
+  WoodenHapticsSettings s;
+  s.preset = name;
+  if (name == "woody") return s;
+  s.motor_aligned = {false, false, false};
+  s.home_counts = {0, 0, 6000};
+  if (name == "2015") return s;
+  if (name == "2019") {
+    s.torque_constant = {0.321, 0.0603, 0.0603};
+    return s;
+  }
+  if (name == "2016") {
+    s.short_reports = true;
+    s.motor_aligned = {false, true, true};
+    s.encoder_sign = {-1, 1, 1};
+    s.home_counts = {0, 0, -6000};
+    return s;
+  }
+  require(false, std::string("name the arm as \"preset\" in its settings file: ") + preset_names);
+  return s;
+}
+
 void check(const WoodenHapticsSettings& settings) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string axis = std::string(" of axis ") + "abc"[i];
@@ -65,6 +93,9 @@ void check(const WoodenHapticsSettings& settings) {
     require(settings.home_counts[i] >= -32768 && settings.home_counts[i] <= 32767,
             "the home counts" + axis + " must fit 16 bits");
   }
+  require(!settings.preset.empty(), std::string("name the arm as \"preset\" in its settings file: ") + preset_names);
+  require(settings.continuous_current > 0 && settings.continuous_current <= settings.current_limit,
+          "the continuous current lies between 0 and the current limit");
   require(settings.lower_length > 0 && settings.upper_length > 0, "the lengths of the bodies must be above zero");
   require(settings.workspace_radius > 0 && settings.workspace_radius <= 1, "the workspace's radius lies within 1 m");
   require(settings.current_limit > 0 && settings.current_limit <= 3, "the current limit lies between 0 and 3 A");

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "device/testing/fake_wooden_haptics.h"
+#include "device/testing/public_wooden_haptics.h"
 #include "device/testing/test_files.h"
 #include "device/testing/wall_ringing.h"
 #include "device/wooden_haptics/wooden_haptics_driver.h"
@@ -32,21 +33,55 @@ Vec3 random_position(std::mt19937& random, double radius) {
   return radius * direction;
 }
 
-TEST(WoodenHapticsKinematics, ForwardOfInverseIsTheIdentity) {
-  const WoodenHapticsSettings settings;
-  std::mt19937 random(1);
-  for (int i = 0; i < 2000; ++i) {
-    const Vec3 position = random_position(random, settings.workspace_radius);
-    const Vec3 angles = wooden_haptics_inverse(settings, position);
-    ASSERT_LT(glm::length(wooden_haptics_position(settings, angles) - position), 1e-9);
+/// Whole counts of a position, as the maker's host has them.
+std::array<int, 3> host_counts(PublicHost host, const Vec3& position) {
+  const Vec3 counts = public_wooden_counts(host, position);
+  return {static_cast<int>(counts.x), static_cast<int>(counts.y), static_cast<int>(counts.z)};
+}
+
+Vec3 as_vector(const std::array<int, 3>& counts) {
+  return {counts[0], counts[1], counts[2]};
+}
+
+Vec3 angles_at(const WoodenHapticsSettings& settings, const Vec3& position) {
+  return wooden_haptics_angles(settings, host_counts(PublicHost::haptikfabriken, position));
+}
+
+TEST(WoodenHapticsKinematics, PresetsAgreeWithTheirMakersHosts) {
+  const struct {
+    const char* preset;
+    PublicHost host;
+    std::array<int, 3> home;  // the driver's counts where the host's are 0
+  } arms[] = {{"2015", PublicHost::haptikfabriken, {0, 0, 0}}, {"2016", PublicHost::woody_2016, {0, 0, -6000}}};
+  for (const auto& arm : arms) {
+    const WoodenHapticsSettings settings = wooden_haptics_preset(arm.preset);
+    std::mt19937 random(1);
+    for (int i = 0; i < 500; ++i) {
+      const std::array<int, 3> counts = host_counts(arm.host, random_position(random, settings.workspace_radius));
+      std::array<int, 3> own{};
+      for (std::size_t axis = 0; axis < 3; ++axis) own[axis] = counts[axis] + arm.home[axis];
+      const Vec3 angles = wooden_haptics_angles(settings, own);
+      ASSERT_LT(
+          glm::distance(wooden_haptics_position(settings, angles), public_wooden_position(arm.host, as_vector(counts))),
+          1e-12)
+          << arm.preset;
+      const Vec3 force = random_position(random, 0.5);
+      const Vec3 amperes = public_wooden_amperes(arm.host, as_vector(counts), force);
+      const auto sent = wooden_haptics_currents(settings, wooden_haptics_torques(settings, angles, force));
+      ASSERT_LT(glm::distance(as_vector(sent), 1e3 * amperes), 2) << arm.preset << ": mA";
+    }
   }
+}
+
+TEST(WoodenHapticsKinematics, The2016ArmHangsInItsHomePoseWhereItsCountersAreZero) {
+  const WoodenHapticsSettings settings = wooden_haptics_preset("2016");
+  const Vec3 position = wooden_haptics_position(settings, wooden_haptics_angles(settings, settings.home_counts));
+  EXPECT_LT(glm::distance(position, public_wooden_position(PublicHost::woody_2016, Vec3(0))), 1e-12);
 }
 
 TEST(WoodenHapticsKinematics, TheHomePoseOfThe2019ArmIsWhereItsDrawingHasIt) {
   // Lower body upright, upper body level: the tip is one upper length out, one lower length up.
-  WoodenHapticsSettings settings;
-  settings.motor_aligned = {false, false, false};
-  settings.home_counts = {0, 0, 6000};
+  const WoodenHapticsSettings settings = wooden_haptics_preset("2019");
   const Vec3 angles = wooden_haptics_angles(settings, settings.home_counts);
   EXPECT_NEAR(angles.z, std::acos(-1.0) / 2, 1e-12) << "6000 counts are 90 degrees";
   const Vec3 position = wooden_haptics_position(settings, angles);
@@ -56,10 +91,10 @@ TEST(WoodenHapticsKinematics, TheHomePoseOfThe2019ArmIsWhereItsDrawingHasIt) {
 }
 
 TEST(WoodenHapticsKinematics, TorquesDoTheForcesWork) {
-  const WoodenHapticsSettings settings;
+  const WoodenHapticsSettings settings = wooden_haptics_preset("2015");
   std::mt19937 random(2);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 angles = wooden_haptics_inverse(settings, random_position(random, 0.09));
+    const Vec3 angles = angles_at(settings, random_position(random, 0.09));
     const Vec3 force = random_position(random, 5);
     const Vec3 torques = wooden_haptics_torques(settings, angles, force);
     for (int axis = 0; axis < 3; ++axis) {
@@ -73,7 +108,7 @@ TEST(WoodenHapticsKinematics, TorquesDoTheForcesWork) {
 }
 
 TEST(WoodenHapticsKinematics, CurrentsKeepTheirLimitAndDirection) {
-  const WoodenHapticsSettings settings;
+  const WoodenHapticsSettings settings = wooden_haptics_preset("2015");
   std::mt19937 random(3);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 torques = random_position(random, std::pow(10, static_cast<double>(i % 7) - 3));
@@ -143,6 +178,7 @@ TEST(WoodenHapticsDriver, IsCalibratedByItsButtonAndFollowsTheHand) {
 TEST(WoodenHapticsDriver, SpeaksTheShortReportsOf2016) {
   FakeWoodenHapticsOptions options;
   options.report_size = 8;
+  options.arm = arm_with_home_at(Vec3(0), 8);
   Bench bench(options);
   bench.stylus->open();
   bench.run(0.2, Vec3(0, 1, 0));
@@ -274,6 +310,64 @@ TEST(WoodenHapticsDriver, ADeviceThatDoesNotAnswerIsRefused) {
   EXPECT_EQ(bench.stylus->state(), State::disconnected);
 }
 
+TEST(WoodenHapticsDriver, KeepsItsHomeWhenItIsOpenedAgain) {
+  for (const std::size_t size : {8U, 14U}) {
+    FakeWoodenHapticsOptions options;
+    options.report_size = size;
+    options.arm = arm_with_home_at(Vec3(0), size);
+    options.path = {{0.5, {0, 0, 0}}, {0.8, {0.04, -0.03, 0.03}}};
+    Bench bench(options);
+    bench.stylus->open();
+    bench.run(1.2);
+    bench.stylus->close();
+    bench.stylus->open();
+    bench.run(0.1, Vec3(0, 1, 0));
+    ASSERT_EQ(bench.stylus->state(), State::idle) << size;
+    EXPECT_LT(glm::distance(bench.stylus->read().position, bench.arm.hand().body().position), 0.2e-3) << size;
+    EXPECT_LT(glm::distance(bench.arm.force(), Vec3(0, 1, 0)), 0.02) << size;
+  }
+}
+
+TEST(WoodenHapticsDriver, AnUnpluggedArmHasToBeHomedAgain) {
+  Bench bench;
+  bench.home();
+  bench.bench.unplugged = true;
+  bench.run(0.01);
+  bench.stylus->close();
+  bench.bench.unplugged = false;
+  bench.stylus->open();
+  bench.run(0.1, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->state(), State::homing);
+  EXPECT_FALSE(bench.is_pushing());
+}
+
+TEST(WoodenHapticsDriver, AnotherArmThanThePresetIsRefused) {
+  FakeWoodenHapticsOptions options;
+  options.report_size = 8;
+  options.arm = arm_with_home_at(Vec3(0), 14);
+  Bench bench(options);
+  try {
+    bench.stylus->open();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("reports of 8 bytes, which the preset 2015 does not have"));
+  }
+}
+
+TEST(WoodenHapticsDriver, MotorsAreNotHeatedForLong) {
+  Bench bench;
+  bench.home();
+  const auto strongest = [&] {
+    const auto& milliamperes = bench.arm.milliamperes();
+    return std::max({std::abs(milliamperes[0]), std::abs(milliamperes[1]), std::abs(milliamperes[2])});
+  };
+  bench.run(1, Vec3(0, 5, 0));
+  EXPECT_GT(strongest(), 1900) << "short-term, to the limit of the current";
+  bench.run(15, Vec3(0, 5, 0));
+  EXPECT_LT(strongest(), 1010) << "for long, to the continuous current";
+  EXPECT_GT(strongest(), 900);
+}
+
 std::string write_settings(const std::string& json) {
   static const TestFiles files;
   return files.write("wooden.json", json);
@@ -281,19 +375,18 @@ std::string write_settings(const std::string& json) {
 
 TEST(WoodenHapticsSettings, AreReadFromJson) {
   const auto settings = read_wooden_haptics(write_settings(
-      R"({"address": "/dev/hidraw3", "encoder_sign": [1, -1, 1], "motor_aligned": [false, false, false],
-          "home_counts": [0, 0, 6000], "torque_constant": [0.321, 0.0603, 0.0603]})"));
+      R"({"preset": "2019", "address": "/dev/hidraw3", "encoder_sign": [1, -1, 1], "home_counts": [0, 0, 5900]})"));
   EXPECT_EQ(settings.address, "/dev/hidraw3");
   EXPECT_EQ(settings.encoder_sign[1], -1);
-  EXPECT_EQ(settings.home_counts[2], 6000);
+  EXPECT_EQ(settings.home_counts[2], 5900);
   EXPECT_EQ(settings.torque_constant[0], 0.321);
-  EXPECT_EQ(settings.lower_length, 0.205) << "absent keys keep their defaults";
+  EXPECT_EQ(settings.lower_length, 0.205) << "absent keys have the preset's";
 }
 
 /// Every key sets what it is named after, and nothing else: values that no default has.
 TEST(WoodenHapticsSettings, EveryKeyIsRead) {
   const auto s = read_wooden_haptics(write_settings(
-      R"({"address": "/dev/hidraw7", "capstan_diameter": [0.011, 0.012, 0.013], "body_diameter": [0.161, 0.122, 0.123],
+      R"({"preset": "woody", "address": "/dev/hidraw7", "capstan_diameter": [0.011, 0.012, 0.013], "body_diameter": [0.161, 0.122, 0.123],
           "base_height": 0.081, "lower_length": 0.206, "upper_length": 0.246, "origin": [0.221, 0.001, 0.082],
           "workspace_radius": 0.101, "torque_constant": [0.031, 0.032, 0.033], "counts_per_turn": [2001, 2002, 2003],
           "encoder_sign": [-1, 1, -1], "motor_aligned": [true, false, true], "home_counts": [11, 12, 13],
@@ -334,26 +427,29 @@ TEST(WoodenHapticsSettings, WrongOnesAreRefusedByName) {
   const struct {
     const char* json;
     const char* names;
-  } wrong[] = {{R"({"lower_lenght": 0.2})", "'lower_lenght' is not a setting"},
-               {R"({"lower_length": "long"})", "'lower_length'"},
-               {R"({"torque_constant": [0, 1, 1]})", "torque constant of axis a"},
-               {R"({"encoder_sign": [1, 1, 2]})", "encoder sign of axis c"},
-               {R"({"current_limit": 30})", "current limit"},
-               {R"({"stiffness_limit": 0})", "stiffness limit"},
-               {R"({"capstan_diameter": [0.01, 0, 0.01]})", "diameters of axis b"},
-               {R"({"body_diameter": [0.16, 0.12, 0.01]})", "diameters of axis c"},
-               {R"({"counts_per_turn": [2000, 0, 2000]})", "counts per turn of axis b"},
-               {R"({"encoder_sign": [0, 1, 1]})", "encoder sign of axis a"},
-               {R"({"home_counts": [0, 32768, 0]})", "home counts of axis b"},
-               {R"({"home_counts": [-32769, 0, 0]})", "home counts of axis a"},
-               {R"({"lower_length": 0})", "lengths of the bodies"},
-               {R"({"upper_length": 0})", "lengths of the bodies"},
-               {R"({"workspace_radius": 0})", "radius"},
-               {R"({"workspace_radius": 1.01})", "radius"},
-               {R"({"current_limit": 0})", "current limit"},
-               {R"({"current_limit": 3.01})", "current limit"},
-               {R"({"maximum_force": 0})", "largest force"},
-               {R"({"maximum_force": 20.1})", "largest force"},
+  } wrong[] = {{R"({"preset": "2015", "lower_lenght": 0.2})", "'lower_lenght' is not a setting"},
+               {R"({"preset": "2015", "lower_length": "long"})", "'lower_length'"},
+               {R"({"preset": "2015", "torque_constant": [0, 1, 1]})", "torque constant of axis a"},
+               {R"({"preset": "2015", "encoder_sign": [1, 1, 2]})", "encoder sign of axis c"},
+               {R"({"preset": "2015", "current_limit": 30})", "current limit"},
+               {R"({"preset": "2015", "stiffness_limit": 0})", "stiffness limit"},
+               {R"({"preset": "2015", "capstan_diameter": [0.01, 0, 0.01]})", "diameters of axis b"},
+               {R"({"preset": "2015", "body_diameter": [0.16, 0.12, 0.01]})", "diameters of axis c"},
+               {R"({"preset": "2015", "counts_per_turn": [2000, 0, 2000]})", "counts per turn of axis b"},
+               {R"({"preset": "2015", "encoder_sign": [0, 1, 1]})", "encoder sign of axis a"},
+               {R"({"preset": "2015", "home_counts": [0, 32768, 0]})", "home counts of axis b"},
+               {R"({"preset": "2015", "home_counts": [-32769, 0, 0]})", "home counts of axis a"},
+               {R"({"preset": "2015", "lower_length": 0})", "lengths of the bodies"},
+               {R"({"preset": "2015", "upper_length": 0})", "lengths of the bodies"},
+               {R"({"preset": "2015", "workspace_radius": 0})", "radius"},
+               {R"({"preset": "2015", "workspace_radius": 1.01})", "radius"},
+               {R"({"preset": "2015", "current_limit": 0})", "current limit"},
+               {R"({"preset": "2015", "current_limit": 3.01})", "current limit"},
+               {R"({"preset": "2015", "maximum_force": 0})", "largest force"},
+               {R"({"preset": "2015", "maximum_force": 20.1})", "largest force"},
+               {R"({"lower_length": 0.2})", "name the arm as \"preset\""},
+               {R"({"preset": "2017"})", "2015, 2016, 2019 or woody"},
+               {R"({"preset": "2015", "continuous_current": 2.5})", "continuous current"},
                {R"([1, 2])", "not a JSON object"},
                {R"({"address": )", "wooden.json"}};
   for (const auto& example : wrong) {

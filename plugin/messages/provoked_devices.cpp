@@ -13,6 +13,7 @@
 #include "device/link/realtime.h"
 #include "device/safety/guardian.h"
 #include "device/testing/fake_falcon_link.h"
+#include "device/testing/fake_wooden_haptics.h"
 #include "device/wooden_haptics/wooden_haptics_driver.h"
 #include "plugin/messages/provoked.h"
 #include "plugin/messages/provoked_scans.h"
@@ -102,12 +103,36 @@ std::string of_arm(bool unplugged) {
   return said_when([&] { protocol.connect(link); });
 }
 
+/// An arm of 2016 that was named as one of 2015.
+std::string of_another_arm() {
+  device::FakeWoodenHapticsOptions options;
+  options.report_size = 8;
+  device::FakeWoodenHaptics arm(options);
+  device::FakeHidBench bench;
+  device::FakeHidLink link(arm, bench);
+  device::WoodenHapticsProtocol protocol(device::wooden_haptics_preset("2015"));
+  return said_when([&] { protocol.connect(link); });
+}
+
 /// While no more files may be opened.
 std::string without_files(const std::function<void()>& run) {
   rlimit before{};
   ::getrlimit(RLIMIT_NOFILE, &before);
   const rlimit none{0, before.rlim_max};
   ::setrlimit(RLIMIT_NOFILE, &none);
+  std::string said = said_when(run);
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  return said;
+}
+
+/// While two more files may be opened.
+std::string without_files_but_a_pipe(const std::function<void()>& run) {
+  const int next = ::dup(0);
+  ::close(next);
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit two{static_cast<rlim_t>(next) + 2, before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &two);
   std::string said = said_when(run);
   ::setrlimit(RLIMIT_NOFILE, &before);
   return said;
@@ -141,8 +166,9 @@ std::vector<Provoked> provoke_devices() {
       {"Novint Falcon: the firmware {} could not be uploaded: {}; unplug it, plug it in again and try once more",
        of_falcon(other, as_it_is, takes_all)},
       {"it does not run what was uploaded; is this the Falcon's firmware?", of_falcon(other, as_it_is, takes_all)},
-      {"it does not answer the greeting", of_falcon(
-                                              good, [](auto& bench) { bench.falcon.faults.silent = true; }, takes_all)},
+      {"it does not answer the greeting; is its power supply plugged in and switched on?",
+       of_falcon(
+           good, [](auto& bench) { bench.falcon.faults.silent = true; }, takes_all)},
       {"it does not take the start of the upload", falcon([](auto&, Packet packet) { return !is_begin(packet); })},
       {"it does not answer the start of the upload", falcon([](auto& bench, Packet packet) {
          if (is_begin(packet)) bench.falcon.faults.silent = true;
@@ -162,6 +188,12 @@ std::vector<Provoked> provoke_devices() {
       {"guardian of the stylus: cannot start {}: {}; install palpate once more, or name the program in "
        "PALPATE_GUARDIAN",
        said_when([] {
+         device::start_guardian({"/absent", "falcon", ""});
+       })},
+      {"WoodenHaptics at {}: it sends reports of {} bytes, which the preset {} does not have; 2016 is the one with "
+       "reports of 8 bytes",
+       of_another_arm()},
+      {"guardian of the stylus: no shared memory: {}", without_files_but_a_pipe([] {
          device::start_guardian({"/absent", "falcon", ""});
        })},
       {"guardian of the stylus: no pipe: {}", without_files([] {

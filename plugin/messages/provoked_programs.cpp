@@ -76,7 +76,9 @@ std::string without_real_time() {
 }
 
 std::string said_of_arm(const std::string& json) {
-  return said_when([&] { device::read_wooden_haptics(file_with("arm.json", json)); });
+  // Of an arm that is named, unless the text is no object.
+  const std::string named = json.starts_with("{") ? R"({"preset": "2015", )" + json.substr(1) : json;
+  return said_when([&] { device::read_wooden_haptics(file_with("arm.json", named)); });
 }
 
 std::string said_of_model(const std::function<void(device::SimulatedDevice&)>& change) {
@@ -202,6 +204,8 @@ std::vector<Provoked> provoke_styluses() {
       {"it is not a JSON object", said_of_arm("[]")},
       {"'{}' is not a setting", said_of_arm(R"({"color": 3})")},
       {"'{}' is not what it should be: {}", said_of_arm(R"({"current_limit": "much"})")},
+      {"name the arm as \"preset\" in its settings file: {}", said_when([] { device::wooden_haptics_preset("mine"); })},
+      {"the continuous current lies between 0 and the current limit", said_of_arm(R"({"continuous_current": 3})")},
       {"the current limit lies between 0 and 3 A", said_of_arm(R"({"current_limit": 30})")},
       {"the torque constant{} must be above zero", said_of_arm(R"({"torque_constant": [0, 1, 1]})")},
       {"the counts per turn{} must be above zero", said_of_arm(R"({"counts_per_turn": [0, 1, 1]})")},

@@ -1,0 +1,40 @@
+#pragma once
+
+/// What the thread of a LinkStylus drives: a device that speaks in packets (packet_driver.h), or one that is reached
+/// through its maker's library.
+
+#include "device/link/protocol.h"
+#include "device/stylus.h"
+
+namespace palpate::device {
+
+/// Used by one thread at a time. Only connect() throws.
+class Driver {
+ public:
+  Driver() = default;
+  Driver(const Driver&) = delete;
+  Driver& operator=(const Driver&) = delete;
+  virtual ~Driver() = default;
+
+  /// Opens the device and brings it into its working state. Throws std::runtime_error naming it and what to do.
+  virtual void connect() = 0;
+  /// After the zeros have been given. May be called without connect().
+  virtual void disconnect() noexcept = 0;
+  /// s, never decreasing; only while connected.
+  virtual double now() noexcept = 0;
+  /// Takes the newest pose into status(), waiting for one at most `timeout` s.
+  virtual void take(double timeout) noexcept = 0;
+  /// Hands a force (N) to the device without waiting for it to act.
+  virtual void give(const Vec3& force) noexcept = 0;
+  /// Waits at most `timeout` s until what was given has left.
+  virtual void flush(double timeout) noexcept = 0;
+  /// Whether the device is gone; it stays so until it is connected again.
+  virtual bool lost() const noexcept = 0;
+  virtual const ProtocolStatus& status() const noexcept = 0;
+  /// s without a new pose after which the device counts as dead.
+  virtual double longest_silence() const noexcept { return 0.100; }
+  /// What the connected device says of itself, where it says anything.
+  virtual void describe(Specification& /*specification*/) const {}
+};
+
+}  // namespace palpate::device
