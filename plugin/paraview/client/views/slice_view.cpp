@@ -131,6 +131,7 @@ class SliceView::Mouse {
 
   // To the right wider, up brighter; a drag over the view's width doubles the window or halves it.
   void drag_to(int x, int y) {
+    if (!owner_.window_->gray_map) return;
     const int* const size = interactor_->GetSize();
     const double right = static_cast<double>(x - from_[0]) / std::max(size[0], 1);
     const double up = static_cast<double>(y - from_[1]) / std::max(size[1], 1);
@@ -152,7 +153,7 @@ class SliceView::Mouse {
 
 SliceView::SliceView(pqRenderView& view, vtkSMProxy& representation, const SliceSetup& setup,
                      std::shared_ptr<SharedWindow> window)
-    : QObject(&view), view_(view), representation_(representation), setup_(setup), window_(std::move(window)) {
+    : QObject(&view), view_(view), representation_(&representation), setup_(setup), window_(std::move(window)) {
   vtkPVRenderView& client = *client_view(view);
   overlay_ = std::make_unique<SliceOverlay>(client);
   if (client.GetInteractor()) mouse_ = std::make_unique<Mouse>(*this, *client.GetInteractor());
@@ -178,9 +179,10 @@ void SliceView::place_camera() {
 }
 
 void SliceView::show_slice(int slice) {
+  if (!representation_) return;  // the scan was deleted; the view is still there
   setup_.slice = std::clamp(slice, 0, setup_.slices - 1);
-  vtkSMPropertyHelper(&representation_, "Slice").Set(setup_.slice);
-  representation_.UpdateVTKObjects();
+  vtkSMPropertyHelper(representation_, "Slice").Set(setup_.slice);
+  representation_->UpdateVTKObjects();
   refresh_text();
   if (pointer_) tell_of((*pointer_)[0], (*pointer_)[1]);
   if (window_->slice_shown) window_->slice_shown(*this);

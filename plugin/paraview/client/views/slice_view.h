@@ -7,6 +7,9 @@
 #include <QPointer>
 #include <QString>
 
+#include <vtkSMProxy.h>
+#include <vtkWeakPointer.h>
+
 #include <array>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -30,7 +33,7 @@ enum class Pick { pressed, moved, let_go };
 
 /// What the slice views of a scan have in common.
 struct SharedWindow {
-  vtkSMProxy* gray_map = nullptr;
+  vtkWeakPointer<vtkSMProxy> gray_map;
   Window window;
   std::function<void()> changed;  ///< after the window has been changed by hand
   Coordinates coordinates = Coordinates::letters;
@@ -93,7 +96,7 @@ class SliceView : public QObject {
   bool tell_of(int x, int y);
 
   pqRenderView& view_;
-  vtkSMProxy& representation_;
+  vtkWeakPointer<vtkSMProxy> representation_;  // goes with the scan
   SliceSetup setup_;
   std::shared_ptr<SharedWindow> window_;
   std::unique_ptr<SliceOverlay> overlay_;
