@@ -79,8 +79,8 @@ vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRende
   vtkSMProxy* const shown = controller->Show(&image, 0, view.getViewProxy());
   auto* const proxy = vtkSMPVRepresentationProxy::SafeDownCast(shown);
   proxy->SetRepresentationType(representation);
-  vtkSMPVRepresentationProxy::SetScalarColoring(proxy, array, 0);
-  vtkSMPVRepresentationProxy::SetScalarBarVisibility(proxy, view.getViewProxy(), false);
+  proxy->SetScalarColoring(array, 0);
+  proxy->SetScalarBarVisibility(view.getViewProxy(), false);
   return *proxy;
 }
 

@@ -72,7 +72,7 @@ void without_the_panel() {
       auto* const shown = vtkSMPVRepresentationProxy::SafeDownCast(
           controller->Show(vtkSMSourceProxy::SafeDownCast(source->getProxy()), 0, view->getViewProxy()));
       shown->SetRepresentationType(shown_as);
-      vtkSMPVRepresentationProxy::SetScalarColoring(shown, "RTData", 0);
+      shown->SetScalarColoring("RTData", 0);
       view->resetCamera();
       constexpr int pictures = 20;  // as many as a press takes
       for (int n = 0; n < pictures; ++n) view->forceRender();
