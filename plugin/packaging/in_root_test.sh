@@ -17,7 +17,7 @@ palpate devices >devices.txt || true
 [ -x /usr/libexec/palpate/palpate-guardian ] && [ -s /usr/lib/udev/rules.d/60-palpate.rules ]
 for page in palpate palpate-probe palpate-testdata; do [ -s "/usr/share/man/man1/$page.1.gz" ]; done
 # bash completes a command and an option.
-bash -c '. /usr/share/bash-completion/completions/palpate
+bash -c 'set -e; . /usr/share/bash-completion/completions/palpate
   COMP_WORDS=(palpate pro) COMP_CWORD=1; _palpate; [ "${COMPREPLY[*]}" = "profile probe" ]
   COMP_WORDS=(palpate probe --sce) COMP_CWORD=2; _palpate; [ "${COMPREPLY[*]}" = --scene ]'
 
