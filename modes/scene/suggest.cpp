@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/quantile.h"
+#include "modes/scene/ct_tissues.h"
 #include "modes/scene/defaults.h"
 #include "modes/scene/hills.h"
 
@@ -63,16 +64,6 @@ Spread spread_of(const io::Volume& volume) {
           io::quantile(std::move(differences), 0.5) / 0.954};
 }
 
-std::string name_by_hu(double value) {
-  struct Range {
-    double below;
-    const char* name;
-  };
-  static constexpr std::array ranges{Range{-900, "air"},        Range{-200, "lung or foam"}, Range{-25, "fat"},
-                                     Range{150, "soft tissue"}, Range{2500, "bone"},         Range{infinity, "metal"}};
-  return std::find_if(ranges.begin(), ranges.end(), [=](const Range& range) { return value < range.below; })->name;
-}
-
 std::string whole_number(double value) {
   return std::to_string(std::lround(value));
 }
@@ -82,7 +73,7 @@ std::vector<std::string> names_of(const std::vector<double>& typical, const io::
   const std::size_t count = typical.size();
   for (std::size_t t = 0; t < count; ++t) {
     if (volume.unit == "HU") {
-      names.push_back(name_by_hu(typical[t]));
+      names.push_back(ct_tissue(typical[t]));
     } else {
       names.push_back("tissue " + std::to_string(t + 1) + " of " + std::to_string(count) +
                       (t == 0 ? " (darkest)" : (t + 1 == count ? " (brightest)" : "")));

@@ -9,6 +9,7 @@
 #include "device/simulated/simulated_stylus.h"
 #include "io/fields/gradient.h"
 #include "modes/scene/scene_json.h"
+#include "plugin/app/recording_header.h"
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {
@@ -18,7 +19,7 @@ constexpr double dragged_s = 0.02;  // a dragged change is there before the next
 
 /// A scene with its coupling no stiffer than the stylus renders stably.
 modes::Scene suited(modes::Scene scene, const device::Specification& stylus) {
-  if (stylus.force_axes > 0) scene.stiffness_n_per_m = std::min(scene.stiffness_n_per_m, stylus.stiffness_limit);
+  scene.stiffness_n_per_m = stiffness_for(scene, stylus);
   return scene;
 }
 
@@ -99,13 +100,7 @@ void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optio
   try {
     ring_ = std::make_unique<TickRing>();
     if (file) {
-      recorder_ = std::make_unique<Recorder>(*ring_, *file,
-                                             RecordingHeader{.palpate_version = PALPATE_VERSION,
-                                                             .scene = modes::to_json(scene_),
-                                                             .device = specification_.name,
-                                                             .scan_hash = scan_hash(),
-                                                             .seed = 0,
-                                                             .rate_hz = specification_.rate});
+      recorder_ = std::make_unique<Recorder>(*ring_, *file, header_for(scene_, specification_, scan_hash()));
       recorder_->note(record_of_scene(0, scene_.limits.ramp_s));
       recorder_->note(StylusRecord{.epoch = 0,
                                    .name = specification_.name,

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/app/recording_header.h"
 #include "plugin/report/live_view.h"
 #include "plugin/session/servo.h"
 
@@ -42,15 +43,6 @@ class Interruptible {
   struct sigaction interrupt_before_ {};
   struct sigaction terminate_before_ {};
 };
-
-RecordingHeader header_of(const SessionRun& run, const device::Specification& specification) {
-  return {.palpate_version = PALPATE_VERSION,
-          .scene = modes::to_json(run.scene),
-          .device = specification.name,
-          .scan_hash = run.scan_hash,
-          .seed = static_cast<double>(run.seed),
-          .rate_hz = specification.rate};
-}
 
 /// What a person sees while it runs.
 class Watch {
@@ -114,10 +106,11 @@ void run_in_arithmetic(const SessionRun& run, Session& session, double rate_hz, 
 }  // namespace
 
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) {
-  if (stylus.force_axes > 0 && scene.stiffness_n_per_m > stylus.stiffness_limit) {
+  const double stable = stiffness_for(scene, stylus);
+  if (stable < scene.stiffness_n_per_m) {
     fmt::print(stderr, "palpate: the scene's stiffness of {:.0f} N/m is taken down to {:.0f}, what {} renders stably\n",
-               scene.stiffness_n_per_m, stylus.stiffness_limit, stylus.name);
-    scene.stiffness_n_per_m = stylus.stiffness_limit;
+               scene.stiffness_n_per_m, stable, stylus.name);
+    scene.stiffness_n_per_m = stable;
   }
   return scene;
 }
@@ -147,7 +140,7 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
   const device::Specification specification = run.stylus->specification();
   SessionRunResult result;
   TickRing ring;
-  Recorder recorder(ring, file, header_of(run, specification));
+  Recorder recorder(ring, file, header_for(run.scene, specification, run.scan_hash, static_cast<double>(run.seed)));
   recorder.note(SceneRecord{.epoch = 0,
                             .scene = modes::to_json(run.scene),
                             .scan_hash = run.scan_hash,

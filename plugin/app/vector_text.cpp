@@ -12,6 +12,7 @@ glm::dvec3 parse_vector(const std::string& text, const std::string& option) {
   const char* at = text.data();
   const char* const end = text.data() + text.size();
   for (int axis = 0; axis < 3; ++axis) {
+    if (at != end && *at == '+') ++at;  // from_chars takes a minus sign alone
     const auto [next, error] = std::from_chars(at, end, vector[axis]);
     const bool complete = axis == 2 ? next == end : next != end && *next == ',';
     if (error != std::errc{} || !complete || !std::isfinite(vector[axis])) {

@@ -15,6 +15,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/vector_text.h"
 #include "plugin/cli/commands.h"
 #include "plugin/options/series_option.h"
 
@@ -30,23 +31,6 @@ struct SampleOptions {
   bool json = false;
 };
 
-glm::dvec3 parse_point(const std::string& text) {
-  glm::dvec3 point(0);
-  std::string_view rest = text;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (rest.starts_with('+')) rest.remove_prefix(1);
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), point[axis]);
-    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-    const bool separated = axis == 2 ? rest.empty() : rest.starts_with(',');
-    if (error != std::errc() || !separated || !std::isfinite(point[axis])) {
-      throw WrongUsage(
-          fmt::format("--at {}: a point is x,y,z in mm, patient space (LPS), for example --at 12.5,-30,644", text));
-    }
-    if (axis < 2) rest.remove_prefix(1);
-  }
-  return point;
-}
-
 // Coordinates are typed and printed with a limited number of digits; a voxel's center is meant where one is that near.
 glm::dvec3 at_nearby_center(const io::Geometry& geometry, const glm::dvec3& position) {
   constexpr double typed_digits = 1e-5;
@@ -57,7 +41,7 @@ glm::dvec3 at_nearby_center(const io::Geometry& geometry, const glm::dvec3& posi
 
 void run(const SampleOptions& options) {
   std::vector<glm::dvec3> points;
-  for (const std::string& text : options.at) points.push_back(parse_point(text));
+  for (const std::string& text : options.at) points.push_back(parse_vector(text, "--at"));
 
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   constexpr io::FieldSet wanted = io::FieldSet::value | io::FieldSet::gradient;

@@ -119,8 +119,6 @@ std::vector<Provoked> provoke_programs() {
       {"{}: no such scene file can be read; the starting scenes are: {}", said("plan " + scan + " --scene absent")},
       {R"("{}" is not a point; write x,y,z in mm, such as -12.5,40,88)",
        said("profile " + scan + " --from a --to 0,0,0")},
-      {"--at {}: a point is x,y,z in mm, patient space (LPS), for example --at 12.5,-30,644",
-       said("sample " + scan + " --at here")},
       {"--speed has to be above 0 mm/s", said("profile " + scan + forehead + "--speed 0")},
       {"a stroke of {} mm at {} mm/s would have {} frames; from one to {} can be run",
        said("profile " + scan + forehead + "--speed 1e-9")},

@@ -14,10 +14,6 @@
 namespace palpate::plugin {
 namespace {
 
-glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
 /// Leaves the frames of these scenes, and their shares.
 std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>& epochs) {
   std::vector<PrimitiveRecord> shares;

@@ -16,10 +16,6 @@
 namespace palpate::plugin {
 namespace {
 
-glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
 /// Poses and states as the session got them, whichever stylus they came from.
 struct Poses {
   std::vector<device::Reading> readings;

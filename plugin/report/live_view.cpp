@@ -7,26 +7,12 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "modes/scene/ct_tissues.h"
 #include "plugin/report/summary.h"
 #include "plugin/session/session.h"
 #include "solver/solution.h"
 
 namespace palpate::plugin {
-namespace {
-
-glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
-/// Upper ends of CT's ranges, HU.
-struct CtRange {
-  double below;
-  const char* name;
-};
-constexpr CtRange ct_ranges[] = {{-950, "air"}, {-500, "lung"},       {-200, "air and tissue"},
-                                 {-30, "fat"},  {200, "soft tissue"}, {2500, "bone"}};
-
-}  // namespace
 
 std::string tissue_name(const modes::Scene& scene, const std::string& unit, double value) {
   if (!std::isfinite(value)) {
@@ -37,14 +23,7 @@ std::string tissue_name(const modes::Scene& scene, const std::string& unit, doub
       return tissue.name;
     }
   }
-  if (unit == "HU") {
-    for (const CtRange& range : ct_ranges) {
-      if (value < range.below) {
-        return range.name;
-      }
-    }
-    return "metal";
-  }
+  if (unit == "HU") return modes::ct_tissue(value);
   return fmt::format("value {:.0f}", value);
 }
 

@@ -18,10 +18,6 @@ namespace {
 constexpr std::array boundary_colors{colors::vermilion, colors::blue,   colors::green,
                                      colors::purple,    colors::orange, colors::sky};
 
-glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
 /// The session's tracks in the patient.
 struct Tracks {
   std::vector<glm::dvec3> probe_mm, proxy_mm, force_n;

@@ -21,10 +21,6 @@ namespace {
 constexpr double felt_n = 0.05;       // below, a boundary is not said to be felt
 constexpr double same_hold_s = 0.05;  // a shorter interruption does not end a hold: contact chatters at its edge
 
-glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
 bool is_surface(const modes::Plan& plan, std::size_t mode) {
   return std::any_of(plan.modes.begin(), plan.modes.end(), [&](const modes::ActiveMode& active) {
     return active.scene_index == mode && active.type->name == "surface";

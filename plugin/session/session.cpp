@@ -74,6 +74,10 @@ struct Session::Held {
   Held* next_returned = nullptr;
 };
 
+double stiffness_for(const modes::Scene& scene, const device::Specification& stylus) noexcept {
+  return stylus.force_axes > 0 ? std::min(scene.stiffness_n_per_m, stylus.stiffness_limit) : scene.stiffness_n_per_m;
+}
+
 device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device) {
   device::SafetyLimits limits;
   limits.force = scene.force_n;

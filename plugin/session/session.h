@@ -127,6 +127,9 @@ class Session {
   std::uint64_t ticks_ = 0;
 };
 
+/// N/m: the scene's stiffness, but no more than the stylus renders stably.
+double stiffness_for(const modes::Scene& scene, const device::Specification& stylus) noexcept;
+
 /// The safety filter's limits for a scene on a device: never above what the device can do.
 device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device);
 

@@ -68,4 +68,9 @@ static_assert(sizeof(TickRecord) == 8 + 20 * 8 + (16 + stage_count) * 4,
 /// Whether two frames are the same to the last bit in all that a replay repeats.
 bool same_in_replay(const TickRecord& a, const TickRecord& b) noexcept;
 
+/// A vector of a record.
+inline glm::dvec3 vector_of(const double (&from)[3]) noexcept {
+  return {from[0], from[1], from[2]};
+}
+
 }  // namespace palpate::plugin

@@ -55,8 +55,4 @@ inline std::shared_ptr<device::SimulatedStylus> stylus(const std::vector<device:
   return made;
 }
 
-inline glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
 }  // namespace palpate::plugin::testing

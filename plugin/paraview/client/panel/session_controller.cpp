@@ -19,10 +19,6 @@ constexpr int heart_ms = 100;
 constexpr int look_ms = 33;
 constexpr std::uint32_t clutch_button = 1, release_button = 2;
 
-glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
 void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
   if (const std::string why = why_not_felt(scene, volume); !why.empty()) throw std::invalid_argument(why);
 }

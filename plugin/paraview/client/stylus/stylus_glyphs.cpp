@@ -35,10 +35,6 @@ constexpr double stylus_pixels = 5, proxy_pixels = 6, spring_pixels = 1.2, disc_
                  newton_pixels = 45, cone_pixels = 9;
 constexpr double seen_faintly = 0.3;  // of something that is hidden altogether
 
-glm::dvec3 vector_of(const double (&from)[3]) {
-  return {from[0], from[1], from[2]};
-}
-
 /// Columns: any two directions across, and the direction itself second, as VTK's cylinder and cone stand.
 glm::dmat3 standing_along(const glm::dvec3& direction) {
   const glm::dvec3 other = std::abs(direction.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
