@@ -2,6 +2,7 @@
 #include <dcmtk/dcmdata/dcdict.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <clocale>
@@ -148,6 +149,31 @@ TEST(FindFiles, EveryFileOfAForeignFolderIsNamed) {
   const Catalogue found = find_in(folder);
   EXPECT_THAT(found.series, IsEmpty());
   EXPECT_THAT(found.skipped, SizeIs(3));
+}
+
+TEST(FindFiles, FolderBelowThatMayNotBeReadIsNamed) {
+  const TestFolder folder;
+  write_stack(folder.path(), 3);
+  std::filesystem::create_directory(folder / "locked");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (entry.is_regular_file()) std::filesystem::permissions(entry.path(), std::filesystem::perms(0644));
+  }
+  std::filesystem::permissions(folder / "locked", std::filesystem::perms::none);
+  constexpr uid_t nobody = 65534;
+  const bool is_root = ::geteuid() == 0;
+  if (is_root) {
+    ASSERT_EQ(::seteuid(nobody), 0);
+  }
+  const Catalogue found = find_in(folder);
+  if (is_root) {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
+  std::filesystem::permissions(folder / "locked", std::filesystem::perms::owner_all);
+  EXPECT_THAT(found.series, SizeIs(1));
+  ASSERT_THAT(found.skipped, SizeIs(1));
+  EXPECT_EQ(found.skipped[0].path.filename(), "locked");
+  EXPECT_EQ(found.skipped[0].reason, "a folder that may not be read: ask for the right to it");
 }
 
 }  // namespace

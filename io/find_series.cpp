@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <optional>
@@ -25,7 +27,7 @@ fs::path meant_by(const fs::path& path) {
 }
 
 // Links to folders are not followed: they may lead in a circle.
-std::vector<fs::path> files_below(std::span<const fs::path> paths) {
+std::vector<fs::path> files_below(std::span<const fs::path> paths, std::vector<SkippedFile>& skipped) {
   std::vector<fs::path> files;
   for (const fs::path& named : paths) {
     std::error_code error;
@@ -34,13 +36,16 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths) {
     const auto status = fs::status(path, error);
     if (fs::is_regular_file(status)) files.push_back(path);
     if (!fs::is_directory(status)) continue;
-    // Folders below that may not be read are passed over; the one that was named is not.
+    // Folders below that may not be read are set apart; the one that was named is refused.
     static_cast<void>(fs::directory_iterator(path, error));
     auto entry = fs::recursive_directory_iterator();
     if (!error) entry = {path, fs::directory_options::skip_permission_denied, error};
     for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
       std::error_code ignored;
       if (entry->is_regular_file(ignored)) files.push_back(entry->path());
+      if (entry->is_directory(ignored) && ::eaccess(entry->path().c_str(), R_OK | X_OK) != 0) {
+        skipped.push_back({entry->path(), "a folder that may not be read: ask for the right to it"});
+      }
     }
     if (error)
       throw DicomError("cannot list " + path.string() + ": " + error.message() + "; it has to be yours to read");
@@ -54,7 +59,8 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths) {
 
 Catalogue find_series(std::span<const fs::path> paths, const Progress& progress) {
   internal::start_dcmtk();
-  const std::vector<fs::path> files = files_below(paths);
+  Catalogue catalogue;
+  const std::vector<fs::path> files = files_below(paths, catalogue.skipped);
 
   std::vector<std::optional<internal::FileHeader>> headers(files.size());
   std::vector<std::string> reasons(files.size());
@@ -69,7 +75,6 @@ Catalogue find_series(std::span<const fs::path> paths, const Progress& progress)
       },
       progress, 0);
 
-  Catalogue catalogue;
   std::vector<internal::FileHeader> images;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (headers[i]) {

@@ -1,6 +1,7 @@
 #include "io/dicom/grouping.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -276,9 +277,57 @@ void group_one_series(std::vector<FileHeader> headers, std::vector<Series>& resu
   std::move(found.begin(), first_unusable, std::back_inserter(result));
 }
 
+// Whether these files are slices of one stack by their places alone: one orientation, no two at one height.
+bool make_up_a_stack(const std::vector<FileHeader*>& files) {
+  std::vector<double> heights;
+  const Placement* first = nullptr;
+  for (const FileHeader* file : files) {
+    if (file->planes.size() != 1 || !file->planes.front().placement) return false;
+    const Placement& place = *file->planes.front().placement;
+    if (first == nullptr) first = &place;
+    if (glm::length(place.direction_i - first->direction_i) > direction_tolerance ||
+        glm::length(place.direction_j - first->direction_j) > direction_tolerance) {
+      return false;
+    }
+    heights.push_back(height_of(place.position, *first));
+  }
+  std::ranges::sort(heights);
+  const double same = same_place_mm(*first);
+  return std::ranges::adjacent_find(heights, [&](double a, double b) { return b - a <= same; }) == heights.end();
+}
+
+// Anonymizers have been seen that give every file a study, or a frame of reference, of its own.
+void join_what_was_torn_apart(std::vector<FileHeader>& headers) {
+  std::map<std::string, std::vector<FileHeader*>> by_series;
+  for (FileHeader& header : headers) {
+    if (!header.series.empty()) by_series[header.series + '\n' + header.identity.patient_id].push_back(&header);
+  }
+  struct Uid {
+    std::string FileHeader::*uid;
+    const char* remark;
+  };
+  const std::array uids{Uid{&FileHeader::study, "each of its files names a study of its own: they are taken for one"},
+                        Uid{&FileHeader::frame_of_reference,
+                            "each of its files names a frame of reference of its own: they are taken for one"}};
+  constexpr std::size_t fewest = 3;
+  for (auto& [key, files] : by_series) {
+    if (files.size() < fewest) continue;
+    for (const Uid& one : uids) {
+      std::set<std::string> different;
+      for (const FileHeader* file : files) different.insert(file->*one.uid);
+      if (different.size() < files.size() || different.contains("") || !make_up_a_stack(files)) continue;
+      for (FileHeader* file : files) {
+        file->*one.uid = files.front()->*one.uid;
+        file->remarks.emplace_back(one.remark);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped) {
+  join_what_was_torn_apart(headers);
   // Anonymised scans may share a series UID, or have none: patients, studies and folders are never mixed.
   const auto key_of = [](const FileHeader& file) {
     std::string key = file.series + '\n' + file.study + '\n' + file.identity.patient_id;

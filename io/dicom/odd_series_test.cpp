@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "io/load.h"
@@ -275,6 +276,29 @@ TEST(OddSeries, DamagedTimePointCostsThatTimePoint) {
         ASSERT_EQ(volume.geometry.dimensions.z, 4);
         for (int k = 0; k < 4; ++k) EXPECT_EQ(volume.value_at(5, 1, k), 100 * (4 * time + k) + 5);
       }
+    }
+  }
+}
+
+// Anonymizers that give every file a study or a frame of reference of its own leave the places: they are one stack.
+TEST(OddSeries, FilesThatWereTornApartByTheirUidsAreOneStack) {
+  const std::array<std::pair<DcmTagKey, const char*>, 2> uids{
+      {{DCM_StudyInstanceUID, "each of its files names a study of its own: they are taken for one"},
+       {DCM_FrameOfReferenceUID, "each of its files names a frame of reference of its own: they are taken for one"}}};
+  for (const auto& [tag, told] : uids) {
+    for (const bool same_place : {false, true}) {
+      const TestFolder folder;
+      write_stack(folder.path(), 5, [&, key = tag](int k, TestImage& image) {
+        if (same_place) image.z = 0;
+        image.edit = [=](DcmDataset& d) { put(d, key, internal::numbered("1.2.77.", k)); };
+      });
+      const Catalogue found = find_in(folder);
+      const auto usable = std::ranges::count_if(found.series, [](const Series& s) { return s.usable; });
+      EXPECT_EQ(usable, same_place ? 0 : 1);
+      if (same_place) continue;
+      EXPECT_EQ(found.series.at(0).geometry.dimensions.z, 5);
+      EXPECT_THAT(found.series[0].warnings, Contains(told));
+      EXPECT_EQ(load(found.series[0]).value_at(1, 1, 4), 411);
     }
   }
 }

@@ -36,6 +36,7 @@ struct Examined {
 
 Examined examine(io::Series series) {
   Examined result{std::move(series), {}};
+  int readable = 0;
   io::Series& s = result.series;
   for (int frame = 0; frame < s.frames_per_position; ++frame) {
     try {
@@ -44,13 +45,15 @@ Examined examine(io::Series series) {
       how.progress = terminal_progress("reading slices");
       const io::Volume volume = io::load(s, how);
       result.values = io::merge(result.values, io::statistics(volume));
+      ++readable;
       s.warnings.insert(s.warnings.end(), volume.warnings.begin(), volume.warnings.end());
       if (frame == 0) s.geometry = volume.geometry;  // without the slices that turned out to be unreadable
     } catch (const io::DicomError& error) {
-      if (s.usable) s.warnings.emplace_back(error.what());
-      if (frame == 0) s.usable = false;
+      // Also of what is no volume: why it shows nothing is what is asked.
+      s.warnings.emplace_back(error.what());
     }
   }
+  s.usable = s.usable && readable > 0;
   return result;
 }
 
@@ -110,12 +113,14 @@ void print_text(std::size_t number, const Examined& examined, bool patient) {
     if (!s.frame_names[f].empty()) text += fmt::format("   frame {}: {}\n", f, s.frame_names[f]);
   }
   for (const std::string& warning : s.warnings) text += "   note: " + warning + "\n";
-  std::fputs(text.c_str(), stdout);
+  std::fputs(printable(text).c_str(), stdout);
 }
 
 void print_skipped(const std::vector<io::SkippedFile>& skipped) {
   if (!skipped.empty()) fmt::print("set apart:\n");
-  for (const io::SkippedFile& file : skipped) fmt::print("   {}: {}\n", file.path.string(), file.reason);
+  for (const io::SkippedFile& file : skipped) {
+    fmt::print("{}", printable(fmt::format("   {}: {}\n", file.path.string(), file.reason)));
+  }
 }
 
 void run(const InfoOptions& options) {

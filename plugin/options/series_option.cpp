@@ -102,7 +102,9 @@ io::Volume load_series(const SeriesOption& option) {
   how.frame = option.frame;
   how.progress = terminal_progress("reading slices");
   io::Volume volume = scan_values(io::load(series, how));
-  const auto show = [](const std::string& warning) { std::fprintf(stderr, "palpate: warning: %s\n", warning.c_str()); };
+  const auto show = [](const std::string& warning) {
+    std::fprintf(stderr, "palpate: warning: %s\n", printable(warning).c_str());
+  };
   std::for_each(series.warnings.begin(), series.warnings.end(), show);
   std::for_each(volume.warnings.begin(), volume.warnings.end(), show);
   return volume;
@@ -119,6 +121,23 @@ std::string describe_series(std::size_t number, const io::Series& series) {
   if (series.frames_per_position > 1) text += fmt::format(", {} frames", series.frames_per_position);
   if (!series.usable) text += "  (not a volume)";
   return text + "  " + series.uid;
+}
+
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const auto byte = static_cast<unsigned char>(text[n]);
+    const auto next = n + 1 < text.size() ? static_cast<unsigned char>(text[n + 1]) : 0U;
+    const bool is_control = (byte < 0x20 && byte != '\n') || byte == 0x7F;
+    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // in UTF-8
+    if (is_control || is_c1) {
+      shown += fmt::format("\\x{:02x}", is_c1 ? next : byte);
+      n += is_c1 ? 1 : 0;
+    } else {
+      shown += text[n];
+    }
+  }
+  return shown;
 }
 
 io::Progress terminal_progress(std::string what) {

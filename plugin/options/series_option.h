@@ -41,6 +41,9 @@ std::vector<io::Series> numbered_series(const io::Catalogue& catalogue);
 /// One line on a series: its number, modality, description, size, spacing, frames and UID.
 std::string describe_series(std::size_t number, const io::Series& series);
 
+/// Control characters in the form \x1b: a file's name or a description may hold what a terminal would obey.
+std::string printable(const std::string& text);
+
 /// A progress line on stderr, with `what` before the percentage; an empty one where stderr is no terminal.
 io::Progress terminal_progress(std::string what);
 
