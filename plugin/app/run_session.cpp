@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <optional>
 #include <thread>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/app/interruptible.h"
 #include "plugin/app/recording_header.h"
 #include "plugin/report/live_view.h"
 #include "plugin/session/servo.h"
@@ -19,30 +19,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto between_looks = std::chrono::milliseconds(100);
 constexpr int ticks_between_looks = 256;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// While it lives, SIGINT and SIGTERM ask for an end in good order.
-class Interruptible {
- public:
-  Interruptible() {
-    interrupted = 0;
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = 1; };
-    sigaction(SIGINT, &action, &interrupt_before_);
-    sigaction(SIGTERM, &action, &terminate_before_);
-  }
-  Interruptible(const Interruptible&) = delete;
-  Interruptible& operator=(const Interruptible&) = delete;
-  ~Interruptible() {
-    sigaction(SIGINT, &interrupt_before_, nullptr);
-    sigaction(SIGTERM, &terminate_before_, nullptr);
-  }
-
- private:
-  struct sigaction interrupt_before_ {};
-  struct sigaction terminate_before_ {};
-};
 
 /// What a person sees while it runs.
 class Watch {
@@ -82,7 +58,7 @@ void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, 
     fmt::print(stderr, "palpate: real time: {}\n", result.realtime.advice);
   }
   const auto end = Clock::now() + std::chrono::duration<double>(run.seconds);
-  while (interrupted == 0 && (run.seconds <= 0 || Clock::now() < end)) {
+  while (!Interruptible::interrupted() && (run.seconds <= 0 || Clock::now() < end)) {
     servo.heartbeat();
     session.collect();
     watch.look();
@@ -94,7 +70,7 @@ void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, 
 
 void run_in_arithmetic(const SessionRun& run, Session& session, double rate_hz, Watch& watch, Recorder& recorder) {
   const auto ticks = static_cast<std::uint64_t>(run.seconds * rate_hz);
-  for (std::uint64_t n = 0; n < ticks && interrupted == 0; ++n) {
+  for (std::uint64_t n = 0; n < ticks && !Interruptible::interrupted(); ++n) {
     if (n % ticks_between_looks == 0) {
       recorder.wait_for_room();
       watch.look();
@@ -159,7 +135,7 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
     } else {
       run_in_arithmetic(run, session, specification.rate, watch, recorder);
     }
-    result.interrupted = interrupted != 0;
+    result.interrupted = Interruptible::interrupted();
   }
   result.recorder = recorder.finish();
   return result;

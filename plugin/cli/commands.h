@@ -21,5 +21,11 @@ void add_replay(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_solve(CLI::App& program);
 void add_devices(CLI::App& program);
+void add_archive(CLI::App& program);
+void add_find(CLI::App& program);
+void add_fetch(CLI::App& program);
+void add_send(CLI::App& program);
+void add_marks(CLI::App& program);
+void add_export(CLI::App& program);
 
 }  // namespace palpate::plugin

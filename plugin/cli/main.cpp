@@ -25,5 +25,11 @@ int main(int argc, char** argv) {
   add_replay(program);
   add_compare(program);
   add_devices(program);
+  add_archive(program);
+  add_find(program);
+  add_fetch(program);
+  add_send(program);
+  add_marks(program);
+  add_export(program);
   return run_program(program, argc, argv);
 }

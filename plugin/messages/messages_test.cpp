@@ -87,6 +87,7 @@ const std::vector<NotShown> not_shown = {
              "common point",
              a_solver_at_fault},
     NotShown{"archive {}: the OpenSSL that is installed cannot do TLS 1.2", "an OpenSSL of ten years ago"},
+    NotShown{"{} cannot be deleted ({}): delete it by hand", "it lies in a folder of the user's own, and root may all"},
     NotShown{"make a table", "HDF5 has no memory left"},
     NotShown{"the soak found what may not be: see above", "a servo at fault"},
     NotShown{"palpate: could not start again without thread caches; the heap's figures are off by what they hold",

@@ -51,7 +51,7 @@ std::vector<device::Waypoint> to_device(const std::vector<PathPoint>& path, cons
           "workspace.center_mm or workspace.scale in the scene",
           point.time_s, patient_coordinates(point.position_mm), 1e3 * glm::length(at)));
     }
-    waypoints.push_back({.time = point.time_s, .position = at});
+    waypoints.push_back({.time = point.time_s, .position = at, .buttons = point.buttons});
   }
   return waypoints;
 }
@@ -59,7 +59,9 @@ std::vector<device::Waypoint> to_device(const std::vector<PathPoint>& path, cons
 }  // namespace
 
 void add_probe_path_option(CLI::App& command, ProbePathOption& option) {
-  command.add_option("--path", option.file, "where a simulated hand goes: a CSV file of time_s,x_mm,y_mm,z_mm (LPS)")
+  command
+      .add_option("--path", option.file,
+                  "where a simulated hand goes: a CSV file of time_s,x_mm,y_mm,z_mm (LPS), and of buttons")
       ->check(CLI::ExistingFile);
   command.add_option("--from", option.from,
                      "where its press begins: x,y,z in mm (default: the front, at 3/4 of the scan's height)");

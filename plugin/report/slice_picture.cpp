@@ -88,9 +88,8 @@ std::string orientation_letters(const glm::dvec3& direction) {
   return words;
 }
 
-void write_slice_png(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
-                     std::span<const ForceArrow> arrows, const std::string& title, const std::filesystem::path& file,
-                     int width, int height) {
+Canvas draw_slice(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
+                  std::span<const ForceArrow> arrows, const std::string& title, int width, int height) {
   Canvas canvas(width, height, colors::white);
   const Projection projection{view, width / view.extent_mm, {width / 2.0, header + (height - header) / 2.0}};
   draw_values(canvas, source, projection);
@@ -112,7 +111,13 @@ void write_slice_png(const io::FieldSource& source, const SliceView& view, std::
   draw_scales(canvas, projection.pixels_per_mm);
   canvas.unclip();
   canvas.text({12, 23}, title, 15);
-  canvas.write_png(file);
+  return canvas;
+}
+
+void write_slice_png(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
+                     std::span<const ForceArrow> arrows, const std::string& title, const std::filesystem::path& file,
+                     int width, int height) {
+  draw_slice(source, view, tracks, arrows, title, width, height).write_png(file);
 }
 
 }  // namespace palpate::plugin

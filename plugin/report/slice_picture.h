@@ -39,7 +39,10 @@ struct ForceArrow {
 /// The letters of the patient's side a direction points to: "L", "P", "H", and two ("LP") where it is oblique.
 std::string orientation_letters(const glm::dvec3& direction);
 
-/// Throws std::runtime_error naming the file.
+Canvas draw_slice(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
+                  std::span<const ForceArrow> arrows, const std::string& title, int width = 960, int height = 760);
+
+/// The same as a file. Throws std::runtime_error naming it.
 void write_slice_png(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
                      std::span<const ForceArrow> arrows, const std::string& title, const std::filesystem::path& file,
                      int width = 960, int height = 760);

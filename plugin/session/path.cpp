@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,14 +15,16 @@ namespace palpate::plugin {
 namespace {
 
 constexpr std::string_view header = "time_s,x_mm,y_mm,z_mm";
+constexpr std::string_view header_with_buttons = "time_s,x_mm,y_mm,z_mm,buttons";
+constexpr double most_buttons = 0xFFFF;
 
 std::string_view trim(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Four finite numbers, or false. std::from_chars: the locale's decimal comma plays no part.
-bool parse(std::string_view line, std::array<double, 4>& numbers) {
+/// As many finite numbers, or false. std::from_chars: the locale's decimal comma plays no part.
+bool parse(std::string_view line, std::span<double> numbers) {
   for (std::size_t n = 0; n < numbers.size(); ++n) {
     const auto comma = line.find(',');
     const bool last = n + 1 == numbers.size();
@@ -48,22 +51,29 @@ std::vector<PathPoint> read_path_csv(const std::filesystem::path& file) {
   }
   std::vector<PathPoint> path;
   std::string line;
+  bool with_buttons = false;
   for (int number = 1; std::getline(stream, line); ++number) {
     const std::string_view content = trim(line);
-    if (content.empty() || content.front() == '#' || (number == 1 && content == header)) {
+    with_buttons = with_buttons || (number == 1 && content == header_with_buttons);
+    if (content.empty() || content.front() == '#' || (number == 1 && (with_buttons || content == header))) {
       continue;
     }
-    std::array<double, 4> cells{};
-    if (!parse(content, cells)) {
+    std::array<double, 5> cells{};
+    if (!parse(content, std::span(cells).first(with_buttons ? 5 : 4))) {
       throw std::runtime_error(
           fmt::format("{}, line {}: not four finite numbers; expected {}", file.string(), number, header));
+    }
+    if (cells[4] < 0 || cells[4] > most_buttons || cells[4] != std::floor(cells[4])) {
+      throw std::runtime_error(
+          fmt::format("{}, line {}: buttons {} is no bit mask: 0 is none, 1 the first, 2 the second", file.string(),
+                      number, cells[4]));
     }
     if (cells[0] < 0 || (!path.empty() && cells[0] <= path.back().time_s)) {
       throw std::runtime_error(
           fmt::format("{}, line {}: time_s {} does not come after the previous line's; times ascend from 0",
                       file.string(), number, cells[0]));
     }
-    path.push_back({cells[0], {cells[1], cells[2], cells[3]}});
+    path.push_back({cells[0], {cells[1], cells[2], cells[3]}, static_cast<std::uint32_t>(cells[4])});
   }
   if (path.size() < 2) {
     throw std::runtime_error(fmt::format("{}: a path needs at least two points ({})", file.string(), header));

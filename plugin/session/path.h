@@ -2,6 +2,7 @@
 
 /// A scripted path of the hand: where the simulated hand wants to be, in patient space (LPS, mm) over time (s).
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <span>
@@ -12,10 +13,11 @@ namespace palpate::plugin {
 struct PathPoint {
   double time_s = 0;
   glm::dvec3 position_mm{0};
+  std::uint32_t buttons = 0;  ///< held from here to the next point, as a bit mask: 2 is the second, which marks
 };
 
-/// Reads `time_s,x_mm,y_mm,z_mm`, a header line and one point a line, times ascending from 0 or more. Throws
-/// std::runtime_error naming the file, the line and what is wrong.
+/// Reads `time_s,x_mm,y_mm,z_mm`, a header line and one point a line, times ascending from 0 or more. A header that
+/// ends with `,buttons` adds that column. Throws std::runtime_error naming the file, the line and what is wrong.
 std::vector<PathPoint> read_path_csv(const std::filesystem::path& file);
 
 }  // namespace palpate::plugin

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "io/archive/testing/says.h"
 #include "plugin/testing/test_files.h"
 
 namespace palpate::plugin {
@@ -24,6 +25,25 @@ std::string refusal(const std::string& text) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(PathWithButtons, IsReadByItsHeader) {
+  const auto path = read_path_csv(write("buttons.csv", "time_s,x_mm,y_mm,z_mm,buttons\n0,1,2,3,0\n1,1,2,3,2\n"));
+  ASSERT_EQ(path.size(), 2U);
+  EXPECT_EQ(path[1].buttons, 2U);
+  EXPECT_EQ(path[1].position_mm.z, 3);
+  for (const char* const wrong : {"-1", "1.5", "65536"}) {
+    const std::string text = std::string("time_s,x_mm,y_mm,z_mm,buttons\n0,1,2,3,0\n1,1,2,3,") + wrong + "\n";
+    try {
+      read_path_csv(write("no-buttons.csv", text));
+      ADD_FAILURE() << wrong;
+    } catch (const std::runtime_error& error) {
+      EXPECT_TRUE(io::testing::says(error.what(),
+                                    "{}, line {}: buttons {} is no bit mask: 0 is none, 1 the first, 2 the second"));
+    }
+  }
+  EXPECT_THROW(read_path_csv(write("short.csv", "time_s,x_mm,y_mm,z_mm,buttons\n0,1,2,3\n1,1,2,3\n")),
+               std::runtime_error);
 }
 
 TEST(PathCsv, ReadsPointsWithHeaderCommentsAndCarriageReturns) {

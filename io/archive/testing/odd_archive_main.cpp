@@ -369,7 +369,9 @@ class Serving {
                                 element(0x00000800, little(0, 2)) + element(0x00000900, little(0xFF00, 2)))));
       for (int n = 0; n < 1000; ++n) write_pdu(socket_, 4, pdv(request.context, false, false, std::string(16000, 'x')));
     }
-    for (int n = 0; n < (all ? 100000 : 1); ++n) {
+    const bool is_study = uid_of(request.keys.at(0x00080052)).starts_with("STUDY");
+    const int count = all ? 100000 : behavior_ == "two-studies" && is_study ? 2 : 1;
+    for (int n = 0; n < count; ++n) {
       respond(socket_, request, 0xFF00, match);
       pollfd ready{socket_, POLLIN, 0};
       if (all && poll(&ready, 1, 0) > 0) {

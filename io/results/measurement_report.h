@@ -1,0 +1,55 @@
+#pragma once
+
+/// What was marked and measured on a series, as DICOM that goes into its study: a Comprehensive 3D SR by template TID
+/// 1500 (DICOM PS3.16), and pictures as Secondary Capture.
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/series.h"
+
+namespace palpate::io {
+
+/// A point in patient space (LPS, mm), and what was felt there. Texts are UTF-8.
+struct MarkedPoint {
+  std::string name;
+  glm::dvec3 position_mm{0};
+  std::string structure;          ///< the boundary that was felt, or empty
+  std::optional<double> value;    ///< of the scan, in the series' unit
+  std::optional<double> force_n;  ///< N, on the stylus
+};
+
+/// A length along points: two for a distance, more for a path.
+struct MeasuredLength {
+  std::string name;
+  std::vector<glm::dvec3> points_mm;
+  double length_mm = 0;
+};
+
+struct MeasurementReport {
+  std::string software_version;
+  std::vector<MarkedPoint> points;
+  std::vector<MeasuredLength> lengths;
+};
+
+/// Writes the report with references to the series' images; patient and study are copied from their headers. Throws
+/// DicomError naming the file that cannot be read or written, or what the series lacks.
+void write_measurement_report(const Series& series, const MeasurementReport& report, const std::filesystem::path& file);
+
+/// 8-bit red, green, blue; row by row from the upper left.
+struct Picture {
+  int columns = 0, rows = 0;
+  std::vector<std::uint8_t> pixels;
+  std::string description;
+};
+
+/// Writes the pictures as one new series of the study, a file each: picture-001.dcm and so on. Throws as above.
+void write_pictures(const Series& series, const std::string& software_version, std::span<const Picture> pictures,
+                    const std::filesystem::path& folder);
+
+}  // namespace palpate::io

@@ -1,0 +1,160 @@
+#include "plugin/app/archive_settings.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "plugin/app/errors.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The XDG base directory specification: a variable that is empty or no absolute path counts as not set.
+fs::path base_folder(const char* variable, const char* under_home) {
+  const char* const named = std::getenv(variable);
+  if (named != nullptr && named[0] == '/') return fs::path(named) / "palpate";
+  const char* const home = std::getenv("HOME");
+  if (home == nullptr || home[0] != '/') {
+    throw InputRefused(fmt::format("neither {} nor HOME names a folder for the settings: set one of them", variable));
+  }
+  return fs::path(home) / under_home / "palpate";
+}
+
+Json to_json(const io::Archive& archive) {
+  Json json{{"name", archive.name},
+            {"host", archive.host},
+            {"port", archive.port},
+            {"called", archive.called},
+            {"calling", archive.calling},
+            {"get", archive.uses_get},
+            {"listen_address", archive.listen_address},
+            {"listen_port", archive.listen_port},
+            {"silence_s", archive.silence_s}};
+  if (archive.tls.used) {
+    json["tls"] = {{"authorities", archive.tls.authorities.string()},
+                   {"certificate", archive.tls.certificate.string()},
+                   {"key", archive.tls.key.string()}};
+  }
+  return json;
+}
+
+io::Archive from_json(const Json& json) {
+  io::Archive archive;
+  archive.name = json.at("name").get<std::string>();
+  archive.host = json.at("host").get<std::string>();
+  archive.port = json.at("port").get<int>();
+  archive.called = json.at("called").get<std::string>();
+  archive.calling = json.at("calling").get<std::string>();
+  archive.uses_get = json.at("get").get<bool>();
+  archive.listen_address = json.at("listen_address").get<std::string>();
+  archive.listen_port = json.at("listen_port").get<int>();
+  archive.silence_s = json.at("silence_s").get<int>();
+  if (json.contains("tls")) {
+    const Json& tls = json.at("tls");
+    archive.tls = {true, tls.at("authorities").get<std::string>(), tls.at("certificate").get<std::string>(),
+                   tls.at("key").get<std::string>()};
+  }
+  io::check(archive);
+  return archive;
+}
+
+[[noreturn]] void cannot_write(const fs::path& file, const std::string& why) {
+  throw InputRefused(
+      fmt::format("the settings {} cannot be written ({}): make room, or make the folder yours", file.string(), why));
+}
+
+void write_private(const fs::path& file, const std::string& text) {
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (descriptor < 0) cannot_write(file, std::generic_category().message(errno));
+  fchmod(descriptor, 0600);
+  const bool whole = write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int error = errno;
+  if (close(descriptor) != 0 || !whole) cannot_write(file, std::generic_category().message(whole ? errno : error));
+}
+
+}  // namespace
+
+fs::path archive_settings_file() {
+  return base_folder("XDG_CONFIG_HOME", ".config") / "archives.json";
+}
+
+std::vector<io::Archive> read_archives() {
+  const fs::path file = archive_settings_file();
+  if (!fs::exists(file)) return {};
+  std::vector<io::Archive> archives;
+  try {
+    std::ifstream stream(file);
+    const Json json = Json::parse(stream);
+    for (const Json& one : json.at("archives")) archives.push_back(from_json(one));
+  } catch (const std::exception& error) {
+    throw InputRefused(
+        fmt::format("the settings {} cannot be read ({}): mend or delete the file", file.string(), error.what()));
+  }
+  return archives;
+}
+
+void write_archives(const std::vector<io::Archive>& archives) {
+  const fs::path file = archive_settings_file();
+  std::error_code error;
+  const bool made = fs::create_directories(file.parent_path(), error);
+  if (error) cannot_write(file, error.message());
+  if (made) fs::permissions(file.parent_path(), fs::perms::owner_all, error);
+  Json json{{"archives", Json::array()}};
+  for (const io::Archive& archive : archives) json["archives"].push_back(to_json(archive));
+  const fs::path next = file.string() + ".new";
+  write_private(next, json.dump(1) + "\n");
+  fs::rename(next, file, error);
+  if (error) cannot_write(file, error.message());
+}
+
+io::Archive archive_named(const std::string& name) {
+  const std::vector<io::Archive> archives = read_archives();
+  if (archives.empty()) {
+    throw InputRefused(
+        "no archive is entered yet: enter one with `palpate archive add NAME --host --port --called --calling`");
+  }
+  if (name.empty() && archives.size() == 1) return archives.front();
+  std::string names;
+  for (const io::Archive& archive : archives) {
+    if (archive.name == name) return archive;
+    names += (names.empty() ? "" : ", ") + archive.name;
+  }
+  if (name.empty()) throw InputRefused(fmt::format("choose one of the archives with --archive: {}", names));
+  throw InputRefused(fmt::format("no archive {} is entered; there are: {}", name, names));
+}
+
+fs::path fetched_folder() {
+  return base_folder("XDG_CACHE_HOME", ".cache") / "fetched";
+}
+
+OnDisk fetched_on_disk() {
+  OnDisk result;
+  std::error_code error;
+  for (const auto& series : fs::directory_iterator(fetched_folder(), error)) {
+    ++result.series;
+    for (const auto& file : fs::recursive_directory_iterator(series.path(), error)) {
+      if (file.is_regular_file(error)) result.bytes += file.file_size(error);
+    }
+  }
+  return result;
+}
+
+void empty_fetched() {
+  const fs::path folder = fetched_folder();
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (error)
+    throw InputRefused(fmt::format("{} cannot be deleted ({}): delete it by hand", folder.string(), error.message()));
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "io/archive/archive.h"
+#include "plugin/app/archive_settings.h"
+#include "plugin/app/errors.h"
+#include "plugin/cli/commands.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct ArchiveOptions {
+  io::Archive archive;
+  bool json = false;
+};
+
+std::string one_line(const io::Archive& archive) {
+  return fmt::format(
+      "{}  {}:{}  its AE title {}, ours {}; {}{}", archive.name, archive.host, archive.port, archive.called,
+      archive.calling,
+      archive.uses_get ? "C-GET" : fmt::format("C-MOVE to {}:{}", archive.listen_address, archive.listen_port),
+      archive.tls.used ? "; TLS" : "");
+}
+
+void add_to_settings(const ArchiveOptions& options) {
+  io::Archive archive = options.archive;
+  archive.tls.used = !archive.tls.authorities.empty() || !archive.tls.certificate.empty() || !archive.tls.key.empty();
+  for (auto* file : {&archive.tls.authorities, &archive.tls.certificate, &archive.tls.key}) {
+    if (!file->empty()) *file = std::filesystem::absolute(*file);
+  }
+  io::check(archive);
+  std::vector<io::Archive> all = read_archives();
+  std::erase_if(all, [&](const io::Archive& other) { return other.name == archive.name; });
+  all.push_back(archive);
+  write_archives(all);
+  fmt::print("{}\n", one_line(archive));
+  if (!archive.uses_get) {
+    fmt::print(
+        "The archive has to know AE title {} at this machine's address, port {}, as a place to send to. Try `palpate "
+        "archive echo {}`.\n",
+        archive.calling, archive.listen_port, archive.name);
+  }
+}
+
+void list_archives(const ArchiveOptions& options) {
+  const std::vector<io::Archive> all = read_archives();
+  const OnDisk there = fetched_on_disk();
+  if (!options.json) {
+    for (const io::Archive& archive : all) fmt::print("{}\n", one_line(archive));
+    fmt::print("{} series fetched and not deleted yet, {} MiB, in {}\n", there.series, there.bytes >> 20U,
+               fetched_folder().string());
+    return;
+  }
+  nlohmann::ordered_json json{{"archives", nlohmann::ordered_json::array()}};
+  for (const io::Archive& archive : all) {
+    json["archives"].push_back({{"name", archive.name},
+                                {"host", archive.host},
+                                {"port", archive.port},
+                                {"called", archive.called},
+                                {"calling", archive.calling},
+                                {"get", archive.uses_get},
+                                {"listen_address", archive.listen_address},
+                                {"listen_port", archive.listen_port},
+                                {"tls", archive.tls.used}});
+  }
+  json["fetched"] = {{"folder", fetched_folder().string()}, {"series", there.series}, {"bytes", there.bytes}};
+  fmt::print("{}\n", json.dump(1));
+}
+
+void echo_archive(const ArchiveOptions& options) {
+  const io::Archive archive = archive_named(options.archive.name);
+  const auto begin = std::chrono::steady_clock::now();
+  io::echo(archive);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  if (options.json) {
+    fmt::print("{}\n",
+               nlohmann::ordered_json{{"archive", archive.name}, {"answers", true}, {"time_ms", took.count()}}.dump(1));
+  } else {
+    fmt::print("{} answers and knows us as {} ({:.0f} ms)\n", archive.name, archive.calling, took.count());
+  }
+}
+
+void remove_archive(const ArchiveOptions& options) {
+  const io::Archive archive = archive_named(options.archive.name);
+  std::vector<io::Archive> all = read_archives();
+  std::erase_if(all, [&](const io::Archive& other) { return other.name == archive.name; });
+  write_archives(all);
+  fmt::print("{} is no longer entered\n", archive.name);
+}
+
+void empty_archive_folder() {
+  const OnDisk there = fetched_on_disk();
+  empty_fetched();
+  fmt::print("{} series deleted, {} MiB\n", there.series, there.bytes >> 20U);
+}
+
+void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& options) {
+  CLI::App* add = command.add_subcommand("add", "Enters an archive, or changes one of the same name");
+  io::Archive& archive = options->archive;
+  add->add_option("NAME", archive.name, "what to call it")->required();
+  add->add_option("--host", archive.host, "its machine's name or address")->required();
+  add->add_option("--port", archive.port, "its DICOM port")->required();
+  add->add_option("--called", archive.called, "its AE title")->required();
+  add->add_option("--calling", archive.calling, "our AE title, as it is known there")->required();
+  add->add_flag("--get", archive.uses_get, "fetch with C-GET, where the archive has it: nothing has to reach us then");
+  add->add_option("--listen", archive.listen_port, "the port to which it sends what C-MOVE asks for")
+      ->capture_default_str();
+  add->add_option("--listen-address", archive.listen_address,
+                  "and the IPv4 address of this machine; 0.0.0.0: all of them")
+      ->capture_default_str();
+  add->add_option("--wait", archive.silence_s, "give up where it says nothing for so many seconds")
+      ->capture_default_str();
+  add->add_option("--tls-ca", archive.tls.authorities, "speak TLS: the certificate (PEM) of who signed the archive's");
+  add->add_option("--tls-certificate", archive.tls.certificate,
+                  "our own certificate (PEM), where the archive asks for it");
+  add->add_option("--tls-key", archive.tls.key, "and its private key (PEM, without a pass phrase)");
+  add->callback([options] { add_to_settings(*options); });
+}
+
+}  // namespace
+
+void add_archive(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("archive", "The archives (PACS) to find scans in, and whether they answer");
+  command->require_subcommand(1);
+  const auto options = std::make_shared<ArchiveOptions>();
+  add_archive_add(*command, options);
+  CLI::App* list =
+      command->add_subcommand("list", "The archives that are entered, and what was fetched and not deleted");
+  list->add_flag("--json", options->json, "for machines");
+  list->callback([options] { list_archives(*options); });
+  CLI::App* echo = command->add_subcommand("echo", "Whether an archive answers and knows us (C-ECHO)");
+  echo->add_option("NAME", options->archive.name, "which, where there are several");
+  echo->add_flag("--json", options->json, "for machines");
+  echo->callback([options] { echo_archive(*options); });
+  CLI::App* remove = command->add_subcommand("remove", "Takes an archive out of the settings");
+  remove->add_option("NAME", options->archive.name, "which")->required();
+  remove->callback([options] { remove_archive(*options); });
+  command->add_subcommand("empty", "Deletes what `palpate fetch` without -o has fetched")
+      ->callback(empty_archive_folder);
+}
+
+}  // namespace palpate::plugin
