@@ -2,15 +2,17 @@
 
 #include <iterator>
 
-#include "device/falcon/falcon_usb.h"
-#include "device/link/hid.h"
+#include "device/device_type.h"
 
 namespace palpate::device {
 
 std::vector<FoundDevice> find_devices() {
-  std::vector<FoundDevice> found = find_falcons();
-  std::vector<FoundDevice> hid = find_hid_devices();
-  std::move(hid.begin(), hid.end(), std::back_inserter(found));
+  std::vector<FoundDevice> found;
+  for (const DeviceType* type : device_types()) {
+    if (type->find == nullptr) continue;
+    std::vector<FoundDevice> some = type->find();
+    std::move(some.begin(), some.end(), std::back_inserter(found));
+  }
   return found;
 }
 

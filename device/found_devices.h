@@ -8,7 +8,7 @@
 namespace palpate::device {
 
 struct FoundDevice {
-  std::string kind;         ///< "falcon", "wooden_haptics", "space_mouse"
+  std::string kind;         ///< DeviceType::kind
   std::string name;         ///< as it calls itself
   std::string address;      ///< what its settings' `address` takes: "bus:device" or a hidraw path
   bool accessible = false;  ///< whether this user may open it

@@ -1,4 +1,5 @@
 #include "device/falcon/falcon_driver.h"
+#include "device/device_type.h"
 #include "device/testing/test_files.h"
 
 #include <gmock/gmock.h>
@@ -352,6 +353,21 @@ TEST(FalconDriver, APoseBeyondTheReachIsHeldWithoutForceUntilItIsBack) {
   bench.run(0.05, Vec3(1, 0, 0));
   EXPECT_EQ(bench.stylus->state(), State::idle);
   EXPECT_TRUE(bench.fake.falcon.is_pushing());
+}
+
+TEST(FalconSettings, WrongOnesAreRefusedByName) {
+  const TestFiles files;
+  const auto refusal = [&](const std::string& json) -> std::string {
+    try {
+      find_device_type("falcon")->make({.settings = files.write("falcon.json", json)});
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refusal(R"({"motor_gain": 0})"), testing::HasSubstr("the motor gain must be above zero"));
+  EXPECT_THAT(refusal(R"({"maximum_force": 13})"), testing::HasSubstr("the largest force lies between 0 and 12 N"));
+  EXPECT_EQ(refusal(R"({"motor_gain": 9000, "maximum_force": 4})"), "");
 }
 
 TEST(FalconDriver, UnpluggedAndSilentAreFaults) {

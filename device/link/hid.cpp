@@ -78,14 +78,14 @@ class HidLink final : public Link {
 
 }  // namespace
 
-std::vector<FoundDevice> find_hid_devices() {
+std::vector<FoundDevice> find_hid_devices(const std::string& wanted) {
   std::vector<FoundDevice> found;
   if (hid_init() != 0) return found;
   hid_device_info* const list = hid_enumerate(0, 0);
   for (const hid_device_info* info = list; info != nullptr; info = info->next) {
     const std::string kind = kind_of(*info);
     const auto same = [&](const FoundDevice& device) { return device.address == info->path; };
-    if (kind.empty() || std::any_of(found.begin(), found.end(), same)) continue;
+    if (kind != wanted || std::any_of(found.begin(), found.end(), same)) continue;
     FoundDevice device{kind, narrow(info->product_string), info->path, access(info->path, R_OK | W_OK) == 0, {}};
     if (!device.accessible) {
       device.note = permission_advice();
@@ -99,10 +99,8 @@ std::vector<FoundDevice> find_hid_devices() {
 }
 
 std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& address) {
-  std::vector<FoundDevice> found = find_hid_devices();
-  std::erase_if(found, [&](const FoundDevice& device) {
-    return device.kind != kind || (!address.empty() && device.address != address);
-  });
+  std::vector<FoundDevice> found = find_hid_devices(kind);
+  std::erase_if(found, [&](const FoundDevice& device) { return !address.empty() && device.address != address; });
   const std::string name = (kind == "wooden_haptics" ? "WoodenHaptics" : "SpaceMouse") +
                            (address.empty() ? std::string() : " at " + address);
   if (found.empty())

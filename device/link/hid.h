@@ -9,8 +9,8 @@
 
 namespace palpate::device {
 
-/// WoodenHaptics arms and SpaceMouse pucks. Never throws: no HID is no devices.
-std::vector<FoundDevice> find_hid_devices();
+/// Of a kind: WoodenHaptics arms or SpaceMouse pucks. Never throws: no HID is no devices.
+std::vector<FoundDevice> find_hid_devices(const std::string& wanted);
 
 /// Opens the device of a kind at a hidraw path, or the only one. Throws std::runtime_error naming it and what to do.
 std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& address);

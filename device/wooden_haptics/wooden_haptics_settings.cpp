@@ -1,59 +1,42 @@
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "device/settings_file.h"
 #include "device/wooden_haptics/wooden_haptics.h"
 
 namespace palpate::device {
 
 namespace {
 
-using Json = nlohmann::json;
-
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error("WoodenHaptics: " + what);
 }
 
-/// Takes the value of a key out of what is left to be read.
-template <typename T>
-void take(Json& left, const char* key, T& value) {
-  const auto found = left.find(key);
-  if (found == left.end()) return;
-  try {
-    value = found->get<T>();
-  } catch (const Json::exception&) {
-    throw std::runtime_error(std::string("'") + key + "' is not what it should be: " + found->dump());
-  }
-  left.erase(found);
-}
-
 constexpr const char* preset_names = "2015, 2016, 2019 or woody";
 
-WoodenHapticsSettings settings_of(Json json) {
-  if (!json.is_object()) throw std::runtime_error("it is not a JSON object");
+WoodenHapticsSettings read(SettingsReader& reader) {
   std::string preset;
-  take(json, "preset", preset);
+  reader.take("preset", preset);
   WoodenHapticsSettings s = wooden_haptics_preset(preset);
-  take(json, "short_reports", s.short_reports);
-  take(json, "continuous_current", s.continuous_current);
-  take(json, "address", s.address);
-  take(json, "capstan_diameter", s.capstan_diameter);
-  take(json, "body_diameter", s.body_diameter);
-  take(json, "base_height", s.base_height);
-  take(json, "lower_length", s.lower_length);
-  take(json, "upper_length", s.upper_length);
-  take(json, "origin", s.origin);
-  take(json, "workspace_radius", s.workspace_radius);
-  take(json, "torque_constant", s.torque_constant);
-  take(json, "counts_per_turn", s.counts_per_turn);
-  take(json, "encoder_sign", s.encoder_sign);
-  take(json, "motor_aligned", s.motor_aligned);
-  take(json, "home_counts", s.home_counts);
-  take(json, "current_limit", s.current_limit);
-  take(json, "maximum_force", s.maximum_force);
-  take(json, "stiffness_limit", s.stiffness_limit);
-  take(json, "guarded", s.guarded);
-  if (!json.empty()) throw std::runtime_error("'" + json.begin().key() + "' is not a setting");
+  reader.take("short_reports", s.short_reports);
+  reader.take("continuous_current", s.continuous_current);
+  reader.take("address", s.address);
+  reader.take("capstan_diameter", s.capstan_diameter);
+  reader.take("body_diameter", s.body_diameter);
+  reader.take("base_height", s.base_height);
+  reader.take("lower_length", s.lower_length);
+  reader.take("upper_length", s.upper_length);
+  reader.take("origin", s.origin);
+  reader.take("workspace_radius", s.workspace_radius);
+  reader.take("torque_constant", s.torque_constant);
+  reader.take("counts_per_turn", s.counts_per_turn);
+  reader.take("encoder_sign", s.encoder_sign);
+  reader.take("motor_aligned", s.motor_aligned);
+  reader.take("home_counts", s.home_counts);
+  reader.take("current_limit", s.current_limit);
+  reader.take("maximum_force", s.maximum_force);
+  reader.take("stiffness_limit", s.stiffness_limit);
+  reader.take("guarded", s.guarded);
+  reader.finish();
   check(s);
   return s;
 }
@@ -104,14 +87,7 @@ void check(const WoodenHapticsSettings& settings) {
 }
 
 WoodenHapticsSettings read_wooden_haptics(const std::string& json_file) {
-  std::ifstream stream(json_file);
-  if (!stream)
-    throw std::runtime_error("WoodenHaptics: " + json_file + " cannot be read; name the file of the arm's geometry");
-  try {
-    return settings_of(Json::parse(stream));
-  } catch (const std::exception& error) {
-    throw std::runtime_error("WoodenHaptics: " + json_file + ": " + error.what());
-  }
+  return read_settings_file("WoodenHaptics", json_file, read);
 }
 
 }  // namespace palpate::device

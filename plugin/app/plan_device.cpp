@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "device/device_type.h"
 #include "device/safety/energy.h"
 
 namespace palpate::plugin {
@@ -38,15 +39,19 @@ std::vector<Saving> savings_of_device(const std::string& device, const device::S
   const std::string kind = device.substr(0, device.find('@'));
   const bool simulated = kind == "simulated";
   std::string others;
-  for (const char* driver : {"falcon", "wooden_haptics", "space_mouse"}) {
-    if (kind != driver) others += (others.empty() ? "" : ", ") + std::string(driver);
+  for (const device::DeviceType* driver : device::device_types()) {
+    if (driver->find == nullptr || kind == driver->kind) continue;
+    others += (others.empty() ? "" : ", ") + std::string(driver->kind);
   }
   savings.push_back({.what = "drivers of " + others,
                      .why = simulated ? "the stylus is simulated" : "another stylus is held",
-                     .saves = "a thread, and USB and HID that nobody opens"});
-  if (simulated || specification.force_axes == 0) {
+                     .saves = "a thread, and USB, HID, sockets and libraries that nobody opens"});
+  const device::DeviceType* const type = device::find_device_type(kind);
+  if (type == nullptr || type->send_zeros == nullptr) {
     savings.push_back({.what = "guardian",
-                       .why = simulated ? "a simulated stylus pushes nobody" : "the stylus has no motors",
+                       .why = simulated                       ? "a simulated stylus pushes nobody"
+                              : specification.force_axes == 0 ? "the stylus has no motors"
+                                                              : "the device ends a force that is not renewed",
                        .saves = "a process and its pipe"});
   }
   if (specification.force_axes == 0) {

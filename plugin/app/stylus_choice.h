@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "device/device_type.h"
 #include "device/stylus.h"
 
 namespace palpate::plugin {
@@ -13,11 +14,14 @@ namespace palpate::plugin {
 struct StylusChoice {
   std::string device = "simulated";
   std::string firmware;  ///< Falcon: Novint's file
-  std::string settings;  ///< WoodenHaptics: the arm's JSON file
+  std::string settings;  ///< a JSON file of the device's settings
   std::uint64_t seed = 1;
   double rate_hz = 1000;  ///< of the simulated one
   bool is_simulated() const { return device == "simulated"; }
 };
+
+/// Throws WrongUsage, naming those that there are, for a kind that there is not.
+const device::DeviceType& type_of(const StylusChoice& choice);
 
 /// Not open yet; drivers of real ones start a guardian when they are opened. Throws WrongUsage for a kind that there is
 /// not, and what the drivers throw for their settings.

@@ -3,12 +3,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "device/found_devices.h"
+#include "device/device_type.h"
 #include "device/link/realtime.h"
 #include "device/safety/guardian.h"
-#include "device/simulated/simulated_stylus.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
 
@@ -17,57 +17,61 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a kind of device can do: of its driver's defaults, without opening the device.
-struct Ability {
-  const char* kind;
-  const char* can;
-};
-constexpr Ability abilities[] = {
-    {"falcon", "3 axes sensed, 3 with force; Novint's firmware file is needed after it was switched on"},
-    {"wooden_haptics", "3 axes sensed, 3 with force; its geometry comes from a JSON file"},
-    {"space_mouse", "3 axes sensed as a rate, no force"},
-};
+using device::DeviceType;
 
-const char* ability_of(const std::string& kind) {
-  for (const Ability& ability : abilities) {
-    if (kind == ability.kind) return ability.can;
-  }
-  return "";
+Json about(const DeviceType& type) {
+  return {{"kind", type.kind},     {"name", type.name}, {"can", type.can},       {"needs", type.needs},
+          {"homing", type.homing}, {"sold", type.sold}, {"tested", type.tested}, {"watchdog", type.watchdog}};
+}
+
+Json entry(const DeviceType& type, const device::FoundDevice& found) {
+  return {{"kind", type.kind}, {"name", found.name},    {"address", found.address}, {"accessible", found.accessible},
+          {"can", type.can},   {"tested", type.tested}, {"note", found.note}};
 }
 
 void print_json(const std::vector<device::FoundDevice>& found, const device::RealtimeStatus& realtime) {
   Json list = Json::array();
-  const device::Specification simulated = device::SimulatedStylus().specification();
-  list.push_back({{"kind", "simulated"},
-                  {"name", simulated.name},
-                  {"address", ""},
-                  {"accessible", true},
-                  {"can", "3 axes sensed, 3 with force; in arithmetic only"},
-                  {"note", ""}});
-  for (const device::FoundDevice& one : found) {
-    list.push_back({{"kind", one.kind},
-                    {"name", one.name},
-                    {"address", one.address},
-                    {"accessible", one.accessible},
-                    {"can", ability_of(one.kind)},
-                    {"note", one.note}});
+  Json kinds = Json::array();
+  for (const DeviceType* type : device::device_types()) {
+    kinds.push_back(about(*type));
+    if (type->find == nullptr) list.push_back(entry(*type, {"", std::string(type->name), "", true, ""}));
+    for (const device::FoundDevice& one : found) {
+      if (one.kind == type->kind) list.push_back(entry(*type, one));
+    }
   }
   const Json json{
       {"devices", list},
+      {"kinds", kinds},
       {"guardian", device::guardian_program()},
       {"realtime",
        {{"scheduled", realtime.scheduled}, {"memory_locked", realtime.memory_locked}, {"advice", realtime.advice}}}};
   std::puts(json.dump(2).c_str());
 }
 
+void print_line(const char* head, std::string_view text) {
+  if (!text.empty()) std::printf("  %s%s\n", head, std::string(text).c_str());
+}
+
 void print_text(const std::vector<device::FoundDevice>& found, const device::RealtimeStatus& realtime) {
   std::puts("simulated\n  always there: 3 axes sensed, 3 with force; in arithmetic only");
   for (const device::FoundDevice& one : found) {
-    std::printf("%s  %s\n  '%s': %s\n", one.kind.c_str(), one.address.c_str(), one.name.c_str(), ability_of(one.kind));
+    const DeviceType* const type = device::find_device_type(one.kind);
+    std::printf("%s  %s\n  '%s'\n", one.kind.c_str(), one.address.c_str(), one.name.c_str());
     if (!one.accessible) std::puts("  PERMISSION DENIED");
-    if (!one.note.empty()) std::printf("  %s\n", one.note.c_str());
+    print_line("", one.note);
+    if (type == nullptr) continue;
+    print_line("", type->can);
+    print_line("needs: ", type->needs);
+    print_line("to home: ", type->homing);
+    print_line("without the program: ", type->watchdog);
+    print_line("", type->tested);
   }
   if (found.empty()) std::puts("No other device was found: check its plug and its power supply.");
+  std::puts("\nThere are drivers for:");
+  for (const DeviceType* type : device::device_types()) {
+    std::printf("  %-16s %s (%s): %s\n", std::string(type->kind).c_str(), std::string(type->name).c_str(),
+                std::string(type->sold).c_str(), std::string(type->tested).c_str());
+  }
   std::printf("\nReal time: %s\n", realtime.advice.empty() ? "allowed" : realtime.advice.c_str());
   if (device::guardian_program().empty()) {
     std::puts("palpate-guardian was not found: after a crash only a device's own watchdog takes the force away.");

@@ -135,7 +135,7 @@ std::vector<Provoked> provoke_programs() {
        said("probe " + scan + " --scene ct-skin-and-bone --from 0,-29,0 --to 0,-28,0 -o " + fresh_path("n").string())},
       {"{}: no boundary between tissues was found in this series; take a starting scene, such as ct-skin-and-bone",
        said("suggest " + air.string())},
-      {R"(--device: there is no device "{}"; there are: simulated, falcon, wooden_haptics, space_mouse)",
+      {R"(--device: there is no device "{}"; there are: {})",
        said("probe " + scan + " --device hand -o " + fresh_path("h").string())},
       {"{} exists; name another file", said("record " + scan + press + "-o " + recording.string())},
       {"cannot read the recording {}: {}", said("replay " + letter + " " + scan)},
@@ -197,7 +197,7 @@ std::vector<Provoked> provoke_programs() {
 
 std::vector<Provoked> provoke_styluses() {
   std::vector<Provoked> said{
-      {"WoodenHaptics: {} cannot be read; name the file of the arm's geometry",
+      {"{}: {} cannot be read; name the file of its settings",
        said_when([] { device::read_wooden_haptics("/absent.json"); })},
       {"it is not a JSON object", said_of_arm("[]")},
       {"'{}' is not a setting", said_of_arm(R"({"color": 3})")},

@@ -6,17 +6,17 @@ namespace palpate::plugin {
 
 void add_device_option(CLI::App& command, StylusChoice& choice) {
   command
-      .add_option(
-          "--device", choice.device,
-          "the stylus: simulated, falcon, wooden_haptics or space_mouse; @ADDRESS where several are plugged in\n"
-          "(`palpate devices` lists them)")
+      .add_option("--device", choice.device,
+                  "the stylus: " + device::device_kinds() +
+                      ";\n@ADDRESS where several are plugged in (`palpate devices` lists them)")
       ->capture_default_str();
 }
 
 void add_stylus_option(CLI::App& command, StylusChoice& choice) {
   add_device_option(command, choice);
   command.add_option("--firmware", choice.firmware, "Falcon: Novint's firmware file, where it has none yet");
-  command.add_option("--device-settings", choice.settings, "WoodenHaptics: the arm's geometry and signs, a JSON file");
+  command.add_option("--device-settings", choice.settings,
+                     "A JSON file of the device's settings: its largest force, and what its header names");
   command.add_option("--seed", choice.seed, "simulated: of the hand's tremor")->capture_default_str();
   command.add_option("--rate", choice.rate_hz, "simulated: ticks a second")
       ->check(CLI::Range(100.0, 20000.0))

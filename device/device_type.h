@@ -1,0 +1,60 @@
+#pragma once
+
+/// What a kind of stylus is: one object each (<kind>/<kind>_type.cpp). The list of them is one line in
+/// device/CMakeLists.txt; the command line, the plan, the guardian and the panel read it.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/found_devices.h"
+#include "device/stylus.h"
+
+namespace palpate::device {
+
+/// What a user names to have a stylus.
+struct DeviceChoice {
+  std::string address;   ///< which one, where several are plugged in: FoundDevice::address
+  std::string firmware;  ///< a file, for kinds that need it
+  std::string settings;  ///< a JSON file; its keys are the names in the kind's settings
+  std::uint64_t seed = 1;
+  double rate_hz = 1000;  ///< of the simulated one
+};
+
+/// The file that a kind is asked for.
+enum class DeviceFile : std::uint8_t { none, firmware, settings };
+
+struct DeviceType {
+  std::string_view kind;      ///< as in --device
+  std::string_view name;      ///< as its maker calls it
+  std::string_view can;       ///< axes sensed and with force
+  std::string_view needs;     ///< before it can be opened; empty: nothing
+  std::string_view homing;    ///< what the user does while its state is State::homing; empty: nothing
+  std::string_view sold;      ///< whether it can be bought
+  std::string_view tested;    ///< how
+  std::string_view watchdog;  ///< what takes the force away when nobody reaches it any more
+  DeviceFile file = DeviceFile::none;
+  std::string_view file_hint;  ///< what that file is
+  bool has_force = true;
+  std::vector<FoundDevice> (*find)() = nullptr;  ///< never throws; null: it is always there
+  /// Not open yet. Throws std::runtime_error naming the device, what is wrong with its settings and what to do.
+  std::shared_ptr<Stylus> (*make)(const DeviceChoice& choice) = nullptr;
+  /// For the guardian: opens the device anew and sends zeros; `take_away`: from a process that is stopped. Null: the
+  /// device, or its maker's service, does so itself.
+  bool (*send_zeros)(const std::string& address, bool take_away) = nullptr;
+};
+
+/// How every driver of real hardware was tested, and what that leaves open.
+constexpr std::string_view protocol_tested = "protocol-tested, never run on hardware";
+
+/// All kinds, the simulated one first.
+std::span<const DeviceType* const> device_types();
+/// Null where there is none of that name.
+const DeviceType* find_device_type(std::string_view kind);
+/// "simulated, falcon, ...": for messages.
+std::string device_kinds();
+
+}  // namespace palpate::device

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <exception>
+
+#include "device/device_type.h"
+#include "device/falcon/falcon.h"
+#include "device/falcon/falcon_protocol.h"
+#include "device/falcon/falcon_usb.h"
+#include "device/settings_file.h"
+
+namespace palpate::device {
+
+namespace {
+
+FalconSettings read(SettingsReader& reader) {
+  FalconSettings settings;
+  reader.take("address", settings.address);
+  reader.take("firmware_file", settings.firmware_file);
+  reader.take("motor_gain", settings.motor_gain);
+  reader.take("maximum_force", settings.maximum_force);
+  reader.take("guarded", settings.guarded);
+  if (!(settings.motor_gain > 0)) throw std::runtime_error("the motor gain must be above zero");
+  if (!(settings.maximum_force > 0 && settings.maximum_force <= 12)) {
+    throw std::runtime_error("the largest force lies between 0 and 12 N");
+  }
+  return settings;
+}
+
+std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
+  FalconSettings settings;
+  if (!choice.settings.empty()) settings = read_settings_file("Novint Falcon", choice.settings, read);
+  if (!choice.address.empty()) settings.address = choice.address;
+  if (!choice.firmware.empty()) settings.firmware_file = choice.firmware;
+  return make_falcon(settings);
+}
+
+/// The homing bit stays set: dropping it would make the Falcon forget where it is.
+bool send_zeros_to_one(const std::string& address) {
+  const auto link = open_falcon_usb(address);
+  const auto zero = encode(FalconCommand{});
+  // A command cut short when the session died takes the first of these to its end; the next ones are whole.
+  for (int i = 0; i < 3; ++i) {
+    if (!link->send(zero) || !link->flush(0.1)) return false;
+  }
+  return true;
+}
+
+/// The usual case first, since it is a matter of milliseconds. Without an address the session had the only Falcon;
+/// where another was plugged in since, opening "the" Falcon is refused, and each of them gets its zeros.
+bool send_zeros(const std::string& address, bool take_away) {
+  if (take_away) return take_falcon_and_send_zeros(address);
+  try {
+    return send_zeros_to_one(address);
+  } catch (const std::exception&) {
+    if (!address.empty()) return false;
+  }
+  // One that cannot be opened does not keep the zeros from the next.
+  const std::vector<FoundDevice> all = find_falcons();
+  const auto reached = std::count_if(all.begin(), all.end(), [](const FoundDevice& falcon) {
+    try {
+      return send_zeros_to_one(falcon.address);
+    } catch (const std::exception&) {
+      return false;
+    }
+  });
+  return all.size() > 1 && reached == static_cast<std::ptrdiff_t>(all.size());
+}
+
+}  // namespace
+
+extern const DeviceType falcon_type;
+const DeviceType falcon_type{
+    .kind = "falcon",
+    .name = "Novint Falcon",
+    .can = "3 axes sensed, 3 with force",
+    .needs = "Novint's firmware file after it was switched on",
+    .homing = "pull the grip all the way out, then push it in",
+    .sold = "discontinued",
+    .tested = protocol_tested,
+    .watchdog = "unknown: switch it off",
+    .file = DeviceFile::firmware,
+    .file_hint = "Novint's firmware file, if it was switched off",
+    .find = &find_falcons,
+    .make = &make,
+    .send_zeros = &send_zeros,
+};
+
+}  // namespace palpate::device

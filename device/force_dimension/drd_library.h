@@ -1,0 +1,42 @@
+#pragma once
+
+/// The functions of libdrd.so that are used, with its C types. Default arguments are C++'s alone: the device's number
+/// is always given.
+
+#include "device/link/shared_library.h"
+
+namespace palpate::device {
+
+struct DrdLibrary {
+  /// Throws std::runtime_error: SharedLibrary.
+  DrdLibrary();
+
+  SharedLibrary library;
+  void (*get_sdk_version)(int* major, int* minor, int* release, int* revision) = nullptr;
+  int (*get_device_count)() = nullptr;
+  int (*get_system_type)(char id) = nullptr;
+  const char* (*get_system_name)(char id) = nullptr;
+  int (*get_serial_number)(unsigned short* serial, char id) = nullptr;
+  const char* (*error_get_last_str)() = nullptr;
+  int (*open)(char id) = nullptr;
+  int (*close)(char id) = nullptr;
+  bool (*is_initialized)(char id) = nullptr;
+  int (*auto_init)(char id) = nullptr;
+  int (*stop)(bool keep_forces, char id) = nullptr;
+  int (*enable_expert_mode)() = nullptr;
+  int (*set_watchdog)(unsigned char duration, char id) = nullptr;
+  int (*set_max_force)(double newtons, char id) = nullptr;
+  double (*get_max_force)(char id) = nullptr;
+  int (*set_gravity_compensation)(int on, char id) = nullptr;
+  int (*enable_force)(unsigned char on, char id) = nullptr;
+  int (*dhd_stop)(char id) = nullptr;
+  int (*get_position)(double* x, double* y, double* z, char id) = nullptr;
+  int (*get_orientation_frame)(double matrix[3][3], char id) = nullptr;
+  bool (*has_wrist)(char id) = nullptr;
+  unsigned (*get_button_mask)(char id) = nullptr;
+  int (*get_status)(int status[17], char id) = nullptr;
+  int (*set_force_and_torque_and_gripper_force)(double fx, double fy, double fz, double tx, double ty, double tz,
+                                                double gripper, char id) = nullptr;
+};
+
+}  // namespace palpate::device

@@ -1,0 +1,32 @@
+#pragma once
+
+/// Force Dimension's omega, delta, sigma and lambda (and the Novint Falcon) through the maker's own library, libdrd.so,
+/// which is loaded where it is installed. Written from its public declarations (DHD and DRD 3.17.5) and tested against
+/// a library of the same C interface: never run on hardware.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/found_devices.h"
+#include "device/stylus.h"
+
+namespace palpate::device {
+
+struct ForceDimensionSettings {
+  std::string address;            ///< its serial number; empty: the only one there is
+  bool may_home = false;          ///< an arm that has no home yet may move by itself to find it
+  double maximum_force = 0;       ///< N; 0: what the device says of itself, at most 12
+  double stiffness_limit = 1500;  ///< N/m
+};
+
+ForceDimensionSettings read_force_dimension(const std::string& json_file);
+
+/// Not open yet. open() throws std::runtime_error: no library, another version of it, no device, an arm without a home
+/// that may not move.
+std::unique_ptr<Stylus> make_force_dimension(const ForceDimensionSettings& settings = {});
+
+/// Opens and closes each device that the library finds. Never throws: no library is no devices.
+std::vector<FoundDevice> find_force_dimension();
+
+}  // namespace palpate::device

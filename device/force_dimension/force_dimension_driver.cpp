@@ -1,0 +1,252 @@
+#include "device/force_dimension/force_dimension_driver.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "device/link/realtime.h"
+#include "device/vectors.h"
+
+namespace palpate::device {
+
+namespace {
+
+constexpr double period = 0.5e-3;        // s between two questions: more would only fill the bus
+constexpr double most_newtons = 12;      // of omega; asked for beyond only by a setting
+constexpr unsigned char watchdog = 240;  // x 125 us = 30 ms: the firmware takes a force away that is not renewed
+constexpr int errors_in_a_row = 20;
+constexpr int look_at_status_every = 20;
+
+// Of dhdGetStatus().
+constexpr std::size_t status_force = 5;
+constexpr std::size_t status_error = 9;
+
+// Theirs: x towards the user, y right, z up.
+Vec3 to_device_frame(const Vec3& theirs) {
+  return {theirs.y, theirs.z, theirs.x};
+}
+Vec3 to_their_frame(const Vec3& device) {
+  return {device.z, device.x, device.y};
+}
+
+struct Extent {
+  int type;
+  double half_extent;  // m: of the cube within the maker's cylinder or half-sphere
+};
+constexpr std::array extents{Extent{33, 0.055},  Extent{34, 0.055},  Extent{35, 0.055},  Extent{36, 0.055},
+                             Extent{37, 0.055},  Extent{63, 0.100},  Extent{206, 0.065}, Extent{104, 0.065},
+                             Extent{105, 0.065}, Extent{203, 0.080}, Extent{108, 0.080}, Extent{109, 0.080},
+                             Extent{60, 0.040}};
+
+/// Looking for devices opens and closes them, which must not happen to one that is held.
+std::atomic<bool> is_held{false};
+
+double half_extent_of(int type) {
+  const auto found = std::find_if(extents.begin(), extents.end(), [&](const Extent& one) { return one.type == type; });
+  return found != extents.end() ? found->half_extent : 0.04;
+}
+
+}  // namespace
+
+std::string ForceDimensionDriver::last_error() const {
+  const char* const text = drd_->error_get_last_str();
+  return text != nullptr ? text : "no reason given";
+}
+
+void ForceDimensionDriver::choose() {
+  const int count = drd_->get_device_count();
+  int matching = 0;
+  id_ = -1;
+  for (int i = 0; i < count; ++i) {
+    const int opened = drd_->open(static_cast<char>(i));
+    if (opened < 0) continue;
+    unsigned short serial = 0;
+    drd_->get_serial_number(&serial, static_cast<char>(opened));
+    const bool meant = settings_.address.empty() || settings_.address == std::to_string(serial);
+    if (meant && ++matching == 1) {
+      id_ = static_cast<char>(opened);
+    } else {
+      drd_->close(static_cast<char>(opened));
+    }
+  }
+  if (matching == 1) return;
+  if (matching > 1) {
+    drd_->close(id_);
+    throw std::runtime_error("Force Dimension: there are " + std::to_string(matching) +
+                             "; name the address of one, as `palpate devices` lists them");
+  }
+  throw std::runtime_error(
+      "Force Dimension" + (settings_.address.empty() ? "" : " " + settings_.address) +
+      ": not found; check its plug, its power and the rights to it (udev, idVendor 1451): " + last_error());
+}
+
+void ForceDimensionDriver::bring_up() {
+  if (!drd_->is_initialized(id_)) {
+    if (!settings_.may_home) {
+      throw std::runtime_error(
+          "Force Dimension: the arm has no home yet, and to find it it moves by itself; keep hands off it, then allow "
+          "it "
+          "in its settings file: may_home, true");
+    }
+    if (drd_->auto_init(id_) < 0) {
+      throw std::runtime_error("Force Dimension: the arm did not find its home: " + last_error() +
+                               "; free its way and try again");
+    }
+  }
+  // The regulation that moves the arm ends; its forces are ours from here on.
+  if (drd_->stop(true, id_) < 0 || drd_->enable_force(1, id_) < 0) {
+    throw std::runtime_error("Force Dimension: its forces cannot be switched on: " + last_error() +
+                             "; press its force button, then try again");
+  }
+  drd_->enable_expert_mode();
+  drd_->set_watchdog(watchdog, id_);
+  drd_->set_gravity_compensation(1, id_);
+  const double told = drd_->get_max_force(id_);
+  maximum_force_ =
+      settings_.maximum_force > 0 ? settings_.maximum_force : (told > 0 ? std::min(told, most_newtons) : most_newtons);
+  drd_->set_max_force(maximum_force_, id_);
+  has_wrist_ = drd_->has_wrist(id_);
+}
+
+void ForceDimensionDriver::connect() {
+  drd_ = std::make_unique<DrdLibrary>();
+  choose();
+  const std::uint64_t news = status_.news;
+  status_ = {};
+  status_.news = news;
+  status_.state = State::homing;
+  errors_ = asked_ = 0;
+  lost_ = false;
+  try {
+    bring_up();
+  } catch (...) {
+    disconnect();
+    throw;
+  }
+  const char* const name = drd_->get_system_name(id_);
+  name_ = "Force Dimension " + std::string(name != nullptr ? name : "");
+  next_ = now();
+  is_held = true;
+}
+
+void ForceDimensionDriver::disconnect() noexcept {
+  if (!drd_ || id_ < 0) return;
+  is_held = false;
+  drd_->dhd_stop(id_);
+  drd_->close(id_);
+  id_ = -1;
+}
+
+double ForceDimensionDriver::now() noexcept {
+  return monotonic_time();
+}
+
+void ForceDimensionDriver::note(int result) noexcept {
+  // 0, 1 (time guard) and 2 (a motor at its limit) are no errors.
+  errors_ = result < 0 ? errors_ + 1 : 0;
+  if (errors_ >= errors_in_a_row) lost_ = true;
+}
+
+void ForceDimensionDriver::take(double timeout) noexcept {
+  const double wait = std::min(next_ - now(), timeout);
+  if (wait > 0) std::this_thread::sleep_for(std::chrono::duration<double>(wait));
+  next_ = std::max(next_ + period, now());
+  Vec3 place;
+  const int result = drd_->get_position(&place.x, &place.y, &place.z, id_);
+  note(result);
+  if (result < 0 || status_.state == State::fault) return;
+  if (!is_finite(place) || glm::length(place) > 1) {
+    status_.state = State::fault;
+    status_.fault = LinkFault::unreachable_pose;
+    return;
+  }
+  status_.position = to_device_frame(place);
+  status_.buttons = drd_->get_button_mask(id_);
+  if (has_wrist_) {
+    double rows[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (drd_->get_orientation_frame(rows, id_) >= 0) {
+      // Columns are the stylus' axes; both sides of the rotation change their frame.
+      glm::dmat3 turned;
+      const std::array theirs{1, 2, 0};  // their axis that is our x, y, z
+      for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+          turned[column][row] = rows[theirs[static_cast<std::size_t>(row)]][theirs[static_cast<std::size_t>(column)]];
+        }
+      }
+      status_.orientation = glm::normalize(glm::quat_cast(turned));
+    }
+  }
+  status_.state = State::idle;
+  ++status_.news;
+  if (++asked_ % look_at_status_every == 0) judge_status();
+}
+
+void ForceDimensionDriver::judge_status() noexcept {
+  std::array<int, 17> told{};
+  if (drd_->get_status(told.data(), id_) < 0) return;
+  if (told[status_error] == 0 && told[status_force] != 0) return;
+  status_.state = State::fault;
+  status_.fault = LinkFault::own_safety;
+}
+
+void ForceDimensionDriver::give(const Vec3& force) noexcept {
+  const bool may_push = status_.state == State::idle;
+  const Vec3 theirs = may_push ? to_their_frame(clamp_length(force, maximum_force_)) : Vec3(0);
+  note(drd_->set_force_and_torque_and_gripper_force(theirs.x, theirs.y, theirs.z, 0, 0, 0, 0, id_));
+}
+
+void ForceDimensionDriver::describe(Specification& specification) const {
+  specification.name = name_;
+  specification.orientation_axes = has_wrist_ ? 3 : 0;
+  specification.workspace_half_extent = Vec3(half_extent_of(drd_->get_system_type(id_)));
+  specification.maximum_force = maximum_force_;
+  specification.continuous_force = maximum_force_;  // the maker's own figure is of a force that lasts
+}
+
+std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettings& settings,
+                                                      const LinkStylusOptions& options) {
+  Specification specification;
+  specification.name = "Force Dimension";
+  specification.workspace_half_extent = Vec3(0.04);
+  specification.position_resolution = 0.01e-3;
+  specification.maximum_force = settings.maximum_force > 0 ? settings.maximum_force : most_newtons;
+  specification.continuous_force = specification.maximum_force;
+  specification.stiffness_limit = settings.stiffness_limit;
+  specification.rate = 1000;
+  return std::make_unique<LinkStylus>(specification, std::make_unique<ForceDimensionDriver>(settings), options);
+}
+
+std::unique_ptr<Stylus> make_force_dimension(const ForceDimensionSettings& settings) {
+  return make_force_dimension_with(settings, {});
+}
+
+std::vector<FoundDevice> find_force_dimension() {
+  std::vector<FoundDevice> found;
+  if (is_held) return {{"force_dimension", "Force Dimension", "", true, "held by this session"}};
+  try {
+    const DrdLibrary drd;
+    const int count = drd.get_device_count();
+    for (int i = 0; i < count; ++i) {
+      const int id = drd.open(static_cast<char>(i));
+      if (id < 0) continue;
+      unsigned short serial = 0;
+      drd.get_serial_number(&serial, static_cast<char>(id));
+      const char* const name = drd.get_system_name(static_cast<char>(id));
+      const bool homed = drd.is_initialized(static_cast<char>(id));
+      found.push_back({"force_dimension", name != nullptr ? name : "Force Dimension", std::to_string(serial), true,
+                       homed ? "" : "it has no home yet: to find it the arm moves by itself"});
+      drd.close(static_cast<char>(id));
+    }
+  } catch (const std::exception&) {
+    return found;
+  }
+  return found;
+}
+
+}  // namespace palpate::device

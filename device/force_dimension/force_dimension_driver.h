@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "device/force_dimension/drd_library.h"
+#include "device/force_dimension/force_dimension.h"
+#include "device/link/driver.h"
+#include "device/link/link_stylus.h"
+
+namespace palpate::device {
+
+/// A device that answers each call over USB: it is asked and told in the stylus' own thread.
+class ForceDimensionDriver final : public Driver {
+ public:
+  explicit ForceDimensionDriver(const ForceDimensionSettings& settings) : settings_(settings) {}
+
+  void connect() override;
+  void disconnect() noexcept override;
+  double now() noexcept override;
+  void take(double timeout) noexcept override;
+  void give(const Vec3& force) noexcept override;
+  void flush(double /*timeout*/) noexcept override {}
+  bool lost() const noexcept override { return lost_; }
+  const ProtocolStatus& status() const noexcept override { return status_; }
+  void describe(Specification& specification) const override;
+
+ private:
+  void choose();
+  void bring_up();
+  void judge_status() noexcept;
+  void note(int result) noexcept;
+  std::string last_error() const;
+
+  ForceDimensionSettings settings_;
+  std::unique_ptr<DrdLibrary> drd_;
+  char id_ = -1;
+  bool has_wrist_ = false;
+  double maximum_force_ = 0;
+  std::string name_ = "Force Dimension";
+  ProtocolStatus status_;
+  int errors_ = 0;
+  int asked_ = 0;
+  double next_ = 0;  // s: when the device is asked next
+  bool lost_ = false;
+};
+
+/// The same stylus as make_force_dimension()'s, with other options.
+std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettings& settings,
+                                                      const LinkStylusOptions& options);
+
+}  // namespace palpate::device

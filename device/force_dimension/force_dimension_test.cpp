@@ -1,0 +1,182 @@
+#include "device/force_dimension/force_dimension.h"
+
+#include <dlfcn.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <string>
+#include <thread>
+
+#include "device/force_dimension/force_dimension_driver.h"
+#include "device/testing/fake_libdrd.h"
+
+namespace palpate::device {
+namespace {
+
+class ForceDimension : public testing::Test {
+ protected:
+  ForceDimension() {
+    setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
+    void* const library = dlopen(PALPATE_FAKE_LIBDRD, RTLD_NOW | RTLD_NODELETE);
+    drd = reinterpret_cast<FakeDrd* (*)()>(dlsym(library, "fake_drd"))();
+    is_pushing = reinterpret_cast<bool (*)()>(dlsym(library, "fake_drd_is_pushing"));
+    *drd = FakeDrd{};
+  }
+  ~ForceDimension() override { unsetenv("PALPATE_LIBDRD"); }
+
+  std::unique_ptr<LinkStylus> unthreaded(const ForceDimensionSettings& settings = {}) {
+    LinkStylusOptions options;
+    options.threaded = false;
+    return make_force_dimension_with(settings, options);
+  }
+  static void push(LinkStylus& stylus, const Vec3& force, int exchanges = 5) {
+    for (int i = 0; i < exchanges; ++i) {
+      stylus.write_force(force);
+      stylus.service(1e-3);
+    }
+  }
+  static void expect_refusal(const std::function<void()>& open, const std::string& why) {
+    try {
+      open();
+      FAIL() << "not refused: " << why;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("Force Dimension"));
+      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+    }
+  }
+
+  FakeDrd* drd = nullptr;
+  bool (*is_pushing)() = nullptr;
+};
+
+TEST_F(ForceDimension, PoseAndForceChangeFramesAndNothingElse) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  // Right, up, towards the user, in the maker's axes.
+  const struct {
+    double theirs[3];
+    Vec3 ours;
+  } axes[] = {{{0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, 1}}};
+  for (const auto& axis : axes) {
+    for (int i = 0; i < 3; ++i) drd->place[i] = 0.02 * axis.theirs[i];
+    push(*stylus, 2.0 * axis.ours);
+    EXPECT_EQ(stylus->read().position, 0.02 * axis.ours);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(drd->force[i], 2 * axis.theirs[i]);
+  }
+}
+
+TEST_F(ForceDimension, IsBroughtUpWithItsOwnWatchdogLimitAndGravity) {
+  const auto stylus = unthreaded({.maximum_force = 5});
+  stylus->open();
+  EXPECT_NEAR(drd->watchdog_s, 0.030, 1e-9);
+  EXPECT_EQ(drd->told_max_force, 5);
+  EXPECT_EQ(drd->gravity, 1);
+  EXPECT_EQ(stylus->specification().maximum_force, 5);
+  EXPECT_EQ(stylus->specification().name, "Force Dimension omega.3");
+  push(*stylus, Vec3(30, 40, 0));
+  EXPECT_NEAR(drd->force[1], 3, 1e-12);
+  EXPECT_NEAR(drd->force[2], 4, 1e-12);
+}
+
+TEST_F(ForceDimension, ItsFirmwareTakesAForceAwayThatIsNotRenewed) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  push(*stylus, Vec3(0, 1, 0));
+  ASSERT_TRUE(is_pushing());
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_FALSE(is_pushing());
+}
+
+TEST_F(ForceDimension, ClosingLeavesNoForce) {
+  auto stylus = make_force_dimension({});
+  stylus->open();
+  for (int i = 0; i < 200 && !is_pushing(); ++i) {
+    stylus->write_force(Vec3(0, 1, 0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(is_pushing());
+  stylus->close();
+  EXPECT_EQ(drd->force[2], 0);
+  EXPECT_EQ(drd->stopped, 1);
+  EXPECT_EQ(drd->closed, 1);
+}
+
+TEST_F(ForceDimension, AnArmWithoutAHomeMovesOnlyWhenItMay) {
+  drd->homed = 0;
+  expect_refusal([&] { unthreaded()->open(); },
+                 "Force Dimension: the arm has no home yet, and to find it it moves by itself; keep hands off it, then "
+                 "allow it in its settings file: may_home, true");
+  EXPECT_EQ(drd->auto_inits, 0);
+  unthreaded({.may_home = true})->open();
+  EXPECT_EQ(drd->auto_inits, 1);
+  drd->homed = 0;
+  drd->homing_fails = 1;
+  expect_refusal([&] { unthreaded({.may_home = true})->open(); },
+                 "Force Dimension: the arm did not find its home: a fault of the fake; free its way and try again");
+}
+
+TEST_F(ForceDimension, WhatIsMissingIsSaid) {
+  drd->devices = 0;
+  expect_refusal(
+      [&] { unthreaded()->open(); },
+      ": not found; check its plug, its power and the rights to it (udev, idVendor 1451): a fault of the fake");
+  drd->devices = 2;
+  expect_refusal([&] { unthreaded()->open(); }, "there are 2; name the address of one");
+  unthreaded({.address = "1235"})->open();
+  expect_refusal([&] { unthreaded({.address = "7"})->open(); }, "Force Dimension 7: not found");
+  drd->major = 2;
+  expect_refusal([&] { unthreaded()->open(); }, " is version 2.17; this driver needs version 3; install");
+  drd->major = 3;
+  drd->failing = 1;
+  drd->devices = 1;
+  expect_refusal(
+      [&] { unthreaded()->open(); },
+      "Force Dimension: its forces cannot be switched on: a fault of the fake; press its force button, then try again");
+  setenv("PALPATE_LIBDRD", "/absent/libdrd.so", 1);
+  expect_refusal([&] { unthreaded()->open(); }, "its maker's library cannot be loaded");
+  setenv("PALPATE_LIBDRD", "libm.so.6", 1);
+  expect_refusal([&] { unthreaded()->open(); }, "is another version: it has no dhdGetSDKVersion");
+}
+
+TEST_F(ForceDimension, ADeviceThatFailsIsLostAndOneInErrorIsAFault) {
+  const auto lost = unthreaded();
+  lost->open();
+  drd->failing = 1;
+  push(*lost, Vec3(0, 1, 0), 40);
+  EXPECT_EQ(lost->fault(), LinkFault::unplugged);
+  lost->close();
+  drd->failing = 0;
+  const auto stylus = unthreaded();
+  stylus->open();
+  push(*stylus, Vec3(0, 1, 0));
+  drd->in_error = 1;
+  push(*stylus, Vec3(0, 1, 0), 40);
+  EXPECT_EQ(stylus->fault(), LinkFault::own_safety);
+  EXPECT_EQ(drd->force[2], 0);
+}
+
+TEST_F(ForceDimension, TheWristTurnsTheStylus) {
+  drd->has_wrist = 1;
+  const auto stylus = unthreaded();
+  stylus->open();
+  push(*stylus, Vec3(0));
+  // Their quarter turn about up takes towards-the-user to the right: ours takes z to x, about y.
+  const Vec3 turned = stylus->read().orientation * Vec3(0, 0, 1);
+  EXPECT_LT(glm::distance(turned, Vec3(1, 0, 0)), 1e-12);
+  EXPECT_EQ(stylus->specification().orientation_axes, 3);
+}
+
+TEST_F(ForceDimension, IsFoundWithItsSerialNumber) {
+  const auto found = find_force_dimension();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].address, "1234");
+  setenv("PALPATE_LIBDRD", "/absent/libdrd.so", 1);
+  EXPECT_TRUE(find_force_dimension().empty());
+}
+
+}  // namespace
+}  // namespace palpate::device

@@ -1,0 +1,44 @@
+#include "device/device_type.h"
+#include "device/force_dimension/force_dimension.h"
+#include "device/settings_file.h"
+
+namespace palpate::device {
+
+ForceDimensionSettings read_force_dimension(const std::string& json_file) {
+  return read_settings_file("Force Dimension", json_file, [](SettingsReader& reader) {
+    ForceDimensionSettings settings;
+    reader.take("address", settings.address);
+    reader.take("may_home", settings.may_home);
+    reader.take("maximum_force", settings.maximum_force);
+    reader.take("stiffness_limit", settings.stiffness_limit);
+    return settings;
+  });
+}
+
+namespace {
+
+std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
+  ForceDimensionSettings settings;
+  if (!choice.settings.empty()) settings = read_force_dimension(choice.settings);
+  if (!choice.address.empty()) settings.address = choice.address;
+  return make_force_dimension(settings);
+}
+
+}  // namespace
+
+extern const DeviceType force_dimension_type;
+const DeviceType force_dimension_type{
+    .kind = "force_dimension",
+    .name = "Force Dimension omega, delta, sigma or lambda",
+    .can = "3 or 6 axes sensed, 3 with force; torque stays zero",
+    .needs = "the maker's SDK 3.17 (libdrd.so); leave to home, for which the arm moves by itself",
+    .sold = "sold now",
+    .tested = protocol_tested,
+    .watchdog = "30 ms, in its firmware",
+    .file = DeviceFile::settings,
+    .file_hint = "Leave to home (\"may_home\": true), largest force: a JSON file",
+    .find = &find_force_dimension,
+    .make = &make,
+};
+
+}  // namespace palpate::device

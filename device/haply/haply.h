@@ -1,0 +1,29 @@
+#pragma once
+
+/// Haply Inverse3, Inverse3x and Minverse, with or without a VerseGrip: three axes of force through the maker's
+/// service, JSON over a WebSocket on this machine. Written from the maker's public documents and tested against a fake
+/// of the service: never run on hardware.
+
+#include <memory>
+#include <string>
+
+#include "device/stylus.h"
+
+namespace palpate::device {
+
+struct HaplySettings {
+  std::string address;             ///< the device's id ("049D"), as FoundDevice::address; empty: the only one there is
+  std::string host = "localhost";  ///< of the service
+  int port = 10001;                ///< its simulation channel
+  std::string preset = "arm_front_centered";  ///< puts the origin into the middle of the workspace
+  double maximum_force = 3;                   ///< N; the maker publishes none
+  double stiffness_limit = 400;               ///< N/m, likewise
+};
+
+/// Throws std::runtime_error naming the file, the key and what is wrong with it. Absent keys keep their defaults.
+HaplySettings read_haply(const std::string& json_file);
+
+/// Not open yet. open() throws std::runtime_error naming what is missing: the service, a device, one of several.
+std::unique_ptr<Stylus> make_haply(const HaplySettings& settings = {});
+
+}  // namespace palpate::device

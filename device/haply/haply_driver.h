@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/haply/haply.h"
+#include "device/link/link_stylus.h"
+
+namespace palpate::device {
+
+/// Of the service, as GET /version tells it.
+struct HaplyVersion {
+  int major = 0;  ///< 0: it did not tell
+  int minor = 0;
+};
+HaplyVersion parse_haply_version(std::string_view reply) noexcept;
+
+/// The WebSocket of the service: a packet is a message.
+class HaplyLink : public Link {
+ public:
+  virtual HaplyVersion version() const noexcept = 0;
+};
+
+/// A device in the first message that the service sends.
+struct HaplyDevice {
+  std::string id;
+  std::string type;  ///< "inverse3", "inverse3x", "minverse"
+  std::string handedness;
+  bool gravity_compensated = false;
+  double force_gate = 0;  ///< filters.force_gate.gain
+  double damping = 0;     ///< filters.damping.scalar
+  bool torque_scaled = false;
+};
+/// Empty where the text is no inventory.
+std::vector<HaplyDevice> haply_inventory(std::string_view message);
+/// What of its settings changes what the hand feels, in a sentence.
+std::string describe(const HaplyDevice& device);
+
+/// The same stylus as make_haply()'s, on any link.
+std::unique_ptr<LinkStylus> make_haply_on(const HaplySettings& settings, LinkMaker make_link,
+                                          const LinkStylusOptions& options);
+
+/// One message, one answer. A force lasts until the next message, and a device that is told nothing goes idle.
+class HaplyProtocol final : public Protocol {
+ public:
+  explicit HaplyProtocol(const HaplySettings& settings) : settings_(settings) {}
+
+  void connect(Link& link) override;
+  void receive(std::span<const std::uint8_t> packet, double now) noexcept override;
+  std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept override;
+  const ProtocolStatus& status() const noexcept override { return status_; }
+  std::size_t packet_size() const noexcept override { return 1 << 16; }
+  void describe(Specification& specification) const override;
+
+ private:
+  void choose(const std::vector<HaplyDevice>& devices);
+  std::string first_message() const;
+  void judge_force(const Vec3& acting) noexcept;
+  void fail(LinkFault fault) noexcept;
+
+  HaplySettings settings_;
+  ProtocolStatus status_;
+  HaplyDevice device_;
+  const char* vector_key_ = "vector";  // of 3.5; 3.1 says "values"
+  bool switched_key_ = false;
+  int in_flight_ = 0;  // messages sent and not answered yet
+  double sent_ = 0;
+  Vec3 sent_force_{0};  // N, the service's frame
+  int unheeded_ = 0;    // answers in a row that tell of no force where one was sent
+};
+
+}  // namespace palpate::device

@@ -1,0 +1,226 @@
+// The maker's service over Boost.Beast. The thread that owns the stylus owns the socket, too: nothing here is called in
+// a servo tick.
+
+#include "device/haply/haply_service.h"
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "device/link/realtime.h"
+
+namespace palpate::device {
+
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+
+constexpr std::size_t longest_message = 1 << 16;
+
+std::chrono::microseconds microseconds(double seconds) {
+  return std::chrono::microseconds(static_cast<long>(seconds * 1e6));
+}
+
+/// Runs what was started until it has its result or the time is over.
+beast::error_code result_of(asio::io_context& context, double timeout,
+                            const std::function<void(std::function<void(beast::error_code)>)>& start) {
+  beast::error_code result = beast::error::timeout;
+  bool done = false;
+  start([&](beast::error_code error) {
+    result = error;
+    done = true;
+  });
+  context.restart();
+  const double begun = monotonic_time();
+  while (!done && monotonic_time() - begun < timeout) {
+    if (context.run_one_for(microseconds(timeout)) == 0) break;
+  }
+  return result;
+}
+
+/// The reply's body; empty where there is none in time.
+std::string http_get(const std::string& host, int port, const char* target, double timeout) {
+  asio::io_context context;
+  tcp::resolver resolver(context);
+  beast::tcp_stream stream(context);
+  stream.expires_after(microseconds(timeout));
+  beast::error_code error;
+  const auto ends = resolver.resolve(host, std::to_string(port), error);
+  if (error) return {};
+  error = result_of(context, timeout, [&](auto done) {
+    stream.async_connect(ends, [done](beast::error_code e, const tcp::endpoint&) { done(e); });
+  });
+  if (error) return {};
+  http::request<http::empty_body> request{http::verb::get, target, 11};
+  request.set(http::field::host, host);
+  http::response<http::string_body> response;
+  beast::flat_buffer buffer;
+  error = result_of(context, timeout, [&](auto done) {
+    http::async_write(stream, request, [done](beast::error_code e, std::size_t) { done(e); });
+  });
+  if (error) return {};
+  error = result_of(context, timeout, [&](auto done) {
+    http::async_read(stream, buffer, response, [done](beast::error_code e, std::size_t) { done(e); });
+  });
+  return error ? std::string() : response.body();
+}
+
+class HaplyService final : public HaplyLink {
+ public:
+  explicit HaplyService(const HaplySettings& settings) : socket_(context_) {
+    constexpr double patience = 2.0;  // s
+    const std::string where = settings.host + ":" + std::to_string(settings.port);
+    version_ = parse_haply_version(http_get(settings.host, settings.port, "/version", patience));
+    tcp::resolver resolver(context_);
+    beast::error_code error;
+    const auto ends = resolver.resolve(settings.host, std::to_string(settings.port), error);
+    if (!error) {
+      error = result_of(context_, patience, [&](auto done) {
+        beast::get_lowest_layer(socket_).async_connect(ends,
+                                                       [done](beast::error_code e, const tcp::endpoint&) { done(e); });
+      });
+    }
+    if (!error) {
+      // A force that waits for the next one to fill a segment comes 40 ms late.
+      beast::get_lowest_layer(socket_).socket().set_option(tcp::no_delay(true), error);
+      error = result_of(context_, patience, [&](auto done) { socket_.async_handshake(where, "/", done); });
+    }
+    if (error) {
+      throw std::runtime_error("Haply: its service does not answer at " + where + " (" + error.message() +
+                               "); install Haply Hub or the Inverse Service and start it: sudo systemctl start "
+                               "haply-inverse-service");
+    }
+    socket_.read_message_max(longest_message);
+    socket_.text(true);
+    start_read();
+  }
+
+  ~HaplyService() override {
+    try {
+      // The operations that are still under way end with their socket, and hand back what they borrow.
+      beast::error_code ignored;
+      beast::get_lowest_layer(socket_).socket().close(ignored);
+      context_.restart();
+      context_.run_for(std::chrono::milliseconds(100));
+    } catch (const std::exception&) {
+      lost_ = true;
+    }
+  }
+
+  double now() noexcept override { return monotonic_time(); }
+  bool lost() const noexcept override { return lost_; }
+  HaplyVersion version() const noexcept override { return version_; }
+
+  std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept override {
+    run([this] { return has_message_; }, timeout);
+    if (!has_message_) return 0;
+    has_message_ = false;
+    const auto bytes = incoming_.data();
+    const std::size_t size = std::min(bytes.size(), packet.size());
+    std::copy_n(static_cast<const std::uint8_t*>(bytes.data()), size, packet.begin());
+    incoming_.consume(incoming_.size());
+    guarded([this] { start_read(); });
+    return size;
+  }
+
+  bool send(std::span<const std::uint8_t> packet) noexcept override {
+    run([this] { return !sending_; }, 0);
+    if (sending_ || lost_) return false;
+    guarded([&] {
+      outgoing_.assign(packet.begin(), packet.end());
+      sending_ = true;
+      socket_.async_write(asio::buffer(outgoing_), [this](beast::error_code error, std::size_t) {
+        sending_ = false;
+        if (error) lost_ = true;
+      });
+    });
+    run([this] { return !sending_; }, 0);
+    return !lost_;
+  }
+
+  bool flush(double timeout) noexcept override {
+    run([this] { return !sending_; }, timeout);
+    return !sending_ && !lost_;
+  }
+
+ private:
+  void start_read() {
+    socket_.async_read(incoming_, [this](beast::error_code error, std::size_t) {
+      has_message_ = !error;
+      if (error) lost_ = true;
+    });
+  }
+
+  /// Lets the socket work until something holds or the time is over.
+  template <typename Until>
+  void run(const Until& until, double timeout) noexcept {
+    guarded([&] {
+      context_.restart();
+      context_.poll();
+      const double begun = monotonic_time();
+      double left = timeout;
+      while (!until() && !lost_ && left > 0) {
+        context_.restart();
+        context_.run_one_for(microseconds(left));
+        left = timeout - (monotonic_time() - begun);
+      }
+    });
+  }
+
+  template <typename Run>
+  void guarded(const Run& run) noexcept {
+    try {
+      run();
+    } catch (const std::exception&) {
+      lost_ = true;
+    }
+  }
+
+  asio::io_context context_;
+  websocket::stream<beast::tcp_stream> socket_;
+  beast::flat_buffer incoming_;
+  std::string outgoing_;
+  HaplyVersion version_;
+  bool has_message_ = false;
+  bool sending_ = false;
+  bool lost_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<HaplyLink> open_haply_service(const HaplySettings& settings) {
+  return std::make_unique<HaplyService>(settings);
+}
+
+std::vector<FoundDevice> find_haply() {
+  std::vector<FoundDevice> found;
+  try {
+    const auto service = open_haply_service({});
+    std::vector<std::uint8_t> packet(longest_message);
+    const std::size_t size = service->receive(packet, 0.5);
+    for (const HaplyDevice& device : haply_inventory({reinterpret_cast<const char*>(packet.data()), size})) {
+      found.push_back({"haply", "Haply " + device.type, device.id, true, describe(device)});
+    }
+  } catch (const std::exception&) {
+    return found;
+  }
+  return found;
+}
+
+std::unique_ptr<Stylus> make_haply(const HaplySettings& settings) {
+  return make_haply_on(settings, [settings]() -> std::unique_ptr<Link> { return open_haply_service(settings); }, {});
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,44 @@
+#pragma once
+
+/// A maker's library, loaded where it is installed: nothing of it is needed to build or to start.
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace palpate::device {
+
+class SharedLibrary {
+ public:
+  /// The first of these files that can be loaded. Throws std::runtime_error that begins with `device` and says what
+  /// was tried, what the loader said and, as `advice`, what to install. It stays loaded until the program ends: makers'
+  /// drivers fail when they are loaded twice.
+  SharedLibrary(const std::string& device, std::span<const std::string> files, const std::string& advice);
+
+  /// Puts the address of a function of this name into `function`. Throws std::runtime_error where there is none.
+  template <typename Function>
+  void find(const char* name, Function*& function) const {
+    function = reinterpret_cast<Function*>(address_of(name));
+  }
+  /// Null where there is none.
+  template <typename Function>
+  void find_if_there(const char* name, Function*& function) const noexcept {
+    function = reinterpret_cast<Function*>(look_up(name));
+  }
+  const std::string& file() const noexcept { return file_; }
+
+ private:
+  void* look_up(const char* name) const noexcept;
+  void* address_of(const char* name) const;
+
+  std::string device_;
+  std::string advice_;
+  std::string file_;
+  void* handle_ = nullptr;
+};
+
+/// Where the library named lies: in the environment variable, else among the usual places.
+std::vector<std::string> library_candidates(const char* variable, std::vector<std::string> usual);
+
+}  // namespace palpate::device

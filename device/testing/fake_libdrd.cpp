@@ -1,0 +1,136 @@
+#include "device/testing/fake_libdrd.h"
+
+#include <ctime>
+
+namespace {
+
+FakeDrd state;
+
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+int result() {
+  return state.failing != 0 ? -1 : 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+FakeDrd* fake_drd() {
+  return &state;
+}
+void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
+  *major = state.major;
+  *minor = 17;
+  *release = 5;
+  *revision = 0;
+}
+int dhdGetDeviceCount() {
+  return state.devices;
+}
+int dhdGetSystemType(char) {
+  return state.type;
+}
+const char* dhdGetSystemName(char) {
+  return "omega.3";
+}
+int dhdGetSerialNumber(unsigned short* serial, char id) {
+  *serial = static_cast<unsigned short>(state.serial + id);
+  return 0;
+}
+const char* dhdErrorGetLastStr() {
+  return "a fault of the fake";
+}
+int drdOpenID(char id) {
+  return id < state.devices ? id : -1;
+}
+int drdClose(char) {
+  state.closed = state.closed + 1;
+  return 0;
+}
+bool drdIsInitialized(char) {
+  return state.homed != 0;
+}
+int drdAutoInit(char) {
+  state.auto_inits = state.auto_inits + 1;
+  if (state.homing_fails != 0) return -1;
+  state.homed = 1;
+  return 0;
+}
+int drdStop(bool, char) {
+  return result();
+}
+int dhdEnableExpertMode() {
+  state.expert = 1;
+  return 0;
+}
+int dhdSetWatchdog(unsigned char duration, char) {
+  if (state.expert == 0) return -1;
+  state.watchdog_s = duration * 125e-6;
+  return 0;
+}
+int dhdSetMaxForce(double newtons, char) {
+  state.told_max_force = newtons;
+  return 0;
+}
+double dhdGetMaxForce(char) {
+  return state.max_force;
+}
+int dhdSetGravityCompensation(int on, char) {
+  state.gravity = on;
+  return 0;
+}
+int dhdEnableForce(unsigned char on, char) {
+  state.forces_on = on;
+  return result();
+}
+int dhdStop(char) {
+  state.stopped = state.stopped + 1;
+  state.forces_on = 0;
+  return 0;
+}
+int dhdGetPosition(double* x, double* y, double* z, char) {
+  *x = state.place[0];
+  *y = state.place[1];
+  *z = state.place[2];
+  return result();
+}
+int dhdGetOrientationFrame(double matrix[3][3], char) {
+  // A quarter turn about its z, which is up: x goes to y.
+  const double turned[3][3] = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) matrix[row][column] = turned[row][column];
+  }
+  return 0;
+}
+bool dhdHasWrist(char) {
+  return state.has_wrist != 0;
+}
+unsigned dhdGetButtonMask(char) {
+  return state.buttons;
+}
+int dhdGetStatus(int status[17], char) {
+  for (int i = 0; i < 17; ++i) status[i] = 0;
+  status[5] = state.forces_on;
+  status[9] = state.in_error;
+  return 0;
+}
+int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double, double, double, double, char) {
+  state.force[0] = fx;
+  state.force[1] = fy;
+  state.force[2] = fz;
+  state.set_time = now();
+  return result();
+}
+/// What pushes now: the firmware's watchdog takes a force away that is not renewed.
+bool fake_drd_is_pushing() {
+  const bool stale = state.watchdog_s > 0 && now() - state.set_time > state.watchdog_s;
+  const bool any = state.force[0] != 0 || state.force[1] != 0 || state.force[2] != 0;
+  return any && !stale && state.forces_on != 0;
+}
+
+}  // extern "C"

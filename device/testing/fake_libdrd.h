@@ -1,0 +1,29 @@
+#pragma once
+
+/// A library of libdrd.so's C interface with one device behind it, whose firmware has a watchdog. Plain C data, since
+/// it is reached through dlsym: `struct FakeDrd* fake_drd(void)`.
+
+struct FakeDrd {
+  int devices = 1;
+  int type = 33;
+  int serial = 1234;
+  int major = 3;
+  int homed = 1;
+  int auto_inits = 0;
+  int homing_fails = 0;
+  double place[3] = {0, 0, 0};  // m, its own frame: x towards the user, y right, z up
+  double force[3] = {0, 0, 0};  // N, as last set
+  double set_time = 0;          // s
+  double watchdog_s = 0;        // 0: off
+  double max_force = 12;
+  double told_max_force = 0;
+  int expert = 0;
+  int gravity = 0;
+  int forces_on = 0;
+  int stopped = 0;
+  int closed = 0;
+  int failing = 0;   // every call fails
+  int in_error = 0;  // of its status
+  unsigned buttons = 0;
+  int has_wrist = 0;
+};

@@ -1,0 +1,137 @@
+#include "device/testing/fake_libhd.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+namespace {
+
+struct ErrorInfo {
+  unsigned code;
+  int internal;
+  unsigned device;
+};
+
+FakeHd state;
+unsigned (*callback)(void*) = nullptr;
+void* callback_data = nullptr;
+std::atomic<bool> stop{false};
+std::thread scheduler;
+
+void run() {
+  while (!stop) {
+    if (state.stalled == 0 && callback != nullptr) {
+      callback(callback_data);
+      state.callbacks = state.callbacks + 1;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+void must_be_in_frame() {
+  if (state.in_frame == 0) state.misuses = state.misuses + 1;
+}
+
+}  // namespace
+
+extern "C" {
+
+FakeHd* fake_hd() {
+  return &state;
+}
+unsigned hdInitDevice(const char* name) {
+  if (name != nullptr) std::strncpy(state.named, name, sizeof state.named - 1);
+  if (state.present == 0) {
+    state.error = 0x302;
+    return 0xffffffffU;
+  }
+  return 7;
+}
+void hdDisableDevice(unsigned) {
+  if (state.running != 0) state.misuses = state.misuses + 1;
+  state.disabled = state.disabled + 1;
+}
+void hdMakeCurrentDevice(unsigned) {}
+void hdBeginFrame(unsigned) {
+  state.in_frame = 1;
+}
+void hdEndFrame(unsigned) {
+  state.in_frame = 0;
+}
+ErrorInfo hdGetError() {
+  const ErrorInfo info = {state.error, 0, 7};
+  return info;
+}
+const char* hdGetErrorString(unsigned) {
+  return "a fault of the fake";
+}
+void hdEnable(unsigned what) {
+  state.enabled |= 1 << (what - 0x4000);
+}
+void hdGetDoublev(unsigned what, double* values) {
+  switch (what) {
+    case 0x2050:
+      must_be_in_frame();
+      for (int i = 0; i < 3; ++i) values[i] = state.place_mm[i];
+      break;
+    case 0x2052:
+      for (int i = 0; i < 16; ++i) values[i] = state.transform[i];
+      break;
+    case 0x2603:
+      *values = 3.3;
+      break;
+    case 0x2604:
+      *values = 0.88;
+      break;
+    case 0x2602:
+      *values = 0.5;  // N/mm
+      break;
+    case 0x2551: {
+      const double box[6] = {-80, -60, -35, 80, 60, 35};
+      for (int i = 0; i < 6; ++i) values[i] = box[i];
+      break;
+    }
+    default:
+      state.misuses = state.misuses + 1;
+  }
+}
+void hdGetIntegerv(unsigned what, int* values) {
+  *values = what == 0x2000 ? state.buttons : 4;
+}
+const char* hdGetString(unsigned) {
+  return "PHANToM Omni";
+}
+void hdSetDoublev(unsigned what, const double* values) {
+  must_be_in_frame();
+  if (what != 0x2700) return;
+  for (int i = 0; i < 3; ++i) state.force[i] = values[i];
+}
+unsigned hdCheckCalibration() {
+  return state.calibration;
+}
+void hdUpdateCalibration(unsigned) {
+  state.calibration = state.after_update;
+}
+void hdStartScheduler() {
+  state.running = 1;
+  stop = false;
+  scheduler = std::thread(run);
+}
+void hdStopScheduler() {
+  stop = true;
+  if (scheduler.joinable()) scheduler.join();
+  state.running = 0;
+}
+void hdSetSchedulerRate(unsigned long) {}
+unsigned long hdScheduleAsynchronous(unsigned (*function)(void*), void* data, unsigned short) {
+  callback = function;
+  callback_data = data;
+  return 1;
+}
+void hdUnschedule(unsigned long) {
+  if (state.running != 0) state.misuses = state.misuses + 1;
+  callback = nullptr;
+}
+
+}  // extern "C"

@@ -1,0 +1,23 @@
+#pragma once
+
+/// A library of libHD.so's C interface with one device behind it and a scheduler of 1 kHz. Plain C data, since it is
+/// reached through dlsym: `struct FakeHd* fake_hd(void)`.
+
+struct FakeHd {
+  int present = 1;
+  unsigned error = 0;              // of the next hdGetError
+  unsigned calibration = 0x5000;   // what hdCheckCalibration says
+  unsigned after_update = 0x5000;  // and after hdUpdateCalibration
+  double place_mm[3] = {0, 0, 0};
+  double transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // column by column
+  double force[3] = {0, 0, 0};
+  int buttons = 0;
+  int stalled = 0;  // the scheduler calls nobody
+  int enabled = 0;  // bits: forces 1, clamping 2, ramping 4
+  int in_frame = 0;
+  int misuses = 0;  // calls outside a frame, or in an order that the real one does not bear
+  int running = 0;
+  int disabled = 0;
+  int callbacks = 0;
+  char named[64] = {};
+};

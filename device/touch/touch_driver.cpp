@@ -1,0 +1,254 @@
+#include "device/touch/touch_driver.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <exception>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "device/link/realtime.h"
+#include "device/vectors.h"
+
+namespace palpate::device {
+
+namespace {
+
+constexpr double mm = 1e-3;                  // m
+constexpr int callbacks_without_force = 20;  // after which a force that is not renewed becomes zero
+constexpr int calibration_every = 100;       // callbacks
+constexpr unsigned short top_priority = 65535;
+
+struct Model {
+  std::string_view word;  // of the library's name for it
+  double stiffness;       // N/m, as CHAI3D has them
+};
+constexpr std::array models{Model{"Omni", 700}, Model{"Desktop", 1000}, Model{"Premium", 1000}, Model{"Touch", 400}};
+
+double stiffness_of(std::string_view name) {
+  const auto found = std::find_if(models.begin(), models.end(),
+                                  [&](const Model& model) { return name.find(model.word) != std::string_view::npos; });
+  return found != models.end() ? found->stiffness : 400;
+}
+
+}  // namespace
+
+TouchDriver::TouchDriver(const TouchSettings& settings) : settings_(settings) {
+  sem_init(&sampled_, 0, 0);
+}
+
+TouchDriver::~TouchDriver() {
+  disconnect();
+  sem_destroy(&sampled_);
+}
+
+void TouchDriver::throw_error(const char* what) {
+  const hd::ErrorInfo error = hd_->get_error();
+  if (error.code == hd::success) return;
+  const char* const text = hd_->get_error_string(error.code);
+  const std::string reason = text != nullptr ? text : std::to_string(error.code);
+  disconnect();
+  throw std::runtime_error("3D Systems Touch: " + std::string(what) + ": " + reason +
+                           "; check its plug and power, and set it up with the maker's Touch_Setup");
+}
+
+void TouchDriver::read_model() {
+  const char* const named = hd_->get_string(hd::model_type);
+  const std::string name = named != nullptr ? named : "Touch";
+  double force = 0, continuous = 0, stiffness = 0;
+  std::array<double, 6> box{};  // mm: lowest x, y, z, highest x, y, z
+  hd_->get_doubles(hd::nominal_force, &force);
+  hd_->get_doubles(hd::nominal_continuous_force, &continuous);
+  hd_->get_doubles(hd::nominal_stiffness, &stiffness);
+  hd_->get_doubles(hd::usable_workspace, box.data());
+  throw_error("it does not tell what it can do");
+  maximum_force_ = settings_.maximum_force > 0 ? settings_.maximum_force : (force > 0 ? force : 3.3);
+  described_.name = name;
+  described_.orientation_axes = 3;
+  described_.maximum_force = maximum_force_;
+  described_.continuous_force = continuous > 0 ? std::min(continuous, maximum_force_) : maximum_force_ / 4;
+  // The library's is in N/mm, and is the motors'; what is rendered stably is the model's.
+  const double own = stiffness_of(name);
+  described_.stiffness_limit = settings_.stiffness_limit > 0 ? settings_.stiffness_limit
+                                                             : (stiffness > 0 ? std::min(own, 1e3 * stiffness) : own);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::size_t>(axis);
+    const double reach = mm * std::min(-box[at], box[at + 3]);
+    described_.workspace_half_extent[axis] = reach > 0.01 && reach < 1 ? reach : 0.05;
+  }
+  described_.position_resolution = 0.055e-3;
+  described_.rate = 1000;
+}
+
+void TouchDriver::connect() {
+  if (!hd_) hd_ = std::make_unique<HdLibrary>();
+  const std::uint64_t news = status_.news;
+  status_ = {};
+  status_.news = news;
+  status_.state = State::homing;
+  lost_ = false;
+  device_ = hd_->init_device(settings_.address.empty() ? nullptr : settings_.address.c_str());
+  const hd::ErrorInfo error = hd_->get_error();
+  if (device_ == hd::invalid_device || error.code != hd::success) {
+    const char* const text = hd_->get_error_string(error.code);
+    device_ = hd::invalid_device;
+    throw std::runtime_error(
+        "3D Systems Touch: it cannot be opened: " + std::string(text != nullptr ? text : "unknown") +
+        "; check its plug and power, and set it up with the maker's Touch_Setup");
+  }
+  hd_->make_current_device(device_);
+  read_model();
+  hd_->enable(hd::force_output);
+  hd_->enable(hd::max_force_clamping);
+  hd_->enable(hd::force_ramping);
+  throw_error("its forces cannot be switched on");
+  force_.store(Vec3(0));
+  unrenewed_ = callbacks_without_force;
+  calibrating_ = 0;
+  calibration_ = hd::needs_update;
+  hd_->set_scheduler_rate(1000);
+  scheduled_ = hd_->schedule_asynchronous(&TouchDriver::on_schedule, this, top_priority);
+  hd_->start_scheduler();
+  running_ = true;
+  throw_error("its servo loop does not start");
+}
+
+void TouchDriver::disconnect() noexcept {
+  if (device_ == hd::invalid_device) return;
+  // Unscheduling while the scheduler runs hangs.
+  if (running_) {
+    hd_->stop_scheduler();
+    hd_->unschedule(scheduled_);
+    running_ = false;
+  }
+  hd_->disable_device(device_);
+  device_ = hd::invalid_device;
+}
+
+double TouchDriver::now() noexcept {
+  return monotonic_time();
+}
+
+unsigned TouchDriver::on_schedule(void* self) {
+  auto& driver = *static_cast<TouchDriver*>(self);
+  driver.sample_.store(driver.exchange());
+  sem_post(&driver.sampled_);
+  return hd::callback_continue;
+}
+
+TouchDriver::Sample TouchDriver::exchange() noexcept {
+  Sample sample;
+  unrenewed_ = force_.has_news() ? 0 : std::min(unrenewed_ + 1, callbacks_without_force);
+  const Vec3 newest = force_.load();
+  hd_->begin_frame(device_);
+  if (calibration_ != hd::calibrated && calibrating_++ % calibration_every == 0) {
+    calibration_ = hd_->check_calibration();
+    if (calibration_ == hd::needs_update) {
+      int style = 0;
+      hd_->get_integers(hd::calibration_style, &style);
+      hd_->update_calibration(static_cast<unsigned>(style));
+      calibration_ = hd_->check_calibration();
+    }
+  }
+  hd_->get_doubles(hd::position, &sample.position_mm.x);
+  hd_->get_doubles(hd::transform, sample.transform);
+  hd_->get_integers(hd::buttons, &sample.buttons);
+  const bool may_push = calibration_ == hd::calibrated && unrenewed_ < callbacks_without_force;
+  const Vec3 force = may_push ? clamp_length(newest, maximum_force_) : Vec3(0);
+  hd_->set_doubles(hd::current_force, &force.x);
+  hd_->end_frame(device_);
+  sample.error = hd_->get_error().code;
+  sample.calibration = calibration_;
+  return sample;
+}
+
+void TouchDriver::take(double timeout) noexcept {
+  timespec until{};
+  clock_gettime(CLOCK_REALTIME, &until);
+  const auto end = static_cast<std::int64_t>(until.tv_nsec) + static_cast<std::int64_t>(timeout * 1e9);
+  until.tv_sec += end / 1'000'000'000;
+  until.tv_nsec = static_cast<long>(end % 1'000'000'000);
+  if (sem_timedwait(&sampled_, &until) != 0) return;
+  while (sem_trywait(&sampled_) == 0) {
+  }
+  follow(sample_.load());
+}
+
+void TouchDriver::follow(const Sample& sample) noexcept {
+  if (status_.state == State::fault || lost_) return;
+  switch (sample.error) {
+    case hd::success:
+    case hd::exceeded_force:  // it was clamped
+    case hd::force_impulse:
+      break;
+    case hd::warm_motors:
+    case 0x203:  // moved too fast
+    case 0x204:  // the force does not reach it
+      status_.state = State::fault;
+      status_.fault = LinkFault::own_safety;
+      return;
+    default:
+      lost_ = true;
+      return;
+  }
+  const Vec3 place = mm * sample.position_mm;
+  if (!is_finite(place) || glm::length(place) > 1) {
+    status_.state = State::fault;
+    status_.fault = LinkFault::unreachable_pose;
+    return;
+  }
+  ++status_.news;
+  status_.buttons = static_cast<std::uint32_t>(sample.buttons);
+  if (sample.calibration != hd::calibrated) {
+    status_.state = State::homing;
+    return;
+  }
+  status_.state = State::idle;
+  status_.position = place;
+  glm::dmat3 turned;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) turned[column][row] = sample.transform[4 * column + row];
+  }
+  const glm::dquat orientation = glm::quat_cast(turned);
+  const double length = glm::length(orientation);
+  if (std::isfinite(length) && length > 0.5) status_.orientation = orientation / length;
+}
+
+void TouchDriver::flush(double timeout) noexcept {
+  // The library's thread takes the last force within its period.
+  std::this_thread::sleep_for(std::chrono::duration<double>(std::min(timeout, 0.003)));
+}
+
+std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const LinkStylusOptions& options) {
+  Specification specification;
+  specification.name = "3D Systems Touch";
+  specification.orientation_axes = 3;
+  specification.workspace_half_extent = Vec3(0.08, 0.06, 0.035);
+  specification.position_resolution = 0.055e-3;
+  specification.maximum_force = settings.maximum_force > 0 ? settings.maximum_force : 3.3;
+  specification.continuous_force = specification.maximum_force / 4;
+  specification.stiffness_limit = settings.stiffness_limit > 0 ? settings.stiffness_limit : 400;
+  specification.rate = 1000;
+  return std::make_unique<LinkStylus>(specification, std::make_unique<TouchDriver>(settings), options);
+}
+
+std::unique_ptr<Stylus> make_touch(const TouchSettings& settings) {
+  return make_touch_with(settings, {});
+}
+
+std::vector<FoundDevice> find_touch() {
+  try {
+    const HdLibrary hd;
+    return {{"touch", "3D Systems Touch", "", true,
+             "OpenHaptics is installed; whether a device is there shows when it is connected"}};
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+}  // namespace palpate::device

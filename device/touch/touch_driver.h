@@ -1,0 +1,71 @@
+#pragma once
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "device/link/driver.h"
+#include "device/link/latest.h"
+#include "device/link/link_stylus.h"
+#include "device/touch/hd_library.h"
+#include "device/touch/touch.h"
+
+namespace palpate::device {
+
+/// The library calls back a thousand times a second, in a thread of its own: poses and forces are handed across.
+class TouchDriver final : public Driver {
+ public:
+  explicit TouchDriver(const TouchSettings& settings);
+  ~TouchDriver() override;
+
+  void connect() override;
+  void disconnect() noexcept override;
+  double now() noexcept override;
+  void take(double timeout) noexcept override;
+  void give(const Vec3& force) noexcept override { force_.store(force); }
+  void flush(double timeout) noexcept override;
+  bool lost() const noexcept override { return lost_; }
+  const ProtocolStatus& status() const noexcept override { return status_; }
+  void describe(Specification& specification) const override { specification = described_; }
+
+ private:
+  /// Of one callback.
+  struct Sample {
+    Vec3 position_mm{0};
+    double transform[16] = {};
+    int buttons = 0;
+    unsigned error = hd::success;
+    unsigned calibration = hd::calibrated;
+  };
+
+  static unsigned on_schedule(void* self);
+  Sample exchange() noexcept;
+  void read_model();
+  void follow(const Sample& sample) noexcept;
+  void throw_error(const char* what);
+
+  TouchSettings settings_;
+  std::unique_ptr<HdLibrary> hd_;
+  unsigned device_ = hd::invalid_device;
+  unsigned long scheduled_ = 0;
+  bool running_ = false;
+  double maximum_force_ = 3.3;
+  Specification described_;
+  ProtocolStatus status_;
+  bool lost_ = false;
+  // Across the threads.
+  Latest<Sample> sample_;
+  Latest<Vec3> force_;
+  sem_t sampled_;
+  // The library's thread's.
+  int unrenewed_ = 0;    // callbacks since a force came
+  int calibrating_ = 0;  // callbacks since the calibration was looked at
+  unsigned calibration_ = hd::needs_update;
+};
+
+/// The same stylus as make_touch()'s, with other options.
+std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const LinkStylusOptions& options);
+
+}  // namespace palpate::device

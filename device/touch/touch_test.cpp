@@ -1,0 +1,186 @@
+#include "device/touch/touch.h"
+
+#include <dlfcn.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <string>
+#include <thread>
+
+#include "device/testing/fake_libhd.h"
+#include "device/touch/touch_driver.h"
+
+namespace palpate::device {
+namespace {
+
+class Touch : public testing::Test {
+ protected:
+  Touch() {
+    setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
+    void* const library = dlopen(PALPATE_FAKE_LIBHD, RTLD_NOW | RTLD_NODELETE);
+    hd = reinterpret_cast<FakeHd* (*)()>(dlsym(library, "fake_hd"))();
+    *hd = FakeHd{};
+  }
+  ~Touch() override { unsetenv("PALPATE_LIBHD"); }
+
+  static std::unique_ptr<LinkStylus> unthreaded(const TouchSettings& settings = {}) {
+    LinkStylusOptions options;
+    options.threaded = false;
+    return make_touch_with(settings, options);
+  }
+  /// Exchanges as long as something does not hold, at most two seconds.
+  static bool comes(LinkStylus& stylus, const Vec3& force, const std::function<bool()>& holds) {
+    for (int i = 0; i < 2000 && !holds(); ++i) {
+      stylus.write_force(force);
+      stylus.service(1e-3);
+    }
+    return holds();
+  }
+  Vec3 acting() const { return {hd->force[0], hd->force[1], hd->force[2]}; }
+  static void expect_refusal(const std::function<void()>& open, const std::string& why) {
+    try {
+      open();
+      FAIL() << "not refused: " << why;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("3D Systems Touch"));
+      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+    }
+  }
+
+  FakeHd* hd = nullptr;
+};
+
+TEST_F(Touch, PosesAreInMetresAndForcesArriveWithTheirSigns) {
+  hd->place_mm[0] = 10;
+  hd->place_mm[1] = -20;
+  hd->place_mm[2] = 30;
+  hd->buttons = 2;
+  const auto stylus = unthreaded();
+  stylus->open();
+  const Vec3 asked(0.1, -0.2, 0.3);
+  EXPECT_TRUE(comes(*stylus, asked, [&] { return acting() == asked; }));
+  EXPECT_EQ(stylus->state(), State::idle);
+  EXPECT_LT(glm::distance(stylus->read().position, Vec3(0.010, -0.020, 0.030)), 1e-12);
+  EXPECT_EQ(stylus->read().buttons, 2U);
+  EXPECT_EQ(hd->misuses, 0);
+  EXPECT_EQ(hd->enabled, 7);
+}
+
+TEST_F(Touch, TellsItsModelsLimits) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  const Specification can = stylus->specification();
+  EXPECT_EQ(can.name, "PHANToM Omni");
+  EXPECT_DOUBLE_EQ(can.maximum_force, 3.3);
+  EXPECT_DOUBLE_EQ(can.continuous_force, 0.88);
+  EXPECT_DOUBLE_EQ(can.stiffness_limit, 500) << "the library's 0.5 N/mm is below the model's 700 N/m";
+  EXPECT_LT(glm::distance(can.workspace_half_extent, Vec3(0.080, 0.060, 0.035)), 1e-12);
+}
+
+TEST_F(Touch, PushesNothingBeforeItIsCalibrated) {
+  hd->calibration = hd->after_update = 0x5002;  // by hand: the inkwell
+  const auto stylus = unthreaded();
+  stylus->open();
+  EXPECT_FALSE(comes(*stylus, Vec3(0, 1, 0), [&] { return hd->callbacks > 250 || acting() != Vec3(0); }) &&
+               acting() != Vec3(0));
+  EXPECT_EQ(stylus->state(), State::homing);
+  hd->calibration = 0x5000;
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  EXPECT_EQ(stylus->state(), State::idle);
+}
+
+TEST_F(Touch, CalibratesItselfWhereItCan) {
+  hd->calibration = 0x5001;
+  const auto stylus = unthreaded();
+  stylus->open();
+  EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; }));
+}
+
+TEST_F(Touch, AForceThatNobodyRenewsEnds) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // no exchange at all
+  EXPECT_EQ(acting(), Vec3(0));
+}
+
+TEST_F(Touch, ClosesInTheOrderThatTheLibraryBears) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  stylus->close();
+  EXPECT_EQ(acting(), Vec3(0));
+  EXPECT_EQ(hd->disabled, 1);
+  EXPECT_EQ(hd->running, 0);
+  EXPECT_EQ(hd->misuses, 0);
+  stylus->open();
+  EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; })) << "again";
+}
+
+TEST_F(Touch, EveryErrorEndsAsItShould) {
+  const struct {
+    unsigned code;
+    LinkFault fault;
+  } errors[] = {{0x200, LinkFault::own_safety},
+                {0x203, LinkFault::own_safety},
+                {0x204, LinkFault::own_safety},
+                {0x300, LinkFault::unplugged},
+                {0x302, LinkFault::unplugged}};
+  for (const auto& error : errors) {
+    *hd = FakeHd{};
+    const auto stylus = unthreaded();
+    stylus->open();
+    ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+    hd->error = error.code;
+    EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->fault() != LinkFault::none; })) << error.code;
+    EXPECT_EQ(stylus->fault(), error.fault) << error.code;
+    EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0); })) << error.code;
+  }
+  for (const unsigned harmless : {0x201U, 0x202U}) {
+    *hd = FakeHd{};
+    const auto stylus = unthreaded();
+    stylus->open();
+    hd->error = harmless;
+    EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); })) << "it clamped the force";
+    EXPECT_EQ(stylus->fault(), LinkFault::none);
+  }
+}
+
+TEST_F(Touch, ASchedulerThatStandsStillIsSilence) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  hd->stalled = 1;
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->fault() == LinkFault::silent; }));
+}
+
+TEST_F(Touch, WhatIsMissingIsSaid) {
+  hd->present = 0;
+  expect_refusal([] { unthreaded()->open(); },
+                 "3D Systems Touch: it cannot be opened: a fault of the fake; check its plug and power, and set it up "
+                 "with the maker's Touch_Setup");
+  // Where it gives no reason: "no device".
+  setenv("PALPATE_LIBHD", "/absent/libHD.so", 1);
+  expect_refusal([] { unthreaded()->open(); }, ": its maker's library cannot be loaded (");
+  EXPECT_TRUE(find_touch().empty());
+  setenv("PALPATE_LIBHD", "libm.so.6", 1);
+  expect_refusal([] { unthreaded()->open(); }, " is another version: it has no hdInitDevice; ");
+}
+
+TEST_F(Touch, TheTransformTurnsTheStylus) {
+  const double turned[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // x goes to y
+  for (int i = 0; i < 16; ++i) hd->transform[i] = turned[i];
+  const auto stylus = unthreaded({.address = "Left"});
+  stylus->open();
+  EXPECT_STREQ(hd->named, "Left");
+  ASSERT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; }));
+  comes(*stylus, Vec3(0), [] { return false; });
+  EXPECT_LT(glm::distance(stylus->read().orientation * Vec3(1, 0, 0), Vec3(0, 1, 0)), 1e-12);
+}
+
+}  // namespace
+}  // namespace palpate::device
