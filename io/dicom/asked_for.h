@@ -8,4 +8,7 @@ namespace palpate::io::internal {
 /// a sequence goes with it. Asking for another one throws std::logic_error (dicom_value.h): add it here.
 bool is_asked_for(std::uint32_t tag);
 
+/// Whether the reader of structures (io/structures) asks for it: of segmentations and contours more than of images.
+bool is_asked_for_of_structures(std::uint32_t tag);
+
 }  // namespace palpate::io::internal

@@ -316,7 +316,8 @@ std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const Da
 }
 
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
-                                         const DatasetStart& start, DcmDataset& dataset) {
+                                         const DatasetStart& start, DcmDataset& dataset,
+                                         bool (*wants)(std::uint32_t tag)) {
   DatasetShape shape;
   // Pixels, and what nobody asks for, stay out: DCMTK takes a microsecond an element.
   std::vector<std::byte> wanted;
@@ -325,11 +326,11 @@ std::optional<PixelElement> parse_header(const InputFile& file, const std::files
   if (start.deflated) {
     const auto once = inflated(path, start);
     HeaderBytes bytes(*once);
-    shape = check_structure(bytes, start.encoding, is_asked_for);
+    shape = check_structure(bytes, start.encoding, wants);
     wanted = wanted_bytes(*inflated(path, start), shape);
   } else {
     FileBytes bytes(file, start.at);
-    shape = check_structure(bytes, start.encoding, is_asked_for);
+    shape = check_structure(bytes, start.encoding, wants);
     if (shape.header_end > longest_header) refuse_long_header();
     wanted.resize(shape.header_end);
     file.read(start.at, wanted);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "io/dicom/asked_for.h"
 #include "io/dicom/input_file.h"
 #include "io/dicom/structure.h"
 
@@ -29,10 +30,11 @@ DatasetStart find_dataset(const InputFile& file);
 /// A deflated dataset, inflated as it is read.
 std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start);
 
-/// Reads what is_asked_for() of all before the pixel data into `dataset`, having checked that this is safe. Returns
+/// Reads what is wanted of all before the pixel data into `dataset`, having checked that this is safe. Returns
 /// where the pixel data is (in the inflated dataset, where it is deflated); nothing where there is none. Throws
 /// DicomError.
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
-                                         const DatasetStart& start, DcmDataset& dataset);
+                                         const DatasetStart& start, DcmDataset& dataset,
+                                         bool (*wants)(std::uint32_t tag) = is_asked_for);
 
 }  // namespace palpate::io::internal

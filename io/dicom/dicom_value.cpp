@@ -20,7 +20,8 @@ namespace {
 
 // A dataset holds only what is asked for: what is missing from that list must not seem to be missing from the file.
 void check_asked_for(const DcmItem& item, const DcmTagKey& tag) {
-  if (item.ident() == EVR_dataset && !is_asked_for(std::uint32_t{tag.getGroup()} << 16 | tag.getElement())) {
+  const std::uint32_t number = std::uint32_t{tag.getGroup()} << 16 | tag.getElement();
+  if (item.ident() == EVR_dataset && !is_asked_for(number) && !is_asked_for_of_structures(number)) {
     throw std::logic_error(std::string(tag.toString().c_str()) + " has to be added to is_asked_for()");
   }
 }

@@ -11,6 +11,7 @@ namespace palpate::plugin {
 // Each adds its subcommand to the program; the subcommand's callback does the work, prints to stdout and throws
 // InputRefused or WrongUsage.
 void add_info(CLI::App& program);
+void add_structures(CLI::App& program);
 void add_sample(CLI::App& program);
 void add_suggest(CLI::App& program);
 void add_plan(CLI::App& program);

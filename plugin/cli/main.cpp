@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
       "palpate"};
   program.set_version_flag("--version", version_text());
   add_info(program);
+  add_structures(program);
   add_sample(program);
   add_solve(program);
   add_suggest(program);

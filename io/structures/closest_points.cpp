@@ -1,0 +1,192 @@
+#include "io/structures/closest_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "io/parallel.h"
+#include "io/structures/cubic.h"
+
+namespace palpate::io {
+namespace {
+
+constexpr int edge = NodeBricks::edge;
+constexpr std::size_t nodes = NodeBricks::nodes;
+constexpr int margin = 5;  // how many nodes beyond its brick a Newton step may look
+constexpr int wide = edge + 2 * margin;
+constexpr float no_node = std::numeric_limits<float>::quiet_NaN();
+
+/// f around a brick, interpolated.
+class Surroundings {
+ public:
+  Surroundings(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot)
+      : spacing_(bricks.lattice.spacing), numbers_(static_cast<std::size_t>(wide) * wide * wide) {
+    gather<margin, float>(bricks, f, slot, no_node, numbers_.data());
+  }
+  float at(int i, int j, int k) const {
+    return numbers_[static_cast<std::size_t>(((k + margin) * wide + j + margin) * wide + i + margin)];
+  }
+  /// At a node's coordinates in the brick; the slope is per mm. NaN where it is not known.
+  double sample(const Vec3& node, Vec3& slope) const {
+    const Vec3 base = glm::floor(node);
+    const glm::ivec3 first = glm::ivec3(base) - 1 + margin;
+    if (!(first.x >= 0 && first.y >= 0 && first.z >= 0 && first.x + 3 < wide && first.y + 3 < wide &&
+          first.z + 3 < wide)) {
+      return no_node;
+    }
+    const Vec3 t = node - base;
+    const CubicSample sample =
+        cubic_sample(numbers_.data() + (first.z * wide + first.y) * wide + first.x, wide, wide * wide,
+                     CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+    slope = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / spacing_;
+    return sample.value;
+  }
+
+ private:
+  Vec3 spacing_;
+  std::vector<float> numbers_;
+};
+
+/// The point of the surface closest to a node, as far as Newton's steps find one; the node's own coordinates in mm.
+bool newton(const Surroundings& f, const Vec3& spacing, const glm::ivec3& node, Vec3& closest) {
+  const double least = std::min({spacing.x, spacing.y, spacing.z});
+  const Vec3 start = Vec3(node) * spacing;
+  Vec3 at = start;
+  for (int n = 0; n < 6; ++n) {
+    Vec3 slope(0);
+    const double value = f.sample(at / spacing, slope);
+    const double steep = glm::dot(slope, slope);
+    if (!(steep > 1e-4) || !std::isfinite(value)) {
+      return false;
+    }
+    const Vec3 down = -value / steep * slope;
+    const Vec3 back = start - at;
+    const Vec3 aside = n == 5 ? Vec3(0) : back - glm::dot(back, slope) / steep * slope;
+    const Vec3 step = down + aside;
+    at += step;
+    if (glm::length(step) < 1e-3 * least) {
+      break;
+    }
+  }
+  Vec3 slope(0);
+  const double value = f.sample(at / spacing, slope);
+  if (!(std::abs(value) < 0.05 * least * glm::length(slope))) {
+    return false;
+  }
+  closest = at;
+  return true;
+}
+
+void offer(const Vec3f& node, const Vec3f& point, float& least, Vec3f& closest) {
+  const Vec3f away = node - point;
+  const float squared = glm::dot(away, away);
+  if (squared < least) {
+    least = squared;
+    closest = point;
+  }
+}
+
+/// Points on the edges to the neighbors on the other side, and by Newton's steps.
+void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest) {
+  const Vec3& spacing = bricks.lattice.spacing;
+  const Vec3 corner = Vec3(bricks.place[slot] * edge) * spacing;
+  const Surroundings around(bricks, f, slot);
+  const double near = 2.2 * std::max({spacing.x, spacing.y, spacing.z});
+  for (int k = 0; k < edge; ++k) {
+    for (int j = 0; j < edge; ++j) {
+      for (int i = 0; i < edge; ++i) {
+        const float here = around.at(i, j, k);
+        Vec3f& best = closest[NodeBricks::at(i, j, k)];
+        best = Vec3f(nowhere);
+        if (!(std::abs(here) <= near)) {
+          continue;
+        }
+        const Vec3 node = corner + Vec3(i, j, k) * spacing;
+        float least = std::numeric_limits<float>::max();
+        for (int side = 0; side < 6; ++side) {
+          glm::ivec3 toward(0);
+          toward[side / 2] = side % 2 == 0 ? -1 : 1;
+          const float there = around.at(i + toward.x, j + toward.y, k + toward.z);
+          if ((here > 0) != (there > 0) && there == there) {
+            const double part = static_cast<double>(here) / (static_cast<double>(here) - there);
+            offer(Vec3f(node), Vec3f(node + part * Vec3(toward) * spacing), least, best);
+          }
+        }
+        Vec3 found;
+        if (newton(around, spacing, {i, j, k}, found)) {
+          // It lies on the surface; where it is the nearer one, or close to it, it is also the more exact.
+          const Vec3f point(corner + found);
+          const Vec3f away = Vec3f(node) - point;
+          if (best.x == nowhere || glm::dot(away, away) < 1.2F * least + 0.01F) {
+            best = point;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Takes the neighbors' closest points over where they are closer: forth and back through a brick.
+void spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::size_t slot, Vec3f* closest) {
+  constexpr int side = edge + 2;
+  std::array<Vec3f, static_cast<std::size_t>(side) * side * side> around;
+  gather<1, Vec3f>(bricks, before, slot, Vec3f(nowhere), around.data());
+  const Vec3f spacing(bricks.lattice.spacing);
+  const Vec3f corner = Vec3f(bricks.place[slot] * edge) * spacing;
+  const auto visit = [&](int i, int j, int k) {
+    Vec3f* here = around.data() + ((k + 1) * side + j + 1) * side + i + 1;
+    const Vec3f node = corner + Vec3f(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)) * spacing;
+    const Vec3f away = node - *here;
+    float least = glm::dot(away, away);
+    for (const int step : {-1, 1, -side, side, -side * side, side * side}) {
+      offer(node, here[step], least, *here);
+    }
+  };
+  for (int k = 0; k < edge; ++k) {
+    for (int j = 0; j < edge; ++j) {
+      for (int i = 0; i < edge; ++i) visit(i, j, k);
+    }
+  }
+  for (int k = edge; k-- > 0;) {
+    for (int j = edge; j-- > 0;) {
+      for (int i = edge; i-- > 0;) visit(i, j, k);
+    }
+  }
+  for (int k = 0; k < edge; ++k) {
+    for (int j = 0; j < edge; ++j) {
+      for (int i = 0; i < edge; ++i) {
+        closest[NodeBricks::at(i, j, k)] = around[static_cast<std::size_t>(((k + 1) * side + j + 1) * side + i + 1)];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<float>& f, double band_mm, int threads) {
+  constexpr std::size_t stretch = 32;
+  const std::size_t count = bricks.count();
+  const auto for_bricks = [&](const auto& work) {
+    internal::parallel_for(
+        (count + stretch - 1) / stretch,
+        [&](std::size_t n) {
+          for (std::size_t slot = n * stretch; slot < std::min(count, (n + 1) * stretch); ++slot) work(slot);
+        },
+        {}, threads);
+  };
+  std::vector<Vec3f> closest(count * nodes);
+  for_bricks([&](std::size_t slot) { points_near_surface(bricks, f, slot, closest.data() + slot * nodes); });
+  const Vec3& h = bricks.lattice.spacing;
+  const double brick_mm = edge * std::min({h.x, h.y, h.z});
+  const int passes = 2 + static_cast<int>(std::ceil(band_mm / brick_mm));
+  std::vector<Vec3f> next(closest.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    for_bricks([&](std::size_t slot) { spread(bricks, closest, slot, next.data() + slot * nodes); });
+    closest.swap(next);
+  }
+  return closest;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,24 @@
+#pragma once
+
+/// From a field whose zero is the surface to the distance from it: each node's closest point on the surface. The field
+/// itself is no distance where a structure is thin or hollow; its closest points are.
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "io/structures/node_bricks.h"
+
+namespace palpate::io {
+
+using Vec3f = glm::vec3;
+
+/// Where no closest point is known.
+inline constexpr float nowhere = 1e9F;
+
+/// Of every node of every brick: the closest point of the surface f = 0 (as f is interpolated, cubic.h), mm along the
+/// lattice's axes from its origin. Near the surface by Newton's steps along and across the gradient (Chopp, "Some
+/// improvements of the fast marching method", SIAM J. Sci. Comput. 23, 2001), farther away from neighbor to neighbor
+/// (Danielsson, "Euclidean distance mapping", 1980). The same to the last bit on any number of threads.
+std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<float>& f, double band_mm, int threads);
+
+}  // namespace palpate::io

@@ -1,0 +1,30 @@
+#pragma once
+
+/// The distance far from a surface, on a coarse lattice.
+
+#include <vector>
+
+#include "io/structures/closest_points.h"
+
+namespace palpate::io {
+
+/// A lattice along the patient's axes.
+struct CoarseLattice {
+  Vec3 origin{0};
+  double spacing = 1;  ///< mm
+  glm::ivec3 size{0};  ///< nodes
+
+  std::size_t count() const noexcept {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+  }
+};
+
+/// Over a box, with as many nodes as make its interpolation good and its memory small.
+CoarseLattice coarse_lattice(const Vec3& low_mm, const Vec3& high_mm);
+
+/// Signed distances, mm, of its nodes, from the closest points of the bricks' nodes and from neighbor to neighbor
+/// (Danielsson 1980). `f` says on which side the bricks' nodes are.
+std::vector<float> coarse_distances(const CoarseLattice& coarse, const NodeBricks& bricks, const std::vector<float>& f,
+                                    const std::vector<Vec3f>& closest);
+
+}  // namespace palpate::io

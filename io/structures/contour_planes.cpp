@@ -1,0 +1,328 @@
+#include "io/structures/contour_planes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+
+#include "io/errors.h"
+#include "io/structures/beyond_slices.h"
+
+namespace palpate::io {
+namespace {
+
+using Polygon = std::vector<glm::dvec2>;
+
+constexpr double same_plane_mm = 0.01;
+constexpr int most_planes = 4096;
+constexpr double most_missing = 4.5;  // steps between two planes of one body
+constexpr double finest_mm = 0.5;
+constexpr double coarsest_mm = 1.5;
+
+/// Newell's normal: its length is twice the area.
+Vec3 normal_of(const Contour& contour) {
+  Vec3 sum(0);
+  for (std::size_t n = 0; n < contour.size(); ++n) {
+    sum += glm::cross(contour[n] - contour.front(), contour[(n + 1) % contour.size()] - contour.front());
+  }
+  return sum;
+}
+
+/// The axes of the patient where the planes lie along them, so that nothing is turned for rounding's sake.
+glm::dmat3 axes_of(Vec3 normal) {
+  for (int a = 0; a < 3; ++a) {
+    if (std::abs(normal[a]) > 1 - 1e-6) {
+      normal = Vec3(0);
+      normal[a] = 1;
+    }
+  }
+  const Vec3 along = std::abs(normal.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  const Vec3 i = glm::normalize(along - glm::dot(along, normal) * normal);
+  return glm::dmat3(i, glm::cross(normal, i), normal);
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+/// Twice the signed area of a polygon, and its centroid times that.
+double twice_area(const Polygon& polygon, glm::dvec2& moment) {
+  double area = 0;
+  moment = glm::dvec2(0);
+  const glm::dvec2 base = polygon.front();
+  for (std::size_t n = 0; n < polygon.size(); ++n) {
+    const glm::dvec2 a = polygon[n] - base, b = polygon[(n + 1) % polygon.size()] - base;
+    area += cross(a, b);
+    moment += cross(a, b) / 3.0 * (a + b);
+  }
+  moment += area * base;
+  return area;
+}
+
+bool holds(const Polygon& polygon, const glm::dvec2& at) {
+  bool inside = false;
+  for (std::size_t n = 0; n < polygon.size(); ++n) {
+    const glm::dvec2& a = polygon[n];
+    const glm::dvec2& b = polygon[(n + 1) % polygon.size()];
+    if ((a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+  }
+  return inside;
+}
+
+double typical_step(const std::vector<ContourStack::Plane>& planes) {
+  std::vector<double> steps;
+  for (std::size_t n = 0; n + 1 < planes.size(); ++n) steps.push_back(planes[n + 1].height - planes[n].height);
+  if (steps.empty()) {
+    return 1;
+  }
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  return steps[steps.size() / 2];
+}
+
+/// Which columns of a row of nodes lie inside, by even-odd.
+void fill_row(const std::vector<Polygon>& polygons, double y, double first, double step, std::vector<char>& inside) {
+  std::vector<double> crossings;
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t n = 0; n < polygon.size(); ++n) {
+      const glm::dvec2& a = polygon[n];
+      const glm::dvec2& b = polygon[(n + 1) % polygon.size()];
+      if ((a.y > y) != (b.y > y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    }
+  }
+  std::sort(crossings.begin(), crossings.end());
+  std::fill(inside.begin(), inside.end(), 0);
+  for (std::size_t n = 0; n + 1 < crossings.size(); n += 2) {
+    const double from = std::ceil((crossings[n] - first) / step);
+    const double to = std::floor((crossings[n + 1] - first) / step);
+    for (double i = std::max(from, 0.0); i <= to && i < static_cast<double>(inside.size()); ++i) {
+      inside[static_cast<std::size_t>(i)] = 1;
+    }
+  }
+}
+
+/// Squared distances of all nodes within the band to a segment.
+void draw_segment(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& origin, const glm::dvec2& step,
+                  const glm::ivec2& size, double band, std::vector<float>& squared) {
+  const glm::dvec2 low = (glm::min(a, b) - band - origin) / step;
+  const glm::dvec2 high = (glm::max(a, b) + band - origin) / step;
+  const glm::ivec2 first = glm::max(glm::ivec2(glm::floor(low)), glm::ivec2(0));
+  const glm::ivec2 last = glm::min(glm::ivec2(glm::ceil(high)), size - 1);
+  const glm::dvec2 along = b - a;
+  const double length = glm::dot(along, along);
+  for (int j = first.y; j <= last.y; ++j) {
+    for (int i = first.x; i <= last.x; ++i) {
+      const glm::dvec2 at = origin + glm::dvec2(i, j) * step;
+      const double part = length > 0 ? std::clamp(glm::dot(at - a, along) / length, 0.0, 1.0) : 0.0;
+      const glm::dvec2 away = at - a - part * along;
+      float& best = squared[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) +
+                            static_cast<std::size_t>(i)];
+      best = std::min(best, static_cast<float>(glm::dot(away, away)));
+    }
+  }
+}
+
+/// A "keyhole" leads from the outline to a hole and back along the same way: that way is no edge.
+std::vector<std::pair<glm::dvec2, glm::dvec2>> edges_of(const std::vector<Polygon>& polygons) {
+  using Key = std::array<long long, 4>;
+  const auto key_of = [](const glm::dvec2& a, const glm::dvec2& b) {
+    constexpr double per_mm = 1000;
+    return Key{std::llround(a.x * per_mm), std::llround(a.y * per_mm), std::llround(b.x * per_mm),
+               std::llround(b.y * per_mm)};
+  };
+  std::map<Key, int> backward;
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t n = 0; n < polygon.size(); ++n) ++backward[key_of(polygon[(n + 1) % polygon.size()], polygon[n])];
+  }
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> edges;
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t n = 0; n < polygon.size(); ++n) {
+      const glm::dvec2& a = polygon[n];
+      const glm::dvec2& b = polygon[(n + 1) % polygon.size()];
+      if (a != b && backward.find(key_of(a, b)) == backward.end()) edges.emplace_back(a, b);
+    }
+  }
+  return edges;
+}
+
+/// Planes of distances: the contours' own, and empty ones beyond their ends.
+struct Layout {
+  std::vector<const ContourStack::Plane*> planes;  ///< null: empty
+  glm::dvec2 origin{0};
+};
+
+void compute_plane(const Layout& layout, const NodeLattice& lattice, double band, std::size_t n,
+                   PlaneDistances& distances) {
+  const glm::ivec2 size(lattice.bricks * NodeBricks::edge);
+  const auto count = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+  distances.to_inside.assign(count, PlaneDistances::far);
+  distances.to_outside.assign(count, 0);
+  if (layout.planes[n] == nullptr) {
+    return;
+  }
+  const std::vector<Polygon>& polygons = layout.planes[n]->polygons;
+  const glm::dvec2 step(lattice.spacing);
+  std::vector<float> squared(count, PlaneDistances::far);
+  for (const auto& [a, b] : edges_of(polygons)) draw_segment(a, b, layout.origin, step, size, band, squared);
+  std::vector<char> inside(static_cast<std::size_t>(size.x));
+  for (int j = 0; j < size.y; ++j) {
+    fill_row(polygons, layout.origin.y + j * step.y, layout.origin.x, step.x, inside);
+    for (int i = 0; i < size.x; ++i) {
+      const std::size_t at =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(i);
+      const bool is_in = inside[static_cast<std::size_t>(i)] != 0;
+      distances.to_inside[at] = is_in ? 0 : squared[at];
+      distances.to_outside[at] = is_in ? squared[at] : 0;
+    }
+  }
+}
+
+}  // namespace
+
+ContourStack stack_of(const std::vector<Contour>& contours) {
+  if (contours.empty()) {
+    throw DicomError("it is empty: it has no closed contour");
+  }
+  Vec3 normal(0);
+  for (const Contour& contour : contours) {
+    const Vec3 own = normal_of(contour);
+    if (glm::length(own) > glm::length(normal)) normal = own;
+  }
+  if (!(glm::length(normal) > 0)) {
+    throw DicomError("its contours have no area");
+  }
+  ContourStack stack;
+  stack.axes = axes_of(glm::normalize(normal));
+  stack.contours = contours.size();
+  std::map<long long, std::size_t> plane_at;
+  for (const Contour& contour : contours) {
+    Polygon polygon;
+    double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
+    for (const Vec3& point : contour) {
+      const Vec3 at = glm::transpose(stack.axes) * point;
+      polygon.emplace_back(at);
+      low = std::min(low, at.z);
+      high = std::max(high, at.z);
+      sum += at.z;
+    }
+    if (!(high - low < 0.5)) {
+      throw DicomError("its contours do not lie in parallel planes: export it as SEG");
+    }
+    const double height = sum / static_cast<double>(contour.size());
+    const auto [place, is_new] = plane_at.try_emplace(std::llround(height / same_plane_mm), stack.planes.size());
+    if (is_new) stack.planes.push_back({height, {}});
+    stack.planes[place->second].polygons.push_back(std::move(polygon));
+  }
+  std::sort(stack.planes.begin(), stack.planes.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
+  if (static_cast<int>(stack.planes.size()) > most_planes) {
+    throw DicomError("its contours lie in " + std::to_string(stack.planes.size()) + " planes; there may be 4096");
+  }
+  stack.step_mm = typical_step(stack.planes);
+  return stack;
+}
+
+StructureMeasures measures_of(const std::vector<Contour>& contours) {
+  const ContourStack stack = stack_of(contours);
+  StructureMeasures measures;
+  measures.contours = contours.size();
+  measures.box_low_mm = Vec3(std::numeric_limits<double>::infinity());
+  measures.box_high_mm = -measures.box_low_mm;
+  for (const Contour& contour : contours) {
+    for (const Vec3& point : contour) {
+      measures.box_low_mm = glm::min(measures.box_low_mm, point);
+      measures.box_high_mm = glm::max(measures.box_high_mm, point);
+    }
+  }
+  double area = 0;
+  Vec3 moment(0);
+  for (const ContourStack::Plane& plane : stack.planes) {
+    for (std::size_t n = 0; n < plane.polygons.size(); ++n) {
+      const Polygon& polygon = plane.polygons[n];
+      // Even-odd: a polygon within an odd number of others is a hole.
+      int around = 0;
+      for (std::size_t m = 0; m < plane.polygons.size(); ++m) {
+        around += m != n && holds(plane.polygons[m], polygon.front()) ? 1 : 0;
+      }
+      glm::dvec2 own;
+      const double twice = twice_area(polygon, own);
+      const double sign = (around % 2 == 0 ? 0.5 : -0.5) * (twice < 0 ? -1 : 1);
+      area += sign * twice;
+      moment += Vec3(sign * own, sign * twice * plane.height);
+    }
+  }
+  if (!(area > 0)) {
+    throw DicomError("its contours have no area");
+  }
+  measures.volume_mm3 = area * stack.step_mm;
+  measures.centroid_mm = stack.axes * (moment / area);
+  return measures;
+}
+
+OutlinePlanes planes_of(const ContourStack& stack, const DistanceOptions& options) {
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high(-low);
+  for (const ContourStack::Plane& plane : stack.planes) {
+    for (const Polygon& polygon : plane.polygons) {
+      for (const glm::dvec2& point : polygon) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+      }
+    }
+  }
+  OutlinePlanes planes;
+  NodeLattice& lattice = planes.lattice;
+  lattice.axes = stack.axes;
+  const double in_plane = std::clamp(stack.step_mm, finest_mm, 1.0);
+  const int parts = std::clamp(static_cast<int>(std::ceil(stack.step_mm / coarsest_mm)), 1, 8);
+  lattice.spacing = Vec3(in_plane, in_plane, stack.step_mm / parts);
+  planes.play_mm = glm::length(Vec3(in_plane, in_plane, stack.step_mm));
+  planes.band_mm = band_for(options.reach_mm, lattice, planes.play_mm);
+
+  Layout layout;
+  const double around = planes.band_mm + 2 * in_plane;
+  const int beyond = static_cast<int>(std::ceil(around / stack.step_mm));
+  const double bottom = stack.planes.front().height - beyond * stack.step_mm;
+  const auto add = [&](double height, const ContourStack::Plane* plane) {
+    const int node = static_cast<int>(std::lround((height - bottom) / lattice.spacing.z));
+    if (planes.node.empty() || node > planes.node.back()) {
+      planes.node.push_back(node);
+      layout.planes.push_back(plane);
+    }
+  };
+  const glm::dvec2 middle = 0.5 * (low + high);
+  const auto add_empty = [&](double height) {
+    if (is_seen(options, stack.axes * Vec3(middle, height))) add(height, nullptr);
+  };
+  for (int n = beyond; n > 0; --n) add_empty(stack.planes.front().height - n * stack.step_mm);
+  for (std::size_t n = 0; n < stack.planes.size(); ++n) {
+    const double height = stack.planes[n].height;
+    // The surface goes on through planes that are missing; where many are, there are two bodies.
+    const double from_last = n == 0 ? 0 : height - stack.planes[n - 1].height;
+    for (double part = 1; from_last > most_missing * stack.step_mm && part * stack.step_mm < from_last - 1e-3; ++part) {
+      add(height - from_last + part * stack.step_mm, nullptr);
+    }
+    add(height, &stack.planes[n]);
+  }
+  for (int n = 1; n <= beyond; ++n) add_empty(stack.planes.back().height + n * stack.step_mm);
+
+  layout.origin = low - around;
+  const glm::ivec2 size = glm::ivec2(glm::ceil((high - low + 2 * around) / in_plane)) + 1;
+  const int tall = static_cast<int>(std::lround((stack.planes.back().height + beyond * stack.step_mm - bottom) /
+                                                lattice.spacing.z)) +
+                   1;
+  lattice.bricks = (glm::ivec3(size, tall) + NodeBricks::edge - 1) / NodeBricks::edge;
+  constexpr double most_nodes = 2e9;
+  if (static_cast<double>(lattice.bricks.x) * lattice.bricks.y * lattice.bricks.z * 512 > most_nodes) {
+    throw DicomError("its contours span " + std::to_string(std::lround(glm::length(high - low))) +
+                     " mm: more than can be felt");
+  }
+  lattice.origin = stack.axes * Vec3(layout.origin, bottom);
+  planes.compute = [layout, lattice, band = planes.band_mm](std::size_t n, PlaneDistances& distances) {
+    compute_plane(layout, lattice, band, n, distances);
+  };
+  return planes;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,214 @@
+#include "io/structures/distance_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "io/structures/closest_points.h"
+#include "io/structures/coarse_distance.h"
+#include "io/structures/cubic.h"
+#include "io/structures/distance_bounds.h"
+#include "io/structures/label_planes.h"
+#include "io/structures/smoothest.h"
+
+namespace palpate::io {
+namespace {
+
+constexpr int edge = NodeBricks::edge;
+constexpr int wide = edge + 3;
+constexpr std::size_t nodes_of_a_brick = static_cast<std::size_t>(wide) * wide * wide;
+
+/// A node's closest point and on which side of the surface the node is.
+struct Nearest {
+  Vec3f point{nowhere};
+  float f = 0;
+};
+
+/// Signed distances of a brick's nodes and of those around it. A node that no brick holds takes the closest point of
+/// the nearest one that a brick does.
+void fill_brick(const NodeBricks& bricks, const std::vector<Nearest>& nearest, std::size_t slot, float* into) {
+  constexpr int side = edge + 4;
+  std::vector<Nearest> around(static_cast<std::size_t>(side) * side * side);
+  gather<2, Nearest>(bricks, nearest, slot, Nearest{}, around.data());
+  const Vec3f spacing(bricks.lattice.spacing);
+  const Vec3f corner = Vec3f(bricks.place[slot] * edge) * spacing;
+  for (int k = -1; k < edge + 2; ++k) {
+    for (int j = -1; j < edge + 2; ++j) {
+      for (int i = -1; i < edge + 2; ++i) {
+        const auto held = [&](int x, int y, int z) {
+          return around[static_cast<std::size_t>(((z + 2) * side + y + 2) * side + x + 2)];
+        };
+        Nearest here = held(i, j, k);
+        if (here.point.x == nowhere) {
+          here = held(std::clamp(i, 0, edge - 1), std::clamp(j, 0, edge - 1), std::clamp(k, 0, edge - 1));
+        }
+        const Vec3f node =
+            corner + Vec3f(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)) * spacing;
+        *into++ = std::copysign(glm::length(node - here.point), here.f);
+      }
+    }
+  }
+}
+
+/// Only the bricks that hold a node nearer to the surface than `within`.
+NodeBricks bricks_within(const NodeBricks& bricks, const std::vector<Vec3f>& closest, double within,
+                         std::vector<std::size_t>& kept) {
+  NodeBricks near;
+  near.lattice = bricks.lattice;
+  near.slot = bricks.slot;
+  const Vec3f spacing(bricks.lattice.spacing);
+  for (std::size_t slot = 0; slot < bricks.count(); ++slot) {
+    const glm::ivec3 place = bricks.place[slot];
+    float least = nowhere;
+    for (int n = 0; n < static_cast<int>(NodeBricks::nodes); ++n) {
+      const glm::ivec3 node = place * edge + glm::ivec3(n % edge, n / edge % edge, n / (edge * edge));
+      least = std::min(least, glm::distance(Vec3f(node) * spacing,
+                                            closest[slot * NodeBricks::nodes + static_cast<std::size_t>(n)]));
+    }
+    const glm::ivec3& size = bricks.lattice.bricks;
+    std::int32_t& entry = near.slot[(static_cast<std::size_t>(place.z) * static_cast<std::size_t>(size.y) +
+                                     static_cast<std::size_t>(place.y)) *
+                                        static_cast<std::size_t>(size.x) +
+                                    static_cast<std::size_t>(place.x)];
+    if (static_cast<double>(least) < within) {
+      entry = static_cast<std::int32_t>(near.count());
+      near.place.push_back(place);
+      kept.push_back(slot);
+    } else {
+      entry = NodeBricks::outside;
+    }
+  }
+  return near;
+}
+
+/// The box that distances are kept for.
+std::pair<Vec3, Vec3> region_of(const NodeBricks& bricks, const DistanceOptions& options) {
+  Vec3 low(std::numeric_limits<double>::infinity());
+  Vec3 high(-std::numeric_limits<double>::infinity());
+  const auto hold = [&](const Vec3& at) {
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  };
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 share((corner & 1) != 0 ? 1 : 0, (corner & 2) != 0 ? 1 : 0, (corner & 4) != 0 ? 1 : 0);
+    hold(bricks.lattice.position(share * Vec3(bricks.lattice.bricks * edge)));
+    if (options.scan != nullptr) hold(options.scan->to_patient(share * Vec3(options.scan->dimensions - 1)));
+  }
+  constexpr double around_mm = 40;
+  return options.scan != nullptr ? std::pair(low, high) : std::pair(low - around_mm, high + around_mm);
+}
+
+}  // namespace
+
+DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions& options)
+    : reach_mm_(options.reach_mm), blend_mm_(blend_mm(planes.lattice)) {
+  const DistanceBounds bounds = bounds_of(planes, options.threads);
+  SmoothestOptions smooth;
+  smooth.threads = options.threads;
+  const std::vector<float> f = smoothest(bounds, smooth);
+  const std::vector<Vec3f> closest = closest_points(bounds.bricks, f, planes.band_mm, options.threads);
+
+  const auto [low, high] = region_of(bounds.bricks, options);
+  const CoarseLattice coarse = coarse_lattice(low, high);
+  far_ = {coarse.origin, coarse.spacing, coarse.size, coarse_distances(coarse, bounds.bricks, f, closest)};
+
+  std::vector<std::size_t> kept;
+  const double cell_mm = glm::length(planes.lattice.spacing);
+  near_ = bricks_within(bounds.bricks, closest, reach_mm_ + blend_mm_ + cell_mm, kept);
+  std::vector<Nearest> nearest(closest.size());
+  for (std::size_t n = 0; n < nearest.size(); ++n) {
+    nearest[n] = {closest[n], f[n]};
+  }
+  near_mm_.resize(near_.count() * nodes_of_a_brick);
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    fill_brick(bounds.bricks, nearest, kept[n], near_mm_.data() + n * nodes_of_a_brick);
+  }
+}
+
+bool DistanceField::sample_near(const Vec3& position_mm, Distance& distance) const noexcept {
+  const NodeLattice& lattice = near_.lattice;
+  const Vec3 node = lattice.node_of(position_mm);
+  const glm::ivec3 last = lattice.bricks * edge;
+  if (!(node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < last.x && node.y < last.y && node.z < last.z)) {
+    return false;
+  }
+  const glm::ivec3 cell(node);
+  const glm::ivec3 place = cell / edge;
+  const std::int32_t slot = near_.slot_at(place.x, place.y, place.z);
+  if (slot < 0) {
+    return false;
+  }
+  const glm::ivec3 in = cell - place * edge;
+  const Vec3 t = node - Vec3(cell);
+  const float* first =
+      near_mm_.data() + static_cast<std::size_t>(slot) * nodes_of_a_brick + (in.z * wide + in.y) * wide + in.x;
+  const CubicSample sample =
+      cubic_sample(first, wide, wide * wide, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+  distance.mm = sample.value;
+  distance.gradient = lattice.axes * (Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / lattice.spacing);
+  return true;
+}
+
+Distance DistanceField::sample_far(const Vec3& position_mm) const noexcept {
+  const Vec3 node = (position_mm - far_.origin) / far_.spacing;
+  // Beyond the lattice the distance goes on as it is at its edge, plus the way there.
+  const Vec3 held = glm::clamp(node, Vec3(1), Vec3(far_.size) - 2.001);
+  const glm::ivec3 cell(held);
+  const Vec3 t = held - Vec3(cell);
+  const int row = far_.size.x;
+  const int plane = row * far_.size.y;
+  const float* first = far_.mm.data() + static_cast<std::size_t>(cell.z - 1) * static_cast<std::size_t>(plane) +
+                       static_cast<std::size_t>(cell.y - 1) * static_cast<std::size_t>(row) +
+                       static_cast<std::size_t>(cell.x - 1);
+  const CubicSample sample = cubic_sample(first, row, plane, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+  Distance distance{.mm = sample.value,
+                    .gradient = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / far_.spacing};
+  const Vec3 beyond = (node - held) * far_.spacing;
+  const double way = glm::length(beyond);
+  if (way > 0) {
+    distance.mm -= way;
+    distance.gradient -= beyond / way;
+  }
+  return distance;
+}
+
+Distance DistanceField::sample(const Vec3& position_mm) const noexcept {
+  Distance near;
+  if (!sample_near(position_mm, near)) {
+    return sample_far(position_mm);
+  }
+  const double t = (std::abs(near.mm) - reach_mm_) / blend_mm_;
+  if (t <= 0) {
+    return near;
+  }
+  const Distance far = sample_far(position_mm);
+  if (t >= 1) {
+    return far;
+  }
+  const double part = t * t * (3 - 2 * t);
+  const double slope = 6 * t * (1 - t) / blend_mm_ * (near.mm < 0 ? -1.0 : 1.0);
+  return {.mm = near.mm + part * (far.mm - near.mm),
+          .gradient = near.gradient + part * (far.gradient - near.gradient) +
+                      (far.mm - near.mm) * slope * near.gradient};
+}
+
+std::size_t DistanceField::memory_bytes() const noexcept {
+  return near_mm_.capacity() * sizeof(float) + near_.slot.capacity() * sizeof(std::int32_t) +
+         near_.place.capacity() * sizeof(glm::ivec3) + far_.mm.capacity() * sizeof(float);
+}
+
+std::shared_ptr<const DistanceField> distance_of(const Mask& mask, const DistanceOptions& options) {
+  bool any = false;
+  for (const std::uint8_t share : mask.occupancy) any = any || share >= Mask::half;
+  if (!any) {
+    throw std::invalid_argument("it is empty: it has no voxel inside");
+  }
+  return std::make_shared<const DistanceField>(planes_of(mask, options.reach_mm), options);
+}
+
+}  // namespace palpate::io

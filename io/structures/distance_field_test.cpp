@@ -1,0 +1,228 @@
+// Distances of bodies whose distance is known.
+#include "io/structures/distance_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+#include "io/structures/contour_planes.h"
+#include "io/structures/label_planes.h"
+
+namespace palpate::io {
+namespace {
+
+using Inside = std::function<bool(const Vec3&)>;
+
+/// The labels of a body around the origin, within `extent` of it.
+Mask labels_of(const Inside& inside, double extent, const Vec3& spacing, const glm::dmat3& axes = glm::dmat3(1),
+               double slide_per_slice = 0) {
+  Mask mask;
+  Geometry& geometry = mask.geometry;
+  geometry.direction_i = axes[0];
+  geometry.direction_j = axes[1];
+  geometry.spacing_i = spacing.x;
+  geometry.spacing_j = spacing.y;
+  geometry.dimensions = glm::ivec3(glm::ceil(2.0 * extent / spacing));
+  geometry.step = spacing.z * axes[2] + slide_per_slice * axes[1];
+  const Vec3 first = -0.5 * Vec3(geometry.dimensions - 1) * spacing;
+  for (int k = 0; k < geometry.dimensions.z; ++k) {
+    geometry.slice_positions.push_back(axes * (first + Vec3(0, (k - geometry.dimensions.z / 2) * slide_per_slice,
+                                                            k * spacing.z)));
+  }
+  mask.size = geometry.dimensions;
+  for (int k = 0; k < mask.size.z; ++k) {
+    for (int j = 0; j < mask.size.y; ++j) {
+      for (int i = 0; i < mask.size.x; ++i) {
+        mask.occupancy.push_back(inside(geometry.to_patient({i, j, k})) ? Mask::full : 0);
+      }
+    }
+  }
+  return mask;
+}
+
+Inside ball(double radius, const Vec3& center) {
+  return [=](const Vec3& at) { return glm::distance(at, center) < radius; };
+}
+
+int voxels_on_the_wrong_side(const Mask& mask, const DistanceField& field) {
+  int wrong = 0;
+  for (int k = 0; k < mask.size.z; ++k) {
+    for (int j = 0; j < mask.size.y; ++j) {
+      for (int i = 0; i < mask.size.x; ++i) {
+        const bool inside = field.sample(mask.geometry.to_patient({i, j, k})).mm > 0;
+        wrong += inside != mask.inside(i, j, k) ? 1 : 0;
+      }
+    }
+  }
+  return wrong;
+}
+
+std::vector<Vec3> directions(int count) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> any;
+  std::vector<Vec3> all;
+  for (int n = 0; n < count; ++n) {
+    const double x = any(random), y = any(random), z = any(random);
+    all.push_back(glm::normalize(Vec3(x, y, z)));
+  }
+  return all;
+}
+
+TEST(DistanceField, IsThatOfABallFarAndNear) {
+  const Vec3 center(0.3, -0.2, 0.4);
+  const auto field = distance_of(labels_of(ball(20, center), 30, {1, 1, 1}));
+  for (const Vec3& direction : directions(300)) {
+    for (const double r : {12.0, 18.0, 20.0, 21.0, 23.0, 26.0, 40.0}) {
+      const Distance distance = field->sample(center + r * direction);
+      EXPECT_NEAR(distance.mm, 20 - r, r > 22 || r < 18 ? 0.7 : 0.4) << r;
+      EXPECT_NEAR(glm::length(distance.gradient), 1, 0.35) << r;
+      if (std::abs(r - 20) < 2) {
+        EXPECT_GT(glm::dot(glm::normalize(distance.gradient), -direction), std::cos(0.1));
+      }
+    }
+  }
+}
+
+TEST(DistanceField, KeepsEveryVoxelOnItsSide) {
+  const Inside plate = [](const Vec3& at) { return std::abs(at.x) < 0.6 && std::abs(at.y) < 8 && std::abs(at.z) < 8; };
+  const Inside tube = [](const Vec3& at) { return std::hypot(at.x, at.y) < 2.1 && std::abs(at.z) < 10; };
+  const Inside block = [](const Vec3& at) { return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < 7.2; };
+  const Inside shell = [](const Vec3& at) { return std::abs(glm::length(at) - 8) < 1.2; };
+  for (const Inside& body : {plate, tube, block, shell, ball(3, {0.2, 0.4, 0.1})}) {
+    for (const Vec3& spacing : {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(0.7, 0.9, 1.3)}) {
+      const Mask mask = labels_of(body, 14, spacing);
+      EXPECT_EQ(voxels_on_the_wrong_side(mask, *distance_of(mask)), 0) << spacing.z;
+    }
+  }
+}
+
+TEST(DistanceField, KeepsEveryVoxelOnItsSideOnObliqueLattices) {
+  const glm::dmat3 turned = glm::dmat3(glm::rotate(glm::dmat4(1), 0.6, glm::normalize(Vec3(1, 2, 3))));
+  const Mask mask = labels_of(ball(9, {0.3, 0.1, 0.2}), 16, {0.8, 1, 2}, turned);
+  EXPECT_EQ(voxels_on_the_wrong_side(mask, *distance_of(mask)), 0);
+}
+
+TEST(DistanceField, IsTheSameWhereItIsTilted) {
+  const double spacing = 2;
+  const Mask mask = labels_of(ball(12, Vec3(0)), 20, {1, 1, spacing}, glm::dmat3(1), 0.6);
+  const auto field = distance_of(mask);
+  for (const Vec3& direction : directions(200)) {
+    EXPECT_NEAR(field->sample(12.0 * direction).mm, 0, 0.5 * glm::length(Vec3(1, 1, spacing)));
+  }
+}
+
+TEST(DistanceField, IsTrueInANarrowHollow) {
+  // Two balls 4 mm apart: half-way between them it is 2 mm to either.
+  const Inside two = [](const Vec3& at) {
+    return glm::distance(at, Vec3(-10, 0, 0)) < 8 || glm::distance(at, Vec3(10, 0, 0)) < 8;
+  };
+  const auto field = distance_of(labels_of(two, 24, {1, 1, 1}));
+  EXPECT_NEAR(field->sample(Vec3(0)).mm, -2, 0.4);
+  EXPECT_NEAR(field->sample(Vec3(1, 0, 0)).mm, -1, 0.35);
+}
+
+TEST(DistanceField, HasTheGradientOfItsValue) {
+  const auto field = distance_of(labels_of(ball(9, {0.1, 0.3, 0.2}), 16, {1, 1, 2}));
+  constexpr double h = 1e-5;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-14, 14);
+  for (int n = 0; n < 500; ++n) {
+    const double x = any(random), y = any(random), z = any(random);
+    const Vec3 at(x, y, z);
+    const Vec3 gradient = field->sample(at).gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 step(0);
+      step[axis] = h;
+      const double slope = (field->sample(at + step).mm - field->sample(at - step).mm) / (2 * h);
+      EXPECT_NEAR(gradient[axis], slope, 2e-3) << n;
+    }
+  }
+}
+
+TEST(DistanceField, GoesOnWhereTheLabelsEnd) {
+  // A rod through all slices: nobody has seen its ends, so there is no wall.
+  const auto field =
+      distance_of(labels_of([](const Vec3& at) { return std::hypot(at.x, at.y) < 6; }, 12, {1, 1, 2}));
+  const Distance last = field->sample({3, 0, 11});
+  EXPECT_NEAR(last.mm, 3, 0.4);
+  EXPECT_NEAR(last.gradient.z, 0, 0.1);
+}
+
+TEST(DistanceField, RefusesAnEmptyMask) {
+  EXPECT_THROW(distance_of(labels_of([](const Vec3&) { return false; }, 4, {1, 1, 1})), std::invalid_argument);
+}
+
+Contour circle(double radius, double z, bool backward = false) {
+  Contour contour;
+  constexpr int points = 90;
+  for (int n = 0; n < points; ++n) {
+    const double angle = (backward ? -n : n) * 2 * 3.14159265358979323846 / points;
+    contour.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return contour;
+}
+
+std::shared_ptr<const DistanceField> field_of(const std::vector<Contour>& contours) {
+  const ContourStack stack = stack_of(contours);
+  return std::make_shared<const DistanceField>(planes_of(stack, {}), DistanceOptions{});
+}
+
+TEST(ContourField, IsThatOfATubeWithAHole) {
+  std::vector<Contour> contours;
+  for (int k = -8; k <= 8; ++k) {
+    contours.push_back(circle(12, 2.0 * k));
+    contours.push_back(circle(5, 2.0 * k));
+  }
+  const auto field = field_of(contours);
+  for (const double r : {3.0, 5.0, 7.0, 10.0, 12.0, 14.0}) {
+    for (double angle = 0; angle < 6; angle += 0.7) {
+      const Vec3 at(r * std::cos(angle), r * std::sin(angle), 0.9);
+      EXPECT_NEAR(field->sample(at).mm, std::min(r - 5, 12 - r), 0.2) << r;
+    }
+  }
+}
+
+TEST(ContourField, FollowsAKeyholeRoundItsHole) {
+  // Outline, in to the hole, round it, and out the same way.
+  std::vector<Contour> contours;
+  for (int k = -6; k <= 6; ++k) {
+    Contour keyhole = circle(12, 2.0 * k);
+    keyhole.push_back(keyhole.front());
+    Contour hole = circle(5, 2.0 * k, true);
+    keyhole.insert(keyhole.end(), hole.begin(), hole.end());
+    keyhole.push_back(hole.front());
+    contours.push_back(std::move(keyhole));
+  }
+  const auto field = field_of(contours);
+  EXPECT_NEAR(field->sample({8.5, 0, 1}).mm, 3.5, 0.25);  // on the way to the hole: no edge there
+  EXPECT_NEAR(field->sample({3, 0, 1}).mm, -2, 0.25);
+}
+
+TEST(ContourField, GoesThroughAMissingSlice) {
+  std::vector<Contour> contours;
+  for (int k = -6; k <= 6; ++k) {
+    if (k != 0) contours.push_back(circle(9, 3.0 * k));
+  }
+  EXPECT_NEAR(field_of(contours)->sample({0, 0, 0}).mm, 9, 0.4);
+}
+
+TEST(ContourField, MeasuresWithoutHoles) {
+  std::vector<Contour> contours;
+  for (int k = 0; k < 10; ++k) {
+    contours.push_back(circle(10, 2.0 * k));
+    contours.push_back(circle(4, 2.0 * k));
+  }
+  const StructureMeasures measures = measures_of(contours);
+  const double area = 0.5 * 90 * std::sin(2 * 3.14159265358979323846 / 90) * (100 - 16);
+  EXPECT_NEAR(measures.volume_mm3, area * 20, 1e-6 * area);
+  EXPECT_EQ(measures.contours, 20U);
+  EXPECT_NEAR(measures.centroid_mm.z, 9, 1e-9);
+}
+
+}  // namespace
+}  // namespace palpate::io

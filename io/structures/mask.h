@@ -1,0 +1,39 @@
+#pragma once
+
+/// The voxels of one structure, on the lattice that it was outlined on.
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "io/geometry.h"
+
+namespace palpate::io {
+
+/// Only the box that holds the structure is kept; all else is outside.
+struct Mask {
+  /// What a voxel that is wholly inside holds; from half of it on a voxel is inside.
+  static constexpr std::uint8_t full = 254;
+  static constexpr std::uint8_t half = 127;
+
+  Geometry geometry;   ///< of the whole lattice
+  glm::ivec3 low{0};   ///< first voxel of the box
+  glm::ivec3 size{0};  ///< voxels of the box
+  std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: how much of a voxel is inside, 0 to full
+  /// Whether `occupancy` holds fractions: then they say where in a voxel the edge is, and the field uses them.
+  bool fractional = false;
+
+  std::size_t offset(int i, int j, int k) const noexcept {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(size.x) +
+           static_cast<std::size_t>(i);
+  }
+  /// Whether a voxel of the whole lattice is inside.
+  bool inside(int i, int j, int k) const noexcept {
+    const int x = i - low.x, y = j - low.y, z = k - low.z;
+    return x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z && occupancy[offset(x, y, z)] >= half;
+  }
+};
+
+}  // namespace palpate::io

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "io/structures/mask.h"
+#include "io/structures/structure.h"
+
+namespace palpate::io {
+
+/// Voxels that are inside, by their centers. Throws DicomError where there is none.
+StructureMeasures measures_of(const Mask& mask);
+
+}  // namespace palpate::io

@@ -1,0 +1,366 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdatset.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcsequen.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+
+#include "io/dicom/character_set.h"
+#include "io/dicom/dicom_value.h"
+#include "io/dicom/file_header.h"
+#include "io/dicom/stacking.h"
+#include "io/errors.h"
+#include "io/structures/beyond_slices.h"
+#include "io/structures/color.h"
+#include "io/structures/mask_measures.h"
+#include "io/structures/segment_frames.h"
+#include "io/structures/structure_file.h"
+
+namespace palpate::io {
+namespace {
+
+using internal::first_item;
+using internal::number_of;
+using internal::numbers_of;
+using internal::Placement;
+using internal::text_of;
+
+/// One frame: of which segment (0: of all, in a label map), and on which slice of the lattice.
+struct SegmentFrame {
+  int segment = 0;
+  int slice = 0;
+};
+
+/// A frame's groups, or the shared ones where it has none of its own.
+DcmItem* group_of(DcmItem& own, DcmItem* shared, const DcmTagKey& sequence) {
+  DcmItem* found = first_item(own, sequence);
+  return found != nullptr || shared == nullptr ? found : first_item(*shared, sequence);
+}
+
+std::vector<double> numbers_in(DcmItem* item, const DcmTagKey& tag) {
+  return item != nullptr ? numbers_of(*item, tag) : std::vector<double>();
+}
+
+struct PlacedFrame {
+  int segment = 0;
+  Placement placement;
+  double spacing = 0;  ///< SpacingBetweenSlices, mm; 0 where it is not said
+};
+
+PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
+  DcmItem* position = group_of(own, shared, DCM_PlanePositionSequence);
+  DcmItem* measures = group_of(own, shared, DCM_PixelMeasuresSequence);
+  const auto placement =
+      internal::make_placement(numbers_in(position, DCM_ImagePositionPatient),
+                               numbers_in(group_of(own, shared, DCM_PlaneOrientationSequence),
+                                          DCM_ImageOrientationPatient),
+                               numbers_in(measures, DCM_PixelSpacing));
+  if (!placement) {
+    throw DicomError(
+        "a frame of it does not say where it lies in the patient (position, orientation or spacing): export it again");
+  }
+  PlacedFrame frame{.placement = *placement};
+  const auto spacing = numbers_in(measures, DCM_SpacingBetweenSlices);
+  frame.spacing = spacing.empty() ? 0 : std::abs(spacing.front());
+  if (type != SegmentationType::label_map) {
+    const auto number = numbers_in(group_of(own, shared, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);
+    if (number.empty()) {
+      throw DicomError("a frame of it does not say to which segment it belongs: export it again");
+    }
+    frame.segment = static_cast<int>(std::clamp(number.front(), 0.0, 65535.0));
+  }
+  return frame;
+}
+
+std::vector<PlacedFrame> placed_frames(DcmItem& dataset, SegmentationType type, std::size_t count) {
+  std::vector<PlacedFrame> frames;
+  DcmSequenceOfItems* per_frame = nullptr;
+  if (dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, per_frame).bad()) {
+    throw DicomError("it does not say where its frames lie (PerFrameFunctionalGroupsSequence): export it again");
+  }
+  DcmItem* const shared = first_item(dataset, DCM_SharedFunctionalGroupsSequence);
+  DcmObject* object = nullptr;
+  while (frames.size() < count && (object = per_frame->nextInContainer(object)) != nullptr) {
+    auto* own = dynamic_cast<DcmItem*>(object);
+    if (own == nullptr) break;
+    frames.push_back(placed_frame(*own, shared, type));
+  }
+  if (frames.size() < count) {
+    throw DicomError("it says of " + std::to_string(frames.size()) + " of its " + std::to_string(count) +
+                     " frames where they lie: export it again");
+  }
+  return frames;
+}
+
+/// Whether two frames lie on parallel planes with the same pixels.
+bool share_lattice(const Placement& a, const Placement& b) {
+  constexpr double tolerance = 1e-3;
+  return glm::length(a.direction_i - b.direction_i) < tolerance &&
+         glm::length(a.direction_j - b.direction_j) < tolerance &&
+         std::abs(a.spacing_i - b.spacing_i) < tolerance * a.spacing_i &&
+         std::abs(a.spacing_j - b.spacing_j) < tolerance * a.spacing_j;
+}
+
+/// Positions of slices with those between that no frame lies on, for empty frames are left out: where all distances are
+/// multiples of one.
+std::vector<Vec3> filled(const std::vector<Vec3>& positions, const Vec3& normal, double spacing) {
+  double least = spacing;
+  for (std::size_t k = 1; k < positions.size(); ++k) {
+    const double step = glm::dot(positions[k] - positions[k - 1], normal);
+    least = least > 0 ? std::min(least, step) : step;
+  }
+  if (!(least > 0)) {
+    return positions;
+  }
+  std::vector<Vec3> all{positions.front()};
+  constexpr double tolerance = 0.05;
+  constexpr double most = 4096;  // slices between two: more is no lattice
+  for (std::size_t k = 1; k < positions.size(); ++k) {
+    const double steps = glm::dot(positions[k] - positions[k - 1], normal) / least;
+    const double whole = std::round(steps);
+    if (std::abs(steps - whole) > tolerance * whole || whole > most) {
+      return positions;
+    }
+    for (double n = 1; n <= whole; ++n) {
+      all.push_back(positions[k - 1] + (positions[k] - positions[k - 1]) * (n / whole));
+    }
+  }
+  return all;
+}
+
+class SegmentationSource final : public StructureSource {
+ public:
+  SegmentationSource(SegmentationPixels pixels, SegmentationType type, double most,
+                     const std::vector<PlacedFrame>& frames)
+      : pixels_(std::move(pixels)), type_(type), most_(most) {
+    const Placement& reference = frames.front().placement;
+    const Vec3 normal = glm::normalize(glm::cross(reference.direction_i, reference.direction_j));
+    std::vector<double> heights;
+    for (const PlacedFrame& frame : frames) {
+      if (!share_lattice(frame.placement, reference)) {
+        throw DicomError("its frames have several orientations or pixel sizes: export each as a segmentation of its own");
+      }
+      heights.push_back(glm::dot(frame.placement.position, normal));
+    }
+    const double same = 0.02 * std::min(reference.spacing_i, reference.spacing_j);
+    std::map<double, Vec3> slices;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+      const auto near = slices.lower_bound(heights[n] - same);
+      if (near == slices.end() || near->first > heights[n] + same) {
+        slices.emplace(heights[n], frames[n].placement.position);
+      }
+    }
+    std::vector<Vec3> positions;
+    for (const auto& [height, position] : slices) positions.push_back(position);
+    const double spacing = frames.front().spacing;
+    positions = filled(positions, normal, spacing);
+    std::vector<double> levels;
+    for (const Vec3& position : positions) levels.push_back(glm::dot(position, normal));
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+      const auto above = std::lower_bound(levels.begin(), levels.end(), heights[n]);
+      std::ptrdiff_t k = above - levels.begin();
+      if (above == levels.end() || (k > 0 && heights[n] - levels[static_cast<std::size_t>(k - 1)] < *above - heights[n])) {
+        --k;
+      }
+      frames_.push_back({frames[n].segment, static_cast<int>(k)});
+    }
+    geometry_ = internal::stack_geometry(pixels_.format.columns, pixels_.format.rows, reference, std::move(positions), {},
+                                         spacing);
+    geometry_.gaps.clear();
+  }
+
+  StructureMeasures measure(int number) const override { return measures_of(mask_of(number)); }
+  std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override {
+    Mask mask = mask_of(number);
+    measures_of(mask);  // refuses one that is empty
+    add_empty_slices(options, mask);
+    return distance_of(mask, options);
+  }
+
+ private:
+  struct Cut {
+    int slice = 0;
+    glm::ivec2 low{0}, size{0};
+    std::vector<std::uint8_t> occupancy;
+  };
+
+  std::uint8_t occupancy_of(std::uint16_t stored, int number) const {
+    if (type_ == SegmentationType::label_map) {
+      return stored == number ? Mask::full : 0;
+    }
+    const double share = std::min(stored / most_, 1.0);
+    return static_cast<std::uint8_t>(std::lround(share * Mask::full));
+  }
+
+  /// The part of a frame that holds some of the segment; of no size where there is none.
+  Cut cut_frame(std::size_t n, int number, std::vector<std::uint16_t>& values) const {
+    read_frame(pixels_, static_cast<std::uint32_t>(n), values);
+    Cut cut{.slice = frames_[n].slice};
+    const int columns = geometry_.dimensions.x;
+    glm::ivec2 low(std::numeric_limits<int>::max());
+    glm::ivec2 high(-1);
+    for (int j = 0; j < geometry_.dimensions.y; ++j) {
+      for (int i = 0; i < columns; ++i) {
+        const std::size_t at =
+            static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i);
+        values[at] = occupancy_of(values[at], number);
+        if (values[at] != 0) {
+          low = glm::min(low, glm::ivec2(i, j));
+          high = glm::max(high, glm::ivec2(i, j));
+        }
+      }
+    }
+    if (high.x < 0) {
+      return cut;
+    }
+    cut.low = low;
+    cut.size = high - low + 1;
+    for (int j = low.y; j <= high.y; ++j) {
+      const std::size_t row = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns);
+      for (int i = low.x; i <= high.x; ++i) {
+        cut.occupancy.push_back(static_cast<std::uint8_t>(values[row + static_cast<std::size_t>(i)]));
+      }
+    }
+    return cut;
+  }
+
+  Mask mask_of(int number) const {
+    std::vector<std::uint16_t> values(static_cast<std::size_t>(geometry_.dimensions.x) *
+                                      static_cast<std::size_t>(geometry_.dimensions.y));
+    std::vector<Cut> cuts;
+    glm::ivec3 low(std::numeric_limits<int>::max());
+    glm::ivec3 high(-1);
+    for (std::size_t n = 0; n < frames_.size(); ++n) {
+      if (type_ != SegmentationType::label_map && frames_[n].segment != number) {
+        continue;
+      }
+      Cut cut = cut_frame(n, number, values);
+      if (cut.size.x > 0) {
+        low = glm::min(low, glm::ivec3(cut.low, cut.slice));
+        high = glm::max(high, glm::ivec3(cut.low + cut.size - 1, cut.slice));
+        cuts.push_back(std::move(cut));
+      }
+    }
+    Mask mask;
+    mask.geometry = geometry_;
+    mask.fractional = type_ == SegmentationType::fractional;
+    if (cuts.empty()) {
+      return mask;
+    }
+    mask.low = low;
+    mask.size = high - low + 1;
+    mask.occupancy.assign(static_cast<std::size_t>(mask.size.x) * static_cast<std::size_t>(mask.size.y) *
+                              static_cast<std::size_t>(mask.size.z),
+                          0);
+    for (const Cut& cut : cuts) {
+      for (int j = 0; j < cut.size.y; ++j) {
+        const auto from = cut.occupancy.begin() + static_cast<std::ptrdiff_t>(j) * cut.size.x;
+        std::uint8_t* into = mask.occupancy.data() + mask.offset(cut.low.x - low.x, cut.low.y + j - low.y,
+                                                                 cut.slice - low.z);
+        for (int i = 0; i < cut.size.x; ++i) into[i] = std::max(into[i], from[i]);
+      }
+    }
+    return mask;
+  }
+
+  SegmentationPixels pixels_;
+  SegmentationType type_;
+  double most_;
+  Geometry geometry_;
+  std::vector<SegmentFrame> frames_;
+};
+
+/// "SCT 10200004 Liver".
+std::string code_in(DcmItem& segment) {
+  DcmItem* code = first_item(segment, DCM_SegmentedPropertyTypeCodeSequence);
+  if (code == nullptr) {
+    return {};
+  }
+  return text_of(*code, DCM_CodingSchemeDesignator) + ' ' + text_of(*code, DCM_CodeValue) + ' ' +
+         text_of(*code, DCM_CodeMeaning);
+}
+
+std::string meaning_in(DcmItem& segment) {
+  DcmItem* code = first_item(segment, DCM_SegmentedPropertyTypeCodeSequence);
+  return code != nullptr ? text_of(*code, DCM_CodeMeaning) : std::string();
+}
+
+std::vector<Structure> segments_in(DcmItem& dataset) {
+  std::vector<Structure> structures;
+  const std::string characters = text_of(dataset, DCM_SpecificCharacterSet);
+  DcmSequenceOfItems* segments = nullptr;
+  if (dataset.findAndGetSequence(DCM_SegmentSequence, segments).bad()) {
+    throw DicomError("it names no segments (SegmentSequence): export it again");
+  }
+  DcmObject* object = nullptr;
+  while ((object = segments->nextInContainer(object)) != nullptr) {
+    auto* segment = dynamic_cast<DcmItem*>(object);
+    const auto number = segment != nullptr ? number_of(*segment, DCM_SegmentNumber) : std::nullopt;
+    if (!number) continue;
+    Structure structure;
+    structure.number = static_cast<int>(std::clamp(*number, 0.0, 65535.0));
+    structure.name = internal::utf8_of(text_of(*segment, DCM_SegmentLabel), characters);
+    if (structure.name.empty()) structure.name = internal::utf8_of(meaning_in(*segment), characters);
+    if (structure.name.empty()) structure.name = "segment " + std::to_string(structure.number);
+    structure.code = internal::utf8_of(code_in(*segment), characters);
+    structure.color = color_of_lab(numbers_of(*segment, DCM_RecommendedDisplayCIELabValue));
+    structures.push_back(std::move(structure));
+  }
+  return structures;
+}
+
+SegmentationType type_in(DcmItem& dataset, const std::string& sop_class) {
+  const std::string type = text_of(dataset, DCM_SegmentationType);
+  if (type == "LABELMAP" || sop_class == "1.2.840.10008.5.1.4.1.1.66.7") return SegmentationType::label_map;
+  if (type == "FRACTIONAL") return SegmentationType::fractional;
+  if (type == "BINARY") return SegmentationType::binary;
+  throw DicomError("its segmentation type \"" + type + "\" is unknown; there are: BINARY, FRACTIONAL, LABELMAP");
+}
+
+internal::PixelFormat format_in(DcmItem& dataset) {
+  const auto whole = [&](const DcmTagKey& tag, int otherwise) {
+    return static_cast<int>(std::clamp(number_of(dataset, tag).value_or(otherwise), -1.0, 65535.0));
+  };
+  internal::PixelFormat format;
+  format.columns = whole(DCM_Columns, 0);
+  format.rows = whole(DCM_Rows, 0);
+  format.bits_allocated = whole(DCM_BitsAllocated, 0);
+  format.bits_stored = whole(DCM_BitsStored, format.bits_allocated);
+  format.high_bit = whole(DCM_HighBit, format.bits_stored - 1);
+  return format;
+}
+
+}  // namespace
+
+std::vector<Structure> structures_of_segmentation(const StructureDataset& file) {
+  DcmItem& dataset = file.dataset;
+  if (dataset.tagExists(DCM_TotalPixelMatrixColumns)) {
+    throw DicomError("it outlines a microscope's slide, not a scan: it cannot be felt");
+  }
+  if (!file.pixels) {
+    throw DicomError("it has no pixels: export it again");
+  }
+  const SegmentationType type = type_in(dataset, text_of(dataset, DCM_SOPClassUID));
+  std::vector<Structure> structures = segments_in(dataset);
+  const auto count = static_cast<std::size_t>(std::clamp(number_of(dataset, DCM_NumberOfFrames).value_or(1), 1.0, 1e6));
+  const std::vector<PlacedFrame> frames = placed_frames(dataset, type, count);
+  const double most =
+      type == SegmentationType::fractional ? number_of(dataset, DCM_MaximumFractionalValue).value_or(255) : 1;
+  if (!(most > 0)) {
+    throw DicomError("its MaximumFractionalValue is not above 0: export it again");
+  }
+  const auto source = std::make_shared<const SegmentationSource>(
+      find_pixels(file.path, file.start, *file.pixels, format_in(dataset), count), type, most, frames);
+  for (Structure& structure : structures) {
+    structure.kind = StructureKind::segmentation;
+    structure.source = source;
+  }
+  return structures;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,130 @@
+#include "io/structures/structure.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdatset.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "io/dicom/asked_for.h"
+#include "io/dicom/dcmtk_start.h"
+#include "io/dicom/dicom_value.h"
+#include "io/errors.h"
+#include "io/files_below.h"
+#include "io/parallel.h"
+#include "io/structures/structure_file.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::text_of;
+
+constexpr const char* segmentation_storage = "1.2.840.10008.5.1.4.1.1.66.4";
+constexpr const char* label_map_segmentation_storage = "1.2.840.10008.5.1.4.1.1.66.7";
+constexpr const char* surface_segmentation_storage = "1.2.840.10008.5.1.4.1.1.66.5";
+constexpr const char* structure_set_storage = "1.2.840.10008.5.1.4.1.1.481.3";
+
+/// What a file holds; nothing where it is of another kind.
+std::vector<Structure> structures_in(const fs::path& path) {
+  std::optional<internal::InputFile> file;
+  internal::DatasetStart start;
+  DcmDataset dataset;
+  std::optional<internal::PixelElement> pixels;
+  std::string sop_class;
+  try {
+    file.emplace(path);
+    start = internal::find_dataset(*file);
+    pixels = internal::parse_header(*file, path, start, dataset, internal::is_asked_for_of_structures);
+    sop_class = text_of(dataset, DCM_SOPClassUID);
+  } catch (const DicomError&) {
+    return {};  // no DICOM file, or none that can be read: find_series() says so
+  }
+  const StructureDataset read{path, start, pixels, dataset};
+  std::vector<Structure> structures;
+  if (sop_class == segmentation_storage || sop_class == label_map_segmentation_storage) {
+    structures = structures_of_segmentation(read);
+  } else if (sop_class == structure_set_storage) {
+    structures = structures_of_contours(read);
+  } else if (sop_class == surface_segmentation_storage) {
+    throw DicomError("it holds surfaces (Surface Segmentation), which are not read: export it as SEG");
+  }
+  const std::string frame_of_reference = text_of(dataset, DCM_FrameOfReferenceUID);
+  for (Structure& structure : structures) {
+    structure.file = path;
+    structure.study_uid = text_of(dataset, DCM_StudyInstanceUID);
+    structure.patient_id = text_of(dataset, DCM_PatientID);
+    if (structure.frame_of_reference_uid.empty()) structure.frame_of_reference_uid = frame_of_reference;
+  }
+  return structures;
+}
+
+std::string in_words(const Structure& structure) {
+  return structure.file.filename().string() + ": " + name_of(structure.kind) + " \"" + structure.name + "\" (" +
+         std::to_string(structure.number) + ")";
+}
+
+/// What `work` gives, with file and structure named where it throws.
+template <typename Work>
+auto named(const Structure& structure, const Work& work) {
+  if (!structure.source || !structure.unfit.empty()) {
+    throw DicomError(in_words(structure) + " cannot be felt: " + structure.unfit);
+  }
+  try {
+    return work(*structure.source);
+  } catch (const std::exception& error) {
+    throw DicomError(in_words(structure) + " cannot be read: " + error.what());
+  }
+}
+
+}  // namespace
+
+const char* name_of(StructureKind kind) noexcept {
+  switch (kind) {
+    case StructureKind::segmentation:
+      return "SEG";
+    case StructureKind::contours:
+      return "RTSTRUCT";
+    case StructureKind::label_map:
+      return "label map";
+  }
+  return "";
+}
+
+StructureCatalogue find_structures(std::span<const fs::path> paths, const Progress& progress) {
+  internal::start_dcmtk();
+  StructureCatalogue catalogue;
+  const std::vector<fs::path> files = internal::files_below(paths, catalogue.skipped);
+  std::vector<std::vector<Structure>> found(files.size());
+  std::vector<std::string> reasons(files.size());
+  internal::parallel_for(
+      files.size(),
+      [&](std::size_t n) {
+        try {
+          found[n] = structures_in(files[n]);
+        } catch (const std::exception& error) {
+          reasons[n] = error.what();
+        }
+      },
+      progress, 0);
+  for (std::size_t n = 0; n < files.size(); ++n) {
+    std::stable_sort(found[n].begin(), found[n].end(),
+                     [](const Structure& a, const Structure& b) { return a.number < b.number; });
+    std::move(found[n].begin(), found[n].end(), std::back_inserter(catalogue.structures));
+    if (!reasons[n].empty()) catalogue.skipped.push_back({files[n], reasons[n]});
+  }
+  return catalogue;
+}
+
+std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options) {
+  return named(structure,
+               [&](const StructureSource& source) { return source.distance(structure.number, options); });
+}
+
+StructureMeasures measure(const Structure& structure) {
+  return named(structure, [&](const StructureSource& source) { return source.measure(structure.number); });
+}
+
+}  // namespace palpate::io

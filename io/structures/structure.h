@@ -1,0 +1,79 @@
+#pragma once
+
+/// Structures that somebody has outlined: segments of a DICOM SEG, ROIs of an RTSTRUCT, labels of a label map. Listing
+/// reads headers; nothing is decoded before it is measured or felt.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/progress.h"
+#include "io/series.h"
+#include "io/structures/distance_field.h"
+
+namespace palpate::io {
+
+enum class StructureKind : std::uint8_t { segmentation, contours, label_map };
+
+/// "SEG", "RTSTRUCT", "label map".
+const char* name_of(StructureKind kind) noexcept;
+
+/// What a structure comes to, LPS, mm.
+struct StructureMeasures {
+  std::optional<std::uint64_t> voxels;    ///< of SEG and label maps
+  std::optional<std::uint64_t> contours;  ///< of RTSTRUCT
+  double volume_mm3 = 0;
+  Vec3 centroid_mm{0};
+  Vec3 box_low_mm{0};  ///< of voxel centers or contour points
+  Vec3 box_high_mm{0};
+  std::vector<std::string> warnings;
+};
+
+/// A file that holds structures. Immutable; from any thread.
+class StructureSource {
+ public:
+  StructureSource() = default;
+  StructureSource(const StructureSource&) = delete;
+  StructureSource& operator=(const StructureSource&) = delete;
+  virtual ~StructureSource() = default;
+
+  /// Both throw DicomError, with a reason that does not name the file, where the structure cannot be read or is empty.
+  virtual StructureMeasures measure(int number) const = 0;
+  virtual std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const = 0;
+};
+
+struct Structure {
+  std::filesystem::path file;
+  StructureKind kind = StructureKind::segmentation;
+  int number = 0;    ///< SegmentNumber, ROINumber or the label's value
+  std::string name;  ///< SegmentLabel, ROIName, ...; where there is none, what its code means
+  std::string code;  ///< of what it is: "SCT 10200004 Liver", or empty
+  std::string color;  ///< "#rrggbb", or empty
+  std::string frame_of_reference_uid;  ///< empty where it is not said
+  std::string study_uid;
+  std::string patient_id;  ///< to be compared with the scan's; never written or shown
+  std::string unfit;       ///< why it cannot be felt; empty where it can
+  std::vector<std::string> warnings;
+  std::shared_ptr<const StructureSource> source;
+};
+
+struct StructureCatalogue {
+  std::vector<Structure> structures;  ///< by file, then by number
+  std::vector<SkippedFile> skipped;   ///< what claims to hold structures and does not
+};
+
+/// The structures in these files and folders (searched to the bottom). Files of other kinds are passed over in silence.
+/// Throws DicomError where a path does not exist; Cancelled.
+StructureCatalogue find_structures(std::span<const std::filesystem::path> paths, const Progress& progress = {});
+
+/// Reads one structure's distance. Throws DicomError that names the file and the structure.
+std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options = {});
+
+/// Throws DicomError that names the file and the structure.
+StructureMeasures measure(const Structure& structure);
+
+}  // namespace palpate::io

@@ -1,0 +1,27 @@
+#pragma once
+
+/// The readers of each kind of file. Each adds the structures of one file; they throw DicomError with a reason that
+/// does not name the file.
+
+#include <filesystem>
+#include <vector>
+
+#include "io/dicom/dataset.h"
+#include "io/structures/structure.h"
+
+class DcmDataset;
+
+namespace palpate::io {
+
+/// A DICOM file whose header has been read.
+struct StructureDataset {
+  std::filesystem::path path;
+  internal::DatasetStart start;
+  std::optional<internal::PixelElement> pixels;
+  DcmDataset& dataset;
+};
+
+std::vector<Structure> structures_of_segmentation(const StructureDataset& file);
+std::vector<Structure> structures_of_contours(const StructureDataset& file);
+
+}  // namespace palpate::io
