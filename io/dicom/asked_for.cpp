@@ -78,13 +78,28 @@ bool is_asked_for(std::uint32_t tag) {
 bool is_asked_for_of_structures(std::uint32_t tag) {
   static const std::vector<std::uint32_t> attributes = [] {
     std::vector<std::uint32_t> tags;
-    for (const DcmTagKey& key :
-         {DCM_SpecificCharacterSet, DCM_SOPClassUID, DCM_Modality, DCM_PatientID, DCM_StudyInstanceUID,
-          DCM_FrameOfReferenceUID, DCM_NumberOfFrames, DCM_Rows, DCM_Columns, DCM_BitsAllocated, DCM_BitsStored,
-          DCM_HighBit, DCM_TotalPixelMatrixColumns, DCM_SegmentationType, DCM_MaximumFractionalValue,
-          DCM_SegmentSequence, DCM_SharedFunctionalGroupsSequence, DCM_PerFrameFunctionalGroupsSequence,
-          DCM_ReferencedFrameOfReferenceSequence, DCM_StructureSetROISequence, DCM_ROIContourSequence,
-          DCM_RTROIObservationsSequence}) {
+    for (const DcmTagKey& key : {DCM_SpecificCharacterSet,
+                                 DCM_SOPClassUID,
+                                 DCM_Modality,
+                                 DCM_PatientID,
+                                 DCM_StudyInstanceUID,
+                                 DCM_FrameOfReferenceUID,
+                                 DCM_NumberOfFrames,
+                                 DCM_Rows,
+                                 DCM_Columns,
+                                 DCM_BitsAllocated,
+                                 DCM_BitsStored,
+                                 DCM_HighBit,
+                                 DCM_TotalPixelMatrixColumns,
+                                 DCM_SegmentationType,
+                                 DCM_MaximumFractionalValue,
+                                 DCM_SegmentSequence,
+                                 DCM_SharedFunctionalGroupsSequence,
+                                 DCM_PerFrameFunctionalGroupsSequence,
+                                 DCM_ReferencedFrameOfReferenceSequence,
+                                 DCM_StructureSetROISequence,
+                                 DCM_ROIContourSequence,
+                                 DCM_RTROIObservationsSequence}) {
       tags.push_back(std::uint32_t{key.getGroup()} << 16 | key.getElement());
     }
     std::sort(tags.begin(), tags.end());

@@ -37,9 +37,8 @@ class Surroundings {
       return no_node;
     }
     const Vec3 t = node - base;
-    const CubicSample sample =
-        cubic_sample(numbers_.data() + (first.z * wide + first.y) * wide + first.x, wide, wide * wide,
-                     CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+    const CubicSample sample = cubic_sample(numbers_.data() + (first.z * wide + first.y) * wide + first.x, wide,
+                                            wide * wide, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
     slope = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / spacing_;
     return sample.value;
   }
@@ -169,12 +168,12 @@ std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<fl
   constexpr std::size_t stretch = 32;
   const std::size_t count = bricks.count();
   const auto for_bricks = [&](const auto& work) {
-    internal::parallel_for(
-        (count + stretch - 1) / stretch,
-        [&](std::size_t n) {
-          for (std::size_t slot = n * stretch; slot < std::min(count, (n + 1) * stretch); ++slot) work(slot);
-        },
-        {}, threads);
+    internal::parallel_for((count + stretch - 1) / stretch,
+                           [&](std::size_t n) {
+                             for (std::size_t slot = n * stretch; slot < std::min(count, (n + 1) * stretch); ++slot)
+                               work(slot);
+                           },
+                           {}, threads);
   };
   std::vector<Vec3f> closest(count * nodes);
   for_bricks([&](std::size_t slot) { points_near_surface(bricks, f, slot, closest.data() + slot * nodes); });

@@ -117,8 +117,8 @@ void draw_segment(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& or
       const glm::dvec2 at = origin + glm::dvec2(i, j) * step;
       const double part = length > 0 ? std::clamp(glm::dot(at - a, along) / length, 0.0, 1.0) : 0.0;
       const glm::dvec2 away = at - a - part * along;
-      float& best = squared[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) +
-                            static_cast<std::size_t>(i)];
+      float& best =
+          squared[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(i)];
       best = std::min(best, static_cast<float>(glm::dot(away, away)));
     }
   }
@@ -183,7 +183,7 @@ void compute_plane(const Layout& layout, const NodeLattice& lattice, double band
 
 ContourStack stack_of(const std::vector<Contour>& contours) {
   if (contours.empty()) {
-    throw DicomError("it is empty: it has no closed contour");
+    throw DicomError("it is empty: it has no contour");
   }
   Vec3 normal(0);
   for (const Contour& contour : contours) {

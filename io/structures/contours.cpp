@@ -111,8 +111,8 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
   }
   std::map<int, std::vector<Contour>> rois;
   for_items(dataset, DCM_ROIContourSequence, [&](DcmItem& item) {
-    const auto found = structures.find(static_cast<int>(
-        std::clamp(number_of(item, DCM_ReferencedROINumber).value_or(-2e9), -2e9, 2e9)));
+    const auto found = structures.find(
+        static_cast<int>(std::clamp(number_of(item, DCM_ReferencedROINumber).value_or(-2e9), -2e9, 2e9)));
     if (found == structures.end()) return;
     Structure& structure = found->second;
     structure.color = color_of_rgb(numbers_of(item, DCM_ROIDisplayColor));

@@ -67,8 +67,8 @@ NodeBricks bricks_within(const NodeBricks& bricks, const std::vector<Vec3f>& clo
     float least = nowhere;
     for (int n = 0; n < static_cast<int>(NodeBricks::nodes); ++n) {
       const glm::ivec3 node = place * edge + glm::ivec3(n % edge, n / edge % edge, n / (edge * edge));
-      least = std::min(least, glm::distance(Vec3f(node) * spacing,
-                                            closest[slot * NodeBricks::nodes + static_cast<std::size_t>(n)]));
+      least = std::min(
+          least, glm::distance(Vec3f(node) * spacing, closest[slot * NodeBricks::nodes + static_cast<std::size_t>(n)]));
     }
     const glm::ivec3& size = bricks.lattice.bricks;
     std::int32_t& entry = near.slot[(static_cast<std::size_t>(place.z) * static_cast<std::size_t>(size.y) +
@@ -192,9 +192,9 @@ Distance DistanceField::sample(const Vec3& position_mm) const noexcept {
   }
   const double part = t * t * (3 - 2 * t);
   const double slope = 6 * t * (1 - t) / blend_mm_ * (near.mm < 0 ? -1.0 : 1.0);
-  return {.mm = near.mm + part * (far.mm - near.mm),
-          .gradient = near.gradient + part * (far.gradient - near.gradient) +
-                      (far.mm - near.mm) * slope * near.gradient};
+  return {
+      .mm = near.mm + part * (far.mm - near.mm),
+      .gradient = near.gradient + part * (far.gradient - near.gradient) + (far.mm - near.mm) * slope * near.gradient};
 }
 
 std::size_t DistanceField::memory_bytes() const noexcept {
@@ -206,7 +206,7 @@ std::shared_ptr<const DistanceField> distance_of(const Mask& mask, const Distanc
   bool any = false;
   for (const std::uint8_t share : mask.occupancy) any = any || share >= Mask::half;
   if (!any) {
-    throw std::invalid_argument("it is empty: it has no voxel inside");
+    throw std::invalid_argument("it is empty: no voxel is inside");
   }
   return std::make_shared<const DistanceField>(planes_of(mask, options.reach_mm), options);
 }

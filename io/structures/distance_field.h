@@ -15,7 +15,7 @@ namespace palpate::io {
 
 /// From the surface of a structure.
 struct Distance {
-  double mm = 0;      ///< positive inside
+  double mm = 0;     ///< positive inside
   Vec3 gradient{0};  ///< per mm, along patient axes: inward, of about unit length
 };
 

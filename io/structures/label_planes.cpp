@@ -13,10 +13,10 @@ constexpr int finest = 8;  // nodes for one step between voxels, at most
 /// Where the mask's slices lie on the lattice: node of a voxel = first + voxel * per_voxel, per axis.
 struct Layout {
   glm::ivec3 per_voxel{1};
-  std::vector<int> slice_node;           // of every slice of the box and of those beside it, along the third axis
-  std::vector<glm::ivec2> slice_first;   // node of pixel 0, 0 of the whole lattice
-  std::vector<int> slice;                // which slice of the whole lattice; -1: beside it, and empty
-  glm::ivec2 low{0}, high{0};            // pixels around the box that are known, both ends included
+  std::vector<int> slice_node;          // of every slice of the box and of those beside it, along the third axis
+  std::vector<glm::ivec2> slice_first;  // node of pixel 0, 0 of the whole lattice
+  std::vector<int> slice;               // which slice of the whole lattice; -1: beside it, and empty
+  glm::ivec2 low{0}, high{0};           // pixels around the box that are known, both ends included
 };
 
 /// mm: the least step between slices along their normal.
@@ -123,15 +123,15 @@ OutlinePlanes planes_of(const Mask& mask, double reach_mm) {
     least_slide = glm::min(least_slide, in_nodes);
     most_slide = glm::max(most_slide, in_nodes);
     layout.slice.push_back(k);
-    layout.slice_node.push_back(static_cast<int>(
-        std::lround((heights[static_cast<std::size_t>(k)] - base) / lattice.spacing.z)));
+    layout.slice_node.push_back(
+        static_cast<int>(std::lround((heights[static_cast<std::size_t>(k)] - base) / lattice.spacing.z)));
   }
   // Room beyond what is known, so that the field goes on there.
   const glm::ivec3 room = glm::ivec3(glm::ceil(Vec3(planes.band_mm) / lattice.spacing));
-  const glm::ivec2 first_node = glm::ivec2(glm::floor(least_slide)) + layout.low * glm::ivec2(layout.per_voxel) -
-                                glm::ivec2(room);
-  const glm::ivec2 last_node = glm::ivec2(glm::ceil(most_slide)) + layout.high * glm::ivec2(layout.per_voxel) +
-                               glm::ivec2(room);
+  const glm::ivec2 first_node =
+      glm::ivec2(glm::floor(least_slide)) + layout.low * glm::ivec2(layout.per_voxel) - glm::ivec2(room);
+  const glm::ivec2 last_node =
+      glm::ivec2(glm::ceil(most_slide)) + layout.high * glm::ivec2(layout.per_voxel) + glm::ivec2(room);
   for (std::size_t n = 0; n < slides.size(); ++n) {
     layout.slice_first.push_back(glm::ivec2(glm::round(slides[n])) - first_node);
     layout.slice_node[n] += room.z;

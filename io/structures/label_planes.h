@@ -7,7 +7,8 @@
 
 namespace palpate::io {
 
-/// The mask has to live as long as the planes. `reach_mm`: how far from the surface the field is to be exact. Slices that are tilted or unevenly spaced are put on the nearest nodes: a quarter of a voxel away at most.
+/// The mask has to live as long as the planes. `reach_mm`: how far from the surface the field is to be exact. Slices
+/// that are tilted or unevenly spaced are put on the nearest nodes: a quarter of a voxel away at most.
 OutlinePlanes planes_of(const Mask& mask, double reach_mm);
 
 }  // namespace palpate::io

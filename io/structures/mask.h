@@ -17,9 +17,9 @@ struct Mask {
   static constexpr std::uint8_t full = 254;
   static constexpr std::uint8_t half = 127;
 
-  Geometry geometry;   ///< of the whole lattice
-  glm::ivec3 low{0};   ///< first voxel of the box
-  glm::ivec3 size{0};  ///< voxels of the box
+  Geometry geometry;                    ///< of the whole lattice
+  glm::ivec3 low{0};                    ///< first voxel of the box
+  glm::ivec3 size{0};                   ///< voxels of the box
   std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: how much of a voxel is inside, 0 to full
   /// Whether `occupancy` holds fractions: then they say where in a voxel the edge is, and the field uses them.
   bool fractional = false;

@@ -17,9 +17,9 @@
 namespace palpate::io {
 
 struct NodeLattice {
-  Vec3 origin{0};       ///< mm, of node 0, 0, 0
-  glm::dmat3 axes{1};   ///< columns: unit, at right angles
-  Vec3 spacing{1};      ///< mm
+  Vec3 origin{0};        ///< mm, of node 0, 0, 0
+  glm::dmat3 axes{1};    ///< columns: unit, at right angles
+  Vec3 spacing{1};       ///< mm
   glm::ivec3 bricks{0};  ///< how many along each axis
 
   Vec3 position(const Vec3& node) const noexcept { return origin + axes * (node * spacing); }
@@ -36,8 +36,8 @@ struct NodeBricks {
   static constexpr std::int32_t inside = -2;   ///< likewise, inside
 
   NodeLattice lattice;
-  std::vector<std::int32_t> slot;   ///< by brick, i fastest
-  std::vector<glm::ivec3> place;    ///< of the brick in each slot
+  std::vector<std::int32_t> slot;  ///< by brick, i fastest
+  std::vector<glm::ivec3> place;   ///< of the brick in each slot
 
   std::size_t count() const noexcept { return place.size(); }
   std::int32_t slot_at(int x, int y, int z) const noexcept {

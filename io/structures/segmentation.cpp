@@ -55,11 +55,10 @@ struct PlacedFrame {
 PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
   DcmItem* position = group_of(own, shared, DCM_PlanePositionSequence);
   DcmItem* measures = group_of(own, shared, DCM_PixelMeasuresSequence);
-  const auto placement =
-      internal::make_placement(numbers_in(position, DCM_ImagePositionPatient),
-                               numbers_in(group_of(own, shared, DCM_PlaneOrientationSequence),
-                                          DCM_ImageOrientationPatient),
-                               numbers_in(measures, DCM_PixelSpacing));
+  const auto placement = internal::make_placement(
+      numbers_in(position, DCM_ImagePositionPatient),
+      numbers_in(group_of(own, shared, DCM_PlaneOrientationSequence), DCM_ImageOrientationPatient),
+      numbers_in(measures, DCM_PixelSpacing));
   if (!placement) {
     throw DicomError(
         "a frame of it does not say where it lies in the patient (position, orientation or spacing): export it again");
@@ -68,7 +67,8 @@ PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
   const auto spacing = numbers_in(measures, DCM_SpacingBetweenSlices);
   frame.spacing = spacing.empty() ? 0 : std::abs(spacing.front());
   if (type != SegmentationType::label_map) {
-    const auto number = numbers_in(group_of(own, shared, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);
+    const auto number =
+        numbers_in(group_of(own, shared, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);
     if (number.empty()) {
       throw DicomError("a frame of it does not say to which segment it belongs: export it again");
     }
@@ -143,7 +143,8 @@ class SegmentationSource final : public StructureSource {
     std::vector<double> heights;
     for (const PlacedFrame& frame : frames) {
       if (!share_lattice(frame.placement, reference)) {
-        throw DicomError("its frames have several orientations or pixel sizes: export each as a segmentation of its own");
+        throw DicomError(
+            "its frames have several orientations or pixel sizes: export each as a segmentation of its own");
       }
       heights.push_back(glm::dot(frame.placement.position, normal));
     }
@@ -164,13 +165,14 @@ class SegmentationSource final : public StructureSource {
     for (std::size_t n = 0; n < frames.size(); ++n) {
       const auto above = std::lower_bound(levels.begin(), levels.end(), heights[n]);
       std::ptrdiff_t k = above - levels.begin();
-      if (above == levels.end() || (k > 0 && heights[n] - levels[static_cast<std::size_t>(k - 1)] < *above - heights[n])) {
+      if (above == levels.end() ||
+          (k > 0 && heights[n] - levels[static_cast<std::size_t>(k - 1)] < *above - heights[n])) {
         --k;
       }
       frames_.push_back({frames[n].segment, static_cast<int>(k)});
     }
-    geometry_ = internal::stack_geometry(pixels_.format.columns, pixels_.format.rows, reference, std::move(positions), {},
-                                         spacing);
+    geometry_ = internal::stack_geometry(pixels_.format.columns, pixels_.format.rows, reference, std::move(positions),
+                                         {}, spacing);
     geometry_.gaps.clear();
   }
 
@@ -260,8 +262,8 @@ class SegmentationSource final : public StructureSource {
     for (const Cut& cut : cuts) {
       for (int j = 0; j < cut.size.y; ++j) {
         const auto from = cut.occupancy.begin() + static_cast<std::ptrdiff_t>(j) * cut.size.x;
-        std::uint8_t* into = mask.occupancy.data() + mask.offset(cut.low.x - low.x, cut.low.y + j - low.y,
-                                                                 cut.slice - low.z);
+        std::uint8_t* into =
+            mask.occupancy.data() + mask.offset(cut.low.x - low.x, cut.low.y + j - low.y, cut.slice - low.z);
         for (int i = 0; i < cut.size.x; ++i) into[i] = std::max(into[i], from[i]);
       }
     }

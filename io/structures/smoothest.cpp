@@ -57,15 +57,14 @@ void laplacian(const float* around, const Stencil& w, float* into) {
 template <typename Work>
 void for_bricks(std::size_t count, int threads, const Work& work) {
   constexpr std::size_t stretch = 64;
-  internal::parallel_for(
-      (count + stretch - 1) / stretch,
-      [&](std::size_t n) {
-        const std::size_t end = std::min(count, (n + 1) * stretch);
-        for (std::size_t slot = n * stretch; slot < end; ++slot) {
-          work(slot);
-        }
-      },
-      {}, threads);
+  internal::parallel_for((count + stretch - 1) / stretch,
+                         [&](std::size_t n) {
+                           const std::size_t end = std::min(count, (n + 1) * stretch);
+                           for (std::size_t slot = n * stretch; slot < end; ++slot) {
+                             work(slot);
+                           }
+                         },
+                         {}, threads);
 }
 
 /// Accelerated projected gradient steps on |Laplacian f|^2 within the bounds.
@@ -167,8 +166,8 @@ void refine(const Level& coarse, int threads, Level& fine) {
     const glm::ivec3 from = place / 2;
     const glm::ivec3 part = (place - from * 2) * (edge / 2);
     Around around;
-    gather<1, float>(coarse.bricks, coarse.f,
-                     static_cast<std::size_t>(coarse.bricks.slot_at(from.x, from.y, from.z)), no_node, around.data());
+    gather<1, float>(coarse.bricks, coarse.f, static_cast<std::size_t>(coarse.bricks.slot_at(from.x, from.y, from.z)),
+                     no_node, around.data());
     for (int k = 0; k < edge; ++k) {
       for (int j = 0; j < edge; ++j) {
         for (int i = 0; i < edge; ++i) {
@@ -178,8 +177,8 @@ void refine(const Level& coarse, int threads, Level& fine) {
             const int x = (i + ((corner & 1) != 0 ? 1 : 0)) / 2;
             const int y = (j + ((corner & 2) != 0 ? 1 : 0)) / 2;
             const int z = (k + ((corner & 4) != 0 ? 1 : 0)) / 2;
-            const float f = around[static_cast<std::size_t>(((part.z + z + 1) * wide + part.y + y + 1) * wide +
-                                                            part.x + x + 1)];
+            const float f =
+                around[static_cast<std::size_t>(((part.z + z + 1) * wide + part.y + y + 1) * wide + part.x + x + 1)];
             if (f == f) {
               sum += f;
               weight += 1;

@@ -119,8 +119,7 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
 }
 
 std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options) {
-  return named(structure,
-               [&](const StructureSource& source) { return source.distance(structure.number, options); });
+  return named(structure, [&](const StructureSource& source) { return source.distance(structure.number, options); });
 }
 
 StructureMeasures measure(const Structure& structure) {

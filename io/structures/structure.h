@@ -49,10 +49,10 @@ class StructureSource {
 struct Structure {
   std::filesystem::path file;
   StructureKind kind = StructureKind::segmentation;
-  int number = 0;    ///< SegmentNumber, ROINumber or the label's value
-  std::string name;  ///< SegmentLabel, ROIName, ...; where there is none, what its code means
-  std::string code;  ///< of what it is: "SCT 10200004 Liver", or empty
-  std::string color;  ///< "#rrggbb", or empty
+  int number = 0;                      ///< SegmentNumber, ROINumber or the label's value
+  std::string name;                    ///< SegmentLabel, ROIName, ...; where there is none, what its code means
+  std::string code;                    ///< of what it is: "SCT 10200004 Liver", or empty
+  std::string color;                   ///< "#rrggbb", or empty
   std::string frame_of_reference_uid;  ///< empty where it is not said
   std::string study_uid;
   std::string patient_id;  ///< to be compared with the scan's; never written or shown

@@ -38,6 +38,7 @@ struct TestSegmentation {
   std::vector<std::string> names{"Liver"};
   std::vector<Frame> frames;
   std::function<void(DcmDataset&)> edit = [](DcmDataset&) {};
+  E_TransferSyntax syntax = EXS_LittleEndianExplicit;
 };
 
 int box(int i, int j) {
@@ -72,6 +73,7 @@ std::vector<Uint8> packed(const TestSegmentation& segmentation) {
 
 void write(const TestSegmentation& segmentation, const std::filesystem::path& path) {
   TestImage image{.columns = columns, .rows = rows};
+  image.syntax = segmentation.syntax;
   std::vector<double> heights;
   for (const Frame& frame : segmentation.frames) heights.push_back(frame.z);
   image.edit = [&](DcmDataset& dataset) {
@@ -85,9 +87,9 @@ void write(const TestSegmentation& segmentation, const std::filesystem::path& pa
     put(dataset, DCM_FrameOfReferenceUID, "1.2.3.9");
     put(dataset, DCM_SegmentationType, segmentation.type);
     put(dataset, DCM_MaximumFractionalValue, 200);
-    for (const auto& [tag, value] : {std::pair{DCM_BitsAllocated, segmentation.bits},
-                                     std::pair{DCM_BitsStored, segmentation.bits},
-                                     std::pair{DCM_HighBit, segmentation.bits - 1}}) {
+    for (const auto& [tag, value] :
+         {std::pair{DCM_BitsAllocated, segmentation.bits}, std::pair{DCM_BitsStored, segmentation.bits},
+          std::pair{DCM_HighBit, segmentation.bits - 1}}) {
       put(dataset, tag, value);
     }
     for (std::size_t n = 0; n < segmentation.names.size(); ++n) {
@@ -105,14 +107,14 @@ void write(const TestSegmentation& segmentation, const std::filesystem::path& pa
   internal::write(image, path);
 }
 
-StructureCatalogue find_in(const TestFolder& folder) {
+StructureCatalogue structures_in(const TestFolder& folder) {
   return find_structures(std::array{folder.path()});
 }
 
 StructureCatalogue found_of(const TestSegmentation& segmentation) {
   const TestFolder folder;
   write(segmentation, folder / "seg.dcm");
-  StructureCatalogue catalogue = find_in(folder);
+  StructureCatalogue catalogue = structures_in(folder);
   for (Structure& structure : catalogue.structures) {
     if (structure.unfit.empty()) measure(structure);
   }
@@ -129,7 +131,7 @@ TEST(Segmentations, AreReadInAnyOrderSparseAndOverlapping) {
   write({.names = {"Liver", "Tumor"},
          .frames = {{1, 6, box}, {2, 0, other_box}, {1, 0, box}, {2, 6, other_box}, {1, 4, box}}},
         folder / "seg.dcm");
-  const StructureCatalogue catalogue = find_in(folder);
+  const StructureCatalogue catalogue = structures_in(folder);
   ASSERT_EQ(catalogue.structures.size(), 2U);
   const Structure& liver = catalogue.structures[0];
   EXPECT_EQ(liver.name, "Liver");
@@ -146,7 +148,7 @@ TEST(Segmentations, OfFractionsHaveTheirEdgeAtHalf) {
   const TestFolder folder;
   const auto rising = [](int i, int) { return 20 * i; };  // 100 of 200 at column 5
   write({.type = "FRACTIONAL", .bits = 8, .frames = {{1, 0, rising}, {1, 2, rising}}}, folder / "seg.dcm");
-  EXPECT_EQ(voxels_of(find_in(folder).structures.at(0)), 2U * rows * (columns - 5));
+  EXPECT_EQ(voxels_of(structures_in(folder).structures.at(0)), 2U * rows * (columns - 5));
 }
 
 TEST(Segmentations, OfLabelsHaveOneAFrame) {
@@ -155,7 +157,7 @@ TEST(Segmentations, OfLabelsHaveOneAFrame) {
     const auto labels = [](int i, int j) { return box(i, j) != 0 ? 1 : (other_box(i, j) != 0 ? 2 : 0); };
     write({.type = "LABELMAP", .bits = bits, .names = {"Liver", "Spleen"}, .frames = {{0, 0, labels}, {0, 2, labels}}},
           folder / "seg.dcm");
-    const StructureCatalogue catalogue = find_in(folder);
+    const StructureCatalogue catalogue = structures_in(folder);
     ASSERT_EQ(catalogue.structures.size(), 2U);
     EXPECT_EQ(voxels_of(catalogue.structures[0]), 2U * 20U);
     EXPECT_EQ(voxels_of(catalogue.structures[1]), 2U * (20U - 4U));
@@ -165,14 +167,15 @@ TEST(Segmentations, OfLabelsHaveOneAFrame) {
 TEST(Segmentations, AreReadCompressed) {
   const TestFolder folder;
   TestSegmentation segmentation{.type = "LABELMAP", .bits = 8, .frames = {{0, 0, box}, {0, 2, box}}};
+  segmentation.syntax = EXS_JPEG2000LosslessOnly;
   segmentation.edit = [](DcmDataset& dataset) {
-    internal::encapsulate(dataset, EXS_JPEG2000LosslessOnly,
-                          {internal::jpeg2000(columns, rows, 8, false, box),
-                           internal::jpeg2000(columns, rows, 8, false, box)},
-                          1U << 16U);
+    internal::encapsulate(
+        dataset, EXS_JPEG2000LosslessOnly,
+        {internal::jpeg2000(columns, rows, 8, false, box), internal::jpeg2000(columns, rows, 8, false, box)},
+        1U << 16U);
   };
   write(segmentation, folder / "seg.dcm");
-  const StructureCatalogue catalogue = find_in(folder);
+  const StructureCatalogue catalogue = structures_in(folder);
   ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? "" : catalogue.skipped[0].reason);
   EXPECT_EQ(voxels_of(catalogue.structures[0]), 2U * 20U);
 }
@@ -196,8 +199,7 @@ TEST(Segmentations, AreRefusedInWords) {
   };
   EXPECT_EQ(edited([](DcmDataset& d) { d.putAndInsertUint32(DCM_TotalPixelMatrixColumns, 4000); }),
             "it outlines a microscope's slide, not a scan: it cannot be felt");
-  EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_PixelData); }),
-            "it has no pixels: export it again");
+  EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_PixelData); }), "it has no pixels: export it again");
   EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_Rows); }),
             "it has no pixels: Rows or Columns is missing");
   EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_BitsAllocated, 3); }),
@@ -210,6 +212,23 @@ TEST(Segmentations, AreRefusedInWords) {
             "it does not say where its frames lie (PerFrameFunctionalGroupsSequence): export it again");
   EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_NumberOfFrames, "5"); }),
             "it says of 2 of its 5 frames where they lie: export it again");
+  EXPECT_EQ(
+      edited([](DcmDataset& d) { group(d, DCM_SharedFunctionalGroupsSequence).clear(); }),
+      "a frame of it does not say where it lies in the patient (position, orientation or spacing): export it again");
+  EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_SOPClassUID, "1.2.840.10008.5.1.4.1.1.66.5"); }),
+            "it holds surfaces (Surface Segmentation), which are not read: export it as SEG");
+  const auto of_frame = [](DcmDataset& d) -> DcmItem& { return group(d, DCM_PerFrameFunctionalGroupsSequence); };
+  EXPECT_EQ(edited([&](DcmDataset& d) { of_frame(d).findAndDeleteElement(DCM_SegmentIdentificationSequence); }),
+            "a frame of it does not say to which segment it belongs: export it again");
+  EXPECT_EQ(edited([&](DcmDataset& d) {
+              group(of_frame(d), DCM_PixelMeasuresSequence).putAndInsertString(DCM_PixelSpacing, "2\\2");
+            }),
+            "its frames have several orientations or pixel sizes: export each as a segmentation of its own");
+  EXPECT_EQ(refusal_of({.type = "FRACTIONAL",
+                        .bits = 8,
+                        .frames = frames,
+                        .edit = [](DcmDataset& d) { put(d, DCM_MaximumFractionalValue, 0); }}),
+            "its MaximumFractionalValue is not above 0: export it again");
   EXPECT_THAT(edited([](DcmDataset& d) { d.putAndInsertUint8Array(DCM_PixelData, nullptr, 0); }),
               HasSubstr("bytes of pixels"));
 }
@@ -250,7 +269,7 @@ StructureCatalogue contours_in(const std::vector<TestContour>& contours, const T
     }
   };
   internal::write(image, folder / "rt.dcm");
-  return find_in(folder);
+  return structures_in(folder);
 }
 
 TEST(Contours, AreMeasuredByTheirPolygons) {
@@ -284,10 +303,50 @@ TEST(Contours, AreRefusedInWords) {
   EXPECT_EQ(unfit_of({{"CLOSED_PLANAR", "0\\0\\0\\1\\0\\0\\2\\0\\0"}}), "its contours have no area");
 }
 
+TEST(Contours, AreRefusedWholeInWords) {
+  const TestFolder folder;
+  TestImage image;
+  image.edit = [](DcmDataset& dataset) { put(dataset, DCM_SOPClassUID, "1.2.840.10008.5.1.4.1.1.481.3"); };
+  internal::write(image, folder / "rt.dcm");
+  EXPECT_EQ(structures_in(folder).skipped.at(0).reason, "it names no ROI (StructureSetROISequence): export it again");
+}
+
+std::string refusal_of_contours(const std::vector<TestContour>& contours) {
+  const TestFolder folder;
+  const StructureCatalogue catalogue = contours_in(contours, folder);
+  const Structure& structure = catalogue.structures.at(0);
+  if (!structure.unfit.empty()) return structure.unfit;
+  try {
+    load_distance(structure);
+  } catch (const DicomError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(Contours, ThatAreTooLargeAreRefusedInWords) {
+  EXPECT_THAT(refusal_of_contours({{"CLOSED_PLANAR", square(30000, 0)}, {"CLOSED_PLANAR", square(30000, 900)}}),
+              ::testing::AllOf(HasSubstr("rt.dcm: RTSTRUCT \"Aorta\" (7) cannot be read: its contours span "),
+                               HasSubstr("mm: more than can be felt")));
+  std::vector<TestContour> many;
+  for (int n = 0; n < 4097; ++n) many.push_back({"CLOSED_PLANAR", square(3, 0.1 * n)});
+  EXPECT_EQ(refusal_of_contours(many), "its contours lie in 4097 planes; there may be 4096");
+}
+
+TEST(Contours, ThatCannotBeFeltSayWhy) {
+  const TestFolder folder;
+  const StructureCatalogue catalogue = contours_in({}, folder);
+  try {
+    measure(catalogue.structures.at(0));
+    FAIL() << "was measured";
+  } catch (const DicomError& error) {
+    EXPECT_STREQ(error.what(), "rt.dcm: RTSTRUCT \"Aorta\" (7) cannot be felt: it is empty: it has no contour");
+  }
+}
+
 TEST(Contours, ThatAreOpenAreLeftOutAndSaid) {
   const TestFolder folder;
-  const auto catalogue =
-      contours_in({{"CLOSED_PLANAR", square(3, 0)}, {"OPEN_PLANAR", square(3, 2)}}, folder);
+  const auto catalogue = contours_in({{"CLOSED_PLANAR", square(3, 0)}, {"OPEN_PLANAR", square(3, 2)}}, folder);
   EXPECT_THAT(catalogue.structures.at(0).warnings,
               ::testing::ElementsAre("contours that are not closed are left out: 1 OPEN_PLANAR"));
 }
@@ -299,8 +358,10 @@ TEST(Contours, AreCutShortWithoutACrash) {
   const auto whole = std::filesystem::file_size(folder / "rt.dcm");
   for (std::uintmax_t size = whole; size > 0; size -= std::min<std::uintmax_t>(size, 7)) {
     std::filesystem::resize_file(folder / "rt.dcm", size);
-    for (const Structure& structure : find_in(folder).structures) {
-      if (structure.unfit.empty()) EXPECT_NO_THROW(measure(structure));
+    for (const Structure& structure : structures_in(folder).structures) {
+      if (structure.unfit.empty()) {
+        EXPECT_NO_THROW(measure(structure));
+      }
     }
   }
 }

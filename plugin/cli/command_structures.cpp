@@ -52,12 +52,9 @@ std::vector<std::string> warnings_of(const MeasuredStructure& found) {
 nlohmann::ordered_json structure_json(const MeasuredStructure& found) {
   const io::Structure& structure = found.structure;
   const auto vector = [](const io::Vec3& v) { return nlohmann::ordered_json::array({v.x, v.y, v.z}); };
-  nlohmann::ordered_json json{{"file", structure.file.string()},
-                              {"kind", io::name_of(structure.kind)},
-                              {"number", structure.number},
-                              {"name", structure.name},
-                              {"code", structure.code},
-                              {"color", structure.color}};
+  nlohmann::ordered_json json{{"file", structure.file.string()}, {"kind", io::name_of(structure.kind)},
+                              {"number", structure.number},      {"name", structure.name},
+                              {"code", structure.code},          {"color", structure.color}};
   if (found.measures) {
     const io::StructureMeasures& measures = *found.measures;
     if (measures.voxels) json["voxels"] = *measures.voxels;
