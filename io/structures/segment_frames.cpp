@@ -109,7 +109,7 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
     pixels.coding = PixelCoding::encapsulated;
     internal::check_density(start.transfer_syntax, format.bits_allocated == 1 ? as_bytes(format) : format, frames,
                             8 * file.size());
-    pixels.fragments = internal::find_fragments(file, pixels.at, frames);
+    pixels.fragments = internal::find_fragments(file, pixels.at, frames).frames;
     return pixels;
   }
   pixels.coding = start.deflated ? PixelCoding::deflated : PixelCoding::native;
