@@ -15,7 +15,7 @@ namespace {
 constexpr int edge = NodeBricks::edge;
 constexpr std::size_t nodes = NodeBricks::nodes;
 constexpr int margin = 5;  // how many nodes beyond its brick a Newton step may look
-constexpr int wide = edge + 2 * margin;
+constexpr std::ptrdiff_t wide = edge + 2 * margin;
 constexpr float no_node = std::numeric_limits<float>::quiet_NaN();
 
 /// f around a brick, interpolated.
@@ -129,7 +129,7 @@ void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, 
 
 /// Takes the neighbors' closest points over where they are closer: forth and back through a brick.
 void spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::size_t slot, Vec3f* closest) {
-  constexpr int side = edge + 2;
+  constexpr std::ptrdiff_t side = edge + 2;
   std::array<Vec3f, static_cast<std::size_t>(side) * side * side> around;
   gather<1, Vec3f>(bricks, before, slot, Vec3f(nowhere), around.data());
   const Vec3f spacing(bricks.lattice.spacing);
@@ -139,7 +139,7 @@ void spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::siz
     const Vec3f node = corner + Vec3f(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)) * spacing;
     const Vec3f away = node - *here;
     float least = glm::dot(away, away);
-    for (const int step : {-1, 1, -side, side, -side * side, side * side}) {
+    for (const std::ptrdiff_t step : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}, -side, side, -side * side, side * side}) {
       offer(node, here[step], least, *here);
     }
   };

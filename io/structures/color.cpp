@@ -34,6 +34,7 @@ std::string color_of_lab(const std::vector<double>& encoded) {
                                      -0.9787684 * x + 1.9161415 * y + 0.0334540 * z,
                                      0.0719453 * x - 0.2289914 * y + 1.4052427 * z};
   std::vector<double> rgb;
+  rgb.reserve(linear.size());
   for (const double c : linear) {
     rgb.push_back(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055));
   }

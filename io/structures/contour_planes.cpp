@@ -74,6 +74,7 @@ bool holds(const Polygon& polygon, const glm::dvec2& at) {
 
 double typical_step(const std::vector<ContourStack::Plane>& planes) {
   std::vector<double> steps;
+  steps.reserve(planes.size());
   for (std::size_t n = 0; n + 1 < planes.size(); ++n) steps.push_back(planes[n + 1].height - planes[n].height);
   if (steps.empty()) {
     return 1;
@@ -199,6 +200,7 @@ ContourStack stack_of(const std::vector<Contour>& contours) {
   std::map<long long, std::size_t> plane_at;
   for (const Contour& contour : contours) {
     Polygon polygon;
+    polygon.reserve(contour.size());
     double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
     for (const Vec3& point : contour) {
       const Vec3 at = glm::transpose(stack.axes) * point;

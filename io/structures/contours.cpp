@@ -57,6 +57,7 @@ Contour contour_in(DcmItem& item) {
   if (numbers.empty() || numbers.size() % 3 != 0) {
     throw DicomError("a contour of it has " + std::to_string(numbers.size()) + " numbers, not three a point");
   }
+  contour.reserve(numbers.size() / 3);
   for (std::size_t n = 0; n < numbers.size(); n += 3) {
     contour.push_back({numbers[n], numbers[n + 1], numbers[n + 2]});
   }
@@ -126,6 +127,7 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
   });
   const auto source = std::make_shared<const ContourSource>(std::move(rois));
   std::vector<Structure> list;
+  list.reserve(structures.size());
   for (auto& [number, structure] : structures) {
     structure.source = source;
     list.push_back(std::move(structure));

@@ -4,6 +4,7 @@
 /// digital image processing", IEEE ASSP 29 (1981), a = -1/2.
 
 #include <array>
+#include <cstddef>
 
 namespace palpate::io {
 
@@ -25,13 +26,13 @@ struct CubicSample {
   double value = 0;
   double slope[3] = {0, 0, 0};
 };
-inline CubicSample cubic_sample(const float* first, int row, int plane, const CubicWeights& x, const CubicWeights& y,
-                                const CubicWeights& z) noexcept {
+inline CubicSample cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, const CubicWeights& x,
+                                const CubicWeights& y, const CubicWeights& z) noexcept {
   CubicSample sample;
-  for (int k = 0; k < 4; ++k) {
+  for (std::ptrdiff_t k = 0; k < 4; ++k) {
     double along_x = 0, along_y = 0, value = 0;
-    for (int j = 0; j < 4; ++j) {
-      const float* r = first + k * plane + j * row;
+    for (std::ptrdiff_t j = 0; j < 4; ++j) {
+      const float* r = first + (k * plane + j * row);
       const double v = x.value[0] * r[0] + x.value[1] * r[1] + x.value[2] * r[2] + x.value[3] * r[3];
       const double s = x.slope[0] * r[0] + x.slope[1] * r[1] + x.slope[2] * r[2] + x.slope[3] * r[3];
       value += y.value[static_cast<std::size_t>(j)] * v;

@@ -20,7 +20,7 @@ namespace palpate::io {
 namespace {
 
 constexpr int edge = NodeBricks::edge;
-constexpr int wide = edge + 3;
+constexpr std::ptrdiff_t wide = edge + 3;
 constexpr std::size_t nodes_of_a_brick = static_cast<std::size_t>(wide) * wide * wide;
 
 /// A node's closest point and on which side of the surface the node is.
@@ -32,7 +32,7 @@ struct Nearest {
 /// Signed distances of a brick's nodes and of those around it. A node that no brick holds takes the closest point of
 /// the nearest one that a brick does.
 void fill_brick(const NodeBricks& bricks, const std::vector<Nearest>& nearest, std::size_t slot, float* into) {
-  constexpr int side = edge + 4;
+  constexpr std::ptrdiff_t side = edge + 4;
   std::vector<Nearest> around(static_cast<std::size_t>(side) * side * side);
   gather<2, Nearest>(bricks, nearest, slot, Nearest{}, around.data());
   const Vec3f spacing(bricks.lattice.spacing);
@@ -145,8 +145,8 @@ bool DistanceField::sample_near(const Vec3& position_mm, Distance& distance) con
   }
   const glm::ivec3 in = cell - place * edge;
   const Vec3 t = node - Vec3(cell);
-  const float* first =
-      near_mm_.data() + static_cast<std::size_t>(slot) * nodes_of_a_brick + (in.z * wide + in.y) * wide + in.x;
+  const float* first = near_mm_.data() + static_cast<std::size_t>(slot) * nodes_of_a_brick +
+                       static_cast<std::size_t>((in.z * wide + in.y) * wide + in.x);
   const CubicSample sample =
       cubic_sample(first, wide, wide * wide, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
   distance.mm = sample.value;
@@ -160,8 +160,8 @@ Distance DistanceField::sample_far(const Vec3& position_mm) const noexcept {
   const Vec3 held = glm::clamp(node, Vec3(1), Vec3(far_.size) - 2.001);
   const glm::ivec3 cell(held);
   const Vec3 t = held - Vec3(cell);
-  const int row = far_.size.x;
-  const int plane = row * far_.size.y;
+  const std::ptrdiff_t row = far_.size.x;
+  const std::ptrdiff_t plane = row * far_.size.y;
   const float* first = far_.mm.data() + static_cast<std::size_t>(cell.z - 1) * static_cast<std::size_t>(plane) +
                        static_cast<std::size_t>(cell.y - 1) * static_cast<std::size_t>(row) +
                        static_cast<std::size_t>(cell.x - 1);

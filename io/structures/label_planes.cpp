@@ -74,6 +74,7 @@ OutlinePlanes planes_of(const Mask& mask, double reach_mm) {
   const Vec3 across = glm::cross(normal, geometry.direction_i);
   const int slices = geometry.dimensions.z;
   std::vector<double> heights;
+  heights.reserve(geometry.slice_positions.size());
   for (const Vec3& position : geometry.slice_positions) {
     heights.push_back(glm::dot(position - geometry.slice_positions.front(), normal));
   }

@@ -60,7 +60,7 @@ struct NodeBricks {
 template <int margin, typename Number>
 void gather(const NodeBricks& bricks, std::span<const Number> numbers, std::size_t slot, const Number& missing,
             Number* into) noexcept {
-  constexpr int wide = NodeBricks::edge + 2 * margin;
+  constexpr std::ptrdiff_t wide = NodeBricks::edge + 2 * margin;
   const glm::ivec3 place = bricks.place[slot];
   for (int dz = -1; dz <= 1; ++dz) {
     const int z0 = dz < 0 ? -margin : dz * NodeBricks::edge;

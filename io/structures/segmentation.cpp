@@ -141,6 +141,7 @@ class SegmentationSource final : public StructureSource {
     const Placement& reference = frames.front().placement;
     const Vec3 normal = glm::normalize(glm::cross(reference.direction_i, reference.direction_j));
     std::vector<double> heights;
+    heights.reserve(frames.size());
     for (const PlacedFrame& frame : frames) {
       if (!share_lattice(frame.placement, reference)) {
         throw DicomError(
@@ -157,10 +158,12 @@ class SegmentationSource final : public StructureSource {
       }
     }
     std::vector<Vec3> positions;
+    positions.reserve(slices.size());
     for (const auto& [height, position] : slices) positions.push_back(position);
     const double spacing = frames.front().spacing;
     positions = filled(positions, normal, spacing);
     std::vector<double> levels;
+    levels.reserve(positions.size());
     for (const Vec3& position : positions) levels.push_back(glm::dot(position, normal));
     for (std::size_t n = 0; n < frames.size(); ++n) {
       const auto above = std::lower_bound(levels.begin(), levels.end(), heights[n]);

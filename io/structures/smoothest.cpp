@@ -13,7 +13,7 @@ namespace {
 
 constexpr int edge = NodeBricks::edge;
 constexpr std::size_t nodes = NodeBricks::nodes;
-constexpr int wide = edge + 2;
+constexpr std::ptrdiff_t wide = edge + 2;
 constexpr float no_node = std::numeric_limits<float>::quiet_NaN();
 
 /// One lattice of the pyramid. A node that does not belong to it is NaN in all three.
