@@ -51,7 +51,8 @@ struct NodeBricks {
   }
   /// Of the nodes' numbers, one array for each slot.
   static constexpr std::size_t at(int i, int j, int k) noexcept {
-    return static_cast<std::size_t>((k * edge + j) * edge + i);
+    constexpr auto wide = static_cast<std::size_t>(edge);
+    return (static_cast<std::size_t>(k) * wide + static_cast<std::size_t>(j)) * wide + static_cast<std::size_t>(i);
   }
 };
 
