@@ -16,6 +16,11 @@ std::vector<FoundDevice> find_devices() {
   return found;
 }
 
+std::runtime_error which_of(const std::string& name, std::size_t matching) {
+  return std::runtime_error(name + ": there are " + std::to_string(matching) +
+                            "; name the address of one, as `palpate devices` lists them");
+}
+
 std::string permission_advice() {
   return "type: sudo cp " PALPATE_UDEV_RULES_PATH
          " /etc/udev/rules.d/ && sudo udevadm control --reload && sudo udevadm trigger && sudo adduser $USER plugdev; "

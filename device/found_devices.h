@@ -2,6 +2,8 @@
 
 /// What is plugged in.
 
+#include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,9 @@ struct FoundDevice {
 
 /// Of every kind that this build has a driver for. Devices that cannot be opened are listed, too.
 std::vector<FoundDevice> find_devices();
+
+/// What to throw where several devices match and one is meant.
+std::runtime_error which_of(const std::string& name, std::size_t matching);
 
 /// The lines to type where a device is there and permission is denied.
 std::string permission_advice();

@@ -100,8 +100,7 @@ Handle open_handle(libusb_context* context, const std::string& address) {
   const std::string name = "Novint Falcon" + (address.empty() ? "" : " at " + address);
   if (matching == 0) throw std::runtime_error(name + ": not found; check its plug and its power supply");
   if (matching > 1) {
-    throw std::runtime_error(name + ": there are " + std::to_string(matching) +
-                             "; name the address of one, as `palpate devices` lists them");
+    throw which_of(name, static_cast<std::size_t>(matching));
   }
   if (failed == LIBUSB_ERROR_ACCESS) {
     throw std::runtime_error(name + ": permission denied; " + permission_advice());

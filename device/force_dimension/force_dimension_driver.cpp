@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "device/found_devices.h"
 #include "device/link/realtime.h"
 #include "device/vectors.h"
 
@@ -78,8 +79,7 @@ void ForceDimensionDriver::choose() {
   if (matching == 1) return;
   if (matching > 1) {
     drd_->close(id_);
-    throw std::runtime_error("Force Dimension: there are " + std::to_string(matching) +
-                             "; name the address of one, as `palpate devices` lists them");
+    throw which_of("Force Dimension", static_cast<std::size_t>(matching));
   }
   throw std::runtime_error(
       "Force Dimension" + (settings_.address.empty() ? "" : " " + settings_.address) +

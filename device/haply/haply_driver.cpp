@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "device/found_devices.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -187,8 +188,7 @@ void HaplyProtocol::choose(const std::vector<HaplyDevice>& devices) {
                              "there: palpate devices");
   }
   if (matching.size() > 1) {
-    throw std::runtime_error("Haply: there are " + std::to_string(matching.size()) +
-                             "; name the address of one, as `palpate devices` lists them");
+    throw which_of("Haply", matching.size());
   }
   device_ = matching.front();
 }

@@ -106,8 +106,7 @@ std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& addre
   if (found.empty())
     throw std::runtime_error(name + ": not found; check its plug, or list what is there: palpate devices");
   if (found.size() > 1) {
-    throw std::runtime_error(name + ": there are " + std::to_string(found.size()) +
-                             "; name the address of one, as `palpate devices` lists them");
+    throw which_of(name, found.size());
   }
   if (!found.front().accessible) throw std::runtime_error(name + ": permission denied; " + permission_advice());
   hid_device* const device = hid_open_path(found.front().address.c_str());

@@ -82,7 +82,7 @@ TEST(Command, PlanNamesTheSlicesOutOfReachAndWhatTheStylusDoesNotNeed) {
     return entries;
   };
   const auto simulated = left_out("simulated");
-  EXPECT_TRUE(simulated.contains("drivers of falcon, wooden_haptics, space_mouse"));
+  EXPECT_TRUE(simulated.contains("drivers of falcon, wooden_haptics, space_mouse, haply, touch, force_dimension"));
   const auto slices = simulated.lower_bound("slices");
   ASSERT_TRUE(slices != simulated.end() && slices->first.starts_with("slices 0-"));
   EXPECT_EQ(slices->second["why"], "outside the workspace");
@@ -90,7 +90,7 @@ TEST(Command, PlanNamesTheSlicesOutOfReachAndWhatTheStylusDoesNotNeed) {
   EXPECT_GT(slices->second["saves_bytes"], 10'000);
   const auto falcon = left_out("falcon");
   EXPECT_FALSE(falcon.contains("guardian")) << "it can push";
-  EXPECT_TRUE(falcon.contains("drivers of wooden_haptics, space_mouse"));
+  EXPECT_TRUE(falcon.contains("drivers of wooden_haptics, space_mouse, haply, touch, force_dimension"));
   const auto space_mouse = left_out("space_mouse");
   EXPECT_EQ(space_mouse.at("guardian")["why"], "the stylus has no motors");
   EXPECT_THAT(space_mouse.at("damping of ringing")["saves"], HasSubstr(" us a tick"));
