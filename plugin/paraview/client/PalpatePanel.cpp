@@ -109,6 +109,7 @@ struct PalpatePanel::Parts {
   RecordingsSection* recordings = nullptr;
   QProgressBar* studying = nullptr;
   bool restoring = false;  // the scan to come is a state file's
+  bool leaving = false;    // a server
   bool edited = false;     // since the scan was shown
   bool proposing = false;  // what is being edited is the panel's own doing
   double low = 0, high = 1;
@@ -228,11 +229,13 @@ void PalpatePanel::Parts::leave_server() {
 
 /// All that a server has goes, and what is held of it is let go: first the force, and the recording with it.
 void PalpatePanel::Parts::leave(const QString& why) {
+  if (std::exchange(leaving, true)) return;  // what follows may ask the lost server, which tells that it is lost
   const bool held = touching.live().is_connected();
   touching.set_no_scan({});
   if (held) emit touching.told(why, true);  // before the views, which may find that their server does not answer
   scan->server_gone();
   leave_views();
+  leaving = false;
 }
 
 /// What a state file has restored is taken over: scan, scene and views.

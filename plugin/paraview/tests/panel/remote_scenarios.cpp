@@ -205,16 +205,17 @@ void remote_killed() {
     looking.stop();
     // At once: the panel is told before ParaView is.
     const bool zero = number("palpateForce") == 0 && label("palpateState").startsWith("Off");
-    const bool said =
-        label("palpateStylusMessage")
-            .contains(
-                "The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without "
-                "its server: it asks whether to save the state, and ends.");
+    const QString words = label("palpateStylusMessage");
+    const bool said = words.contains(
+        "The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without "
+        "its server: it asks whether to save the state, and ends.");
     wait_ms(300);  // painted
     save_screen("remote-lost");
     std::printf("remote_killed: %s\n", !zero   ? "FAILED: the force is on"
                                        : !said ? "FAILED: it is not said why"
                                                : "passed");
+    if (!said)
+      std::printf("remote_killed: said: %s; state: %s\n", qPrintable(words), qPrintable(label("palpateState")));
     std::printf("remote_killed: ParaView asks: %s\n", qPrintable(asks->text().simplified()));
     std::fflush(stdout);
     asks->button(QMessageBox::No) ? asks->button(QMessageBox::No)->click() : asks->buttons().last()->click();
