@@ -208,9 +208,9 @@ TEST(Laws, AtRestTheForceIsConstantToTheLastBit) {
   });
 }
 
-/// How much work the seeded balances are: counted, so the same on every machine. A slip in the search costs work long
-/// before it costs an answer, for the certificate has it go on. Sums of 1000 balances a family, a fiftieth above what
-/// was counted.
+/// How much work the seeded balances are: counted, so the same on every machine but for the compiler. A slip in the
+/// search costs work long before it costs an answer, for the certificate has it go on. Sums of 1000 balances a family,
+/// a twentieth above what was counted.
 TEST(Laws, TheWorkIsWhatItWas) {
   struct Budget {
     Family family;
@@ -233,8 +233,8 @@ TEST(Laws, TheWorkIsWhatItWas) {
       problem.probe += random.unit_vector() * 1e-5;
       warm += static_cast<std::uint64_t>(solve_exact(problem.balance(), forces, scratch, Start::warm).iterations);
     }
-    EXPECT_LE(50 * cold, 51 * budget.cold) << name_of(budget.family) << " cold: " << cold;
-    EXPECT_LE(50 * warm, 51 * budget.warm) << name_of(budget.family) << " warm: " << warm;
+    EXPECT_LE(20 * cold, 21 * budget.cold) << name_of(budget.family) << " cold: " << cold;
+    EXPECT_LE(20 * warm, 21 * budget.warm) << name_of(budget.family) << " warm: " << warm;
   }
 }
 
