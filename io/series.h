@@ -28,6 +28,23 @@ struct Series {
   std::string part;
   std::string unit;  ///< of the rescaled values: "HU", or empty where the modality has none
 
+  /// How it was acquired, to be told from others by; empty where it is not said.
+  struct Details {
+    std::optional<int> number;     ///< SeriesNumber
+    std::string date;              ///< SeriesDate, else AcquisitionDate or StudyDate: YYYYMMDD
+    std::string time;              ///< SeriesTime, else AcquisitionTime: HHMMSS.FFFFFF
+    std::string body_part;         ///< BodyPartExamined
+    std::string kernel;            ///< ConvolutionKernel
+    std::string sequence;          ///< SequenceName, else ScanningSequence
+    std::string contrast;          ///< ContrastBolusAgent
+    std::string orientation;       ///< "axial", "coronal", "sagittal", "oblique"; empty where it has no place
+    double thickness_mm = 0;       ///< SliceThickness; 0 where unknown
+    bool is_derived = false;       ///< ImageType DERIVED: computed from other images
+    bool is_projection = false;    ///< a maximum or minimum of several slices
+    bool is_lossy = false;         ///< LossyImageCompression
+    double compression_ratio = 0;  ///< LossyImageCompressionRatio; 0 where unknown
+  } details;
+
   std::vector<std::filesystem::path> files;    ///< that hold its slices, in the order of the slices
   std::vector<std::string> transfer_syntaxes;  ///< UIDs, sorted, each once
   Geometry geometry;                           ///< of its first frame
@@ -63,10 +80,11 @@ struct Series {
 struct SkippedFile {
   std::filesystem::path path;
   std::string reason;
+  std::string kind = {};  ///< in a radiologist's words: "structured report", "scout", "other file", ...
 };
 
 struct Catalogue {
-  std::vector<Series> series;        ///< usable ones first, then by the path of their first file
+  std::vector<Series> series;        ///< usable ones first, then by date and UID of the study, series number, path
   std::vector<SkippedFile> skipped;  ///< by path
   /// Velocities that were measured along three directions (phase contrast), joined: what load() gives of one is a
   /// vector field (Volume::vectors) in m/s. The series they are made of are among `series` as well.

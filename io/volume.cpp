@@ -53,6 +53,8 @@ Extent<std::uint16_t> extent_of(std::span<const std::uint16_t> voxels) {
   return extent_in(voxels);
 }
 
+using Padding = std::optional<std::pair<double, double>>;
+
 /// Of stored values: exact where they are whole numbers.
 template <typename Stored>
 struct Tally {
@@ -62,17 +64,16 @@ struct Tally {
   std::conditional_t<is_whole, std::int64_t, double> sum = 0;
   std::uint64_t count = 0;
 
-  void add(std::span<const Stored> voxels, const Volume& volume) {
+  void add(std::span<const Stored> voxels, const Padding& left_out) {
     if constexpr (is_whole) {
-      add_whole(voxels);
-    } else {
-      for (const Stored v : voxels) {
-        if (volume.padding && v >= volume.padding->first && v <= volume.padding->second) continue;
-        low = std::min(low, v);
-        high = std::max(high, v);
-        sum += v;
-        ++count;
-      }
+      if (!left_out) return add_whole(voxels);
+    }
+    for (const Stored v : voxels) {
+      if (left_out && v >= left_out->first && v <= left_out->second) continue;
+      low = std::min(low, v);
+      high = std::max(high, v);
+      sum += v;
+      ++count;
     }
   }
   void add_whole(std::span<const Stored> voxels) {
@@ -95,12 +96,12 @@ struct Tally {
 };
 
 template <typename Stored>
-Statistics statistics_of(std::span<const Stored> voxels, const Volume& volume) {
+Statistics statistics_of(std::span<const Stored> voxels, const Volume& volume, const Padding& left_out) {
   // Always the same pieces, so that the mean does not depend on the number of threads.
   constexpr std::size_t piece = std::size_t{1} << 20;
   std::vector<Tally<Stored>> tallies((voxels.size() + piece - 1) / piece);
   const auto count_piece = [&](std::size_t n) {
-    tallies[n].add(voxels.subspan(n * piece, std::min(piece, voxels.size() - n * piece)), volume);
+    tallies[n].add(voxels.subspan(n * piece, std::min(piece, voxels.size() - n * piece)), left_out);
   };
   internal::parallel_for(tallies.size(), count_piece, {}, 0);
   Tally<Stored> all;
@@ -115,7 +116,15 @@ Statistics statistics_of(std::span<const Stored> voxels, const Volume& volume) {
 }  // namespace
 
 Statistics statistics(const Volume& volume) {
-  return std::visit([&](const auto& voxels) { return statistics_of(std::span(voxels), volume); }, volume.voxels);
+  const bool is_marked = std::holds_alternative<std::vector<float>>(volume.voxels);  // padding has no value of its own
+  const Padding left_out = is_marked ? volume.padding : std::nullopt;
+  return std::visit([&](const auto& voxels) { return statistics_of(std::span(voxels), volume, left_out); },
+                    volume.voxels);
+}
+
+Statistics statistics_without_padding(const Volume& volume) {
+  return std::visit([&](const auto& voxels) { return statistics_of(std::span(voxels), volume, volume.padding); },
+                    volume.voxels);
 }
 
 Statistics merge(const Statistics& a, const Statistics& b) noexcept {

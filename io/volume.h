@@ -69,6 +69,8 @@ struct Statistics {
 /// Exact sums for 16-bit voxels. All zero for a volume without values. On all cores, with the same result on any
 /// number.
 Statistics statistics(const Volume& volume);
+/// The same without padding: of what was scanned.
+Statistics statistics_without_padding(const Volume& volume);
 /// Of two sets of voxels together.
 Statistics merge(const Statistics& a, const Statistics& b) noexcept;
 

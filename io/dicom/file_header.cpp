@@ -15,6 +15,7 @@
 #include "io/dicom/dataset.h"
 #include "io/dicom/decode.h"
 #include "io/dicom/dicom_value.h"
+#include "io/dicom/file_kind.h"
 #include "io/dicom/planes.h"
 #include "io/errors.h"
 
@@ -40,6 +41,47 @@ void read_identity(DcmItem& item, FileHeader& header) {
   header.thickness = number_of(item, DCM_SliceThickness).value_or(0);
 }
 
+std::string first_of(DcmItem& item, std::initializer_list<DcmTagKey> tags) {
+  for (const DcmTagKey& tag : tags) {
+    if (std::string text = text_of(item, tag); !text.empty()) return text;
+  }
+  return {};
+}
+
+// PET says its unit in a word of its own (PS3.3 C.8.9.1).
+std::string pet_unit_of(DcmItem& item) {
+  const std::string units = text_of(item, DCM_Units);
+  if (units == "BQML") return "Bq/ml";
+  return units == "GML" ? "g/ml" : "";
+}
+
+void read_details(DcmItem& item, FileHeader& header) {
+  const std::string characters = text_of(item, DCM_SpecificCharacterSet);
+  Series::Details& details = header.details;
+  if (const auto number = number_of(item, DCM_SeriesNumber)) {
+    details.number = static_cast<int>(std::clamp(*number, -1e9, 1e9));
+  }
+  details.date = first_of(item, {DCM_SeriesDate, DCM_AcquisitionDate, DCM_StudyDate});
+  details.time = first_of(item, {DCM_SeriesTime, DCM_AcquisitionTime});
+  details.body_part = text_of(item, DCM_BodyPartExamined);
+  details.kernel = utf8_of(text_of(item, DCM_ConvolutionKernel), characters);
+  std::replace(details.kernel.begin(), details.kernel.end(), '\\', ' ');
+  details.sequence = utf8_of(first_of(item, {DCM_SequenceName, DCM_ScanningSequence}), characters);
+  std::replace(details.sequence.begin(), details.sequence.end(), '\\', ' ');
+  details.contrast = utf8_of(text_of(item, DCM_ContrastBolusAgent), characters);
+  details.thickness_mm = header.thickness;
+  details.is_derived = header.image_type.starts_with("DERIVED");
+  for (const char* word : {"PROJECTION IMAGE", "MIP", "MINIP", "MAX_IP", "MIN_IP", "\\MAXIMUM", "\\MINIMUM"}) {
+    details.is_projection |= header.image_type.find(word) != std::string::npos;
+  }
+  details.is_lossy = text_of(item, DCM_LossyImageCompression) == "01";
+  // One ratio a compression, the first one first.
+  for (const double ratio : numbers_of(item, DCM_LossyImageCompressionRatio)) {
+    details.compression_ratio = std::max(details.compression_ratio, 1.0) * ratio;
+  }
+  if (header.modality == "PT") header.unit = pet_unit_of(item);
+}
+
 std::string what_it_is(const FileHeader& header) {
   const char* name = dcmFindNameOfUID(header.sop_class.c_str());
   return name != nullptr ? std::string(name) : header.modality.empty() ? "DICOM" : header.modality;
@@ -56,7 +98,8 @@ void read_format(DcmItem& item, FileHeader& header) {
   format.bits_stored = whole(DCM_BitsStored, format.bits_allocated);
   format.high_bit = whole(DCM_HighBit, format.bits_stored - 1);
   format.is_signed = whole(DCM_PixelRepresentation, 0) == 1;
-  if (format.columns < 1 || format.rows < 1) throw DicomError(what_it_is(header) + ": no image in it");
+  if (format.columns < 1 || format.rows < 1)
+    throw NotAnImage(what_it_is(header) + ": no image in it", header.sop_class);
 
   header.columns = format.columns;
   header.rows = format.rows;
@@ -206,8 +249,9 @@ FileHeader read_file_header(const std::filesystem::path& path) {
     throw DicomError("DICOMDIR: an index; the files themselves are looked at");
   }
   read_identity(dataset, header);
+  read_details(dataset, header);
   read_format(dataset, header);
-  if (!pixels) throw DicomError(what_it_is(header) + ": no pixels in it");
+  if (!pixels) throw NotAnImage(what_it_is(header) + ": no pixels in it", header.sop_class);
   read_planes(dataset, header);
   locate_pixels(file, *pixels, header);
   return header;

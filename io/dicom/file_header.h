@@ -94,6 +94,7 @@ struct FileHeader {
   std::string description;
   std::string image_type;  ///< all its values, separated by backslashes
   std::string unit;
+  Series::Details details;
   Series::Identity identity;
   double instance_number = 0;
   std::string acquisition_time;  ///< date and time, only to be compared

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
@@ -51,6 +52,7 @@ void describe(const FileHeader& file, Series& series) {
   series.description = file.description;
   series.unit = file.unit;
   series.identity = file.identity;
+  series.details = file.details;
 }
 
 // What files say alike is said once.
@@ -165,6 +167,43 @@ void remark_on_wide_gaps(Series& series) {
                             ": edges are felt as each slice shows them, and hardly from one slice to the next");
 }
 
+std::string orientation_of(const Geometry& geometry) {
+  const Vec3 normal = glm::abs(glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j)));
+  constexpr double along = 0.94;  // within 20 degrees
+  if (normal.z > along) return "axial";
+  if (normal.y > along) return "coronal";
+  return normal.x > along ? "sagittal" : "oblique";
+}
+
+std::string compression_of(const Series::Details& details) {
+  if (!(details.compression_ratio > 0)) return {};
+  const auto tenths = std::llround(10 * std::min(details.compression_ratio, 1e6));
+  return " of " + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " to 1";
+}
+
+// Where what is felt would not be what is thought.
+void remark_on_acquisition(Series& series) {
+  const Series::Details& details = series.details;
+  const double apart = series.geometry.slice_spacing();
+  constexpr double wide = 1.5;  // thicknesses; less is what MR leaves between slices anyway
+  if (details.thickness_mm > 0 && series.geometry.dimensions.z > 1 && apart > wide * details.thickness_mm) {
+    series.warnings.push_back("slices are " + millimeters(details.thickness_mm) + " thick and " + millimeters(apart) +
+                              " apart: what lies between them was not scanned");
+  }
+  if (details.is_projection) {
+    series.warnings.emplace_back(
+        "its slices are projections (the largest or least value of several): depth is not felt where it is");
+  } else if (details.is_derived) {
+    series.warnings.emplace_back("its images were computed from others: choose those where fine edges matter");
+  }
+  if (details.is_lossy) {
+    series.warnings.push_back("lossy compression" + compression_of(details) + ": fine edges may be artifacts");
+  }
+  if (series.modality == "PT") {
+    series.warnings.emplace_back("PET: its values are uptake, not density; a scene made for CT does not fit");
+  }
+}
+
 // Stacks of images that fit together, as a series with its frames.
 Series make_series(const SeriesSource& files, const std::vector<const StackPart*>& parts,
                    std::vector<SkippedFile>& skipped) {
@@ -200,6 +239,8 @@ Series make_series(const SeriesSource& files, const std::vector<const StackPart*
   }
   remark_on_moving_frames(*source, series);
   remark_on_wide_gaps(series);
+  series.details.orientation = orientation_of(series.geometry);
+  remark_on_acquisition(series);
   for (std::size_t f = 1; f < source->frames.size(); ++f) {
     if (source->frames[f].slices.size() == source->frames.front().slices.size()) continue;
     series.warnings.push_back("frame " + std::to_string(f) + " has " + std::to_string(source->frames[f].slices.size()) +

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "io/choose_first.h"
 #include "io/errors.h"
 #include "io/load.h"
 #include "io/series.h"
@@ -26,16 +29,19 @@ struct InfoOptions {
   std::vector<std::string> paths;
   bool json = false;
   bool patient = false;
+  bool all = false;
 };
 
 /// A series as its header and its voxels show it.
 struct Examined {
   io::Series series;
-  io::Statistics values;  // of all frames; count 0 where nothing could be read
+  io::Statistics values;  // of all frames, without padding; count 0 where nothing could be read
+  io::Statistics with_padding;
+  bool is_first_choice = false;
 };
 
 Examined examine(io::Series series) {
-  Examined result{std::move(series), {}};
+  Examined result{std::move(series), {}, {}, false};
   int readable = 0;
   io::Series& s = result.series;
   for (int frame = 0; frame < s.frames_per_position; ++frame) {
@@ -44,7 +50,8 @@ Examined examine(io::Series series) {
       how.frame = frame;
       how.progress = terminal_progress("reading slices");
       const io::Volume volume = io::load(s, how);
-      result.values = io::merge(result.values, io::statistics(volume));
+      result.values = io::merge(result.values, io::statistics_without_padding(volume));
+      result.with_padding = io::merge(result.with_padding, io::statistics(volume));
       ++readable;
       s.warnings.insert(s.warnings.end(), volume.warnings.begin(), volume.warnings.end());
       if (frame == 0) s.geometry = volume.geometry;  // without the slices that turned out to be unreadable
@@ -69,11 +76,26 @@ Json json_of(const Examined& examined) {
   Json json;
   json["uid"] = s.uid;
   json["study_uid"] = s.study_uid;
+  json["part"] = s.part;
+  json["number"] = s.details.number ? Json(*s.details.number) : Json();
+  json["date"] = s.details.date;
+  json["time"] = s.details.time;
+  json["body_part"] = s.details.body_part;
+  json["kernel"] = s.details.kernel;
+  json["sequence"] = s.details.sequence;
+  json["contrast"] = s.details.contrast;
+  json["orientation"] = s.details.orientation;
+  json["thickness_mm"] = s.details.thickness_mm > 0 ? Json(s.details.thickness_mm) : Json();
+  json["first_choice"] = examined.is_first_choice;
   json["modality"] = s.modality;
   json["description"] = s.description;
   json["files"] = s.files.size();
   json["dimensions"] = {g.dimensions.x, g.dimensions.y, g.dimensions.z};
   json["frames_per_position"] = s.frames_per_position;
+  json["frames"] = Json::array();
+  for (std::size_t f = 0; f < s.frame_names.size(); ++f) {
+    json["frames"].push_back({{"index", f}, {"label", s.frame_names[f]}});
+  }
   json["spacing_mm"] = placed ? Json::array({g.spacing_i, g.spacing_j, g.slice_spacing()}) : Json();
   json["origin_mm"] = g.slice_positions.empty() ? Json() : json_of(g.slice_positions.front());
   json["direction_i"] = placed ? json_of(g.direction_i) : Json();
@@ -85,9 +107,29 @@ Json json_of(const Examined& examined) {
   json["minimum"] = has_values ? Json(examined.values.minimum) : Json();
   json["maximum"] = has_values ? Json(examined.values.maximum) : Json();
   json["mean"] = has_values ? Json(examined.values.mean) : Json();
+  const bool has_any = examined.with_padding.count > 0;  // also where all is padding
+  json["minimum_with_padding"] = has_any ? Json(examined.with_padding.minimum) : Json();
+  json["maximum_with_padding"] = has_any ? Json(examined.with_padding.maximum) : Json();
+  json["mean_with_padding"] = has_any ? Json(examined.with_padding.mean) : Json();
   json["usable"] = s.usable;
   json["warnings"] = s.warnings;
   return json;
+}
+
+// "series 4 of 20260104 at 101500, CHEST, axial, kernel B30f, 1 mm thick, "; empty where nothing is said.
+std::string details_of(const io::Series& s) {
+  const io::Series::Details& d = s.details;
+  std::string text;
+  const auto add = [&](const std::string& what) { text += what + ", "; };
+  if (d.number) add(fmt::format("series {}", *d.number));
+  if (!d.date.empty()) add(d.time.empty() ? d.date : fmt::format("{} at {}", d.date, d.time.substr(0, 6)));
+  if (!d.body_part.empty()) add(d.body_part);
+  if (!d.orientation.empty()) add(d.orientation);
+  if (!d.kernel.empty()) add("kernel " + d.kernel);
+  if (!d.sequence.empty()) add("sequence " + d.sequence);
+  if (!d.contrast.empty()) add("contrast " + d.contrast);
+  if (d.thickness_mm > 0) add(fmt::format("{:.3g} mm thick", d.thickness_mm));
+  return text;
 }
 
 void print_text(std::size_t number, const Examined& examined, bool patient) {
@@ -99,7 +141,8 @@ void print_text(std::size_t number, const Examined& examined, bool patient) {
     text += fmt::format("   patient {}, id {}, study of {}\n", s.identity.patient_name, s.identity.patient_id,
                         s.identity.study_date);
   }
-  text += fmt::format("   {} file{}\n", s.files.size(), s.files.size() == 1 ? "" : "s");
+  const std::string about = details_of(s);
+  text += fmt::format("   {}{} file{}\n", about, s.files.size(), s.files.size() == 1 ? "" : "s");
   if (!g.slice_positions.empty()) {
     text += fmt::format("   first voxel at {} mm; along a row {}; along a column {}; from slice to slice {} mm{}\n",
                         triple(g.slice_positions.front()), triple(g.direction_i), triple(g.direction_j), triple(g.step),
@@ -116,38 +159,85 @@ void print_text(std::size_t number, const Examined& examined, bool patient) {
   std::fputs(printable(text).c_str(), stdout);
 }
 
-void print_skipped(const std::vector<io::SkippedFile>& skipped) {
-  if (!skipped.empty()) fmt::print("set apart:\n");
+using KindCounts = std::vector<std::pair<std::string, std::size_t>>;
+
+/// Most first.
+KindCounts count_kinds(const std::vector<io::SkippedFile>& skipped) {
+  std::map<std::string, std::size_t> counts;
+  for (const io::SkippedFile& file : skipped) ++counts[file.kind.empty() ? "other file" : file.kind];
+  KindCounts sorted(counts.begin(), counts.end());
+  std::ranges::stable_sort(sorted, std::greater(), [](const auto& kind) { return kind.second; });
+  return sorted;
+}
+
+std::string counted(const std::string& kind, std::size_t count) {
+  if (count == 1) return "1 " + kind;
+  if (kind == "copy") return fmt::format("{} copies", count);
+  if (kind == "index") return fmt::format("{} indexes", count);
+  if (kind.starts_with("image that is")) return fmt::format("{} images that are no part of a volume", count);
+  return fmt::format("{} {}s", count, kind);
+}
+
+// By kind; each file by itself where that is asked for, or where there is nothing else to tell.
+void print_skipped(const std::vector<io::SkippedFile>& skipped, bool each) {
+  if (skipped.empty()) return;
+  std::string kinds;
+  for (const auto& [kind, count] : count_kinds(skipped)) {
+    kinds += (kinds.empty() ? "" : ", ") + counted(kind, count);
+    if (kind == "segmentation" || kind == "structure set") kinds += " (see palpate structures)";
+  }
+  fmt::print("set apart: {}{}\n", kinds, each ? "" : "; --all names them");
+  if (!each) return;
   for (const io::SkippedFile& file : skipped) {
     fmt::print("{}", printable(fmt::format("   {}: {}\n", file.path.string(), file.reason)));
   }
 }
 
+Json json_of(const std::vector<Examined>& all, const io::Catalogue& catalogue) {
+  Json series = Json::array();
+  Json velocity_fields = Json::array();
+  for (const Examined& examined : all) {
+    const bool joined = series.size() == catalogue.series.size();
+    (joined ? velocity_fields : series).push_back(json_of(examined));
+  }
+  Json skipped = Json::array();
+  for (const auto& file : catalogue.skipped) {
+    skipped.push_back({{"path", file.path.string()}, {"reason", file.reason}});
+  }
+  Json summary = Json::array();
+  for (const auto& [kind, count] : count_kinds(catalogue.skipped)) {
+    summary.push_back({{"kind", kind}, {"count", count}});
+  }
+  Json json = {{"series", series}, {"skipped", skipped}, {"skipped_summary", summary}};
+  if (!velocity_fields.empty()) json["velocity_fields"] = velocity_fields;
+  return json;
+}
+
+// Of the series as they turned out to be: one whose images cannot be decoded is nobody's first choice.
+std::optional<io::FirstChoice> mark_first_choice(std::vector<Examined>& all, std::size_t count) {
+  std::vector<io::Series> series;
+  series.reserve(count);
+  for (std::size_t n = 0; n < count; ++n) series.push_back(all[n].series);
+  auto first = io::choose_first(series);
+  if (first) all[first->index].is_first_choice = true;
+  return first;
+}
+
 void run(const InfoOptions& options) {
   const std::vector<std::filesystem::path> paths(options.paths.begin(), options.paths.end());
   const io::Catalogue catalogue = io::find_series(paths, terminal_progress("finding series"));
-  Json series = Json::array();
-  Json velocity_fields = Json::array();
-  std::size_t number = 0;
-  for (const io::Series& found : numbered_series(catalogue)) {
-    const Examined examined = examine(found);
-    if (options.json) {
-      const bool joined = series.size() == catalogue.series.size();
-      (joined ? velocity_fields : series).push_back(json_of(examined));
-    } else {
-      print_text(++number, examined, options.patient);
-    }
-  }
+  std::vector<Examined> all;
+  for (io::Series& found : numbered_series(catalogue)) all.push_back(examine(std::move(found)));
+  const auto first = mark_first_choice(all, catalogue.series.size());
   if (options.json) {
-    Json skipped = Json::array();
-    for (const auto& file : catalogue.skipped)
-      skipped.push_back({{"path", file.path.string()}, {"reason", file.reason}});
-    Json all = {{"series", series}, {"skipped", skipped}};
-    if (!velocity_fields.empty()) all["velocity_fields"] = velocity_fields;
     // A file's name may be in any encoding.
-    std::puts(all.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    std::puts(json_of(all, catalogue).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   } else {
-    print_skipped(catalogue.skipped);
+    for (std::size_t n = 0; n < all.size(); ++n) print_text(n + 1, all[n], options.patient);
+    if (first && all.size() > 1) {
+      fmt::print("best to feel first: {} ({})\n", first->index + 1, printable(first->why));
+    }
+    print_skipped(catalogue.skipped, options.all || catalogue.series.empty());
   }
   if (catalogue.series.empty())
     throw InputRefused("no image series in what was given; the files and why are listed above");
@@ -161,6 +251,7 @@ void add_info(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("PATH", options->paths, "Folders and files, searched to the bottom")->required();
   command->add_flag("--json", options->json, "JSON on stdout, patient space (LPS, mm)");
+  command->add_flag("--all", options->all, "Name each file that was set apart, and why (text only; JSON does)");
   command->add_flag("--patient", options->patient,
                     "Show name, id and date, to verify that it is the right patient (text only)");
   command->callback([options] { run(*options); });

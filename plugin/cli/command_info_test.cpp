@@ -1,4 +1,6 @@
 // `palpate info` and `sample` as a script meets them, on real series and against what pydicom and numpy read in them.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcuid.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "io/testing/test_coders.h"
+#include "io/testing/test_image.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin {
@@ -87,9 +91,10 @@ TEST(SharedCommandInfo, SaysWhatTheTruthSays) {
     const Json spacing = {truth.at("spacing_column_row").at(0), truth.at("spacing_column_row").at(1),
                           truth.at("spacing_k_mean")};
     expect_near(s.at("spacing_mm"), spacing, 1e-5, "spacing_mm");
-    EXPECT_DOUBLE_EQ(s.at("minimum"), truth.at("values").at("min")) << folder;
-    EXPECT_DOUBLE_EQ(s.at("maximum"), truth.at("values").at("max")) << folder;
-    EXPECT_NEAR(s.at("mean"), truth.at("values").at("mean"), 1e-6) << folder;
+    // The truth counts all voxels, padding too.
+    EXPECT_DOUBLE_EQ(s.at("minimum_with_padding"), truth.at("values").at("min")) << folder;
+    EXPECT_DOUBLE_EQ(s.at("maximum_with_padding"), truth.at("values").at("max")) << folder;
+    EXPECT_NEAR(s.at("mean_with_padding"), truth.at("values").at("mean"), 1e-6) << folder;
   }
 }
 
@@ -286,6 +291,116 @@ TEST(SeriesOption, NothingToUseIsRefusedWithAReason) {
   }
   EXPECT_EQ(palpate("sample " + folder.string() + " --at 1,2").exit, 2);
   EXPECT_EQ(palpate("sample " + folder.string() + " --at 1,2,x").exit, 2);
+}
+
+/// A study as a hospital sends it: a thick and a thin stack, and what is no image. Values 100 k + 10 i + j, padding 0.
+fs::path written_study() {
+  const fs::path study = fresh_path("study");
+  for (const char* name : {"thick", "thin"}) {
+    const bool is_thin = name == std::string("thin");
+    fs::create_directories(study / name);
+    io::internal::write_stack(study / name, is_thin ? 20 : 12, [&](int k, io::internal::TestImage& image) {
+      image.z = (is_thin ? 1 : 5) * k;
+      image.series = is_thin ? "1.2.3.5" : "1.2.3.4";
+      image.edit = [=](DcmDataset& d) {
+        using io::internal::put;
+        put(d, DCM_SeriesNumber, is_thin ? "12" : "2");
+        put(d, DCM_SeriesDate, "20260104");
+        put(d, DCM_SeriesTime, "101500");
+        put(d, DCM_BodyPartExamined, "CHEST");
+        put(d, DCM_ConvolutionKernel, "B30f");
+        put(d, DCM_SliceThickness, is_thin ? "1" : "5");
+        put(d, DCM_PixelPaddingValue, 0);
+        put(d, DCM_RescaleSlope, "1");
+        put(d, DCM_RescaleIntercept, "-1000");
+      };
+    });
+  }
+  for (int n = 0; n < 15; ++n) {
+    io::internal::TestImage report;
+    report.series = "1.2.3.6";
+    report.edit = [n](DcmDataset& d) {
+      d.findAndDeleteElement(DCM_PixelData);
+      io::internal::put(d, DCM_SOPClassUID,
+                        n < 12   ? UID_EnhancedSRStorage
+                        : n < 14 ? UID_SegmentationStorage
+                                 : UID_XRayRadiationDoseSRStorage);
+    };
+    io::internal::write(report, study / ("report" + std::to_string(n)));
+  }
+  std::ofstream(study / "notes.txt") << "not an image";
+  return study;
+}
+
+TEST(CommandInfo, TellsTheSeriesOfAStudyApartAndWhichToFeelFirst) {
+  const Outcome outcome = palpate("info --json " + written_study().string(), false);
+  ASSERT_EQ(outcome.exit, 0);
+  const Json all = Json::parse(outcome.output);
+  ASSERT_EQ(all.at("series").size(), 2U);
+  for (const std::size_t n : {0U, 1U}) {
+    const Json& s = all.at("series").at(n);
+    EXPECT_EQ(s.at("number"), n == 0 ? 2 : 12);
+    EXPECT_EQ(s.at("date"), "20260104");
+    EXPECT_EQ(s.at("time"), "101500");
+    EXPECT_EQ(s.at("body_part"), "CHEST");
+    EXPECT_EQ(s.at("kernel"), "B30f");
+    EXPECT_EQ(s.at("thickness_mm"), n == 0 ? 5 : 1);
+    EXPECT_EQ(s.at("orientation"), "axial");
+    EXPECT_EQ(s.at("first_choice"), n == 1);
+    EXPECT_EQ(s.at("frames"), Json::parse(R"([{"index": 0, "label": ""}])"));
+    // 24 voxels a slice of 10 i + j; the first voxel of the first slice is padding.
+    const int slices = n == 0 ? 12 : 20;
+    const double sum = 24 * 100.0 * slices * (slices - 1) / 2 + slices * (4 * 150 + 6 * 6);
+    EXPECT_EQ(s.at("minimum_with_padding"), -1000);
+    EXPECT_EQ(s.at("maximum_with_padding"), 100 * (slices - 1) + 53 - 1000);
+    EXPECT_NEAR(s.at("mean_with_padding"), sum / (24 * slices) - 1000, 1e-9);
+    EXPECT_EQ(s.at("minimum"), 1 - 1000);
+    EXPECT_EQ(s.at("maximum"), 100 * (slices - 1) + 53 - 1000);
+    EXPECT_NEAR(s.at("mean"), sum / (24 * slices - 1) - 1000, 1e-9);
+  }
+  EXPECT_EQ(all.at("skipped").size(), 16U);
+  EXPECT_EQ(all.at("skipped_summary"), Json::parse(R"([{"kind": "structured report", "count": 12},
+      {"kind": "segmentation", "count": 2}, {"kind": "dose report", "count": 1}, {"kind": "other file", "count": 1}])"));
+}
+
+TEST(CommandInfo, SumsUpWhatIsSetApart) {
+  const std::string study = written_study().string();
+  const std::string text = palpate("info " + study, false).output;
+  EXPECT_THAT(text, HasSubstr("\n   series 12, 20260104 at 101500, CHEST, axial, kernel B30f, 1 mm thick, 20 files\n"));
+  EXPECT_THAT(text, HasSubstr("\nbest to feel first: 2 (slices every 1.00 mm, soft kernel B30f, 20 slices)\n"));
+  const std::string kinds =
+      "\nset apart: 12 structured reports, 2 segmentations (see palpate structures), 1 dose report, 1 other file";
+  EXPECT_THAT(text, HasSubstr(kinds + "; --all names them\n"));
+  EXPECT_THAT(text, Not(HasSubstr("notes.txt")));
+  const std::string each = palpate("info --all " + study, false).output;
+  EXPECT_THAT(each, HasSubstr(kinds + "\n"));
+  EXPECT_THAT(each, HasSubstr("notes.txt: not a DICOM file\n"));
+  EXPECT_THAT(each, HasSubstr("report14: "));
+}
+
+// None of its images can be decoded, which its headers do not show.
+TEST(CommandInfo, SeriesThatCannotBeDecodedIsNotTheFirstChoice) {
+  const fs::path both = fresh_path("undecodable");
+  for (const char* name : {"good", "bad"}) {
+    const bool is_good = name == std::string("good");
+    fs::create_directories(both / name);
+    io::internal::write_stack(both / name, 12, [&](int k, io::internal::TestImage& image) {
+      image.z = (is_good ? 5 : 1) * k;
+      image.series = is_good ? "1.2.3.4" : "1.2.3.5";
+      if (!is_good) image.syntax = EXS_RLELossless;
+      image.edit = [=](DcmDataset& d) {
+        io::internal::put(d, DCM_SliceThickness, is_good ? "5" : "1");
+        if (!is_good) io::internal::encapsulate(d, EXS_RLELossless, {std::vector<Uint8>(100, 7)}, 1U << 20);
+      };
+    });
+  }
+  const Json all = Json::parse(palpate("info --json " + both.string(), false).output);
+  ASSERT_EQ(all.at("series").size(), 2U);
+  for (const Json& s : all.at("series")) {
+    const bool is_good = s.at("uid") == "1.2.3.4";
+    EXPECT_EQ(s.at("usable"), is_good) << s;
+    EXPECT_EQ(s.at("first_choice"), is_good) << s;
+  }
 }
 
 TEST(SharedCommandInfo, ShowsThePatientOnRequestOnly) {
