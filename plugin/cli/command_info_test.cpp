@@ -147,7 +147,7 @@ TEST(SharedSeriesOption, SeveralSeriesAndNoneChosenIsWrongUsage) {
   EXPECT_EQ(none.exit, 2);
   EXPECT_THAT(none.output, HasSubstr("holds 3 series"));
   EXPECT_THAT(none.output, HasSubstr("STD BRAIN 5MM"));
-  EXPECT_THAT(palpate(sample + "--series 1", false).output, HasSubstr(": -998 HU"));
+  EXPECT_THAT(palpate(sample + "--series 2", false).output, HasSubstr(": -998 HU"));
   const std::string uid = "1.3.46.670589.33.1.6002432791750815306.26862469513794233732";
   EXPECT_THAT(palpate(sample + "--series " + uid, false).output, HasSubstr(": -998 HU"));
   EXPECT_EQ(palpate(sample + "--series 99").exit, 2);
