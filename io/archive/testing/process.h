@@ -12,7 +12,7 @@ namespace palpate::io::testing {
 
 class Process {
  public:
-  /// Its stdout can be read line by line; its stderr goes to `log`, which is empty for nowhere.
+  /// Its stdout can be read line by line; its stderr goes to the file `log`, or is dropped where `log` is empty.
   explicit Process(const std::vector<std::string>& command, const std::filesystem::path& log = {});
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
