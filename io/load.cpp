@@ -113,6 +113,7 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   Volume volume;
   volume.unit = reading.as_velocity ? "m/s" : first.unit;
   volume.modality = first.modality;
+  volume.frame_of_reference_uid = first.frame_of_reference;
   const Storage storage = storage_for(whole);
   try {
     volume.voxels = allocate(storage, size * slices.size(), options.threads);

@@ -30,8 +30,9 @@ struct Volume {
   Voxels voxels;  ///< dimensions.x * dimensions.y * dimensions.z, i fastest, then j, then k
   double slope = 1;
   double intercept = 0;
-  std::string unit;      ///< "HU", or empty where the modality has none
-  std::string modality;  ///< DICOM Modality: "CT", "MR", ...
+  std::string unit;                    ///< "HU", or empty where the modality has none
+  std::string frame_of_reference_uid;  ///< empty where it is not said
+  std::string modality;                ///< DICOM Modality: "CT", "MR", ...
   /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).
   std::optional<std::pair<double, double>> padding;
   /// What load() had to leave out, in words for the user.

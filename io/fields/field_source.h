@@ -3,6 +3,8 @@
 /// What haptic modes read: fields sampled at one point of patient space (LPS, mm). A scan is one source (VolumeFields);
 /// an analytic phantom or a flow is another.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
@@ -14,11 +16,12 @@ using Vec3 = glm::dvec3;
 /// The fields a source may offer and a scene may ask for: a set of flags.
 enum class FieldSet : std::uint8_t {
   none = 0,
-  value = 1,     ///< the scan's value: HU for CT, the stored unit for others
-  gradient = 2,  ///< of the value, per mm
-  vector = 4,    ///< a vector field, such as a velocity
-  tube = 8,      ///< the eigenvector of least curvature of the value's Hessian
-  low_high = 16  ///< the values on both sides of the nearest boundary
+  value = 1,      ///< the scan's value: HU for CT, the stored unit for others
+  gradient = 2,   ///< of the value, per mm
+  vector = 4,     ///< a vector field, such as a velocity
+  tube = 8,       ///< the eigenvector of least curvature of the value's Hessian
+  low_high = 16,  ///< the values on both sides of the nearest boundary
+  distance = 32   ///< from the surfaces of structures (structures/structure.h)
 };
 constexpr FieldSet operator|(FieldSet a, FieldSet b) {
   return static_cast<FieldSet>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -29,6 +32,15 @@ constexpr FieldSet operator&(FieldSet a, FieldSet b) {
 constexpr bool contains(FieldSet set, FieldSet wanted) {
   return (set & wanted) == wanted;
 }
+
+/// The most structures of a scene that its modes may read.
+inline constexpr std::size_t most_structures = 8;
+
+/// From the surface of a structure.
+struct Distance {
+  double mm = 0;     ///< positive inside
+  Vec3 gradient{0};  ///< per mm, along patient axes: inward, of about unit length
+};
 
 /// Fields at a point. Outside the data (beyond the volume, in padding) `inside` is false and all else is zero: nothing
 /// is felt there.
@@ -42,6 +54,7 @@ struct Sample {
   double high = 0;   ///< value on the denser side
   /// Whether the gradient was read from a brick computed ahead, or (false) at the sample: slower, with the same bits.
   bool from_brick = false;
+  std::array<Distance, most_structures> distance{};  ///< in the source's order; zero where it has fewer
 };
 
 class FieldSource {

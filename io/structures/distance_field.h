@@ -7,17 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "io/fields/field_source.h"
 #include "io/structures/mask.h"
 #include "io/structures/node_bricks.h"
 #include "io/structures/outline_planes.h"
 
 namespace palpate::io {
-
-/// From the surface of a structure.
-struct Distance {
-  double mm = 0;     ///< positive inside
-  Vec3 gradient{0};  ///< per mm, along patient axes: inward, of about unit length
-};
 
 struct DistanceOptions {
   /// Farthest from the surface that the distance is kept at full detail, mm: a margin or a gate's last node. Farther
