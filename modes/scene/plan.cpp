@@ -1,11 +1,13 @@
 #include "modes/scene/plan.h"
 
 #include <algorithm>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <map>
 #include <stdexcept>
 
 #include "modes/scene/boundary.h"
+#include "modes/types/keep.h"
 
 namespace palpate::modes {
 namespace {
@@ -20,7 +22,8 @@ constexpr FieldName field_names[] = {
     {io::FieldSet::gradient, "gradient", "one gradient sample a tick, and its bricks"},
     {io::FieldSet::vector, "vector field", "one vector sample a tick"},
     {io::FieldSet::tube, "Hessian", "six second derivatives a tick, and their bricks"},
-    {io::FieldSet::low_high, "low and high", "one boundary search a tick, and its bricks"}};
+    {io::FieldSet::low_high, "low and high", "one boundary search a tick, and its bricks"},
+    {io::FieldSet::distance, "distance", "one interpolation a structure in every sub-step"}};
 
 std::string words(io::FieldSet fields) {
   std::string text;
@@ -58,6 +61,49 @@ void add_boundary(const Scene& scene, Mode& mode) {
   mode.side = boundary.side;
 }
 
+/// Of the structures that a scene's modes read: where the distance of each is in a sample.
+class StructureIndex {
+ public:
+  StructureIndex(const Scene& scene, std::vector<std::size_t>& read) : scene_(scene), read_(read) {}
+
+  std::size_t operator()(const std::string& name) {
+    const auto found = std::find_if(scene_.structures.begin(), scene_.structures.end(),
+                                    [&name](const SceneStructure& structure) { return structure.name == name; });
+    const auto of_scene = static_cast<std::size_t>(found - scene_.structures.begin());
+    const auto known = std::find(read_.begin(), read_.end(), of_scene);
+    const auto index = static_cast<std::size_t>(known - read_.begin());
+    if (known == read_.end()) {
+      read_.push_back(of_scene);
+    }
+    if (read_.size() > io::most_structures) {
+      throw std::invalid_argument("structures: more than " + std::to_string(io::most_structures) +
+                                  " are read by modes or have a margin; switch some off");
+    }
+    return index;
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<std::size_t>& read_;
+};
+
+/// A structure with a margin is told of, whether or not it is felt; what nothing reads is left out.
+void add_watched_structures(const Scene& scene, Plan& plan) {
+  StructureIndex index(scene, plan.structures);
+  for (const SceneStructure& structure : scene.structures) {
+    if (structure.margin_mm) {
+      index(structure.name);
+      plan.fields = plan.fields | io::FieldSet::distance;
+    }
+  }
+  for (std::size_t i = 0; i < scene.structures.size(); ++i) {
+    if (std::find(plan.structures.begin(), plan.structures.end(), i) == plan.structures.end()) {
+      plan.left_out.push_back({"structure \"" + scene.structures[i].name + "\"", "no mode reads it",
+                               "decoding it, its bricks, and its distance in every sub-step"});
+    }
+  }
+}
+
 bool is_zero_everywhere(const Mode& mode) {
   return mode.strength_n.maximum() <= 0 ||
          std::any_of(mode.gates.begin(), mode.gates.end(), [](const Gate& gate) { return gate.factor.maximum() <= 0; });
@@ -77,7 +123,7 @@ bool is_always_analytical(const std::vector<Footprint>& footprints) {
     const Footprint* first = nullptr;
     for (const Footprint& footprint : constraints) {
       if (footprint.primitive == type) {
-        if (first != nullptr && first->axis != footprint.axis) {
+        if (first != nullptr && (first->axis != footprint.axis || first->structure != footprint.structure)) {
           return false;
         }
         first = &footprint;
@@ -154,19 +200,29 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
     const std::string name = name_of(mode, i);
     const ModeType& type = *find_mode_type(mode.type);
     add_boundary(scene, mode);
-    const Footprint footprint = type.footprint(mode);
+    Footprint footprint = type.footprint(mode);
+    const std::vector<std::size_t> structures_before = plan.structures;
+    StructureIndex index(scene, plan.structures);
+    if (!mode.structure.empty()) {
+      footprint.structure = static_cast<int>(index(mode.structure));
+    }
     const ActiveMode active{.type = &type,
                             .scene_index = i,
                             .co_located = footprint.co_located,
                             .holds = footprint.primitive == solver::PrimitiveType::plane && footprint.co_located,
-                            .strength = Strength(mode.strength_of, mode.strength_n, mode.gates),
+                            .strength = Strength(mode, std::ref(index)),
                             .side = mode.side,
                             .direction_of = mode.direction_of,
+                            .structure = footprint.structure,
+                            .level_mm = mode.level_mm,
+                            .margin_mm = mode.margin_mm,
+                            .push_share = push_share(mode, scene.stiffness_n_per_m),
                             .shape = mode.shape,
                             .position_mm = mode.position_mm,
                             .direction = glm::normalize(mode.direction)};
     const io::FieldSet reads = type.reads(mode) | active.strength.reads();
     const io::FieldSet missing = without(reads, available);
+    const auto left_out = plan.left_out.size();
     if (!mode.enabled) {
       plan.left_out.push_back({name, "it is switched off", saved_by(type), io::FieldSet::none, i});
     } else if (is_zero_everywhere(mode)) {
@@ -176,12 +232,21 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
           {name, "there is no " + words(missing) + " here", "nothing that could be measured: it cannot be felt here"});
     } else {
       plan.fields = plan.fields | reads;
-      plan.holds_iso_surface = plan.holds_iso_surface || active.holds;
+      if (active.holds && active.structure >= 0) {
+        plan.holds_structure[static_cast<std::size_t>(active.structure)] = true;
+      } else {
+        plan.holds_iso_surface = plan.holds_iso_surface || active.holds;
+      }
       footprints.push_back(footprint);
       plan.modes.push_back(active);
     }
+    if (plan.left_out.size() != left_out) {
+      plan.structures = structures_before;
+    }
   }
+  add_watched_structures(scene, plan);
   for (const FieldName& entry : field_names) {
+    if (entry.field == io::FieldSet::distance) continue;  // said of each structure
     if (contains(available, entry.field) && !contains(plan.fields, entry.field)) {
       plan.left_out.push_back({entry.name, "no mode reads it", entry.cost, entry.field});
     }

@@ -3,6 +3,7 @@
 /// A plan: exactly what a scene needs on a scan, and in words what it left out. Made outside the tick; the tick runs
 /// it.
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -33,7 +34,10 @@ struct Plan {
   double stiffness_n_per_m = 0;
   Workspace workspace;
   Subdivision subdivision;
-  bool holds_iso_surface = false;  ///< whether a surface mode needs the anchor (anchor.h)
+  /// Structures whose distance is read, in the order of Sample::distance: index in the scene's structures.
+  std::vector<std::size_t> structures;
+  std::array<bool, io::most_structures> holds_structure{};  ///< whether a surface is at that one's edge
+  bool holds_iso_surface = false;                           ///< whether a surface mode needs the anchor (anchor.h)
   io::SliceRange slices;  ///< of the scan: their fields are computed ahead and kept (reach.h); all where nobody said
   std::vector<LeftOut> left_out;
 };

@@ -105,6 +105,36 @@ void check_boundary(const std::string& path, const Mode& mode, const Scene& scen
   }
 }
 
+void check_structure_of(const std::string& path, const std::string& name, const Scene& scene) {
+  const auto named = [&name](const SceneStructure& structure) { return structure.name == name; };
+  if (std::none_of(scene.structures.begin(), scene.structures.end(), named)) {
+    refuse(path, "there is no structure \"" + name + "\" in structures");
+  }
+}
+
+/// Where a datum is a distance it is that of a structure, and else of none.
+void check_datum(const std::string& path, Datum of, const std::string& structure, const Scene& scene) {
+  if (of == Datum::distance) {
+    check_structure_of(path + ".structure", structure, scene);
+  }
+}
+
+void check_structure(const std::string& path, const SceneStructure& structure) {
+  if (structure.name.empty()) {
+    refuse(path + ".name", "is missing");
+  }
+  if (structure.file.empty()) {
+    refuse(path + ".file", "is missing");
+  }
+  if (structure.segment.empty() && !structure.segment_number) {
+    refuse(path + ".segment", "is missing");
+  }
+  if (structure.margin_mm) {
+    check_positive(path + ".margin_mm", *structure.margin_mm, "mm");
+  }
+  check_color(path + ".color", structure.color);
+}
+
 void check_mode(const std::string& path, const Mode& mode, const Scene& scene) {
   const ModeType* type = find_mode_type(mode.type);
   if (type == nullptr) {
@@ -112,8 +142,18 @@ void check_mode(const std::string& path, const Mode& mode, const Scene& scene) {
   }
   check_function(path + ".strength_n", mode.strength_n, "a strength is in newtons");
   for (std::size_t i = 0; i < mode.gates.size(); ++i) {
-    check_function(path + ".gates[" + std::to_string(i) + "].factor", mode.gates[i].factor, "a gate is a factor");
+    const std::string gate = path + ".gates[" + std::to_string(i) + "]";
+    check_function(gate + ".factor", mode.gates[i].factor, "a gate is a factor");
+    check_datum(gate, mode.gates[i].of, mode.gates[i].structure, scene);
   }
+  check_datum(path + ".strength_n", mode.strength_of, mode.strength_structure, scene);
+  if (!mode.structure.empty() || contains(type->keys, Key::margin)) {
+    check_structure_of(path + ".structure", mode.structure, scene);
+  }
+  if (!std::isfinite(mode.level_mm)) {
+    refuse(path + ".level_mm", "is not finite");
+  }
+  check_positive(path + ".margin_mm", mode.margin_mm, "mm");
   check_boundary(path, mode, scene);
   check_finite(path + ".position_mm", mode.position_mm);
   check_finite(path + ".direction", mode.direction);
@@ -166,7 +206,11 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.modes.size(); ++i) {
     check_mode("modes[" + std::to_string(i) + "]", scene.modes[i], scene);
   }
+  for (std::size_t i = 0; i < scene.structures.size(); ++i) {
+    check_structure("structures[" + std::to_string(i) + "]", scene.structures[i]);
+  }
   check_unique_names("tissues", scene.tissues);
+  check_unique_names("structures", scene.structures);
   check_unique_names("modes", scene.modes);
 }
 

@@ -23,7 +23,8 @@ enum class Datum : std::uint8_t {
   gradient_magnitude,  ///< per mm
   vector_magnitude,    ///< the vector field's unit
   low,                 ///< value on the thinner side of the nearest boundary
-  high                 ///< value on the denser side
+  high,                ///< value on the denser side
+  distance             ///< from the surface of a structure, mm, positive inside
 };
 
 /// Which crossing a surface resists.
@@ -43,6 +44,7 @@ enum class Shape : std::uint8_t { point, line, plane };
 struct Gate {
   Datum of = Datum::value;
   TransferFunction factor;
+  std::string structure = {};  ///< whose distance it is, where it is one
 };
 
 /// One mode of a scene. Every type of mode (mode_type.h) reads some of this and refuses what it does not read.
@@ -51,11 +53,15 @@ struct Mode {
   std::string name;  ///< the user's own; unique in the scene, or empty
   bool enabled = true;
   Datum strength_of = Datum::value;
-  TransferFunction strength_n;  ///< N
-  std::vector<Gate> gates;      ///< multiplied into the strength
+  std::string strength_structure;  ///< whose distance that is, where it is one
+  TransferFunction strength_n;     ///< N
+  std::vector<Gate> gates;         ///< multiplied into the strength
   Side side = Side::entering;
   DirectionField direction_of = DirectionField::vector;
-  std::string from, to;  ///< names of tissues: the boundary that a surface is, instead of a side; or both empty
+  std::string structure;  ///< the structure whose edge a surface is, or that is kept out of or in; or empty
+  double level_mm = 0;    ///< of such a surface: how far inside the edge
+  double margin_mm = 3;   ///< over how far a structure that is kept out of or in is felt before its edge, > 0
+  std::string from, to;   ///< names of tissues: the boundary that a surface is, instead of a side; or both empty
   Shape shape = Shape::point;
   Vec3 position_mm{0};      ///< patient space
   Vec3 direction{0, 0, 1};  ///< patient axes, unit: along a line; of a plane, the side it pushes to
@@ -69,6 +75,16 @@ struct Tissue {
   double high = 0;      ///< > low
   double softness = 0;  ///< width of the soft end at low and high, scan's unit, >= 0
   std::string color;    ///< "#rrggbb", or empty
+};
+
+/// Something that was outlined on the scan (io/structures): what scenes read of it is its distance.
+struct SceneStructure {
+  std::string name;     ///< the scene's own, unique in it
+  std::string file;     ///< that holds it; load_scene() makes it absolute, from the scene's own folder
+  std::string segment;  ///< its name there; or its number
+  std::optional<int> segment_number;
+  std::string color;                ///< "#rrggbb", or empty
+  std::optional<double> margin_mm;  ///< nearer than this is told; its distance is then read even if no mode does
 };
 
 struct Limits {
@@ -123,6 +139,7 @@ struct Scene {
   Sampling sampling;
   std::optional<double> gradient_scale_mm;  ///< by default io::default_gradient_scale_mm() of the scan
   std::vector<Tissue> tissues;
+  std::vector<SceneStructure> structures;
   std::vector<Mode> modes;
 };
 

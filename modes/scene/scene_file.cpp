@@ -39,7 +39,13 @@ Scene load_scene(const std::string& file_or_name) {
   }
   std::ostringstream text;
   text << file.rdbuf();
-  return scene_from_json(text.str(), file_or_name);
+  Scene scene = scene_from_json(text.str(), file_or_name);
+  // A recording and the panel keep the scene's text alone: its structures are to be found from there too.
+  const std::filesystem::path folder = std::filesystem::absolute(file_or_name).parent_path();
+  for (SceneStructure& structure : scene.structures) {
+    structure.file = (folder / structure.file).lexically_normal().string();
+  }
+  return scene;
 }
 
 }  // namespace palpate::modes

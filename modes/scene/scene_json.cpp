@@ -45,6 +45,14 @@ TransferFunction transfer_function(Members& members, const std::string& what) {
   }
 }
 
+/// Whose distance is read: the structure that is named there, or the mode's own.
+std::string structure_of(Members& members, Datum of, const Mode& mode) {
+  if (of != Datum::distance) {
+    return {};
+  }
+  return members.has("structure") || mode.structure.empty() ? text(members.get("structure")) : mode.structure;
+}
+
 /// A number: the same strength everywhere; or an object.
 void read_strength(const At& at, Mode& mode) {
   if (at.value.is_number()) {
@@ -56,16 +64,18 @@ void read_strength(const At& at, Mode& mode) {
   }
   Members members(at);
   members.optional("of", mode.strength_of, [](const At& of) { return choice(of, datum_names); });
+  mode.strength_structure = structure_of(members, mode.strength_of, mode);
   mode.strength_n = transfer_function(members, "a strength is in newtons");
   members.done();
 }
 
-std::vector<Gate> read_gates(const At& at) {
+std::vector<Gate> read_gates(const At& at, const Mode& mode) {
   std::vector<Gate> gates;
   for (std::size_t i = 0; i < length_of_array(at); ++i) {
     Members members(at[i]);
     Gate gate;
     gate.of = choice(members.get("of"), datum_names);
+    gate.structure = structure_of(members, gate.of, mode);
     gate.factor = transfer_function(members, "a gate is a factor");
     members.done();
     gates.push_back(std::move(gate));
@@ -74,7 +84,7 @@ std::vector<Gate> read_gates(const At& at) {
 }
 
 void read_side_or_tissues(Members& members, Mode& mode) {
-  const bool pair = members.has("from") || members.has("to");
+  const bool pair = mode.structure.empty() && (members.has("from") || members.has("to"));
   if (!pair) {
     members.optional("side", mode.side, [](const At& at) { return choice(at, side_names); });
     return;
@@ -105,10 +115,18 @@ Mode read_mode(const At& at) {
   members.optional("name", mode.name, text);
   members.optional("enabled", mode.enabled, boolean);
   members.optional("color", mode.color, text);
+  if (contains(type->keys, Key::margin)) {
+    mode.structure = text(members.get("structure"));
+    members.optional("margin_mm", mode.margin_mm, number);
+  }
+  if (contains(type->keys, Key::structure)) {
+    members.optional("structure", mode.structure, text);
+    if (!mode.structure.empty()) members.optional("level_mm", mode.level_mm, number);
+  }
   mode.strength_of = type->strength_of;
   read_strength(members.get("strength_n"), mode);
   if (contains(type->keys, Key::gates)) {
-    members.optional("gates", mode.gates, read_gates);
+    members.optional("gates", mode.gates, [&mode](const At& gates) { return read_gates(gates, mode); });
   }
   if (contains(type->keys, Key::side)) {
     read_side_or_tissues(members, mode);
@@ -135,6 +153,23 @@ Tissue read_tissue(const At& at) {
   members.optional("color", tissue.color, text);
   members.done();
   return tissue;
+}
+
+SceneStructure read_structure(const At& at) {
+  Members members(at);
+  SceneStructure structure;
+  structure.name = text(members.get("name"));
+  structure.file = text(members.get("file"));
+  const At segment = members.get("segment");
+  if (segment.value.is_number()) {
+    structure.segment_number = integer(segment);
+  } else {
+    structure.segment = text(segment);
+  }
+  members.optional("color", structure.color, text);
+  members.optional("margin_mm", structure.margin_mm, number);
+  members.done();
+  return structure;
 }
 
 WorkspaceSettings read_workspace(const At& at) {
@@ -219,6 +254,7 @@ Scene read_scene(const nlohmann::json& json) {
   members.optional("sampling", scene.sampling, read_sampling);
   members.optional("gradient_scale_mm", scene.gradient_scale_mm, number);
   members.optional("tissues", scene.tissues, [](const At& at) { return read_list(at, read_tissue); });
+  members.optional("structures", scene.structures, [](const At& at) { return read_list(at, read_structure); });
   scene.modes = read_list(members.get("modes"), read_mode);
   members.done();
   return scene;

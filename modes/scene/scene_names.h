@@ -19,7 +19,9 @@ struct Named {
 inline constexpr std::array datum_names{Named<Datum>{Datum::value, "value"},
                                         Named<Datum>{Datum::gradient_magnitude, "gradient_per_mm"},
                                         Named<Datum>{Datum::vector_magnitude, "vector"},
-                                        Named<Datum>{Datum::low, "low"}, Named<Datum>{Datum::high, "high"}};
+                                        Named<Datum>{Datum::low, "low"},
+                                        Named<Datum>{Datum::high, "high"},
+                                        Named<Datum>{Datum::distance, "distance_mm"}};
 inline constexpr std::array side_names{Named<Side>{Side::entering, "entering"}, Named<Side>{Side::leaving, "leaving"},
                                        Named<Side>{Side::both, "both"}};
 inline constexpr std::array direction_field_names{Named<DirectionField>{DirectionField::vector, "vector"},

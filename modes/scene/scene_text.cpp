@@ -35,6 +35,7 @@ Json json_of_strength(const Mode& mode, const ModeType& type) {
     return mode.strength_n.nodes()[0].value;
   }
   Json json{{"of", name_in(datum_names, mode.strength_of)}};
+  if (mode.strength_of == Datum::distance) json["structure"] = mode.strength_structure;
   add_function(json, mode.strength_n);
   return json;
 }
@@ -48,6 +49,11 @@ Json json_of(const Mode& mode) {
   json["enabled"] = mode.enabled;
   if (!mode.color.empty()) {
     json["color"] = mode.color;
+  }
+  if (!mode.structure.empty()) {
+    json["structure"] = mode.structure;
+    if (contains(type.keys, Key::margin)) json["margin_mm"] = mode.margin_mm;
+    if (contains(type.keys, Key::structure) && mode.level_mm != 0) json["level_mm"] = mode.level_mm;
   }
   if (contains(type.keys, Key::side) && mode.from.empty()) {
     json["side"] = name_in(side_names, mode.side);
@@ -71,6 +77,7 @@ Json json_of(const Mode& mode) {
     json["gates"] = Json::array();
     for (const Gate& gate : mode.gates) {
       Json entry{{"of", name_in(datum_names, gate.of)}};
+      if (gate.of == Datum::distance) entry["structure"] = gate.structure;
       add_function(entry, gate.factor);
       json["gates"].push_back(std::move(entry));
     }
@@ -89,6 +96,18 @@ Json json_of(const Tissue& tissue) {
   json["softness"] = tissue.softness;
   if (!tissue.color.empty()) {
     json["color"] = tissue.color;
+  }
+  return json;
+}
+
+Json json_of(const SceneStructure& structure) {
+  Json json{{"name", structure.name}, {"file", structure.file}};
+  json["segment"] = structure.segment_number ? Json(*structure.segment_number) : Json(structure.segment);
+  if (!structure.color.empty()) {
+    json["color"] = structure.color;
+  }
+  if (structure.margin_mm) {
+    json["margin_mm"] = *structure.margin_mm;
   }
   return json;
 }
@@ -128,6 +147,12 @@ Json json_of(const Scene& scene) {
     json["tissues"] = Json::array();
     for (const Tissue& tissue : scene.tissues) {
       json["tissues"].push_back(json_of(tissue));
+    }
+  }
+  if (!scene.structures.empty()) {
+    json["structures"] = Json::array();
+    for (const SceneStructure& structure : scene.structures) {
+      json["structures"].push_back(json_of(structure));
     }
   }
   json["modes"] = Json::array();

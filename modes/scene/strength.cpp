@@ -4,7 +4,7 @@
 
 namespace palpate::modes {
 
-double datum_of(const io::Sample& sample, Datum datum) noexcept {
+double datum_of(const io::Sample& sample, Datum datum, std::size_t structure) noexcept {
   switch (datum) {
     case Datum::value:
       return sample.value;
@@ -16,6 +16,8 @@ double datum_of(const io::Sample& sample, Datum datum) noexcept {
       return sample.low;
     case Datum::high:
       return sample.high;
+    case Datum::distance:
+      return sample.distance[structure].mm;
   }
   return 0.0;
 }
@@ -31,21 +33,33 @@ io::FieldSet field_of(Datum datum) noexcept {
     case Datum::low:
     case Datum::high:
       return io::FieldSet::low_high;
+    case Datum::distance:
+      return io::FieldSet::distance;
   }
   return io::FieldSet::none;
 }
 
-Strength::Strength(Datum of, const TransferFunction& newtons, const std::vector<Gate>& gates) {
-  const auto add = [this](Datum datum, const TransferFunction& function) {
-    // A constant needs no datum: the field is not sampled for it.
-    const bool constant = function.nodes().size() <= 1 || function.minimum() == function.maximum();
-    factors_.push_back({datum, StrengthTable(function), constant ? io::FieldSet::none : field_of(datum)});
-  };
-  add(of, newtons);
-  most_n_ = newtons.maximum();
+void Strength::add(Datum of, std::size_t structure, const TransferFunction& function) {
+  // A constant needs no datum: the field is not sampled for it.
+  const bool constant = function.nodes().size() <= 1 || function.minimum() == function.maximum();
+  factors_.push_back({of, structure, StrengthTable(function), constant ? io::FieldSet::none : field_of(of)});
+  most_n_ *= function.maximum();
+}
+
+Strength::Strength(Datum of, const TransferFunction& newtons, const std::vector<Gate>& gates) : most_n_(1) {
+  add(of, 0, newtons);
   for (const Gate& gate : gates) {
-    add(gate.of, gate.factor);
-    most_n_ *= gate.factor.maximum();
+    add(gate.of, 0, gate.factor);
+  }
+}
+
+Strength::Strength(const Mode& mode, const std::function<std::size_t(const std::string&)>& index_of) : most_n_(1) {
+  const auto index = [&](Datum of, const std::string& name) {
+    return of == Datum::distance ? index_of(name) : std::size_t{0};
+  };
+  add(mode.strength_of, index(mode.strength_of, mode.strength_structure), mode.strength_n);
+  for (const Gate& gate : mode.gates) {
+    add(gate.of, index(gate.of, gate.structure), gate.factor);
   }
 }
 
@@ -55,7 +69,7 @@ double Strength::operator()(const io::Sample& sample) const noexcept {
   }
   double product = 1.0;
   for (const Factor& factor : factors_) {
-    product *= factor.table(datum_of(sample, factor.of));
+    product *= factor.table(datum_of(sample, factor.of, factor.structure));
   }
   return product;
 }

@@ -2,6 +2,9 @@
 
 /// A mode's strength in the form for the tick: the product of a transfer function and its gates, looked up in tables.
 
+#include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "io/fields/field_source.h"
@@ -10,8 +13,8 @@
 
 namespace palpate::modes {
 
-/// The datum of a sample. In the tick.
-double datum_of(const io::Sample& sample, Datum datum) noexcept;
+/// The datum of a sample; `structure` says whose distance. In the tick.
+double datum_of(const io::Sample& sample, Datum datum, std::size_t structure = 0) noexcept;
 /// The field that a datum is part of.
 io::FieldSet field_of(Datum datum) noexcept;
 
@@ -19,6 +22,8 @@ class Strength {
  public:
   Strength() = default;
   Strength(Datum of, const TransferFunction& newtons, const std::vector<Gate>& gates);
+  /// Where distances are read: `index_of` gives the index of a structure in Sample::distance by its name.
+  Strength(const Mode& mode, const std::function<std::size_t(const std::string&)>& index_of);
 
   /// N, >= 0. In the tick.
   double operator()(const io::Sample& sample) const noexcept;
@@ -30,9 +35,12 @@ class Strength {
  private:
   struct Factor {
     Datum of = Datum::value;
+    std::size_t structure = 0;
     StrengthTable table;
     io::FieldSet reads = io::FieldSet::none;
   };
+  void add(Datum of, std::size_t structure, const TransferFunction& function);
+
   std::vector<Factor> factors_;
   double most_n_ = 0;
 };

@@ -14,29 +14,44 @@ constexpr double least_slope = 1e-150;
 
 }  // namespace
 
+bool HeldSurfaces::is_held() const noexcept {
+  bool held = scan.hold == HoldState::held;
+  for (const HeldSurface& surface : structure) held = held || surface.hold == HoldState::held;
+  return held;
+}
+
+void HeldSurfaces::release() noexcept {
+  scan.hold = HoldState::none;
+  for (HeldSurface& surface : structure) surface.hold = HoldState::none;
+}
+
 void follow_level(const io::Sample& sample, const Vec3& place_mm, HeldSurface& contact) noexcept {
+  follow_level(sample.value, sample.gradient, place_mm, contact);
+}
+
+void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, HeldSurface& contact) noexcept {
   if (contact.hold == HoldState::none) {
-    contact.level = sample.value;
+    contact.level = value;
   } else {
     const Vec3 moved = place_mm - contact.place_mm;
-    contact.level += 0.5 * glm::dot(contact.gradient + sample.gradient, moved);
+    contact.level += 0.5 * glm::dot(contact.gradient + gradient, moved);
     if (contact.hold != HoldState::held) {
       contact.offset = 0;
     } else if (contact.before != HoldState::held) {
-      contact.offset = contact.level - sample.value;
+      contact.offset = contact.level - value;
     }
     // Not while yielding: the strength is felt then, and a steep one would show every step of the level.
     if (contact.hold != HoldState::yielding) {
       // A value that is not found nearby (a boundary that thins out) draws the proxy along a gentle slope, not through
       // it.
-      const double reach = defaults::level_reach_mm * glm::length(sample.gradient);
+      const double reach = defaults::level_reach_mm * glm::length(gradient);
       const double weight = -std::expm1(-glm::length(moved) / defaults::level_length_mm);
-      contact.level += weight * std::clamp(sample.value + contact.offset - contact.level, -reach, reach);
+      contact.level += weight * std::clamp(value + contact.offset - contact.level, -reach, reach);
     }
   }
   contact.before = contact.hold;
   contact.place_mm = place_mm;
-  contact.gradient = sample.gradient;
+  contact.gradient = gradient;
 }
 
 Vec3 anchor_step_mm(HeldSurface& contact) noexcept {

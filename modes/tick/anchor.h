@@ -16,6 +16,7 @@
 /// was when the hold began, over some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A
 /// proxy that does not move keeps its level, and its anchor, to the last bit.
 
+#include <array>
 #include <cstdint>
 
 #include "io/fields/field_source.h"
@@ -41,7 +42,18 @@ struct HeldSurface {
   Vec3 gradient{0};                    ///< there, per mm
 };
 
+/// What is remembered of all surfaces: of the scan's own, and of each structure's (Sample::distance).
+struct HeldSurfaces {
+  HeldSurface scan;
+  std::array<HeldSurface, io::most_structures> structure;
+
+  bool is_held() const noexcept;
+  /// Forgets the holds, for the proxy has been moved.
+  void release() noexcept;
+};
+
 /// Brings level, place and gradient up to date with a sample (value and gradient) taken at place_mm. In the tick.
+void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, HeldSurface& contact) noexcept;
 void follow_level(const io::Sample& sample, const Vec3& place_mm, HeldSurface& contact) noexcept;
 
 /// From the place sampled to the anchor, mm of patient space: zero while nothing holds the proxy, at most

@@ -44,8 +44,30 @@ struct PlacedScene {
   std::size_t first = 0, end = 0;  ///< in the list of primitives
 };
 
+/// Where the planes of each structure's surface stand. Where the scan itself has no surfaces all else that is
+/// co-located stands there too, so that the analytical solver stays valid.
+void hold_structures(const Plan& plan, const Vec3& proxy_m, const Vec3& place_mm, HeldSurfaces& contact,
+                     io::Sample& felt, Place& here) {
+  for (std::size_t n = 0; n < plan.structures.size(); ++n) {
+    here.structure_anchor_m[n] = proxy_m;
+    if (!plan.holds_structure[n] || !felt.inside) {
+      continue;
+    }
+    HeldSurface& surface = contact.structure[n];
+    io::Distance& distance = felt.distance[n];
+    follow_level(distance.mm, distance.gradient, place_mm, surface);
+    const Vec3 step_mm = anchor_step_mm(surface);
+    distance.mm = level_at_anchor(surface, step_mm);
+    const Vec3 step_m = here.workspace.direction_to_device(step_mm) / here.workspace.mm_per_m;
+    here.structure_anchor_m[n] += step_m;
+    if (!plan.holds_iso_surface) {
+      here.anchor_m += step_m;
+    }
+  }
+}
+
 PlacedScene place(const SceneOnData& scenery, double weight, std::uint8_t mark, const Workspace& workspace,
-                  const Vec3& proxy_m, HeldSurface& contact, PrimitiveList& list, StepScratch& scratch) {
+                  const Vec3& proxy_m, HeldSurfaces& contact, PrimitiveList& list, StepScratch& scratch) {
   const Plan& plan = *scenery.plan;
   const Vec3 place_mm = workspace.to_patient(proxy_m);
   scratch.watch.lap(scratch.times.map);
@@ -54,12 +76,14 @@ PlacedScene place(const SceneOnData& scenery, double weight, std::uint8_t mark, 
   scratch.watch.lap(scratch.times.sample);
   io::Sample felt = placed.sample;
   if (plan.holds_iso_surface && felt.inside) {
-    follow_level(felt, place_mm, contact);
-    const Vec3 step_mm = anchor_step_mm(contact);
-    felt.value = level_at_anchor(contact, step_mm);
+    follow_level(felt, place_mm, contact.scan);
+    const Vec3 step_mm = anchor_step_mm(contact.scan);
+    felt.value = level_at_anchor(contact.scan, step_mm);
     placed.anchor_m += workspace.direction_to_device(step_mm) / workspace.mm_per_m;
   }
-  const Place here{felt, workspace, placed.anchor_m};
+  Place here{felt, workspace, placed.anchor_m};
+  hold_structures(plan, proxy_m, place_mm, contact, felt, here);
+  placed.anchor_m = here.anchor_m;
   list.set_weight(weight);
   for (std::size_t i = 0; i < plan.modes.size(); ++i) {
     const ActiveMode& mode = plan.modes[i];
@@ -73,13 +97,16 @@ PlacedScene place(const SceneOnData& scenery, double weight, std::uint8_t mark, 
   return placed;
 }
 
-/// How the surfaces of a scenery hold the proxy: held on one of them goes before yielding through another.
-HoldState hold_of(const PlacedScene& placed, const Plan& plan, const StepResult& result, const Vec3& proxy_m) {
+/// How the surfaces of a scenery hold the proxy: held on one of them goes before yielding through another. Those of the
+/// scan (structure -1), or of one structure.
+HoldState hold_of(int structure, const PlacedScene& placed, const Plan& plan, const StepResult& result,
+                  const Vec3& proxy_m) {
   HoldState hold = HoldState::none;
   for (std::size_t i = placed.first; i < placed.end; ++i) {
     const solver::Primitive& primitive = result.primitives[i];
     const std::size_t mode = result.mode_of[i] & (of_scene_left - 1U);
-    if (plan.modes[mode].holds && primitive.type == solver::PrimitiveType::plane) {
+    if (plan.modes[mode].holds && plan.modes[mode].structure == structure &&
+        primitive.type == solver::PrimitiveType::plane) {
       const double distance = glm::dot(proxy_m - primitive.position, primitive.direction);
       if (std::abs(distance) <= contact_tolerance_m) {
         return HoldState::held;
@@ -88,6 +115,19 @@ HoldState hold_of(const PlacedScene& placed, const Plan& plan, const StepResult&
     }
   }
   return hold;
+}
+
+/// Of the scan's surface and of each structure's; returns how the proxy is held by all of them.
+HoldState update_holds(const PlacedScene& placed, const Plan& plan, const StepResult& result, const Vec3& proxy_m,
+                       HeldSurfaces& contact) {
+  HoldState all = contact.scan.hold = hold_of(-1, placed, plan, result, proxy_m);
+  for (std::size_t n = 0; n < plan.structures.size(); ++n) {
+    const HoldState hold = hold_of(static_cast<int>(n), placed, plan, result, proxy_m);
+    contact.structure[n].hold = hold;
+    const bool either_held = all == HoldState::held || hold == HoldState::held;
+    all = either_held ? HoldState::held : std::max(all, hold);
+  }
+  return all;
 }
 
 bool is_answer(solver::Outcome outcome) {
@@ -138,9 +178,9 @@ StepResult sub_step(const SubStepInput& setting, const Vec3& probe_m, Touch& tou
   const bool solved = solve(setting, probe_m, std::span(scratch.shares).first(list.size()), chain, touch, result);
   scratch.watch.lap(scratch.times.solve);
   if (solved) {
-    result.hold = touch.contact.hold = hold_of(to, *setting.to.plan, result, touch.proxy_m);
+    result.hold = update_holds(to, *setting.to.plan, result, touch.proxy_m, touch.contact);
     if (setting.from.plan != nullptr) {
-      touch.leaving.hold = hold_of(from, *setting.from.plan, result, touch.proxy_m);
+      update_holds(from, *setting.from.plan, result, touch.proxy_m, touch.leaving);
     }
   }
   return result;
@@ -169,11 +209,12 @@ void follow_workspace(const Workspace& workspace, Touch& touch) {
 bool halt(const Vec3& old_proxy_m, double step_m, Touch& touch) {
   const Vec3 jump = touch.proxy_m - old_proxy_m;
   const double length = glm::length(jump);
-  if (length <= step_m || touch.contact.hold == HoldState::held || touch.leaving.hold == HoldState::held) {
+  if (length <= step_m || touch.contact.is_held() || touch.leaving.is_held()) {
     return false;
   }
   touch.proxy_m = old_proxy_m + jump * (step_m / length);
-  touch.contact.hold = touch.leaving.hold = HoldState::none;
+  touch.contact.release();
+  touch.leaving.release();
   return true;
 }
 
@@ -243,7 +284,7 @@ StepResult step(const SceneChange& change, const Vec3& probe_m, Touch& touch, so
     touch.leaving = touch.contact;
     // On the same data the level goes on as it is; on other data there is another surface to be met.
     if (change.from.source != change.to.source) {
-      touch.contact = HeldSurface{};
+      touch.contact = HeldSurfaces{};
     }
   }
   return step_setting(setting_of(change), probe_m, touch, chain, scratch);

@@ -50,10 +50,10 @@ struct Touch {
   Vec3 probe_m{0};  ///< device's frame, of the last good frame
   Vec3 proxy_m{0};
   Vec3 force_n{0};
-  HeldSurface contact;    ///< with the surface that holds the proxy
+  HeldSurfaces contact;   ///< with the surfaces that hold the proxy
   Workspace workspace;    ///< of the last frame: the proxy stays where it is in the patient when this changes
   bool changing = false;  ///< whether the last frame was one of a change
-  HeldSurface leaving;    ///< contact with the scene that is being left
+  HeldSurfaces leaving;   ///< contact with the scene that is being left
 };
 
 /// Room for one frame. Large: allocate it with the session, not in the tick.

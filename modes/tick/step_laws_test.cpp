@@ -195,7 +195,7 @@ TEST(StepLaws, AHaltIsAsLongAsTheStepInThePatient) {
       ++halted;
       // The sample of the last sub-step was taken where the halt left the proxy: that far from where it was.
       ASSERT_TRUE(before.started);
-      const Vec3 halted_at = hand.touch.contact.place_mm;
+      const Vec3 halted_at = hand.touch.contact.scan.place_mm;
       const Vec3 was = hand.plan.workspace.to_patient(before.proxy_m);
       EXPECT_NEAR(glm::length(halted_at - was), scene.subdivision.proxy_step_mm, 1e-6) << seed;
     }

@@ -3,6 +3,7 @@
 /// What a haptic mode is: from the fields sampled at a place to primitives there. One file a mode (<name>_mode.cpp);
 /// the list of them is one line in modes/CMakeLists.txt.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,13 +18,14 @@
 namespace palpate::modes {
 
 /// Along what a mode's constraint is directed: decides which combinations stay analytical (plan.h).
-enum class Axis : std::uint8_t { none, gradient, vector, tube, own };
+enum class Axis : std::uint8_t { none, gradient, vector, tube, own, structure };
 
 /// What a mode places.
 struct Footprint {
   solver::PrimitiveType primitive = solver::PrimitiveType::directed_force;
   Axis axis = Axis::none;
   bool co_located = true;  ///< placed at the anchor with all the others; false: at a place of its own
+  int structure = -1;      ///< of an axis along a structure's gradient: which
 };
 
 /// Keys of a scene's mode, beside type, name, enabled and color, that a type of mode reads: a set of flags.
@@ -34,7 +36,9 @@ enum class Key : std::uint8_t {
   side = 4,
   direction_of = 8,
   tissues = 16,
-  landmark = 32  ///< shape, position_mm, direction
+  landmark = 32,   ///< shape, position_mm, direction
+  structure = 64,  ///< structure and level_mm: in place of the scan's own boundary
+  margin = 128     ///< structure and margin_mm
 };
 constexpr Key operator|(Key a, Key b) {
   return static_cast<Key>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -54,6 +58,10 @@ struct ActiveMode {
   Strength strength;
   Side side = Side::entering;
   DirectionField direction_of = DirectionField::vector;
+  int structure = -1;  ///< whose edge it is: index in Sample::distance; -1: the scan's own boundary
+  double level_mm = 0;
+  double margin_mm = 3;
+  double push_share = 0;  ///< of its strength: what pushes by itself, beside what resists (keep_out)
   Shape shape = Shape::point;
   Vec3 position_mm{0};
   Vec3 direction{0, 0, 1};
@@ -64,6 +72,8 @@ struct Place {
   const io::Sample& sample;    ///< at the old proxy, patient space
   const Workspace& workspace;  ///< rotates directions into the device's frame
   Vec3 anchor_m{0};            ///< the place of all co-located primitives, device's frame
+  /// Where the planes of each structure's surface stand; those of the others at the anchor.
+  std::array<Vec3, io::most_structures> structure_anchor_m{};
 };
 
 /// Primitives of a frame in the making: a list of fixed capacity.

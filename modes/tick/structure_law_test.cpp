@@ -1,0 +1,195 @@
+// What scenes make of structures: laws on a ball whose distance is known, one for each use.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "modes/scene/scene_json.h"
+#include "modes/testing/test_rig.h"
+
+namespace palpate::modes {
+namespace {
+
+using testing::Hand;
+using ::testing::HasSubstr;
+
+/// A ball of 20 mm around the origin is structure 0; the scan is the same value everywhere.
+class BallSource final : public io::FieldSource {
+ public:
+  io::FieldSet available() const noexcept override {
+    return io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::distance;
+  }
+  io::Sample sample(const Vec3& position_mm, io::FieldSet) const noexcept override {
+    io::Sample sample;
+    sample.inside = true;
+    sample.value = 40;
+    const double r = glm::length(position_mm);
+    sample.distance[0] = {.mm = 20 - r, .gradient = r > 0 ? -position_mm / r : Vec3(0)};
+    return sample;
+  }
+};
+
+Scene scene_with(const std::string& mode) {
+  return scene_from_json(R"({"version": 1, "structures": [{"name": "liver", "file": "seg.dcm", "segment": 1},
+    {"name": "spleen", "file": "seg.dcm", "segment": "Spleen"}], "modes": [)" +
+                             mode + "]}",
+                         "test");
+}
+
+TEST(StructureLaw, ASurfaceIsFeltAtItsEdge) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "structure": "liver", "strength_n": 1.5})"), source);
+  hand.stroke({30, 0, 0}, {19, 0, 0}, 1100);
+  EXPECT_NEAR(glm::length(hand.proxy_mm()), 20, 0.11);
+  EXPECT_NEAR(hand.force().x, 0.4 * (20 - 19), 0.05);
+  hand.stroke({19, 0, 0}, {14, 0, 0}, 500);  // through the wall: it held at most 1.5 N
+  EXPECT_NEAR(glm::length(hand.force()), 0, 1e-9);
+  hand.stroke({14, 0, 0}, {30, 0, 0}, 1600);  // leaving is not resisted
+  EXPECT_NEAR(glm::length(hand.force()), 0, 1e-9);
+}
+
+TEST(StructureLaw, ASurfaceThatIsLeftHoldsFromInside) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "structure": "liver", "side": "leaving", "strength_n": 1.5})"), source);
+  hand.stroke({0, 1, 0}, {0, 21.5, 0}, 2050);
+  EXPECT_NEAR(glm::length(hand.proxy_mm()), 20, 0.11);
+  EXPECT_LT(hand.force().y, -0.5);
+}
+
+TEST(StructureLaw, ALevelMovesTheSurface) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "structure": "liver", "level_mm": -3, "strength_n": 1.5})"), source);
+  hand.stroke({30, 0, 0}, {22, 0, 0}, 800);
+  EXPECT_NEAR(glm::length(hand.proxy_mm()), 23, 0.11);
+}
+
+TEST(StructureLaw, DoesNotCreepWhereAHandSlidesRoundIt) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "structure": "liver", "strength_n": 3})"), source);
+  hand.stroke({30, 0, 0}, {17, 0, 0}, 1300);
+  const double first = glm::length(hand.force());
+  for (int n = 0; n < 60000; ++n) {
+    const double angle = 0.0002 * n;  // 3.4 mm/s, twice round
+    hand.move_to(17.0 * Vec3(std::cos(angle), std::sin(angle), 0));
+  }
+  EXPECT_NEAR(glm::length(hand.force()), first, 0.02 * first);
+}
+
+TEST(StructureLaw, AGateLetsAModeActInsideOnly) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "friction", "strength_n": 0.3, "gates":
+    [{"of": "distance_mm", "structure": "liver", "nodes": [[0, 0], [1, 1]]}]})"),
+            source);
+  hand.stroke({30, 0, 0}, {24, 0, 0}, 600);
+  EXPECT_NEAR(glm::length(hand.force()), 0, 1e-9);
+  hand.stroke({24, 0, 0}, {10, 0, 0}, 1400);
+  EXPECT_NEAR(glm::length(hand.force()), 0.3, 1e-6);
+}
+
+TEST(StructureLaw, KeepOutIsBoundedContinuousAndZeroOutsideItsMargin) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "keep_out", "structure": "liver", "margin_mm": 3, "strength_n": 2})"), source);
+  double last = 0;
+  for (int n = 0; n <= 40000; ++n) {
+    const Vec3 probe(30 - 0.001 * n, 0.01, 0);  // through the whole ball but for its last 10 mm
+    hand.move_to(probe);
+    const double force = glm::length(hand.force());
+    if (glm::length(probe) > 23) {
+      EXPECT_NEAR(force, 0, 1e-9) << probe.x;
+    }
+    EXPECT_LE(force, 2 + 1e-9) << probe.x;
+    if (probe.x > 1) {
+      EXPECT_LE(std::abs(force - last), 0.02) << probe.x;
+    }
+    last = force;
+  }
+}
+
+TEST(StructureLaw, KeepOutPushesAHandThatRests) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "keep_out", "structure": "liver", "margin_mm": 3, "strength_n": 2})"), source);
+  hand.stroke({30, 0, 0}, {20.5, 0, 0}, 950);
+  hand.stroke({20.5, 0, 0}, {21, 0, 0}, 50);
+  for (int n = 0; n < 2000; ++n) hand.move_to({21, 0, 0});
+  EXPECT_GT(hand.force().x, 0.05);
+  const Vec3 settled = hand.force();
+  for (int n = 0; n < 100; ++n) {  // it does not ring
+    hand.move_to({21, 0, 0});
+    EXPECT_NEAR(hand.force().x, settled.x, 1e-6);
+  }
+}
+
+TEST(StructureLaw, KeepInHoldsBeforeTheWayOut) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "keep_in", "structure": "liver", "margin_mm": 4, "strength_n": 2})"), source);
+  hand.stroke({1, 0, 0}, {15, 0, 0}, 1400);
+  EXPECT_NEAR(glm::length(hand.force()), 0, 1e-9);
+  hand.stroke({15, 0, 0}, {22, 0, 0}, 700);
+  EXPECT_LT(hand.force().x, -0.5);
+  EXPECT_LE(glm::length(hand.force()), 2 + 1e-9);
+}
+
+TEST(StructurePlan, LeavesOutWhatNoModeReads) {
+  const BallSource source;
+  const Plan plan =
+      make_plan(scene_with(R"({"type": "surface", "structure": "liver", "strength_n": 1})"), source.available(), {});
+  EXPECT_EQ(plan.structures, std::vector<std::size_t>{0});
+  bool said = false;
+  for (const LeftOut& left : plan.left_out) said = said || left.what == "structure \"spleen\"";
+  EXPECT_TRUE(said);
+  EXPECT_TRUE(plan.solvers.analytical);
+  EXPECT_FALSE(plan.solvers.exact);
+}
+
+TEST(StructureScene, KeepsItsText) {
+  const Scene scene = scene_with(
+      R"({"type": "surface", "structure": "liver", "level_mm": -2, "strength_n": {"of": "distance_mm", "nodes": [[0, 1], [2, 0]]}},
+         {"type": "keep_in", "structure": "spleen", "margin_mm": 5, "strength_n": 1})");
+  const std::string text = to_json(scene);
+  EXPECT_EQ(to_json(scene_from_json(text, "again")), text);
+  EXPECT_EQ(scene.modes[0].strength_structure, "liver");
+}
+
+std::string refusal_of(const std::string& mode) {
+  try {
+    scene_with(mode);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(StructureScene, IsRefusedInWords) {
+  EXPECT_EQ(refusal_of(R"({"type": "keep_out", "structure": "aorta", "strength_n": 1})"),
+            "test: modes[0].structure: there is no structure \"aorta\" in structures");
+  EXPECT_THAT(refusal_of(R"({"type": "keep_out", "strength_n": 1})"), HasSubstr("modes[0].structure: is missing"));
+  EXPECT_THAT(refusal_of(R"({"type": "keep_out", "structure": "liver", "margin_mm": 0, "strength_n": 1})"),
+              HasSubstr("modes[0].margin_mm: 0 is not a number above 0; it is in mm"));
+  EXPECT_THAT(refusal_of(R"({"type": "friction", "strength_n": {"of": "distance_mm", "nodes": [[0, 1]]}})"),
+              HasSubstr("modes[0].strength_n.structure: is missing"));
+}
+
+TEST(StructurePlan, RefusesMoreThanItCanRead) {
+  const BallSource source;
+  Scene scene;
+  for (int n = 0; n < 9; ++n) {
+    const std::string name = "s" + std::to_string(n);
+    scene.structures.push_back({.name = name, .file = "seg.dcm", .segment = name});
+    Mode mode;
+    mode.type = "keep_out";
+    mode.structure = name;
+    mode.strength_n = TransferFunction(1.0);
+    scene.modes.push_back(mode);
+  }
+  try {
+    make_plan(scene, source.available(), {});
+    FAIL() << "was planned";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "structures: more than 8 are read by modes or have a margin; switch some off");
+  }
+}
+
+}  // namespace
+}  // namespace palpate::modes
