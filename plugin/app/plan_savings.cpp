@@ -73,7 +73,7 @@ struct Cost {
 /// A small movement about the middle, within half a millimeter: the same one for every plan.
 Cost cost_of(const modes::Scene& scene, const modes::Plan& plan, const std::shared_ptr<const io::Volume>& volume) {
   constexpr int frames = 400, rounds = 7;
-  const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields, plan.slices);
+  const io::VolumeFields source = fields_without_worker(scene, volume, scan_fields(plan), plan.slices);
   const glm::dvec3 middle = middle_of(volume->geometry, plan);
   source.prepare(middle, 5);
   solver::Chain chain(
@@ -131,14 +131,14 @@ void measure_slices(const io::SliceRange& left_out, const modes::Scene& scene, c
   }
   double us = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 3; ++round) {
-    const io::VolumeFields source = fields_without_worker(scene, volume, plan.fields, {});
+    const io::VolumeFields source = fields_without_worker(scene, volume, scan_fields(plan), {});
     us = std::min(us, us_of([&] { source.prepare(middle_of(volume->geometry, plan), 0); }));
   }
   constexpr double voxels_a_brick = 16.0 * 16 * 16;
   const glm::ivec3 size = volume->geometry.dimensions;
   saving.ms = us * 1e-3 * (left_out.last - left_out.first + 1) * size.x * size.y / voxels_a_brick;
   const auto kept = [&](const io::SliceRange& slices) {
-    return fields_without_worker(scene, volume, plan.fields, slices).memory_bytes();
+    return fields_without_worker(scene, volume, scan_fields(plan), slices).memory_bytes();
   };
   const bool none_kept = plan.slices.last < plan.slices.first;
   saving.bytes = kept(none_kept ? left_out

@@ -40,7 +40,8 @@ struct Met {
   std::optional<double> known_to_mm;
 };
 
-std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Met>& met, const modes::Scene& scene) {
+std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Met>& met, const modes::Plan& plan,
+                    const modes::Scene& scene) {
   nlohmann::json json{{"position_mm", nlohmann::json::array()}, {"proxy_mm", nlohmann::json::array()},
                       {"force_n", nlohmann::json::array()},     {"value", nlohmann::json::array()},
                       {"solver", nlohmann::json::array()},      {"error_bound_m", nlohmann::json::array()},
@@ -54,6 +55,10 @@ std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Me
     json["error_bound_m"].push_back(number(point.error_bound_m));
     json["boundary"].push_back(point.boundary ? nlohmann::json(display_name(scene, *point.boundary))
                                               : nlohmann::json());
+  }
+  for (std::size_t n = 0; n < plan.structures.size(); ++n) {
+    nlohmann::json& distances = json["distance_mm"][scene.structures[plan.structures[n]].name];
+    for (const StrokePoint& point : stroke) distances.push_back(point.distance_mm[n]);
   }
   json["met"] = nlohmann::json::array();
   for (const Met& boundary : met) {
@@ -117,7 +122,7 @@ void run(const ProfileOptions& options) {
         {contact, known_to_mm(*felt.source, volume->geometry, scene, profile.stroke[contact.first].proxy_mm)});
   }
   if (options.json) {
-    fmt::print("{}\n", to_json(profile.stroke, met, scene));
+    fmt::print("{}\n", to_json(profile.stroke, met, *felt.plan, scene));
   } else {
     print_text(profile.stroke, met, scene);
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/fields/volume_fields.h"
+#include "io/structures/structured_fields.h"
 #include "modes/scene/scene_json.h"
 #include "modes/tick/reach.h"
 
@@ -45,14 +46,42 @@ modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume
   return modes::load_scene(volume.modality == "CT" ? "ct-skin-and-bone" : "mr-brain");
 }
 
+namespace {
+
+io::FieldSet available_fields(const modes::Scene& scene, const io::Volume& volume) {
+  return io::fields_of(volume) | (scene.structures.empty() ? io::FieldSet::none : io::FieldSet::distance);
+}
+
+}  // namespace
+
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m) {
   const Box box = bounding_box(volume.geometry);
-  modes::Plan plan = modes::make_plan(scene, io::fields_of(volume),
+  modes::Plan plan = modes::make_plan(scene, available_fields(scene, volume),
                                       modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m));
   modes::leave_out_slices(volume.geometry, device_half_extent_m, plan);
   return std::make_shared<const modes::Plan>(std::move(plan));
 }
+
+io::FieldSet scan_fields(const modes::Plan& plan) noexcept {
+  return static_cast<io::FieldSet>(static_cast<unsigned>(plan.fields) & ~static_cast<unsigned>(io::FieldSet::distance));
+}
+
+namespace {
+
+bool same_distances(const std::vector<LoadedStructure>& a, const std::vector<LoadedStructure>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const LoadedStructure& x, const LoadedStructure& y) { return x.distance == y.distance; });
+}
+
+std::shared_ptr<const io::FieldSource> with_structures(std::shared_ptr<const io::FieldSource> scan,
+                                                       const std::vector<LoadedStructure>& structures) {
+  std::vector<std::shared_ptr<const io::DistanceField>> distances;
+  for (const LoadedStructure& structure : structures) distances.push_back(structure.distance);
+  return std::make_shared<const io::StructuredFields>(std::move(scan), std::move(distances));
+}
+
+}  // namespace
 
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m) {
@@ -62,17 +91,28 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, const Prepared& before) {
   PreparedScene felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
-  if (before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
+  const bool same_scan =
+      before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
       before.felt.plan->slices == felt.plan->slices && before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
-      before.scene.sampling == scene.sampling) {
+      before.scene.sampling == scene.sampling;
+  felt.structures = load_structures(scene, *felt.plan, *volume,
+                                    before.volume == volume ? before.felt.structures : std::vector<LoadedStructure>());
+  if (same_scan && same_distances(felt.structures, before.felt.structures)) {
     felt.source = before.felt.source;
     return felt;
   }
-  io::FieldOptions options = modes::field_options(scene.sampling);
-  options.ahead = felt.plan->slices;
-  felt.source = std::make_shared<const io::VolumeFields>(
-      volume, felt.plan->fields, scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)),
-      options);
+  std::shared_ptr<const io::FieldSource> scan;
+  if (const auto* structured = dynamic_cast<const io::StructuredFields*>(before.felt.source.get());
+      same_scan && structured != nullptr) {
+    scan = structured->scan();
+  } else {
+    io::FieldOptions options = modes::field_options(scene.sampling);
+    options.ahead = felt.plan->slices;
+    scan = std::make_shared<const io::VolumeFields>(
+        volume, scan_fields(*felt.plan),
+        scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)), options);
+  }
+  felt.source = felt.structures.empty() ? scan : with_structures(scan, felt.structures);
   return felt;
 }
 

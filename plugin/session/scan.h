@@ -5,11 +5,13 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "io/fields/field_source.h"
 #include "io/volume.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
+#include "plugin/session/scene_structures.h"
 
 namespace palpate::plugin {
 
@@ -34,10 +36,14 @@ modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m);
 
+/// What a plan reads of the scan itself: all but the distances from structures.
+io::FieldSet scan_fields(const modes::Plan& plan) noexcept;
+
 /// A scene on a scan: the plan, and the fields that this plan needs and no more.
 struct PreparedScene {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
+  std::vector<LoadedStructure> structures;  ///< those that the plan reads, in its order
 };
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m);

@@ -37,6 +37,16 @@ double value_at(const io::FieldSource& source, const glm::dvec3& place) {
   return sample.inside ? sample.value : std::numeric_limits<double>::quiet_NaN();
 }
 
+std::array<double, io::most_structures> distances_at(const modes::Plan& plan, const io::FieldSource& source,
+                                                     const glm::dvec3& place) {
+  std::array<double, io::most_structures> distances{};
+  if (!plan.structures.empty()) {
+    const io::Sample sample = source.sample(place, io::FieldSet::distance);
+    for (std::size_t n = 0; n < plan.structures.size(); ++n) distances[n] = sample.distance[n].mm;
+  }
+  return distances;
+}
+
 }  // namespace
 
 std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
@@ -70,6 +80,7 @@ std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSour
                       .proxy_mm = proxy,
                       .force_n = plan.workspace.direction_to_patient(result.force_n),
                       .value = value_at(source, proxy),
+                      .distance_mm = distances_at(plan, source, proxy),
                       .value_passed = value_at(source, position),
                       .solver = result.solver,
                       .error_bound_m = result.error_bound,
@@ -84,7 +95,7 @@ std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const mode
   const auto is_surface = [&](std::size_t scene_index) {
     for (const modes::ActiveMode& mode : plan.modes) {
       if (mode.scene_index == scene_index) {
-        return mode.type->name == "surface";
+        return mode.holds;
       }
     }
     return false;

@@ -3,6 +3,7 @@
 /// The force felt along a straight stroke, without a stylus: the probe itself moves at constant speed, a frame a
 /// millisecond.
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -21,8 +22,9 @@ struct StrokePoint {
   glm::dvec3 position_mm{0};  ///< of the probe
   glm::dvec3 proxy_mm{0};
   glm::dvec3 force_n{0};
-  double value = 0;         ///< of the scan at the proxy; NaN outside it
-  double value_passed = 0;  ///< of the scan at the probe; NaN outside it
+  double value = 0;                                       ///< of the scan at the proxy; NaN outside it
+  std::array<double, io::most_structures> distance_mm{};  ///< of the proxy, from each of the plan's structures
+  double value_passed = 0;                                ///< of the scan at the probe; NaN outside it
   solver::SolverKind solver = solver::SolverKind::none;
   double error_bound_m = 0;
   std::optional<std::size_t> boundary;             ///< the scene's mode that pushes most, if any does

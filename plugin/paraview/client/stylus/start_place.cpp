@@ -108,7 +108,7 @@ bool is_felt(const modes::Plan& plan, const io::FieldSource& fields, const glm::
 StartPlace find_start_place(const std::shared_ptr<const io::Volume>& volume, const modes::Plan& plan,
                             double gradient_scale_mm, const std::function<bool(const glm::dvec3&)>& in_reach,
                             const std::function<bool(const glm::dvec3&)>& in_sight) {
-  const io::VolumeFields fields(volume, plan.fields | io::FieldSet::value, gradient_scale_mm,
+  const io::VolumeFields fields(volume, scan_fields(plan) | io::FieldSet::value, gradient_scale_mm,
                                 {.brick_bytes = 0, .background = false});
   const Grid grid(bounding_box(volume->geometry));
   std::vector<double> values(grid.size(), NAN);

@@ -38,7 +38,8 @@ std::vector<const modes::ActiveMode*> felt_modes(const modes::Plan& plan, const 
                                 "\"; leave Mode empty for all that hold the stylus");
   }
   for (const modes::ActiveMode& mode : plan.modes) {
-    const bool wanted = choice.mode.empty() ? mode.holds : all[mode.scene_index].name == choice.mode;
+    const bool wanted =
+        choice.mode.empty() ? mode.holds && mode.structure < 0 : all[mode.scene_index].name == choice.mode;
     if (wanted) felt.push_back(&mode);
   }
   return felt;

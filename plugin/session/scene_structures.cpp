@@ -1,0 +1,102 @@
+#include "plugin/session/scene_structures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "io/errors.h"
+#include "io/structures/structure.h"
+
+namespace palpate::plugin {
+namespace {
+
+/// In steps, so that a margin that is being dragged does not ask for another field at each of them.
+constexpr std::array reaches_mm{3.0, 5.0, 8.0, 12.0, 20.0};
+
+/// How far from a structure's surface something changes with the distance, mm. It follows from the scene alone: a
+/// recording of it is repeated on the same field.
+double reach_of(const modes::Scene& scene, const modes::SceneStructure& structure) {
+  double reach = structure.margin_mm.value_or(0) + 1;
+  const auto take = [&](const std::string& name, modes::Datum of, const modes::TransferFunction& function) {
+    if (of != modes::Datum::distance || name != structure.name) return;
+    for (const modes::Node& node : function.nodes()) reach = std::max(reach, std::abs(node.at) + 1);
+  };
+  for (const modes::Mode& mode : scene.modes) {
+    if (mode.structure == structure.name) {
+      reach = std::max({reach, mode.margin_mm + 1, std::abs(mode.level_mm) + 2});
+    }
+    take(mode.strength_structure, mode.strength_of, mode.strength_n);
+    for (const modes::Gate& gate : mode.gates) take(gate.structure, gate.of, gate.factor);
+  }
+  const auto* const enough =
+      std::find_if(reaches_mm.begin(), reaches_mm.end(), [&](double step) { return step >= reach; });
+  return enough == reaches_mm.end() ? reaches_mm.back() : *enough;
+}
+
+[[noreturn]] void refuse(const modes::SceneStructure& structure, const std::string& why) {
+  throw std::invalid_argument("structure \"" + structure.name + "\": " + why);
+}
+
+io::Structure find_structure(const modes::SceneStructure& wanted, const std::filesystem::path& file) {
+  io::StructureCatalogue catalogue;
+  try {
+    catalogue = io::find_structures(std::array{file});
+  } catch (const io::DicomError& error) {
+    refuse(wanted, error.what());
+  }
+  std::string known;
+  for (const io::Structure& structure : catalogue.structures) {
+    const bool is_it =
+        wanted.segment_number ? structure.number == *wanted.segment_number : structure.name == wanted.segment;
+    if (is_it) return structure;
+    known += fmt::format("{}{} {}", known.empty() ? "" : ", ", structure.number, structure.name);
+  }
+  if (known.empty()) {
+    const std::string why = catalogue.skipped.empty() ? "" : ": " + catalogue.skipped.front().reason;
+    refuse(wanted, file.filename().string() + " holds no structures" + why);
+  }
+  const std::string asked = wanted.segment_number ? std::to_string(*wanted.segment_number) : wanted.segment;
+  refuse(wanted, file.filename().string() + " has no \"" + asked + "\"; there are: " + known);
+}
+
+}  // namespace
+
+std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
+                                             const io::Volume& volume, const std::vector<LoadedStructure>& before) {
+  std::vector<LoadedStructure> loaded;
+  for (const std::size_t n : plan.structures) {
+    const modes::SceneStructure& wanted = scene.structures[n];
+    const std::filesystem::path file = wanted.file;
+    const std::string segment = wanted.segment_number ? fmt::format("#{}", *wanted.segment_number) : wanted.segment;
+    const double reach = reach_of(scene, wanted);
+    const auto known = std::find_if(before.begin(), before.end(), [&](const LoadedStructure& one) {
+      return one.file == file.string() && one.segment == segment && one.distance->reach_mm() == reach;
+    });
+    if (known != before.end()) {
+      loaded.push_back(*known);
+      continue;
+    }
+    const io::Structure structure = find_structure(wanted, file);
+    if (!structure.frame_of_reference_uid.empty() && !volume.frame_of_reference_uid.empty() &&
+        structure.frame_of_reference_uid != volume.frame_of_reference_uid) {
+      refuse(wanted,
+             file.filename().string() +
+                 " lies in another frame of reference than the scan: choose one that was outlined on this study");
+    }
+    io::DistanceOptions options;
+    options.reach_mm = reach;
+    options.scan = &volume.geometry;
+    try {
+      loaded.push_back({file.string(), segment, io::load_distance(structure, options)});
+    } catch (const io::DicomError& error) {
+      refuse(wanted, error.what());
+    }
+  }
+  return loaded;
+}
+
+}  // namespace palpate::plugin
