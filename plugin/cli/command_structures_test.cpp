@@ -60,7 +60,8 @@ fs::path scene_beside_liver(const std::string& segment, const std::string& modes
   return folder / "scene.json";
 }
 
-// In row 290 of the middle slice pydicom reads columns 81 to 203 as liver: the row is crossed there along x.
+// In the label map that the segmentation was made of (liver_seg.nrrd), row 290 of the middle slice is liver from column
+// 81 to 203: the row is crossed there along x.
 const std::string into_liver = " --from -180,8.2586,-127.69 --to -165,8.2586,-127.69 --scene ";
 constexpr double last_outside_mm = -235.2 + 80 * 0.810547, first_inside_mm = -235.2 + 81 * 0.810547;
 const std::string edge = R"({"type": "surface", "structure": "liver", "strength_n": 1})";
@@ -83,9 +84,15 @@ TEST(CommandStructures, AreFeltAtTheirEdge) {
     const double force =
         std::hypot(stroke.at("force_n").at(n).at(0).get<double>(), stroke.at("force_n").at(n).at(1).get<double>(),
                    stroke.at("force_n").at(n).at(2).get<double>());
-    if (x < last_outside_mm - 0.2) EXPECT_LT(force, 1e-6) << x;
-    if (x < last_outside_mm) EXPECT_LT(distances[n].get<double>(), 0) << x;
-    if (x > first_inside_mm && x < first_inside_mm + 1) EXPECT_GT(distances[n].get<double>(), 0) << x;
+    if (x < last_outside_mm - 0.2) {
+      EXPECT_LT(force, 1e-6) << x;
+    }
+    if (x < last_outside_mm) {
+      EXPECT_LT(distances[n].get<double>(), 0) << x;
+    }
+    if (x > first_inside_mm && x < first_inside_mm + 1) {
+      EXPECT_GT(distances[n].get<double>(), 0) << x;
+    }
     most = std::max(most, force);
   }
   EXPECT_GT(most, 0.8);
