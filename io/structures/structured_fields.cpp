@@ -1,8 +1,7 @@
 #include "io/structures/structured_fields.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
+#include <cassert>
 #include <utility>
 
 namespace palpate::io {
@@ -10,13 +9,8 @@ namespace palpate::io {
 StructuredFields::StructuredFields(std::shared_ptr<const FieldSource> scan,
                                    std::vector<std::shared_ptr<const DistanceField>> structures)
     : scan_(std::move(scan)), structures_(std::move(structures)) {
-  if (!scan_ || std::find(structures_.begin(), structures_.end(), nullptr) != structures_.end()) {
-    throw std::invalid_argument("no scan, or no structure");
-  }
-  if (structures_.size() > most_structures) {
-    throw std::invalid_argument(std::to_string(structures_.size()) + " structures are too many; there may be " +
-                                std::to_string(most_structures));
-  }
+  assert(scan_ && structures_.size() <= most_structures);
+  assert(std::find(structures_.begin(), structures_.end(), nullptr) == structures_.end());
 }
 
 Sample StructuredFields::sample(const Vec3& position_mm, FieldSet wanted) const noexcept {

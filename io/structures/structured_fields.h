@@ -12,7 +12,7 @@ namespace palpate::io {
 
 class StructuredFields final : public FieldSource {
  public:
-  /// Throws std::invalid_argument for more than most_structures of them, and for one that is null.
+  /// At most most_structures of them, and none of them null.
   StructuredFields(std::shared_ptr<const FieldSource> scan,
                    std::vector<std::shared_ptr<const DistanceField>> structures);
 

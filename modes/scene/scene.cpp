@@ -150,9 +150,7 @@ void check_mode(const std::string& path, const Mode& mode, const Scene& scene) {
   if (!mode.structure.empty() || contains(type->keys, Key::margin)) {
     check_structure_of(path + ".structure", mode.structure, scene);
   }
-  if (!std::isfinite(mode.level_mm)) {
-    refuse(path + ".level_mm", "is not finite");
-  }
+  check_finite(path + ".level_mm", Vec3(mode.level_mm));
   check_positive(path + ".margin_mm", mode.margin_mm, "mm");
   check_boundary(path, mode, scene);
   check_finite(path + ".position_mm", mode.position_mm);

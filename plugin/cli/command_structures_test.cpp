@@ -113,7 +113,7 @@ TEST(CommandStructures, OfASceneAreRefusedInWords) {
   const fs::path unknown = scene_beside_liver("\"Spleen\"", edge);
   const Outcome outcome = palpate("profile " + ct + into_liver + unknown.string());
   EXPECT_EQ(outcome.exit, 1);
-  EXPECT_THAT(outcome.output, HasSubstr(R"(structure "liver": liver.dcm has no "Spleen"; there are: 1 Liver)"));
+  EXPECT_THAT(outcome.output, HasSubstr("structure \"liver\": liver.dcm has no \"Spleen\"; there are: 1 Liver"));
   const fs::path scene = scene_beside_liver("1", edge);
   const Outcome elsewhere = palpate("profile " + phantom().string() + forehead + "--scene " + scene.string());
   EXPECT_EQ(elsewhere.exit, 1);
