@@ -94,7 +94,11 @@ std::vector<const char*> pointers(const std::vector<std::string>& texts) {
 
 T_ASC_Parameters* make_parameters(const Archive& archive, const std::vector<Proposal>& proposals) {
   T_ASC_Parameters* parameters = nullptr;
+#if PACKAGE_VERSION_NUMBER >= 368  // DCMTK's: Debian 12 has 3.6.7
+  require(ASC_createAssociationParameters(&parameters, maximum_pdu, connect_s), archive);
+#else
   require(ASC_createAssociationParameters(&parameters, maximum_pdu), archive);
+#endif
   ASC_setAPTitles(parameters, archive.calling.c_str(), archive.called.c_str(), nullptr);
   const std::string peer = fmt::format("{}:{}", archive.host, archive.port);
   ASC_setPresentationAddresses(parameters, OFStandard::getHostName().c_str(), peer.c_str());

@@ -53,20 +53,29 @@ void require(bool good, const Archive& archive, const char* what, const std::fil
   }
 }
 
+constexpr DcmTLSSecurityProfile profile = TSP_Profile_BCP195;
+
+OFCondition set_certificate(DcmTLSTransportLayer& layer, const std::filesystem::path& file) {
+#if PACKAGE_VERSION_NUMBER >= 368  // DCMTK's: Debian 12 has 3.6.7
+  return layer.setCertificateFile(file.c_str(), DCF_Filetype_PEM, profile);
+#else
+  return layer.setCertificateFile(file.c_str(), DCF_Filetype_PEM);
+#endif
+}
+
 void set_up(DcmTLSTransportLayer& layer, const Archive& archive) {
   const Tls& tls = archive.tls;
   require(layer.addTrustedCertificateFile(tls.authorities.c_str(), DCF_Filetype_PEM).good(), archive, "--tls-ca",
           tls.authorities);
   if (!tls.certificate.empty()) {
     require(layer.setPrivateKeyFile(tls.key.c_str(), DCF_Filetype_PEM).good(), archive, "--tls-key", tls.key);
-    require(layer.setCertificateFile(tls.certificate.c_str(), DCF_Filetype_PEM).good(), archive, "--tls-certificate",
-            tls.certificate);
+    require(set_certificate(layer, tls.certificate).good(), archive, "--tls-certificate", tls.certificate);
     if (!layer.checkPrivateKeyMatchesCertificate()) {
       throw ArchiveError(fmt::format("archive {}: --tls-key {} does not belong to --tls-certificate {}", archive.name,
                                      tls.key.string(), tls.certificate.string()));
     }
   }
-  if (layer.setTLSProfile(TSP_Profile_BCP195).bad() || layer.activateCipherSuites().bad()) {
+  if (layer.setTLSProfile(profile).bad() || layer.activateCipherSuites().bad()) {
     throw ArchiveError(fmt::format("archive {}: the OpenSSL that is installed cannot do TLS 1.2", archive.name));
   }
   layer.setCertificateVerification(DCV_requireCertificate);

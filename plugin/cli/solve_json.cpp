@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "solver/analytical.h"
@@ -77,9 +78,9 @@ Json parse(std::string_view line, Json& id) {
   }
 }
 
-const Json& member(const Json& object, const char* key, const std::string& where) {
+const Json& member(const Json& object, const char* key, std::string_view where) {
   const auto found = object.find(key);
-  if (found == object.end()) throw Refused(where + key + " is missing");
+  if (found == object.end()) throw Refused(std::string(where) + key + " is missing");
   return *found;
 }
 

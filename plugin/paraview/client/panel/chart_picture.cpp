@@ -62,7 +62,12 @@ void ChartPicture::paintEvent(QPaintEvent*) {
 }
 
 double ChartPicture::x_at(const QMouseEvent& event) const {
-  const double part = (event.x() - axes_style.left) / (width() - axes_style.left - axes_style.right);
+#if QT_VERSION >= QT_VERSION_CHECK(6, 0, 0)
+  const double x = event.position().x();
+#else
+  const double x = event.localPos().x();
+#endif
+  const double part = (x - axes_style.left) / (width() - axes_style.left - axes_style.right);
   return std::clamp(part, 0.0, 1.0) * length_;
 }
 

@@ -31,6 +31,7 @@
 #include <glm/geometric.hpp>
 
 #include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/paraview/client/views/scalar_coloring.h"
 
 namespace palpate::plugin {
 namespace {
@@ -79,8 +80,8 @@ vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRende
   vtkSMProxy* const shown = controller->Show(&image, 0, view.getViewProxy());
   auto* const proxy = vtkSMPVRepresentationProxy::SafeDownCast(shown);
   proxy->SetRepresentationType(representation);
-  proxy->SetScalarColoring(array, 0);
-  proxy->SetScalarBarVisibility(view.getViewProxy(), false);
+  color_by_points(*proxy, array);
+  hide_scalar_bar(*proxy, *view.getViewProxy());
   return *proxy;
 }
 

@@ -20,6 +20,7 @@
 #include <functional>
 
 #include "plugin/bench/heap_use.h"
+#include "plugin/paraview/client/views/scalar_coloring.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -72,7 +73,7 @@ void without_the_panel() {
       auto* const shown = vtkSMPVRepresentationProxy::SafeDownCast(
           controller->Show(vtkSMSourceProxy::SafeDownCast(source->getProxy()), 0, view->getViewProxy()));
       shown->SetRepresentationType(shown_as);
-      shown->SetScalarColoring("RTData", 0);
+      palpate::plugin::color_by_points(*shown, "RTData");
       view->resetCamera();
       constexpr int pictures = 20;  // as many as a press takes
       for (int n = 0; n < pictures; ++n) view->forceRender();

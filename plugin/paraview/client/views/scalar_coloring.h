@@ -1,0 +1,30 @@
+#pragma once
+
+/// What ParaView 5.11's representation proxy does itself, and 5.13's a helper.
+
+#include <vtkPVVersion.h>
+#include <vtkSMPVRepresentationProxy.h>
+#if PARAVIEW_VERSION_NUMBER >= PARAVIEW_VERSION_CHECK(5, 13, 0)
+#include <vtkSMColorMapEditorHelper.h>
+#endif
+
+namespace palpate::plugin {
+
+/// Colors what is shown by an array of its points.
+inline void color_by_points(vtkSMPVRepresentationProxy& shown, const char* array) {
+#if PARAVIEW_VERSION_NUMBER >= PARAVIEW_VERSION_CHECK(5, 13, 0)
+  vtkSMColorMapEditorHelper::SetScalarColoring(&shown, array, 0);
+#else
+  shown.SetScalarColoring(array, 0);
+#endif
+}
+
+inline void hide_scalar_bar(vtkSMPVRepresentationProxy& shown, vtkSMProxy& view) {
+#if PARAVIEW_VERSION_NUMBER >= PARAVIEW_VERSION_CHECK(5, 13, 0)
+  vtkSMColorMapEditorHelper::SetScalarBarVisibility(&shown, &view, false);
+#else
+  shown.SetScalarBarVisibility(&view, false);
+#endif
+}
+
+}  // namespace palpate::plugin
