@@ -9,18 +9,19 @@ out=$(realpath -m "${1:-$tree/deb}")
 
 commit=$(git rev-parse --short=10 HEAD)
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
-export SOURCE_DATE_EPOCH LC_ALL=C.UTF-8 TZ=UTC0
+export SOURCE_DATE_EPOCH TZ=UTC0
 day=$(date -u -d "@$SOURCE_DATE_EPOCH" +%Y-%m-%d)
 architecture=$(dpkg --print-architecture)
 triplet=$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 maintainer="The Palpate developers <palpate@users.noreply.github.com>"
 
 umask 022
-cmake -S . -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=g++ -DCMAKE_INSTALL_PREFIX=/usr -DPALPATE_TESTS=OFF \
+cmake -S . -B "$tree" -Wno-dev -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=g++ -DCMAKE_INSTALL_PREFIX=/usr -DPALPATE_TESTS=OFF \
   -DPALPATE_PARAVIEW=ON -DPALPATE_WERROR=ON -DCMAKE_CXX_FLAGS= \
   -DCMAKE_EXE_LINKER_FLAGS="-Wl,-z,relro,-z,now" -DCMAKE_MODULE_LINKER_FLAGS="-Wl,-z,relro,-z,now" \
   -DCMAKE_SHARED_LINKER_FLAGS="-Wl,-z,relro,-z,now" >/dev/null
 cmake --build "$tree" -- --quiet
+export LC_ALL=C.UTF-8 # now: ccache would take it for another compilation
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$tree/CMakeCache.txt")
 # shellcheck disable=SC1091
 suffix=$(. /etc/os-release; echo "deb$VERSION_ID")
