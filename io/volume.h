@@ -13,10 +13,12 @@
 #include <variant>
 #include <vector>
 
+#include "io/filter.h"
 #include "io/geometry.h"
 
 namespace palpate::io {
 
+struct FilteredFrom;
 struct VectorComponents;
 
 /// value = slope * stored + intercept, in `unit`.
@@ -39,6 +41,8 @@ struct Volume {
   std::vector<std::string> warnings;
   /// Where the volume is a vector field; its values are then the vectors' lengths. Null for all others.
   std::shared_ptr<const VectorComponents> vectors;
+  /// What made the values, where it was a filter (fields/filtered.h). Null for a scan as it was stored.
+  std::shared_ptr<const FilteredFrom> filtered_from;
 
   std::size_t offset(int i, int j, int k) const noexcept {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(geometry.dimensions.y) +
@@ -49,6 +53,12 @@ struct Volume {
   /// The rescaled value of a voxel; the index has to be inside.
   double value_at(int i, int j, int k) const noexcept;
   bool is_padding(int i, int j, int k) const noexcept;
+};
+
+/// A filter, and the volume that it read.
+struct FilteredFrom {
+  Filter filter;
+  std::shared_ptr<const Volume> raw;
 };
 
 /// A vector field as it was measured: one volume for each of three directions, all on the same grid.

@@ -1,0 +1,248 @@
+#include "io/fields/filtered.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/photo.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "io/errors.h"
+#include "io/parallel.h"
+
+namespace palpate::io {
+namespace {
+
+constexpr double reach = 3;  // standard deviations
+constexpr int block = 16;    // slices computed at once
+
+std::size_t voxels_in_slice(const Volume& v) {
+  return static_cast<std::size_t>(v.geometry.dimensions.x) * static_cast<std::size_t>(v.geometry.dimensions.y);
+}
+
+/// Rescaled values of a slice, with the smallest of them in place of padding. `is_padding` is empty where there is
+/// none.
+struct Slice {
+  cv::Mat values;      // CV_32F
+  cv::Mat is_padding;  // CV_8U, 255 where there is padding
+};
+
+Slice read_slice(const Volume& v, int k) {
+  const glm::ivec3 size = v.geometry.dimensions;
+  Slice slice{cv::Mat(size.y, size.x, CV_32F), {}};
+  if (v.padding) slice.is_padding = cv::Mat::zeros(size.y, size.x, CV_8U);
+  float least = std::numeric_limits<float>::max();
+  for (int j = 0; j < size.y; ++j) {
+    auto* const row = slice.values.ptr<float>(j);
+    for (int i = 0; i < size.x; ++i) {
+      row[i] = static_cast<float>(v.value_at(i, j, k));
+      if (v.is_padding(i, j, k)) {
+        slice.is_padding.at<unsigned char>(j, i) = 255;
+      } else {
+        least = std::min(least, row[i]);
+      }
+    }
+  }
+  if (v.padding && least < std::numeric_limits<float>::max()) slice.values.setTo(least, slice.is_padding);
+  return slice;
+}
+
+/// A Gaussian's weights at whole steps of `spacing`, as far as it reaches.
+cv::Mat weights(double sigma_mm, double spacing_mm) {
+  const int radius = static_cast<int>(std::ceil(reach * sigma_mm / spacing_mm));
+  cv::Mat row(2 * radius + 1, 1, CV_32F);
+  for (int n = -radius; n <= radius; ++n) {
+    const double away = n * spacing_mm / sigma_mm;
+    row.at<float>(n + radius) = static_cast<float>(std::exp(-0.5 * away * away));
+  }
+  return row / cv::sum(row)[0];
+}
+
+cv::Mat gaussian_in_slice(const cv::Mat& values, const Geometry& g, double sigma_mm) {
+  cv::Mat result;
+  cv::sepFilter2D(values, result, CV_32F, weights(sigma_mm, g.spacing_i), weights(sigma_mm, g.spacing_j), {-1, -1}, 0,
+                  cv::BORDER_REPLICATE);
+  return result;
+}
+
+/// The median as OpenCV has it for floats: of 3 or 5 voxels.
+cv::Mat median(const cv::Mat& values, int width) {
+  cv::Mat result;
+  cv::medianBlur(values, result, width);
+  return result;
+}
+
+cv::Mat bilateral(const cv::Mat& values, const Geometry& g, const Filter& filter) {
+  const double voxel = std::sqrt(g.spacing_i * g.spacing_j);  // OpenCV's neighborhoods are round in voxels
+  cv::Mat result;
+  cv::bilateralFilter(values, result, 2 * static_cast<int>(std::ceil(2 * filter.sigma_mm / voxel)) + 1,
+                      filter.sigma_value, filter.sigma_mm / voxel, cv::BORDER_REPLICATE);
+  return result;
+}
+
+cv::Mat non_local_means(const cv::Mat& values, double sigma_value) {
+  double low = 0, high = 0;
+  cv::minMaxLoc(values, &low, &high);
+  if (!(high > low)) return values;
+  // OpenCV's is for whole numbers: steps of a 64th of the noise, or coarser where the slice's values need more room.
+  const double step = std::max(sigma_value / 64, (high - low) / 65535);
+  cv::Mat whole, smooth, result;
+  values.convertTo(whole, CV_16U, 1 / step, -low / step);
+  constexpr int surroundings = 5, searched = 15;  // voxels
+  cv::fastNlMeansDenoising(whole, smooth, std::vector<float>{static_cast<float>(sigma_value / step)}, surroundings,
+                           searched, cv::NORM_L1);
+  smooth.convertTo(result, CV_32F, step, low);
+  return result;
+}
+
+cv::Mat in_slice(const cv::Mat& values, const Geometry& g, const Filter& filter) {
+  switch (filter.type) {
+    case FilterType::gaussian:
+      return gaussian_in_slice(values, g, filter.sigma_mm);
+    case FilterType::median:
+      return median(values, filter.width);
+    case FilterType::bilateral:
+      return bilateral(values, g, filter);
+    case FilterType::non_local_means:
+      return non_local_means(values, filter.sigma_value);
+    case FilterType::none:
+      break;
+  }
+  return values;
+}
+
+/// How far slice m lies from slice k along the steps, mm.
+double apart_mm(const Geometry& g, int k, int m) {
+  return glm::length(g.slice_positions[static_cast<std::size_t>(m)] - g.slice_positions[static_cast<std::size_t>(k)]);
+}
+
+/// The slices that a Gaussian at slice k reaches, both ends included; not across a gap.
+std::pair<int, int> reached(const Geometry& g, int k, double sigma_mm) {
+  const auto is_gap = [&](int from) { return std::ranges::binary_search(g.gaps, from); };
+  int first = k, last = k;
+  while (first > 0 && !is_gap(first - 1) && apart_mm(g, k, first - 1) <= reach * sigma_mm) --first;
+  while (last + 1 < g.dimensions.z && !is_gap(last) && apart_mm(g, k, last + 1) <= reach * sigma_mm) ++last;
+  return {first, last};
+}
+
+/// How much of the stack a slice stands for, mm: half of the way to its neighbors.
+double share_mm(const Geometry& g, int k) {
+  const int before = std::max(k - 1, 0), after = std::min(k + 1, g.dimensions.z - 1);
+  return before == after ? 1 : apart_mm(g, before, after) / (after - before);
+}
+
+/// Along the steps, of slices that were filtered in themselves: `slice(m)` is such a one.
+template <typename SliceAt>
+cv::Mat gaussian_across(const Geometry& g, int k, double sigma_mm, const SliceAt& slice) {
+  const auto [first, last] = reached(g, k, sigma_mm);
+  if (first == last) return slice(k).clone();
+  cv::Mat sum = cv::Mat::zeros(slice(k).size(), CV_64F);
+  double all = 0;
+  for (int m = first; m <= last; ++m) {
+    const double away = apart_mm(g, k, m) / sigma_mm;
+    const double weight = share_mm(g, m) * std::exp(-0.5 * away * away);
+    cv::Mat wide;
+    slice(m).convertTo(wide, CV_64F);
+    cv::scaleAdd(wide, weight, sum, sum);
+    all += weight;
+  }
+  cv::Mat result;
+  sum.convertTo(result, CV_32F, 1 / all);
+  return result;
+}
+
+using PaddingRange = std::optional<std::pair<double, double>>;
+
+/// The padding's range among rescaled floats.
+PaddingRange rescaled_padding(const Volume& v) {
+  if (!v.padding) return std::nullopt;
+  const auto rescaled = [&](double stored) {
+    return static_cast<double>(static_cast<float>(v.slope * stored + v.intercept));
+  };
+  const double one = rescaled(v.padding->first), other = rescaled(v.padding->second);
+  return std::pair{std::min(one, other), std::max(one, other)};
+}
+
+/// Padding as it was; and what is not padding does not become it.
+void keep_padding(const Volume& v, int k, const cv::Mat& is_padding, const PaddingRange& range, cv::Mat& values) {
+  if (!range) return;
+  const auto above = std::nextafter(static_cast<float>(range->second), std::numeric_limits<float>::max());
+  for (int j = 0; j < values.rows; ++j) {
+    auto* const row = values.ptr<float>(j);
+    for (int i = 0; i < values.cols; ++i) {
+      if (is_padding.at<unsigned char>(j, i) != 0) {
+        row[i] = static_cast<float>(v.value_at(i, j, k));
+      } else if (row[i] >= range->first && row[i] <= range->second) {
+        row[i] = above;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int first, int last) {
+  const Geometry& g = raw.geometry;
+  const bool across = filter.type == FilterType::gaussian;
+  const int from = across ? reached(g, first, filter.sigma_mm).first : first;
+  const int to = across ? reached(g, last, filter.sigma_mm).second : last;
+  std::vector<Slice> slices;
+  slices.reserve(static_cast<std::size_t>(to - from + 1));
+  for (int k = from; k <= to; ++k) {
+    Slice slice = read_slice(raw, k);
+    slice.values = in_slice(slice.values, g, filter);
+    slices.push_back(std::move(slice));
+  }
+  const auto at = [&](int k) -> const Slice& { return slices[static_cast<std::size_t>(k - from)]; };
+  const PaddingRange padding = rescaled_padding(raw);
+  const std::size_t stride = voxels_in_slice(raw);
+  std::vector<float> result(stride * static_cast<std::size_t>(last - first + 1));
+  for (int k = first; k <= last; ++k) {
+    cv::Mat values = across
+                         ? gaussian_across(g, k, filter.sigma_mm, [&](int m) -> const cv::Mat& { return at(m).values; })
+                         : at(k).values;
+    keep_padding(raw, k, at(k).is_padding, padding, values);
+    std::memcpy(&result[static_cast<std::size_t>(k - first) * stride], values.ptr<float>(), stride * sizeof(float));
+  }
+  return result;
+}
+
+std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volume, const Filter& filter,
+                                       const Progress& progress) {
+  const std::shared_ptr<const Volume> raw = volume->filtered_from ? volume->filtered_from->raw : volume;
+  if (filter.type == FilterType::none) return raw;
+  validate(filter);
+  if (volume->filtered_from && volume->filtered_from->filter == filter) return volume;
+  if (raw->vectors) {
+    throw std::invalid_argument(
+        "a velocity field is not filtered: its vectors are felt as they were measured; take the "
+        "filter out of the scene");
+  }
+  auto result = std::make_shared<Volume>();
+  result->geometry = raw->geometry;
+  result->unit = raw->unit;
+  result->modality = raw->modality;
+  result->warnings = raw->warnings;
+  result->padding = rescaled_padding(*raw);
+  result->filtered_from = std::make_shared<const FilteredFrom>(FilteredFrom{.filter = filter, .raw = raw});
+  const int slices = raw->geometry.dimensions.z;
+  const std::size_t stride = voxels_in_slice(*raw);
+  std::vector<float> values(stride * static_cast<std::size_t>(slices));
+  internal::parallel_for(
+      static_cast<std::size_t>((slices + block - 1) / block),
+      [&](std::size_t n) {
+        const int first = static_cast<int>(n) * block;
+        const int last = std::min(first + block, slices) - 1;
+        const std::vector<float> part = filtered_slices(*raw, filter, first, last);
+        std::memcpy(&values[static_cast<std::size_t>(first) * stride], part.data(), part.size() * sizeof(float));
+      },
+      progress, 0);
+  result->voxels = std::move(values);
+  return result;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,240 @@
+#include "io/fields/filtered.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "io/fields/volume_fields.h"
+#include "testdata/scan.h"
+
+namespace palpate::io {
+namespace {
+
+const std::array<Filter, 4> filters{Filter{.type = FilterType::gaussian, .sigma_mm = 1.3},
+                                    Filter{.type = FilterType::median, .width = 5},
+                                    Filter{.type = FilterType::bilateral, .sigma_mm = 1.5, .sigma_value = 60},
+                                    Filter{.type = FilterType::non_local_means, .sigma_value = 25}};
+
+/// An uneven, tilted lattice with pixels that are not square, a gap, padding and noise.
+std::shared_ptr<const Volume> odd_scan(double noise = 25) {
+  testdata::Grid grid;
+  grid.size = {41, 37, 40};
+  grid.spacing = {0.7, 0.9, 1.4};
+  grid.tilt_degrees = 12;
+  grid.uneven_mm = 0.2;
+  grid.missing = {17, 18};
+  return std::make_shared<const Volume>(
+      testdata::scan(testdata::make_sphere(11), testdata::make_geometry(grid), {.noise = noise, .circle_radius = 14}));
+}
+
+/// A volume of floats whose values a function of the patient's position gives.
+template <typename F>
+std::shared_ptr<const Volume> painted(const Geometry& geometry, const F& value) {
+  Volume v;
+  v.geometry = geometry;
+  std::vector<float> voxels;
+  for (int k = 0; k < geometry.dimensions.z; ++k) {
+    for (int j = 0; j < geometry.dimensions.y; ++j) {
+      for (int i = 0; i < geometry.dimensions.x; ++i) {
+        voxels.push_back(static_cast<float>(value(geometry.to_patient({i, j, k}))));
+      }
+    }
+  }
+  v.voxels = std::move(voxels);
+  return std::make_shared<const Volume>(std::move(v));
+}
+
+double at(const Volume& v, int i, int j, int k) {
+  return v.value_at(i, j, k);
+}
+
+TEST(Filtered, APartHasTheSameBitsAsTheWhole) {
+  const auto raw = odd_scan();
+  const std::size_t stride = 41UL * 37;
+  for (const Filter& filter : filters) {
+    const auto whole = filtered(raw, filter);
+    const auto& values = std::get<std::vector<float>>(whole->voxels);
+    for (const auto& [first, last] : {std::pair{0, 0}, {3, 20}, {15, 18}, {37, 37}}) {
+      const std::vector<float> part = filtered_slices(*raw, filter, first, last);
+      ASSERT_EQ(part.size(), stride * static_cast<std::size_t>(last - first + 1));
+      EXPECT_TRUE(std::equal(part.begin(), part.end(), values.begin() + static_cast<std::ptrdiff_t>(stride) * first))
+          << in_words(filter) << ", slices " << first << " to " << last;
+    }
+  }
+}
+
+TEST(Filtered, FiltersTheRawValuesAndNeverTwice) {
+  const auto raw = odd_scan();
+  const auto once = filtered(raw, filters[0]);
+  EXPECT_EQ(filtered(once, filters[0]), once);
+  EXPECT_EQ(filtered(once, {}), raw);
+  EXPECT_EQ(filtered(raw, {}), raw);
+  const auto other = filtered(once, filters[1]);
+  EXPECT_EQ(other->filtered_from->raw, raw);
+  EXPECT_EQ(std::get<std::vector<float>>(other->voxels),
+            std::get<std::vector<float>>(filtered(raw, filters[1])->voxels));
+}
+
+TEST(Filtered, LeavesPaddingAndItsEdgeAlone) {
+  const auto raw = odd_scan(0);
+  const glm::ivec3 size = raw->geometry.dimensions;
+  for (const Filter& filter : filters) {
+    const auto smooth = filtered(raw, filter);
+    for (int k = 0; k < size.z; ++k) {
+      for (int j = 0; j < size.y; ++j) {
+        for (int i = 0; i < size.x; ++i) {
+          ASSERT_EQ(smooth->is_padding(i, j, k), raw->is_padding(i, j, k)) << in_words(filter);
+          if (raw->is_padding(i, j, k)) ASSERT_EQ(at(*smooth, i, j, k), at(*raw, i, j, k));
+          // Nothing below what was scanned: padding is far below, and does not come in from the sides.
+          else
+            ASSERT_GE(at(*smooth, i, j, k), -1000.01) << in_words(filter);
+        }
+      }
+    }
+  }
+}
+
+TEST(Filtered, GaussianKeepsASlopeAndTakesThePartOfTheNoiseThatItsWidthSays) {
+  testdata::Grid grid;
+  grid.size = {48, 40, 36};
+  grid.spacing = {0.8, 1.1, 1.5};
+  const Geometry geometry = testdata::make_geometry(grid);
+  const Filter filter{.type = FilterType::gaussian, .sigma_mm = 1.9};
+  const Vec3 slope(3, -5, 7);
+  const auto ramp = filtered(painted(geometry, [&](const Vec3& p) { return glm::dot(slope, p) + 40; }), filter);
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal(0, 50);
+  const auto noise = filtered(painted(geometry, [&](const Vec3&) { return normal(random); }), filter);
+  double sum = 0, count = 0;
+  for (int k = 5; k < 31; ++k) {
+    for (int j = 7; j < 33; ++j) {
+      for (int i = 9; i < 39; ++i) {
+        ASSERT_NEAR(at(*ramp, i, j, k), glm::dot(slope, geometry.to_patient({i, j, k})) + 40, 1e-3);
+        sum += at(*noise, i, j, k) * at(*noise, i, j, k);
+        ++count;
+      }
+    }
+  }
+  // White noise through a Gaussian: each axis leaves spacing / (2 sqrt(pi) sigma) of the variance.
+  const double axis = 2 * std::sqrt(std::numbers::pi) * filter.sigma_mm;
+  const double expected = 50 * std::sqrt(0.8 / axis * 1.1 / axis * 1.5 / axis);
+  EXPECT_NEAR(std::sqrt(sum / count) / expected, 1, 0.08);
+}
+
+TEST(Filtered, GaussianSpreadsAlikeAlongAllAxes) {
+  testdata::Grid grid;
+  grid.size = {41, 41, 41};
+  grid.spacing = {0.5, 0.8, 1.1};
+  const Geometry geometry = testdata::make_geometry(grid);
+  const Vec3 middle = geometry.to_patient({20, 20, 20});
+  const auto spike =
+      filtered(painted(geometry, [&](const Vec3& p) { return glm::distance(p, middle) < 0.1 ? 1e4 : 0; }),
+               {.type = FilterType::gaussian, .sigma_mm = 2});
+  Vec3 variance(0);
+  double sum = 0;
+  for (int k = 0; k < 41; ++k) {
+    for (int j = 0; j < 41; ++j) {
+      for (int i = 0; i < 41; ++i) {
+        const Vec3 away = geometry.to_patient({i, j, k}) - middle;
+        variance += at(*spike, i, j, k) * away * away;
+        sum += at(*spike, i, j, k);
+      }
+    }
+  }
+  EXPECT_NEAR(sum, 1e4, 1);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(std::sqrt(variance[axis] / sum), 2, 0.05) << axis;  // cut off at three standard deviations
+  }
+}
+
+TEST(Filtered, NothingComesAcrossMissingSlices) {
+  testdata::Grid grid;
+  grid.size = {8, 8, 12};
+  grid.missing = {6};
+  const Geometry geometry = testdata::make_geometry(grid);
+  const double between = geometry.slice_positions[6].z;  // the first slice behind the gap
+  const auto steps = filtered(painted(geometry, [&](const Vec3& p) { return p.z < between - 0.5 ? 0 : 100; }),
+                              {.type = FilterType::gaussian, .sigma_mm = 2});
+  EXPECT_NEAR(at(*steps, 4, 4, 5), 0, 1e-3);
+  EXPECT_NEAR(at(*steps, 4, 4, 6), 100, 1e-3);
+}
+
+TEST(Filtered, MedianIsTheMiddleOfItsSquare) {
+  const auto raw = odd_scan();
+  for (const int width : {3, 5}) {
+    const auto smooth = filtered(raw, {.type = FilterType::median, .width = width});
+    const int r = width / 2;
+    for (int k = 0; k < 40 - 2; k += 7) {
+      for (int j = 15; j < 22; ++j) {
+        for (int i = 15; i < 26; ++i) {
+          std::vector<double> near;
+          for (int y = -r; y <= r; ++y) {
+            for (int x = -r; x <= r; ++x) near.push_back(at(*raw, i + x, j + y, k));
+          }
+          std::ranges::nth_element(near, near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2));
+          ASSERT_EQ(at(*smooth, i, j, k), near[near.size() / 2]);
+        }
+      }
+    }
+  }
+}
+
+/// Noise on both sides of a wall, and where the wall's middle value is met in each row.
+TEST(Filtered, EdgePreservingFiltersTakeNoiseAndLeaveAWallWhereItIs) {
+  testdata::Grid grid;
+  grid.size = {48, 48, 3};
+  const Geometry geometry = testdata::make_geometry(grid);
+  const double wall = geometry.to_patient({23.5, 0, 0}).x;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal(0, 20);
+  const auto raw = painted(geometry, [&](const Vec3& p) { return (p.x < wall ? 0 : 400) + normal(random); });
+  for (const Filter& filter : {Filter{.type = FilterType::bilateral, .sigma_mm = 2, .sigma_value = 80},
+                               Filter{.type = FilterType::non_local_means, .sigma_value = 20},
+                               Filter{.type = FilterType::median, .width = 5}}) {
+    const auto smooth = filtered(raw, filter);
+    double before = 0, after = 0;
+    for (int j = 4; j < 44; ++j) {
+      for (int i = 4; i < 18; ++i) {
+        before += at(*raw, i, j, 1) * at(*raw, i, j, 1);
+        after += at(*smooth, i, j, 1) * at(*smooth, i, j, 1);
+      }
+      EXPECT_LT(at(*smooth, 23, j, 1), 100) << in_words(filter);
+      EXPECT_GT(at(*smooth, 24, j, 1), 300) << in_words(filter);
+    }
+    EXPECT_LT(std::sqrt(after / before), 0.5) << in_words(filter);
+  }
+}
+
+TEST(Filtered, RefusesWhatCannotBeAndVelocity) {
+  const auto raw = odd_scan();
+  for (const Filter& filter : {Filter{.type = FilterType::gaussian, .sigma_mm = 0},
+                               Filter{.type = FilterType::gaussian, .sigma_mm = std::nan("")},
+                               Filter{.type = FilterType::bilateral, .sigma_mm = 1, .sigma_value = -1},
+                               Filter{.type = FilterType::bilateral, .sigma_mm = 11, .sigma_value = 1},
+                               Filter{.type = FilterType::non_local_means, .sigma_value = 0},
+                               Filter{.type = FilterType::median, .width = 4}}) {
+    EXPECT_THROW(filtered(raw, filter), std::invalid_argument) << in_words(filter);
+  }
+  Volume flow = *raw;
+  flow.vectors = std::make_shared<const VectorComponents>();
+  EXPECT_THROW(filtered(std::make_shared<const Volume>(flow), filters[0]), std::invalid_argument);
+}
+
+TEST(Filtered, FiltersAreTheSameWhereWhatTheyReadIs) {
+  EXPECT_EQ((Filter{.type = FilterType::median, .sigma_mm = 1}), (Filter{.type = FilterType::median, .sigma_mm = 2}));
+  EXPECT_NE((Filter{.type = FilterType::median, .width = 3}), (Filter{.type = FilterType::median, .width = 5}));
+  EXPECT_NE((Filter{.type = FilterType::gaussian, .sigma_mm = 1}),
+            (Filter{.type = FilterType::gaussian, .sigma_mm = 2}));
+  EXPECT_NE((Filter{.type = FilterType::bilateral, .sigma_value = 1}),
+            (Filter{.type = FilterType::bilateral, .sigma_value = 2}));
+  EXPECT_NE((Filter{}), filters[0]);
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,58 @@
+#include "io/filter.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace palpate::io {
+namespace {
+
+constexpr double least_sigma_mm = 0.1, most_sigma_mm = 10;
+
+bool reads_sigma_mm(FilterType type) {
+  return type == FilterType::gaussian || type == FilterType::bilateral;
+}
+
+bool reads_sigma_value(FilterType type) {
+  return type == FilterType::bilateral || type == FilterType::non_local_means;
+}
+
+}  // namespace
+
+bool Filter::operator==(const Filter& other) const noexcept {
+  return type == other.type && (!reads_sigma_mm(type) || sigma_mm == other.sigma_mm) &&
+         (!reads_sigma_value(type) || sigma_value == other.sigma_value) &&
+         (type != FilterType::median || width == other.width);
+}
+
+std::string in_words(const Filter& filter) {
+  switch (filter.type) {
+    case FilterType::gaussian:
+      return fmt::format("Gaussian filter of {:.3g} mm", filter.sigma_mm);
+    case FilterType::median:
+      return fmt::format("median filter of {0} x {0} voxels", filter.width);
+    case FilterType::bilateral:
+      return fmt::format("bilateral filter of {:.3g} mm and {:.3g}", filter.sigma_mm, filter.sigma_value);
+    case FilterType::non_local_means:
+      return fmt::format("non-local means filter of {:.3g}", filter.sigma_value);
+    case FilterType::none:
+      break;
+  }
+  return "no filter";
+}
+
+void validate(const Filter& filter) {
+  if (reads_sigma_mm(filter.type) && !(filter.sigma_mm >= least_sigma_mm && filter.sigma_mm <= most_sigma_mm)) {
+    throw std::invalid_argument(fmt::format("sigma_mm: {} mm is no width of a filter; give {} to {} mm",
+                                            filter.sigma_mm, least_sigma_mm, most_sigma_mm));
+  }
+  if (reads_sigma_value(filter.type) && !(filter.sigma_value > 0 && filter.sigma_value <= 1e5)) {
+    throw std::invalid_argument(fmt::format(
+        "sigma_value: {} is no difference of values; give the noise, in the scan's unit, above 0", filter.sigma_value));
+  }
+  if (filter.type == FilterType::median && filter.width != 3 && filter.width != 5) {
+    throw std::invalid_argument(fmt::format("width: a median of {} voxels is not offered; give 3 or 5", filter.width));
+  }
+}
+
+}  // namespace palpate::io
