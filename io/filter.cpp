@@ -9,14 +9,6 @@ namespace {
 
 constexpr double least_sigma_mm = 0.1, most_sigma_mm = 10;
 
-bool reads_sigma_mm(FilterType type) {
-  return type == FilterType::gaussian || type == FilterType::bilateral;
-}
-
-bool reads_sigma_value(FilterType type) {
-  return type == FilterType::bilateral || type == FilterType::non_local_means;
-}
-
 }  // namespace
 
 bool Filter::operator==(const Filter& other) const noexcept {

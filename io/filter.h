@@ -16,6 +16,14 @@ enum class FilterType : std::uint8_t {
   non_local_means  ///< mean of places in the slice whose surroundings look alike: the slowest
 };
 
+/// Whether a filter of that type reads sigma_mm; sigma_value.
+constexpr bool reads_sigma_mm(FilterType type) {
+  return type == FilterType::gaussian || type == FilterType::bilateral;
+}
+constexpr bool reads_sigma_value(FilterType type) {
+  return type == FilterType::bilateral || type == FilterType::non_local_means;
+}
+
 /// Every type reads some of these.
 struct Filter {
   FilterType type = FilterType::none;

@@ -211,12 +211,20 @@ std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int 
   return result;
 }
 
+std::shared_ptr<const Volume> raw_of(const std::shared_ptr<const Volume>& volume) {
+  return volume && volume->filtered_from ? volume->filtered_from->raw : volume;
+}
+
+Filter filter_of(const Volume& volume) {
+  return volume.filtered_from ? volume.filtered_from->filter : Filter{};
+}
+
 std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volume, const Filter& filter,
                                        const Progress& progress) {
-  const std::shared_ptr<const Volume> raw = volume->filtered_from ? volume->filtered_from->raw : volume;
+  const std::shared_ptr<const Volume> raw = raw_of(volume);
   if (filter.type == FilterType::none) return raw;
   validate(filter);
-  if (volume->filtered_from && volume->filtered_from->filter == filter) return volume;
+  if (filter_of(*volume) == filter) return volume;
   if (raw->vectors) {
     throw std::invalid_argument(
         "a velocity field is not filtered: its vectors are felt as they were measured; take the "
@@ -225,6 +233,7 @@ std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volu
   auto result = std::make_shared<Volume>();
   result->geometry = raw->geometry;
   result->unit = raw->unit;
+  result->frame_of_reference_uid = raw->frame_of_reference_uid;
   result->modality = raw->modality;
   result->warnings = raw->warnings;
   result->padding = rescaled_padding(*raw);

@@ -21,6 +21,11 @@ namespace palpate::io {
 std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volume, const Filter& filter,
                                        const Progress& progress = {});
 
+/// The volume that a filtered one was made of; any other is its own.
+std::shared_ptr<const Volume> raw_of(const std::shared_ptr<const Volume>& volume);
+/// What it was filtered with; none for any other.
+Filter filter_of(const Volume& volume);
+
 /// The same of slices first ... last alone, with the same bits: rescaled values, slice by slice.
 std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int first, int last);
 

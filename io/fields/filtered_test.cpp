@@ -81,6 +81,22 @@ TEST(Filtered, FiltersTheRawValuesAndNeverTwice) {
             std::get<std::vector<float>>(filtered(raw, filters[1])->voxels));
 }
 
+TEST(Filtered, IsTheSameScanBesideItsValues) {
+  Volume scan = *odd_scan();
+  scan.unit = "HU";
+  scan.modality = "CT";
+  scan.frame_of_reference_uid = "1.2.3";
+  scan.warnings = {"a slice is missing"};
+  const auto smooth = filtered(std::make_shared<const Volume>(scan), filters[0]);
+  EXPECT_EQ(smooth->unit, "HU");
+  EXPECT_EQ(smooth->modality, "CT");
+  EXPECT_EQ(smooth->frame_of_reference_uid, "1.2.3");
+  EXPECT_EQ(smooth->warnings, scan.warnings);
+  EXPECT_EQ(smooth->geometry.gaps, scan.geometry.gaps);
+  EXPECT_EQ(smooth->geometry.slice_positions, scan.geometry.slice_positions);
+  EXPECT_EQ(filter_of(*smooth), filters[0]);
+}
+
 TEST(Filtered, LeavesPaddingAndItsEdgeAlone) {
   const auto raw = odd_scan(0);
   const glm::ivec3 size = raw->geometry.dimensions;

@@ -191,6 +191,11 @@ void validate(const Scene& scene) {
   if (scene.subdivision.most < 1 || scene.subdivision.most > 1000) {
     refuse("subdivision.most", std::to_string(scene.subdivision.most) + " is not between 1 and 1000");
   }
+  try {
+    io::validate(scene.filter);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("filter.") + error.what());
+  }
   if (scene.gradient_scale_mm) {
     check_positive("gradient_scale_mm", *scene.gradient_scale_mm, "mm");
   }

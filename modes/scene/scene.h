@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/fields/field_options.h"
+#include "io/filter.h"
 #include "modes/scene/defaults.h"
 #include "modes/scene/transfer_function.h"
 #include "modes/scene/workspace.h"
@@ -136,6 +137,7 @@ struct Scene {
   WorkspaceSettings workspace;
   SolverSwitches solvers;
   Subdivision subdivision;
+  io::Filter filter;  ///< of the scan's values, before anything reads them
   Sampling sampling;
   std::optional<double> gradient_scale_mm;  ///< by default io::default_gradient_scale_mm() of the scan
   std::vector<Tissue> tissues;

@@ -228,6 +228,17 @@ Sampling read_sampling(const At& at) {
   return sampling;
 }
 
+io::Filter read_filter(const At& at) {
+  Members members(at);
+  io::Filter filter;
+  filter.type = choice(members.get("type"), filter_type_names);
+  if (io::reads_sigma_mm(filter.type)) members.optional("sigma_mm", filter.sigma_mm, number);
+  if (io::reads_sigma_value(filter.type)) members.optional("sigma_value", filter.sigma_value, number);
+  if (filter.type == io::FilterType::median) members.optional("width", filter.width, integer);
+  members.done();
+  return filter;
+}
+
 template <typename Item>
 std::vector<Item> read_list(const At& at, Item (*read)(const At&)) {
   std::vector<Item> items;
@@ -251,6 +262,7 @@ Scene read_scene(const nlohmann::json& json) {
   members.optional("workspace", scene.workspace, read_workspace);
   members.optional("solvers", scene.solvers, read_solvers);
   members.optional("subdivision", scene.subdivision, read_subdivision);
+  members.optional("filter", scene.filter, read_filter);
   members.optional("sampling", scene.sampling, read_sampling);
   members.optional("gradient_scale_mm", scene.gradient_scale_mm, number);
   members.optional("tissues", scene.tissues, [](const At& at) { return read_list(at, read_tissue); });
@@ -276,13 +288,11 @@ nlohmann::json parse(std::string_view text) {
   return nlohmann::json::parse(text, check);
 }
 
-}  // namespace
-
-Scene scene_from_json(std::string_view text, const std::string& source) {
+/// What `read` gives, with every error naming the source.
+template <typename Read>
+auto read_from(const std::string& source, const Read& read) {
   try {
-    Scene scene = read_scene(parse(text));
-    validate(scene);
-    return scene;
+    return read();
   } catch (const nlohmann::json::exception& error) {
     const std::string what = error.what();
     const auto end_of_code = what.find("] ");
@@ -291,6 +301,25 @@ Scene scene_from_json(std::string_view text, const std::string& source) {
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(source + ": " + error.what());
   }
+}
+
+}  // namespace
+
+Scene scene_from_json(std::string_view text, const std::string& source) {
+  return read_from(source, [&] {
+    Scene scene = read_scene(parse(text));
+    validate(scene);
+    return scene;
+  });
+}
+
+io::Filter filter_from_json(std::string_view text) {
+  if (text.empty()) return {};
+  return read_from("filter", [&] {
+    const io::Filter filter = read_filter({parse(text), ""});
+    io::validate(filter);
+    return filter;
+  });
 }
 
 }  // namespace palpate::modes

@@ -20,6 +20,11 @@ Scene scene_from_json(std::string_view text, const std::string& source);
 /// character.
 std::string to_json(const Scene& scene);
 
+/// A scene's filter alone, as its key "filter" has it; no filter for an empty text. Throws std::invalid_argument.
+io::Filter filter_from_json(std::string_view text);
+/// Empty where there is no filter.
+std::string to_json(const io::Filter& filter);
+
 /// The scene in a file, or the starting scene of that name ("ct-skin-and-bone"). Throws std::invalid_argument that
 /// names the file, or lists the starting scenes.
 Scene load_scene(const std::string& file_or_name);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device/simulated/simulated_stylus.h"
+#include "io/fields/filtered.h"
 #include "io/fields/gradient.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/app/recording_header.h"
@@ -32,8 +33,9 @@ LiveSession::~LiveSession() {
 PreparedScene LiveSession::felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const {
   if (!volume) return {};
   const device::Specification& stylus = is_connected() ? specification_ : device::SimulatedStylus().specification();
-  return prepare(suited(scene, stylus), volume, stylus.workspace_half_extent,
-                 {.felt = felt_, .scene = scene_, .volume = volume_});
+  const bool offered =
+      offered_ && io::raw_of(offered_) == io::raw_of(volume) && io::filter_of(*offered_) == scene.filter;
+  return prepare(suited(scene, stylus), offered ? offered_ : volume, stylus.workspace_half_extent, before());
 }
 
 Snapshot LiveSession::snapshot(double change_s) const {
@@ -71,14 +73,17 @@ void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes
   }
   felt_ = felt_of(scene, volume);
   scene_ = scene;
+  volume = io::raw_of(volume);
   if (volume != volume_) scan_hash_.clear();
   volume_ = std::move(volume);
+  offered_.reset();
   publish(scene_.limits.ramp_s);
 }
 
 void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
   if (!volume_) modes::validate(scene);  // else its plan does
   felt_ = felt_of(scene, volume_);
+  offered_.reset();
   scene_ = scene;
   publish(pace == Pace::dragged ? std::min(dragged_s, scene.limits.ramp_s) : scene.limits.ramp_s);
 }
@@ -93,9 +98,8 @@ void LiveSession::connect(std::shared_ptr<device::Stylus> stylus, Start start) {
 void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file) {
   stylus_ = std::move(stylus);
   specification_ = stylus_->specification();
-  const PreparedScene before =
-      std::exchange(felt_, prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent,
-                                   {.felt = felt_, .scene = scene_, .volume = volume_}));
+  const PreparedScene before = std::exchange(
+      felt_, prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent, this->before()));
   last_epoch_ = 0;
   try {
     ring_ = std::make_unique<TickRing>();

@@ -34,14 +34,19 @@ class LiveSession {
   /// As disconnect().
   ~LiveSession();
 
-  /// Another scan, or another frame of it; null: none, and the stylus is disconnected. Throws std::invalid_argument
-  /// where the scene cannot be felt on it.
+  /// Another scan, or another frame of it, raw or filtered ahead; null: none, and the stylus is disconnected. Throws
+  /// std::invalid_argument where the scene cannot be felt on it.
   void set_scan(std::shared_ptr<const io::Volume> volume) { set_scan(std::move(volume), modes::Scene(scene_)); }
   /// The same with another scene, in one change. The scene is not felt before, on no scan.
   void set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene);
   /// Throws std::invalid_argument, naming the key, for a scene that is not valid; the last one then goes on.
   void set_scene(const modes::Scene& scene, Pace pace = Pace::stepped);
+  /// The scan as it was read.
   const std::shared_ptr<const io::Volume>& scan() const noexcept { return volume_; }
+  /// The same as it is felt: through the scene's filter.
+  const std::shared_ptr<const io::Volume>& felt_scan() const noexcept { return felt_.volume; }
+  /// The scan through a filter that a scene is going to ask for: it then need not be computed in set_scene().
+  void offer(std::shared_ptr<const io::Volume> filtered) { offered_ = std::move(filtered); }
   const modes::Scene& scene() const noexcept { return scene_; }
   /// Of the scene on the scan, for the stylus that is held or else for the simulated one; null without a scan.
   std::shared_ptr<const modes::Plan> plan() const noexcept { return felt_.plan; }
@@ -79,6 +84,7 @@ class LiveSession {
 
  private:
   PreparedScene felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const;
+  Prepared before() const { return {.felt = felt_, .scene = scene_}; }
   Snapshot snapshot(double change_s) const;
   SceneRecord record_of_scene(std::uint32_t epoch, double change_s) const;
   void publish(double change_s);
@@ -87,8 +93,9 @@ class LiveSession {
 
   const std::string& scan_hash() const;
 
-  std::shared_ptr<const io::Volume> volume_;
-  mutable std::string scan_hash_;  // of the volume; empty until asked for: it reads all voxels
+  std::shared_ptr<const io::Volume> volume_;   // never filtered
+  std::shared_ptr<const io::Volume> offered_;  // volume_ filtered, or null
+  mutable std::string scan_hash_;              // of the volume; empty until asked for: it reads all voxels
   modes::Scene scene_;
   PreparedScene felt_;
   std::uint32_t last_epoch_ = 0;

@@ -93,7 +93,7 @@ TEST(LiveSession, AnEditedStrengthNeedsNoNewFields) {
   const auto volume = ball();
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
   const glm::dvec3 half_extent_m{0.08, 0.06, 0.06};
-  const Prepared before{prepare(scene, volume, half_extent_m), scene, volume};
+  const Prepared before{prepare(scene, volume, half_extent_m), scene};
   scene.modes[0].strength_n = modes::TransferFunction(0.5);
   const PreparedScene edited = prepare(scene, volume, half_extent_m, before);
   EXPECT_EQ(edited.source, before.felt.source);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 #include "io/structures/structured_fields.h"
 #include "modes/scene/scene_json.h"
@@ -90,13 +91,18 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
 
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, const Prepared& before) {
-  PreparedScene felt{.plan = plan_for(scene, *volume, device_half_extent_m), .source = nullptr};
-  const bool same_scan =
-      before.felt.source && before.volume == volume && before.felt.plan->fields == felt.plan->fields &&
-      before.felt.plan->slices == felt.plan->slices && before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
-      before.scene.sampling == scene.sampling;
-  felt.structures = load_structures(scene, *felt.plan, *volume,
-                                    before.volume == volume ? before.felt.structures : std::vector<LoadedStructure>());
+  const std::shared_ptr<const io::Volume>& ahead = before.felt.volume;
+  const bool of_scan = ahead && io::raw_of(ahead) == io::raw_of(volume);
+  const bool is_ready = of_scan && io::filter_of(*ahead) == scene.filter;
+  PreparedScene felt{.plan = plan_for(scene, *volume, device_half_extent_m),
+                     .source = nullptr,
+                     .volume = is_ready ? ahead : io::filtered(volume, scene.filter)};
+  const bool same_scan = before.felt.source && is_ready && before.felt.plan->fields == felt.plan->fields &&
+                         before.felt.plan->slices == felt.plan->slices &&
+                         before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
+                         before.scene.sampling == scene.sampling;
+  felt.structures =
+      load_structures(scene, *felt.plan, *volume, of_scan ? before.felt.structures : std::vector<LoadedStructure>());
   if (same_scan && same_distances(felt.structures, before.felt.structures)) {
     felt.source = before.felt.source;
     return felt;
@@ -109,7 +115,7 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
     io::FieldOptions options = modes::field_options(scene.sampling);
     options.ahead = felt.plan->slices;
     scan = std::make_shared<const io::VolumeFields>(
-        volume, scan_fields(*felt.plan),
+        felt.volume, scan_fields(*felt.plan),
         scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)), options);
   }
   felt.source = felt.structures.empty() ? scan : with_structures(scan, felt.structures);

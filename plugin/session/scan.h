@@ -43,19 +43,19 @@ io::FieldSet scan_fields(const modes::Plan& plan) noexcept;
 struct PreparedScene {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
-  std::vector<LoadedStructure> structures;  ///< those that the plan reads, in its order
+  std::shared_ptr<const io::Volume> volume;  ///< the scan as it is felt: through the scene's filter
+  std::vector<LoadedStructure> structures;   ///< those that the plan reads, in its order
 };
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m);
 
-/// What was prepared before.
+/// What was prepared before. `felt.volume` alone may be given too: a volume that was filtered ahead.
 struct Prepared {
   PreparedScene felt;
   modes::Scene scene;
-  std::shared_ptr<const io::Volume> volume;
 };
-/// The same, with the fields that were prepared before where the scene still needs just these of that scan: a scene
-/// that is being edited is then there at once.
+/// The same, with the filtered volume and the fields that were prepared before where the scene still needs just these
+/// of that scan: a scene that is being edited is then there at once.
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, const Prepared& before);
 

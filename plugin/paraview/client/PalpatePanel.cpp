@@ -39,6 +39,7 @@
 #include "plugin/paraview/client/panel/tissues_section.h"
 #include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/remote/server_watch.h"
+#include "plugin/paraview/client/scan/filter_row.h"
 #include "plugin/paraview/client/scan/first_folder.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/mapping.h"
@@ -101,6 +102,7 @@ struct PalpatePanel::Parts {
   Fold* recordings_fold = nullptr;
   Footer* footer = nullptr;
   ScanSection* scan = nullptr;
+  FilterRow* filter = nullptr;
   TissuesSection* tissues = nullptr;
   StylusSection* stylus = nullptr;
   CurvesSection* curves = nullptr;
@@ -113,8 +115,9 @@ struct PalpatePanel::Parts {
   bool edited = false;     // since the scan was shown
   bool proposing = false;  // what is being edited is the panel's own doing
   double low = 0, high = 1;
-  std::uint64_t followed = 0;  // last frame of a recording that the slices followed
-  ScanLoader studies;          // last: its thread is to end before all that its callbacks use
+  std::weak_ptr<const io::Volume> studied;  // for its tissues
+  std::uint64_t followed = 0;               // last frame of a recording that the slices followed
+  ScanLoader studies;                       // last: its thread is to end before all that its callbacks use
 };
 
 void PalpatePanel::Parts::build() {
@@ -123,6 +126,8 @@ void PalpatePanel::Parts::build() {
   column->setContentsMargins(6, 2, 6, 2);
   column->setSpacing(4);
   scan = new ScanSection;
+  filter = new FilterRow(model, touching, *scan, scan);
+  scan->layout()->addWidget(filter);
   scan_fold = new Fold(tr("Scan"), QStringLiteral("palpateScanSection"), scan, true, content);
   column->addWidget(scan_fold);
   auto* const tissues_box = new QWidget;
@@ -192,6 +197,7 @@ void PalpatePanel::Parts::build() {
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
     if (!proposing) edited = true;
     if (pace == Pace::stepped) color_views();
+    if (const auto felt = touching.live().felt_scan(); felt && felt != studied.lock()) study(felt);
   });
   QObject::connect(&touching, &SessionController::looked, &dock, [this](const SessionStatus& seen) { look(seen); });
   QObject::connect(&touching, &SessionController::connection_changed, &dock, [this] {
@@ -283,6 +289,7 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   high = lattice.values.high;
   flow.set_views(shown);
   flow.set_volume(handle.volume);
+  filter->refresh();
   touching.begin_outside();
   proposing = false;
   edited = restored;
@@ -311,7 +318,11 @@ void PalpatePanel::Parts::name_felt() {
     return;
   }
   const QStringList others = scan->others_shown();
-  const QString felt = tr("Felt: %1. Scene: %2.").arg(handle.in_words(), tissues->scene_in_words());
+  const QString through = filter->in_words();
+  const QString felt =
+      tr("Felt: %1. Scene: %2.")
+          .arg(through.isEmpty() ? handle.in_words() : handle.in_words() + QStringLiteral(", ") + through,
+               tissues->scene_in_words());
   footer->set_felt(others.isEmpty() ? felt
                                     : felt + QLatin1Char(' ') +
                                           tr("Also shown, not felt: %1.").arg(others.join(QStringLiteral(", "))));
@@ -321,7 +332,7 @@ void PalpatePanel::Parts::name_felt() {
 glm::dvec3 PalpatePanel::Parts::start_of(const device::Specification& of) {
   const LiveSession& live = touching.live();
   const auto plan = live.plan();
-  const auto& volume = live.scan();
+  const auto& volume = live.felt_scan();
   const auto in_reach = [&](const glm::dvec3& place) {
     constexpr double margin = 0.95;
     const glm::dvec3 at = glm::abs(plan->workspace.to_device(place));
@@ -352,6 +363,7 @@ void PalpatePanel::Parts::leave_views() {
 }
 
 void PalpatePanel::Parts::study(const std::shared_ptr<const io::Volume>& volume) {
+  studied = volume;
   studying->setValue(0);
   studying->show();
   studies.study(

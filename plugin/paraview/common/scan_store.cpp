@@ -8,7 +8,9 @@
 #include <utility>
 #include <variant>
 
+#include "io/fields/filtered.h"
 #include "io/load.h"
+#include "modes/scene/scene_json.h"
 #include "plugin/paraview/common/read_part.h"
 #include "plugin/paraview/common/shared_voxels.h"
 #include "plugin/session/scan_values.h"
@@ -25,7 +27,7 @@ class Shelf {
     const std::shared_ptr<Slot> slot = slot_of(key);
     const std::lock_guard making(slot->mutex);
     if (auto held = slot->value.lock()) return held;
-    auto made = std::make_shared<const Value>(make());
+    std::shared_ptr<const Value> made = make();
     slot->value = made;
     return made;
   }
@@ -68,15 +70,22 @@ class Shelf {
 };
 
 // First file, series UID, where its first voxel and its axes are (one file and UID may hold several volumes), frame,
-// extent (of a part).
-using ScanKey = std::tuple<std::filesystem::path, std::string, std::array<double, 9>, int, std::array<int, 6>>;
+// extent (of a part), filter.
+using ScanKey =
+    std::tuple<std::filesystem::path, std::string, std::array<double, 9>, int, std::array<int, 6>, std::string>;
 
-ScanKey key_of(const io::Series& series, int frame, const std::array<int, 6>& extent = {}) {
+ScanKey key_of(const io::Series& series, int frame, const std::array<int, 6>& extent = {},
+               const io::Filter& filter = {}) {
   const io::Geometry& g = series.geometry;
   const io::Vec3 first = g.slice_positions.empty() ? io::Vec3(0) : g.slice_positions.front();
   const std::array<double, 9> place{first.x,         first.y,         first.z,         g.direction_i.x, g.direction_i.y,
                                     g.direction_i.z, g.direction_j.x, g.direction_j.y, g.direction_j.z};
-  return {series.files.empty() ? std::filesystem::path() : series.files.front(), series.uid, place, frame, extent};
+  return {series.files.empty() ? std::filesystem::path() : series.files.front(),
+          series.uid,
+          place,
+          frame,
+          extent,
+          modes::to_json(filter)};
 }
 
 Shelf<std::filesystem::path, io::Catalogue>& catalogues() {
@@ -93,7 +102,8 @@ Shelf<ScanKey, io::Volume>& scans() {
 
 std::shared_ptr<const io::Catalogue> find_scans(const std::filesystem::path& path, const io::Progress& progress) {
   const auto folder = std::filesystem::is_regular_file(path) ? std::filesystem::absolute(path).parent_path() : path;
-  return catalogues().get(folder, [&] { return io::find_series(std::array{folder}, progress); });
+  return catalogues().get(
+      folder, [&] { return std::make_shared<const io::Catalogue>(io::find_series(std::array{folder}, progress)); });
 }
 
 std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame, const io::Progress& progress) {
@@ -101,13 +111,22 @@ std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
     io::LoadOptions how;
     how.frame = frame;
     how.progress = progress;
-    return scan_values(io::load(series, how));
+    return std::make_shared<const io::Volume>(scan_values(io::load(series, how)));
   });
+}
+
+std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame, const io::Filter& filter,
+                                            const io::Progress& progress) {
+  if (filter.type == io::FilterType::none) return load_scan(series, frame, progress);
+  return scans().get(key_of(series, frame, {}, filter),
+                     [&] { return io::filtered(load_scan(series, frame, progress), filter, progress); });
 }
 
 std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std::array<int, 6>& extent,
                                             const io::Progress& progress) {
-  return scans().get(key_of(series, 0, extent), [&] { return scan_values(read_part(series, extent, progress)); });
+  return scans().get(key_of(series, 0, extent), [&] {
+    return std::make_shared<const io::Volume>(scan_values(read_part(series, extent, progress)));
+  });
 }
 
 std::shared_ptr<const io::Volume> load_slices(const io::Series& series, int first, int count) {

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "PalpateServerModule.h"
+#include "io/filter.h"
 #include "io/progress.h"
 #include "io/series.h"
 #include "io/volume.h"
@@ -23,6 +24,10 @@ PALPATESERVER_EXPORT std::shared_ptr<const io::Catalogue> find_scans(const std::
 /// The voxels of one frame of a series, in scan_values() form. A second caller waits for the first; if the first
 /// cancels, the second loads. Throws as io::load(). From any thread.
 PALPATESERVER_EXPORT std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
+                                                                 const io::Progress& progress = {});
+/// The same through a filter.
+PALPATESERVER_EXPORT std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
+                                                                 const io::Filter& filter,
                                                                  const io::Progress& progress = {});
 
 /// A part of the first frame: inclusive i, j, k ranges. What a rank of a parallel server holds of a scan that may not

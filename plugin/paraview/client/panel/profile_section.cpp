@@ -182,10 +182,9 @@ void ProfileSection::run() {
   const device::Specification stylus =
       live.is_connected() ? live.specification() : device::SimulatedStylus().specification();
   try {
-    prepared_ = {.felt = prepare(live.scene(), live.scan(), stylus.workspace_half_extent,
-                                 prepared_.volume == live.scan() ? prepared_ : Prepared{}),
-                 .scene = live.scene(),
-                 .volume = live.scan()};
+    if (prepared_.felt.volume != live.felt_scan()) prepared_ = {.felt = {.volume = live.felt_scan()}};
+    prepared_ = {.felt = prepare(live.scene(), live.scan(), stylus.workspace_half_extent, prepared_),
+                 .scene = live.scene()};
   } catch (const std::exception& error) {
     show_nothing(QString::fromUtf8(error.what()));
     return;

@@ -52,6 +52,8 @@ class SessionController : public QObject {
 
   /// Another scan, or another frame of it, with the scene that the model has. The force is ramped over.
   void set_scan(std::shared_ptr<const io::Volume> volume);
+  /// The scan through the filter that a scene to come has.
+  void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
   /// Until the next set_scan() a scene only has to be valid: it is meant for the scan to come.
   void expect_scan() { expects_scan_ = true; }
   /// There is none to be felt, and the stylus is let go; connecting is refused with `why`, where that is said.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/errors.h"
+#include "io/fields/filtered.h"
 #include "plugin/paraview/client/scan/thumbnail.h"
 #include "plugin/paraview/common/scan_choice.h"
 #include "plugin/paraview/common/scan_store.h"
@@ -66,10 +67,17 @@ void ScanLoader::find(const std::string& path, Progress progress, Found found) {
                                               std::move(progress), std::move(found));
 }
 
-void ScanLoader::load(const io::Series& series, int frame, Progress progress, Loaded loaded) {
+void ScanLoader::load(const io::Series& series, int frame, const io::Filter& filter, Progress progress, Loaded loaded) {
   start<std::shared_ptr<const io::Volume>>(
-      [series, frame](const io::Progress& tell) { return load_scan(series, frame, tell); }, std::move(progress),
-      std::move(loaded));
+      [series, frame, filter](const io::Progress& tell) { return load_scan(series, frame, filter, tell); },
+      std::move(progress), std::move(loaded));
+}
+
+void ScanLoader::filter(std::shared_ptr<const io::Volume> volume, const io::Filter& filter, Progress progress,
+                        Loaded loaded) {
+  start<std::shared_ptr<const io::Volume>>(
+      [volume = std::move(volume), filter](const io::Progress& tell) { return io::filtered(volume, filter, tell); },
+      std::move(progress), std::move(loaded));
 }
 
 void ScanLoader::find_copies(std::vector<std::string> places, const std::string& name, const glm::ivec3& size,

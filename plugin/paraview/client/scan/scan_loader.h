@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "io/filter.h"
 #include "io/series.h"
 #include "io/volume.h"
 #include "plugin/paraview/client/scan/scan_study.h"
@@ -39,7 +40,9 @@ class ScanLoader {
   ~ScanLoader();
 
   void find(const std::string& path, Progress progress, Found found);
-  void load(const io::Series& series, int frame, Progress progress, Loaded loaded);
+  /// Through a filter, where one is given.
+  void load(const io::Series& series, int frame, const io::Filter& filter, Progress progress, Loaded loaded);
+  void filter(std::shared_ptr<const io::Volume> volume, const io::Filter& filter, Progress progress, Loaded loaded);
   /// Series of that name (as scan_name()) and size in these folders and files; what is not there is passed over.
   void find_copies(std::vector<std::string> places, const std::string& name, const glm::ivec3& size, Progress progress,
                    std::function<void(const std::vector<ScanCopy>&, const std::string& error)> found);

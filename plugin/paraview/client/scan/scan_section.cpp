@@ -232,7 +232,7 @@ void ScanSection::load(std::size_t series) {
   set_busy(true, tr("Loading"));
   tell({});
   loader_.load(
-      scan_at(*catalogue_, series), 0, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
+      scan_at(*catalogue_, series), 0, {}, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
       [this, catalogue = catalogue_, path = path_, series](const auto& volume, const std::string& error) {
         if (volume) show({path, scan_name(*catalogue, series), catalogue, series, volume});
         set_busy(false);

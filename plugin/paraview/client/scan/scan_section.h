@@ -8,8 +8,10 @@
 #include <QStringList>
 #include <QWidget>
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugin/paraview/client/remote/server_scan.h"
@@ -46,6 +48,10 @@ class ScanSection : public QWidget {
   pqPipelineSource* source() const { return source_; }
   /// What is shown and can be felt; without a volume where there is nothing.
   const ScanHandle& handle() const { return handle_; }
+  /// Whom to ask for the filter that is felt, so that a frame comes through it at once.
+  void set_filter(std::function<io::Filter()> filter) { filter_ = std::move(filter); }
+  /// The series that is shown, or null where a server alone has it.
+  const io::Series* series_shown() const;
   /// Why what the views show is not what the stylus would feel, and what to do; empty where it is.
   QString why_not_felt() const;
   /// Scans that are seen in some view beside the one that is felt: their names in the pipeline.
@@ -87,6 +93,7 @@ class ScanSection : public QWidget {
   void watch_time();
   void show_frame();
   int frame_of_time() const;
+  io::Filter felt_filter() const;
   void open_on_server();
   void fetch();
   void ask_copy();
@@ -116,6 +123,7 @@ class ScanSection : public QWidget {
   QPointer<pqPipelineSource> source_;
   QPointer<pqPipelineSource> felt_source_;  // what the handle is of
   ScanHandle handle_;
+  std::function<io::Filter()> filter_;
   std::size_t series_shown_ = 0;                          // in its catalogue
   std::shared_ptr<const io::Catalogue> catalogue_shown_;  // null: a server's
   std::shared_ptr<const io::Volume> coming_;  // loaded before the views go to it, so that they need not wait

@@ -92,13 +92,21 @@ void ScanSection::go_to_frame(int frame) {
     return;
   }
   frame_loader_.load(
-      scan_at(*catalogue_shown_, series_shown_), wanted, [](double) {},
+      scan_at(*catalogue_shown_, series_shown_), wanted, felt_filter(), [](double) {},
       [this, wanted](const auto& volume, const std::string& error) {
         if (!error.empty()) tell(QString::fromStdString(error), true);
         coming_ = volume;
         if (volume) set_animation_time(wanted);
         if (wanted == handle_.frame) show_frame();
       });
+}
+
+const io::Series* ScanSection::series_shown() const {
+  return catalogue_shown_ ? &scan_at(*catalogue_shown_, series_shown_) : nullptr;
+}
+
+io::Filter ScanSection::felt_filter() const {
+  return filter_ ? filter_() : io::Filter{};
 }
 
 void ScanSection::watch_time() {
@@ -114,7 +122,7 @@ void ScanSection::follow_time() {
   show_frame();
   if (frame == handle_.frame || !catalogue_shown_) return;
   frame_loader_.load(
-      scan_at(*catalogue_shown_, series_shown_), frame, [](double) {},
+      scan_at(*catalogue_shown_, series_shown_), frame, felt_filter(), [](double) {},
       [this, frame](const auto& volume, const std::string& error) {
         coming_.reset();
         if (!volume) {

@@ -139,8 +139,8 @@ bool StylusViews::shows(const glm::dvec3& place) {
 }
 
 void StylusViews::follow_scan() {
-  if (touching_.live().scan() == values_of_) return;
-  values_of_ = touching_.live().scan();
+  if (touching_.live().felt_scan() == values_of_) return;
+  values_of_ = touching_.live().felt_scan();
   values_ = values_of_
                 ? std::make_shared<const io::VolumeFields>(values_of_, io::FieldSet::value, 1,
                                                            io::FieldOptions{.brick_bytes = 0, .background = false})

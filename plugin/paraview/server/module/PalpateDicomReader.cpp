@@ -25,6 +25,8 @@
 #include <vector>
 
 #include "io/errors.h"
+#include "io/filter.h"
+#include "modes/scene/scene_json.h"
 #include "plugin/paraview/common/display_image.h"
 #include "plugin/paraview/common/scan_choice.h"
 #include "plugin/paraview/common/scan_store.h"
@@ -46,20 +48,25 @@ struct PalpateDicomReader::Scan {
   int probed_slice = -1;
 
   const io::Series& series() const { return plugin::scan_at(*catalogue, chosen); }
-  plugin::Part load(int wanted_frame, const std::array<int, 6>& extent, const io::Progress& progress) const;
+  plugin::Part load(int wanted_frame, const io::Filter& filter, const std::array<int, 6>& extent,
+                    const io::Progress& progress) const;
 };
 
 // One process has the whole scan, whatever part of it is asked for, and so shares it with the stylus. A rank of several
 // holds its own part and its neighbors' voxels around it, no more: all ranks together hold the scan once.
-plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const std::array<int, 6>& extent,
-                                            const io::Progress& progress) const {
+plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const io::Filter& filter,
+                                            const std::array<int, 6>& extent, const io::Progress& progress) const {
   vtkMultiProcessController* const ranks = vtkMultiProcessController::GetGlobalController();
   const auto& size = grid.dimensions;
   const bool all = extent == std::array<int, 6>{0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1};
   const bool in_parts = ranks && ranks->GetNumberOfProcesses() > 1 && !grid.resampled && !all &&
                         series().frames_per_position == 1 && !plugin::is_velocity(*catalogue, chosen) &&
                         extent[4] <= extent[5];
-  if (!in_parts) return plugin::whole_part(plugin::load_scan(series(), wanted_frame, progress), grid);
+  if (!in_parts) return plugin::whole_part(plugin::load_scan(series(), wanted_frame, filter, progress), grid);
+  if (filter.type != io::FilterType::none) {
+    throw std::invalid_argument(
+        "a server of several ranks does not filter: clear the reader's Filter, or use one rank");
+  }
   if (const auto whole = plugin::held_scan(series(), wanted_frame)) return plugin::whole_part(whole, grid);
   if (volume && part_extent && plugin::contains(*part_extent, extent)) return {volume, *part_extent, true};
   std::array<int, 6> read = extent;
@@ -102,6 +109,13 @@ void PalpateDicomReader::SetSeriesUid(const char* uid) {
   // ParaView fills an empty choice in from the list of series: with what is shown already.
   if (scan_ && plugin::scan_name(*scan_->catalogue, scan_->chosen) == series_uid_) return;
   scan_.reset();
+  Modified();
+}
+
+void PalpateDicomReader::SetFilter(const char* json) {
+  if (filter_ == (json ? json : "")) return;
+  filter_ = json ? json : "";
+  if (scan_) scan_->volume.reset();
   Modified();
 }
 
@@ -299,7 +313,7 @@ int PalpateDicomReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
     }
     std::array<int, 6> extent{};
     info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
-    const plugin::Part part = scan_->load(frame, extent, [this](double done) {
+    const plugin::Part part = scan_->load(frame, modes::filter_from_json(filter_), extent, [this](double done) {
       UpdateProgress(done);
       return GetAbortExecute() == 0;
     });

@@ -39,6 +39,10 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
   void SetSeriesUid(const char* uid);
   const char* GetSeriesUid() { return series_uid_.c_str(); }
 
+  /// A filter of the values, as a scene's key "filter" has it; empty: none.
+  void SetFilter(const char* json);
+  const char* GetFilter() { return filter_.c_str(); }
+
   /// Of the series found, in the same order, the one that an empty choice means first. Filled by UpdateInformation().
   vtkStringArray* GetSeriesUids();
   vtkStringArray* GetSeriesLabels();
@@ -96,6 +100,7 @@ class PALPATESERVER_EXPORT PalpateDicomReader : public vtkImageAlgorithm {
 
   std::string file_name_;
   std::string series_uid_;
+  std::string filter_;
   vtkSmartPointer<vtkStringArray> series_uids_;
   vtkSmartPointer<vtkStringArray> series_labels_;
   vtkSmartPointer<vtkIntArray> series_usable_;

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "io/errors.h"
+#include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 #include "modes/types/mode_type.h"
 #include "plugin/paraview/common/all_cores.h"
@@ -169,8 +170,9 @@ void fill_from_samples(vtkImageData& image, const io::FieldSource& source, Field
 }  // namespace
 
 std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
-                                                      const std::shared_ptr<const io::Volume>& volume,
+                                                      const std::shared_ptr<const io::Volume>& scan,
                                                       const FieldChoice& choice, const io::Progress& progress) {
+  const std::shared_ptr<const io::Volume> volume = io::filtered(scan, choice.scene.filter, progress);
   const double scale = choice.scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry));
   const auto plan = plan_for(choice.scene, *volume, glm::dvec3(0.1));
   const auto modes = felt_modes(*plan, choice);

@@ -1,0 +1,198 @@
+#include "plugin/paraview/client/scan/filter_row.h"
+
+#include <pqPipelineSource.h>
+#include <pqView.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMTrace.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include <memory>
+#include <string>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/paraview/client/panel/scene_model.h"
+#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double usual_sigma_mm = 1, usual_noise = 30;
+
+}  // namespace
+
+FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanSection& scan, QWidget* parent)
+    : QWidget(parent), model_(model), touching_(touching), scan_(scan) {
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* const row = new QHBoxLayout;
+  row->addWidget(new QLabel(tr("Filter"), this));
+  type_ = new QComboBox(this);
+  type_->setObjectName(QStringLiteral("palpateFilter"));
+  type_->setToolTip(
+      tr("Against noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local "
+         "means keep edges where they are; a Gaussian rounds them."));
+  using io::FilterType;
+  for (const auto& [type, name] : {std::pair{FilterType::none, tr("None")},
+                                   {FilterType::gaussian, tr("Gaussian")},
+                                   {FilterType::median, tr("Median")},
+                                   {FilterType::bilateral, tr("Bilateral")},
+                                   {FilterType::non_local_means, tr("Non-local means")}}) {
+    type_->addItem(name, static_cast<int>(type));
+  }
+  row->addWidget(type_, 1);
+  amount_ = new QDoubleSpinBox(this);
+  amount_->setObjectName(QStringLiteral("palpateFilterAmount"));
+  amount_->setKeyboardTracking(false);
+  row->addWidget(amount_);
+  shown_ = new QCheckBox(tr("Show"), this);
+  shown_->setObjectName(QStringLiteral("palpateFilterShown"));
+  shown_->setToolTip(tr("On: the views show the filtered values, as they are felt. Off: as they were scanned."));
+  shown_->setChecked(true);
+  row->addWidget(shown_);
+  column->addLayout(row);
+  progress_ = new QProgressBar(this);
+  progress_->setObjectName(QStringLiteral("palpateFiltering"));
+  progress_->setFormat(tr("Filtering %p%"));
+  progress_->hide();
+  column->addWidget(progress_);
+
+  connect(type_, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    offer_amount();
+    ask();
+  });
+  connect(amount_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this] { ask(); });
+  connect(shown_, &QCheckBox::toggled, this, [this] { show_in_views(); });
+  connect(&model, &SceneModel::changed, this, [this](Pace pace) {
+    if (pace == Pace::stepped) refresh();
+  });
+  scan.set_filter([this] { return model_.scene().filter; });
+  refresh();
+}
+
+void FilterRow::refresh() {
+  follow();
+  show_in_views();
+}
+
+/// The row says what the scene has.
+void FilterRow::follow() {
+  setEnabled(touching_.live().scan() && !touching_.live().scan()->vectors);
+  if (loader_.is_busy()) return;  // it says what was asked for
+  const io::Filter& filter = model_.scene().filter;
+  const QSignalBlocker quiet(type_), silent(amount_);
+  type_->setCurrentIndex(type_->findData(static_cast<int>(filter.type)));
+  offer_amount();
+  if (filter.type == io::FilterType::gaussian) amount_->setValue(filter.sigma_mm);
+  if (filter.type == io::FilterType::median) amount_->setValue(filter.width);
+  if (io::reads_sigma_value(filter.type)) amount_->setValue(filter.sigma_value);
+}
+
+/// What the number means for the type that is chosen.
+void FilterRow::offer_amount() {
+  const QSignalBlocker quiet(amount_);
+  const auto type = static_cast<io::FilterType>(type_->currentData().toInt());
+  amount_->setVisible(type != io::FilterType::none);
+  shown_->setVisible(type != io::FilterType::none);
+  switch (type) {
+    case io::FilterType::gaussian:
+      amount_->setDecimals(1);
+      amount_->setSingleStep(0.1);
+      amount_->setRange(0.3, 5);
+      amount_->setSuffix(tr(" mm"));
+      amount_->setToolTip(tr("Standard deviation of the Gaussian"));
+      amount_->setValue(usual_sigma_mm);
+      break;
+    case io::FilterType::median:
+      amount_->setDecimals(0);
+      amount_->setSingleStep(2);
+      amount_->setRange(3, 5);
+      amount_->setSuffix(tr(" voxels"));
+      amount_->setToolTip(tr("Edge of the square in the slice"));
+      amount_->setValue(3);
+      break;
+    default:
+      amount_->setDecimals(0);
+      amount_->setSingleStep(5);
+      amount_->setRange(1, 10000);
+      amount_->setSuffix(touching_.live().scan() && !touching_.live().scan()->unit.empty()
+                             ? QStringLiteral(" ") + QString::fromStdString(touching_.live().scan()->unit)
+                             : QString());
+      amount_->setToolTip(tr("Values that differ by less are taken for noise"));
+      amount_->setValue(usual_noise);
+  }
+}
+
+io::Filter FilterRow::wanted() const {
+  io::Filter filter{.type = static_cast<io::FilterType>(type_->currentData().toInt())};
+  const double amount = amount_->value();
+  if (filter.type == io::FilterType::gaussian) filter.sigma_mm = amount;
+  if (filter.type == io::FilterType::median) filter.width = amount < 4 ? 3 : 5;
+  if (io::reads_sigma_value(filter.type)) filter.sigma_value = amount;
+  return filter;
+}
+
+void FilterRow::ask() {
+  const io::Filter filter = wanted();
+  const auto scan = touching_.live().scan();
+  loader_.cancel();
+  progress_->hide();
+  if (!scan || filter == model_.scene().filter) {
+    follow();
+    return;
+  }
+  const auto take = [this, filter](const std::shared_ptr<const io::Volume>& volume, const std::string& error) {
+    progress_->hide();
+    if (volume) {
+      touching_.offer(volume);
+      model_.edit(tr("filter"), [&](modes::Scene& scene) { scene.filter = filter; });
+    } else if (!error.empty()) {
+      emit model_.refused(QString::fromStdString(error));
+    }
+    refresh();
+  };
+  progress_->setValue(0);
+  progress_->show();
+  const auto tell = [this](double done) { progress_->setValue(static_cast<int>(100 * done)); };
+  // A series of this machine through the store, where the reader finds the same voxels.
+  if (const io::Series* const series = scan_.series_shown()) {
+    loader_.load(*series, scan_.handle().frame, filter, tell, take);
+  } else {
+    loader_.filter(scan, filter, tell, take);
+  }
+}
+
+void FilterRow::show_in_views() {
+  pqPipelineSource* const reader = scan_.source();
+  if (!reader || !scan_.handle().volume) return;
+  const std::string text = shown_->isChecked() ? modes::to_json(model_.scene().filter) : std::string();
+  vtkSMPropertyHelper property(reader->getProxy(), "Filter");
+  if (text == property.GetAsString()) return;
+  {
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", reader->getProxy());
+    property.Set(text.c_str());
+    reader->getProxy()->UpdateVTKObjects();
+  }
+  reader->setModifiedState(pqProxy::UNMODIFIED);
+  reader->updatePipeline();
+  reader->renderAllViews();
+  scan_.views().refresh_values();
+}
+
+QString FilterRow::in_words() const {
+  const io::Filter& filter = model_.scene().filter;
+  if (filter.type == io::FilterType::none) return {};
+  const QString words = QString::fromStdString(io::in_words(filter));
+  return shown_->isChecked() ? words : tr("%1 (shown without it)").arg(words);
+}
+
+}  // namespace palpate::plugin
