@@ -14,6 +14,7 @@
 
 #include "io/fields/field_options.h"
 #include "io/fields/field_source.h"
+#include "io/filter.h"
 #include "io/geometry.h"
 
 namespace palpate::io {
@@ -28,10 +29,11 @@ struct BoundaryUncertainty {
   double two_sigma_mm = 0;  ///< the true boundary is within this in 95 of 100 places
 };
 
-/// At a place on the boundary, mm. The source has to give value and gradient; `value` is the method of its values.
-/// Outside the scan, or where the value does not rise there, two_sigma_mm is infinite. Not for the tick: some 150
+/// At a place on the boundary, mm. The source has to give value and gradient; `value` is the method of its values, and
+/// `filter` what they were filtered with: its blur is added. Bilateral and non-local means filters are taken not to
+/// blur. Outside the scan, or where the value does not rise there, two_sigma_mm is infinite. Not for the tick: some 150
 /// samples.
 BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& geometry, ValueMethod value,
-                                   const Vec3& place_mm);
+                                   const Vec3& place_mm, const Filter& filter = {});
 
 }  // namespace palpate::io

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 #include "testdata/scan.h"
 
@@ -25,6 +26,7 @@ struct Case {
   double inside = testdata::soft_tissue_hu, outside = testdata::air_hu;
   double noise = 20;
   double thickness = 0;
+  Filter filter = {};
 };
 
 testdata::Grid grid_of(const glm::ivec3& size, const glm::dvec3& spacing, double tilt = 0) {
@@ -47,7 +49,24 @@ std::vector<Case> cases() {
           {"ball of 20 mm", testdata::Ball{{0.3, -0.2, 0.1}, 20}, even},
           {"ball of 12 mm, more noise", testdata::Ball{{0.3, -0.2, 0.1}, 12}, even, 40, -1000, 60},
           {"plane, slices of 3 mm", leaning, thick, 40, -1000, 40, 3},
-          {"ball of 20 mm, tilted", testdata::Ball{{0.3, -0.2, 0.1}, 20}, tilted, 300, 40, 25}};
+          {"ball of 20 mm, tilted", testdata::Ball{{0.3, -0.2, 0.1}, 20}, tilted, 300, 40, 25},
+          {"plane, Gaussian", leaning, even, 40, -1000, 90, 0, {.type = FilterType::gaussian, .sigma_mm = 1}},
+          {"ball of 12 mm, Gaussian",
+           testdata::Ball{{0.3, -0.2, 0.1}, 12},
+           even,
+           40,
+           -1000,
+           60,
+           0,
+           {.type = FilterType::gaussian, .sigma_mm = 1}},
+          {"ball of 20 mm, median",
+           testdata::Ball{{0.3, -0.2, 0.1}, 20},
+           even,
+           40,
+           -1000,
+           60,
+           0,
+           {.type = FilterType::median, .width = 3}}};
 }
 
 /// The place on a surface's normal at which the interpolated value passes the middle; NaN where it does not.
@@ -82,9 +101,11 @@ Coverage coverage_of(const Case& test, ValueMethod method, int places) {
   double within = 0;
   const int scans = 2;
   for (int seed = 1; seed <= scans; ++seed) {
-    const auto volume = std::make_shared<Volume>(testdata::scan(
-        phantom, testdata::make_geometry(test.grid),
-        {.noise = test.noise, .seed = static_cast<std::uint64_t>(seed), .slice_thickness = test.thickness}));
+    const auto volume = filtered(
+        std::make_shared<Volume>(testdata::scan(
+            phantom, testdata::make_geometry(test.grid),
+            {.noise = test.noise, .seed = static_cast<std::uint64_t>(seed), .slice_thickness = test.thickness})),
+        test.filter);
     const VolumeFields fields(volume, FieldSet::value | FieldSet::gradient, default_gradient_scale_mm(volume->geometry),
                               {.value = method, .background = false});
     for (int n = 0; n < places; ++n) {
@@ -99,7 +120,8 @@ Coverage coverage_of(const Case& test, ValueMethod method, int places) {
       const double error =
           crossing_mm(fields, surface, normal, 0.5 * (test.inside + test.outside), test.inside > test.outside);
       if (!std::isfinite(error)) continue;
-      const BoundaryUncertainty known = uncertainty_at(fields, volume->geometry, method, surface + error * normal);
+      const BoundaryUncertainty known =
+          uncertainty_at(fields, volume->geometry, method, surface + error * normal, test.filter);
       if (std::abs(error) <= known.two_sigma_mm) within += 1;
       errors.push_back(std::abs(error));
       stated.push_back(known.two_sigma_mm);

@@ -40,6 +40,7 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
     "workspace": {"center_mm": [1, 2e-3, -3], "rotation": [[0, 1, 0], [0, 0, 1], [1, 0, 0]], "scale": 2.5, "fit": true},
     "solvers": {"analytical": false, "exact": true, "descent": true}, "subdivision": {"step_mm": 0.2, "most": 3},
     "sampling": {"value": "trilinear", "gradient": "central_differences"},
+    "filter": {"type": "bilateral", "sigma_mm": 0.7, "sigma_value": 41},
     "tissues": [{"name": "air", "high": -400, "softness": 100, "color": "#56b4e9"},
                 {"name": "soft tissue", "low": -400, "high": 200, "softness": 100}],
     "modes": [{"type": "surface", "from": "air", "to": "soft tissue", "strength_n": 1},
@@ -55,10 +56,42 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
   EXPECT_EQ(scene.workspace.rotation[0].y, 1.0);
   EXPECT_EQ(scene.sampling.value, io::ValueMethod::trilinear);
   EXPECT_EQ(scene.sampling.gradient, io::GradientMethod::central_differences);
+  EXPECT_EQ(scene.filter, (io::Filter{.type = io::FilterType::bilateral, .sigma_mm = 0.7, .sigma_value = 41}));
   EXPECT_FALSE(scene.modes[1].enabled);
   EXPECT_EQ(scene.modes[1].gates[0].factor.interpolation(), Interpolation::monotone_cubic);
   EXPECT_EQ(scene.modes[3].direction, Vec3(0.1, 0, 2));
   EXPECT_EQ(scene.modes[4].strength_n(0), 3.0);
+}
+
+TEST(SceneJson, a_filter_has_what_its_type_reads) {
+  const auto filter_of = [](const std::string& filter) {
+    return scene_from_json(R"({"version": 1, "modes": [], "filter": )" + filter + "}", "mine.json").filter;
+  };
+  using io::Filter, io::FilterType;
+  EXPECT_EQ(filter_of(R"({"type": "none"})"), Filter{});
+  EXPECT_EQ(filter_of(R"({"type": "gaussian", "sigma_mm": 2})"), (Filter{.type = FilterType::gaussian, .sigma_mm = 2}));
+  EXPECT_EQ(filter_of(R"({"type": "median", "width": 5})"), (Filter{.type = FilterType::median, .width = 5}));
+  EXPECT_EQ(filter_of(R"({"type": "non_local_means", "sigma_value": 9})"),
+            (Filter{.type = FilterType::non_local_means, .sigma_value = 9}));
+  for (const Filter& filter :
+       {Filter{.type = FilterType::gaussian, .sigma_mm = 0.1}, Filter{.type = FilterType::median, .width = 5},
+        Filter{.type = FilterType::non_local_means, .sigma_value = 0.3}, Filter{}}) {
+    EXPECT_EQ(filter_from_json(to_json(filter)), filter);
+  }
+  const auto refused = [](const std::string& filter) {
+    return error_of(R"({"version": 1, "modes": [], "filter": )" + filter + "}");
+  };
+  EXPECT_EQ(refused(R"({"type": "sharpen"})"),
+            "mine.json: filter.type: there is no \"sharpen\"; there are: none, gaussian, median, bilateral, "
+            "non_local_means");
+  EXPECT_THAT(refused(R"({"type": "median", "sigma_mm": 1})"), StartsWith("mine.json: filter.sigma_mm: "));
+  EXPECT_EQ(refused(R"({"type": "median", "width": 4})"),
+            "mine.json: filter.width: a median of 4 voxels is not offered; give 3 or 5");
+  EXPECT_EQ(refused(R"({"type": "gaussian", "sigma_mm": 0})"),
+            "mine.json: filter.sigma_mm: 0 mm is no width of a filter; give 0.1 to 10 mm");
+  EXPECT_EQ(
+      refused(R"({"type": "bilateral", "sigma_value": -1})"),
+      "mine.json: filter.sigma_value: -1 is no difference of values; give the noise, in the scan's unit, above 0");
 }
 
 TEST(SceneJson, what_is_not_said_takes_the_default) {

@@ -29,7 +29,9 @@
 #include "io/fresh_folder.h"
 #include "plugin/bench/csv_table.h"
 #include "plugin/bench/field_errors.h"
+#include "plugin/bench/filter_study.h"
 #include "plugin/options/series_option.h"
+#include "plugin/report/text_file.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {
@@ -42,6 +44,7 @@ constexpr io::FieldSet value_and_gradient = io::FieldSet::value | io::FieldSet::
 struct FieldsArguments {
   SeriesOption series;
   std::string output;
+  bool filters = false;
   bool quick = false;
 };
 
@@ -211,6 +214,11 @@ void tabulate_misses(const std::shared_ptr<const io::Volume>& volume, const std:
 }
 
 void run_all(const FieldsArguments& arguments, const std::filesystem::path& folder) {
+  if (arguments.filters) {
+    const std::string csv = run_filter_study();
+    if (!folder.empty()) write_text(folder / "filters.csv", csv);
+    return;
+  }
   tabulate_gradient_errors(folder);
   const auto volume = large_volume(arguments.quick);
   tabulate_whole_volumes(volume, folder);
@@ -230,6 +238,7 @@ void add_bench_fields(CLI::App& bench) {
   command->add_option("SERIES", arguments->series.path, "A scan: also the jitter of its gradient's direction at rest");
   command->add_option("--series", arguments->series.series, "Which series, by number or UID");
   command->add_option("-o,--output", arguments->output, "Also write CSV to this folder; new or empty");
+  command->add_flag("--filters", arguments->filters, "What each filter of a scan does to roughness and to boundaries");
   command->add_flag("--quick", arguments->quick, "Times on an eighth of the volume");
   command->callback([arguments] {
     io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) { run_all(*arguments, folder); });

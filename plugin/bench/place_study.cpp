@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/fields/boundary_uncertainty.h"
+#include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene_json.h"
@@ -32,7 +33,8 @@ struct Row {
   Percentiles us;
 };
 
-Row slide(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene) {
+Row slide(const std::shared_ptr<const io::Volume>& raw, const modes::Scene& scene) {
+  const auto volume = io::filtered(raw, scene.filter);
   const modes::Plan plan = modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, {});
   const io::VolumeFields fields(volume, plan.fields, io::default_gradient_scale_mm(volume->geometry),
                                 modes::field_options(scene.sampling));
@@ -62,7 +64,7 @@ Row slide(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& s
       squares += off * off;
       count += 1;
       if (n % 8 != 0) continue;
-      const double known = io::uncertainty_at(fields, volume->geometry, method, proxy).two_sigma_mm;
+      const double known = io::uncertainty_at(fields, volume->geometry, method, proxy, scene.filter).two_sigma_mm;
       if (!std::isfinite(known)) continue;
       stated += known;
       stated_count += 1;
@@ -81,26 +83,33 @@ std::string run_place_study() {
                      {.noise = noise_hu, .seed = 11}));
   fmt::print("A ball of {} mm in voxels of 1 mm, {} HU of noise, slid along {} mm deep, {} mm a tick\n\n", radius_mm,
              noise_hu, depth_mm, travel_mm);
-  fmt::print("{:<10} {:<20} {:>12} {:>14} {:>18} {:>12} {:>10}\n", "value", "gradient", "sub-step, mm", "off, rms, mm",
-             "stated 2 sigma, mm", "tick, us", "p99.9, us");
-  std::string csv = "value,gradient,sub_step_mm,off_rms_mm,stated_two_sigma_mm,tick_median_us,tick_p999_us\n";
+  fmt::print("{:<10} {:<20} {:>12} {:>14} {:>18} {:>12} {:>10}  {}\n", "value", "gradient", "sub-step, mm",
+             "off, rms, mm", "stated 2 sigma, mm", "tick, us", "p99.9, us", "filter");
+  std::string csv = "value,gradient,sub_step_mm,off_rms_mm,stated_two_sigma_mm,tick_median_us,tick_p999_us,filter\n";
+  const auto add_row = [&](const char* value, const char* gradient, double step_mm, const char* filter) {
+    const modes::Scene scene =
+        modes::scene_from_json(fmt::format(R"({{"version": 1, "sampling": {{"value": "{}", "gradient": "{}"}},
+          "subdivision": {{"step_mm": {}}}, "filter": {}, "modes": [{{"type": "surface",
+          "strength_n": {{"of": "value", "nodes": [[-490, 0], [-470, 3]]}}}}]}})",
+                                           value, gradient, step_mm, filter),
+                               "place");
+    const Row row = slide(volume, scene);
+    const std::string words = io::in_words(scene.filter);
+    fmt::print("{:<10} {:<20} {:>12} {:>14.3f} {:>18.3f} {:>12.2f} {:>10.2f}  {}\n", value, gradient, step_mm,
+               row.off_rms_mm, row.stated_mm, row.us.median, row.us.p999, words);
+    csv += fmt::format("{},{},{},{},{},{},{},{}\n", value, gradient, step_mm, row.off_rms_mm, row.stated_mm,
+                       row.us.median, row.us.p999, words);
+  };
   run_as_servo([&] {
     for (const char* value : {"cubic", "trilinear"}) {
       for (const char* gradient : {"gaussian", "central_differences", "cubic"}) {
-        for (const double step_mm : {2.0, 0.5, 0.1}) {
-          const modes::Scene scene =
-              modes::scene_from_json(fmt::format(R"({{"version": 1, "sampling": {{"value": "{}", "gradient": "{}"}},
-                "subdivision": {{"step_mm": {}}}, "modes": [{{"type": "surface",
-                "strength_n": {{"of": "value", "nodes": [[-490, 0], [-470, 3]]}}}}]}})",
-                                                 value, gradient, step_mm),
-                                     "place");
-          const Row row = slide(volume, scene);
-          fmt::print("{:<10} {:<20} {:>12} {:>14.3f} {:>18.3f} {:>12.2f} {:>10.2f}\n", value, gradient, step_mm,
-                     row.off_rms_mm, row.stated_mm, row.us.median, row.us.p999);
-          csv += fmt::format("{},{},{},{},{},{},{}\n", value, gradient, step_mm, row.off_rms_mm, row.stated_mm,
-                             row.us.median, row.us.p999);
-        }
+        for (const double step_mm : {2.0, 0.5, 0.1}) add_row(value, gradient, step_mm, R"({"type": "none"})");
       }
+    }
+    for (const char* filter : {R"({"type": "gaussian", "sigma_mm": 1})", R"({"type": "median", "width": 3})",
+                               R"({"type": "bilateral", "sigma_mm": 1.5, "sigma_value": 40})",
+                               R"({"type": "non_local_means", "sigma_value": 20})"}) {
+      for (const char* gradient : {"gaussian", "central_differences"}) add_row("cubic", gradient, 0.5, filter);
     }
   });
   return csv;

@@ -35,7 +35,8 @@ void run(const ProbeOptions& options) {
   const Recording recording = read_recording(folder.path() / "recording.h5");
   Summary summary = summarize(recording, *session.felt.plan);
   add_uncertainty(summary, session.scene, *session.felt.source, volume->geometry);
-  const std::string words = to_text(summary, session.scene, describe_scan(*volume), stylus->specification().name);
+  const std::string words =
+      to_text(summary, session.scene, describe_scan(*session.felt.volume), stylus->specification().name);
   write_text(folder.path() / "summary.txt", words);
   const auto pictures = write_session_pictures(recording, summary, session.scene, *session.felt.plan,
                                                *session.felt.source, volume->unit, folder.path());

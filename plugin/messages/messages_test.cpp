@@ -92,6 +92,8 @@ const std::vector<NotShown> not_shown = {
     NotShown{"the soak found what may not be: see above", "a servo at fault"},
     NotShown{"palpate: could not start again without thread caches; the heap's figures are off by what they hold",
              "a program that cannot be started, and runs"},
+    NotShown{"a server of several ranks does not filter: clear the reader's Filter, or use one rank",
+             "a reader of several ranks is not driven through the panel's filter"},
     NotShown{"{}: internal fault: {}", "a fault of the program, of which none is known"},
     NotShown{"Please report it with the command that caused it.", "a fault of the program, of which none is known"},
     NotShown{"ParaView is not connected to a server: File > Connect.", of_paraview},

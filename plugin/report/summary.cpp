@@ -139,7 +139,7 @@ std::optional<double> known_to_mm(const io::FieldSource& source, const io::Geome
   if (!io::contains(source.available(), io::FieldSet::value | io::FieldSet::gradient)) return std::nullopt;
   const io::ValueMethod method =
       scene.sampling.gradient == io::GradientMethod::cubic ? io::ValueMethod::cubic : scene.sampling.value;
-  const double mm = io::uncertainty_at(source, geometry, method, place_mm).two_sigma_mm;
+  const double mm = io::uncertainty_at(source, geometry, method, place_mm, scene.filter).two_sigma_mm;
   return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
 }
 

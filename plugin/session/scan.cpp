@@ -32,9 +32,11 @@ Box bounding_box(const io::Geometry& geometry) {
 
 std::string describe_scan(const io::Volume& volume) {
   const io::Geometry& geometry = volume.geometry;
-  return fmt::format("{}, {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm", volume.modality, geometry.dimensions.x,
+  const io::Filter filter = io::filter_of(volume);
+  return fmt::format("{}, {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm{}", volume.modality, geometry.dimensions.x,
                      geometry.dimensions.y, geometry.dimensions.z, geometry.spacing_i, geometry.spacing_j,
-                     glm::length(geometry.step));
+                     glm::length(geometry.step),
+                     filter.type == io::FilterType::none ? "" : ", " + io::in_words(filter));
 }
 
 modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume) {

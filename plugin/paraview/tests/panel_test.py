@@ -57,6 +57,7 @@ def numbered(name, *arguments):
 FOLDERS = {
     "slices_are_scrolled": lambda: numbered("numbered"),
     "slices_are_scrolled_upside_down": lambda: numbered("upside-down", "--orientation", "1,0,0,0,-1,0"),
+    "a_filter_is_felt_and_shown": lambda: phantom("noisy", "sphere", "--radius", "25", "--noise", "80"),
     "frames_are_felt_as_shown": flow,
     "a_flow_is_shown_and_felt": flow,
     "undo_belongs_to_a_scan": both,
@@ -87,6 +88,7 @@ SCENARIOS = [
     "a_reset_session_has_no_force",
     "a_loaded_state_has_no_force",
     "undo_belongs_to_a_scan",
+    "a_filter_is_felt_and_shown",
     "frames_are_felt_as_shown",
     "a_scene_without_its_field_is_refused",
     "a_flow_is_shown_and_felt",

@@ -125,7 +125,7 @@ void ScanSection::adopt(pqPipelineSource& reader) {
         const double time = source_ ? source_->getServer()->getTimeKeeper()->getTime() : 0;
         const int frame = static_cast<int>(std::clamp(std::round(time), 0.0, frames - 1.0));
         loader_.load(
-            scan_at(*catalogue, series), frame, [](double) {},
+            scan_at(*catalogue, series), frame, felt_filter(), [](double) {},
             [this, catalogue, path, name, series, frame](const auto& volume, const std::string& why) {
               if (!volume || !source_) {
                 tell(text(why), true);

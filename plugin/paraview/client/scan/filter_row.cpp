@@ -1,6 +1,7 @@
 #include "plugin/paraview/client/scan/filter_row.h"
 
 #include <pqPipelineSource.h>
+#include <pqUndoStack.h>
 #include <pqView.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
@@ -177,6 +178,7 @@ void FilterRow::show_in_views() {
   const std::string text = shown_->isChecked() ? modes::to_json(model_.scene().filter) : std::string();
   vtkSMPropertyHelper property(reader->getProxy(), "Filter");
   if (text == property.GetAsString()) return;
+  SCOPED_UNDO_EXCLUDE();  // follows from the scene
   {
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", reader->getProxy());
     property.Set(text.c_str());

@@ -14,6 +14,9 @@
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
 #include <pqTimeKeeper.h>
+#include <pqUndoStack.h>
+#include <vtkAlgorithm.h>
+#include <vtkImageData.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
@@ -439,6 +442,73 @@ void frames_are_felt_as_shown() {
   expect(pqtime() == 0 && find<QSlider>("palpateFrame").value() == 0, "another series: the time starts anew");
 }
 
+/// Standard deviation of the shown values in a corner of the scan, where the phantom is air.
+double shown_noise() {
+  auto* const image = vtkImageData::SafeDownCast(
+      vtkAlgorithm::SafeDownCast(reader().getProxy()->GetClientSideObject())->GetOutputDataObject(0));
+  expect(image != nullptr, "the reader has an image");
+  double sum = 0, squares = 0, count = 0;
+  for (int k = 4; k < 12; ++k) {
+    for (int j = 4; j < 12; ++j) {
+      for (int i = 4; i < 12; ++i) {
+        const double value = image->GetScalarComponentAsDouble(i, j, k, 0);
+        sum += value;
+        squares += value * value;
+        ++count;
+      }
+    }
+  }
+  return std::sqrt(squares / count - (sum / count) * (sum / count));
+}
+
+/// The row, the scene, what is shown and what is felt have the same filter; undo takes it away from all of them.
+void a_filter_is_felt_and_shown() {
+  scan_is_shown();
+  click("palpateConnect");
+  wait_ms(1500);
+  const double raw_noise = shown_noise();
+  const double raw_felt = number("palpateTissue");
+  expect(raw_noise > 60 && raw_noise < 100, "the noise is the phantom's: " + std::to_string(raw_noise));
+  auto& type = find<QComboBox>("palpateFilter");
+  scroll_to(type);
+  type.setCurrentIndex(type.findText("Gaussian"));
+  emit type.activated(type.currentIndex());
+  wait_for(
+      "the filter is felt", [] { return label("palpateFelt").contains("Gaussian filter of 1 mm"); }, 20);
+  expect(scene_text().find("\"filter\"") != std::string::npos, "the scene has the filter");
+  // White noise through a Gaussian of one voxel: 1 / (2 sqrt(pi)) of the variance along each axis.
+  const double left = std::pow(1 / (2 * std::sqrt(3.14159265358979)), 1.5);
+  expect(is_near(shown_noise() / raw_noise, left, 0.25), "the shown noise is less: " + std::to_string(shown_noise()));
+  wait_ms(500);
+  const double felt = number("palpateTissue");
+  save_screen("filter-gaussian");
+  expect(felt != raw_felt && std::abs(felt + 1000) < 4 * left * raw_noise, "the felt value is air's without noise");
+  // Felt and not shown: it is said, and what is felt stays.
+  click("palpateFilterShown");
+  wait_for(
+      "it is said", [] { return label("palpateFelt").contains("Gaussian filter of 1 mm (shown without it)"); }, 20);
+  expect(shown_noise() == raw_noise, "the raw values are shown");
+  expect(number("palpateTissue") == felt, "what is felt stays");
+  click("palpateFilterShown");
+  wait_for(
+      "the filtered values are shown", [&] { return shown_noise() < raw_noise / 2; }, 20);
+  turn_forces_on();
+  find<QDoubleSpinBox>("palpateFilterAmount").setValue(2);
+  wait_for(
+      "another width is felt", [] { return label("palpateFelt").contains("Gaussian filter of 2 mm"); }, 20);
+  expect(forces_are_on(), "another filter takes no force away");
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  wait_for(
+      "undo takes the filter away", [] { return !label("palpateFelt").contains("filter"); }, 20);
+  expect(scene_text().find("\"filter\"") == std::string::npos, "the scene has no filter");
+  expect(type.currentText() == "None", "the row says so");
+  wait_for(
+      "the raw values are shown", [&] { return shown_noise() == raw_noise; }, 20);
+  wait_ms(500);
+  expect(number("palpateTissue") == raw_felt, "the raw values are felt");
+}
+
 void a_flow_is_shown_and_felt() {
   choose_series(row_with("velocity of"));
   expect(scene_text().find("\"follow\"") != std::string::npos, "the scene is of flow");
@@ -497,6 +567,7 @@ const Scenarios& shown_scenarios() {
       {"a_reset_session_has_no_force", a_reset_session_has_no_force},
       {"a_loaded_state_has_no_force", a_loaded_state_has_no_force},
       {"undo_belongs_to_a_scan", undo_belongs_to_a_scan},
+      {"a_filter_is_felt_and_shown", a_filter_is_felt_and_shown},
       {"frames_are_felt_as_shown", frames_are_felt_as_shown},
       {"a_flow_is_shown_and_felt", a_flow_is_shown_and_felt},
       {"a_scene_without_its_field_is_refused", a_scene_without_its_field_is_refused},
