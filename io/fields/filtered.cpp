@@ -191,7 +191,7 @@ std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int 
   const int from = across ? reached(g, first, filter.sigma_mm).first : first;
   const int to = across ? reached(g, last, filter.sigma_mm).second : last;
   std::vector<Slice> slices;
-  slices.reserve(static_cast<std::size_t>(to - from + 1));
+  slices.reserve(static_cast<std::size_t>(to - from) + 1);
   for (int k = from; k <= to; ++k) {
     Slice slice = read_slice(raw, k);
     slice.values = in_slice(slice.values, g, filter);
@@ -200,7 +200,7 @@ std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int 
   const auto at = [&](int k) -> const Slice& { return slices[static_cast<std::size_t>(k - from)]; };
   const PaddingRange padding = rescaled_padding(raw);
   const std::size_t stride = voxels_in_slice(raw);
-  std::vector<float> result(stride * static_cast<std::size_t>(last - first + 1));
+  std::vector<float> result(stride * (static_cast<std::size_t>(last - first) + 1));
   for (int k = first; k <= last; ++k) {
     cv::Mat values = across
                          ? gaussian_across(g, k, filter.sigma_mm, [&](int m) -> const cv::Mat& { return at(m).values; })
@@ -221,7 +221,7 @@ Filter filter_of(const Volume& volume) {
 
 std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volume, const Filter& filter,
                                        const Progress& progress) {
-  const std::shared_ptr<const Volume> raw = raw_of(volume);
+  std::shared_ptr<const Volume> raw = raw_of(volume);
   if (filter.type == FilterType::none) return raw;
   validate(filter);
   if (filter_of(*volume) == filter) return volume;
