@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "device/device_type.h"
+#include "device/messages.h"
 
 namespace palpate::device {
 
@@ -16,15 +17,12 @@ std::vector<FoundDevice> find_devices() {
   return found;
 }
 
-std::runtime_error which_of(const std::string& name, std::size_t matching) {
-  return std::runtime_error(name + ": there are " + std::to_string(matching) +
-                            "; name the address of one, as `palpate devices` lists them");
+Refusal which_of(const std::string& name, std::size_t matching) {
+  return Refusal(say("several-devices", name, matching));
 }
 
-std::string permission_advice() {
-  return "type: sudo cp " PALPATE_UDEV_RULES_PATH
-         " /etc/udev/rules.d/ && sudo udevadm control --reload && sudo udevadm trigger && sudo adduser $USER plugdev; "
-         "then log in again and replug the device";
+Text permission_advice() {
+  return say("permission-advice", PALPATE_UDEV_RULES_PATH);
 }
 
 }  // namespace palpate::device

@@ -3,9 +3,10 @@
 /// What is plugged in.
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "messages/message.h"
 
 namespace palpate::device {
 
@@ -21,9 +22,9 @@ struct FoundDevice {
 std::vector<FoundDevice> find_devices();
 
 /// What to throw where several devices match and one is meant.
-std::runtime_error which_of(const std::string& name, std::size_t matching);
+Refusal which_of(const std::string& name, std::size_t matching);
 
 /// The lines to type where a device is there and permission is denied.
-std::string permission_advice();
+Text permission_advice();
 
 }  // namespace palpate::device

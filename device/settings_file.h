@@ -7,12 +7,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "device/messages.h"
+
 namespace palpate::device {
 
 class SettingsReader {
  public:
   explicit SettingsReader(nlohmann::json json) : left_(std::move(json)) {
-    if (!left_.is_object()) throw std::runtime_error("it is not a JSON object");
+    if (!left_.is_object()) throw Refusal(say("not-a-json-object"));
   }
   /// Takes the value of a key out of what is left to be read; without the key the value stays.
   template <typename T>
@@ -22,13 +24,13 @@ class SettingsReader {
     try {
       value = found->template get<T>();
     } catch (const nlohmann::json::exception&) {
-      throw std::runtime_error(std::string("'") + key + "' is not what it should be: " + found->dump());
+      throw Refusal(say("not-a-usable-setting", key, found->dump()));
     }
     left_.erase(found);
   }
   /// Nothing may be left.
   void finish() const {
-    if (!left_.empty()) throw std::runtime_error("'" + left_.begin().key() + "' is not a setting");
+    if (!left_.empty()) throw Refusal(say("not-a-setting", left_.begin().key()));
   }
 
  private:
@@ -40,14 +42,14 @@ class SettingsReader {
 template <typename Read>
 auto read_settings_file(const std::string& device, const std::string& file, const Read& read) {
   std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(device + ": " + file + " cannot be read; name the file of its settings");
+  if (!stream) throw Refusal(say("settings-cannot-be-read", device, file));
   try {
     SettingsReader reader(nlohmann::json::parse(stream));
     auto settings = read(reader);
     reader.finish();
     return settings;
   } catch (const std::exception& error) {
-    throw std::runtime_error(device + ": " + file + ": " + error.what());
+    throw Refusal(say("settings-refused", device, file, error.what()));
   }
 }
 

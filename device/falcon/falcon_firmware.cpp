@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "device/falcon/falcon_driver.h"
+#include "device/messages.h"
 
 namespace palpate::device {
 
@@ -34,8 +35,6 @@ constexpr double greeting_patience = 1.5;       // s
 constexpr double upload_patience = 15.0;        // s: an image takes less than one
 constexpr std::size_t largest_image = 1 << 20;  // images seen are 7 to 9 kB
 
-constexpr const char* mute = "it does not answer the greeting; is its power supply plugged in and switched on?";
-
 struct Request {
   std::uint8_t request;
   std::uint16_t value;
@@ -44,8 +43,7 @@ struct Request {
 void configure(FalconLink& link, std::initializer_list<Request> requests) {
   for (const Request& request : requests) {
     if (!link.control(request.request, request.value)) {
-      throw std::runtime_error(
-          "Novint Falcon: its serial chip refuses to be set up; unplug it, plug it in again and try once more");
+      throw Refusal(say("novint-falcon-its-serial-chip-refuses"));
     }
   }
 }
@@ -95,8 +93,8 @@ bool greet(FalconLink& link) {
   return false;
 }
 
-/// One try; an empty string, or what went wrong.
-std::string upload(FalconLink& link, const std::vector<std::uint8_t>& image) {
+/// One try; nothing, or what went wrong.
+Text upload(FalconLink& link, const std::vector<std::uint8_t>& image) {
   configure(link, {{reset, purge_received},
                    {reset, purge_sent},
                    {latency, 16},
@@ -106,19 +104,19 @@ std::string upload(FalconLink& link, const std::vector<std::uint8_t>& image) {
                    {modem, rts_low},
                    {modem, dtr_low},
                    {modem, dtr_high}});
-  if (!greet(link)) return mute;
+  if (!greet(link)) return say("does-not-answer-the-greeting");
   configure(link, {{modem, dtr_low}, {baud, baud_140k}});
   constexpr std::array<std::uint8_t, 1> begin{'A'};
-  if (!send_now(link, begin)) return "it does not take the start of the upload";
+  if (!send_now(link, begin)) return say("does-not-take-the-start");
   const auto begun = receive_bytes(link, 1, 1.0);
-  if (begun.empty() || begun.front() != 'A') return "it does not answer the start of the upload";
+  if (begun.empty() || begun.front() != 'A') return say("does-not-answer-the-start");
   for (std::size_t at = 0; at < image.size(); at += chunk) {
     const auto sent = std::span(image).subspan(at, std::min(chunk, image.size() - at));
-    if (!send_now(link, sent)) return "it does not take byte " + std::to_string(at);
+    if (!send_now(link, sent)) return say("does-not-take-byte", at);
     // The echo is the only check there is.
     const auto echo = receive_bytes(link, sent.size(), 1.0);
     if (!std::equal(sent.begin(), sent.end(), echo.begin(), echo.end())) {
-      return "its echo differs at byte " + std::to_string(at);
+      return say("echo-differs-at-byte", at);
     }
   }
   return {};
@@ -128,8 +126,7 @@ std::vector<std::uint8_t> read_image(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (image.empty() || image.size() > largest_image) {
-    throw std::runtime_error("Novint Falcon: " + file + (image.empty() ? " cannot be read" : " is too long") +
-                             "; name the firmware file that came with the device");
+    throw Refusal(image.empty() ? say("novint-falcon-cannot-be-read", file) : say("novint-falcon-is-too-long", file));
   }
   return image;
 }
@@ -141,25 +138,22 @@ void connect_falcon(FalconLink& link, const std::string& firmware_file) {
   enter_run_mode(link);
   if (answers_run_packets(link)) return;
   if (firmware_file.empty()) {
-    throw std::runtime_error(
-        "Novint Falcon: it has no firmware since it was switched on; name the firmware file that came with the device "
-        "(it is Novint's, and no part of this program)");
+    throw Refusal(say("novint-falcon-it-has-no-firmware-since"));
   }
   const std::vector<std::uint8_t> image = read_image(firmware_file);
-  std::string trouble;
+  Text trouble;
   const double start = link.now();
   for (int attempt = 0; attempt < 10 && !link.lost() && link.now() - start < upload_patience; ++attempt) {
     trouble = upload(link, image);
     // Whoever does not even greet is mute, and asking again would take the caller's time.
-    if (trouble == mute) break;
+    if (trouble == say("does-not-answer-the-greeting")) break;
     if (!trouble.empty()) continue;
     enter_run_mode(link);
     if (answers_run_packets(link)) return;
-    trouble = "it does not run what was uploaded; is this the Falcon's firmware?";
+    trouble = say("does-not-run-what-was-uploaded");
   }
-  if (link.lost()) trouble = "it was unplugged";
-  throw std::runtime_error("Novint Falcon: the firmware " + firmware_file + " could not be uploaded: " + trouble +
-                           "; unplug it, plug it in again and try once more");
+  if (link.lost()) trouble = say("was-unplugged");
+  throw Refusal(say("novint-falcon-the-firmware-could-not", firmware_file, trouble));
 }
 
 }  // namespace palpate::device

@@ -5,6 +5,7 @@
 #include "device/falcon/falcon.h"
 #include "device/falcon/falcon_protocol.h"
 #include "device/falcon/falcon_usb.h"
+#include "device/messages.h"
 #include "device/settings_file.h"
 
 namespace palpate::device {
@@ -18,9 +19,9 @@ FalconSettings read(SettingsReader& reader) {
   reader.take("motor_gain", settings.motor_gain);
   reader.take("maximum_force", settings.maximum_force);
   reader.take("guarded", settings.guarded);
-  if (!(settings.motor_gain > 0)) throw std::runtime_error("the motor gain must be above zero");
+  if (!(settings.motor_gain > 0)) throw Refusal(say("motor-gain-must-be-above-zero"));
   if (!(settings.maximum_force > 0 && settings.maximum_force <= 12)) {
-    throw std::runtime_error("the largest force lies between 0 and 12 N");
+    throw Refusal(say("falcon-largest-force"));
   }
   return settings;
 }

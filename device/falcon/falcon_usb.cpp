@@ -17,6 +17,7 @@
 #include "device/falcon/falcon_driver.h"
 #include "device/falcon/falcon_protocol.h"
 #include "device/link/realtime.h"
+#include "device/messages.h"
 
 namespace palpate::device {
 
@@ -46,7 +47,7 @@ using Transfer = std::unique_ptr<libusb_transfer, TransferDeleter>;
 Context open_context() {
   libusb_context* context = nullptr;
   const int failed = libusb_init(&context);
-  if (failed != 0) throw std::runtime_error(std::string("USB cannot be used here: ") + libusb_strerror(failed));
+  if (failed != 0) throw Refusal(say("usb-cannot-be-used-here", libusb_strerror(failed)));
   return Context(context);
 }
 
@@ -98,16 +99,14 @@ Handle open_handle(libusb_context* context, const std::string& address) {
     handle = opened != nullptr ? Handle(opened) : std::move(handle);
   });
   const std::string name = "Novint Falcon" + (address.empty() ? "" : " at " + address);
-  if (matching == 0) throw std::runtime_error(name + ": not found; check its plug and its power supply");
+  if (matching == 0) throw Refusal(say("not-found", name));
   if (matching > 1) {
     throw which_of(name, static_cast<std::size_t>(matching));
   }
   if (failed == LIBUSB_ERROR_ACCESS) {
-    throw std::runtime_error(name + ": permission denied; " + permission_advice());
+    throw Refusal(say("permission-denied", name, permission_advice()));
   }
-  if (failed != 0)
-    throw std::runtime_error(name + ": cannot be opened: " + libusb_strerror(failed) +
-                             "; unplug it and plug it in again");
+  if (failed != 0) throw Refusal(say("cannot-be-opened-replug", name, libusb_strerror(failed)));
   return handle;
 }
 
@@ -122,8 +121,7 @@ class FalconUsb final : public FalconLink {
     libusb_set_auto_detach_kernel_driver(handle_.get(), 1);
     const int failed = libusb_claim_interface(handle_.get(), 0);
     if (failed != 0) {
-      throw std::runtime_error(std::string("Novint Falcon: another program holds it (") + libusb_strerror(failed) +
-                               "); close that one first");
+      throw Refusal(say("novint-falcon-another-program-holds", libusb_strerror(failed)));
     }
     libusb_fill_bulk_transfer(in_.get(), handle_.get(), endpoint_in, in_bytes_.data(), packet_size,
                               &FalconUsb::received, this, 0);
@@ -260,7 +258,8 @@ std::vector<FoundDevice> find_falcons() {
     const Handle handle(opened);
     found.push_back(
         {"falcon", "Novint Falcon", address_of(device), failed == 0,
-         failed == 0 ? "" : (failed == LIBUSB_ERROR_ACCESS ? permission_advice() : libusb_strerror(failed))});
+         failed == 0 ? ""
+                     : (failed == LIBUSB_ERROR_ACCESS ? std::string(permission_advice()) : libusb_strerror(failed))});
   });
   return found;
 }

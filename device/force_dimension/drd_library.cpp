@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "device/messages.h"
+
 namespace palpate::device {
 
 namespace {
@@ -54,8 +56,7 @@ DrdLibrary::DrdLibrary() : library("Force Dimension", files(), advice) {
   int major = 0, minor = 0, release = 0, revision = 0;
   get_sdk_version(&major, &minor, &release, &revision);
   if (major != 3) {
-    throw std::runtime_error("Force Dimension: " + library.file() + " is version " + std::to_string(major) + "." +
-                             std::to_string(minor) + "; this driver needs version 3; " + advice);
+    throw Refusal(say("force-dimension-is-version", library.file(), major, minor, advice));
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "device/found_devices.h"
 #include "device/link/realtime.h"
+#include "device/messages.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -81,28 +82,22 @@ void ForceDimensionDriver::choose() {
     drd_->close(id_);
     throw which_of("Force Dimension", static_cast<std::size_t>(matching));
   }
-  throw std::runtime_error(
-      "Force Dimension" + (settings_.address.empty() ? "" : " " + settings_.address) +
-      ": not found; check its plug, its power and the rights to it (udev, idVendor 1451): " + last_error());
+  throw Refusal(
+      say("force-dimension-not-found", (settings_.address.empty() ? "" : " " + settings_.address), last_error()));
 }
 
 void ForceDimensionDriver::bring_up() {
   if (!drd_->is_initialized(id_)) {
     if (!settings_.may_home) {
-      throw std::runtime_error(
-          "Force Dimension: the arm has no home yet, and to find it it moves by itself; keep hands off it, then allow "
-          "it "
-          "in its settings file: may_home, true");
+      throw Refusal(say("force-dimension-the-arm-has-no-home"));
     }
     if (drd_->auto_init(id_) < 0) {
-      throw std::runtime_error("Force Dimension: the arm did not find its home: " + last_error() +
-                               "; free its way and try again");
+      throw Refusal(say("force-dimension-the-arm-did-not-find", last_error()));
     }
   }
   // The regulation that moves the arm ends; its forces are ours from here on.
   if (drd_->stop(true, id_) < 0 || drd_->enable_force(1, id_) < 0) {
-    throw std::runtime_error("Force Dimension: its forces cannot be switched on: " + last_error() +
-                             "; press its force button, then try again");
+    throw Refusal(say("force-dimension-its-forces-cannot-be-switched", last_error()));
   }
   drd_->enable_expert_mode();
   drd_->set_watchdog(watchdog, id_);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "device/found_devices.h"
+#include "device/messages.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -183,9 +184,8 @@ void HaplyProtocol::choose(const std::vector<HaplyDevice>& devices) {
   std::erase_if(matching,
                 [&](const HaplyDevice& one) { return !settings_.address.empty() && one.id != settings_.address; });
   if (matching.empty()) {
-    throw std::runtime_error("Haply" + (settings_.address.empty() ? std::string() : " " + settings_.address) +
-                             ": its service runs but finds no such device; check its plug and power, or list what is "
-                             "there: palpate devices");
+    throw Refusal(say("haply-its-service-runs-but-finds-no",
+                      (settings_.address.empty() ? std::string() : " " + settings_.address)));
   }
   if (matching.size() > 1) {
     throw which_of("Haply", matching.size());
@@ -203,8 +203,7 @@ void HaplyProtocol::connect(Link& link) {
     const HaplyVersion version = service->version();
     const bool is_old = version.major == 3 && version.minor < 5;
     if (version.major > 3) {
-      throw std::runtime_error("Haply: its service is version " + std::to_string(version.major) +
-                               "; this driver speaks the protocol of version 3. Install service 3.5");
+      throw Refusal(say("haply-its-service-is-version", version.major));
     }
     vector_key_ = is_old ? "values" : "vector";
   }
@@ -222,9 +221,7 @@ void HaplyProtocol::connect(Link& link) {
     if (told) devices = haply_inventory(message);
   }
   if (!told) {
-    throw std::runtime_error(
-        "Haply: its service does not tell which devices there are; start it again: sudo systemctl restart "
-        "haply-inverse-service");
+    throw Refusal(say("haply-its-service-does-not-tell-which"));
   }
   choose(devices);
   const std::string message = first_message();
@@ -316,7 +313,7 @@ std::size_t HaplyProtocol::step(const Vec3& force, double now, std::span<std::ui
 std::unique_ptr<LinkStylus> make_haply_on(const HaplySettings& settings, LinkMaker make_link,
                                           const LinkStylusOptions& options) {
   if (!(settings.maximum_force > 0 && settings.maximum_force <= 20 && settings.stiffness_limit > 0)) {
-    throw std::runtime_error("Haply: the largest force lies between 0 and 20 N, the stiffness limit above zero");
+    throw Refusal(say("haply-the-largest-force-lies-between-0"));
   }
   Specification specification;
   specification.name = "Haply Inverse3";

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "device/link/realtime.h"
+#include "device/messages.h"
 
 namespace palpate::device {
 
@@ -98,9 +99,7 @@ class HaplyService final : public HaplyLink {
       error = result_of(context_, patience, [&](auto done) { socket_.async_handshake(where, "/", done); });
     }
     if (error) {
-      throw std::runtime_error("Haply: its service does not answer at " + where + " (" + error.message() +
-                               "); install Haply Hub or the Inverse Service and start it: sudo systemctl start "
-                               "haply-inverse-service");
+      throw Refusal(say("haply-its-service-does-not-answer", where, error.message()));
     }
     socket_.read_message_max(longest_message);
     socket_.text(true);

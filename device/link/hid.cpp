@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "device/link/realtime.h"
+#include "device/messages.h"
 #include "device/space_mouse/space_mouse_driver.h"
 #include "device/wooden_haptics/wooden_haptics_driver.h"
 
@@ -103,24 +104,21 @@ std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& addre
   std::erase_if(found, [&](const FoundDevice& device) { return !address.empty() && device.address != address; });
   const std::string name = (kind == "wooden_haptics" ? "WoodenHaptics" : "SpaceMouse") +
                            (address.empty() ? std::string() : " at " + address);
-  if (found.empty())
-    throw std::runtime_error(name + ": not found; check its plug, or list what is there: palpate devices");
+  if (found.empty()) throw Refusal(say("not-found-list", name));
   if (found.size() > 1) {
     throw which_of(name, found.size());
   }
-  if (!found.front().accessible) throw std::runtime_error(name + ": permission denied; " + permission_advice());
+  if (!found.front().accessible) throw Refusal(say("permission-denied", name, permission_advice()));
   hid_device* const device = hid_open_path(found.front().address.c_str());
   if (device == nullptr) {
-    throw std::runtime_error(name + ": cannot be opened: " + narrow(hid_error(nullptr)) +
-                             "; does another program hold it?");
+    throw Refusal(say("cannot-be-opened-held", name, narrow(hid_error(nullptr))));
   }
   return std::make_unique<HidLink>(device);
 }
 
 std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings) {
   if (settings.address.empty()) {
-    throw std::runtime_error(
-        "WoodenHaptics: name its address, as `palpate devices` lists it; other devices share its USB ids");
+    throw Refusal(say("woodenhaptics-name-its-address"));
   }
   LinkStylusOptions options;
   if (settings.guarded) options.guardian = {guardian_program(), "wooden_haptics", settings.address};

@@ -9,6 +9,8 @@
 #include <ctime>
 #include <stdexcept>
 
+#include "device/messages.h"
+
 namespace palpate::device {
 
 namespace {
@@ -35,17 +37,15 @@ RealtimeStatus become_realtime(int priority) {
   // As pages are touched: a whole scan need not be fetched for it.
   status.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
   if (!status.scheduled || !status.memory_locked) {
-    status.advice =
-        std::string("not allowed here: ") + (status.scheduled ? "" : "real-time scheduling") +
-        (status.scheduled || status.memory_locked ? "" : " and ") + (status.memory_locked ? "" : "locked memory") +
-        "; ticks may be late. To allow it, put '@plugdev - rtprio 80' and '@plugdev - memlock unlimited' into "
-        "/etc/security/limits.d/palpate.conf and log in again.";
+    status.advice = say("no-real-time", std::string(status.scheduled ? "" : "real-time scheduling") +
+                                            (status.scheduled || status.memory_locked ? "" : " and ") +
+                                            (status.memory_locked ? "" : "locked memory"));
   }
   return status;
 }
 
 Metronome::Metronome(double period) : period_(0), deadline_(0) {
-  if (!(period >= 10e-6 && period <= 1)) throw std::invalid_argument("a tick has to last between 10 us and 1 s");
+  if (!(period >= 10e-6 && period <= 1)) throw std::logic_error("a tick has to last between 10 us and 1 s");
   period_ = std::llround(period * 1e9);
   deadline_ = now_ns();
 }

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <string>
 
+#include "messages/message.h"
+
 namespace palpate::device {
 
 struct RealtimeStatus {
   bool scheduled = false;      ///< SCHED_FIFO was granted to this thread
   bool memory_locked = false;  ///< no page of the process will be fetched from disk in a tick
-  std::string advice;          ///< empty, or what was refused and what to do about it
+  Text advice;                 ///< empty, or what was refused and what to do about it
 };
 
 /// SCHED_FIFO for the calling thread. False where the system does not allow it; nothing else changes then.

@@ -38,9 +38,9 @@ TEST(Metronome, CountsWhatItMissedAndNeverMakesUpForIt) {
 }
 
 TEST(Metronome, RefusesPeriodsThatNoServoHas) {
-  EXPECT_THROW(Metronome(0), std::invalid_argument);
-  EXPECT_THROW(Metronome(-1), std::invalid_argument);
-  EXPECT_THROW(Metronome(5), std::invalid_argument);
+  EXPECT_THROW(Metronome(0), std::logic_error);
+  EXPECT_THROW(Metronome(-1), std::logic_error);
+  EXPECT_THROW(Metronome(5), std::logic_error);
 }
 
 TEST(Realtime, SaysWhatIsRefusedAndGoesOn) {

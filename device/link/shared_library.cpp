@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "device/messages.h"
+
 namespace palpate::device {
 
 SharedLibrary::SharedLibrary(const std::string& device, std::span<const std::string> files, const std::string& advice)
@@ -19,7 +21,7 @@ SharedLibrary::SharedLibrary(const std::string& device, std::span<const std::str
     const char* const why = dlerror();
     said += (said.empty() ? "" : "; ") + std::string(why != nullptr ? why : file.c_str());
   }
-  throw std::runtime_error(device_ + ": its maker's library cannot be loaded (" + said + "); " + advice_);
+  throw Refusal(say("maker-library-cannot-be-loaded", device_, said, advice_));
 }
 
 void* SharedLibrary::look_up(const char* name) const noexcept {
@@ -29,7 +31,7 @@ void* SharedLibrary::look_up(const char* name) const noexcept {
 void* SharedLibrary::address_of(const char* name) const {
   void* const address = look_up(name);
   if (address == nullptr) {
-    throw std::runtime_error(device_ + ": " + file_ + " is another version: it has no " + name + "; " + advice_);
+    throw Refusal(say("library-is-another-version", device_, file_, name, advice_));
   }
   return address;
 }

@@ -18,6 +18,8 @@
 #include <system_error>
 #include <vector>
 
+#include "device/messages.h"
+
 namespace palpate::device {
 
 namespace {
@@ -61,13 +63,13 @@ std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
   if (settings.program.empty()) return nullptr;
   std::array<int, 2> pipe_ends{};
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
-    throw std::runtime_error(std::string("guardian of the stylus: no pipe: ") + std::strerror(errno));
+    throw Refusal(say("guardian-of-the-stylus-no-pipe", std::strerror(errno)));
   }
   const SharedMemory shared = share_beat();
   if (shared.beat == nullptr) {
     if (shared.descriptor >= 0) ::close(shared.descriptor);
     for (const int end : pipe_ends) ::close(end);
-    throw std::runtime_error(std::string("guardian of the stylus: no shared memory: ") + std::strerror(errno));
+    throw Refusal(say("guardian-of-the-stylus-no-shared-memory", std::strerror(errno)));
   }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -90,8 +92,7 @@ std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
   if (failed != 0) {
     ::close(pipe_ends[1]);
     munmap(shared.beat, sizeof(GuardianBeat));
-    throw std::runtime_error("guardian of the stylus: cannot start " + program + ": " + std::strerror(failed) +
-                             "; install palpate once more, or name the program in PALPATE_GUARDIAN");
+    throw Refusal(say("guardian-of-the-stylus-cannot-start", program, std::strerror(failed)));
   }
   return std::make_unique<Guardian>(pid, pipe_ends[1], shared.beat);
 }

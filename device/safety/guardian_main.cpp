@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "device/link/realtime.h"
+#include "device/messages.h"
 #include "device/safety/guardian.h"
 #include "device/safety/zero_force.h"
 
@@ -25,11 +26,11 @@ constexpr int looks_until_stopped = 10;   // 0.2 s: a device takes a force that 
 constexpr double wait_for_device = 60.0;  // s
 
 void tell(bool stopped, const char* kind, bool zeroed, double begun) {
-  std::fprintf(stderr,
-               stopped ? "palpate-guardian: the session stands still while it pushes; %s (%s, %.0f ms)\n"
-                       : "palpate-guardian: the session ended without closing its stylus; %s (%s, %.0f ms)\n",
-               zeroed ? "zero force was sent" : "THE STYLUS COULD NOT BE REACHED: switch it off", kind,
-               (palpate::device::monotonic_time() - begun) * 1e3);
+  using palpate::device::say;
+  const palpate::Text force = zeroed ? say("zero-force-was-sent") : say("stylus-could-not-be-reached");
+  const palpate::Text text = stopped ? say("palpate-guardian-the-session-stands-still-while", force)
+                                     : say("palpate-guardian-the-session-ended-without-closing", force);
+  std::fprintf(stderr, "%s (%s, %.0f ms)\n", text.c_str(), kind, (palpate::device::monotonic_time() - begun) * 1e3);
 }
 
 const GuardianBeat* session_beat() {
@@ -82,7 +83,7 @@ char wait_for_word(const char* kind, const char* address) {
 
 int main(int count, char** arguments) {
   if (count != 3) {
-    std::fputs("palpate-guardian KIND ADDRESS is started by palpate, never by hand\n", stderr);
+    std::fprintf(stderr, "%s\n", palpate::device::say("palpate-guardian-kind-address-is-started").c_str());
     return 2;
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP}) std::signal(signal, SIG_IGN);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "device/messages.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -92,28 +93,28 @@ const char* name_of(Fault fault) {
   return "unknown";
 }
 
-const char* advice_for(Fault fault) {
+Text advice_for(Fault fault) {
   switch (fault) {
     case Fault::none:
-      return "Nothing is wrong.";
+      return {};
     case Fault::pose_not_finite:
-      return "The stylus reported a pose that cannot be; home it again, then clear the fault and arm.";
+      return say("stylus-reported-a-pose-that-cannot");
     case Fault::force_not_finite:
-      return "The scene asked for a force that is not a number; keep the recording, then clear the fault and arm.";
+      return say("scene-asked-for-a-force");
     case Fault::device_lost:
-      return "The stylus is gone: check its plug and power, open it again, then clear the fault and arm.";
+      return say("stylus-is-gone");
     case Fault::device_silent:
-      return "The stylus stopped sending poses: check its plug and power, then clear the fault and arm.";
+      return say("stylus-stopped-sending-poses");
     case Fault::force_stale:
-      return "No new force was computed: the scene's thread is stalled; wait for it, then clear the fault and arm.";
+      return say("no-new-force-was-computed");
     case Fault::tick_late:
-      return "The servo loop was held up: close other heavy programs, then clear the fault and arm.";
+      return say("servo-loop-was-held-up");
     case Fault::speed_exceeded:
-      return "The stylus moved faster than allowed: hold it, then clear the fault and arm.";
+      return say("stylus-moved-faster-than-allowed");
     case Fault::commander_silent:
-      return "The panel stopped answering: wait until it does, then clear the fault and arm.";
+      return say("panel-stopped-answering");
   }
-  return "";
+  return {};
 }
 
 SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, SafetyState& state) noexcept {

@@ -12,6 +12,7 @@
 
 #include "device/safety/safety_limits.h"
 #include "device/stylus.h"
+#include "messages/message.h"
 
 namespace palpate::device {
 
@@ -28,8 +29,8 @@ enum class Fault : std::uint8_t {
   commander_silent,  ///< no sign of life for SafetyLimits::heartbeat_time
 };
 const char* name_of(Fault fault);
-/// What happened and what the user can do about it, in a sentence.
-const char* advice_for(Fault fault);
+/// What happened and what the user can do about it, in a sentence; nothing where nothing is wrong.
+Text advice_for(Fault fault);
 
 struct SafetyInput {
   double time = 0;             ///< s, never decreasing: now

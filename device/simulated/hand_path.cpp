@@ -5,19 +5,20 @@
 #include <stdexcept>
 #include <string>
 
+#include "device/messages.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
 
 void check_path(std::span<const Waypoint> path) {
-  if (path.empty()) throw std::invalid_argument("the hand's path has no waypoint; give it at least one");
+  if (path.empty()) throw InvalidInput(say("hand-path-has-no-waypoint"));
   for (std::size_t i = 0; i < path.size(); ++i) {
     const std::string name = "waypoint " + std::to_string(i + 1) + " of the hand's path";
     if (!std::isfinite(path[i].time) || !is_finite(path[i].position)) {
-      throw std::invalid_argument(name + " is not finite");
+      throw InvalidInput(say("waypoint-is-not-finite", name));
     }
     if (i > 0 && !(path[i].time > path[i - 1].time)) {
-      throw std::invalid_argument(name + " is not later than the one before it");
+      throw InvalidInput(say("not-later-than-the-one-before", name));
     }
   }
 }

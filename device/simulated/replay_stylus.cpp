@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "device/messages.h"
+
 namespace palpate::device {
 
 ReplayStylus::ReplayStylus(std::span<const Reading> readings, const Specification& recorded)
@@ -14,7 +16,7 @@ ReplayStylus::ReplayStylus(std::span<const Reading> readings, std::span<const St
                            const Specification& recorded)
     : ReplayStylus(readings, recorded) {
   if (states.size() != readings.size()) {
-    throw std::invalid_argument(specification_.name + ": as many states as poses are needed");
+    throw std::logic_error(specification_.name + ": as many states as poses are needed");
   }
   states_ = states;
 }
@@ -25,7 +27,7 @@ State ReplayStylus::state() const noexcept {
 }
 
 void ReplayStylus::open() {
-  if (readings_.empty()) throw std::runtime_error(specification_.name + ": no poses; record a session first");
+  if (readings_.empty()) throw Refusal(say("no-poses-record-a-session-first", specification_.name));
   next_ = 0;
   last_force_ = Vec3(0);
   state_ = State::idle;

@@ -55,7 +55,7 @@ TEST(ReplayStylus, RepeatsTheStatesToo) {
   EXPECT_EQ(stylus.state(), State::fault) << "the last, from then on";
   stylus.close();
   EXPECT_EQ(stylus.state(), State::disconnected);
-  EXPECT_THROW(ReplayStylus(readings, std::span(states).first(2)), std::invalid_argument);
+  EXPECT_THROW(ReplayStylus(readings, std::span(states).first(2)), std::logic_error);
 }
 
 }  // namespace

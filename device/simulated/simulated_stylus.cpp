@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "device/messages.h"
 #include "device/safety/stiffness.h"
 #include "device/vectors.h"
 
@@ -15,18 +16,18 @@ namespace {
 
 constexpr double longest_step = 50e-6;  // s: the contact of a 6 kN/m wall is resolved 30 times a period
 
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::invalid_argument("simulated stylus: " + what);
+void require(bool holds, const Text& what) {
+  if (!holds) throw InvalidInput(at_place("simulated stylus", what));
 }
 
 const SimulatedDevice& checked(const SimulatedDevice& device) {
-  require(device.arm.mass > 0 && device.hand.mass >= 0, "masses must be above zero");
-  require(device.arm.coulomb_friction >= 0 && device.arm.viscous_friction >= 0, "friction must not be negative");
-  require(device.hand.stiffness >= 0 && device.hand.damping >= 0, "the hand's spring and damper must not be negative");
-  require(device.position_step >= 0, "position steps must not be negative");
-  require(device.rate >= 100 && device.rate <= 20000, "the rate must lie between 100 and 20000 Hz");
-  require(device.delay >= 0 && device.delay * device.rate <= 60, "the delay must lie between 0 and 60 ticks");
-  require(device.maximum_force > 0 && device.target_speed > 0, "maximum force and target speed must be above zero");
+  require(device.arm.mass > 0 && device.hand.mass >= 0, say("masses-must-be-above-zero"));
+  require(device.arm.coulomb_friction >= 0 && device.arm.viscous_friction >= 0, say("friction-must-not-be-negative"));
+  require(device.hand.stiffness >= 0 && device.hand.damping >= 0, say("hand-spring-and-damper-must-not"));
+  require(device.position_step >= 0, say("position-steps-must-not-be-negative"));
+  require(device.rate >= 100 && device.rate <= 20000, say("rate-must-lie-between-100"));
+  require(device.delay >= 0 && device.delay * device.rate <= 60, say("delay-must-lie-between-0"));
+  require(device.maximum_force > 0 && device.target_speed > 0, say("maximum-force-and-target-speed-must"));
   return device;
 }
 
@@ -71,7 +72,7 @@ Specification SimulatedStylus::specification() const {
 
 void SimulatedStylus::open() {
   if (fault_.load(std::memory_order_relaxed) == SimulatedFault::unplugged) {
-    throw std::runtime_error("simulated stylus: unplugged; plug it in again");
+    throw Refusal(say("simulated-stylus-unplugged"));
   }
   tick_ = 0;
   read_tick_ = -1;

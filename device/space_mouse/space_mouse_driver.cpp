@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "device/messages.h"
 #include "device/space_mouse/space_mouse_driver.h"
 #include "device/vectors.h"
 
@@ -85,8 +86,7 @@ double SpaceMouseProtocol::longest_silence() const noexcept {
 std::unique_ptr<LinkStylus> make_space_mouse_on(const SpaceMouseSettings& settings, LinkStylus::LinkMaker make_link,
                                                 const LinkStylusOptions& options) {
   if (!(settings.speed > 0 && settings.dead_zone >= 0 && settings.dead_zone < 1 && settings.full_deflection > 0)) {
-    throw std::runtime_error(
-        "SpaceMouse: speed and full deflection must be above zero, the dead zone from 0 to below 1");
+    throw Refusal(say("spacemouse-speed-and-full-deflection-must"));
   }
   Specification specification;
   specification.name = "SpaceMouse";

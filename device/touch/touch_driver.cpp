@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "device/link/realtime.h"
+#include "device/messages.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -47,14 +48,13 @@ TouchDriver::~TouchDriver() {
   sem_destroy(&sampled_);
 }
 
-void TouchDriver::throw_error(const char* what) {
+void TouchDriver::throw_error(const Text& what) {
   const hd::ErrorInfo error = hd_->get_error();
   if (error.code == hd::success) return;
   const char* const text = hd_->get_error_string(error.code);
   const std::string reason = text != nullptr ? text : std::to_string(error.code);
   disconnect();
-  throw std::runtime_error("3D Systems Touch: " + std::string(what) + ": " + reason +
-                           "; check its plug and power, and set it up with the maker's Touch_Setup");
+  throw Refusal(say("touch-refuses", what, reason));
 }
 
 void TouchDriver::read_model() {
@@ -66,7 +66,7 @@ void TouchDriver::read_model() {
   hd_->get_doubles(hd::nominal_continuous_force, &continuous);
   hd_->get_doubles(hd::nominal_stiffness, &stiffness);
   hd_->get_doubles(hd::usable_workspace, box.data());
-  throw_error("it does not tell what it can do");
+  throw_error(say("touch-does-not-tell"));
   maximum_force_ = settings_.maximum_force > 0 ? settings_.maximum_force : (force > 0 ? force : 3.3);
   described_.name = name;
   described_.orientation_axes = 3;
@@ -97,16 +97,14 @@ void TouchDriver::connect() {
   if (device_ == hd::invalid_device || error.code != hd::success) {
     const char* const text = hd_->get_error_string(error.code);
     device_ = hd::invalid_device;
-    throw std::runtime_error(
-        "3D Systems Touch: it cannot be opened: " + std::string(text != nullptr ? text : "unknown") +
-        "; check its plug and power, and set it up with the maker's Touch_Setup");
+    throw Refusal(say("touch-cannot-be-opened", text != nullptr ? text : "unknown"));
   }
   hd_->make_current_device(device_);
   read_model();
   hd_->enable(hd::force_output);
   hd_->enable(hd::max_force_clamping);
   hd_->enable(hd::force_ramping);
-  throw_error("its forces cannot be switched on");
+  throw_error(say("touch-has-no-forces"));
   force_.store(Vec3(0));
   unrenewed_ = callbacks_without_force;
   calibrating_ = 0;
@@ -115,7 +113,7 @@ void TouchDriver::connect() {
   scheduled_ = hd_->schedule_asynchronous(&TouchDriver::on_schedule, this, top_priority);
   hd_->start_scheduler();
   running_ = true;
-  throw_error("its servo loop does not start");
+  throw_error(say("touch-does-not-start"));
 }
 
 void TouchDriver::disconnect() noexcept {

@@ -44,7 +44,7 @@ class TouchDriver final : public Driver {
   Sample exchange() noexcept;
   void read_model();
   void follow(const Sample& sample) noexcept;
-  void throw_error(const char* what);
+  void throw_error(const Text& what);
 
   TouchSettings settings_;
   std::unique_ptr<HdLibrary> hd_;

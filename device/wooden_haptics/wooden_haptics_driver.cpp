@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "device/messages.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -53,9 +54,8 @@ void WoodenHapticsProtocol::connect(Link& link) {
   const double start = link.now();
   while (report_size_ == 0) {
     if (link.lost() || link.now() - start > 1.0) {
-      throw std::runtime_error(
-          "WoodenHaptics at " + settings_.address +
-          (link.lost() ? ": it was unplugged" : ": it sends no reports that it should; is this the device?"));
+      throw Refusal(link.lost() ? say("woodenhaptics-at-it-was-unplugged", settings_.address)
+                                : say("woodenhaptics-at-it-sends-no-reports", settings_.address));
     }
     const std::size_t size = link.receive(packet, 1e-3);
     if (size > 0) receive(std::span(packet).first(size), link.now());
@@ -64,9 +64,7 @@ void WoodenHapticsProtocol::connect(Link& link) {
   }
   keeps_home_ = false;
   if ((report_size_ == report_2016) != settings_.short_reports) {
-    throw std::runtime_error("WoodenHaptics at " + settings_.address + ": it sends reports of " +
-                             std::to_string(report_size_) + " bytes, which the preset " + settings_.preset +
-                             " does not have; 2016 is the one with reports of 8 bytes");
+    throw Refusal(say("woodenhaptics-at-it-sends-reports-of-bytes", settings_.address, report_size_, settings_.preset));
   }
 }
 

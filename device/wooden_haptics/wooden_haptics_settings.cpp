@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "device/messages.h"
 #include "device/settings_file.h"
 #include "device/wooden_haptics/wooden_haptics.h"
 
@@ -7,8 +8,8 @@ namespace palpate::device {
 
 namespace {
 
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::runtime_error("WoodenHaptics: " + what);
+void require(bool holds, const Text& what) {
+  if (!holds) throw Refusal(at_place("WoodenHaptics", what));
 }
 
 constexpr const char* preset_names = "2015, 2016, 2019 or woody";
@@ -61,7 +62,7 @@ WoodenHapticsSettings wooden_haptics_preset(const std::string& name) {
     s.home_counts = {0, 0, -6000};
     return s;
   }
-  require(false, std::string("name the arm as \"preset\" in its settings file: ") + preset_names);
+  require(false, say("name-the-arm-as-preset", preset_names));
   return s;
 }
 
@@ -69,21 +70,21 @@ void check(const WoodenHapticsSettings& settings) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string axis = std::string(" of axis ") + "abc"[i];
     require(settings.capstan_diameter[i] > 0 && settings.body_diameter[i] > settings.capstan_diameter[i],
-            "the diameters" + axis + " must be above zero, the body's above the capstan's");
-    require(settings.torque_constant[i] > 0, "the torque constant" + axis + " must be above zero");
-    require(settings.counts_per_turn[i] > 0, "the counts per turn" + axis + " must be above zero");
-    require(settings.encoder_sign[i] == 1 || settings.encoder_sign[i] == -1, "the encoder sign" + axis + " is 1 or -1");
+            say("diameters-must-be-above-zero", axis));
+    require(settings.torque_constant[i] > 0, say("torque-constant-must-be-above-zero", axis));
+    require(settings.counts_per_turn[i] > 0, say("counts-per-turn-must-be-above", axis));
+    require(settings.encoder_sign[i] == 1 || settings.encoder_sign[i] == -1, say("encoder-sign-is-1-or-1", axis));
     require(settings.home_counts[i] >= -32768 && settings.home_counts[i] <= 32767,
-            "the home counts" + axis + " must fit 16 bits");
+            say("home-counts-must-fit-16-bits", axis));
   }
-  require(!settings.preset.empty(), std::string("name the arm as \"preset\" in its settings file: ") + preset_names);
+  require(!settings.preset.empty(), say("name-the-arm-as-preset", preset_names));
   require(settings.continuous_current > 0 && settings.continuous_current <= settings.current_limit,
-          "the continuous current lies between 0 and the current limit");
-  require(settings.lower_length > 0 && settings.upper_length > 0, "the lengths of the bodies must be above zero");
-  require(settings.workspace_radius > 0 && settings.workspace_radius <= 1, "the workspace's radius lies within 1 m");
-  require(settings.current_limit > 0 && settings.current_limit <= 3, "the current limit lies between 0 and 3 A");
-  require(settings.maximum_force > 0 && settings.maximum_force <= 20, "the largest force lies between 0 and 20 N");
-  require(settings.stiffness_limit > 0, "the stiffness limit must be above zero");
+          say("continuous-current-lies-between-0"));
+  require(settings.lower_length > 0 && settings.upper_length > 0, say("lengths-of-the-bodies-must"));
+  require(settings.workspace_radius > 0 && settings.workspace_radius <= 1, say("workspace-radius-lies-within-1-m"));
+  require(settings.current_limit > 0 && settings.current_limit <= 3, say("current-limit-lies-between-0"));
+  require(settings.maximum_force > 0 && settings.maximum_force <= 20, say("wooden-haptics-largest-force"));
+  require(settings.stiffness_limit > 0, say("stiffness-limit-must-be-above-zero"));
 }
 
 WoodenHapticsSettings read_wooden_haptics(const std::string& json_file) {

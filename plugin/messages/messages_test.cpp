@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "device/messages.h"
 #include "plugin/messages/message_table.h"
 #include "plugin/messages/provoked.h"
 
@@ -20,7 +21,14 @@ using testing::fixed_pieces;
 const std::filesystem::path sources = PALPATE_SOURCES;
 
 const std::vector<std::string>& table() {
-  static const std::vector<std::string> messages = testing::messages_of_table(sources / "plugin/docs/messages.md");
+  // The folders whose refusals are made of their tables show their messages themselves.
+  static const std::vector<std::string> messages = [] {
+    std::vector<std::string> all = testing::messages_of_table(sources / "plugin/docs/messages.md");
+    for (const MessageRow& row : device::messages::styluses) {
+      for (const Message& message : row.messages) std::erase(all, message.text);
+    }
+    return all;
+  }();
   return messages;
 }
 

@@ -18,12 +18,7 @@ std::vector<Provoked> provoke_files();
 std::vector<Provoked> provoke_headers();
 std::vector<Provoked> provoke_pixels();
 std::vector<Provoked> provoke_programs();
-std::vector<Provoked> provoke_styluses();
-std::vector<Provoked> provoke_devices();
 std::vector<Provoked> provoke_recordings();
-/// Needs umockdev, which does not go together with sanitizers.
-std::vector<Provoked> provoke_usb();
-bool can_provoke_usb();
 /// Whether this build or machine keeps a message from being provoked that others provoke.
 bool cannot_be_had_here(const std::string& message);
 

@@ -2,20 +2,13 @@
 #include <dcmtk/dcmdata/dcdeftag.h>
 #include <unistd.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 
-#include "device/falcon/falcon.h"
-#include "device/safety/safety_filter.h"
-#include "device/simulated/replay_stylus.h"
 #include "device/simulated/simulated_stylus.h"
-#include "device/space_mouse/space_mouse.h"
-#include "device/wooden_haptics/wooden_haptics.h"
 #include "plugin/app/live_session.h"
 #include "plugin/messages/provoked.h"
 #include "plugin/messages/provoked_scans.h"
@@ -73,20 +66,6 @@ std::string without_real_time() {
   return output_of("ulimit -r 0; ulimit -l 0; " + as_any_user + PALPATE_PROGRAM " record " + phantom().string() +
                    " --scene ct-skin-and-bone --seconds 0.1 --from 0,-29,0 --to 0,0,0 -o " +
                    fresh_path("late.h5").string());
-}
-
-std::string said_of_arm(const std::string& json) {
-  // Of an arm that is named, unless the text is no object.
-  const std::string named = json.starts_with("{") ? R"({"preset": "2015", )" + json.substr(1) : json;
-  return said_when([&] { device::read_wooden_haptics(file_with("arm.json", named)); });
-}
-
-std::string said_of_model(const std::function<void(device::SimulatedDevice&)>& change) {
-  return said_when([&] {
-    device::SimulatedDevice model;
-    change(model);
-    const device::SimulatedStylus stylus(model);
-  });
 }
 
 }  // namespace
@@ -164,9 +143,6 @@ std::vector<Provoked> provoke_programs() {
        said("profile " + small_ball() + " --from 0,-14,0 --to 3,0,2 --scene " +
             file_with("unsolved.json", unsolvable))},
       {"palpate: real time: {}", without_real_time()},
-      {"not allowed here: {}; ticks may be late. To allow it, put '@plugdev - rtprio 80' and '@plugdev - memlock "
-       "unlimited' into /etc/security/limits.d/palpate.conf and log in again.",
-       without_real_time()},
       {"replay needs the SERIES that was felt, or --csv to export the recording alone",
        said("replay " + recording.string())},
       {"the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",
@@ -186,66 +162,7 @@ std::vector<Provoked> provoke_programs() {
          session.connect(std::make_shared<device::SimulatedStylus>());
        })},
       {"no stylus is held: connect one, then record", said_when([] { LiveSession().record("a.h5"); })},
-      {"{}: not found; check its plug and its power supply",
-       said("probe " + scan + " --device falcon -o " + fresh_path("f").string())},
-      {"WoodenHaptics: name its address, as `palpate devices` lists it; other devices share its USB ids",
-       said("probe " + scan + " --device wooden_haptics -o " + fresh_path("w").string())},
-      {"{}: not found; check its plug, or list what is there: palpate devices",
-       said("probe " + scan + " --device space_mouse -o " + fresh_path("s").string())},
   };
-}
-
-std::vector<Provoked> provoke_styluses() {
-  std::vector<Provoked> said{
-      {"{}: {} cannot be read; name the file of its settings",
-       said_when([] { device::read_wooden_haptics("/absent.json"); })},
-      {"it is not a JSON object", said_of_arm("[]")},
-      {"'{}' is not a setting", said_of_arm(R"({"color": 3})")},
-      {"'{}' is not what it should be: {}", said_of_arm(R"({"current_limit": "much"})")},
-      {"name the arm as \"preset\" in its settings file: {}", said_when([] { device::wooden_haptics_preset("mine"); })},
-      {"the continuous current lies between 0 and the current limit", said_of_arm(R"({"continuous_current": 3})")},
-      {"the current limit lies between 0 and 3 A", said_of_arm(R"({"current_limit": 30})")},
-      {"the torque constant{} must be above zero", said_of_arm(R"({"torque_constant": [0, 1, 1]})")},
-      {"the counts per turn{} must be above zero", said_of_arm(R"({"counts_per_turn": [0, 1, 1]})")},
-      {"the encoder sign{} is 1 or -1", said_of_arm(R"({"encoder_sign": [0, 1, 1]})")},
-      {"the home counts{} must fit 16 bits", said_of_arm(R"({"home_counts": [99999, 1, 1]})")},
-      {"the diameters{} must be above zero, the body's above the capstan's",
-       said_of_arm(R"({"capstan_diameter": [0, 0.01, 0.01]})")},
-      {"the lengths of the bodies must be above zero", said_of_arm(R"({"lower_length": 0})")},
-      {"the workspace's radius lies within 1 m", said_of_arm(R"({"workspace_radius": 3})")},
-      {"the largest force lies between 0 and 20 N", said_of_arm(R"({"maximum_force": 90})")},
-      {"the stiffness limit must be above zero", said_of_arm(R"({"stiffness_limit": 0})")},
-      {"SpaceMouse: speed and full deflection must be above zero, the dead zone from 0 to below 1",
-       said_when([] { device::make_space_mouse({.speed = 0}); })},
-      {"{}: no poses; record a session first",
-       said_when([] { device::ReplayStylus(std::span<const device::Reading>()).open(); })},
-      {"friction must not be negative", said_of_model([](auto& model) { model.arm.viscous_friction = -1; })},
-      {"masses must be above zero", said_of_model([](auto& model) { model.arm.mass = 0; })},
-      {"the hand's spring and damper must not be negative",
-       said_of_model([](auto& model) { model.hand.damping = -1; })},
-      {"simulated stylus: {}", said_of_model([](auto& model) { model.rate = 3; })},
-      {"the rate must lie between 100 and 20000 Hz", said_of_model([](auto& model) { model.rate = 3; })},
-      {"the delay must lie between 0 and 60 ticks", said_of_model([](auto& model) { model.delay = 1; })},
-      {"maximum force and target speed must be above zero",
-       said_of_model([](auto& model) { model.maximum_force = 0; })},
-      {"position steps must not be negative", said_of_model([](auto& model) { model.position_step = -1; })},
-      {"simulated stylus: unplugged; plug it in again", said_when([] {
-         device::SimulatedStylus stylus;
-         stylus.inject(device::SimulatedFault::unplugged);
-         stylus.open();
-       })},
-      {"the hand's path has no waypoint; give it at least one",
-       said_when([] { device::SimulatedStylus().follow({}); })},
-      {"{} is not later than the one before it", said_when([] {
-         const std::array<device::Waypoint, 2> path{};
-         device::SimulatedStylus().follow(path);
-       })},
-  };
-  for (int fault = 1; fault <= static_cast<int>(device::Fault::commander_silent); ++fault) {
-    const std::string advice = device::advice_for(static_cast<device::Fault>(fault));
-    said.push_back({advice, advice});
-  }
-  return said;
 }
 
 }  // namespace palpate::plugin::testing

@@ -13,6 +13,7 @@
 #include "plugin/messages/provoked.h"
 #include "plugin/messages/provoked_scans.h"
 #include "solver/balance.h"
+#include "testdata/sanitized.h"
 
 namespace palpate::plugin::testing {
 namespace {
@@ -169,15 +170,15 @@ std::vector<Provoked> provoke_balances() {
 std::vector<Provoked> provoke_everything() {
   std::vector<Provoked> all;
   for (const auto& provoke : {provoke_scenes, provoke_balances, provoke_files, provoke_headers, provoke_pixels,
-                              provoke_programs, provoke_styluses, provoke_devices, provoke_recordings}) {
+                              provoke_programs, provoke_recordings}) {
     const std::vector<Provoked> some = provoke();
     all.insert(all.end(), some.begin(), some.end());
   }
-  if (can_provoke_usb()) {
-    const std::vector<Provoked> usb = provoke_usb();
-    all.insert(all.end(), usb.begin(), usb.end());
-  }
   return all;
+}
+
+bool cannot_be_had_here(const std::string& message) {
+  return testdata::is_sanitized && message.find("needs more memory than there is") != std::string::npos;
 }
 
 }  // namespace palpate::plugin::testing

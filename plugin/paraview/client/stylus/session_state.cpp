@@ -23,7 +23,8 @@ StateLine state_line_of(const SessionStatus& look) {
     return {SessionState::stopped, translated("Stopped: %1").arg(look.kept_off), latched};
   }
   if (latched) {
-    return {SessionState::stopped, translated("Stopped: %1").arg(QString::fromUtf8(device::advice_for(fault))), true};
+    return {SessionState::stopped, translated("Stopped: %1").arg(QString::fromStdString(device::advice_for(fault))),
+            true};
   }
   if (look.clutched) return {SessionState::ready, translated("Ready: clutched, move your hand or the view freely")};
   if (!look.fresh) return {SessionState::ready, translated("Ready: the stylus is starting")};

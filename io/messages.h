@@ -1,0 +1,21 @@
+#pragma once
+
+/// What io says to a user.
+
+#include "io/archive/messages_of_archives.h"
+#include "io/dicom/messages_of_series.h"
+#include "io/structures/messages_of_structures.h"
+#include "messages/message.h"
+
+namespace palpate::io {
+
+/// The message of this id, with these values in its places.
+template <typename... Values>
+Text say(
+    std::type_identity_t<ChosenMessage<sizeof...(Values), messages::archives, messages::series, messages::structures>>
+        message,
+    const Values&... values) {
+  return message.filled(values...);
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,42 @@
+#pragma once
+
+/// What is said of the archives that are entered and of what was fetched.
+
+#include "messages/message.h"
+
+namespace palpate::plugin::messages {
+
+inline constexpr MessageRow archives[] = {
+    {"the archive could not send all; what came is kept",
+     "fetch it again",
+     {{"not-all-images-came", "not all images came: see the warnings"}}},
+    {"as it says",
+     "as it says",
+     {{"no-archive-is-entered-yet",
+       "no archive is entered yet: enter one with `palpate archive add NAME --host --port --called --calling`"},
+      {"choose-one-of-the-archives-with-archive", "choose one of the archives with --archive: {}"},
+      {"no-archive-is-entered", "no archive {} is entered; there are: {}"}}},
+    {"the user's own files",
+     "as it says",
+     {{"settings-cannot-be-read", "the settings {} cannot be read ({}): mend or delete the file"},
+      {"settings-cannot-be-written", "the settings {} cannot be written ({}): make room, or make the folder yours"},
+      {"neither-nor-home-names-a-folder", "neither {} nor HOME names a folder for the settings: set one of them"},
+      {"cannot-be-deleted", "{} cannot be deleted ({}): delete it by hand"}}},
+    {"to know",
+     "nothing",
+     {{"more-studies-than-these",
+       "palpate: the archive holds more than these {} studies: ask more narrowly, or for more with --most"},
+      {"fetched-stays", "palpate: what was fetched stays in {} until `palpate archive empty`"}}},
+    {"the list above it says which and why",
+     "have that kind of object allowed in the archive",
+     {{"files-not-sent", "{} of {} files were not sent"}}},
+    {"nothing was marked in that session",
+     "press it where something is felt",
+     {{"holds-no-marks",
+       "{} holds no marks: the stylus' second button makes them, or the column `buttons` of a --path"}}},
+    {"a path's column of buttons",
+     "as it says",
+     {{"line-buttons-is-no-bit-mask", "{}, line {}: buttons {} is no bit mask: 0 is none, 1 the first, 2 the second"}}},
+};
+
+}  // namespace palpate::plugin::messages

@@ -1,0 +1,25 @@
+#pragma once
+
+/// What is said where structures are asked for.
+
+#include "messages/message.h"
+
+namespace palpate::plugin::messages {
+
+inline constexpr MessageRow structures[] = {
+    {"the scene's `file` or `segment` is not what it is called",
+     "`palpate structures` lists them",
+     {{"structure", "structure \"{}\": {}"},
+      {"file-holds-no-structures", "{} holds no structures{}"},
+      {"file-has-no-such-structure", "{} has no \"{}\"; there are: {}"}}},
+    {"it belongs to another scan: it would be felt in the wrong place",
+     "as it says",
+     {{"another-frame-of-reference",
+       "{} lies in another frame of reference than the scan: choose one that was outlined on this study"}}},
+    {"as it says",
+     "name the folder or the file with the structures",
+     {{"no-structures-in-what-was-given",
+       "no structures in what was given: no DICOM SEG, RTSTRUCT or label map that can be read"}}},
+};
+
+}  // namespace palpate::plugin::messages

@@ -1,0 +1,34 @@
+#pragma once
+
+/// What is said of balances.
+
+#include "messages/message.h"
+
+namespace palpate::solver::messages {
+
+inline constexpr MessageRow balances[] = {
+    {"a number that no balance can have",
+     "mend that number",
+     {{"is-negative", "{} is negative ({})"},
+      {"not-positive", "{} is not positive ({})"},
+      {"no-length", "{} has no length ({})"},
+      {"not-finite", "{} is not finite{}"},
+      {"out-of-range", "{} is out of range ({}): at most {}"}}},
+    {"the balance has no answer that can be vouched for",
+     "smaller numbers; fewer infinite strengths",
+     {{"no-point-meets-it",
+       "has infinite strength, but no point meets it together with the other hard constraints: it stays {} m away "
+       "(taken as met: {} of the largest distance between probe and constraints)"}}},
+};
+
+}  // namespace palpate::solver::messages
+
+namespace palpate::solver {
+
+/// The message of this id, with these values in its places.
+template <typename... Values>
+Text say(std::type_identity_t<ChosenMessage<sizeof...(Values), messages::balances>> message, const Values&... values) {
+  return message.filled(values...);
+}
+
+}  // namespace palpate::solver
