@@ -2,6 +2,7 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
 #include <pqPipelineSource.h>
 #include <pqQVTKWidget.h>
 #include <pqRenderView.h>
@@ -20,6 +21,7 @@
 #include <QCoreApplication>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QMainWindow>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTimer>
@@ -29,6 +31,9 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
+#include "plugin/paraview/client/layout/clinical_toolbar.h"
+#include "plugin/paraview/client/layout/enlarged_view.h"
+#include "plugin/paraview/client/layout/host_layout.h"
 #include "plugin/paraview/client/panel/column_scroll.h"
 #include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/fold.h"
@@ -78,6 +83,8 @@ struct PalpatePanel::Parts {
   explicit Parts(PalpatePanel& panel) : dock(panel), touching(model), views(touching, model) {}
 
   void build();
+  void build_layout();
+  void enlarge(bool enlarged);
   void leave(const QString& why);
   void leave_server();
   void note_scan(const ScanHandle& handle);
@@ -110,6 +117,8 @@ struct PalpatePanel::Parts {
   ProfileSection* profile = nullptr;
   RecordingsSection* recordings = nullptr;
   QProgressBar* studying = nullptr;
+  ClinicalToolbar* toolbar = nullptr;
+  HostLayout* layout = nullptr;
   bool restoring = false;  // the scan to come is a state file's
   bool leaving = false;    // a server
   bool edited = false;     // since the scan was shown
@@ -130,6 +139,7 @@ void PalpatePanel::Parts::build() {
   scan->layout()->addWidget(filter);
   scan_fold = new Fold(tr("Scan"), QStringLiteral("palpateScanSection"), scan, true, content);
   column->addWidget(scan_fold);
+  column->addWidget(&scan->notes());
   auto* const tissues_box = new QWidget;
   auto* const tissues_column = new QVBoxLayout(tissues_box);
   tissues_column->setContentsMargins(0, 0, 0, 0);
@@ -167,6 +177,7 @@ void PalpatePanel::Parts::build() {
   halves->addWidget(new ColumnScroll(QStringLiteral("palpateScroll"), content, whole), 1);
   halves->addWidget(footer = new Footer(touching, model, whole));
   dock.setWidget(whole);
+  build_layout();
 
   QObject::connect(scan, &ScanSection::closing, &dock, [this] {
     touching.release();  // before another scan takes its place
@@ -218,6 +229,27 @@ void PalpatePanel::Parts::build() {
   });
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
   open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
+}
+
+/// ParaView's window as a clinician's: one toolbar, the views, the panel.
+void PalpatePanel::Parts::build_layout() {
+  auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  toolbar = new ClinicalToolbar(scan->window_box(), window);
+  window->addToolBar(Qt::TopToolBarArea, toolbar);
+  layout = new HostLayout(*window, *toolbar, dock, &dock);
+  QObject::connect(toolbar, &ClinicalToolbar::open_wanted, &dock, [this] { scan->ask_folder(); });
+  QObject::connect(toolbar, &ClinicalToolbar::enlarged_wanted, &dock, [this](bool enlarged) { enlarge(enlarged); });
+  QObject::connect(toolbar, &ClinicalToolbar::connect_wanted, stylus, &StylusSection::connect_or_not);
+  QObject::connect(toolbar, &ClinicalToolbar::release_wanted, &dock, [this] { touching.release(); });
+  QObject::connect(toolbar, &ClinicalToolbar::advanced_wanted, layout, &HostLayout::set_advanced);
+  QObject::connect(layout, &HostLayout::advanced_changed, toolbar, &ClinicalToolbar::show_advanced);
+  QObject::connect(stylus, &StylusSection::connection_shown, toolbar, &ClinicalToolbar::show_connection);
+  scan->views().set_enlarged_changed([this](bool enlarged) { toolbar->show_enlarged(enlarged); });
+}
+
+void PalpatePanel::Parts::enlarge(bool enlarged) {
+  auto* const marked = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  if (marked) set_enlarged(*marked, enlarged);
 }
 
 /// In good order: another server, none, or a new session.
@@ -294,7 +326,8 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   proposing = false;
   edited = restored;
   note_scan(handle);
-  scan_fold->set_open(scan->has_notes() || handle.frames > 1);
+  scan_fold->set_open(false);
+  layout->refresh_tabs();
   study(handle.volume);
 }
 

@@ -123,9 +123,13 @@ def where_the_views_are():
 
 
 def has_corners_of(boxes):
-    """Whether the views stand where they did with another scan: black at their margins."""
-    return lambda picture: all(picture.at(x0 + 8, y1 - 8) == picture.at(x1 - 8, y1 - 8) == (0, 0, 0)
-                               for x0, _, x1, y1 in boxes)
+    """Whether the views stand where they did with another scan, black at their margins, and the last has a volume."""
+    def holds(picture):
+        x0, y0, x1, y1 = boxes[-1]
+        colored = sum(max(picture.at(x, y)) > 30 for x in range(x0 + 20, x1 - 20, 4) for y in range(y0 + 20, y1 - 100, 4))
+        return colored > 200 and all(picture.at(x0 + 8, y1 - 8) == picture.at(x1 - 8, y1 - 8) == (0, 0, 0)
+                                     for x0, _, x1, y1 in boxes)
+    return holds
 
 
 def the_back_is_where_its_letter_is(boxes):

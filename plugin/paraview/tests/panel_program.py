@@ -47,12 +47,16 @@ def plugin_list(*files):
     return merged
 
 
-def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), longest_s=LONGEST_S, said=None, **more):
-    """The program once, with a folder opened; whether the scenario passed. Its own lines are added to `said`."""
+def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), longest_s=LONGEST_S, said=None, first=True,
+        **more):
+    """The program once, with a folder opened; whether the scenario passed. Its own lines are added to `said`. Where it is
+    not its `first` start it has the settings of the one before.
+    """
     home = scratch("panel-home")
-    shutil.rmtree(home, ignore_errors=True)
-    os.makedirs(os.path.join(home, ".config", "ParaView"))
-    for version in ("5.11.0", "5.13.2"):  # Debian 12's and 13's
+    if first:
+        shutil.rmtree(home, ignore_errors=True)
+        os.makedirs(os.path.join(home, ".config", "ParaView"))
+    for version in ("5.11.0", "5.13.2") if first else ():  # Debian 12's and 13's
         with open(os.path.join(home, ".config", "ParaView", f"ParaView{version}.ini"), "w") as settings:
             settings.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
     environment = dict(os.environ, PV_PLUGIN_CONFIG_FILE=plugin_list(*plugins), HOME=home,

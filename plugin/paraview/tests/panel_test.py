@@ -60,6 +60,7 @@ FOLDERS = {
     "a_filter_is_felt_and_shown": lambda: phantom("noisy", "sphere", "--radius", "25", "--noise", "80"),
     "frames_are_felt_as_shown": flow,
     "a_flow_is_shown_and_felt": flow,
+    "one_tab_is_used_again": both,
     "undo_belongs_to_a_scan": both,
     "no_scan_shown_no_force": both,
     "the_scan_changes_in_mid_contact": both,
@@ -67,6 +68,8 @@ FOLDERS = {
     "a_bad_folder": bad,
 }
 SCENARIOS = [
+    "the_layout_is_clinical",
+    "one_tab_is_used_again",
     "four_clicks",
     "letting_go",
     "escape_releases",
@@ -112,8 +115,14 @@ def on_its_folder(scenario):
     return run(scenario, folder)
 
 
+def layout():
+    folder = phantom("wedge", "wedge")
+    return run("the_layout_is_clinical", folder) and run("advanced_is_remembered", folder, first=False)
+
+
 # Only by name: a measurement.
 BY_NAME = ["main_thread"]
 TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
+TESTS["the_layout_is_clinical"] = layout
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

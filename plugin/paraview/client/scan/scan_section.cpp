@@ -99,18 +99,13 @@ void ScanSection::build() {
   connect(copy_, &QPushButton::clicked, this, [this] { ask_copy(); });
   column->addWidget(copy_);
 
-  auto* const window = new QHBoxLayout;
-  window->addWidget(new QLabel(tr("Window"), this));
   window_ = new QComboBox(this);
   window_->setObjectName(QStringLiteral("palpateWindow"));
   window_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  window_->setMinimumContentsLength(10);
+  window_->setMinimumContentsLength(18);
   window_->setToolTip(tr("Also: drag in a slice, to the right for a wider window, up for a brighter one."));
   connect(window_, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) { apply_window(choice); });
-  window->addWidget(window_, 1);
-  column->addLayout(window);
-
-  column->addWidget(frames_ = build_frames());
+  views_.set_window_changed([this] { show_window(); });
 
   auto* const ras = new QCheckBox(tr("Places under the pointer in RAS"), this);
   ras->setObjectName(QStringLiteral("palpateRas"));
@@ -120,11 +115,15 @@ void ScanSection::build() {
           [this](bool on) { views_.set_coordinates(on ? Coordinates::ras : Coordinates::letters); });
   column->addWidget(ras);
 
-  message_ = new QLabel(this);
+  notes_ = new QWidget(this);
+  auto* const notes = new QVBoxLayout(notes_);
+  notes->setContentsMargins(0, 0, 0, 0);
+  notes->addWidget(frames_ = build_frames());
+  message_ = new QLabel(notes_);
   message_->setObjectName(QStringLiteral("palpateMessage"));
   message_->setWordWrap(true);
   message_->setTextFormat(Qt::PlainText);
-  column->addWidget(message_);
+  notes->addWidget(message_);
 }
 
 void ScanSection::set_busy(bool busy, const QString& what) {
@@ -139,10 +138,6 @@ void ScanSection::tell(const QString& message, bool problem) {
   message_->setText(message);
   message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
   message_->setVisible(!message.isEmpty());
-}
-
-bool ScanSection::has_notes() const {
-  return !message_->text().isEmpty();
 }
 
 void ScanSection::ask_folder() {
@@ -328,6 +323,24 @@ void ScanSection::list_windows() {
                          .arg(named.window.level, 0, 'g', 4)
                          .arg(named.window.width, 0, 'g', 4));
   }
+  show_window();
+}
+
+/// The one that the slices have; where it has no name, as one more.
+void ScanSection::show_window() {
+  const auto& named = views_.windows();
+  const int custom = static_cast<int>(named.size());
+  const Window& now = views_.window();
+  const auto same = std::ranges::find_if(
+      named, [&](const NamedWindow& of) { return of.window.level == now.level && of.window.width == now.width; });
+  if (same != named.end() || named.empty()) {
+    window_->removeItem(custom);
+    window_->setCurrentIndex(named.empty() ? -1 : static_cast<int>(same - named.begin()));
+    return;
+  }
+  if (window_->count() == custom) window_->addItem(QString());
+  window_->setItemText(custom, tr("Custom (%1 / %2)").arg(now.level, 0, 'f', 0).arg(now.width, 0, 'f', 0));
+  window_->setCurrentIndex(custom);
 }
 
 void ScanSection::say_what_to_know(const Loaded& loaded) {

@@ -42,8 +42,12 @@ class ScanSection : public QWidget {
   void server_gone();
   /// Takes over a reader that stands in the pipeline and its views as they are: a state file has restored them.
   void adopt(pqPipelineSource& reader);
-  /// Whether there is something to be read about the scan that is shown.
-  bool has_notes() const;
+  /// Asks for a folder and opens it.
+  void ask_folder();
+  /// The box of gray windows, to be placed where it is always in sight.
+  QComboBox& window_box() { return *window_; }
+  /// What is to be known of the scan, and its frames: in sight also where the section is folded.
+  QWidget& notes() { return *notes_; }
   ClinicalViews& views() { return views_; }
   pqPipelineSource* source() const { return source_; }
   /// What is shown and can be felt; without a volume where there is nothing.
@@ -73,7 +77,6 @@ class ScanSection : public QWidget {
 
  private:
   void build();
-  void ask_folder();
   void list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error);
   void load(std::size_t series);
   struct Loaded {
@@ -101,6 +104,7 @@ class ScanSection : public QWidget {
   void list_windows();
   void say_what_to_know(const Loaded& loaded);
   void apply_window(int choice);
+  void show_window();
   void set_busy(bool busy, const QString& what = {});
   void tell(const QString& message, bool problem = false);
 
@@ -114,6 +118,7 @@ class ScanSection : public QWidget {
   QSlider* frame_ = nullptr;
   QLabel* frame_text_ = nullptr;
   QLabel* message_ = nullptr;
+  QWidget* notes_ = nullptr;
 
   std::string path_;
   std::shared_ptr<const io::Catalogue> catalogue_;

@@ -243,6 +243,7 @@ void StylusSection::show_connection() {
     own_->setText({});
   }
   show_scene();
+  emit connection_shown(held, connect_->isEnabled());
 }
 
 void StylusSection::show_scene() {

@@ -30,17 +30,20 @@ class StylusSection : public QWidget {
   bool slices_follow() const;
   /// The user leafs through slices: they stay until *Go to stylus*.
   void pause_following();
+  /// Takes the stylus that is chosen, or lets it go.
+  void connect_or_not();
 
  signals:
   /// The slices through the stylus are to be shown.
   void stylus_wanted();
+  /// Whether a stylus is held, and whether connect_or_not() can change that.
+  void connection_shown(bool held, bool can_change);
 
  private:
   void build_connection(QWidget& parent);
   void build_limits();
   void build_workspace();
   void find_devices();
-  void connect_or_not();
   void show_choice();
   void show_connection();
   void show_scene();

@@ -123,7 +123,8 @@ void ClinicalViews::close() {
   windows_.clear();
   window_->value_at = {};
   auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
-  for (const auto& open : views_) {
+  for (auto& open : views_) {
+    open.mark.reset();
     if (open.view) builder->destroy(open.view);
   }
   views_.clear();
@@ -139,10 +140,16 @@ void ClinicalViews::refresh() {
   }
 }
 
+std::unique_ptr<DoubleClickEnlarges> ClinicalViews::enlarging(pqRenderView& view) {
+  return std::make_unique<DoubleClickEnlarges>(view, [this](bool enlarged) {
+    if (enlarged_changed_) enlarged_changed_(enlarged);
+  });
+}
+
 std::vector<ClinicalView> ClinicalViews::views() const {
   std::vector<ClinicalView> open;
-  for (const auto& [kind, view, slice] : views_) {
-    if (view) open.push_back({kind, view, slice});
+  for (const OpenView& one : views_) {
+    if (one.view) open.push_back({one.kind, one.view, one.slice});
   }
   return open;
 }
@@ -163,6 +170,24 @@ void ClinicalViews::set_window(const Window& window) {
   window_->window = window;
   if (window_->gray_map) plugin::set_window(*window_->gray_map, window);
   refresh();
+  if (window_changed_) window_changed_();
+}
+
+/// Empty: the tab of the scan before, a fresh session's with its one empty view, or a new one where views of the user's
+/// own stand in it.
+vtkSMViewLayoutProxy& ClinicalViews::take_layout(pqServer& server) {
+  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  vtkSMViewLayoutProxy* layout = layout_ ? layout_.Get() : pqActiveObjects::instance().activeLayout();
+  if (layout && layout->GetViews().size() == 1 && !layout_) {
+    auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+    if (old && old->getNumberOfVisibleRepresentations() == 0) builder->destroy(old);
+  }
+  if (!layout || layout->GetSession() != server.session() || !layout->GetViews().empty()) {
+    layout = &make_layout(server);
+  }
+  layout->Reset();
+  layout_ = layout;
+  return *layout;
 }
 
 void ClinicalViews::show(pqPipelineSource& source) {
@@ -185,16 +210,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
   auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
   const ImageLattice lattice = lattice_of(image);
 
-  // A fresh session has one empty view; it is replaced, so that there is one tab with the scan in it and nothing else.
-  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
-  vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
-  if (auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
-      old && layout && layout->GetViews().size() == 1 && old->getNumberOfVisibleRepresentations() == 0) {
-    builder->destroy(old);
-    layout->Reset();
-  } else {
-    layout = &make_layout(server);
-  }
+  vtkSMViewLayoutProxy* const layout = &take_layout(server);
   layout->SplitHorizontal(0, 0.5);
   layout->SplitVertical(1, 0.5);
   layout->SplitVertical(2, 0.5);
@@ -233,6 +249,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
   // Not before all are there: the next would have this one's first name again.
   for (const auto& open : views_) open.view->rename(name_of(open.kind));
   refresh();
+  if (enlarged_changed_) enlarged_changed_(false);
 }
 
 void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice) {
@@ -242,7 +259,10 @@ void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice
     return probe->at(place);
   };
   window_->gray_map = gray_map(*pqActiveObjects::instance().activeServer());
-  window_->changed = [this] { refresh(); };
+  window_->changed = [this] {
+    refresh();
+    if (window_changed_) window_changed_();
+  };
 }
 
 void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view,
@@ -264,7 +284,7 @@ void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind
                                       .half_width_mm = half_extent(lattice, right),
                                       .keeps_camera = restored},
                                      window_));
-  views_.push_back({kind, &view, slices_.back()});
+  views_.push_back({kind, &view, slices_.back(), enlarging(view), std::make_unique<ViewMark>(view)});
 }
 
 void ClinicalViews::add_volume(pqRenderView& volume_view) {
@@ -272,7 +292,8 @@ void ClinicalViews::add_volume(pqRenderView& volume_view) {
       *vtkPVRenderView::SafeDownCast(volume_view.getRenderViewProxy()->GetClientSideView()));
   // The view may also be closed by hand, and its renderer with it.
   QObject::connect(&volume_view, &QObject::destroyed, &lifetime_, [this] { marker_.reset(); });
-  views_.push_back({ViewKind::volume, &volume_view, nullptr});
+  views_.push_back(
+      {ViewKind::volume, &volume_view, nullptr, enlarging(volume_view), std::make_unique<ViewMark>(volume_view)});
   pqActiveObjects::instance().setActiveView(&volume_view);
 }
 
@@ -300,6 +321,7 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
     add_slice(lattice, place->plane, place->kind, *view, *shown->getProxy(),
               vtkSMPropertyHelper(shown->getProxy(), "Slice").GetAsInt(), true);
   }
+  if (!views_.empty()) layout_ = layout_of(*views_.front().view);
   refresh();
 }
 

@@ -2,18 +2,24 @@
 
 /// The clinician's layout: axial, coronal and sagittal slices and the volume, of one scan.
 
+#include <vtkWeakPointer.h>
+
 #include <QPointer>
 
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "plugin/paraview/client/layout/enlarged_view.h"
+#include "plugin/paraview/client/layout/view_mark.h"
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/views/orientation_marker.h"
 #include "plugin/paraview/client/views/slice_view.h"
 
 class pqPipelineSource;
+class pqServer;
 class vtkSMSourceProxy;
+class vtkSMViewLayoutProxy;
 
 namespace palpate::plugin {
 
@@ -52,19 +58,27 @@ class ClinicalViews {
   void show_point(const glm::dvec3& place);
   /// Called when the user leafs through slices.
   void set_leafed(std::function<void()> leafed) { window_->leafed = std::move(leafed); }
+  /// Called when the window is another one, whoever has changed it.
+  void set_window_changed(std::function<void()> changed) { window_changed_ = std::move(changed); }
+  /// Called when a double click has enlarged a view, or brought it back; and when all stand beside each other anew.
+  void set_enlarged_changed(std::function<void(bool)> changed) { enlarged_changed_ = std::move(changed); }
   /// Called when a slice view shows another slice.
   void set_slice_shown(std::function<void(SliceView&)> shown) { window_->slice_shown = std::move(shown); }
   /// Another frame is shown: what is told of the place under the pointer follows.
   void refresh_values();
 
  private:
+  vtkSMViewLayoutProxy& take_layout(pqServer& server);
   void prepare(vtkSMSourceProxy& image, const ImageLattice& lattice);
   void add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view, vtkSMProxy& shown,
                  int slice, bool restored);
   void add_volume(pqRenderView& volume_view);
   void refresh();
+  std::unique_ptr<DoubleClickEnlarges> enlarging(pqRenderView& view);
 
   std::shared_ptr<SharedWindow> window_ = std::make_shared<SharedWindow>();
+  std::function<void()> window_changed_;
+  std::function<void(bool)> enlarged_changed_;
   std::vector<NamedWindow> windows_;
   std::vector<QPointer<SliceView>> slices_;
   std::unique_ptr<OrientationMarker> marker_;  ///< of the volume's view; before that goes
@@ -72,9 +86,12 @@ class ClinicalViews {
     ViewKind kind;
     QPointer<pqRenderView> view;
     QPointer<SliceView> slice;
+    std::unique_ptr<DoubleClickEnlarges> enlarges;
+    std::unique_ptr<ViewMark> mark;
   };
   std::vector<OpenView> views_;
-  QObject lifetime_;  // its end ends what is connected to the views
+  vtkWeakPointer<vtkSMViewLayoutProxy> layout_;  ///< the tab that the scan is shown in, used again for the next
+  QObject lifetime_;                             // its end ends what is connected to the views
 };
 
 }  // namespace palpate::plugin

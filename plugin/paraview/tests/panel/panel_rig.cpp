@@ -239,6 +239,12 @@ void let_go() {
   xdotool({QStringLiteral("mouseup"), QStringLiteral("1")});
 }
 
+void double_click(QWidget& view, const QPoint& at) {
+  move_pointer(view, at);
+  xdotool({QStringLiteral("click"), QStringLiteral("--repeat"), QStringLiteral("2"), QStringLiteral("--delay"),
+           QStringLiteral("60"), QStringLiteral("1")});
+}
+
 void press_key_in(QWidget& view, const char* key) {
   static QWidget* last = nullptr;
   if (std::exchange(last, &view) != &view) {

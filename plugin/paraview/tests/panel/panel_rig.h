@@ -62,3 +62,4 @@ void move_pointer(const QWidget& in, const QPoint& at);
 /// Presses at `from` and moves to `to` in steps; lets go only where asked to.
 void drag(QWidget& view, const QPoint& from, const QPoint& to, bool let_go);
 void let_go();
+void double_click(QWidget& view, const QPoint& at);

@@ -13,6 +13,7 @@ using Scenarios = std::map<std::string, void (*)()>;
 /// Of the files of that name.
 const Scenarios& hand_scenarios();
 const Scenarios& heap_scenarios();
+const Scenarios& layout_scenarios();
 const Scenarios& picture_scenarios();
 const Scenarios& profile_scenarios();
 const Scenarios& recording_scenarios();

@@ -1,0 +1,46 @@
+#pragma once
+
+/// ParaView's own toolbars and panels around the views: hidden for a clinician, all there under "Advanced".
+
+#include <QList>
+#include <QObject>
+#include <QPointer>
+
+class QDockWidget;
+class QMainWindow;
+class QToolBar;
+class QWidget;
+
+namespace palpate::plugin {
+
+class HostLayout : public QObject {
+  Q_OBJECT
+
+ public:
+  /// Of `window` everything is ParaView's but that toolbar and that panel. Waits until the window is shown and ParaView
+  /// has put it in order; a session that has something else in its pipeline already is left as it is.
+  HostLayout(QMainWindow& window, QToolBar& toolbar, QDockWidget& panel, QObject* parent);
+
+  bool is_advanced() const { return advanced_; }
+  /// Remembered from one start of the program to the next.
+  void set_advanced(bool advanced);
+  /// After views or tabs have come: they look as the layout asks for.
+  void refresh_tabs();
+
+ signals:
+  void advanced_changed(bool advanced);
+
+ private:
+  void begin();
+  void place_first();
+  void hide_host();
+  void show_host();
+
+  QMainWindow& window_;
+  QToolBar& toolbar_;
+  QDockWidget& panel_;
+  QList<QPointer<QWidget>> hidden_;  // of ParaView's, by us
+  bool advanced_ = true;             // until ParaView is in order
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,180 @@
+// The clinical layout: what is on the screen, where it is, and how views are enlarged.
+
+#include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqRenderView.h>
+#include <pqServer.h>
+#include <pqServerManagerModel.h>
+#include <vtkSMProxyIterator.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMViewLayoutProxy.h>
+
+#include <QApplication>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QListWidget>
+#include <QMainWindow>
+#include <QPushButton>
+#include <QScreen>
+#include <QScrollArea>
+#include <QStringList>
+#include <QToolBar>
+#include <QToolButton>
+
+#include <string>
+
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
+
+namespace {
+
+QMainWindow& window() {
+  return *qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+}
+
+template <typename Widget>
+QStringList shown() {
+  QStringList names;
+  for (const Widget* const one : window().findChildren<Widget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    if (one->isVisible()) names << one->objectName();
+  }
+  names.sort();
+  return names;
+}
+
+QRect on_screen(const QWidget& of) {
+  return {of.mapToGlobal(QPoint(0, 0)), of.size()};
+}
+
+/// All of it: in the window, and in whatever scrolls around it.
+void expect_all_in_sight(const char* name) {
+  QWidget& of = find<QWidget>(name);
+  const QRect place = on_screen(of);
+  expect(of.isVisible() && on_screen(window()).contains(place), std::string(name) + " is in the window");
+  for (QWidget* above = of.parentWidget(); above; above = above->parentWidget()) {
+    auto* const scroll = qobject_cast<QScrollArea*>(above);
+    if (scroll) expect(on_screen(*scroll->viewport()).contains(place), std::string(name) + " is not scrolled away");
+  }
+}
+
+void expect_host(bool there, const char* when) {
+  const bool toolbars = shown<QToolBar>().size() > 1;
+  const bool pipeline = shown<QDockWidget>().contains(QStringLiteral("pipelineBrowserDock"));
+  expect(toolbars == there && pipeline == there,
+         std::string(when) + " ParaView's own is " + (there ? "there" : "hidden") + ": toolbars " +
+             shown<QToolBar>().join(", ").toStdString() + "; docks " + shown<QDockWidget>().join(", ").toStdString());
+}
+
+int views_in_sight() {
+  int count = 0;
+  for (const char* const name : {"Axial", "Sagittal", "Coronal", "Volume"}) count += view(name).isVisible() ? 1 : 0;
+  return count;
+}
+
+void double_click(const char* name) {
+  QWidget& in = view(name);
+  double_click(in, QPoint(in.width() / 4, in.height() * 3 / 4));
+}
+
+/// On a small laptop's screen.
+void the_layout_is_clinical() {
+  scan_is_shown();
+  window().setGeometry(QGuiApplication::primaryScreen()->geometry());
+  wait_ms(1500);
+  expect_host(false, "at first");
+  expect(shown<QToolBar>() == QStringList("palpateToolbar"), "one toolbar is there");
+  expect(shown<QDockWidget>() == QStringList("PalpatePanel"), "and the panel");
+  expect(find<QPushButton>("palpateToolbarRelease").height() >= 30, "Release is big");
+  expect(!find<QPushButton>("palpateToolbarRelease").isEnabled(), "there is nothing to release");
+  for (const char* const name :
+       {"palpateOn0", "palpateStrength0", "palpateOn4", "palpateStrength4", "palpateConnect", "palpateFooter",
+        "palpateRelease", "palpateToolbarOpenButton", "palpateWindow", "palpateFourUpButton", "palpateOneUpButton",
+        "palpateToolbarConnectButton", "palpateToolbarRelease", "palpateAdvancedButton"}) {
+    expect_all_in_sight(name);
+  }
+  save_screen("layout");
+
+  expect(views_in_sight() == 4, "four views are in sight");
+  const int wide = view("Axial").width();
+  double_click("Axial");
+  wait_for(
+      "the view is enlarged", [&] { return views_in_sight() == 1 && view("Axial").width() > 1.8 * wide; }, 10);
+  expect(find<QToolButton>("palpateOneUpButton").isChecked(), "the toolbar says so");
+  wait_ms(800);
+  save_screen("layout-one-up");
+  double_click("Axial");
+  wait_for(
+      "all are there again", [] { return views_in_sight() == 4; }, 10);
+  expect(find<QToolButton>("palpateFourUpButton").isChecked(), "the toolbar says so");
+  click("palpateOneUpButton");
+  wait_for(
+      "the marked view is alone", [] { return views_in_sight() == 1; }, 10);
+  click("palpateFourUpButton");
+  wait_for(
+      "all are there again", [] { return views_in_sight() == 4; }, 10);
+
+  click("palpateToolbarConnectButton");
+  turn_forces_on();
+  expect(find<QToolButton>("palpateToolbarConnectButton").text() == "Disconnect", "the toolbar knows");
+  click("palpateToolbarRelease");
+  wait_for(
+      "it is released", [] { return label("palpateState").startsWith("Ready"); }, 5);
+
+  auto& windows = find<QComboBox>("palpateWindow");
+  const int named = windows.count();
+  QWidget& axial = view("Axial");
+  drag(axial, QPoint(axial.width() / 4, axial.height() * 3 / 4), QPoint(axial.width() / 3, axial.height() * 3 / 4),
+       true);
+  wait_for(
+      "the box says that the window is nobody's", [&] { return windows.currentText().startsWith("Custom ("); }, 5);
+  windows.setCurrentIndex(0);
+  emit windows.activated(0);
+  expect(windows.count() == named && windows.currentIndex() == 0, "and that it is a named one again");
+
+  click("palpateAdvancedButton");
+  wait_ms(800);
+  expect_host(true, "under Advanced");
+  save_screen("layout-advanced");
+  click("palpateAdvancedButton");
+  wait_ms(500);
+  expect_host(false, "without Advanced");
+  click("palpateAdvancedButton");  // and so it is left
+}
+
+/// In the program's next start.
+void advanced_is_remembered() {
+  scan_is_shown();
+  expect_host(true, "as it was left");
+  expect(find<QToolButton>("palpateAdvancedButton").isChecked(), "the toolbar says so");
+}
+
+int tabs() {
+  auto* const server = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqServer*>().first();
+  return static_cast<int>(server->proxyManager()->GetNumberOfProxies("layouts"));
+}
+
+/// Every scan that is opened is shown in the same tab, and leaves no empty frame behind.
+void one_tab_is_used_again() {
+  auto& series = find<QListWidget>("palpateSeries");
+  wait_for("the series are listed", [&] { return series.count() > 1; });
+  for (const int row : {0, 1, 0}) {
+    click(*series.viewport(), series.visualItemRect(series.item(row)).center());
+    wait_ms(500);
+    scan_is_shown();
+    expect(tabs() == 1, "there is one tab: " + std::to_string(tabs()));
+    expect(views_in_sight() == 4, "with four views");
+    const auto views = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>();
+    expect(views.size() == 4, "and no other: " + std::to_string(views.size()));
+    click("palpateScanSectionFold");
+    wait_ms(200);
+  }
+}
+
+}  // namespace
+
+const Scenarios& layout_scenarios() {
+  static const Scenarios scenarios{{"the_layout_is_clinical", the_layout_is_clinical},
+                                   {"advanced_is_remembered", advanced_is_remembered},
+                                   {"one_tab_is_used_again", one_tab_is_used_again}};
+  return scenarios;
+}
