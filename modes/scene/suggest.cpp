@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/quantile.h"
+#include "modes/scene/boundary_names.h"
 #include "modes/scene/ct_tissues.h"
 #include "modes/scene/defaults.h"
 #include "modes/scene/hills.h"
@@ -215,7 +216,8 @@ TransferFunction beyond_the_middle(const FoundBoundary& boundary, double step, d
   return TransferFunction(std::move(nodes));
 }
 
-Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, double scale_mm, bool is_ct, bool up) {
+Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, const std::string& name, double scale_mm,
+                 bool is_ct, bool up) {
   const double step = suggestion.typical[boundary.high] - suggestion.typical[boundary.low];
   // Steepest gradient of a step at a scale.
   const double peak = step / (scale_mm * std::sqrt(2 * std::numbers::pi));
@@ -225,7 +227,7 @@ Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, do
   mode.from = suggestion.scene.tissues[up ? boundary.low : boundary.high].name;
   mode.to = suggestion.scene.tissues[up ? boundary.high : boundary.low].name;
   mode.enabled = up;
-  mode.name = mode.from + " to " + mode.to;
+  mode.name = up ? name : way_back_name(name);
   mode.strength_of = Datum::gradient_magnitude;
   mode.strength_n =
       TransferFunction({{readable(0.15 * peak), 0},
@@ -265,11 +267,17 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   suggestion.typical = found.typical;
   suggestion.scene.tissues = tissues_of(found, suggestion.edges.values, *volume);
   suggestion.boundaries = boundaries_of(found, suggestion.edges);
+  const bool is_ct = volume->unit == "HU";
+  std::vector<NamedPair> pairs;
+  for (const FoundBoundary& boundary : suggestion.boundaries) {
+    pairs.push_back({suggestion.typical[boundary.low], suggestion.typical[boundary.high]});
+  }
+  const std::vector<std::string> names = boundary_names(pairs, is_ct);
   const FoundBoundary* outermost = nullptr;
   for (std::size_t b = 0; b < suggestion.boundaries.size(); ++b) {
     FoundBoundary& boundary = suggestion.boundaries[b];
     boundary.mode = b;
-    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, scale_mm, volume->unit == "HU", true));
+    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, names[b], scale_mm, is_ct, true));
     suggestion.scene.modes.back().color = colors[b];
     if (outermost == nullptr || boundary.middle < outermost->middle) {
       outermost = &boundary;
@@ -278,7 +286,7 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   for (std::size_t b = 0; b < suggestion.boundaries.size(); ++b) {
     FoundBoundary& boundary = suggestion.boundaries[b];
     boundary.way_back = suggestion.scene.modes.size();
-    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, scale_mm, volume->unit == "HU", false));
+    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, names[b], scale_mm, is_ct, false));
     suggestion.scene.modes.back().color = colors[b];
   }
   if (outermost != nullptr) {

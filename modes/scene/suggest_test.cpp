@@ -140,6 +140,14 @@ TEST(Suggest, makes_a_scene_that_can_be_saved_and_read_and_names_tissues_by_thei
   EXPECT_EQ(read.tissues[0].name, "air");
   EXPECT_EQ(read.tissues[1].name, "soft tissue");
   EXPECT_EQ(read.tissues[2].name, "bone");
+  std::vector<std::string> names;
+  for (const Mode& mode : read.modes) {
+    if (mode.type == "surface") names.push_back(mode.name);
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  EXPECT_TRUE(std::binary_search(names.begin(), names.end(), "Bone"));
+  EXPECT_TRUE(std::binary_search(names.begin(), names.end(), "Bone, from inside"));
   ASSERT_EQ(read.modes.size(), 5U);  // two boundaries, the way back of each, friction
   EXPECT_NE(read.modes[0].color, read.modes[1].color);
   for (const FoundBoundary& boundary : found.boundaries) {

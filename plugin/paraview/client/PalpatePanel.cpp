@@ -17,6 +17,7 @@
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QKeyEvent>
@@ -34,6 +35,7 @@
 #include "plugin/paraview/client/layout/clinical_toolbar.h"
 #include "plugin/paraview/client/layout/enlarged_view.h"
 #include "plugin/paraview/client/layout/host_layout.h"
+#include "plugin/paraview/client/layout/volume_look_box.h"
 #include "plugin/paraview/client/panel/column_scroll.h"
 #include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/fold.h"
@@ -52,6 +54,7 @@
 #include "plugin/paraview/client/stylus/stylus_section.h"
 #include "plugin/paraview/client/stylus/stylus_views.h"
 #include "plugin/paraview/client/views/boundary_colors.h"
+#include "plugin/paraview/client/views/boundary_contours.h"
 #include "plugin/paraview/client/views/flow_views.h"
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/session/scan.h"
@@ -96,13 +99,16 @@ struct PalpatePanel::Parts {
   void leave_views();
   void read_opacity();
   void study(const std::shared_ptr<const io::Volume>& volume);
+  void change_volume(const std::function<void(vtkSMProxy&)>& change);
   void color_views();
+  void draw_contours();
   void look(const SessionStatus& seen);
 
   PalpatePanel& dock;
   SceneModel model;
   SessionController touching;
   FlowViews flow;
+  BoundaryContours contours;
   StylusViews views;
   ServerWatch servers;
   Fold* scan_fold = nullptr;
@@ -119,6 +125,7 @@ struct PalpatePanel::Parts {
   QProgressBar* studying = nullptr;
   ClinicalToolbar* toolbar = nullptr;
   HostLayout* layout = nullptr;
+  VolumeLookBox* look_box = nullptr;
   bool restoring = false;  // the scan to come is a state file's
   bool leaving = false;    // a server
   bool edited = false;     // since the scan was shown
@@ -150,6 +157,12 @@ void PalpatePanel::Parts::build() {
   studying->setFormat(tr("Looking for tissues %p%"));
   studying->hide();
   tissues_column->addWidget(studying);
+  auto* const drawn = new QCheckBox(tr("Draw the boundaries on the slices"), tissues_box);
+  drawn->setObjectName(QStringLiteral("palpateContours"));
+  drawn->setToolTip(tr("A line where each boundary is met, in its color. It follows what you tune."));
+  drawn->setChecked(true);
+  QObject::connect(drawn, &QCheckBox::toggled, &dock, [this](bool on) { contours.set_visible(on); });
+  tissues_column->addWidget(drawn);
   column->addWidget(new Fold(tr("Tissues"), QStringLiteral("palpateTissuesSection"), tissues_box, true, content));
   stylus = new StylusSection(touching, model, [this] { return views.eye(); });
   column->addWidget(new Fold(tr("Stylus"), QStringLiteral("palpateStylusSection"), stylus, true, content));
@@ -190,7 +203,10 @@ void PalpatePanel::Parts::build() {
     SCOPED_UNDO_EXCLUDE();
     if (touching.last().is_seen()) scan->views().show_point(touching.last().proxy_mm);
   });
-  scan->views().set_slice_shown([this](SliceView& slice) { flow.show(slice); });
+  scan->views().set_slice_shown([this](SliceView& slice) {
+    flow.show(slice);
+    contours.show(slice);
+  });
   scan->views().set_leafed([this] { stylus->pause_following(); });
   touching.set_start([this](const device::Specification& device) { return start_of(device); });
   QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
@@ -209,6 +225,7 @@ void PalpatePanel::Parts::build() {
     if (!proposing) edited = true;
     if (pace == Pace::stepped) color_views();
     if (const auto felt = touching.live().felt_scan(); felt && felt != studied.lock()) study(felt);
+    draw_contours();
   });
   QObject::connect(&touching, &SessionController::looked, &dock, [this](const SessionStatus& seen) { look(seen); });
   QObject::connect(&touching, &SessionController::connection_changed, &dock, [this] {
@@ -234,7 +251,12 @@ void PalpatePanel::Parts::build() {
 /// ParaView's window as a clinician's: one toolbar, the views, the panel.
 void PalpatePanel::Parts::build_layout() {
   auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
-  toolbar = new ClinicalToolbar(scan->window_box(), window);
+  look_box = new VolumeLookBox(window);
+  toolbar = new ClinicalToolbar(scan->window_box(), *look_box, window);
+  QObject::connect(look_box, &VolumeLookBox::felt_chosen, &dock, [this] { color_views(); });
+  QObject::connect(look_box, &VolumeLookBox::look_chosen, &dock, [this](const VolumeLook& chosen) {
+    change_volume([&](vtkSMProxy& volume) { set_volume_look(volume, chosen); });
+  });
   window->addToolBar(Qt::TopToolBarArea, toolbar);
   layout = new HostLayout(*window, *toolbar, dock, &dock);
   QObject::connect(toolbar, &ClinicalToolbar::open_wanted, &dock, [this] { scan->ask_folder(); });
@@ -312,9 +334,11 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   tissues->forget_scan();
   if (restored) tissues->set_restored();
   const std::vector<ClinicalView> shown = scan->views().views();
+  contours.set_views(shown);
   profile->set_views(shown);
   recordings->set_views(shown);
   views.set_views(shown);  // last: the stylus is drawn over the paths
+  look_box->set_looks(scan->views().looks(), scan->views().first_look());
   read_opacity();
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
   low = lattice.values.low;
@@ -322,6 +346,7 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   flow.set_views(shown);
   flow.set_volume(handle.volume);
   filter->refresh();
+  draw_contours();
   touching.begin_outside();
   proposing = false;
   edited = restored;
@@ -334,6 +359,7 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
 void PalpatePanel::Parts::show_frame(const ScanHandle& handle) {
   touching.set_scan(handle.volume);
   flow.set_volume(handle.volume);
+  draw_contours();
   note_scan(handle);
 }
 
@@ -389,6 +415,7 @@ glm::dvec3 PalpatePanel::Parts::start_of(const device::Specification& of) {
 }
 
 void PalpatePanel::Parts::leave_views() {
+  contours.set_views({});
   flow.set_views({});
   views.set_views({});
   profile->set_views({});
@@ -430,17 +457,27 @@ void PalpatePanel::Parts::read_opacity() {
   }
 }
 
-void PalpatePanel::Parts::color_views() {
-  SCOPED_UNDO_EXCLUDE();  // follows from the scene
+void PalpatePanel::Parts::change_volume(const std::function<void(vtkSMProxy&)>& change) {
+  SCOPED_UNDO_EXCLUDE();  // follows from the scene, or from a box that says what it is
   if (!scan->source()) return;
   for (const ClinicalView& one : scan->views().views()) {
     if (one.kind != ViewKind::volume) continue;
     pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
     if (!shown) continue;
-    color_volume(*shown->getProxy(), model.scene(), low, high);
+    change(*shown->getProxy());
     one.view->render();
   }
   read_opacity();
+}
+
+/// Where the volume is shown by what is felt, and not as somebody has chosen.
+void PalpatePanel::Parts::color_views() {
+  if (!look_box->is_felt()) return;
+  change_volume([this](vtkSMProxy& volume) { color_volume(volume, model.scene(), low, high); });
+}
+
+void PalpatePanel::Parts::draw_contours() {
+  contours.set_felt(touching.live().felt_scan(), model.scene(), touching.live().plan());
 }
 
 void PalpatePanel::Parts::look(const SessionStatus& seen) {

@@ -32,7 +32,8 @@ QIcon layout_icon(const QPalette& colors, int across) {
 
 }  // namespace
 
-ClinicalToolbar::ClinicalToolbar(QComboBox& window, QWidget* parent) : QToolBar(tr("Palpate"), parent) {
+ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* parent)
+    : QToolBar(tr("Palpate"), parent) {
   setObjectName(QStringLiteral("palpateToolbar"));
   setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   setIconSize({22, 22});
@@ -42,6 +43,8 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QWidget* parent) : QToolBar(
   addSeparator();
   addWidget(new QLabel(tr("Window "), this));
   addWidget(&window);
+  addWidget(new QLabel(tr("  Volume "), this));
+  addWidget(&look);
   addSeparator();
   four_ = add("palpateFourUp", tr("Four-up"), tr("Axial, sagittal, coronal and volume beside each other"));
   one_ = add("palpateOneUp", tr("One-up"), tr("The marked view alone. A double click in a view does the same."));

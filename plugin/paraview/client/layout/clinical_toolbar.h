@@ -16,8 +16,8 @@ class ClinicalToolbar : public QToolBar {
   Q_OBJECT
 
  public:
-  /// `window`: the box of gray windows, which comes to stand here.
-  ClinicalToolbar(QComboBox& window, QWidget* parent);
+  /// The boxes of gray windows and of the volume's looks come to stand here.
+  ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* parent);
 
   /// How it is connected now, and whether that can be changed.
   void show_connection(bool connected, bool can_connect);

@@ -3,6 +3,7 @@
 /// How a scan is to look: gray windows for its slices, colors and opacity for its volume, from what it is and how its
 /// values are spread.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,15 +37,19 @@ std::vector<NamedWindow> windows_for(const Values& values);
 
 /// As vtkColorTransferFunction (value, red, green, blue) and vtkPiecewiseFunction (value, opacity, 0.5, 0) take them.
 struct VolumeLook {
-  const char* name = "";
+  const char* name = "";  ///< English, for tr()
   std::vector<double> colors;
   std::vector<double> opacity;
+  bool shaded = true;  ///< as by a lamp at the eye
 };
 
-/// HU: skin and bone; bone alone where there is no air round the patient; lungs where a tenth of the body or more is
-/// as light as they are. Others: what is brighter than the background (Otsu's threshold, from the values' spread);
-/// vessels where that is a few percent.
-VolumeLook volume_look_for(const Values& values);
+/// What is offered for the volume. HU: CT skin, bone, lung, vessels. Others: MR, which is what is brighter than the
+/// background (Otsu's threshold, from the values' spread), and MR vessels, a few percent that are brightest.
+std::vector<VolumeLook> volume_looks_for(const Values& values);
+
+/// Which of them suits the scan. HU: skin; bone where there is no air round the patient; lung where a tenth of the body
+/// or more is as light as it is. Others: vessels where what is brighter than the background is a few percent.
+std::size_t suited_look(const Values& values);
 
 /// The value that splits the spread best into two classes (Otsu, "A threshold selection method from gray-level
 /// histograms", 1979). Needs shares.

@@ -45,7 +45,7 @@ Values mr(std::vector<double> shares) {
 
 TEST(Windows, OfHounsfieldUnitsAreTheOnesRadiologyKnowsByName) {
   const auto windows = windows_for(ct({}));
-  ASSERT_EQ(windows.size(), 4U);
+  ASSERT_EQ(windows.size(), 8U);
   const auto expect = [&](std::size_t n, const std::string& name, double level, double width) {
     EXPECT_EQ(windows[n].name, name);
     EXPECT_EQ(windows[n].window.level, level);
@@ -55,6 +55,10 @@ TEST(Windows, OfHounsfieldUnitsAreTheOnesRadiologyKnowsByName) {
   expect(1, "Brain", 40, 80);
   expect(2, "Lung", -600, 1500);
   expect(3, "Bone", 480, 2500);
+  expect(4, "Mediastinum", 50, 350);
+  expect(5, "Abdomen", 60, 400);
+  expect(6, "Angio", 300, 600);
+  expect(7, "Stroke", 40, 40);
 }
 
 TEST(Windows, BeginWithTheSeriesOwn) {
@@ -80,46 +84,61 @@ TEST(Windows, OfMrLeaveTheOuterPercentOnBothSidesOut) {
   EXPECT_EQ(windows[1].window.width, 2000);
 }
 
-TEST(VolumeLook, OfAHeadIsSkinAndBone) {
-  const VolumeLook look = volume_look_for(ct(made_of({{50, -1000}, {40, 40}, {10, 700}})));
-  EXPECT_EQ(look.name, std::string("Skin and bone"));
-  EXPECT_GT(opacity_at(look, 700), 10 * opacity_at(look, 40));
+VolumeLook suited(const Values& values) {
+  return volume_looks_for(values).at(suited_look(values));
+}
+
+TEST(VolumeLook, OfAHeadIsItsSkin) {
+  const VolumeLook look = suited(ct(made_of({{50, -1000}, {40, 40}, {10, 700}})));
+  EXPECT_EQ(look.name, std::string("CT skin"));
+  EXPECT_GT(opacity_at(look, 40), 0.5);
   EXPECT_EQ(opacity_at(look, -900), 0);
 }
 
 TEST(VolumeLook, OfAChestShowsTheLungs) {
-  const VolumeLook look = volume_look_for(ct(made_of({{40, -1000}, {20, -820}, {35, 40}, {5, 500}})));
-  EXPECT_EQ(look.name, std::string("Lungs"));
+  const VolumeLook look = suited(ct(made_of({{40, -1000}, {20, -820}, {35, 40}, {5, 500}})));
+  EXPECT_EQ(look.name, std::string("CT lung"));
   EXPECT_GT(opacity_at(look, -800), 0);
   EXPECT_EQ(opacity_at(look, -1000), 0) << "the air around the patient hides the lungs";
   EXPECT_EQ(opacity_at(look, 40), 0) << "the chest's wall hides the lungs";
 }
 
 TEST(VolumeLook, WithoutAirIsBoneAlone) {
-  EXPECT_EQ(volume_look_for(ct(made_of({{70, 40}, {30, 700}}))).name, std::string("Bone"));
+  const VolumeLook look = suited(ct(made_of({{70, 40}, {30, 700}})));
+  EXPECT_EQ(look.name, std::string("CT bone"));
+  EXPECT_EQ(opacity_at(look, 60), 0);
+  EXPECT_GT(opacity_at(look, 700), 0.5);
+}
+
+TEST(VolumeLook, OfVesselsHidesMuscleAndShowsContrast) {
+  const VolumeLook look = volume_looks_for(ct({})).at(3);
+  EXPECT_EQ(look.name, std::string("CT vessels"));
+  EXPECT_EQ(opacity_at(look, 70), 0);
+  EXPECT_GT(opacity_at(look, 350), 0.5);
 }
 
 TEST(VolumeLook, OfMrHidesTheBackgroundWhereverItEnds) {
   for (const double tissue : {120.0, 700.0, 5000.0}) {
-    const VolumeLook look = volume_look_for(mr(made_of({{55, 25}, {45, tissue}})));
-    EXPECT_EQ(look.name, std::string("Tissue"));
+    const VolumeLook look = suited(mr(made_of({{55, 25}, {45, tissue}})));
+    EXPECT_EQ(look.name, std::string("MR"));
     EXPECT_EQ(opacity_at(look, 40), 0) << tissue;
     EXPECT_GT(opacity_at(look, tissue + 15), 0.2) << tissue;
   }
 }
 
 TEST(VolumeLook, OfAnAngiogramShowsTheFewBrightVoxels) {
-  const VolumeLook look = volume_look_for(mr(made_of({{97, 60}, {3, 900}})));
-  EXPECT_EQ(look.name, std::string("Vessels"));
+  const VolumeLook look = suited(mr(made_of({{97, 60}, {3, 900}})));
+  EXPECT_EQ(look.name, std::string("MR vessels"));
   EXPECT_EQ(opacity_at(look, 80), 0);
   EXPECT_GT(opacity_at(look, 900), 0.5);
 }
 
 TEST(VolumeLook, AscendsWhateverTheValuesAre) {
   for (const Values& values : {mr({}), mr(std::vector<double>(101, 7.0)), mr(made_of({{60, 25}, {40, 300}})), ct({})}) {
-    const VolumeLook look = volume_look_for(values);
-    for (std::size_t n = 4; n < look.opacity.size(); n += 4) EXPECT_GT(look.opacity[n], look.opacity[n - 4]);
-    for (std::size_t n = 4; n < look.colors.size(); n += 4) EXPECT_GT(look.colors[n], look.colors[n - 4]);
+    for (const VolumeLook& look : volume_looks_for(values)) {
+      for (std::size_t n = 4; n < look.opacity.size(); n += 4) EXPECT_GT(look.opacity[n], look.opacity[n - 4]);
+      for (std::size_t n = 4; n < look.colors.size(); n += 4) EXPECT_GT(look.colors[n], look.colors[n - 4]);
+    }
   }
 }
 

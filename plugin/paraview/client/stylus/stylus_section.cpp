@@ -162,8 +162,9 @@ void StylusSection::build_workspace() {
   auto* const ticks = new QHBoxLayout;
   ticks->addWidget(follow_);
   ticks->addWidget(go_);
-  ticks->addWidget(turn_, 1);
+  ticks->addStretch(1);
   column->addLayout(ticks);
+  column->addWidget(turn_);
 }
 
 bool StylusSection::slices_follow() const {

@@ -121,6 +121,7 @@ void ClinicalViews::close() {
   slices_.clear();
   marker_.reset();
   windows_.clear();
+  looks_.clear();
   window_->value_at = {};
   auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
   for (auto& open : views_) {
@@ -234,7 +235,8 @@ void ClinicalViews::show(pqPipelineSource& source) {
   pqRenderView& volume_view = *make_view(server, ViewKind::volume);
   layout->AssignView(6, volume_view.getViewProxy());
   vtkSMProxy& volume = show_as("Volume", image, volume_view, lattice.array.c_str());
-  set_volume_look(volume, volume_look_for(lattice.values));
+  first_look_ = suited_look(lattice.values);
+  set_volume_look(volume, looks_.at(*first_look_));
   // From the front and a little from the patient's left and above; the head up.
   const glm::dvec3 eye = lattice.center() + glm::dvec3(500, -900, 300);
   const glm::dvec3 head(0, 0, 1);
@@ -254,6 +256,8 @@ void ClinicalViews::show(pqPipelineSource& source) {
 
 void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice) {
   windows_ = windows_for(lattice.values);
+  looks_ = volume_looks_for(lattice.values);
+  first_look_.reset();
   window_->unit = lattice.values.hounsfield ? QStringLiteral("HU") : QString();
   window_->value_at = [probe = std::make_shared<ValueProbe>(image)](const glm::dvec3& place) {
     return probe->at(place);

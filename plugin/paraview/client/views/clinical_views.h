@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "plugin/paraview/client/layout/enlarged_view.h"
@@ -47,6 +48,10 @@ class ClinicalViews {
   const Window& window() const { return window_->window; }
   /// What is offered for the scan shown, the one that it is first shown with first; empty where none is.
   const std::vector<NamedWindow>& windows() const { return windows_; }
+  /// What is offered for the volume, and which of them it was first shown with; empty where a state file has restored
+  /// it.
+  const std::vector<VolumeLook>& looks() const { return looks_; }
+  std::optional<std::size_t> first_look() const { return first_look_; }
   /// How places under the pointer are written from now on.
   void set_coordinates(Coordinates coordinates) { window_->coordinates = coordinates; }
   /// Gets the left button in the slices from now on; empty: it sets the window again.
@@ -80,6 +85,8 @@ class ClinicalViews {
   std::function<void()> window_changed_;
   std::function<void(bool)> enlarged_changed_;
   std::vector<NamedWindow> windows_;
+  std::vector<VolumeLook> looks_;
+  std::optional<std::size_t> first_look_;
   std::vector<QPointer<SliceView>> slices_;
   std::unique_ptr<OrientationMarker> marker_;  ///< of the volume's view; before that goes
   struct OpenView {

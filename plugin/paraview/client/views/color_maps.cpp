@@ -52,6 +52,13 @@ void set_volume_look(vtkSMProxy& representation, const VolumeLook& look) {
   set_numbers(*opacity, "Points", look.opacity);
   colors->UpdateVTKObjects();
   opacity->UpdateVTKObjects();
+  vtkSMPropertyHelper(&representation, "Shade", true).Set(look.shaded ? 1 : 0);
+  // Where the values do not change, as where the scan ends in the patient, only ambient light is reflected.
+  constexpr double ambient = 0.35, diffuse = 0.75, specular = 0.15;
+  vtkSMPropertyHelper(&representation, "Ambient", true).Set(ambient);
+  vtkSMPropertyHelper(&representation, "Diffuse", true).Set(diffuse);
+  vtkSMPropertyHelper(&representation, "Specular", true).Set(specular);
+  representation.UpdateVTKObjects();
 }
 
 }  // namespace palpate::plugin

@@ -10,6 +10,7 @@
 
 #include <QApplication>
 #include <QColorDialog>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
 #include <QTimer>
@@ -82,6 +83,9 @@ void a_color_is_chosen() {
     return false;
   };
   const std::string before = scene_text();
+  auto& looks = find<QComboBox>("palpateVolumeLook");
+  looks.setCurrentText(QStringLiteral("Felt boundaries"));
+  emit looks.activated(looks.currentIndex());
   expect(!shown(), "the color is a new one");
   QTimer::singleShot(1500, [] {
     auto* const dialog = qobject_cast<QColorDialog*>(QApplication::activeModalWidget());

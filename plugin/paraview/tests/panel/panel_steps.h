@@ -11,6 +11,7 @@
 using Scenarios = std::map<std::string, void (*)()>;
 
 /// Of the files of that name.
+const Scenarios& contour_scenarios();
 const Scenarios& hand_scenarios();
 const Scenarios& heap_scenarios();
 const Scenarios& layout_scenarios();

@@ -1,0 +1,76 @@
+#include "modes/scene/boundary_names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "modes/scene/ct_tissues.h"
+
+namespace palpate::modes {
+namespace {
+
+std::string ct_name(const NamedPair& boundary) {
+  const std::string_view low = ct_tissue(boundary.low), high = ct_tissue(boundary.high);
+  const bool from_air = low == "air", from_lung = low == "lung or foam";
+  if (high == "metal") return "Metal";
+  if (high == "bone" && low == "bone") return "Dense bone";
+  if (high == "bone") return from_air || from_lung ? "Bone at air" : "Bone";
+  if (high == "lung or foam") return "Lung or foam";
+  if (from_lung) return "Lung surface";
+  return from_air ? "Skin" : "Soft tissue";
+}
+
+/// Ranks of the values that occur, the darkest first.
+std::vector<double> sorted_values(std::span<const NamedPair> boundaries) {
+  std::vector<double> values;
+  for (const NamedPair& boundary : boundaries) {
+    values.push_back(boundary.low);
+    values.push_back(boundary.high);
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+std::vector<std::string> ranked_names(std::span<const NamedPair> boundaries) {
+  const std::vector<double> values = sorted_values(boundaries);
+  const auto rank = [&values](double value) {
+    return std::to_string(1 + (std::lower_bound(values.begin(), values.end(), value) - values.begin()));
+  };
+  std::vector<std::string> names;
+  std::size_t least = 0;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    names.push_back("Tissue " + rank(boundaries[b].low) + " to " + rank(boundaries[b].high));
+    const auto sum = [&](std::size_t n) { return boundaries[n].low + boundaries[n].high; };
+    if (sum(b) < sum(least)) least = b;
+  }
+  if (!boundaries.empty() && boundaries[least].low == values.front()) names[least] = "Skin?";
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, bool hounsfield) {
+  if (!hounsfield) return ranked_names(boundaries);
+  std::vector<std::string> plain;
+  plain.reserve(boundaries.size());
+  for (const NamedPair& boundary : boundaries) plain.push_back(ct_name(boundary));
+  const auto shared = [](const std::vector<std::string>& names, std::size_t b) {
+    return std::count(names.begin(), names.end(), names[b]) > 1;
+  };
+  std::vector<std::string> names = plain;
+  for (std::size_t b = 0; b < names.size(); ++b) {
+    if (shared(plain, b)) names[b] += ", " + std::to_string(std::lround(boundaries[b].high)) + " HU";
+  }
+  const std::vector<std::string> with_high = names;
+  for (std::size_t b = 0; b < names.size(); ++b) {
+    if (shared(with_high, b)) names[b] += " from " + std::to_string(std::lround(boundaries[b].low));
+  }
+  return names;
+}
+
+std::string way_back_name(const std::string& name) {
+  return name + ", from inside";
+}
+
+}  // namespace palpate::modes

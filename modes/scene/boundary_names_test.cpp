@@ -1,0 +1,34 @@
+#include "modes/scene/boundary_names.h"
+
+#include <gtest/gtest.h>
+
+namespace palpate::modes {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(BoundaryNames, are_a_clinicians_words_for_a_ct) {
+  const std::vector<NamedPair> head{{-1000, 40}, {40, 900}, {-1000, 900}, {-100, 50}};
+  EXPECT_EQ(boundary_names(head, true), (Names{"Skin", "Bone", "Bone at air", "Soft tissue"}));
+  const std::vector<NamedPair> chest{{-1000, -850}, {-850, 40}, {-1000, -100}, {900, 3000}, {200, 1200}};
+  EXPECT_EQ(boundary_names(chest, true), (Names{"Lung or foam", "Lung surface", "Skin", "Metal", "Dense bone"}));
+}
+
+TEST(BoundaryNames, that_would_be_shared_tell_the_denser_tissue_and_then_the_other) {
+  const std::vector<NamedPair> boundaries{{40, 338}, {40, 717}, {-100, 717}};
+  EXPECT_EQ(boundary_names(boundaries, true),
+            (Names{"Bone, 338 HU", "Bone, 717 HU from 40", "Bone, 717 HU from -100"}));
+}
+
+TEST(BoundaryNames, without_hu_are_questions_or_ranks) {
+  const std::vector<NamedPair> boundaries{{300, 800}, {10, 300}, {10, 800}};
+  EXPECT_EQ(boundary_names(boundaries, false), (Names{"Tissue 2 to 3", "Skin?", "Tissue 1 to 3"}));
+  EXPECT_TRUE(boundary_names({}, false).empty());
+}
+
+TEST(BoundaryNames, tell_the_way_back) {
+  EXPECT_EQ(way_back_name("Skin"), "Skin, from inside");
+}
+
+}  // namespace
+}  // namespace palpate::modes

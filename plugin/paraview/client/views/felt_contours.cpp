@@ -1,0 +1,145 @@
+#include "plugin/paraview/client/views/felt_contours.h"
+
+#include <vtkCellArray.h>
+#include <vtkFlyingEdges2D.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double least_part = 0.05;  // of a surface's strength: less is not drawn
+constexpr int block = 4;             // points across a block whose strength is looked up once
+
+double value_factor(const modes::Mode& mode, double value) {
+  double factor = 1;
+  for (const modes::Gate& gate : mode.gates) {
+    if (gate.of == modes::Datum::value) factor *= gate.factor(value);
+  }
+  return factor;
+}
+
+vtkSmartPointer<vtkImageData> values_on(const io::FieldSource& source, const SlicePoints& points) {
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(points.columns, points.rows, 1);
+  image->AllocateScalars(VTK_DOUBLE, 1);
+  auto* value = static_cast<double*>(image->GetScalarPointer());
+  for (int row = 0; row < points.rows; ++row) {
+    for (int column = 0; column < points.columns; ++column) {
+      const glm::dvec3 at =
+          points.corner + static_cast<double>(column) * points.right + static_cast<double>(row) * points.up;
+      const io::Sample sample = source.sample(at, io::FieldSet::value);
+      *value++ = sample.inside ? sample.value : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return image;
+}
+
+/// Whether a surface has strength, looked up in the middle of each block of points that a line crosses.
+class StrengthMask {
+ public:
+  StrengthMask(const modes::Strength& strength, const io::FieldSource& source, double factor)
+      : strength_(strength), source_(source), least_(least_part * factor * strength.most_n()) {
+    known_ = contains(source.available(), strength.reads());
+  }
+
+  bool holds(const glm::dvec2& point, const glm::dvec3& place) {
+    if (!known_) return true;
+    const std::pair<int, int> cell{static_cast<int>(point.x) / block, static_cast<int>(point.y) / block};
+    const auto found = blocks_.find(cell);
+    if (found != blocks_.end()) return found->second;
+    const io::Sample sample = source_.sample(place, strength_.reads());
+    return blocks_[cell] = sample.inside && strength_(sample) > least_;
+  }
+
+ private:
+  const modes::Strength& strength_;
+  const io::FieldSource& source_;
+  double least_;
+  bool known_ = true;
+  std::map<std::pair<int, int>, bool> blocks_;
+};
+
+void add_pieces(vtkImageData& image, double value, const SlicePoints& points, StrengthMask& mask,
+                FeltContour& contour) {
+  vtkNew<vtkFlyingEdges2D> lines;
+  lines->SetInputData(&image);
+  lines->SetValue(0, value);
+  lines->Update();
+  vtkPolyData& found = *lines->GetOutput();
+  if (!found.GetLines()) return;
+  vtkNew<vtkIdList> ends;
+  found.GetLines()->InitTraversal();
+  while (found.GetLines()->GetNextCell(ends) != 0) {
+    for (vtkIdType n = 1; n < ends->GetNumberOfIds(); ++n) {
+      std::array<glm::dvec3, 2> piece{};
+      glm::dvec3 at[2];
+      for (int end = 0; end < 2; ++end) {
+        found.GetPoint(ends->GetId(n - 1 + end), &at[end].x);
+        piece[static_cast<std::size_t>(end)] = points.corner + at[end].x * points.right + at[end].y * points.up;
+      }
+      const glm::dvec3 middle = 0.5 * (piece[0] + piece[1]);
+      if (std::isfinite(middle.x) && mask.holds(0.5 * (at[0] + at[1]), middle)) contour.pieces.push_back(piece);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> met_values(const modes::Mode& mode, modes::Side side) {
+  std::vector<double> at;
+  for (const modes::Gate& gate : mode.gates) {
+    if (gate.of != modes::Datum::value) continue;
+    for (const modes::Node& node : gate.factor.nodes()) at.push_back(node.at);
+  }
+  std::sort(at.begin(), at.end());
+  double largest = 0;
+  for (const double value : at) largest = std::max(largest, value_factor(mode, value));
+  std::vector<double> met;
+  if (!(largest > 0)) return met;
+  for (std::size_t n = 1; n < at.size(); ++n) {
+    double low = at[n - 1], high = at[n];
+    const bool begins = value_factor(mode, low) < largest / 2, ends = value_factor(mode, high) < largest / 2;
+    const bool rises = begins && !ends, falls = ends && !begins;
+    if (!(rises && side != modes::Side::leaving) && !(falls && side != modes::Side::entering)) continue;
+    constexpr int halvings = 40;  // the factor is a curve of any form
+    for (int step = 0; step < halvings; ++step) {
+      const double middle = 0.5 * (low + high);
+      ((value_factor(mode, middle) < largest / 2) == begins ? low : high) = middle;
+    }
+    met.push_back(0.5 * (low + high));
+  }
+  return met;
+}
+
+std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::Plan& plan,
+                                       const io::FieldSource& source, const SlicePoints& points) {
+  std::vector<FeltContour> contours;
+  if (points.columns < 2 || points.rows < 2 || !contains(source.available(), io::FieldSet::value)) return contours;
+  vtkSmartPointer<vtkImageData> image;
+  for (const modes::ActiveMode& active : plan.modes) {
+    if (!active.holds || active.scene_index >= scene.modes.size()) continue;
+    const modes::Mode& mode = scene.modes[active.scene_index];
+    FeltContour contour{.mode = active.scene_index};
+    for (const double value : met_values(mode, active.side)) {
+      if (!image) image = values_on(source, points);
+      StrengthMask mask(active.strength, source, value_factor(mode, value));
+      add_pieces(*image, value, points, mask, contour);
+    }
+    if (!contour.pieces.empty()) contours.push_back(std::move(contour));
+  }
+  return contours;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,38 @@
+#pragma once
+
+/// Where the boundaries of a scene are met on a slice of the scan: as lines.
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "io/fields/field_source.h"
+#include "modes/scene/plan.h"
+#include "modes/scene/scene.h"
+
+namespace palpate::plugin {
+
+/// A plane of points in patient space, mm: row by row from a corner.
+struct SlicePoints {
+  glm::dvec3 corner{0};
+  glm::dvec3 right{1, 0, 0}, up{0, 1, 0};  ///< from point to point
+  int columns = 0, rows = 0;
+};
+
+/// Of one of the scene's modes.
+struct FeltContour {
+  std::size_t mode = 0;
+  std::vector<std::array<glm::dvec3, 2>> pieces;  ///< ends, patient space, mm
+};
+
+/// The values at which a surface begins to be felt by whoever comes from the side that it resists: where the product of
+/// its gates over value reaches half of its largest factor.
+std::vector<double> met_values(const modes::Mode& mode, modes::Side side);
+
+/// Of every surface of the plan that has a gate over value. A piece is left out where the surface has no strength,
+/// since the gradient is too small there or the tissues are others; strength that depends on more than the source gives
+/// is taken to be there. On any thread; takes a tenth of a second or so.
+std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::Plan& plan,
+                                       const io::FieldSource& source, const SlicePoints& points);
+
+}  // namespace palpate::plugin
