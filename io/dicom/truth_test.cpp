@@ -67,10 +67,10 @@ TEST_P(SharedTruth, GeometryAndVoxelsAgree) {
   EXPECT_TRUE(found.skipped.empty());
   const Series& series = found.series.front();
   EXPECT_TRUE(series.usable);
-  EXPECT_EQ(series.uid, truth.at("series_uid"));
-  EXPECT_EQ(series.study_uid, truth.at("study_uid"));
-  EXPECT_EQ(series.modality, truth.at("modality"));
-  EXPECT_EQ(series.description, truth.at("description"));
+  EXPECT_EQ(series.uid, truth.at("series_uid").get<std::string>());
+  EXPECT_EQ(series.study_uid, truth.at("study_uid").get<std::string>());
+  EXPECT_EQ(series.modality, truth.at("modality").get<std::string>());
+  EXPECT_EQ(series.description, truth.at("description").get<std::string>());
   EXPECT_EQ(series.files.size(), truth.at("files"));
   EXPECT_EQ(series.frames_per_position, truth.at("frames_per_position").at(0));
   EXPECT_EQ(series.unit, series.modality == "CT" ? "HU" : "");
@@ -224,7 +224,7 @@ TEST(SharedTruthWithJudgement, MixedFolderGivesItsSevenSeries) {
   EXPECT_EQ(std::count_if(found.series.begin(), found.series.end(), [](const Series& s) { return s.usable; }), 3);
   for (const Json& expected : truth.at("series")) {
     const auto series = std::find_if(found.series.begin(), found.series.end(),
-                                     [&](const Series& s) { return s.uid == expected.at("series_uid"); });
+                                     [&](const Series& s) { return expected.at("series_uid") == s.uid; });
     ASSERT_NE(series, found.series.end()) << expected.at("series_uid");
     const bool is_volume = expected.at("slice_positions") > 1;
     EXPECT_EQ(series->usable, is_volume) << series->uid;

@@ -40,8 +40,8 @@ TEST(StructuresTruth, MeetsEverySegmentation) {
     for (const auto& [number, segment] : entry.at("segments").items()) {
       SCOPED_TRACE(name);
       const Structure structure = structure_in(shared / name, std::stoi(number));
-      EXPECT_EQ(structure.name, segment.at("name"));
-      EXPECT_EQ(structure.frame_of_reference_uid, entry.at("frame_of_reference"));
+      EXPECT_EQ(structure.name, segment.at("name").get<std::string>());
+      EXPECT_EQ(structure.frame_of_reference_uid, entry.at("frame_of_reference").get<std::string>());
       const StructureMeasures measures = measure(structure);
       EXPECT_EQ(measures.voxels, segment.at("voxels").get<std::uint64_t>());
       EXPECT_NEAR(measures.volume_mm3, segment.at("mm3").get<double>(), 1e-5 * measures.volume_mm3);

@@ -13,6 +13,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/errors.h"
@@ -164,7 +165,7 @@ TEST(Walk, through_an_odd_scan_with_every_mode_on_stays_finite_bounded_certified
   grid.tilt_degrees = 12;
   grid.uneven_mm = 0.3;
   grid.missing = {20};
-  grid = testdata::rotated(grid, glm::normalize(Vec3(1, 2, 3)), 30);
+  grid = testdata::rotated(std::move(grid), glm::normalize(Vec3(1, 2, 3)), 30);
   testdata::Phantom head = testdata::make_sphere(18);
   head.bodies.push_back(testdata::make_sphere(12, testdata::bone_hu).bodies.front());
   walk_through("an odd scan",

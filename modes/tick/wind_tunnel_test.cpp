@@ -1,6 +1,7 @@
 // The paper's virtual wind tunnel (section 5): flow past a sphere.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>

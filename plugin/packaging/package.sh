@@ -71,16 +71,18 @@ install -D -m 644 -t "$root/usr/share/bash-completion/completions" "$work"/pages
 install -D -m 644 -t "$root/usr/share/zsh/vendor-completions" "$work"/pages/zsh/*
 gzip -9n "$root"/usr/share/man/man1/*
 
-# The plug-in: named in the file that Debian's ParaView reads at its start, so that nobody sets anything up.
+# The plug-in: named in a file that Debian's ParaView reads at its start, so that nobody sets anything up.
 root=$work/palpate-paraview
 xml=$(cd "$root" && ls usr/lib/*/paraview-*/plugins/palpate.xml)
 paraview=$(basename "$(dirname "$(dirname "$xml")")")
 case "$paraview" in
-  paraview-5.11) conf=usr/bin/paraview.conf ;; # beside the program
-  *) conf=$lib/$paraview/paraview.conf ;;
+  paraview-5.11) # a list of such files, which it looks for beside the program; Debian 12 has none
+    mkdir -p "$root/usr/bin"
+    realpath -m --relative-to=/usr/bin "/$xml" >"$root/usr/bin/paraview.conf" ;;
+  *) # Debian 13 has that list; it names this file, which no package of Debian has, for others
+    mkdir -p "$root/usr/share/paraview"
+    sed -E "s,name=\"([A-Za-z]+)\",name=\"\1\" filename=\"/$(dirname "$xml")/\1/\1.so\"," "$root/$xml" >"$root/usr/share/paraview/plugins" ;;
 esac
-mkdir -p "$root/$(dirname "$conf")"
-realpath -m --relative-to="/$(dirname "$conf")" "/$xml" >"$root/$conf"
 install -D -m 644 plugin/packaging/palpate.desktop "$root/usr/share/applications/palpate.desktop"
 install -D -m 644 plugin/packaging/palpate.svg "$root/usr/share/icons/hicolor/scalable/apps/palpate.svg"
 mkdir -p "$root/usr/share/metainfo"

@@ -12,6 +12,8 @@ from paraview import simple
 GRADIENT = (1, 2, -3)
 STEEPNESS = math.dist(GRADIENT, (0, 0, 0))
 SCANS = ("straight", "oblique", "tilted")
+# Which of ParaView's filters misplace a scan that is oblique or tilted: the table in plugin/docs/scripting.md.
+MISPLACING = ("Contour", "Resample To Image") if simple.GetParaViewVersion() >= (5, 13) else ("Contour", "Clip", "Iso Volume")
 
 
 def field_at(p):
@@ -26,7 +28,7 @@ def linear(name):
 
 
 def expect_in_place(name, what, data, least=500):
-    """Every point, or every 50th of many, is where its value says, to a tenth of a voxel."""
+    """Every point, or every 50th of many, is where its value says, to a tenth of a voxel; or, where ParaView misplaces it, is not."""
     voxel = min(core_info(phantom(name))["spacing_mm"])
     values, valid = data.GetPointData().GetArray("field"), data.GetPointData().GetArray("vtkValidPointMask")
     expect(values is not None, f"{what} of the {name} scan lost the field")
@@ -36,6 +38,9 @@ def expect_in_place(name, what, data, least=500):
             worst, seen = max(worst, abs(values.GetValue(n) - field_at(data.GetPoint(n))) / STEEPNESS), seen + 1
     print(f"  {what}, {name}: {worst / voxel:.4f} voxels at most, {seen} points")
     expect(seen >= least, f"{what} of the {name} scan has {seen} points")
+    if what in MISPLACING and name != "straight":
+        expect(worst > 1, f"{what} of the {name} scan is only {worst:.3f} mm off: the table is out of date")
+        return
     expect(worst < 0.1 * voxel, f"{what} of the {name} scan: a point is {worst:.3f} mm off, voxels of {voxel} mm")
 
 
@@ -47,6 +52,8 @@ def what_paraview_makes_of_a_scan_is_in_place():
             "Slice": simple.Slice(Input=scan),
             "Extract Subset": simple.ExtractSubset(Input=scan, VOI=[10, 40, 10, 50, 5, 30]),
             "Threshold": simple.Threshold(Input=scan, Scalars=["POINTS", "HU"], LowerThreshold=-500, UpperThreshold=500),
+            "Clip": simple.Clip(Input=scan, ClipType="Plane"),
+            "Iso Volume": simple.IsoVolume(Input=scan, InputScalars=["POINTS", "field"], ThresholdRange=[4, 30]),
             "Resample To Image": simple.ResampleToImage(Input=scan, SamplingDimensions=[40, 40, 40]),
             "Plot Over Line": simple.PlotOverLine(Input=scan, **line),
             "Resample With Dataset": simple.ResampleWithDataset(SourceDataArrays=scan, DestinationMesh=simple.Sphere(Radius=10)),
@@ -78,7 +85,7 @@ def what_would_be_misplaced_is_warned_of():
         contour = fetch(simple.Contour(Input=linear(name), ContourBy=["POINTS", "field"], Isosurfaces=[4.0]))
         off = max(abs(field_at(contour.GetPoint(n)) - 4) / STEEPNESS for n in range(0, contour.GetNumberOfPoints(), 10))
         print(f"  ParaView's own Contour, {name}: {off:.2f} mm off")
-        expect((off > 1) == (name != "straight"), f"{name}: Contour is {off:.2f} mm off: the warning is out of date")
+        expect((off > 1) == ("Contour" in MISPLACING and name != "straight"), f"{name}: Contour is {off:.2f} mm off: the warning is out of date")
 
 
 main([what_paraview_makes_of_a_scan_is_in_place, paraviews_gradient_is_along_the_patients_axes,

@@ -113,8 +113,8 @@ TEST(ServerMessages, TheReaderSaysHowAScanIsShown) {
   expect_row("slices are unevenly spaced: the display is resampled, touch is not",
              said_of(ball("uneven", [](auto& lattice) { lattice.uneven_mm = 0.2; })));
   expect_row(
-      "this scan is oblique or tilted: ParaView's Contour, Clip and Iso Volume would misplace it by millimeters; use "
-      "Palpate's Tissue Surface",
+      "this scan is oblique or tilted: ParaView's Contour, Clip, Iso Volume and Resample To Image can misplace it by "
+      "centimeters; use Palpate's Tissue Surface",
       said_of(ball("tilted", [](auto& lattice) { lattice.tilt_degrees = 20; })));
 }
 

@@ -253,8 +253,8 @@ void PalpateDicomReader::find() {
   if (scan_->grid.resampled) tell("slices are unevenly spaced: the display is resampled, touch is not");
   if (!plugin::is_straight(scan_->grid)) {
     tell(
-        "this scan is oblique or tilted: ParaView's Contour, Clip and Iso Volume would misplace it by millimeters; use "
-        "Palpate's Tissue Surface");
+        "this scan is oblique or tilted: ParaView's Contour, Clip, Iso Volume and Resample To Image can misplace it by "
+        "centimeters; use Palpate's Tissue Surface");
   }
 }
 
