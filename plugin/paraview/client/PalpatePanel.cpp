@@ -20,12 +20,17 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QCoreApplication>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QFileDialog>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMainWindow>
+#include <QMimeData>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTimer>
+#include <QUrl>
 #include <QVBoxLayout>
 
 #include <glm/common.hpp>
@@ -34,7 +39,9 @@
 
 #include "plugin/paraview/client/layout/clinical_toolbar.h"
 #include "plugin/paraview/client/layout/enlarged_view.h"
+#include "plugin/paraview/client/layout/help_menu.h"
 #include "plugin/paraview/client/layout/host_layout.h"
+#include "plugin/paraview/client/layout/view_picture.h"
 #include "plugin/paraview/client/layout/volume_look_box.h"
 #include "plugin/paraview/client/panel/column_scroll.h"
 #include "plugin/paraview/client/panel/curves_section.h"
@@ -87,6 +94,7 @@ struct PalpatePanel::Parts {
 
   void build();
   void build_layout();
+  void ask_picture();
   void enlarge(bool enlarged);
   void leave(const QString& why);
   void leave_server();
@@ -259,6 +267,10 @@ void PalpatePanel::Parts::build_layout() {
   });
   window->addToolBar(Qt::TopToolBarArea, toolbar);
   layout = new HostLayout(*window, *toolbar, dock, &dock);
+  add_help(*window);
+  QObject::connect(toolbar, &ClinicalToolbar::folder_wanted, &dock,
+                   [this](const QString& folder) { scan->open(folder.toStdString()); });
+  QObject::connect(toolbar, &ClinicalToolbar::picture_wanted, &dock, [this] { ask_picture(); });
   QObject::connect(toolbar, &ClinicalToolbar::open_wanted, &dock, [this] { scan->ask_folder(); });
   QObject::connect(toolbar, &ClinicalToolbar::enlarged_wanted, &dock, [this](bool enlarged) { enlarge(enlarged); });
   QObject::connect(toolbar, &ClinicalToolbar::connect_wanted, stylus, &StylusSection::connect_or_not);
@@ -267,6 +279,19 @@ void PalpatePanel::Parts::build_layout() {
   QObject::connect(layout, &HostLayout::advanced_changed, toolbar, &ClinicalToolbar::show_advanced);
   QObject::connect(stylus, &StylusSection::connection_shown, toolbar, &ClinicalToolbar::show_connection);
   scan->views().set_enlarged_changed([this](bool enlarged) { toolbar->show_enlarged(enlarged); });
+}
+
+void PalpatePanel::Parts::ask_picture() {
+  auto* const marked = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  if (!marked) return;
+  QFileDialog dialog(&dock, tr("Save a picture of the views"), {}, tr("Pictures (*.png)"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("png"));
+  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return;
+  const QString file = dialog.selectedFiles().first();
+  if (!save_picture(*marked, file)) {
+    emit touching.told(tr("%1 cannot be written: %2").arg(file, tr("no such folder, or no right to it")), true);
+  }
 }
 
 void PalpatePanel::Parts::enlarge(bool enlarged) {
@@ -493,12 +518,22 @@ void PalpatePanel::Parts::look(const SessionStatus& seen) {
 PalpatePanel::PalpatePanel(QWidget* parent)
     : QDockWidget(tr("Palpate"), parent), parts_(std::make_unique<Parts>(*this)) {
   setObjectName(QStringLiteral("PalpatePanel"));
+  setAcceptDrops(true);
   parts_->build();
   QCoreApplication::instance()->installEventFilter(this);
 }
 
 PalpatePanel::~PalpatePanel() {
   delete widget();  // the sections lean on the parts
+}
+
+/// A folder may be dropped anywhere on the panel.
+void PalpatePanel::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
+}
+
+void PalpatePanel::dropEvent(QDropEvent* event) {
+  parts_->scan->open(event->mimeData()->urls().first().toLocalFile().toStdString());
 }
 
 bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {

@@ -17,6 +17,9 @@ class PalpatePanel : public QDockWidget {
   /// Esc, wherever it is pressed, releases the force.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;

@@ -5,10 +5,14 @@
 #include <QComboBox>
 #include <QIcon>
 #include <QLabel>
+#include <QMenu>
 #include <QPainter>
 #include <QPixmap>
 #include <QPushButton>
 #include <QStyle>
+#include <QToolButton>
+
+#include "plugin/paraview/client/scan/recent_folders.h"
 
 namespace palpate::plugin {
 namespace {
@@ -40,6 +44,17 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
   QAction* const open = add("palpateToolbarOpen", tr("Open…"), tr("A folder of DICOM files, searched to the bottom"));
   open->setIcon(style()->standardIcon(QStyle::SP_DirOpenIcon));
   connect(open, &QAction::triggered, this, &ClinicalToolbar::open_wanted);
+  auto* const recent = new QMenu(this);
+  recent->setObjectName(QStringLiteral("palpateRecent"));
+  connect(recent, &QMenu::aboutToShow, this, [this, recent] {
+    recent->clear();
+    for (const QString& folder : recent_folders()) {
+      connect(recent->addAction(folder), &QAction::triggered, this, [this, folder] { emit folder_wanted(folder); });
+    }
+    if (recent->isEmpty()) recent->addAction(tr("No folder was opened yet"))->setEnabled(false);
+  });
+  open->setMenu(recent);
+  qobject_cast<QToolButton*>(widgetForAction(open))->setPopupMode(QToolButton::MenuButtonPopup);
   addSeparator();
   addWidget(new QLabel(tr("Window "), this));
   addWidget(&window);
@@ -72,6 +87,9 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
                      "QPushButton:disabled { background: palette(mid); color: palette(dark) }"));
   connect(release_, &QPushButton::clicked, this, &ClinicalToolbar::release_wanted);
   addWidget(release_);
+  addSeparator();
+  QAction* const picture = add("palpatePicture", tr("Picture…"), tr("Saves what the views show as a PNG file"));
+  connect(picture, &QAction::triggered, this, &ClinicalToolbar::picture_wanted);
   auto* const gap = new QWidget(this);
   gap->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   addWidget(gap);

@@ -26,6 +26,8 @@ class ClinicalToolbar : public QToolBar {
 
  signals:
   void open_wanted();
+  void folder_wanted(const QString& folder);
+  void picture_wanted();
   void enlarged_wanted(bool enlarged);
   void connect_wanted();
   void release_wanted();

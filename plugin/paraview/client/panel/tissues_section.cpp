@@ -193,9 +193,12 @@ void TissuesSection::open_file() {
 }
 
 void TissuesSection::save_file() {
-  const QString name =
-      QFileDialog::getSaveFileName(this, tr("Save scene"), QStringLiteral("scene.json"), tr("Scenes (*.json)"));
-  if (name.isEmpty()) return;
+  QFileDialog dialog(this, tr("Save scene"), {}, tr("Scenes (*.json)"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("json"));
+  dialog.selectFile(QStringLiteral("scene.json"));
+  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return;
+  const QString name = dialog.selectedFiles().first();
   QSaveFile file(name);
   const std::string text = modes::to_json(model_.scene());
   const auto size = static_cast<qint64>(text.size());

@@ -31,6 +31,7 @@
 #include <exception>
 
 #include "plugin/paraview/client/scan/animation_time.h"
+#include "plugin/paraview/client/scan/recent_folders.h"
 #include "plugin/paraview/common/display_image.h"
 #include "plugin/paraview/common/scan_choice.h"
 #include "plugin/session/scan.h"
@@ -150,7 +151,7 @@ void ScanSection::ask_folder() {
     }
     return;
   }
-  const QString folder = QFileDialog::getExistingDirectory(this, title);
+  const QString folder = QFileDialog::getExistingDirectory(this, title, last_place());
   if (!folder.isEmpty()) open(folder.toStdString());
 }
 
@@ -175,6 +176,7 @@ void ScanSection::open(const std::string& path) {
     open_on_server();
     return;
   }
+  remember_folder(text(path));
   set_busy(true, tr("Finding series"));
   loader_.find(
       path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },

@@ -263,6 +263,10 @@ void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice
     return probe->at(place);
   };
   window_->gray_map = gray_map(*pqActiveObjects::instance().activeServer());
+  window_->digit_pressed = [this](int digit) {
+    const auto chosen = static_cast<std::size_t>(digit - 1);
+    if (chosen < windows_.size()) set_window(windows_[chosen].window);
+  };
   window_->changed = [this] {
     refresh();
     if (window_changed_) window_changed_();

@@ -63,7 +63,8 @@ class SliceView::Mouse {
     constexpr float before_paraview = 10;
     for (const auto event :
          {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
-          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::LeaveEvent}) {
+          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::LeaveEvent,
+          vtkCommand::KeyPressEvent, vtkCommand::CharEvent}) {
       observers_.push_back(interactor_->AddObserver(event, command_, before_paraview));
     }
   }
@@ -108,6 +109,13 @@ class SliceView::Mouse {
         owner_.pointer_.reset();
         if (owner_.overlay_->set_pointer({})) owner_.view_.render();
         return;
+      case vtkCommand::KeyPressEvent:
+      case vtkCommand::CharEvent: {  // which would make the view one for two eyes
+        const char key = interactor_->GetKeyCode();
+        if (key < '1' || key > '9' || !owner_.window_->digit_pressed) return;
+        if (event == vtkCommand::KeyPressEvent) owner_.window_->digit_pressed(key - '0');
+        break;
+      }
       case vtkCommand::MouseWheelForwardEvent:
         owner_.leaf(1);
         break;

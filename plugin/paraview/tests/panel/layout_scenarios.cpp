@@ -5,22 +5,30 @@
 #include <pqRenderView.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
-#include <vtkSMProxyIterator.h>
+#include <vtkSMProxy.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMViewLayoutProxy.h>
 
 #include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QFile>
+#include <QFileInfo>
+#include <QImage>
 #include <QListWidget>
 #include <QMainWindow>
+#include <QMenu>
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
 #include <QStringList>
+#include <QTextBrowser>
+#include <QTextDocument>
 #include <QToolBar>
 #include <QToolButton>
+#include <QUrl>
 
+#include <cmath>
 #include <string>
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
@@ -69,6 +77,15 @@ int views_in_sight() {
   int count = 0;
   for (const char* const name : {"Axial", "Sagittal", "Coronal", "Volume"}) count += view(name).isVisible() ? 1 : 0;
   return count;
+}
+
+/// Another number for other views.
+unsigned views_made() {
+  unsigned sum = 0;
+  for (const auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    sum += one->getProxy()->GetGlobalID();
+  }
+  return sum;
 }
 
 void double_click(const char* name) {
@@ -148,6 +165,61 @@ void advanced_is_remembered() {
   expect(find<QToolButton>("palpateAdvancedButton").isChecked(), "the toolbar says so");
 }
 
+/// A scan's folder is known the next time, and so are its windows, the guide, and a picture of it.
+void ones_way_is_found() {
+  scan_is_shown();
+  QWidget& axial = view("Axial");
+  auto& windows = find<QComboBox>("palpateWindow");
+  expect(windows.count() >= 8, "there are windows for eight keys");
+  press_key_in(axial, "2");
+  wait_for(
+      "the key 2 chooses the second window", [&] { return windows.currentIndex() == 1; }, 5);
+  expect(corner_text("Axial").contains("W 80  L 40"), "the slices have it: " + corner_text("Axial").toStdString());
+  press_key_in(axial, "1");
+  wait_for(
+      "the key 1 the first", [&] { return windows.currentIndex() == 0; }, 5);
+
+  const QString picture = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/views");
+  QFile::remove(picture + ".png");
+  name_file("palpatePictureButton", picture);
+  const QImage all(picture + ".png");
+  expect(all.width() > 1.8 * axial.width() && all.height() > 1.8 * axial.height(), "the picture is of all views");
+  click("palpateOneUpButton");
+  wait_for(
+      "one view is alone", [] { return views_in_sight() == 1; }, 10);
+  QFile::remove(picture + ".png");  // or it asks whether to replace it
+  name_file("palpatePictureButton", picture);
+  const QImage one(picture + ".png");
+  expect(std::abs(one.width() - view("Axial").width()) < 8, "the picture is of that view");
+  click("palpateFourUpButton");
+
+  const QString scene = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/my own");
+  QFile::remove(scene + ".json");
+  name_file("palpateSaveScene", scene);
+  expect(QFile::exists(scene + ".json"), "a scene is saved with its suffix");
+
+  press_key_in(view("Coronal"), "F1");
+  wait_for(
+      "F1 opens the guide", [] { return widget("palpateGuide") && widget("palpateGuide")->isVisible(); }, 5);
+  auto& guide = find<QTextBrowser>("palpateGuideText");
+  expect(guide.toPlainText().contains("First five minutes"), "which is there without a network");
+  expect(!guide.document()->resource(QTextDocument::ImageResource, QUrl("pictures/panel.png")).isNull(),
+         "with its pictures");
+  wait_ms(500);
+  save_screen("guide");
+  widget("palpateGuide")->close();
+
+  QMenu& recent = *window().findChild<QMenu*>("palpateRecent");
+  emit recent.aboutToShow();
+  const QString folder = QFileInfo(qEnvironmentVariable("PALPATE_OPEN")).absoluteFilePath();
+  expect(recent.actions().size() == 1 && recent.actions().first()->text() == folder, "the folder is remembered");
+  const unsigned before = views_made();
+  recent.actions().first()->trigger();
+  wait_for(
+      "and opened again", [&] { return views_made() != before; }, 60);
+  scan_is_shown();
+}
+
 int tabs() {
   auto* const server = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqServer*>().first();
   return static_cast<int>(server->proxyManager()->GetNumberOfProxies("layouts"));
@@ -175,6 +247,7 @@ void one_tab_is_used_again() {
 const Scenarios& layout_scenarios() {
   static const Scenarios scenarios{{"the_layout_is_clinical", the_layout_is_clinical},
                                    {"advanced_is_remembered", advanced_is_remembered},
+                                   {"ones_way_is_found", ones_way_is_found},
                                    {"one_tab_is_used_again", one_tab_is_used_again}};
   return scenarios;
 }
