@@ -112,11 +112,11 @@ inline constexpr MessageRow paraview[] = {
      "nothing; see [the guide](README.md#geometry-in-paraview)",
      {{"slices-are-unevenly-spaced", "slices are unevenly spaced: the display is resampled, touch is not"},
       {"display-resampled-touch-is-not", "Display resampled, touch is not."}}},
-    {"a fault of ParaView 5.11",
+    {"faults of ParaView: which filter depends on its release ([the table](scripting.md#geometry-in-paraview))",
      "as it says",
      {{"this-scan-is-oblique-or-tilted",
-       "this scan is oblique or tilted: ParaView's Contour, Clip and Iso Volume would misplace it by millimeters; use "
-       "Palpate's Tissue Surface"},
+       "this scan is oblique or tilted: ParaView's Contour, Clip, Iso Volume and Resample To Image can misplace it by "
+       "centimeters; use Palpate's Tissue Surface"},
       {"oblique-or-tilted", "Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour."}}},
     {"a filter's `Mode`",
      "as it says",
