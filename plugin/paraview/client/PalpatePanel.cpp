@@ -23,6 +23,7 @@
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileDialog>
+#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMainWindow>
@@ -64,6 +65,7 @@
 #include "plugin/paraview/client/views/boundary_contours.h"
 #include "plugin/paraview/client/views/flow_views.h"
 #include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/paraview/client/views/reference_lines.h"
 #include "plugin/session/scan.h"
 
 using namespace palpate;
@@ -117,6 +119,7 @@ struct PalpatePanel::Parts {
   SessionController touching;
   FlowViews flow;
   BoundaryContours contours;
+  ReferenceLines crosshair;
   StylusViews views;
   ServerWatch servers;
   Fold* scan_fold = nullptr;
@@ -165,12 +168,19 @@ void PalpatePanel::Parts::build() {
   studying->setFormat(tr("Looking for tissues %p%"));
   studying->hide();
   tissues_column->addWidget(studying);
-  auto* const drawn = new QCheckBox(tr("Draw the boundaries on the slices"), tissues_box);
+  auto* const drawn = new QCheckBox(tr("Boundaries on the slices"), tissues_box);
   drawn->setObjectName(QStringLiteral("palpateContours"));
   drawn->setToolTip(tr("A line where each boundary is met, in its color. It follows what you tune."));
   drawn->setChecked(true);
   QObject::connect(drawn, &QCheckBox::toggled, &dock, [this](bool on) { contours.set_visible(on); });
-  tissues_column->addWidget(drawn);
+  auto* const crossed = new QCheckBox(tr("Crosshair"), tissues_box);
+  crossed->setObjectName(QStringLiteral("palpateCrosshair"));
+  crossed->setToolTip(tr("Where the other two slices lie. Moving the pointer with Shift held down takes them along."));
+  QObject::connect(crossed, &QCheckBox::toggled, &dock, [this](bool on) { crosshair.set_visible(on); });
+  auto* const shown_lines = new QHBoxLayout;
+  shown_lines->addWidget(drawn, 1);
+  shown_lines->addWidget(crossed);
+  tissues_column->addLayout(shown_lines);
   column->addWidget(new Fold(tr("Tissues"), QStringLiteral("palpateTissuesSection"), tissues_box, true, content));
   stylus = new StylusSection(touching, model, [this] { return views.eye(); });
   column->addWidget(new Fold(tr("Stylus"), QStringLiteral("palpateStylusSection"), stylus, true, content));
@@ -214,6 +224,7 @@ void PalpatePanel::Parts::build() {
   scan->views().set_slice_shown([this](SliceView& slice) {
     flow.show(slice);
     contours.show(slice);
+    crosshair.refresh();
   });
   scan->views().set_leafed([this] { stylus->pause_following(); });
   touching.set_start([this](const device::Specification& device) { return start_of(device); });
@@ -360,6 +371,7 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   if (restored) tissues->set_restored();
   const std::vector<ClinicalView> shown = scan->views().views();
   contours.set_views(shown);
+  crosshair.set_views(shown);
   profile->set_views(shown);
   recordings->set_views(shown);
   views.set_views(shown);  // last: the stylus is drawn over the paths
@@ -441,6 +453,7 @@ glm::dvec3 PalpatePanel::Parts::start_of(const device::Specification& of) {
 
 void PalpatePanel::Parts::leave_views() {
   contours.set_views({});
+  crosshair.set_views({});
   flow.set_views({});
   views.set_views({});
   profile->set_views({});

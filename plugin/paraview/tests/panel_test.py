@@ -100,6 +100,7 @@ SCENARIOS = [
     "the_hand_begins_in_sight",
     "keys_go_to_the_marked_view",
     "slices_are_scrolled",
+    "slices_follow_the_pointer",
     "slices_are_scrolled_upside_down",
     "closed_in_mid_contact",
 ]

@@ -263,6 +263,10 @@ void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice
     return probe->at(place);
   };
   window_->gray_map = gray_map(*pqActiveObjects::instance().activeServer());
+  window_->pointed_with_shift = [this](const glm::dvec3& place) {
+    if (window_->leafed) window_->leafed();
+    show_point(place);
+  };
   window_->digit_pressed = [this](int digit) {
     const auto chosen = static_cast<std::size_t>(digit - 1);
     if (chosen < windows_.size()) set_window(windows_[chosen].window);

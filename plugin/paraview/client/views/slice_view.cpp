@@ -101,6 +101,9 @@ class SliceView::Mouse {
           if (picking_) pick(Pick::moved);
           owner_.pointer_ = {at[0], at[1]};
           owner_.refresh_pointer();
+          if (interactor_->GetShiftKey() && !picking_ && owner_.window_->pointed_with_shift) {
+            owner_.window_->pointed_with_shift(owner_.place_under(at[0], at[1]));
+          }
           return;
         }
         drag_to(at[0], at[1]);

@@ -40,6 +40,8 @@ struct SharedWindow {
   /// Of the voxel nearest to a place in the patient, mm; may be empty.
   std::function<std::optional<double>(const glm::dvec3& place)> value_at;
   QString unit;
+  /// Called with the place under the pointer while it is moved with Shift held down.
+  std::function<void(const glm::dvec3& place)> pointed_with_shift;
   /// Called for the keys 1 to 9.
   std::function<void(int)> digit_pressed;
   /// Gets the left button instead of the window while it is set.

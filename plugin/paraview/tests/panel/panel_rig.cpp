@@ -192,6 +192,15 @@ void turn_wheel(const char* name, int steps) {
   QTest::qWait(200);
 }
 
+void point_with_shift(const char* name, double x, double y) {
+  vtkRenderWindowInteractor& interactor = *render_view(name).getRenderViewProxy()->GetInteractor();
+  const QSize size = render_view(name).widget()->size();
+  interactor.SetEventInformation(static_cast<int>(x * size.width()), static_cast<int>(y * size.height()), 0, 1);
+  interactor.InvokeEvent(vtkCommand::MouseMoveEvent);
+  interactor.SetShiftKey(0);
+  QTest::qWait(200);
+}
+
 QPoint proxy_in(QWidget& view) {
   const QImage picture = QGuiApplication::primaryScreen()
                              ->grabWindow(main_window().winId(), view.mapTo(&main_window(), QPoint(0, 0)).x(),

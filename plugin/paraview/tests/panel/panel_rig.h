@@ -56,6 +56,8 @@ QString corner_text(const char* view);
 QString pointer_text(const char* view);
 /// The pointer in the middle of a view, and its wheel turned: up for more than 0.
 void turn_wheel(const char* view, int steps);
+/// The pointer moved with Shift held down to a place in parts of the view, from the left and from below.
+void point_with_shift(const char* view, double x, double y);
 /// Brings it into sight, as a user scrolls.
 void scroll_to(QWidget& to);
 void move_pointer(const QWidget& in, const QPoint& at);

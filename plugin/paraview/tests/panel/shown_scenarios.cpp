@@ -362,6 +362,29 @@ void slices_are_scrolled() {
       "Go to stylus leads back", [&] { return slice_number("Axial") == through; }, 5);
 }
 
+/// With Shift held down the pointer takes the other slices along, and the crosshair stands where they are.
+void slices_follow_the_pointer() {
+  scan_is_shown();
+  find<QCheckBox>("palpateCrosshair").setChecked(true);
+  const int axial = slice_number("Axial"), sagittal = slice_number("Sagittal"), coronal = slice_number("Coronal");
+  const auto place_in = [](const char* view, const char* plus, const char* minus) {
+    return part_of_place(pointer_text(view), plus, minus);
+  };
+  point_with_shift("Axial", 0.62, 0.4);
+  const double left = place_in("Axial", "L", "R"), back = place_in("Axial", "P", "A");
+  expect(std::abs(left) > 3 && std::abs(back) > 3,
+         "the pointer is off the middle: " + pointer_text("Axial").toStdString());
+  expect(slice_number("Axial") == axial, "the slice under the pointer stays");
+  expect(slice_number("Sagittal") != sagittal && slice_number("Coronal") != coronal, "the others go");
+  turn_wheel("Sagittal", 0);
+  turn_wheel("Coronal", 0);
+  constexpr double half_slice = 0.51, told_to = 0.1;
+  expect(std::abs(place_in("Sagittal", "L", "R") - left) < half_slice + told_to,
+         "the sagittal one goes through the place");
+  expect(std::abs(place_in("Coronal", "P", "A") - back) < half_slice + told_to, "the coronal one, too");
+  save_screen("crosshair");
+}
+
 /// The row of the list whose text has these words.
 int row_with(const QString& words) {
   auto& series = find<QListWidget>("palpateSeries");
@@ -574,6 +597,7 @@ const Scenarios& shown_scenarios() {
       {"the_hand_begins_in_sight", the_hand_begins_in_sight},
       {"keys_go_to_the_marked_view", keys_go_to_the_marked_view},
       {"slices_are_scrolled", slices_are_scrolled},
+      {"slices_follow_the_pointer", slices_follow_the_pointer},
       {"slices_are_scrolled_upside_down", slices_are_scrolled},
   };
   return all;
