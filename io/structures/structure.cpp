@@ -29,6 +29,7 @@ constexpr const char* structure_set_storage = "1.2.840.10008.5.1.4.1.1.481.3";
 
 /// What a file holds; nothing where it is of another kind.
 std::vector<Structure> structures_in(const fs::path& path) {
+  if (std::vector<Structure> labels = structures_of_label_map(path); !labels.empty()) return labels;
   std::optional<internal::InputFile> file;
   internal::DatasetStart start;
   DcmDataset dataset;

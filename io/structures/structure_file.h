@@ -23,5 +23,7 @@ struct StructureDataset {
 
 std::vector<Structure> structures_of_segmentation(const StructureDataset& file);
 std::vector<Structure> structures_of_contours(const StructureDataset& file);
+/// NIfTI and NRRD; none where it is another kind of file, or an image.
+std::vector<Structure> structures_of_label_map(const std::filesystem::path& path);
 
 }  // namespace palpate::io

@@ -36,12 +36,13 @@ TEST(StructuresTruth, MeetsEverySegmentation) {
   const Json truth = Json::parse(file);
   int met = 0;
   for (const auto& [name, entry] : truth.items()) {
-    if (entry.at("kind").get<std::string>().find("SEG") == std::string::npos) continue;
     for (const auto& [number, segment] : entry.at("segments").items()) {
       SCOPED_TRACE(name);
       const Structure structure = structure_in(shared / name, std::stoi(number));
-      EXPECT_EQ(structure.name, segment.at("name").get<std::string>());
-      EXPECT_EQ(structure.frame_of_reference_uid, entry.at("frame_of_reference").get<std::string>());
+      if (segment.contains("name")) {
+        EXPECT_EQ(structure.name, segment.at("name").get<std::string>());
+      }
+      EXPECT_EQ(structure.frame_of_reference_uid, entry.value("frame_of_reference", ""));
       const StructureMeasures measures = measure(structure);
       EXPECT_EQ(measures.voxels, segment.at("voxels").get<std::uint64_t>());
       EXPECT_NEAR(measures.volume_mm3, segment.at("mm3").get<double>(), 1e-5 * measures.volume_mm3);
@@ -51,7 +52,7 @@ TEST(StructuresTruth, MeetsEverySegmentation) {
       ++met;
     }
   }
-  EXPECT_GE(met, 2);
+  EXPECT_GE(met, 39);
 }
 
 TEST(StructuresTruth, HasADistanceThatGoesOnWhereTheScanEnds) {

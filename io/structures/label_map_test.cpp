@@ -1,0 +1,175 @@
+// Label maps that are no DICOM: where they lie by the standards' own formulas, what they are called, and what is
+// refused.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "io/structures/structure.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path fresh_folder() {
+  fs::path folder = fs::path(testing::TempDir()) / "label_maps";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+fs::path write(const std::string& name, const std::string& bytes) {
+  fs::path file = fresh_folder() / name;
+  std::ofstream(file, std::ios::binary) << bytes;
+  return file;
+}
+
+/// 3 x 2 x 2 voxels of one byte: label 7 in the first voxel of the first slice, label 9 in the last voxel of the last.
+const std::string voxels{"\7\0\0\0\0\0\0\0\0\0\0\11", 12};
+
+class Nifti {
+ public:
+  Nifti() {
+    put<std::int32_t>(0, 348);
+    const std::array<std::int16_t, 8> size{3, 3, 2, 2, 1, 1, 1, 1};
+    for (std::size_t n = 0; n < 8; ++n) put(40 + 2 * n, size[n]);
+    put<std::int16_t>(70, 2);
+    put<std::int16_t>(72, 8);
+    const std::array<float, 4> spacing{1, 2, 3, 4};  // the first is the hand of the qform
+    for (std::size_t n = 0; n < 4; ++n) put(76 + 4 * n, spacing[n]);
+    put<float>(108, 352);
+    put<std::uint8_t>(123, 2);
+    put<std::int16_t>(252, 1);
+    bytes_.replace(344, 3, "n+1");
+  }
+  template <typename T>
+  Nifti& put(std::size_t at, T value) {
+    std::memcpy(bytes_.data() + at, &value, sizeof value);
+    return *this;
+  }
+  fs::path written(const std::string& name = "labels.nii") const { return write(name, bytes_ + voxels); }
+  std::string start() const { return bytes_; }
+
+ private:
+  std::string bytes_ = std::string(352, '\0');
+};
+
+StructureMeasures measured(const fs::path& file, int number) {
+  for (const Structure& structure : find_structures(std::array{file}).structures) {
+    if (structure.number == number) return measure(structure);
+  }
+  ADD_FAILURE() << "no label " << number << " in " << file;
+  return {};
+}
+
+void expect_at(const fs::path& file, int number, const Vec3& place) {
+  const StructureMeasures measures = measured(file, number);
+  EXPECT_EQ(measures.voxels, 1U);
+  EXPECT_NEAR(measures.volume_mm3, 2 * 3 * 4, 1e-4);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(measures.centroid_mm[axis], place[axis], 1e-4) << axis;
+}
+
+// Without a turn RAS is what the file says: to LPS, x and y change their signs.
+TEST(LabelMap, LiesWhereTheQformSays) {
+  Nifti file;
+  file.put<float>(268, 10).put<float>(272, 20).put<float>(276, 30);
+  expect_at(file.written(), 7, {-10, -20, 30});
+  expect_at(file.written(), 9, {-10 - 2 * 2, -20 - 3, 30 + 4});
+  // Half a turn about the x axis: y and z point the other way.
+  file.put<float>(256, 1);
+  expect_at(file.written(), 9, {-10 - 2 * 2, -20 + 3, 30 - 4});
+}
+
+TEST(LabelMap, BelievesTheSformFirst) {
+  Nifti file;
+  file.put<std::int16_t>(254, 1);
+  const float rows[3][4] = {{0, 3, 0, 1}, {2, 0, 0, 2}, {0, 0, -4, 3}};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) file.put(280 + 16 * row + 4 * column, rows[row][column]);
+  }
+  expect_at(file.written(), 7, {-1, -2, 3});
+  expect_at(file.written(), 9, {-1 - 3, -2 - 4, 3 - 4});
+}
+
+TEST(LabelMap, HasTheNamesThatSlicerWrites) {
+  const fs::path file =
+      write("labels.seg.nrrd",
+            "NRRD0004\n# Slicer's\ntype: uint8\ndimension: 3\nspace: right-anterior-superior\nsizes: 3 2 "
+            "2\nspace directions: (2,0,0) (0,3,0) (0,0,4)\nendian: little\nencoding: raw\nspace origin: "
+            "(1,2,3)\nSegment0_Name:=left kidney\nSegment0_LabelValue:=9\nSegment0_Color:=1 0.5 0\n\n" +
+                voxels);
+  const StructureCatalogue found = find_structures(std::array{file});
+  ASSERT_EQ(found.structures.size(), 2U);
+  EXPECT_EQ(found.structures[0].name, "label 7");
+  EXPECT_EQ(found.structures[1].name, "left kidney");
+  EXPECT_EQ(found.structures[1].color, "#ff8000");
+  EXPECT_EQ(found.structures[1].kind, StructureKind::label_map);
+  expect_at(file, 9, {-1 - 4, -2 - 3, 3 + 4});
+}
+
+TEST(LabelMap, AnImageIsNone) {
+  std::string noise(12, '\0');
+  for (std::size_t n = 0; n < noise.size(); ++n) noise[n] = static_cast<char>(n + 1);
+  EXPECT_TRUE(find_structures(std::array{write("image.nii", Nifti().put<std::int16_t>(252, 1).start() + noise)})
+                  .structures.empty());
+}
+
+std::string refusal_of(const fs::path& file) {
+  const StructureCatalogue found = find_structures(std::array{file});
+  EXPECT_TRUE(found.structures.empty());
+  return found.skipped.empty() ? "not refused" : found.skipped.front().reason;
+}
+
+std::string nrrd(const std::string& fields) {
+  return "NRRD0004\n" + fields + "\n" + voxels;
+}
+
+const std::string placed =
+    "space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
+
+TEST(LabelMap, IsRefusedInWords) {
+  EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(252, 0).written()),
+            "it does not say where it lies in the patient (neither sform nor qform): save it with its place");
+  EXPECT_EQ(refusal_of(Nifti().put<std::int32_t>(0, 540).written()),
+            "it is no NIfTI-1 file with header and voxels in one: save it as such");
+  EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(40, 4).put<std::int16_t>(48, 5).written()),
+            "it holds several volumes: save each in a file of its own");
+  EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(70, 32).written()),
+            "its voxels are of a type that labels are not: save it as whole numbers of 8, 16 or 32 bits");
+  EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(46, 3).written()),
+            "it ends before its last voxel: copy or export it again");
+  EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(42, -1).written()),
+            "its voxels are on no lattice that can be felt: resample it on the scan, or export it as SEG");
+  EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: bzip2\n" + placed))),
+            "its encoding \"bzip2\" is not read; there are: raw, gzip");
+  EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: raw\ndata file: b.raw\n" + placed))),
+            "its voxels are not in it, but in a file of their own: save header and voxels in one file");
+  EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: raw\n"))),
+            "it does not say where it lies in the patient (its space is not LPS, RAS or LAS): save it with its place");
+}
+
+// Damaged in every byte of its header, it is read or refused, and nothing else.
+TEST(LabelMap, SurvivesEveryDamagedByte) {
+  const std::string good = Nifti().start() + voxels;
+  for (std::size_t n = 0; n < 352; ++n) {
+    for (const char value : {'\x00', '\x7f', '\xff'}) {
+      std::string bad = good;
+      bad[n] = value;
+      const StructureCatalogue found = find_structures(std::array{write("labels.nii", bad)});
+      for (const Structure& structure : found.structures) {
+        try {
+          measure(structure);
+        } catch (const std::exception&) {  // refused in words
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::io
