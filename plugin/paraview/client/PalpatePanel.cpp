@@ -51,6 +51,7 @@
 #include "plugin/paraview/client/panel/modes_section.h"
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/recordings_section.h"
+#include "plugin/paraview/client/panel/structures_section.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
 #include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/remote/server_watch.h"
@@ -128,6 +129,8 @@ struct PalpatePanel::Parts {
   ScanSection* scan = nullptr;
   FilterRow* filter = nullptr;
   TissuesSection* tissues = nullptr;
+  Fold* structures_fold = nullptr;
+  StructuresSection* structures = nullptr;
   StylusSection* stylus = nullptr;
   CurvesSection* curves = nullptr;
   ModesSection* modes = nullptr;
@@ -182,6 +185,9 @@ void PalpatePanel::Parts::build() {
   shown_lines->addWidget(crossed);
   tissues_column->addLayout(shown_lines);
   column->addWidget(new Fold(tr("Tissues"), QStringLiteral("palpateTissuesSection"), tissues_box, true, content));
+  structures = new StructuresSection(model, touching);
+  structures_fold = new Fold(tr("Structures"), QStringLiteral("palpateStructuresSection"), structures, false, content);
+  column->addWidget(structures_fold);
   stylus = new StylusSection(touching, model, [this] { return views.eye(); });
   column->addWidget(new Fold(tr("Stylus"), QStringLiteral("palpateStylusSection"), stylus, true, content));
   curves = new CurvesSection(model);
@@ -225,8 +231,11 @@ void PalpatePanel::Parts::build() {
     flow.show(slice);
     contours.show(slice);
     crosshair.refresh();
+    structures->show(slice);
   });
   scan->views().set_leafed([this] { stylus->pause_following(); });
+  QObject::connect(structures, &StructuresSection::listed, &dock,
+                   [this] { structures_fold->set_note(structures->in_words()); });
   touching.set_start([this](const device::Specification& device) { return start_of(device); });
   QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
     recordings_fold->set_open(true);
@@ -372,6 +381,7 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   const std::vector<ClinicalView> shown = scan->views().views();
   contours.set_views(shown);
   crosshair.set_views(shown);
+  structures->set_views(shown);
   profile->set_views(shown);
   recordings->set_views(shown);
   views.set_views(shown);  // last: the stylus is drawn over the paths
@@ -387,6 +397,7 @@ void PalpatePanel::Parts::show_scan(const ScanHandle& handle) {
   touching.begin_outside();
   proposing = false;
   edited = restored;
+  structures->set_scan(handle.volume, vtkSMPropertyHelper(scan->source()->getProxy(), "FileName").GetAsString());
   note_scan(handle);
   scan_fold->set_open(false);
   layout->refresh_tabs();
@@ -455,6 +466,8 @@ void PalpatePanel::Parts::leave_views() {
   contours.set_views({});
   crosshair.set_views({});
   flow.set_views({});
+  structures->set_scan(nullptr, {});
+  structures->set_views({});
   views.set_views({});
   profile->set_views({});
   recordings->set_views({});

@@ -3,6 +3,7 @@
 Arguments as in panel_program.py; main_thread, which is a measurement, can be asked for. PALPATE_FOLDER: another scan.
 """
 
+import json
 import os
 import shutil
 import subprocess
@@ -54,6 +55,22 @@ def numbered(name, *arguments):
     return folder
 
 
+def outlined():
+    """A scan and the segmentation of its liver in one folder; and beside it one of another study."""
+    shared = os.path.join(os.environ.get("PALPATE_SHARED_DATA", ""), "structures")
+    if not os.path.isdir(shared):
+        return None
+    folder = scratch("panel-outlined")
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(os.path.join(shared, "dcmqi/ct-3slice"), folder)
+    shutil.copy(os.path.join(shared, "dcmqi/liver.dcm"), folder)
+    os.environ["PALPATE_FOREIGN"] = os.path.join(shared, "dcmqi/24x38x3/seg/label.seg")
+    with open(os.path.join(shared, "truth.json")) as file:
+        volume = json.load(file)["dcmqi/liver.dcm"]["segments"]["1"]["mm3"]
+    os.environ["PALPATE_LIVER"] = f"{volume / 1000:.0f} ml"
+    return folder
+
+
 FOLDERS = {
     "slices_are_scrolled": lambda: numbered("numbered"),
     "slices_are_scrolled_upside_down": lambda: numbered("upside-down", "--orientation", "1,0,0,0,-1,0"),
@@ -66,6 +83,7 @@ FOLDERS = {
     "the_scan_changes_in_mid_contact": both,
     "a_series_is_picked": mixed,
     "a_bad_folder": bad,
+    "structures_are_seen_and_felt": outlined,
 }
 SCENARIOS = [
     "the_layout_is_clinical",
@@ -102,6 +120,7 @@ SCENARIOS = [
     "slices_are_scrolled",
     "slices_follow_the_pointer",
     "slices_are_scrolled_upside_down",
+    "structures_are_seen_and_felt",
     "closed_in_mid_contact",
 ]
 
@@ -113,7 +132,7 @@ def told_of_its_scan():
 def on_its_folder(scenario):
     folder = os.environ.get("PALPATE_FOLDER") or FOLDERS.get(scenario, ball)()
     if folder is None:
-        print(f"{scenario}: skipped: needs the shared folder of mixed series, which is not beside this checkout")
+        print(f"{scenario}: skipped: needs a shared folder that is not beside this checkout")
         return True
     return run(scenario, folder)
 

@@ -14,6 +14,7 @@
 
 #include "plugin/paraview/client/panel/force_strip.h"
 #include "plugin/paraview/client/stylus/session_state.h"
+#include "plugin/report/summary.h"
 #include "solver/solution.h"
 
 namespace palpate::plugin {
@@ -62,6 +63,11 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
   grid->addWidget(force_, 0, 0);
   grid->addWidget(depth_, 0, 1, 1, 2);
   grid->addWidget(tissue_, 1, 0, 1, 3);
+  distance_ = make_value(this, "palpateDistance",
+                         tr("From the proxy to the structure that is nearest, of those that the scene reads; in color "
+                            "within its margin"));
+  distance_->hide();
+  grid->addWidget(distance_, 8, 0, 1, 3);
   strip_ = new ForceStrip(this);
   grid->addWidget(strip_, 2, 0, 1, 3);
   grid->addWidget(solver_, 3, 0, 1, 3);
@@ -150,8 +156,24 @@ void Footer::show_state(const SessionStatus& look) {
   lamp_->setStyleSheet(QStringLiteral("background: %1; border-radius: 6px").arg(QLatin1String(color)));
 }
 
+/// Room is taken for it only where there are structures.
+void Footer::show_distance(const SessionStatus& look) {
+  const bool told = (look.connected || look.replayed) && look.nearest.has_value();
+  distance_->setVisible(told);
+  if (!told) return;
+  const modes::Scene& scene = look.scene ? *look.scene : model_.scene();
+  if (look.nearest->structure >= scene.structures.size()) return;
+  const std::string& name = scene.structures[look.nearest->structure].name;
+  const QString words = QString::fromStdString(distance_in_words(look.nearest->distance_mm, name));
+  distance_->setText(look.nearest->within_margin ? tr("⚠ %1: within its margin").arg(words) : words);
+  distance_->setStyleSheet(look.nearest->within_margin
+                               ? QStringLiteral("background: #d55e00; color: white; font-weight: bold; padding: 2px")
+                               : QString());
+}
+
 void Footer::show_look(const SessionStatus& look) {
   show_state(look);
+  show_distance(look);
   if (!look.connected && !look.replayed) {
     force_->setText(QStringLiteral("–"));
     depth_->setText(tr("no stylus"));

@@ -25,6 +25,7 @@ class Footer : public QWidget {
  private:
   void show_look(const SessionStatus& look);
   void show_state(const SessionStatus& look);
+  void show_distance(const SessionStatus& look);
   void show_connection();
   void toggle_recording();
 
@@ -33,6 +34,7 @@ class Footer : public QWidget {
   QLabel* tissue_;
   QLabel* force_;
   QLabel* depth_;
+  QLabel* distance_ = nullptr;
   QLabel* solver_;
   QLabel* tick_;
   ForceStrip* strip_;

@@ -66,6 +66,9 @@ ModesSection::ModesSection(SceneModel& model, SessionController& touching, QWidg
     QAction* const action = menu->addAction(tr("%1: %2").arg(text(type->name), text(type->summary)));
     action->setObjectName(QStringLiteral("palpateAdd_") + text(type->name));
     connect(action, &QAction::triggered, this, [this, type] { add_mode(std::string(type->name)); });
+    if (!modes::contains(type->keys, modes::Key::margin)) continue;
+    connect(menu, &QMenu::aboutToShow, action,
+            [this, action] { action->setEnabled(!model_.scene().structures.empty()); });
   }
   add->setMenu(menu);
   row->addWidget(add);
@@ -160,6 +163,9 @@ void ModesSection::add_mode(const std::string& type) {
     mode.strength_of = modes::find_mode_type(type)->strength_of;
     mode.strength_n = modes::TransferFunction(first_strength_n);
     mode.position_mm = touching_.last().proxy_mm;
+    if (modes::contains(modes::find_mode_type(type)->keys, modes::Key::margin)) {
+      mode.structure = scene.structures.front().name;
+    }
     scene.modes.push_back(mode);
   });
   list_->setCurrentRow(list_->count() - 1);

@@ -276,6 +276,11 @@ void SessionController::look() {
   look_.force_n = glm::length(vector_of(frame.sent_n));
   look_.missed = live_.missed();
   look_.tissue = tissue_name(model_.scene(), live_.scan() ? live_.scan()->unit : std::string(), frame.value);
+  // A frame of before the last edit may tell of others.
+  look_.nearest.reset();
+  if (const auto plan = live_.plan(); plan && frame.scene_epoch == live_.epoch()) {
+    look_.nearest = nearest_structure(frame, model_.scene(), plan->structures);
+  }
   obey_buttons(frame.buttons);
   give_way();
   emit looked(look_);

@@ -18,6 +18,7 @@
 #include "plugin/app/live_session.h"
 #include "plugin/app/stylus_choice.h"
 #include "plugin/paraview/client/panel/scene_model.h"
+#include "plugin/report/nearest_structure.h"
 
 namespace palpate::plugin {
 
@@ -31,6 +32,7 @@ struct SessionStatus {
   modes::Workspace workspace;           ///< of the frame
   glm::dvec3 probe_mm{0}, proxy_mm{0};  ///< patient space
   std::string tissue;
+  std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
   double force_n = 0;        ///< that the device was fed, in the last frame
   double peak_n = 0;         ///< the largest since the last look
   double tick_us = 0;        ///< median since the last look

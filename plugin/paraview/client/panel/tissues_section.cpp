@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
+#include "modes/types/mode_type.h"
 #include "plugin/paraview/client/panel/column_scroll.h"
 #include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/panel/tool_button.h"
@@ -220,9 +221,12 @@ void TissuesSection::build_rows() {
   shown_types_.clear();
   for (const modes::Mode& mode : scene.modes) shown_types_.push_back(mode.type);
   // Where it has no boundaries, as in a flow, whatever else it has.
-  const bool any_surface = std::ranges::any_of(scene.modes, [](const auto& mode) { return mode.type == "surface"; });
+  const auto is_boundary = [](const modes::Mode& mode) {
+    return mode.type == "surface" || modes::contains(modes::find_mode_type(mode.type)->keys, modes::Key::margin);
+  };
+  const bool any_surface = std::ranges::any_of(scene.modes, is_boundary);
   for (std::size_t n = 0; n < scene.modes.size(); ++n) {
-    if (any_surface && scene.modes[n].type != "surface") continue;
+    if (any_surface && !is_boundary(scene.modes[n])) continue;
     const int row = static_cast<int>(shown_.size());
     shown_.push_back(n);
     const QString number = QString::number(row);

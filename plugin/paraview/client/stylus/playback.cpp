@@ -55,6 +55,7 @@ SessionStatus Playback::look(const std::string& unit) {
   look.probe_mm = session_->probe_mm(n);
   look.proxy_mm = session_->proxy_mm(n);
   look.scene = std::shared_ptr<const modes::Scene>(session_, &session_->scene(n));
+  look.nearest = nearest_structure(look.frame, *look.scene, session_->structures(n));
   look.tissue = tissue_name(*look.scene, unit, look.frame.value);
   look.force_n = look.peak_n = glm::length(session_->sent_n(n));
   look.tick_us = tick_us(look.frame);

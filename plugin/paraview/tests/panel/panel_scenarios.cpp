@@ -270,7 +270,7 @@ void run_scenario(const std::string& name) {
   for (const Scenarios* const some :
        {&scenarios, &contour_scenarios(), &hand_scenarios(), &heap_scenarios(), &layout_scenarios(),
         &picture_scenarios(), &profile_scenarios(), &recording_scenarios(), &remote_scenarios(), &shown_scenarios(),
-        &story_scenarios()}) {
+        &story_scenarios(), &structure_scenarios()}) {
     if (const auto found = some->find(name); found != some->end()) return found->second();
   }
   throw std::runtime_error("there is no scenario " + name);

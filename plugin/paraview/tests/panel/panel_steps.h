@@ -21,6 +21,7 @@ const Scenarios& recording_scenarios();
 const Scenarios& remote_scenarios();
 const Scenarios& shown_scenarios();
 const Scenarios& story_scenarios();
+const Scenarios& structure_scenarios();
 
 /// The JSON text of the scene in the pipeline; empty where there is none.
 std::string scene_text();

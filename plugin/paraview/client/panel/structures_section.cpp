@@ -1,0 +1,418 @@
+#include "plugin/paraview/client/panel/structures_section.h"
+
+#include <vtkPolyData.h>
+
+#include <QColorDialog>
+#include <QDoubleSpinBox>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QMenu>
+#include <QMimeData>
+#include <QPixmap>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "device/simulated/simulated_stylus.h"
+#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/views/structure_shapes.h"
+#include "plugin/session/shared_distance.h"
+#include "plugin/session/study_structures.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr std::size_t shown_at_once = 5;  // so many are shown without being asked for
+constexpr double first_margin_mm = 3, first_opacity = 0.4;
+// Told apart by the color-blind, too: after Okabe and Ito.
+constexpr const char* colors[] = {"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7"};
+
+QString text(const std::string& utf8) {
+  return QString::fromStdString(utf8);
+}
+
+QString volume_in_words(double mm3) {
+  constexpr double small_ml = 10, ml = 1000;
+  return QStringLiteral("%1 ml").arg(mm3 / ml, 0, 'f', mm3 / ml < small_ml ? 2 : 0);
+}
+
+}  // namespace
+
+StructuresSection::StructuresSection(SceneModel& model, SessionController& touching, QWidget* parent)
+    : QWidget(parent),
+      model_(model),
+      touching_(touching),
+      finding_([this](const auto& found, const QString& error) {
+        if (found) take(*found);
+        if (!error.isEmpty()) tell(error, true);
+      }),
+      making_([this](const auto& made, const QString&) {
+        busy_making_ = false;
+        if (made) take_made(*made);
+        make_next();
+      }),
+      using_([this](const auto& read, const QString& error) {
+        if (!error.isEmpty()) tell(error, true);
+        if (!read) return;
+        held_.insert(held_.end(), read->begin(), read->end());
+        then_();
+      }) {
+  setObjectName(QStringLiteral("palpateStructures"));
+  setAcceptDrops(true);
+  build();
+  connect(&model, &SceneModel::changed, this, [this](Pace pace) {
+    if (pace == Pace::stepped) follow_scene();
+  });
+  list();
+}
+
+StructuresSection::~StructuresSection() = default;
+
+void StructuresSection::build() {
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(3);
+  list_ = new QTreeWidget(this);
+  list_->setObjectName(QStringLiteral("palpateStructureList"));
+  list_->setHeaderHidden(true);
+  list_->setRootIsDecorated(false);
+  list_->setUniformRowHeights(true);
+  list_->setColumnCount(2);
+  list_->header()->setStretchLastSection(false);
+  list_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  list_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+  list_->setFixedHeight(120);
+  list_->setToolTip(tr("A tick shows it in the views. A double click chooses its color."));
+  connect(list_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) {
+    if (listing_) return;
+    entries_[static_cast<std::size_t>(list_->indexOfTopLevelItem(item))].shown = item->checkState(0) == Qt::Checked;
+    draw();
+    make_next();
+  });
+  connect(list_, &QTreeWidget::currentItemChanged, this, [this] { list(); });
+  connect(list_, &QTreeWidget::itemDoubleClicked, this,
+          [this](QTreeWidgetItem* item) { choose_color(static_cast<std::size_t>(list_->indexOfTopLevelItem(item))); });
+  column->addWidget(list_);
+  column->addWidget(build_uses());
+  auto* const row = new QHBoxLayout;
+  add_tool_button(*row, *this, "palpateAddStructures", tr("Add structures…"),
+                  tr("DICOM SEG or RTSTRUCT. Those in the scan's folder are found with it."), [this] { ask_files(); });
+  row->addStretch(1);
+  row->addWidget(new QLabel(tr("Opacity"), this));
+  opacity_ = new QSlider(Qt::Horizontal, this);
+  opacity_->setObjectName(QStringLiteral("palpateStructureOpacity"));
+  opacity_->setRange(0, 100);
+  opacity_->setValue(static_cast<int>(100 * first_opacity));
+  opacity_->setMaximumWidth(80);
+  opacity_->setToolTip(tr("Of the surfaces in the volume view"));
+  connect(opacity_, &QSlider::valueChanged, this, [this] { draw(); });
+  row->addWidget(opacity_);
+  column->addLayout(row);
+  message_ = new QLabel(this);
+  message_->setObjectName(QStringLiteral("palpateStructureMessage"));
+  message_->setWordWrap(true);
+  message_->setTextFormat(Qt::PlainText);
+  column->addWidget(message_);
+}
+
+/// What one press makes of the structure that is marked.
+QWidget* StructuresSection::build_uses() {
+  auto* const box = new QWidget(this);
+  auto* const row = new QHBoxLayout(box);
+  row->setContentsMargins(0, 0, 0, 0);
+  const auto name_of_chosen = [this] { return text(chosen()->structure.name); };
+  uses_.push_back(add_tool_button(*row, *this, "palpateStructureBoundary", tr("Boundary"),
+                                  tr("Its edge is felt, as the wall of an organ"), [this, name_of_chosen] {
+                                    use(tr("Boundary of %1").arg(name_of_chosen()),
+                                        [structure = chosen()->structure](modes::Scene& scene) {
+                                          add_boundary_of(scene, structure);
+                                        });
+                                  }));
+  uses_.push_back(
+      add_tool_button(*row, *this, "palpateStructureKeepOut", tr("Keep out"),
+                      tr("Over a margin before its edge the stylus is pushed back"), [this, name_of_chosen] {
+                        use(tr("Keep out of %1").arg(name_of_chosen()),
+                            [structure = chosen()->structure, margin = margin_->value()](modes::Scene& scene) {
+                              add_keep_out_of(scene, structure, margin);
+                            });
+                      }));
+  margin_ = new QDoubleSpinBox(box);
+  margin_->setObjectName(QStringLiteral("palpateStructureMargin"));
+  margin_->setRange(0.5, 15);
+  margin_->setSingleStep(0.5);
+  margin_->setDecimals(1);
+  margin_->setValue(first_margin_mm);
+  margin_->setSuffix(tr(" mm"));
+  margin_->setToolTip(tr("The margin that a keep-out gets: nearer than that is warned of"));
+  row->addWidget(margin_);
+  auto* const gate = add_tool_button(*row, *this, "palpateStructureGate", tr("Only inside"),
+                                     tr("A mode of the scene is felt inside it only"), [] {});
+  gate->setPopupMode(QToolButton::InstantPopup);
+  auto* const menu = new QMenu(gate);
+  connect(menu, &QMenu::aboutToShow, this, [this, menu] { fill_gates(*menu); });
+  gate->setMenu(menu);
+  uses_.push_back(gate);
+  row->addStretch(1);
+  return box;
+}
+
+void StructuresSection::fill_gates(QMenu& menu) {
+  menu.clear();
+  const modes::Scene& scene = model_.scene();
+  for (std::size_t n = 0; n < scene.modes.size(); ++n) {
+    connect(menu.addAction(name_of(scene, n)), &QAction::triggered, this, [this, n] {
+      if (!chosen()) return;
+      use(tr("%1 only inside %2").arg(name_of(model_.scene(), n), text(chosen()->structure.name)),
+          [n, structure = chosen()->structure](modes::Scene& changed) {
+            if (n < changed.modes.size()) add_gate_of(changed, n, structure);
+          });
+    });
+  }
+}
+
+void StructuresSection::ask_files() {
+  const QStringList files =
+      QFileDialog::getOpenFileNames(this, tr("Add structures"), {}, tr("Structures (*.dcm *);;All files (*)"));
+  std::vector<std::filesystem::path> places;
+  for (const QString& file : files) places.emplace_back(file.toStdString());
+  asked_ = !places.empty();
+  look_into(places);
+}
+
+void StructuresSection::dragEnterEvent(QDragEnterEvent* event) {
+  if (scan_ && event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void StructuresSection::dropEvent(QDropEvent* event) {
+  std::vector<std::filesystem::path> places;
+  for (const QUrl& url : event->mimeData()->urls()) {
+    if (url.isLocalFile()) places.emplace_back(url.toLocalFile().toStdString());
+  }
+  asked_ = !places.empty();
+  look_into(places);
+}
+
+void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder) {
+  finding_.drop();
+  making_.drop();
+  using_.drop();
+  scan_ = std::move(scan);
+  entries_.clear();
+  looked_into_.clear();
+  waiting_.clear();
+  held_.clear();
+  asked_ = false;
+  tell({}, false);
+  list();
+  draw();
+  if (!scan_) return;
+  std::error_code absent;
+  if (!folder.empty() && std::filesystem::exists(folder, absent)) look_into({folder});
+  follow_scene();
+}
+
+void StructuresSection::look_into(const std::vector<std::filesystem::path>& places) {
+  if (!scan_) return;
+  for (const std::filesystem::path& place : places) {
+    if (looked_into_.insert(place).second) waiting_.push_back(place);
+  }
+  if (waiting_.empty()) return;
+  finding_.ask([places = waiting_] { return io::find_structures(places); });
+}
+
+void StructuresSection::take(const io::StructureCatalogue& found) {
+  waiting_.clear();
+  const bool few = found.structures.size() + entries_.size() <= shown_at_once;
+  for (const io::Structure& structure : found.structures) {
+    const bool known = std::ranges::any_of(entries_, [&](const Entry& entry) {
+      return entry.structure.file == structure.file && entry.structure.number == structure.number;
+    });
+    if (known) continue;
+    Entry entry{.structure = structure, .why_not = why_not_on(structure, *scan_)};
+    entry.color = structure.color.empty() ? colors[entries_.size() % std::size(colors)] : structure.color;
+    entry.structure.color = entry.color;
+    entry.shown = entry.why_not.empty() && few;
+    entries_.push_back(std::move(entry));
+  }
+  if (std::exchange(asked_, false) && found.structures.empty()) {
+    tell(found.skipped.empty()
+             ? tr("No structures there: no DICOM SEG or RTSTRUCT.")
+             : text(found.skipped.front().path.filename().string() + ": " + found.skipped.front().reason),
+         true);
+  } else {
+    tell({}, false);
+  }
+  follow_scene();
+}
+
+/// What the scene names is listed and shown, in the scene's color, wherever it came from.
+void StructuresSection::follow_scene() {
+  std::vector<std::filesystem::path> files;
+  for (const modes::SceneStructure& named : model_.scene().structures) {
+    const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) { return is_same(named, one.structure); });
+    if (entry == entries_.end()) {
+      files.emplace_back(named.file);
+      continue;
+    }
+    if (!named.color.empty()) entry->color = named.color;
+  }
+  std::error_code absent;
+  std::erase_if(files, [&](const auto& file) { return !std::filesystem::exists(file, absent); });
+  list();
+  draw();
+  make_next();
+  look_into(files);
+}
+
+StructuresSection::Entry* StructuresSection::chosen() {
+  const int row = list_->indexOfTopLevelItem(list_->currentItem());
+  return row < 0 || row >= static_cast<int>(entries_.size()) ? nullptr : &entries_[static_cast<std::size_t>(row)];
+}
+
+void StructuresSection::list() {
+  if (std::exchange(listing_, true)) return;
+  while (list_->topLevelItemCount() > static_cast<int>(entries_.size())) {
+    delete list_->takeTopLevelItem(list_->topLevelItemCount() - 1);
+  }
+  for (std::size_t n = 0; n < entries_.size(); ++n) {
+    const int row = static_cast<int>(n);
+    if (row >= list_->topLevelItemCount()) list_->addTopLevelItem(new QTreeWidgetItem);
+    show_row(*list_->topLevelItem(row), entries_[n]);
+  }
+  if (!list_->currentItem() && !entries_.empty()) list_->setCurrentItem(list_->topLevelItem(0));
+  const Entry* const marked = chosen();
+  for (QToolButton* const button : uses_) button->setEnabled(marked && marked->why_not.empty());
+  margin_->setEnabled(marked && marked->why_not.empty());
+  listing_ = false;
+  emit listed();
+}
+
+void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) const {
+  const bool fits = entry.why_not.empty();
+  item.setText(0, text(entry.structure.name));
+  QPixmap swatch(12, 12);
+  swatch.fill(QColor(text(entry.color)));
+  item.setIcon(0, QIcon(swatch));
+  item.setText(1, entry.measures ? volume_in_words(entry.measures->volume_mm3) : QString());
+  item.setFlags(fits ? Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable : Qt::ItemIsSelectable);
+  item.setCheckState(0, entry.shown ? Qt::Checked : Qt::Unchecked);
+  QString tip = text(entry.structure.file.filename().string());
+  if (!entry.structure.code.empty()) tip += QLatin1Char('\n') + text(entry.structure.code);
+  if (!fits) tip += QLatin1Char('\n') + text(entry.why_not);
+  item.setToolTip(0, tip);
+}
+
+/// Measures and shapes, one after the other: first of what is shown.
+void StructuresSection::make_next() {
+  if (busy_making_ || !scan_) return;
+  const auto wants = [](bool drawn) {
+    return [drawn](const Entry& entry) {
+      return entry.why_not.empty() && (drawn ? entry.shown && !entry.drawn.distance : !entry.measures);
+    };
+  };
+  auto next = std::ranges::find_if(entries_, wants(true));
+  if (next == entries_.end()) next = std::ranges::find_if(entries_, wants(false));
+  if (next == entries_.end()) return;
+  busy_making_ = true;
+  making_.ask([structure = next->structure, measures = next->measures, draws = next->shown, scan = scan_] {
+    Made made{.file = structure.file, .number = structure.number, .measures = measures};
+    try {
+      if (!made.measures) made.measures = std::make_shared<const io::StructureMeasures>(io::measure(structure));
+      if (draws) {
+        constexpr double room_mm = 3;  // the box is of voxel centers
+        made.drawn.low_mm = made.measures->box_low_mm - room_mm;
+        made.drawn.high_mm = made.measures->box_high_mm + room_mm;
+        made.drawn.distance = shared_distance(structure, scan->geometry);
+        made.drawn.surface = surface_of(*made.drawn.distance, made.drawn.low_mm, made.drawn.high_mm);
+      }
+    } catch (const std::exception& error) {
+      made.error = error.what();
+    }
+    return made;
+  });
+}
+
+void StructuresSection::take_made(const Made& made) {
+  const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) {
+    return one.structure.file == made.file && one.structure.number == made.number;
+  });
+  if (entry == entries_.end()) return;  // another scan is shown meanwhile
+  entry->why_not = made.error;
+  if (!made.error.empty()) entry->shown = false;
+  entry->measures = made.measures;
+  if (made.drawn.distance) entry->drawn = made.drawn;
+  list();
+  draw();
+}
+
+void StructuresSection::draw() {
+  std::vector<DrawnStructure> shown;
+  for (Entry& entry : entries_) {
+    if (!entry.shown || !entry.drawn.distance) continue;
+    entry.drawn.color = QColor(text(entry.color));
+    shown.push_back(entry.drawn);
+  }
+  drawn_.set_structures(std::move(shown), opacity_->value() / 100.0);
+}
+
+void StructuresSection::choose_color(std::size_t n) {
+  if (n >= entries_.size()) return;
+  const io::Structure structure = entries_[n].structure;
+  const QColor chosen_color = QColorDialog::getColor(QColor(text(entries_[n].color)), this, text(structure.name),
+                                                     QColorDialog::DontUseNativeDialog);
+  if (!chosen_color.isValid() || n >= entries_.size()) return;
+  entries_[n].color = entries_[n].structure.color = chosen_color.name().toStdString();
+  const auto in_scene = [&](const modes::SceneStructure& named) { return is_same(named, structure); };
+  if (std::ranges::any_of(model_.scene().structures, in_scene)) {
+    model_.edit(tr("Color %1").arg(text(structure.name)), [&](modes::Scene& scene) {
+      std::ranges::find_if(scene.structures, in_scene)->color = entries_[n].color;
+    });
+  }
+  list();
+  draw();
+}
+
+/// Reads what the edited scene will need in the background first: neither panel nor servo waits for it.
+void StructuresSection::use(const QString& what, const Edit& edit) {
+  if (!scan_ || !chosen()) return;
+  chosen()->shown = true;
+  const modes::Scene now = model_.scene();
+  then_ = [this, what, edit] {
+    tell({}, false);
+    model_.edit(what, edit);
+  };
+  tell(tr("Reading…"), false);
+  const glm::dvec3 extent =
+      (touching_.live().is_connected() ? touching_.live().specification() : device::SimulatedStylus().specification())
+          .workspace_half_extent;
+  using_.ask([edited = now, edit, scan = scan_, extent]() mutable {
+    edit(edited);
+    return load_structures(edited, *plan_for(edited, *scan, extent), *scan, {});
+  });
+}
+
+QString StructuresSection::in_words() const {
+  const auto felt = std::ranges::count_if(entries_, [](const Entry& entry) { return entry.why_not.empty(); });
+  if (entries_.empty()) return {};
+  const auto others = static_cast<std::ptrdiff_t>(entries_.size()) - felt;
+  return others == 0 ? QString::number(felt) : tr("%1, and %2 that cannot be felt here").arg(felt).arg(others);
+}
+
+void StructuresSection::tell(const QString& message, bool problem) {
+  message_->setText(message);
+  message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
+  message_->setVisible(!message.isEmpty());
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,113 @@
+#pragma once
+
+/// The panel's section of structures: what was outlined on the scan, to be seen and, by one press, to be felt.
+
+#include <QWidget>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/structures/structure.h"
+#include "plugin/paraview/client/panel/latest_job.h"
+#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/views/structure_views.h"
+#include "plugin/session/scene_structures.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QMenu;
+class QSlider;
+class QToolButton;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace palpate::plugin {
+
+class StructuresSection : public QWidget {
+  Q_OBJECT
+
+ public:
+  StructuresSection(SceneModel& model, SessionController& touching, QWidget* parent = nullptr);
+  ~StructuresSection() override;
+
+  /// Looks for structures on a scan that has just been shown, in the folder that it is from; null: there is no scan.
+  void set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder);
+  /// The views of that scan; empty: none.
+  void set_views(const std::vector<ClinicalView>& views) { drawn_.set_views(views); }
+  /// Draws what is on the slice that a view shows now.
+  void show(SliceView& slice) { drawn_.show(slice); }
+  /// How many can be felt on the scan, and how many cannot; empty where none was found.
+  QString in_words() const;
+
+ signals:
+  void listed();
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  /// One that was found, and what is known of it so far.
+  struct Entry {
+    io::Structure structure;
+    std::string why_not;  ///< why it cannot be felt; empty where it can
+    bool shown = false;
+    std::string color;
+    std::shared_ptr<const io::StructureMeasures> measures;
+    DrawnStructure drawn;  ///< without a distance until it was made
+  };
+  /// What is made of an entry in the background.
+  struct Made {
+    std::filesystem::path file;
+    int number = 0;
+    std::string error;
+    std::shared_ptr<const io::StructureMeasures> measures;
+    DrawnStructure drawn;
+  };
+  using Edit = std::function<void(modes::Scene&)>;
+
+  void build();
+  QWidget* build_uses();
+  void ask_files();
+  void look_into(const std::vector<std::filesystem::path>& places);
+  void take(const io::StructureCatalogue& found);
+  void follow_scene();
+  void list();
+  void show_row(QTreeWidgetItem& item, const Entry& entry) const;
+  void make_next();
+  void take_made(const Made& made);
+  void draw();
+  void choose_color(std::size_t n);
+  Entry* chosen();
+  void fill_gates(QMenu& menu);
+  void use(const QString& what, const Edit& edit);
+  void tell(const QString& text, bool problem);
+
+  SceneModel& model_;
+  SessionController& touching_;
+  QTreeWidget* list_ = nullptr;
+  QSlider* opacity_ = nullptr;
+  QDoubleSpinBox* margin_ = nullptr;
+  QLabel* message_ = nullptr;
+  std::vector<QToolButton*> uses_;
+
+  std::shared_ptr<const io::Volume> scan_;
+  std::vector<Entry> entries_;
+  std::set<std::filesystem::path> looked_into_;
+  std::vector<std::filesystem::path> waiting_;  // files and folders to be looked into
+  bool asked_ = false;                          // for what is being looked into, by the user
+  bool listing_ = false;
+  std::vector<LoadedStructure> held_;  // what the scene read: undoing finds it again
+  StructureViews drawn_;
+  LatestJob<io::StructureCatalogue> finding_;
+  LatestJob<Made> making_;
+  LatestJob<std::vector<LoadedStructure>> using_;
+  bool busy_making_ = false;
+  std::function<void()> then_;  // when what is to be used has been read
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,118 @@
+#include "plugin/paraview/client/views/structure_views.h"
+
+#include <pqRenderView.h>
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkPVRenderView.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSMRenderViewProxy.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "plugin/paraview/client/views/overlay_layer.h"
+#include "plugin/paraview/client/views/structure_shapes.h"
+
+namespace palpate::plugin {
+namespace {
+
+/// Of a slice the part in which a structure can be; without a size where it cannot.
+Sheet sheet_of(const SliceView& slice, const DrawnStructure& structure) {
+  const glm::dvec3 middle = slice.place_at({0, 0});
+  const glm::dvec3 right = glm::normalize(slice.place_at({1, 0}) - middle);
+  const glm::dvec3 up = glm::normalize(slice.place_at({0, 1}) - middle);
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 at((corner & 1) != 0 ? structure.high_mm.x : structure.low_mm.x,
+                        (corner & 2) != 0 ? structure.high_mm.y : structure.low_mm.y,
+                        (corner & 4) != 0 ? structure.high_mm.z : structure.low_mm.z);
+    const glm::dvec3 off(glm::dot(at - middle, right), glm::dot(at - middle, up),
+                         glm::dot(at - middle, slice.sight().along));
+    low = glm::min(low, off);
+    high = glm::max(high, off);
+  }
+  if (low.z > 0 || high.z < 0) return {};
+  return {.corner = middle + low.x * right + low.y * up,
+          .right = right,
+          .up = up,
+          .size_mm = {high.x - low.x, high.y - low.y}};
+}
+
+}  // namespace
+
+struct StructureViews::One {
+  explicit One(const ClinicalView& of)
+      : slice(of.slice),
+        view(of.view),
+        layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())) {}
+
+  void clear() {
+    for (const auto& actor : actors) layer.renderer().RemoveActor(actor);
+    actors.clear();
+  }
+  vtkActor& add(vtkPolyData* shape, const QColor& color) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(shape);
+    mapper->ScalarVisibilityOff();
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    actor->PickableOff();
+    actor->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+    layer.renderer().AddActor(actor);
+    actors.push_back(actor);
+    return *actor;
+  }
+
+  QPointer<SliceView> slice;
+  QPointer<pqRenderView> view;
+  OverlayLayer layer;
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+};
+
+StructureViews::StructureViews() = default;
+StructureViews::~StructureViews() = default;
+
+void StructureViews::set_views(const std::vector<ClinicalView>& views) {
+  views_.clear();
+  for (const ClinicalView& view : views) views_.push_back(std::make_unique<One>(view));
+}
+
+void StructureViews::set_structures(std::vector<DrawnStructure> structures, double opacity) {
+  structures_ = std::move(structures);
+  opacity_ = opacity;
+  for (const auto& one : views_) {
+    if (!one->view) continue;
+    if (one->slice) {
+      show(*one->slice);
+    } else {
+      one->clear();
+      for (const DrawnStructure& structure : structures_) {
+        if (!structure.surface || opacity_ <= 0) continue;
+        one->add(structure.surface, structure.color).GetProperty()->SetOpacity(opacity_);
+      }
+    }
+    one->view->render();
+  }
+}
+
+void StructureViews::show(SliceView& slice) {
+  constexpr float line_pixels = 2;
+  for (const auto& one : views_) {
+    if (one->slice != &slice) continue;
+    one->clear();
+    for (const DrawnStructure& structure : structures_) {
+      const Sheet sheet = sheet_of(slice, structure);
+      if (sheet.size_mm.x <= 0 || sheet.size_mm.y <= 0) continue;
+      vtkProperty& look = *one->add(outline_of(*structure.distance, sheet), structure.color).GetProperty();
+      look.SetLighting(false);
+      look.SetLineWidth(line_pixels);
+    }
+  }
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,48 @@
+#pragma once
+
+/// Structures in the views of a scan: outlines on the slices, surfaces in the volume view.
+
+#include <vtkSmartPointer.h>
+
+#include <QColor>
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "io/structures/distance_field.h"
+#include "plugin/paraview/client/views/clinical_views.h"
+
+class vtkPolyData;
+
+namespace palpate::plugin {
+
+struct DrawnStructure {
+  std::shared_ptr<const io::DistanceField> distance;
+  glm::dvec3 low_mm{0}, high_mm{0};  ///< of a box around all of it
+  vtkSmartPointer<vtkPolyData> surface;
+  QColor color;
+};
+
+class StructureViews {
+ public:
+  StructureViews();
+  ~StructureViews();
+  StructureViews(const StructureViews&) = delete;
+  StructureViews& operator=(const StructureViews&) = delete;
+
+  /// The views of a scan that has just been shown; empty: none.
+  void set_views(const std::vector<ClinicalView>& views);
+  /// `opacity` is that of the surfaces.
+  void set_structures(std::vector<DrawnStructure> structures, double opacity);
+  /// Draws the outlines in the slice that a view shows now.
+  void show(SliceView& slice);
+
+ private:
+  struct One;
+  std::vector<DrawnStructure> structures_;
+  double opacity_ = 0.4;
+  std::vector<std::unique_ptr<One>> views_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,92 @@
+#include <QAction>
+#include <QImage>
+#include <QLabel>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include <cmath>
+#include <string>
+
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
+
+namespace {
+
+QTreeWidget& list() {
+  return find<QTreeWidget>("palpateStructureList");
+}
+
+/// How many pixels of a view have nearly that color.
+int pixels_of(const char* name, const QColor& color) {
+  const QImage picture = view(name).grab().toImage();
+  int count = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const QColor at = picture.pixelColor(x, y);
+      const int off =
+          std::abs(at.red() - color.red()) + std::abs(at.green() - color.green()) + std::abs(at.blue() - color.blue());
+      if (off < 40) ++count;
+    }
+  }
+  return count;
+}
+
+bool scene_has(const std::string& text) {
+  return scene_text().find(text) != std::string::npos;
+}
+
+/// On the CT and the segmentation of its liver, in one folder; and one of another study.
+void structures_are_seen_and_felt() {
+  scan_is_shown();
+  click("palpateStructuresSectionFold");
+  wait_for(
+      "the segmentation is found with the scan", [] { return list().topLevelItemCount() == 1; }, 20);
+  expect(list().topLevelItem(0)->text(0) == "Liver", "it is listed by its name");
+  wait_for(
+      "it is measured", [] { return !list().topLevelItem(0)->text(1).isEmpty(); }, 20);
+  expect(list().topLevelItem(0)->text(1) == qEnvironmentVariable("PALPATE_LIVER"),
+         "its volume is told, and not " + list().topLevelItem(0)->text(1).toStdString());
+  const QColor color = list().topLevelItem(0)->icon(0).pixmap(12, 12).toImage().pixelColor(6, 6);
+  wait_for(
+      "its outline is on the slice", [&] { return pixels_of("Axial", color) > 200; }, 20);
+  save_screen("structures");
+  list().topLevelItem(0)->setCheckState(0, Qt::Unchecked);
+  wait_for(
+      "its outline goes with its tick", [&] { return pixels_of("Axial", color) < 20; }, 10);
+  list().topLevelItem(0)->setCheckState(0, Qt::Checked);
+
+  click("palpateStructureBoundary");
+  wait_for(
+      "one press makes a boundary",
+      [] { return scene_has(R"("structure":"Liver")") || scene_has(R"("structure": "Liver")"); }, 20);
+  click("palpateCurvesSectionFold");
+  click("palpateUndo");
+  wait_for(
+      "which is undone", [] { return !scene_has("Liver"); }, 10);
+  click("palpateRedo");
+  wait_for(
+      "and redone", [] { return scene_has("Liver"); }, 10);
+  scroll_to(find<QWidget>("palpateStructureKeepOut"));
+  click("palpateStructureKeepOut");
+  wait_for(
+      "one press makes a margin to keep out of", [] { return scene_has("keep_out"); }, 20);
+  connect_stylus();
+  wait_for(
+      "the distance is told",
+      [] { return find<QLabel>("palpateDistance").isVisible() && label("palpateDistance").contains("Liver"); }, 10);
+  save_screen("structures-felt");
+
+  name_file("palpateAddStructures", qEnvironmentVariable("PALPATE_FOREIGN"));
+  wait_for(
+      "another study's is listed, too", [] { return list().topLevelItemCount() == 2; }, 20);
+  const QTreeWidgetItem& foreign = *list().topLevelItem(1);
+  expect((foreign.flags() & Qt::ItemIsUserCheckable) == 0 && foreign.toolTip(0).contains("another frame of reference"),
+         "and cannot be used, which is said");
+}
+
+}  // namespace
+
+const Scenarios& structure_scenarios() {
+  static const Scenarios all{{"structures_are_seen_and_felt", structures_are_seen_and_felt}};
+  return all;
+}
