@@ -10,6 +10,7 @@
 #include "plugin/bench/bench_load.h"
 #include "plugin/bench/bench_soak.h"
 #include "plugin/bench/bench_solvers.h"
+#include "plugin/bench/bench_structures.h"
 #include "plugin/bench/bench_subdivision.h"
 #include "plugin/bench/bench_suggest.h"
 #include "plugin/bench/bench_tick.h"
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
   add_bench_load(program);
   add_bench_soak(program);
   add_bench_solvers(program);
+  add_bench_structures(program);
   add_bench_subdivision(program);
   add_bench_suggest(program);
   add_bench_tick(program);
