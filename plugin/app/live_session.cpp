@@ -46,12 +46,10 @@ Snapshot LiveSession::snapshot(double change_s) const {
 }
 
 SceneRecord LiveSession::record_of_scene(std::uint32_t epoch, double change_s) const {
-  return {.epoch = epoch,
-          .scene = modes::to_json(suited(scene_, specification_)),
-          .scan_hash = scan_hash(),
-          .half_extent_m = specification_.workspace_half_extent,
-          .maximum_force_n = specification_.maximum_force,
-          .change_s = change_s};
+  SceneRecord record = record_of(suited(scene_, specification_), *felt_.plan, specification_, scan_hash());
+  record.epoch = epoch;
+  record.change_s = change_s;
+  return record;
 }
 
 const std::string& LiveSession::scan_hash() const {

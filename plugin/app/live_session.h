@@ -4,6 +4,7 @@
 /// at once and is ramped. The servo runs while a stylus is held. All calls come from one thread, which also has to call
 /// heartbeat().
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -50,6 +51,8 @@ class LiveSession {
   const modes::Scene& scene() const noexcept { return scene_; }
   /// Of the scene on the scan, for the stylus that is held or else for the simulated one; null without a scan.
   std::shared_ptr<const modes::Plan> plan() const noexcept { return felt_.plan; }
+  /// Of the scene: TickRecord::scene_epoch of the frames that feel it.
+  std::uint32_t epoch() const noexcept { return last_epoch_; }
   /// N/m: what is felt, for a scene may ask for more than the stylus renders stably.
   double stiffness_n_per_m() const noexcept { return felt_.plan ? felt_.plan->stiffness_n_per_m : 0; }
 

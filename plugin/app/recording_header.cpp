@@ -1,17 +1,28 @@
 #include "plugin/app/recording_header.h"
 
 #include "modes/scene/scene_json.h"
+#include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
 
 RecordingHeader header_for(const modes::Scene& scene, const device::Specification& stylus, const std::string& scan_hash,
                            double seed) {
   return {.palpate_version = PALPATE_VERSION,
-          .scene = modes::to_json(scene),
+          .scene = modes::to_json(without_paths(scene)),
           .device = stylus.name,
           .scan_hash = scan_hash,
           .seed = seed,
           .rate_hz = stylus.rate};
+}
+
+SceneRecord record_of(const modes::Scene& scene, const modes::Plan& plan, const device::Specification& stylus,
+                      const std::string& scan_hash) {
+  SceneRecord record{.scene = modes::to_json(without_paths(scene)),
+                     .scan_hash = scan_hash,
+                     .half_extent_m = stylus.workspace_half_extent,
+                     .maximum_force_n = stylus.maximum_force};
+  for (const std::size_t n : plan.structures) record.structures.push_back(scene.structures[n].name);
+  return record;
 }
 
 }  // namespace palpate::plugin

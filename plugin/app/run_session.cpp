@@ -98,14 +98,20 @@ Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const
           .change_s = scene.limits.ramp_s};
 }
 
-Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume) {
-  const modes::Scene scene = modes::scene_from_json(record.scene, "the recording's scene");
+Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume,
+                     StructureFiles& files) {
+  const modes::Scene scene = files.with_paths(modes::scene_from_json(record.scene, "the recording's scene"));
   device::Specification stylus;
   stylus.workspace_half_extent = record.half_extent_m;
   stylus.maximum_force = record.maximum_force_n;
   Snapshot snapshot = snapshot_of(scene, prepare(scene, volume, record.half_extent_m), stylus);
   snapshot.change_s = record.change_s;
   return snapshot;
+}
+
+Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume) {
+  StructureFiles none;
+  return snapshot_of(record, volume, none);
 }
 
 bool stderr_is_terminal() {
@@ -117,11 +123,7 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
   SessionRunResult result;
   TickRing ring;
   Recorder recorder(ring, file, header_for(run.scene, specification, run.scan_hash, static_cast<double>(run.seed)));
-  recorder.note(SceneRecord{.epoch = 0,
-                            .scene = modes::to_json(run.scene),
-                            .scan_hash = run.scan_hash,
-                            .half_extent_m = specification.workspace_half_extent,
-                            .maximum_force_n = specification.maximum_force});
+  recorder.note(record_of(run.scene, *run.felt.plan, specification, run.scan_hash));
   recorder.note(StylusRecord{.epoch = 0,
                              .name = specification.name,
                              .force_axes = specification.force_axes,

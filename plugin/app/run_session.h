@@ -14,6 +14,7 @@
 #include "plugin/recording/recorder.h"
 #include "plugin/session/scan.h"
 #include "plugin/session/session.h"
+#include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
 
@@ -46,8 +47,10 @@ modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
 /// The snapshot of a scene on a scan for a stylus.
 Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus);
 
-/// The snapshot of a recording, on the scan that it was recorded on. Throws std::invalid_argument for a
-/// scene that is none.
+/// The snapshot of a recording, on the scan that it was recorded on, with its structures from these files. Throws
+/// std::invalid_argument for a scene that is none, and where a structure is in none of them.
+Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume, StructureFiles& files);
+/// The same of a scene without structures, or with those of this machine's.
 Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume);
 
 /// Whether stderr is a terminal.

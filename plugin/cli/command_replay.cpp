@@ -20,19 +20,20 @@ namespace {
 struct ReplayOptions {
   std::filesystem::path recording, csv;
   SeriesOption series;
+  std::vector<std::filesystem::path> structures;
   bool json = false;
 };
 
 /// Scenes of the recording on the one scan that is named.
-SnapshotMaker on_scan(const std::shared_ptr<const io::Volume>& volume) {
+SnapshotMaker on_scan(const std::shared_ptr<const io::Volume>& volume, StructureFiles files) {
   const std::string hash = hash_of(*volume);
-  return [volume, hash](const SceneRecord& record) {
+  return [volume, hash, files = std::move(files)](const SceneRecord& record) mutable {
     if (record.scan_hash != hash) {
       throw InputRefused(fmt::format(
           "the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",
           record.scan_hash, hash));
     }
-    return snapshot_of(record, volume);
+    return snapshot_of(record, volume, files);
   };
 }
 
@@ -76,7 +77,9 @@ void run(const ReplayOptions& options) {
     return;
   }
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
-  const Replay result = replay(recording, on_scan(volume));
+  std::vector<std::filesystem::path> places = options.structures;
+  places.push_back(options.series.path);
+  const Replay result = replay(recording, on_scan(volume, StructureFiles(std::move(places))));
   if (options.json) {
     print_json(result);
   } else {
@@ -106,6 +109,10 @@ void add_replay(CLI::App& program) {
   add_series_option(*command, options->series);
   command->get_option("SERIES")->required(false);
   command->add_option("--csv", options->csv, "also export it: a line a frame, every member a column");
+  command
+      ->add_option("--structures", options->structures,
+                   "files and folders with the structures that were felt, where they are not beside the series")
+      ->check(CLI::ExistingPath);
   command->add_flag("--json", options->json, "for machines");
   command->callback([options] { run(*options); });
 }

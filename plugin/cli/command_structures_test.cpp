@@ -6,9 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "plugin/recording/recording.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin {
@@ -97,6 +101,63 @@ TEST(CommandStructures, AreFeltAtTheirEdge) {
   }
   EXPECT_GT(most, 0.8);
   EXPECT_LT(most, 1 + 1e-6);
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream input(file);
+  return {std::istreambuf_iterator<char>(input), {}};
+}
+
+// Through the margin and into what is to be kept out of.
+TEST(CommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
+  if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
+  const std::string ct = (shared / "totalsegmentator/example_ct_dicom").string();
+  const fs::path folder = fresh_path("aorta");
+  fs::create_directories(folder);
+  fs::copy_file(shared / "totalsegmentator/example_seg_dicom.nii.gz", folder / "labels.nii.gz");
+  const fs::path scene = folder / "scene.json";
+  std::ofstream(scene)
+      << R"({"version": 1, "structures": [{"name": "aorta", "file": "labels.nii.gz", "segment": "aorta"}],
+    "modes": [{"type": "keep_out", "structure": "aorta", "margin_mm": 3, "strength_n": 2}]})";
+  const fs::path out = fresh_path("kept_out"), csv = fresh_path("kept_out.csv");
+  // truth.json has the aorta's voxels from 165 to 130 mm before the origin.
+  ASSERT_EQ(
+      palpate("probe " + ct + " --from 8,-185,-785 --to 8,-147,-785 --scene " + scene.string() + " -o " + out.string())
+          .exit,
+      0);
+  const Recording recording = read_recording(out / "recording.h5");
+  ASSERT_EQ(recording.scenes.size(), 1U);
+  EXPECT_EQ(recording.scenes[0].structures, std::vector<std::string>{"aorta"});
+  EXPECT_EQ(recording.scenes[0].scene.find('/'), std::string::npos) << "no path goes into a recording";
+  double deepest = -1e9, most = 0;
+  for (const TickRecord& frame : recording.frames) {
+    const double force = glm::length(vector_of(frame.force_n));
+    deepest = std::max(deepest, frame.distance_mm[0]);
+    most = std::max(most, force);
+    if (frame.distance_mm[0] < -3.2) {  // a step of the proxy beyond the margin
+      EXPECT_LT(force, 1e-6) << frame.index;
+    }
+    EXPECT_TRUE(std::isnan(frame.distance_mm[1]));
+  }
+  EXPECT_GT(deepest, 0);
+  EXPECT_GT(most, 1);
+  EXPECT_LE(most, 2 + 1e-9);
+  EXPECT_THAT(text_of(out / "summary.txt"), HasSubstr("mm inside aorta, at "));
+
+  // The file has another name and place now.
+  const fs::path moved = fresh_path("moved");
+  fs::create_directories(moved);
+  fs::rename(folder / "labels.nii.gz", moved / "renamed.nii.gz");
+  const std::string replay = "replay " + (out / "recording.h5").string() + " " + ct;
+  const Outcome without = palpate(replay);
+  EXPECT_EQ(without.exit, 1);
+  EXPECT_THAT(without.output,
+              HasSubstr("structure \"aorta\": the file that it was felt from is not here: name it with --structures"));
+  const Outcome same = palpate(replay + " --structures " + moved.string() + " --csv " + csv.string());
+  EXPECT_EQ(same.exit, 0) << same.output;
+  EXPECT_THAT(same.output, HasSubstr("the same to the last bit"));
+  const std::string table = text_of(csv);
+  EXPECT_THAT(table.substr(0, table.find('\n')), ::testing::EndsWith(",\"distance_mm aorta\""));
 }
 
 TEST(CommandStructures, AreLeftOutWhereNoModeReadsThem) {

@@ -60,7 +60,9 @@ RecordedSession::RecordedSession(Recording recording, const io::Volume& volume) 
                                               [&](const auto& r) { return r.epoch == frame.scene_epoch; });
     Setting setting;
     setting.scene = modes::scene_from_json(record.scene, "the recording's scene");
-    setting.workspace = plan_for(setting.scene, volume, record.half_extent_m)->workspace;
+    const auto plan = plan_for(setting.scene, volume, record.half_extent_m);
+    setting.workspace = plan->workspace;
+    setting.structures = plan->structures;
     // What is left while a change is on its way is what the frame before felt.
     setting.before = settings_.empty() ? setting.workspace : settings_.at(last).workspace;
     last = frame.scene_epoch;

@@ -33,6 +33,8 @@ class RecordedSession {
   const TickRecord& frame(std::size_t n) const { return recording_.frames[n]; }
   std::span<const PrimitiveRecord> shares(std::size_t n) const;
   const modes::Scene& scene(std::size_t n) const;
+  /// Of the scene's structures those whose distances the frame tells, in that order.
+  const std::vector<std::size_t>& structures(std::size_t n) const { return setting(n).structures; }
   /// Where the hand's reach was; on its way while a change of the scene was.
   modes::Workspace workspace(std::size_t n) const;
   // mm and N, patient space (LPS). The force is what the stylus was fed.
@@ -46,6 +48,7 @@ class RecordedSession {
  private:
   struct Setting {
     modes::Scene scene;
+    std::vector<std::size_t> structures;
     modes::Workspace workspace, before;
   };
   const Setting& setting(std::size_t n) const { return settings_.at(recording_.frames[n].scene_epoch); }

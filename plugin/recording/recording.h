@@ -9,7 +9,8 @@
 ///   /events   lines of JSON: scenes as they came, styluses, and frames that were lost
 ///   /palpate_version, /device, /scan_hash, /seed, /rate_hz   texts
 ///
-/// No patient's name or identifier and no path goes into it; the scan is named by a hash of its voxels and geometry.
+/// No patient's name or identifier and no path goes into it; the scan is named by a hash of its voxels and geometry,
+/// the file of a structure by one of its content.
 
 #include <cstdint>
 #include <filesystem>
@@ -38,6 +39,8 @@ struct SceneRecord {
   glm::dvec3 half_extent_m{0};   ///< of the stylus that the workspace was placed for
   double maximum_force_n = 1e9;  ///< of that stylus
   double change_s = 0.5;         ///< how long the change to it took
+  /// Names of those whose distances the frames tell, in the order of TickRecord::distance_mm.
+  std::vector<std::string> structures = {};
 };
 
 struct StylusRecord {

@@ -1,5 +1,8 @@
 #include <fmt/os.h>
 
+#include <algorithm>
+#include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "plugin/recording/recording.h"
@@ -12,6 +15,37 @@ void print_all(fmt::ostream& out, const T (&values)[count]) {
   for (const T& value : values) {
     out.print(",{}", value);
   }
+}
+
+/// Names of all structures of all scenes, and for each scene where each of them is in its frames.
+struct DistanceColumns {
+  explicit DistanceColumns(const Recording& recording) {
+    for (const SceneRecord& scene : recording.scenes) {
+      for (const std::string& name : scene.structures) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      }
+    }
+    for (const SceneRecord& scene : recording.scenes) {
+      for (const std::string& name : names) {
+        const auto found = std::find(scene.structures.begin(), scene.structures.end(), name);
+        place[scene.epoch].push_back(static_cast<std::size_t>(found - scene.structures.begin()));
+      }
+    }
+  }
+  double of(const TickRecord& frame, std::size_t column) const {
+    const auto scene = place.find(frame.scene_epoch);
+    const std::size_t n = scene == place.end() ? distance_count : scene->second[column];
+    return n < distance_count ? frame.distance_mm[n] : std::numeric_limits<double>::quiet_NaN();
+  }
+  std::vector<std::string> names;
+  std::map<std::uint32_t, std::vector<std::size_t>> place;
+};
+
+/// As RFC 4180 has it.
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
 }
 
 }  // namespace
@@ -28,6 +62,8 @@ void write_csv(const Recording& recording, const std::filesystem::path& file) tr
   for (const char* stage : stage_names) {
     out.print(",{}_ns", stage);
   }
+  const DistanceColumns distances(recording);
+  for (const std::string& name : distances.names) out.print(",{}", quoted("distance_mm " + name));
   out.print("\n");
   for (const TickRecord& frame : recording.frames) {
     out.print("{},{},{},{},{}", frame.index, frame.time_s, frame.dt_s, frame.pose_time_s, frame.heartbeat_s);
@@ -42,6 +78,7 @@ void write_csv(const Recording& recording, const std::filesystem::path& file) tr
                                     frame.commands,    frame.from_brick, frame.missed,       frame.late_ns};
     print_all(out, counts);
     print_all(out, frame.stage_ns);
+    for (std::size_t n = 0; n < distances.names.size(); ++n) out.print(",{}", distances.of(frame, n));
     out.print("\n");
   }
   out.close();

@@ -48,6 +48,7 @@ Handle frame_row_type() {
                             {"residual_n", offsetof(TickRecord, residual_n), f64},
                             {"error_bound_m", offsetof(TickRecord, error_bound_m), f64},
                             {"change_part", offsetof(TickRecord, change_part), f64},
+                            {"distance_mm", offsetof(TickRecord, distance_mm), f64, distance_count},
                             {"scene_epoch", offsetof(TickRecord, scene_epoch), u32},
                             {"sub_steps", offsetof(TickRecord, sub_steps), u32},
                             {"halts", offsetof(TickRecord, halts), u32},
@@ -84,6 +85,7 @@ std::string to_line(const SceneRecord& scene) {
                   {"half_extent_m", {scene.half_extent_m.x, scene.half_extent_m.y, scene.half_extent_m.z}},
                   {"maximum_force_n", scene.maximum_force_n},
                   {"change_s", scene.change_s},
+                  {"structures", scene.structures},
                   {"scene", scene.scene}};
   return json.dump() + "\n";
 }
@@ -115,7 +117,8 @@ void read_events(std::string_view lines, Recording& recording) {
            .scan_hash = json.at("scan_hash"),
            .half_extent_m = {extent.at(0).get<double>(), extent.at(1).get<double>(), extent.at(2).get<double>()},
            .maximum_force_n = json.at("maximum_force_n"),
-           .change_s = json.value("change_s", SceneRecord{}.change_s)});
+           .change_s = json.value("change_s", SceneRecord{}.change_s),
+           .structures = json.value("structures", std::vector<std::string>())});
     } else if (kind == "stylus") {
       recording.styluses.push_back({.epoch = json.at("epoch"),
                                     .name = json.at("name"),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -22,9 +23,8 @@ constexpr double felt_n = 0.05;       // below, a boundary is not said to be fel
 constexpr double same_hold_s = 0.05;  // a shorter interruption does not end a hold: contact chatters at its edge
 
 bool is_surface(const modes::Plan& plan, std::size_t mode) {
-  return std::any_of(plan.modes.begin(), plan.modes.end(), [&](const modes::ActiveMode& active) {
-    return active.scene_index == mode && active.type->name == "surface";
-  });
+  return std::any_of(plan.modes.begin(), plan.modes.end(),
+                     [&](const modes::ActiveMode& active) { return active.scene_index == mode && active.holds; });
 }
 
 /// The surface that pushes most in a frame, if one is felt.
@@ -39,6 +39,15 @@ std::optional<std::size_t> holding_surface(std::span<const PrimitiveRecord> shar
     }
   }
   return most;
+}
+
+void extend_approaches(std::vector<Approach>& approaches, const TickRecord& frame) {
+  for (std::size_t n = 0; n < approaches.size(); ++n) {
+    if (frame.distance_mm[n] > approaches[n].distance_mm) {
+      approaches[n].distance_mm = frame.distance_mm[n];
+      approaches[n].time_s = frame.time_s;
+    }
+  }
 }
 
 void extend_holds(std::vector<HeldStretch>& holds, std::size_t mode, const TickRecord& frame, const modes::Plan& plan) {
@@ -82,12 +91,16 @@ Summary summarize(const Recording& recording, const modes::Plan& plan) {
   times.reserve(recording.frames.size());
   std::span<const PrimitiveRecord> shares(recording.shares);
   device::Fault fault = device::Fault::none;
+  for (const std::size_t n : plan.structures) {
+    summary.approaches.push_back({.structure = n, .distance_mm = -std::numeric_limits<double>::infinity()});
+  }
   for (const TickRecord& frame : recording.frames) {
     const auto own = shares.first(frame.share_count);
     shares = shares.subspan(frame.share_count);
     if (const auto mode = holding_surface(own, plan)) {
       extend_holds(summary.holds, *mode, frame, plan);
     }
+    extend_approaches(summary.approaches, frame);
     switch (static_cast<solver::Outcome>(frame.outcome)) {
       case solver::Outcome::capped:
         ++summary.capped;
@@ -125,7 +138,14 @@ std::string display_name(const modes::Scene& scene, std::size_t mode) {
   if (mode >= scene.modes.size()) {
     return fmt::format("mode {}", mode);
   }
-  return scene.modes[mode].name.empty() ? scene.modes[mode].type : scene.modes[mode].name;
+  const modes::Mode& named = scene.modes[mode];
+  if (!named.name.empty()) return named.name;
+  if (named.structure.empty()) return named.type;
+  return named.type == "surface" ? named.structure : fmt::format("{} {}", named.type, named.structure);
+}
+
+std::string distance_in_words(double distance_mm, const std::string& structure) {
+  return fmt::format("{:.1f} mm {} {}", std::abs(distance_mm), distance_mm > 0 ? "inside" : "from", structure);
 }
 
 std::string patient_coordinates(const glm::dvec3& position_mm) {
@@ -149,7 +169,11 @@ std::string known_to_text(const std::optional<double>& mm) {
 
 void add_uncertainty(Summary& summary, const modes::Scene& scene, const io::FieldSource& source,
                      const io::Geometry& geometry) {
-  for (HeldStretch& hold : summary.holds) hold.known_to_mm = known_to_mm(source, geometry, scene, hold.contact_mm);
+  // Of the scan's own boundaries: how well a structure was outlined the scan does not say.
+  for (HeldStretch& hold : summary.holds) {
+    if (!scene.modes[hold.mode].structure.empty()) continue;
+    hold.known_to_mm = known_to_mm(source, geometry, scene, hold.contact_mm);
+  }
 }
 
 std::string to_text(const Summary& summary, const modes::Scene& scene, const std::string& scan,
@@ -166,6 +190,15 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
                         hold.peak_n, known_to_text(hold.known_to_mm));
   }
   text += fmt::format("  largest force sent to the device: {:.2f} N\n\n", summary.peak_sent_n);
+  if (!summary.approaches.empty()) {
+    text += "How near it came to structures\n";
+    for (const Approach& approach : summary.approaches) {
+      text += fmt::format("  {}, at {:.3f} s\n",
+                          distance_in_words(approach.distance_mm, scene.structures[approach.structure].name),
+                          approach.time_s);
+    }
+    text += "\n";
+  }
   text += "How it was solved\n";
   text += fmt::format("  analytical {} frames, exact {}, descent {}; work cap hit {}, refused {}\n", summary.analytical,
                       summary.exact, summary.descent, summary.capped, summary.refused);
@@ -193,9 +226,15 @@ std::string to_json(const Summary& summary, const modes::Scene& scene) {
                      {"peak_n", hold.peak_n}});
     if (hold.known_to_mm) holds.back()["known_to_mm"] = *hold.known_to_mm;
   }
+  nlohmann::json structures = nlohmann::json::object();
+  for (const Approach& approach : summary.approaches) {
+    structures[scene.structures[approach.structure].name] = {{"largest_distance_mm", approach.distance_mm},
+                                                             {"time_s", approach.time_s}};
+  }
   const nlohmann::json json{{"duration_s", summary.duration_s},
                             {"frames", summary.frames},
                             {"holds", holds},
+                            {"structures", structures},
                             {"peak_sent_n", summary.peak_sent_n},
                             {"solver_frames",
                              {{"analytical", summary.analytical},

@@ -28,6 +28,13 @@ struct HeldStretch {
   std::optional<double> known_to_mm = std::nullopt;
 };
 
+/// How near the proxy came to a structure, or how far into it.
+struct Approach {
+  std::size_t structure = 0;  ///< index into the scene's structures
+  double distance_mm = 0;     ///< the largest of the session: positive inside
+  double time_s = 0;          ///< when that was
+};
+
 struct Percentiles {
   double median = 0, p99 = 0, p999 = 0, largest = 0;
 };
@@ -36,6 +43,7 @@ struct Summary {
   double duration_s = 0;
   std::size_t frames = 0;
   std::vector<HeldStretch> holds;
+  std::vector<Approach> approaches;  ///< one a structure that the scene reads
   double peak_sent_n = 0;
   std::size_t analytical = 0, exact = 0, descent = 0, capped = 0, refused = 0;  ///< frames
   double largest_error_bound_m = 0;
@@ -67,7 +75,10 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
                     const std::string& device);
 std::string to_json(const Summary& summary, const modes::Scene& scene);
 
-/// What a person calls the mode: its name, or its type where it has none.
+/// "2.1 mm from liver", "3.0 mm inside liver": `distance_mm` is positive inside.
+std::string distance_in_words(double distance_mm, const std::string& structure);
+
+/// What a person calls the mode: its name; where it has none the structure whose edge it is, or its type.
 std::string display_name(const modes::Scene& scene, std::size_t mode);
 /// "L 12.3 P 4.0 H 88.1 mm"
 std::string patient_coordinates(const glm::dvec3& position_mm);

@@ -10,6 +10,8 @@
 
 #include "io/errors.h"
 #include "io/structures/structure.h"
+#include "plugin/session/shared_distance.h"
+#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 namespace {
@@ -81,17 +83,9 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       continue;
     }
     const io::Structure structure = find_structure(wanted, file);
-    if (!structure.frame_of_reference_uid.empty() && !volume.frame_of_reference_uid.empty() &&
-        structure.frame_of_reference_uid != volume.frame_of_reference_uid) {
-      refuse(wanted,
-             file.filename().string() +
-                 " lies in another frame of reference than the scan: choose one that was outlined on this study");
-    }
-    io::DistanceOptions options;
-    options.reach_mm = reach;
-    options.scan = &volume.geometry;
+    if (const std::string why = why_not_on(structure, volume); !why.empty()) refuse(wanted, why);
     try {
-      loaded.push_back({file.string(), segment, io::load_distance(structure, options)});
+      loaded.push_back({file.string(), segment, shared_distance(structure, volume.geometry, reach)});
     } catch (const io::DicomError& error) {
       refuse(wanted, error.what());
     }

@@ -10,6 +10,8 @@
 namespace palpate::plugin {
 namespace {
 
+static_assert(distance_count == io::most_structures);
+
 void copy(const glm::dvec3& from, double (&to)[3]) {
   for (int axis = 0; axis < 3; ++axis) {
     to[axis] = from[axis];
@@ -305,7 +307,12 @@ void Session::observe(const Beat& beat, const device::Reading& reading, const mo
   copy(result.proxy_m, frame_.proxy_m);
   copy(result.force_n, frame_.force_n);
   const Snapshot& now = setting_->snapshot;
-  const io::Sample here = now.source->sample(touch_.workspace.to_patient(result.proxy_m), io::FieldSet::value);
+  const std::size_t structures = now.plan->structures.size();
+  const io::FieldSet told = structures == 0 ? io::FieldSet::value : io::FieldSet::value | io::FieldSet::distance;
+  const io::Sample here = now.source->sample(touch_.workspace.to_patient(result.proxy_m), told);
+  for (std::size_t n = 0; n < distance_count; ++n) {
+    frame_.distance_mm[n] = n < structures ? here.distance[n].mm : std::numeric_limits<double>::quiet_NaN();
+  }
   frame_.value = here.inside ? here.value : std::numeric_limits<double>::quiet_NaN();
   frame_.error_bound_m = result.error_bound;
   frame_.change_part = part_;

@@ -11,6 +11,8 @@ namespace palpate::plugin {
 /// Where a tick's time went, in this order; observe is what it takes to make the frame itself.
 enum class Stage : std::uint8_t { read, map, sample, modes, solve, filter, write, observe };
 constexpr std::size_t stage_count = 8;
+/// The most structures of a scene whose distances a tick tells.
+constexpr std::size_t distance_count = 8;
 constexpr const char* stage_names[stage_count] = {"read",  "map",    "sample", "modes",
                                                   "solve", "filter", "write",  "observe"};
 
@@ -43,6 +45,9 @@ struct TickRecord {
   double residual_n = 0;     ///< |equation (7)| with each primitive's share, which is defined on a constraint too
   double error_bound_m = 0;  ///< |proxy - exact proxy| is at most this
   double change_part = 1;    ///< how far the change to this scene has come; 1: it is there
+  /// Of the proxy, from each structure that the scene reads (SceneRecord::structures), positive inside; NaN after the
+  /// last of them.
+  double distance_mm[distance_count] = {};
   std::uint32_t scene_epoch = 0;
   std::uint32_t sub_steps = 0;
   std::uint32_t halts = 0;
@@ -62,7 +67,7 @@ struct TickRecord {
   std::uint32_t late_ns = 0;     ///< how long after its deadline this tick began
   std::uint32_t stage_ns[stage_count] = {};
 };
-static_assert(sizeof(TickRecord) == 8 + 20 * 8 + (16 + stage_count) * 4,
+static_assert(sizeof(TickRecord) == 8 + (20 + distance_count) * 8 + (16 + stage_count) * 4,
               "no padding: frames are compared and written as bytes");
 
 /// Whether two frames are the same to the last bit in all that a replay repeats.

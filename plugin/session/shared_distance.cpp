@@ -1,0 +1,74 @@
+#include "plugin/session/shared_distance.h"
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace palpate::plugin {
+namespace {
+
+struct Kept {
+  std::string file;
+  std::filesystem::file_time_type time;
+  int number = 0;
+  io::Geometry scan;
+  std::weak_ptr<const io::DistanceField> distance;
+};
+
+bool same_place(const io::Geometry& a, const io::Geometry& b) {
+  const auto of = [](const io::Geometry& g) {
+    return std::tie(g.dimensions, g.direction_i, g.direction_j, g.spacing_i, g.spacing_j, g.slice_positions);
+  };
+  return of(a) == of(b);
+}
+
+std::mutex mutex;
+std::vector<Kept> kept;
+
+template <typename Fits>
+std::shared_ptr<const io::DistanceField> find(const io::Structure& structure, std::filesystem::file_time_type time,
+                                              const io::Geometry& scan, const Fits& fits) {
+  std::erase_if(kept, [](const Kept& one) { return one.distance.expired(); });
+  for (const Kept& one : kept) {
+    if (one.file != structure.file.string() || one.time != time || one.number != structure.number) continue;
+    const auto distance = one.distance.lock();
+    if (distance && same_place(one.scan, scan) && fits(*distance)) return distance;
+  }
+  return nullptr;
+}
+
+template <typename Fits>
+std::shared_ptr<const io::DistanceField> find_or_make(const io::Structure& structure, const io::Geometry& scan,
+                                                      double reach_mm, const Fits& fits) {
+  std::error_code absent;
+  const auto time = std::filesystem::last_write_time(structure.file, absent);
+  {
+    const std::lock_guard lock(mutex);
+    if (auto found = find(structure, time, scan, fits)) return found;
+  }
+  io::DistanceOptions options;
+  options.reach_mm = reach_mm;
+  options.scan = &scan;
+  auto made = io::load_distance(structure, options);
+  const std::lock_guard lock(mutex);
+  if (auto found = find(structure, time, scan, fits)) return found;  // another thread made it meanwhile
+  kept.push_back({structure.file.string(), time, structure.number, scan, made});
+  return made;
+}
+
+}  // namespace
+
+std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan,
+                                                         double reach_mm) {
+  return find_or_make(structure, scan, reach_mm,
+                      [&](const io::DistanceField& field) { return field.reach_mm() == reach_mm; });
+}
+
+std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan) {
+  constexpr double least_mm = 3;
+  return find_or_make(structure, scan, least_mm, [](const io::DistanceField&) { return true; });
+}
+
+}  // namespace palpate::plugin

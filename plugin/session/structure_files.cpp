@@ -1,0 +1,85 @@
+#include "plugin/session/structure_files.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "io/structures/structure.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr std::size_t digits = 16;
+
+bool is_hash(const std::string& file) {
+  return file.size() == digits &&
+         std::all_of(file.begin(), file.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+std::string read_and_hash(const std::filesystem::path& file) {
+  const std::string unknown(digits, '0');
+  std::ifstream input(file, std::ios::binary);
+  if (!input) return unknown;
+  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  std::array<char, 1 << 16> part{};
+  while (input.read(part.data(), part.size()) || input.gcount() > 0) {
+    XXH3_64bits_update(state.get(), part.data(), static_cast<std::size_t>(input.gcount()));
+  }
+  return input.bad() ? unknown : fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+}
+
+}  // namespace
+
+std::string hash_of_file(const std::filesystem::path& file) {
+  // A scene that is dragged while it is recorded is written down thirty times a second.
+  static std::mutex mutex;
+  static std::map<std::tuple<std::string, std::filesystem::file_time_type, std::uintmax_t>, std::string> known;
+  std::error_code absent;
+  const auto time = std::filesystem::last_write_time(file, absent);
+  const auto size = absent ? 0 : std::filesystem::file_size(file, absent);
+  if (absent) return std::string(digits, '0');
+  const std::lock_guard lock(mutex);
+  std::string& hash = known[{file.string(), time, size}];
+  if (hash.empty()) hash = read_and_hash(file);
+  return hash;
+}
+
+modes::Scene without_paths(modes::Scene scene) {
+  for (modes::SceneStructure& structure : scene.structures) {
+    if (!is_hash(structure.file)) structure.file = hash_of_file(structure.file);
+  }
+  return scene;
+}
+
+modes::Scene StructureFiles::with_paths(modes::Scene scene) {
+  for (modes::SceneStructure& structure : scene.structures) {
+    const bool was_read = is_hash(structure.file) && structure.file != std::string(digits, '0');
+    if (!was_read) continue;
+    if (!std::exchange(looked_, true)) {
+      for (const io::Structure& found : io::find_structures(places_).structures) {
+        const bool known = std::any_of(by_hash_.begin(), by_hash_.end(),
+                                       [&](const auto& entry) { return entry.second == found.file; });
+        if (!known) by_hash_.emplace(hash_of_file(found.file), found.file);
+      }
+    }
+    const auto found = by_hash_.find(structure.file);
+    if (found == by_hash_.end()) {
+      throw std::invalid_argument(fmt::format(
+          "structure \"{}\": the file that it was felt from is not here: name it with --structures", structure.name));
+    }
+    structure.file = std::filesystem::absolute(found->second).string();
+  }
+  return scene;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,60 @@
+// A recording names no path, and finds its structures again by what is in their files.
+#include "plugin/session/structure_files.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "modes/scene/scene_json.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path liver = fs::path(PALPATE_SHARED_DATA) / "structures/dcmqi/liver.dcm";
+
+modes::Scene scene_of(const fs::path& file) {
+  modes::Scene scene;
+  scene.structures.push_back({.name = "liver", .file = file.string(), .segment = "Liver"});
+  return scene;
+}
+
+TEST(StructureFiles, AreNamedByTheirContent) {
+  const fs::path folder = fs::path(testing::TempDir()) / "structure_files";
+  fs::create_directories(folder);
+  std::ofstream(folder / "a") << "the same";
+  std::ofstream(folder / "b") << "the same";
+  std::ofstream(folder / "c") << "another";
+  EXPECT_EQ(hash_of_file(folder / "a"), hash_of_file(folder / "b"));
+  EXPECT_NE(hash_of_file(folder / "a"), hash_of_file(folder / "c"));
+  EXPECT_EQ(hash_of_file(folder / "absent"), "0000000000000000");
+  // XXH3 of 64 bits with no seed, of no bytes: as xxhsum -H3 prints it.
+  std::ofstream(folder / "empty").close();
+  EXPECT_EQ(hash_of_file(folder / "empty"), "2d06800538d394c2");
+}
+
+TEST(StructureFiles, AreFoundWhereverTheyWentMeanwhile) {
+  if (!fs::exists(liver)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
+  const modes::Scene recorded = without_paths(scene_of(liver));
+  EXPECT_EQ(modes::to_json(recorded).find("/"), std::string::npos);
+  EXPECT_EQ(modes::to_json(without_paths(recorded)), modes::to_json(recorded));
+  const fs::path folder = fs::path(testing::TempDir()) / "moved";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "deep");
+  fs::copy_file(liver, folder / "deep/renamed");
+  EXPECT_EQ(StructureFiles({folder}).with_paths(recorded).structures[0].file, (folder / "deep/renamed").string());
+  fs::remove(folder / "deep/renamed");
+  try {
+    StructureFiles({folder}).with_paths(recorded);
+    FAIL() << "was found";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "structure \"liver\": the file that it was felt from is not here: name it with --structures");
+  }
+}
+
+}  // namespace
+}  // namespace palpate::plugin
