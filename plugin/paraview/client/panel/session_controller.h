@@ -33,10 +33,10 @@ struct SessionStatus {
   glm::dvec3 probe_mm{0}, proxy_mm{0};  ///< patient space
   std::string tissue;
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
-  double force_n = 0;        ///< that the device was fed, in the last frame
-  double peak_n = 0;         ///< the largest since the last look
-  double tick_us = 0;        ///< median since the last look
-  std::uint64_t missed = 0;  ///< since the stylus was connected
+  double force_n = 0;                       ///< that the device was fed, in the last frame
+  double peak_n = 0;                        ///< the largest since the last look
+  double tick_us = 0;                       ///< median since the last look
+  std::uint64_t missed = 0;                 ///< since the stylus was connected
   bool clutched = false;
   bool feels = false;  ///< forces were asked for, and have not been taken away since
   QString kept_off;    ///< why there is no force until that has gone; empty: nothing keeps it away
