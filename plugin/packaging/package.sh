@@ -151,7 +151,9 @@ user at the machine open a stylus.
 
 Research software, not a medical device.
 TEXT
-finish palpate-paraview science "palpate (= $full), paraview, python3-paraview, $needs_paraview" "feel a CT or MR scan in ParaView" <<'TEXT'
+icons= # Debian 13's ParaView shows its own only with these
+[ "$suffix" = deb12 ] || icons=", qt6-svg-plugins"
+finish palpate-paraview science "palpate (= $full), paraview, python3-paraview$icons, $needs_paraview" "feel a CT or MR scan in ParaView" <<'TEXT'
 The plug-in that lets ParaView open DICOM series as a clinician reads them,
 and feel them with a haptic stylus or the mouse. ParaView loads it by itself.
 

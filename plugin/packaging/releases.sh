@@ -36,7 +36,7 @@ case "$(system_name)" in
   "debian 13"*)
     clang=19
     core_packages+=(libtiff-dev) # DCMTK's CMake package names it
-    paraview_packages+=(qt6-base-dev qt6-svg-dev qt6-tools-dev qt6-5compat-dev libdouble-conversion-dev python3-dev) ;;
+    paraview_packages+=(qt6-svg-plugins qt6-base-dev qt6-svg-dev qt6-tools-dev qt6-5compat-dev libdouble-conversion-dev python3-dev) ;;
   *)
     known_system=no
     clang=14 ;;
