@@ -35,7 +35,7 @@ endif()
 foreach(file IN LISTS files)
   # What is never shipped: tests, benchmarks, rigs and fakes, the programs that are compared with, the benchmark program.
   set(shipped TRUE)
-  if(file MATCHES "_(test|benchmark)\\.cpp$|/testing/|/tests/|^plugin/messages/provoked|^plugin/messages/message_table|/peers/|/fuzz/|^testdata/|^plugin/bench/|^plugin/examples/")
+  if(file MATCHES "_(test|benchmark)\\.cpp$|/testing/|/tests/|^plugin/messages/provoked|/peers/|/fuzz/|^testdata/|^plugin/bench/|^plugin/examples/")
     set(shipped FALSE)
   endif()
   string(REGEX MATCH "^[a-z]+" module ${file})

@@ -376,7 +376,7 @@ TEST(MessagesOfStyluses, EachIsShown) {
       not_shown.push_back({id, "umockdev is not here, or does not go with sanitizers"});
     }
   }
-  testing::expect_all_shown(messages::styluses, provoked, not_shown, PALPATE_SOURCES);
+  testing::expect_all_shown({messages::styluses}, provoked, not_shown, PALPATE_SOURCES);
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 
 #include <stdexcept>
 
+#include "messages/message.h"
+
 namespace palpate::io {
 
 /// A file, folder or series that cannot be read. The message names it and says what to do.
-class DicomError : public std::runtime_error {
+class DicomError : public Refusal {
  public:
-  using std::runtime_error::runtime_error;
+  using Refusal::Refusal;
 };
 
 /// Work that its progress callback stopped. Nothing half-done is left.

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -28,7 +29,7 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths, std::vector<S
   std::vector<fs::path> files;
   for (const fs::path& named : paths) {
     std::error_code error;
-    if (!fs::exists(named, error)) throw DicomError("no such file or folder: " + named.string() + "; check its name");
+    if (!fs::exists(named, error)) throw DicomError(say("no-such-file-or-folder", named.string()));
     const fs::path path = fs::is_regular_file(named, error) ? meant_by(named) : named;
     const auto status = fs::status(path, error);
     if (fs::is_regular_file(status)) files.push_back(path);
@@ -41,11 +42,10 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths, std::vector<S
       std::error_code ignored;
       if (entry->is_regular_file(ignored)) files.push_back(entry->path());
       if (entry->is_directory(ignored) && ::eaccess(entry->path().c_str(), R_OK | X_OK) != 0) {
-        skipped.push_back({entry->path(), "a folder that may not be read: ask for the right to it"});
+        skipped.push_back({entry->path(), say("folder-that-may-not-be-read")});
       }
     }
-    if (error)
-      throw DicomError("cannot list " + path.string() + ": " + error.message() + "; it has to be yours to read");
+    if (error) throw DicomError(say("cannot-list", path.string(), error.message()));
   }
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "io/messages.h"
+
 namespace palpate::io {
 namespace {
 
@@ -35,15 +37,14 @@ std::string in_words(const Filter& filter) {
 
 void validate(const Filter& filter) {
   if (reads_sigma_mm(filter.type) && !(filter.sigma_mm >= least_sigma_mm && filter.sigma_mm <= most_sigma_mm)) {
-    throw std::invalid_argument(fmt::format("sigma_mm: {} mm is no width of a filter; give {} to {} mm",
-                                            filter.sigma_mm, least_sigma_mm, most_sigma_mm));
+    throw InvalidInput(say("filter-width-in-mm", fmt::format("{}", filter.sigma_mm), fmt::format("{}", least_sigma_mm),
+                           fmt::format("{}", most_sigma_mm)));
   }
   if (reads_sigma_value(filter.type) && !(filter.sigma_value > 0 && filter.sigma_value <= 1e5)) {
-    throw std::invalid_argument(fmt::format(
-        "sigma_value: {} is no difference of values; give the noise, in the scan's unit, above 0", filter.sigma_value));
+    throw InvalidInput(say("filter-difference-of-values", fmt::format("{}", filter.sigma_value)));
   }
   if (filter.type == FilterType::median && filter.width != 3 && filter.width != 5) {
-    throw std::invalid_argument(fmt::format("width: a median of {} voxels is not offered; give 3 or 5", filter.width));
+    throw InvalidInput(say("filter-width-in-voxels", filter.width));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "io/dicom/grouping.h"
 #include "io/dicom/velocity.h"
 #include "io/files_below.h"
+#include "io/messages.h"
 #include "io/parallel.h"
 #include "io/series.h"
 
@@ -49,7 +50,7 @@ Catalogue find_series(std::span<const fs::path> paths, const Progress& progress)
   const std::vector<fs::path> files = internal::files_below(paths, catalogue.skipped);
 
   std::vector<std::optional<internal::FileHeader>> headers(files.size());
-  std::vector<std::string> reasons(files.size());
+  std::vector<Text> reasons(files.size());
   std::vector<KnownFile> known(files.size());
   internal::parallel_for(
       files.size(),
@@ -58,10 +59,10 @@ Catalogue find_series(std::span<const fs::path> paths, const Progress& progress)
           headers[i] = internal::read_file_header(files[i]);
           known[i] = {headers[i]->sop_class, headers[i]->image_type};
         } catch (const internal::NotAnImage& error) {
-          reasons[i] = error.what();
+          reasons[i] = error.text();
           known[i].sop_class = error.sop_class;
         } catch (const std::exception& error) {
-          reasons[i] = error.what();
+          reasons[i] = say("file-cannot-be-read", error.what());
         }
       },
       progress, 0);

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/messages.h"
+
 namespace palpate::io {
 namespace fs = std::filesystem;
 
@@ -17,14 +19,14 @@ FreshFolder::FreshFolder(fs::path final_path) : final_(std::move(final_path)) {
     final_ = final_.parent_path();  // "out/" means "out"
   }
   if (fs::exists(final_) && !(fs::is_directory(final_) && fs::is_empty(final_))) {
-    throw std::runtime_error(final_.string() + ": exists and is not an empty folder; choose another or remove it");
+    throw Refusal(say("exists-and-is-not-an-empty-folder", final_.string()));
   }
   const fs::path parent = fs::absolute(final_).parent_path();
   fs::create_directories(parent);
   std::string pattern = (parent / (final_.filename().string() + ".partial-XXXXXX")).string();
   if (mkdtemp(pattern.data()) == nullptr) {
-    throw std::runtime_error(parent.string() + ": cannot make a folder in it (" +
-                             std::error_code(errno, std::generic_category()).message() + ")");
+    throw Refusal(
+        say("cannot-make-a-folder", parent.string(), std::error_code(errno, std::generic_category()).message()));
   }
   working_ = pattern;
   fs::permissions(working_,

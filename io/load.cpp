@@ -10,6 +10,7 @@
 #include "io/dicom/stacking.h"
 #include "io/dicom/velocity.h"
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/pages.h"
 #include "io/parallel.h"
 
@@ -84,8 +85,7 @@ LoadOptions::Range checked_range(const SeriesSource::Frame& frame, const std::st
   const int all = static_cast<int>(frame.slices.size());
   const LoadOptions::Range range = options.slices.value_or(LoadOptions::Range{0, all});
   if (range.first < 0 || range.count < 1 || range.count > all - range.first) {
-    throw DicomError(name + " has slices 0 to " + std::to_string(all - 1) + ", not " + std::to_string(range.count) +
-                     " from " + std::to_string(range.first));
+    throw DicomError(say("no-such-slice", name, all - 1, range.count, range.first));
   }
   return range;
 }
@@ -118,8 +118,7 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   try {
     volume.voxels = allocate(storage, size * slices.size(), options.threads);
   } catch (const std::bad_alloc&) {
-    throw DicomError(name + " needs more memory than there is: " + std::to_string(size * slices.size() >> 19) +
-                     " MiB; close other programs first");
+    throw DicomError(say("needs-more-memory-than-there", name, size * slices.size() >> 19));
   }
   if (storage == Storage::as_float) {
     const bool any_padding = std::ranges::any_of(
@@ -137,10 +136,10 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   const auto note_failure = [&](std::size_t k, const char* why) {
     const std::lock_guard lock(failed_mutex);
     failed.push_back(k);
-    volume.warnings.push_back(source.file_of(slices[k]).path.filename().string() + " is left out: " + why);
+    volume.warnings.push_back(say("left-out", source.file_of(slices[k]).path.filename().string(), why));
   };
-  std::set<std::string> oddities;
-  const auto note_oddity = [&](const std::string& what) {
+  std::set<Text> oddities;
+  const auto note_oddity = [&](const Text& what) {
     const std::lock_guard lock(failed_mutex);
     oddities.insert(what);
   };
@@ -149,8 +148,7 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
       units.size(),
       [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure, note_oddity); },
       options.progress, options.threads);
-  if (failed.size() == slices.size())
-    throw DicomError(name + " cannot be read: " + volume.warnings.front() + "; send the series again");
+  if (failed.size() == slices.size()) throw DicomError(say("series-cannot-be-read", name, volume.warnings.front()));
 
   std::sort(failed.begin(), failed.end());
   std::sort(volume.warnings.begin(), volume.warnings.end());
@@ -198,13 +196,12 @@ Volume load(const Series& series, const LoadOptions& options) {
   const std::size_t frames =
       series.source ? std::max(series.source->frames.size(), series.source->velocities.size()) : 0;
   if (frames == 0) {
-    const std::string why = series.warnings.empty() ? "it has no readable images" : series.warnings.front();
-    throw DicomError(name + " cannot be loaded: " + why);
+    const Text why = series.warnings.empty() ? say("no-readable-images") : series.warnings.front();
+    throw DicomError(say("series-cannot-be-loaded", name, why));
   }
   const auto wanted = static_cast<std::size_t>(options.frame);
   if (options.frame < 0 || wanted >= frames) {
-    throw DicomError(name + " has frames 0 to " + std::to_string(frames - 1) + ", not " +
-                     std::to_string(options.frame));
+    throw DicomError(say("no-such-frame", name, frames - 1, options.frame));
   }
   const SeriesSource& source = *series.source;
   if (!source.velocities.empty()) return read_velocity(source.velocities[wanted], name, options);

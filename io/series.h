@@ -12,6 +12,7 @@
 
 #include "io/geometry.h"
 #include "io/progress.h"
+#include "messages/message.h"
 
 namespace palpate::io {
 
@@ -64,7 +65,7 @@ struct Series {
   /// Whether it is a volume: placed in the patient, scalar, at least two slices, no localizer. load() may still read
   /// what is not usable (one slice, a localizer), and says what it cannot.
   bool usable = false;
-  std::vector<std::string> warnings;  ///< what a user should know: missing slices, files left out, why it is not usable
+  std::vector<Text> warnings;  ///< what a user should know: missing slices, files left out, why it is not usable
 
   /// Who was scanned and when, to be shown on a screen on request so that the right scan can be verified. Never written
   /// to a log, recording, picture or report.
@@ -79,7 +80,7 @@ struct Series {
 
 struct SkippedFile {
   std::filesystem::path path;
-  std::string reason;
+  Text reason;
   std::string kind = {};  ///< in a radiologist's words: "structured report", "scout", "other file", ...
 };
 

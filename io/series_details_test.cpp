@@ -141,8 +141,8 @@ TEST(SeriesDetails, NotesAreGivenWhereTheyAreTrueOnly) {
   const std::string gap = "what lies between them was not scanned";
   for (const auto& [thickness, has_gap] : {std::pair{"2", false}, {"1.5", false}, {"1.25", true}, {"0.5", true}}) {
     const Series series = series_with({{DCM_SliceThickness, thickness}});  // 2 mm apart
-    EXPECT_THAT(series.warnings, has_gap ? testing::Matcher<std::vector<std::string>>(Contains(HasSubstr(gap)))
-                                         : Not(Contains(HasSubstr(gap))))
+    EXPECT_THAT(series.warnings,
+                has_gap ? testing::Matcher<std::vector<Text>>(Contains(HasSubstr(gap))) : Not(Contains(HasSubstr(gap))))
         << thickness;
   }
   EXPECT_THAT(series_with({{DCM_Modality, "MR"}, {DCM_LossyImageCompression, "00"}}).warnings, IsEmpty());

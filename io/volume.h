@@ -15,6 +15,7 @@
 
 #include "io/filter.h"
 #include "io/geometry.h"
+#include "messages/message.h"
 
 namespace palpate::io {
 
@@ -38,7 +39,7 @@ struct Volume {
   /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).
   std::optional<std::pair<double, double>> padding;
   /// What load() had to leave out, in words for the user.
-  std::vector<std::string> warnings;
+  std::vector<Text> warnings;
   /// Where the volume is a vector field; its values are then the vectors' lengths. Null for all others.
   std::shared_ptr<const VectorComponents> vectors;
   /// What made the values, where it was a filter (fields/filtered.h). Null for a scan as it was stored.

@@ -32,7 +32,7 @@ class Text : public std::string {
  private:
   explicit Text(std::string text) : std::string(std::move(text)) {}
   friend Text fill_message(std::string_view message, std::initializer_list<std::string> values);
-  friend Text at_place(std::string_view place, const Text& text);
+  friend Text at_place(std::string_view place, const Text& text, std::string_view between);
   template <typename Error>
   friend class Saying;
 };
@@ -48,8 +48,8 @@ using Refusal = Saying<std::runtime_error>;          ///< of a file, a series, a
 using InvalidInput = Saying<std::invalid_argument>;  ///< of a value that cannot be
 
 /// "place: text": where in a file or a list that is which the text tells of.
-inline Text at_place(std::string_view place, const Text& text) {
-  return Text(std::string(place) + ": " + text);
+inline Text at_place(std::string_view place, const Text& text, std::string_view between = ": ") {
+  return Text(std::string(place).append(between).append(text));
 }
 
 inline Text fill_message(std::string_view message, std::initializer_list<std::string> values) {

@@ -74,12 +74,7 @@ inline constexpr MessageRow scenes[] = {
       {"not-a-usable-number", "{}: is not a usable number (finite, at most 1e30)"},
       {"nodes-do-not-ascend", "{}: has to lie beyond the node before (nodes ascend in their first number)"}}},
     {"a scene of a later version", "take a newer Palpate", {{"not-known", "{} is not known; this program reads {}"}}},
-    {"a bracket or a quote is missing there", "mend that place", {{"parse-error", "{}: parse error at {}"}}},
-    {"a mode needs what this scan has not",
-     "switch that mode off",
-     {{"scan-offers-its-value",
-       "a scan offers its value, its gradient, the values on both sides of a boundary and the direction of tubes, and "
-       "vectors only where velocities were measured along three directions"}}},
+    {"a bracket or a quote is missing there", "mend that place", {{"not-json", "{}: {}"}}},
 };
 
 }  // namespace palpate::modes::messages

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/certify.h"
+#include "solver/messages.h"
 
 namespace palpate::solver {
 
@@ -139,36 +140,35 @@ std::optional<Rejection> validate(const Balance& balance) {
   return std::nullopt;
 }
 
-std::string describe(const Rejection& rejection) {
-  const std::string value = " (" + in_words(rejection.value) + ")";
-  std::string text = in_words(rejection.field);
+Text describe(const Rejection& rejection) {
+  const std::string value = in_words(rejection.value);
+  const std::string field = in_words(rejection.field);
+  Text text;
   switch (rejection.flaw) {
     case Flaw::not_finite:
-      text += " is not finite" + value;
+      text = say("not-finite", field, value);
       break;
     case Flaw::negative:
-      text += " is negative" + value;
+      text = say("is-negative", field, value);
       break;
     case Flaw::not_positive:
-      text += " is not positive" + value;
+      text = say("not-positive", field, value);
       break;
     case Flaw::zero_direction:
-      text += " has no length" + value;
+      text = say("no-length", field, value);
       break;
     case Flaw::incompatible:
-      text = "has infinite strength, but no point meets it together with the other hard constraints: it stays " +
-             in_words(rejection.value) + " m away (taken as met: " + in_words(hard_tolerance) +
-             " of the largest distance between probe and constraints)";
+      text = say("no-point-meets-it", value, in_words(hard_tolerance));
       break;
     case Flaw::out_of_range:
-      text += " is out of range" + value + ": at most " + in_words(largest_quantity);
-      text += rejection.field == Field::stiffness ? ", at least " + in_words(smallest_stiffness) : "";
+      text = say("out-of-range", field, value, in_words(largest_quantity),
+                 rejection.field == Field::stiffness ? ", at least " + in_words(smallest_stiffness) : "");
       break;
   }
   if (rejection.primitive == Rejection::whole_balance) {
     return text;
   }
-  return "primitive " + std::to_string(rejection.primitive) + ": " + text;
+  return at_place("primitive " + std::to_string(rejection.primitive), text);
 }
 
 }  // namespace palpate::solver

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "messages/message.h"
 #include "solver/primitive.h"
 
 namespace palpate::solver {
@@ -59,6 +60,6 @@ struct Rejection {
 std::optional<Rejection> validate(const Balance& balance);
 
 /// In words: "primitive 2: strength is negative (-1)". Allocates: not for the tick.
-std::string describe(const Rejection& rejection);
+Text describe(const Rejection& rejection);
 
 }  // namespace palpate::solver

@@ -9,13 +9,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "messages/message.h"
+
 namespace palpate::io {
 
 /// What an archive, or the way to it, refused. The message names the archive as the user does and says what to set
 /// where. It never holds a patient's name or identifier.
-class ArchiveError : public std::runtime_error {
+class ArchiveError : public Refusal {
  public:
-  using std::runtime_error::runtime_error;
+  using Refusal::Refusal;
 };
 
 /// Files in PEM. The archive's certificate is checked against `authorities`; ours is shown to it.

@@ -15,6 +15,7 @@
 #include "io/archive/status_words.h"
 #include "io/dicom/dcmtk_start.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -30,53 +31,43 @@ std::string where(const Archive& archive) {
   return fmt::format("archive {} ({}:{})", archive.name, archive.host, archive.port);
 }
 
-std::string refusal_words(const Archive& archive, T_ASC_Parameters* parameters) {
+Text refusal_words(const Archive& archive, T_ASC_Parameters* parameters) {
   T_ASC_RejectParameters reject{};
   ASC_getRejectParameters(parameters, &reject);
   switch (reject.reason) {
     case ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED:
-      return fmt::format("{} is not known there as {}: set --called to its own AE title", where(archive),
-                         archive.called);
+      return say("archive-title-not-known", where(archive), archive.called);
     case ASC_REASON_SU_CALLINGAETITLENOTRECOGNIZED:
-      return fmt::format(
-          "{} does not know us as {}: have this AE title entered there with this machine's address, or set --calling",
-          where(archive), archive.calling);
+      return say("does-not-know-our-title", where(archive), archive.calling);
     case ASC_REASON_SP_PRES_TEMPORARYCONGESTION:
     case ASC_REASON_SP_PRES_LOCALLIMITEXCEEDED:
-      return fmt::format("{} is too busy to talk to us: try again later", where(archive));
+      return say("too-busy-to-talk-to-us", where(archive));
     default:
-      return fmt::format(
-          "{} refused the association and did not say why: check --called ({}), and that --calling ({}) is known there",
-          where(archive), archive.called, archive.calling);
+      return say("refused-the-association-and-did-not-say", where(archive), archive.called, archive.calling);
   }
 }
 
-std::string failure_words(const Archive& archive, const OFCondition& condition, bool silent) {
+Text failure_words(const Archive& archive, const OFCondition& condition, bool silent) {
   if (silent || is(condition, DULC_READTIMEOUT) || is(condition, DIMSEC_NODATAAVAILABLE)) {
-    return fmt::format("{} has said nothing for {} s: it is too busy, or another program listens on that port",
-                       where(archive), archive.silence_s);
+    return say("silent", where(archive), archive.silence_s);
   }
   if (is(condition, DULC_UNKNOWNHOST)) {
-    return fmt::format("{}: no machine of that name is known: check --host", where(archive));
+    return say("no-machine-of-that-name-is-known", where(archive));
   }
   if (condition.module() == OFM_dcmtls || is(condition, DULC_TLSERROR)) {
-    return fmt::format(
-        "TLS with {} failed: check --tls-ca, --tls-certificate and --tls-key, and that the port speaks TLS",
-        where(archive));
+    return say("tls-with-failed", where(archive));
   }
-  return fmt::format("{} broke the connection off: it ended, or does not speak DICOM{} on that port", where(archive),
-                     archive.tls.used ? " with TLS" : " without TLS");
+  return say("broke-the-connection-off", where(archive), archive.tls.used ? " with TLS" : " without TLS");
 }
 
-std::string connection_words(const Archive& archive, const OFCondition& condition) {
+Text connection_words(const Archive& archive, const OFCondition& condition) {
   const std::string text = condition.text();
   if (is(condition, DULC_TCPINITERROR) || is(condition, DULC_REQUESTASSOCIATIONFAILED)) {
     const std::size_t colon = text.find("Connection refused") != std::string::npos ? 0 : text.rfind(": ");
     const std::string why = colon == 0                   ? "connection refused"
                             : colon == std::string::npos ? "no connection"
                                                          : printable(text.substr(colon + 2));
-    return fmt::format("{} cannot be reached ({}): check --host and --port, and that no firewall is between",
-                       where(archive), why);
+    return say("cannot-be-reached", where(archive), why);
   }
   return failure_words(archive, condition, false);
 }
@@ -128,27 +119,23 @@ void set_network_defaults(const Archive& archive) {
 }  // namespace
 
 void check(const Archive& archive) {
-  const auto refuse = [&](const std::string& what) {
-    throw ArchiveError(fmt::format("archive {}: {}", archive.name, what));
-  };
+  const auto refuse = [&](const Text& what) { throw ArchiveError(at_place("archive " + archive.name, what)); };
   const auto is_title = [](const std::string& title) {
     return !title.empty() && title.size() <= 16 &&
            std::ranges::all_of(title, [](char c) { return c >= ' ' && c <= '~' && c != '\\'; }) &&
            title.find_first_not_of(' ') != std::string::npos;
   };
   const auto is_port = [](int port) { return port > 0 && port < 65536; };
-  if (archive.host.empty() || printable(archive.host) != archive.host)
-    refuse("--host has to be a machine's name or address");
-  if (!is_port(archive.port) || !is_port(archive.listen_port)) refuse("a port is a number from 1 to 65535");
-  if (!is_title(archive.called) || !is_title(archive.calling))
-    refuse("an AE title has 1 to 16 letters, digits or signs");
-  if (archive.silence_s < 1 || archive.silence_s > 3600) refuse("the time to wait has to be 1 to 3600 s");
+  if (archive.host.empty() || printable(archive.host) != archive.host) refuse(say("host-has-to-be-a-machine-name"));
+  if (!is_port(archive.port) || !is_port(archive.listen_port)) refuse(say("port-is-a-number-from-1"));
+  if (!is_title(archive.called) || !is_title(archive.calling)) refuse(say("ae-title-has-1-to-16"));
+  if (archive.silence_s < 1 || archive.silence_s > 3600) refuse(say("time-to-wait"));
   if (!archive.tls.used) return;
-  if (archive.tls.authorities.empty()) refuse("TLS needs --tls-ca, the certificate of who signed the archive's");
-  if (archive.tls.certificate.empty() != archive.tls.key.empty()) refuse("--tls-certificate and --tls-key go together");
+  if (archive.tls.authorities.empty()) refuse(say("tls-needs-tls-ca"));
+  if (archive.tls.certificate.empty() != archive.tls.key.empty())
+    refuse(say("tls-certificate-and-tls-key-go-together"));
   if (!archive.uses_get && archive.tls.certificate.empty()) {
-    refuse(
-        "C-MOVE with TLS needs --tls-certificate and --tls-key, since the archive then connects to us; or set --get");
+    refuse(say("c-move-needs-a-certificate"));
   }
 }
 
@@ -163,7 +150,7 @@ Association::Association(const Archive& archive, const std::vector<Proposal>& pr
   const OFCondition asked =
       ASC_requestAssociation(network_, parameters, &association_, nullptr, nullptr, DUL_NOBLOCK, archive.silence_s);
   if (asked.bad()) {
-    const std::string words =
+    const Text words =
         is(asked, DULC_ASSOCIATIONREJECTED) ? refusal_words(archive, parameters) : connection_words(archive, asked);
     if (association_ != nullptr) {
       ASC_destroyAssociation(&association_);
@@ -200,9 +187,8 @@ bool Association::accepts(const std::string& sop_class) const {
 T_ASC_PresentationContextID Association::context_for(const std::string& sop_class) const {
   const T_ASC_PresentationContextID id = ASC_findAcceptedPresentationContextID(association_, sop_class.c_str());
   if (id == 0) {
-    throw ArchiveError(fmt::format("{} does not offer us this service ({}): have it allowed there for {}",
-                                   where(archive_), dcmFindNameOfUID(sop_class.c_str(), sop_class.c_str()),
-                                   archive_.calling));
+    throw ArchiveError(say("does-not-offer-us-this-service", where(archive_),
+                           dcmFindNameOfUID(sop_class.c_str(), sop_class.c_str()), archive_.calling));
   }
   return id;
 }
@@ -244,8 +230,7 @@ std::unique_ptr<DcmDataset> Association::receive_dataset(T_ASC_PresentationConte
       });
   if (too_long) {
     broken_ = true;
-    throw ArchiveError(
-        fmt::format("{} sent an answer of more than {} bytes, which is no answer", where(archive_), most_bytes));
+    throw ArchiveError(say("answer-too-long", where(archive_), most_bytes));
   }
   if (received.bad()) fail(received);
   E_TransferSyntax syntax = EXS_Unknown;
@@ -262,7 +247,7 @@ std::unique_ptr<DcmDataset> Association::receive_dataset(T_ASC_PresentationConte
   dataset->transferEnd();
   if (parsed.bad()) {
     broken_ = true;
-    throw ArchiveError(fmt::format("{} sent an answer that is no DICOM dataset", where(archive_)));
+    throw ArchiveError(say("answer-is-no-dataset", where(archive_)));
   }
   return dataset;
 }

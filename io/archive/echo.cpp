@@ -1,10 +1,10 @@
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
 #include <dcmtk/dcmdata/dcuid.h>
-#include <fmt/format.h>
 
 #include "io/archive/association.h"
 #include "io/archive/status_words.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 
@@ -21,9 +21,8 @@ void echo(const Archive& archive) {
   const Command answer = association.receive({});
   if (answer.message.CommandField != DIMSE_C_ECHO_RSP || answer.message.msg.CEchoRSP.DimseStatus != STATUS_Success) {
     const bool is_echo = answer.message.CommandField == DIMSE_C_ECHO_RSP;
-    throw ArchiveError(
-        fmt::format("archive {} answered, and refused the echo: {}", archive.name,
-                    status_words(is_echo ? answer.message.msg.CEchoRSP.DimseStatus : std::uint16_t{0x0211})));
+    throw ArchiveError(say("archive-answered-and-refused-the-echo", archive.name,
+                           status_words(is_echo ? answer.message.msg.CEchoRSP.DimseStatus : std::uint16_t{0x0211})));
   }
 }
 

@@ -3,7 +3,6 @@
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
 #include <dcmtk/dcmdata/dctk.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +13,7 @@
 #include "io/archive/status_words.h"
 #include "io/archive/store_server.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -40,7 +40,7 @@ std::string words_of(const Wanted& wanted) {
 }
 
 [[noreturn]] void refuse(const Archive& archive, const Wanted& wanted, const std::string& why) {
-  throw ArchiveError(fmt::format("archive {} did not send {}: {}", archive.name, words_of(wanted), why));
+  throw ArchiveError(say("archive-did-not-send", archive.name, words_of(wanted), why));
 }
 
 /// Tells the watcher what has come, not more often than a screen shows.
@@ -113,7 +113,8 @@ Ended move(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& t
   try {
     while (true) {
       const Command command = association.receive(keep_going);
-      if (command.message.CommandField != DIMSE_C_MOVE_RSP) refuse(archive, wanted, "it answered with something else");
+      if (command.message.CommandField != DIMSE_C_MOVE_RSP)
+        refuse(archive, wanted, say("answered-with-something-else"));
       const T_DIMSE_C_MoveRSP& answer = command.message.msg.CMoveRSP;
       const std::string which = failed_instances(association, command, answer.DataSetType);
       server.rethrow();
@@ -177,7 +178,7 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
         response.DimseStatus =
             inbox.store(*association.get(), association.watch(), archive.silence_s, command, keep_going, broken);
         if (broken.bad()) {
-          refuse(archive, wanted, fmt::format("the connection broke after {} images; fetch it again", inbox.files()));
+          refuse(archive, wanted, say("connection-broke-after-images", inbox.files()));
         }
         response.MessageIDBeingRespondedTo = stored.MessageID;
         response.DataSetType = DIMSE_DATASET_NULL;
@@ -194,7 +195,7 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
           return {answer.DimseStatus, answer.NumberOfFailedSubOperations, which};
         }
       } else {
-        refuse(archive, wanted, "it answered with something else");
+        refuse(archive, wanted, say("answered-with-something-else"));
       }
     }
   } catch (...) {
@@ -206,53 +207,39 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
 /// What the last answer means for the user. Throws ArchiveError where nothing is worth keeping.
 void judge(const Archive& archive, const Wanted& wanted, const Ended& ended, std::size_t came, std::size_t unasked,
            const std::string& turned_away, Fetched& result) {
-  const std::string destination =
-      fmt::format("have {} entered there as a destination, with this machine's address and port {}", archive.calling,
-                  archive.listen_port);
-  if (ended.status == 0xA801)
-    refuse(archive, wanted, fmt::format("it does not know us as a place to send to: {}", destination));
+  const Text destination = say("enter-the-destination", archive.calling, archive.listen_port);
+  if (ended.status == 0xA801) refuse(archive, wanted, say("not-a-known-destination", destination));
   const bool partly = ended.status == STATUS_Success || ended.status == 0xB000 || ended.failed > 0;
   if (!partly) refuse(archive, wanted, status_words(ended.status));
   if (came == 0 && unasked > 0) {
-    refuse(archive, wanted, "it sent something else, which was not kept: tell who runs it");
+    refuse(archive, wanted, say("sent-something-else"));
   }
   if (came == 0 && !turned_away.empty()) {
-    refuse(archive, wanted,
-           fmt::format("{} when it sent, and was turned away: --called has to be its AE title and --calling the one it "
-                       "sends to",
-                       turned_away));
+    refuse(archive, wanted, say("turned-away", turned_away));
   }
   if (came == 0 && archive.uses_get) {
-    refuse(archive, wanted,
-           ended.failed > 0 ? fmt::format("all {} of its images failed", ended.failed)
-                            : std::string("it has no images of it"));
+    refuse(archive, wanted, ended.failed > 0 ? say("all-images-failed", ended.failed) : say("archive-has-no-images"));
   }
   if (came == 0) {
-    refuse(archive, wanted,
-           fmt::format("nothing arrived here: {}, and check that no firewall is between", destination));
+    refuse(archive, wanted, say("nothing-arrived-here", destination));
   }
   if (ended.failed > 0) {
     result.complete = false;
-    result.warnings.push_back(
-        fmt::format("{} of {} images of {} could not be sent by archive {}{}: fetch it again, or tell who runs it",
-                    ended.failed, came + static_cast<std::size_t>(ended.failed), words_of(wanted), archive.name,
-                    ended.which.empty() ? "" : " (" + ended.which + ")"));
+    result.warnings.push_back(say("some-images-failed", ended.failed, came + static_cast<std::size_t>(ended.failed),
+                                  words_of(wanted), archive.name, ended.which.empty() ? "" : " (" + ended.which + ")"));
   }
   if (unasked > 0) {
-    result.warnings.push_back(fmt::format("archive {} also sent {} objects that were not asked for; they were not kept",
-                                          archive.name, unasked));
+    result.warnings.push_back(say("archive-also-sent-objects-that-were-not", archive.name, unasked));
   }
 }
 
 /// A series may grow while it is fetched.
 void warn_of_growth(const Archive& archive, const Wanted& wanted, std::size_t came, const KeepGoing& keep_going,
-                    std::vector<std::string>& warnings) {
+                    std::vector<Text>& warnings) {
   const std::string& uid = wanted.series_uid.empty() ? wanted.study_uid : wanted.series_uid;
   const int now = find_uid(archive, uid, keep_going).images;
   if (now > static_cast<int>(came)) {
-    warnings.push_back(
-        fmt::format("archive {} now holds {} images of {}, and {} came: it may still be growing; fetch it again",
-                    archive.name, now, words_of(wanted), came));
+    warnings.push_back(say("archive-now-holds-images", archive.name, now, words_of(wanted), came));
   }
 }
 

@@ -38,8 +38,8 @@ struct Fetched {
   std::vector<FetchedSeries> series;
   std::size_t files = 0;
   std::uint64_t bytes = 0;
-  bool complete = true;               ///< false: the archive could not send all of it
-  std::vector<std::string> warnings;  ///< what did not come, and why; in the user's words
+  bool complete = true;        ///< false: the archive could not send all of it
+  std::vector<Text> warnings;  ///< what did not come, and why; in the user's words
 };
 
 /// Fetches what the UIDs name (studies or series) into `folder`, which is made where it is not there, readable by its

@@ -3,7 +3,6 @@
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
 #include <dcmtk/dcmdata/dctk.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include "io/archive/association.h"
 #include "io/archive/status_words.h"
 #include "io/dicom/character_set.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -72,15 +72,15 @@ Answers ask(Association& association, DcmDataset& keys, std::size_t most, const 
     const Command command = association.receive(keep_going);
     if (command.message.CommandField != DIMSE_C_FIND_RSP) {
       association.give_up();
-      throw ArchiveError(fmt::format("archive {} answered a question with something else", association.archive().name));
+      throw ArchiveError(say("archive-answered-a-question-with-something-else", association.archive().name));
     }
     const T_DIMSE_C_FindRSP& answer = command.message.msg.CFindRSP;
     std::unique_ptr<DcmDataset> item;
     if (answer.DataSetType != DIMSE_DATASET_NULL) item = association.receive_dataset(command.context, largest_answer);
     if (!is_pending(answer.DimseStatus)) {
       if (answer.DimseStatus != STATUS_Success && !(answers.more && answer.DimseStatus == 0xFE00)) {
-        throw ArchiveError(fmt::format("archive {} refused the question: {}", association.archive().name,
-                                       status_words(answer.DimseStatus)));
+        throw ArchiveError(
+            say("archive-refused-the-question", association.archive().name, status_words(answer.DimseStatus)));
       }
       return answers;
     }
@@ -166,7 +166,7 @@ void check_date(const std::string& date) {
   const bool good = date.empty() || (dash == std::string::npos && day(date)) ||
                     (dash != std::string::npos && date.size() > 1 && (dash == 0 || day(date.substr(0, dash))) &&
                      (dash + 1 == date.size() || day(date.substr(dash + 1))));
-  if (!good) throw ArchiveError("--date has to be YYYYMMDD, YYYYMMDD-YYYYMMDD, YYYYMMDD- or -YYYYMMDD");
+  if (!good) throw ArchiveError(say("date-has-to-be-yyyymmdd"));
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& k
 
 Wanted find_uid(const Archive& archive, const std::string& uid, const KeepGoing& keep_going) {
   if (uid.empty() || uid.size() > 64 || uid.find_first_not_of("0123456789.") != std::string::npos) {
-    throw ArchiveError(fmt::format("{} is no UID: `palpate find` lists those of studies and series", printable(uid)));
+    throw ArchiveError(say("no-uid", printable(uid)));
   }
   Association association(archive, {{model, uncompressed_syntaxes()}});
   DcmDataset studies;
@@ -218,8 +218,7 @@ Wanted find_uid(const Archive& archive, const std::string& uid, const KeepGoing&
     const std::string study = text_of(*item, DCM_StudyInstanceUID);
     if (!study.empty()) return {study, uid, number_of(*item, DCM_NumberOfSeriesRelatedInstances, -1)};
   }
-  throw ArchiveError(
-      fmt::format("archive {} holds no study and no series {}: `palpate find` lists what it holds", archive.name, uid));
+  throw ArchiveError(say("archive-holds-no-study-and-no-series", archive.name, uid));
 }
 
 }  // namespace palpate::io

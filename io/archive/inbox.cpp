@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -24,10 +25,7 @@ std::string reason(int number) {
 }
 
 [[noreturn]] void cannot_write(const fs::path& folder, const std::string& why) {
-  throw ArchiveError(
-      fmt::format("{} cannot be written ({}): make room, or name another folder with -o; nothing is left "
-                  "of this fetch",
-                  folder.string(), why));
+  throw ArchiveError(say("fetched-cannot-be-written", folder.string(), why));
 }
 
 /// A file that is gone again unless it is kept.
@@ -94,8 +92,7 @@ std::uint16_t Inbox::store(T_ASC_Association& association, Watch& watch, int sil
   const std::lock_guard lock(mutex_);
   const T_DIMSE_C_StoreRQ& request = command.message.msg.CStoreRQ;
   if (files() >= limits_.files) {
-    throw ArchiveError(
-        fmt::format("more than {} files came: fetch series by series, or allow more with --most-files", limits_.files));
+    throw ArchiveError(say("more-than-files-came", limits_.files));
   }
   const PartFile part(staging_ / fmt::format("part-{:06}", ++number_));
   DcmOutputFileStream* opened = nullptr;
@@ -123,8 +120,7 @@ std::uint16_t Inbox::store(T_ASC_Association& association, Watch& watch, int sil
   file.reset();  // what is in its buffer is written now
   if (cancelled) throw Cancelled();
   if (too_much) {
-    throw ArchiveError(fmt::format("more than {} MiB came: fetch series by series, or allow more with --most-mib",
-                                   limits_.bytes >> 20U));
+    throw ArchiveError(say("more-than-mib-came", limits_.bytes >> 20U));
   }
   if (!full && broken.good() && fs::file_size(part.path()) != expected) {
     full = true;

@@ -3,7 +3,6 @@
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
 #include <dcmtk/dcmdata/dctk.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -11,6 +10,7 @@
 #include "io/archive/status_words.h"
 #include "io/dicom/dcmtk_start.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -18,11 +18,11 @@ namespace {
 struct Outgoing {
   std::filesystem::path file;
   std::string sop_class, instance, syntax;
-  std::string refused;
+  Text refused;
 };
 
 Outgoing look_at(const std::filesystem::path& file) {
-  Outgoing result{file, "", "", "", ""};
+  Outgoing result{file, "", "", "", {}};
   DcmFileFormat format;
   const OFCondition read = format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_fileOnly);
   OFString sop_class, instance;
@@ -31,8 +31,7 @@ Outgoing look_at(const std::filesystem::path& file) {
   result.sop_class = sop_class.c_str();
   result.instance = instance.c_str();
   result.syntax = DcmXfer(format.getDataset()->getOriginalXfer()).getXferID();
-  if (read.bad() || result.sop_class.empty() || result.instance.empty())
-    result.refused = "not a DICOM file that can be sent";
+  if (read.bad() || result.sop_class.empty() || result.instance.empty()) result.refused = say("cannot-be-sent");
   return result;
 }
 
@@ -69,16 +68,16 @@ T_ASC_PresentationContextID context_of(Association& association, const Outgoing&
 }
 
 /// Why it was not taken; empty: it was.
-std::string send_one(Association& association, const Outgoing& one) {
+Text send_one(Association& association, const Outgoing& one) {
   Command command;
   command.context = context_of(association, one);
   if (command.context == 0) {
-    return fmt::format("archive {} does not take {} as {}", association.archive().name,
-                       dcmFindNameOfUID(one.sop_class.c_str(), one.sop_class.c_str()),
-                       dcmFindNameOfUID(one.syntax.c_str(), one.syntax.c_str()));
+    return say("archive-does-not-take", association.archive().name,
+               dcmFindNameOfUID(one.sop_class.c_str(), one.sop_class.c_str()),
+               dcmFindNameOfUID(one.syntax.c_str(), one.syntax.c_str()));
   }
   DcmFileFormat format;
-  if (format.loadFile(one.file.c_str()).bad()) return "cannot be read to its end";
+  if (format.loadFile(one.file.c_str()).bad()) return say("cannot-be-read-to-its-end");
   command.message.CommandField = DIMSE_C_STORE_RQ;
   T_DIMSE_C_StoreRQ& request = command.message.msg.CStoreRQ;
   request.MessageID = association.next_message_id();
@@ -90,12 +89,11 @@ std::string send_one(Association& association, const Outgoing& one) {
   const Command answer = association.receive({});
   if (answer.message.CommandField != DIMSE_C_STORE_RSP) {
     association.give_up();
-    throw ArchiveError(fmt::format("archive {} answered a file with something else", association.archive().name));
+    throw ArchiveError(say("archive-answered-a-file-with-something-else", association.archive().name));
   }
   const std::uint16_t status = answer.message.msg.CStoreRSP.DimseStatus;
   const bool taken = status == STATUS_Success || (status & 0xF000U) == 0xB000U;
-  return taken ? std::string()
-               : fmt::format("archive {} did not take it: {}", association.archive().name, status_words(status));
+  return taken ? Text() : say("archive-did-not-take", association.archive().name, status_words(status));
 }
 
 }  // namespace
@@ -117,7 +115,7 @@ Sent send(const Archive& archive, const std::vector<std::filesystem::path>& file
   std::size_t done = 0;
   for (const Outgoing& one : all) {
     if (progress && !progress(done)) throw Cancelled();
-    const std::string why = one.refused.empty() ? send_one(association, one) : one.refused;
+    const Text why = one.refused.empty() ? send_one(association, one) : one.refused;
     if (why.empty()) {
       ++sent.files;
     } else {

@@ -13,7 +13,7 @@ namespace palpate::io {
 
 struct NotSent {
   std::filesystem::path file;
-  std::string why;
+  Text why;
 };
 
 struct Sent {

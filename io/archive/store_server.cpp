@@ -16,6 +16,7 @@
 
 #include "io/archive/status_words.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -25,15 +26,12 @@ constexpr long maximum_pdu = 65536;
 
 int listen_on(const Archive& archive) {
   const auto refuse = [&](const std::string& why) {
-    throw ArchiveError(fmt::format(
-        "cannot listen on {}:{} for what archive {} sends ({}): set another address or port with --listen-address and "
-        "--listen, and have it entered in the archive",
-        archive.listen_address, archive.listen_port, archive.name, why));
+    throw ArchiveError(say("cannot-listen-on", archive.listen_address, archive.listen_port, archive.name, why));
   };
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(archive.listen_port));
-  if (inet_pton(AF_INET, archive.listen_address.c_str(), &address.sin_addr) != 1) refuse("no IPv4 address");
+  if (inet_pton(AF_INET, archive.listen_address.c_str(), &address.sin_addr) != 1) refuse(say("no-ipv4-address"));
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int on = 1;
   if (socket < 0) refuse(std::generic_category().message(errno));

@@ -1,12 +1,13 @@
 #include "io/archive/transport.h"
 
 #include <dcmtk/dcmtls/tlslayer.h>
-#include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <filesystem>
+
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -45,11 +46,7 @@ class TlsLayer final : public DcmTLSTransportLayer {
 
 void require(bool good, const Archive& archive, const char* what, const std::filesystem::path& file) {
   if (!good) {
-    throw ArchiveError(
-        fmt::format("archive {}: {} {} cannot be used for TLS: it has to be a readable file in PEM; give the right one "
-                    "with `palpate "
-                    "archive add`",
-                    archive.name, what, file.string()));
+    throw ArchiveError(say("archive-cannot-be-used-for-tls", archive.name, what, file.string()));
   }
 }
 
@@ -71,12 +68,12 @@ void set_up(DcmTLSTransportLayer& layer, const Archive& archive) {
     require(layer.setPrivateKeyFile(tls.key.c_str(), DCF_Filetype_PEM).good(), archive, "--tls-key", tls.key);
     require(set_certificate(layer, tls.certificate).good(), archive, "--tls-certificate", tls.certificate);
     if (!layer.checkPrivateKeyMatchesCertificate()) {
-      throw ArchiveError(fmt::format("archive {}: --tls-key {} does not belong to --tls-certificate {}", archive.name,
-                                     tls.key.string(), tls.certificate.string()));
+      throw ArchiveError(
+          say("archive-tls-key-does-not-belong", archive.name, tls.key.string(), tls.certificate.string()));
     }
   }
   if (layer.setTLSProfile(profile).bad() || layer.activateCipherSuites().bad()) {
-    throw ArchiveError(fmt::format("archive {}: the OpenSSL that is installed cannot do TLS 1.2", archive.name));
+    throw ArchiveError(say("archive-the-openssl-that-is-installed-cannot", archive.name));
   }
   layer.setCertificateVerification(DCV_requireCertificate);
 }

@@ -8,6 +8,7 @@
 
 #include "io/dicom/input_file.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -73,21 +74,19 @@ std::vector<FileHeader> drop_copies(std::vector<FileHeader> files, std::vector<S
         std::find_if(known.begin(), known.end(), [&](std::size_t n) { return same_image(kept[n], file); });
     if (file.sop_instance.empty() || first == known.end()) {
       if (!file.sop_instance.empty() && known.size() == 1) {
-        kept[known[0]].remarks.emplace_back(
-            "different images of it have one SOP instance UID, which is against the standard: all are kept");
+        kept[known[0]].remarks.push_back(say("one-uid-for-several-images"));
       }
       known.push_back(kept.size());
       kept.push_back(std::move(file));
       continue;
     }
     FileHeader& original = kept[*first];
-    std::string why = "a copy of " + name_of(original) + ": the same SOP instance";
+    Text why = say("copy-of-an-image", name_of(original));
     if (!file.defect.empty()) {
-      why += " (" + file.defect + ")";
+      why = say("damaged-copy", name_of(original), file.defect);
     } else if (pixels_differ(original, file)) {
-      why += ", but with other pixels";
-      original.remarks.push_back(name_of(original) + " is used and not " + name_of(file) +
-                                 ", which is the same SOP instance with other pixels");
+      why = say("copy-with-other-pixels", name_of(original));
+      original.remarks.push_back(say("used-and-not-its-copy", name_of(original), name_of(file)));
     }
     skipped.push_back({file.path, std::move(why)});
   }

@@ -19,6 +19,7 @@
 
 #include "io/dicom/asked_for.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -27,7 +28,7 @@ struct FirstBytes {
   std::array<std::byte, 12> bytes{};
 
   FirstBytes(const InputFile& file, std::uint64_t at) {
-    if (at > file.size() || file.size() - at < bytes.size()) throw DicomError("not a DICOM file");
+    if (at > file.size() || file.size() - at < bytes.size()) throw DicomError(say("not-a-dicom-file"));
     file.read(at, bytes);
   }
   unsigned operator[](std::size_t i) const { return std::to_integer<unsigned>(bytes[i]); }
@@ -60,7 +61,7 @@ std::string read_meta(const InputFile& file, std::uint64_t& at) {
         wide ? element[8] | element[9] << 8 | element[10] << 16 | std::uint64_t{element[11]} << 24
              : element[6] | element[7] << 8;
     const std::uint64_t value_at = at + (wide ? 12 : 8);
-    if (value_at > file.size() || length > file.size() - value_at) throw DicomError("truncated in its header");
+    if (value_at > file.size() || length > file.size() - value_at) throw DicomError(say("truncated-in-its-header"));
     if ((element[2] | element[3] << 8) == 0x0010 && length <= 64) {
       syntax.resize(length);
       file.read(value_at, std::as_writable_bytes(std::span(syntax)));
@@ -105,7 +106,7 @@ class FileBytes final : public ByteSource {
 constexpr std::uint64_t longest_header = 1U << 28;  // five times the header of 10 000 enhanced frames
 
 [[noreturn]] void refuse_long_header() {
-  throw DicomError("its header is larger than 256 MiB");
+  throw DicomError(say("header-is-larger-than-256-mib"));
 }
 
 // Of a source, no more bytes than a header may have: a deflated one may grow a thousandfold.
@@ -132,7 +133,7 @@ class HeaderBytes final : public ByteSource {
     left_ -= count;
   }
   void check_damage() const {
-    if (const std::string why = source_.damage(); !why.empty()) throw DicomError("damaged header: " + why);
+    if (const std::string why = source_.damage(); !why.empty()) throw DicomError(say("damaged-header", why));
   }
 
   ByteSource& source_;
@@ -144,7 +145,7 @@ class InflatedBytes final : public ByteSource {
   InflatedBytes(const std::filesystem::path& path, std::uint64_t at)
       : stream_(OFFilename(path.c_str()), static_cast<offile_off_t>(at)) {
     if (stream_.installCompressionFilter(ESC_zlib).bad()) {  // it went away since its first bytes were read
-      throw DicomError("cannot be opened: check that it exists and may be read");
+      throw DicomError(say("cannot-be-opened"));
     }
   }
   std::size_t read(std::span<std::byte> into) override {
@@ -210,7 +211,7 @@ std::vector<std::byte> wanted_bytes(ByteSource& source, const DatasetShape& shap
     const std::size_t kept = bytes.size();
     bytes.resize(kept + (stretch.end - stretch.begin));
     if (!source.skip(stretch.begin - at) || source.read(std::span(bytes).subspan(kept)) != bytes.size() - kept) {
-      throw DicomError("truncated in its header");
+      throw DicomError(say("truncated-in-its-header"));
     }
     at = stretch.end;
   }
@@ -283,7 +284,7 @@ void settle_unknown(DcmItem& item) {
 }  // namespace
 
 DatasetStart find_dataset(const InputFile& file) {
-  if (file.size() == 0) throw DicomError("empty file");
+  if (file.size() == 0) throw DicomError(say("empty-file"));
   DatasetStart start;
   bool is_part_10 = false;
   if (file.size() >= 132) {
@@ -305,7 +306,7 @@ DatasetStart find_dataset(const InputFile& file) {
     return start;
   }
   const auto guess = guess_encoding(FirstBytes(file, start.at));
-  if (!guess) throw DicomError(is_part_10 || start.at > meta_at ? "damaged: no dataset in it" : "not a DICOM file");
+  if (!guess) throw DicomError(is_part_10 || start.at > meta_at ? say("damaged-no-dataset") : say("not-a-dicom-file"));
   start.encoding = *guess;
   if (start.transfer_syntax.empty()) start.transfer_syntax = DcmXfer(syntax_of(start)).getXferID();
   return start;
@@ -346,7 +347,7 @@ std::optional<PixelElement> parse_header(const InputFile& file, const std::files
   stream.setEos();
   const OFCondition read = dataset.read(stream, syntax_of(start), EGL_noChange, DCM_MaxReadLength);
   dataset.transferEnd();
-  if (read.bad()) throw DicomError(std::string("damaged header: ") + read.text());
+  if (read.bad()) throw DicomError(say("damaged-header", read.text()));
   if (shape.has_unknown) settle_unknown(dataset);
   return shape.pixels;
 }

@@ -7,15 +7,13 @@
 #include <mutex>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 
 void check_dictionary(const DcmDataDictionary& dictionary, bool loaded) {
   if (!loaded || dictionary.numberOfNormalTagEntries() == 0) {
-    throw DicomError(
-        "DCMTK's data dictionary is missing: reinstall the package libdcmtk17, or let the environment variable "
-        "DCMDICTPATH "
-        "name its dicom.dic");
+    throw DicomError(say("dcmtk-data-dictionary-is-missing"));
   }
 }
 

@@ -7,11 +7,12 @@
 #include <array>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
 
-using Decoder = std::string (*)(const PixelFormat&, std::span<const std::byte>, std::span<std::uint16_t>);
+using Decoder = Text (*)(const PixelFormat&, std::span<const std::byte>, std::span<std::uint16_t>);
 
 struct Syntax {
   const char* uid;
@@ -52,14 +53,14 @@ void check_density(const std::string& transfer_syntax, const PixelFormat& format
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(format.columns) * static_cast<std::uint64_t>(format.rows) * frames;
   if (pixels > small && pixels / pixels_per_byte > bytes) {
-    throw DicomError("damaged: " + std::to_string(bytes) + " bytes cannot hold " + std::to_string(pixels) + " pixels");
+    throw DicomError(say("damaged-bytes-cannot-hold-pixels", bytes, pixels));
   }
 }
 
-std::string decode_frame(const std::string& transfer_syntax, const PixelFormat& format,
-                         std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+Text decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
+                  std::span<std::uint16_t> values) {
   const Syntax* syntax = find_syntax(transfer_syntax);
-  if (syntax == nullptr) throw DicomError("its compression is unknown here: " + transfer_syntax);
+  if (syntax == nullptr) throw DicomError(say("compression-is-unknown-here", transfer_syntax));
   check_density(transfer_syntax, format, 1, bytes.size());
   return syntax->decoder(format, bytes, values);
 }

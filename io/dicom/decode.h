@@ -24,17 +24,15 @@ void check_density(const std::string& transfer_syntax, const PixelFormat& format
 /// Decodes one frame: `values` holds rows * columns. Returns what of the stream is against its standard without costing
 /// a pixel, in words for the user; empty where nothing is. Throws DicomError with a reason where the stream is damaged
 /// or is an image of another size than the header says.
-std::string decode_frame(const std::string& transfer_syntax, const PixelFormat& format,
-                         std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+Text decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
+                  std::span<std::uint16_t> values);
 
 // The decoders of each family, as decode_frame(). Samples are as the stream holds them: bits that the format does not
 // store and signs are left to the caller.
-std::string decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
-std::string decode_jpeg_ls(const PixelFormat& format, std::span<const std::byte> bytes,
-                           std::span<std::uint16_t> values);
-std::string decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes,
-                            std::span<std::uint16_t> values);
-std::string decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+Text decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+Text decode_jpeg_ls(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+Text decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+Text decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
 
 /// What a JPEG stream says of itself in its SOF marker (ISO 10918-1 annex B).
 struct JpegFrame {

@@ -18,6 +18,7 @@
 #include "io/dicom/file_kind.h"
 #include "io/dicom/planes.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -98,8 +99,7 @@ void read_format(DcmItem& item, FileHeader& header) {
   format.bits_stored = whole(DCM_BitsStored, format.bits_allocated);
   format.high_bit = whole(DCM_HighBit, format.bits_stored - 1);
   format.is_signed = whole(DCM_PixelRepresentation, 0) == 1;
-  if (format.columns < 1 || format.rows < 1)
-    throw NotAnImage(what_it_is(header) + ": no image in it", header.sop_class);
+  if (format.columns < 1 || format.rows < 1) throw NotAnImage(say("no-image", what_it_is(header)), header.sop_class);
 
   header.columns = format.columns;
   header.rows = format.rows;
@@ -107,12 +107,10 @@ void read_format(DcmItem& item, FileHeader& header) {
   const std::string photometric = text_of(item, DCM_PhotometricInterpretation);
   const bool gray = photometric.empty() || photometric == "MONOCHROME1" || photometric == "MONOCHROME2";
   if (whole(DCM_SamplesPerPixel, 1) != 1 || !gray) {
-    header.unfit = "color image (" + photometric + "): it has no values to feel";
+    header.unfit = say("color-image-it-has-no-values", photometric);
   } else if ((format.bits_allocated != 8 && format.bits_allocated != 16) || format.bits_stored < 1 ||
              format.high_bit < format.bits_stored - 1 || format.high_bit >= format.bits_allocated) {
-    header.unfit = "pixels of " + std::to_string(format.bits_stored) + " bits in " +
-                   std::to_string(format.bits_allocated) + ", the highest of them bit " +
-                   std::to_string(format.high_bit) + ", cannot be read";
+    header.unfit = say("pixels-of-bits", format.bits_stored, format.bits_allocated, format.high_bit);
   }
 }
 
@@ -130,15 +128,15 @@ void remark_on_lost_frames(double frames, FileHeader& header) {
   const auto placed = std::count_if(header.planes.begin(), header.planes.end(),
                                     [](const Plane& plane) { return plane.placement.has_value(); });
   if (placed == 0 || static_cast<double>(placed) >= frames) return;
-  header.remarks.push_back(header.path.filename().string() + " says where " + std::to_string(placed) + " of its " +
-                           std::to_string(std::llround(frames)) + " frames lie: the others are left out");
+  header.remarks.push_back(
+      say("some-frames-have-no-place", header.path.filename().string(), placed, std::llround(frames)));
 }
 
 void read_planes(DcmItem& item, FileHeader& header) {
   const double frames = number_of(item, DCM_NumberOfFrames).value_or(1);
   header.padding = padding_of(item, header);
   if (first_item(item, DCM_ModalityLUTSequence) != nullptr && header.unfit.empty()) {
-    header.unfit = "its values need a modality look-up table, which is not applied here";
+    header.unfit = say("values-need-a-modality-look-up");
   }
   if (first_item(item, DCM_PerFrameFunctionalGroupsSequence) != nullptr) {
     header.planes = functional_group_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
@@ -146,19 +144,19 @@ void read_planes(DcmItem& item, FileHeader& header) {
   } else if (header.image_type.find("MOSAIC") != std::string::npos) {
     header.planes = mosaic_planes(item, header);
     if (header.planes.empty() && header.unfit.empty()) {
-      header.unfit = "Siemens mosaic without the private header that says how to take it apart";
+      header.unfit = say("siemens-mosaic-without-the-private-header");
     }
   } else {
     header.planes.push_back(classic_plane(item, header));
-    if (frames > 1 && header.unfit.empty()) header.unfit = "several frames without a position for each";
+    if (frames > 1 && header.unfit.empty()) header.unfit = say("several-frames-without-a-position-for-each");
   }
   const bool placed =
       std::any_of(header.planes.begin(), header.planes.end(), [](const Plane& p) { return p.placement; });
   if (header.modality == "CT" && header.unit.empty()) {
-    header.remarks.emplace_back("its values are not said to be Hounsfield units");
+    header.remarks.push_back(say("values-may-not-be-hounsfield-units"));
   }
   if (!placed && header.unfit.empty()) {
-    header.unfit = "no position in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing)";
+    header.unfit = say("no-position-in-the-patient");
   }
 }
 
@@ -167,7 +165,7 @@ void check_native_length(const InputFile& file, std::size_t frames, const PixelE
       std::min<std::uint64_t>(pixels.length, file.size() - std::min(file.size(), header.pixels_at));
   const std::uint64_t needed = header.format.bytes_per_frame() * frames;
   if (present < needed) {
-    header.defect = "truncated: " + std::to_string(present) + " of " + std::to_string(needed) + " bytes of pixels";
+    header.defect = say("truncated-pixels", present, needed);
   }
 }
 
@@ -180,11 +178,11 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
   header.pixels_at = header.start.deflated ? pixels.value_at : header.start.at + pixels.value_at;
   const bool encapsulated = pixels.length == PixelElement::undefined_length;
   if (pixels.is_float) {
-    if (header.unfit.empty()) header.unfit = "pixels that are floating-point numbers cannot be read";
+    if (header.unfit.empty()) header.unfit = say("floating-point-pixels");
     return;
   }
   if (encapsulated && !can_decode(header.transfer_syntax)) {
-    if (header.unfit.empty()) header.unfit = "its compression is unknown here: " + header.transfer_syntax;
+    if (header.unfit.empty()) header.unfit = say("compression-is-unknown-here", header.transfer_syntax);
     return;
   }
   try {
@@ -192,19 +190,18 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
       header.coding = PixelCoding::encapsulated;
       Encapsulated found = find_fragments(file, header.pixels_at, frames);
       header.fragments = std::move(found.frames);
-      if (!found.has_end)
-        header.remarks.emplace_back("its compressed pixels have no end mark; they are read as they are");
+      if (!found.has_end) header.remarks.push_back(say("compressed-pixels-have-no-end-mark"));
       check_density(header.transfer_syntax, header.format, frames, file.size());
     } else if (header.start.deflated) {
       header.coding = PixelCoding::deflated;
       check_density(header.transfer_syntax, header.format, frames, file.size());
     } else if (can_decode(header.transfer_syntax)) {
-      header.defect = "damaged: its pixels are not compressed as it says";
+      header.defect = say("pixels-are-not-compressed");
     } else {
       check_native_length(file, frames, pixels, header);
     }
   } catch (const DicomError& error) {
-    header.defect = error.what();
+    header.defect = error.text();
   }
 }
 
@@ -246,12 +243,12 @@ FileHeader read_file_header(const std::filesystem::path& path) {
   DcmDataset dataset;
   const auto pixels = parse_header(file, path, header.start, dataset);
   if (dataset.tagExists(DCM_DirectoryRecordSequence)) {
-    throw DicomError("DICOMDIR: an index; the files themselves are looked at");
+    throw DicomError(say("dicomdir-an-index"));
   }
   read_identity(dataset, header);
   read_details(dataset, header);
   read_format(dataset, header);
-  if (!pixels) throw NotAnImage(what_it_is(header) + ": no pixels in it", header.sop_class);
+  if (!pixels) throw NotAnImage(say("no-pixels", what_it_is(header)), header.sop_class);
   read_planes(dataset, header);
   locate_pixels(file, *pixels, header);
   return header;

@@ -14,6 +14,7 @@
 #include "io/dicom/fragments.h"
 #include "io/geometry.h"
 #include "io/series.h"
+#include "messages/message.h"
 
 namespace palpate::io::internal {
 
@@ -116,9 +117,9 @@ struct FileHeader {
   std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
 
   std::vector<Plane> planes;
-  std::vector<std::string> remarks;  ///< what a user should know of its series, in words that all of its files share
-  std::string unfit;   ///< why its images cannot be part of a volume (color, no position); empty where they can
-  std::string defect;  ///< why its pixels cannot be read (truncated); empty where they can
+  std::vector<Text> remarks;  ///< what a user should know of its series, in words that all of its files share
+  Text unfit;                 ///< why its images cannot be part of a volume (color, no position); empty where they can
+  Text defect;                ///< why its pixels cannot be read (truncated); empty where they can
 };
 
 /// Reads a file up to its pixel data. Throws DicomError with a reason (that does not name the file) where it holds no

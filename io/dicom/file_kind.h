@@ -11,8 +11,7 @@ namespace palpate::io::internal {
 /// A file that holds no image: a report, a plan, a structure set.
 class NotAnImage : public DicomError {
  public:
-  NotAnImage(const std::string& reason, std::string sop_class_uid)
-      : DicomError(reason), sop_class(std::move(sop_class_uid)) {}
+  NotAnImage(const Text& reason, std::string sop_class_uid) : DicomError(reason), sop_class(std::move(sop_class_uid)) {}
   std::string sop_class;  ///< UID; may be empty
 };
 

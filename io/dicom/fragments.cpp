@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -40,8 +41,9 @@ Items read_items(const InputFile& file, std::uint64_t at) {
     const std::uint32_t length = little_endian(std::span(head).subspan(4));
     at += head.size();
     if (tag == end_tag) return items;
-    if (tag != item_tag) throw DicomError("damaged: its compressed pixels are not made of items");
-    if (at > file.size() || length > file.size() - at) throw DicomError("truncated: its compressed pixels end early");
+    if (tag != item_tag) throw DicomError(say("compressed-pixels-are-not-items"));
+    if (at > file.size() || length > file.size() - at)
+      throw DicomError(say("truncated-its-compressed-pixels-end-early"));
     if (first) {
       std::vector<std::byte> table(length);
       file.read(at, table);
@@ -102,11 +104,10 @@ std::vector<std::size_t> starts_of(const InputFile& file, const Items& items, st
 
 Encapsulated find_fragments(const InputFile& file, std::uint64_t pixels_at, std::size_t frames) {
   const Items items = read_items(file, pixels_at);
-  if (items.fragments.empty() || frames == 0) throw DicomError("no pixels in it");
+  if (items.fragments.empty() || frames == 0) throw DicomError(say("no-pixels-in-it"));
   auto starts = starts_of(file, items, frames);
   if (starts.empty()) {
-    throw DicomError(std::to_string(items.fragments.size()) + " compressed fragments do not make up " +
-                     std::to_string(frames) + " frames");
+    throw DicomError(say("compressed-fragments-do-not-make-up", items.fragments.size(), frames));
   }
   starts.push_back(items.fragments.size());
   Encapsulated result{std::vector<std::vector<Fragment>>(frames), items.has_end};

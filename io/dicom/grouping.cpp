@@ -14,6 +14,7 @@
 #include "io/dicom/stack_parts.h"
 #include "io/dicom/stacking.h"
 #include "io/fields/gradient.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -60,7 +61,7 @@ void add_remarks(const SeriesSource& source, const std::vector<Slice>& slices, S
   std::set<std::uint32_t> seen;
   for (const Slice& slice : slices) {
     if (!seen.insert(slice.file).second) continue;
-    for (const std::string& remark : source.file_of(slice).remarks) {
+    for (const Text& remark : source.file_of(slice).remarks) {
       const bool is_new = std::find(series.warnings.begin(), series.warnings.end(), remark) == series.warnings.end();
       if (is_new) series.warnings.push_back(remark);
     }
@@ -78,12 +79,12 @@ void list_files(const SeriesSource& source, const std::vector<Slice>& slices, Se
   series.transfer_syntaxes.assign(syntaxes.begin(), syntaxes.end());
 }
 
-std::string why_unusable(const SeriesSource& source) {
+Text why_unusable(const SeriesSource& source) {
   const auto& slices = source.frames.front().slices;
-  if (slices.empty()) return "none of its images can be read";
+  if (slices.empty()) return say("none-of-its-images-can-be-read");
   const FileHeader& file = source.file_of(slices.front());
-  if (file.image_type.find("LOCALIZER") != std::string::npos) return "a localizer, no volume";
-  if (slices.size() == 1) return "one slice alone is no volume";
+  if (file.image_type.find("LOCALIZER") != std::string::npos) return say("localizer-no-volume");
+  if (slices.size() == 1) return say("one-slice-alone-is-no-volume");
   return {};
 }
 
@@ -127,10 +128,8 @@ void drop_empty_frames(SeriesSource& source, Series& series) {
     const SeriesSource::Frame& frame = source.frames[f];
     if (frame.slices.size() > 1) continue;
     const std::string& name = series.frame_names[f];
-    series.warnings.push_back((name.empty() ? "frame " + std::to_string(f) : name) +
-                              " is left out: " + std::to_string(frame.slices.size()) + " of its " +
-                              std::to_string(frame.slices.size() + frame.lost.size()) +
-                              " images can be read; the other frames are numbered anew");
+    series.warnings.push_back(say("frame-left-out", (name.empty() ? "frame " + std::to_string(f) : name),
+                                  frame.slices.size(), frame.slices.size() + frame.lost.size()));
     source.frames.erase(source.frames.begin() + static_cast<std::ptrdiff_t>(f));
     series.frame_names.erase(series.frame_names.begin() + static_cast<std::ptrdiff_t>(f));
   }
@@ -153,7 +152,7 @@ void remark_on_moving_frames(const SeriesSource& source, Series& series) {
         {apart, std::abs(height(frame.slices.front()) - first[0]), std::abs(height(frame.slices.back()) - first[1])});
   }
   if (reference != nullptr && apart > same_place_mm(*reference)) {
-    series.warnings.push_back("its frames lie up to " + millimeters(apart) + " apart: each is felt where it is");
+    series.warnings.push_back(say("frames-lie-apart", millimeters(apart)));
   }
 }
 
@@ -162,9 +161,8 @@ void remark_on_wide_gaps(Series& series) {
   const Geometry& g = series.geometry;
   constexpr double spans = 2;  // scales, from which on the next slice has little weight
   if (g.dimensions.z < 2 || g.slice_spacing() <= spans * largest_gradient_scale_mm(g)) return;
-  series.warnings.push_back("slices are " + millimeters(g.slice_spacing()) + " apart and pixels " +
-                            millimeters(std::min(g.spacing_i, g.spacing_j)) +
-                            ": edges are felt as each slice shows them, and hardly from one slice to the next");
+  series.warnings.push_back(
+      say("slices-far-apart", millimeters(g.slice_spacing()), millimeters(std::min(g.spacing_i, g.spacing_j))));
 }
 
 std::string orientation_of(const Geometry& geometry) {
@@ -187,20 +185,18 @@ void remark_on_acquisition(Series& series) {
   const double apart = series.geometry.slice_spacing();
   constexpr double wide = 1.5;  // thicknesses; less is what MR leaves between slices anyway
   if (details.thickness_mm > 0 && series.geometry.dimensions.z > 1 && apart > wide * details.thickness_mm) {
-    series.warnings.push_back("slices are " + millimeters(details.thickness_mm) + " thick and " + millimeters(apart) +
-                              " apart: what lies between them was not scanned");
+    series.warnings.push_back(say("slices-have-gaps", millimeters(details.thickness_mm), millimeters(apart)));
   }
   if (details.is_projection) {
-    series.warnings.emplace_back(
-        "its slices are projections (the largest or least value of several): depth is not felt where it is");
+    series.warnings.push_back(say("slices-are-projections"));
   } else if (details.is_derived) {
-    series.warnings.emplace_back("its images were computed from others: choose those where fine edges matter");
+    series.warnings.push_back(say("images-were-computed-from-others"));
   }
   if (details.is_lossy) {
-    series.warnings.push_back("lossy compression" + compression_of(details) + ": fine edges may be artifacts");
+    series.warnings.push_back(say("lossy-compression-fine-edges-may-be-artifacts", compression_of(details)));
   }
   if (series.modality == "PT") {
-    series.warnings.emplace_back("PET: its values are uptake, not density; a scene made for CT does not fit");
+    series.warnings.push_back(say("pet-its-values-are-uptake"));
   }
 }
 
@@ -221,13 +217,13 @@ Series make_series(const SeriesSource& files, const std::vector<const StackPart*
   }
   for (const std::uint32_t file : unreadable) {
     const FileHeader& header = (*source->files)[file];
-    series.warnings.push_back(name_of(header) + " is left out: " + header.defect);
+    series.warnings.push_back(say("left-out", name_of(header), header.defect));
   }
   for (const Slice& slice : left_over) {
     const FileHeader& file = source->file_of(slice);
     if (!file.defect.empty()) continue;
-    skipped.push_back({file.path, "another image of its series lies at its position and nothing tells them apart"});
-    series.warnings.push_back(name_of(file) + " is left out: another image lies at its position");
+    skipped.push_back({file.path, say("another-image-of-its-series-lies")});
+    series.warnings.push_back(say("left-out-same-position", name_of(file)));
   }
 
   add_remarks(*source, stack, series);
@@ -243,13 +239,13 @@ Series make_series(const SeriesSource& files, const std::vector<const StackPart*
   remark_on_acquisition(series);
   for (std::size_t f = 1; f < source->frames.size(); ++f) {
     if (source->frames[f].slices.size() == source->frames.front().slices.size()) continue;
-    series.warnings.push_back("frame " + std::to_string(f) + " has " + std::to_string(source->frames[f].slices.size()) +
-                              " slices, not " + std::to_string(source->frames.front().slices.size()));
+    series.warnings.push_back(
+        say("frame-lacks-slices", f, source->frames[f].slices.size(), source->frames.front().slices.size()));
   }
   if (const auto& slices = source->frames.front().slices; !slices.empty()) {
     series.window = source->plane_of(slices[slices.size() / 2]).window;
   }
-  const std::string why = why_unusable(*source);
+  const Text why = why_unusable(*source);
   series.usable = why.empty();
   if (!series.usable) series.warnings.insert(series.warnings.begin(), why);
   if (source->frames.front().slices.empty()) source->frames.clear();
@@ -312,7 +308,7 @@ void group_one_series(std::vector<FileHeader> headers, std::vector<Series>& resu
   }
   for (auto unusable = first_unusable; unusable != found.end(); ++unusable) {
     for (const auto& path : unusable->files) {
-      skipped.push_back({path, "does not fit the volume of its series (" + unusable->warnings.front() + ")"});
+      skipped.push_back({path, say("does-not-fit-the-volume", unusable->warnings.front())});
     }
   }
   std::move(found.begin(), first_unusable, std::back_inserter(result));
@@ -345,11 +341,10 @@ void join_what_was_torn_apart(std::vector<FileHeader>& headers) {
   }
   struct Uid {
     std::string FileHeader::*uid;
-    const char* remark;
+    Text remark;
   };
-  const std::array uids{Uid{&FileHeader::study, "each of its files names a study of its own: they are taken for one"},
-                        Uid{&FileHeader::frame_of_reference,
-                            "each of its files names a frame of reference of its own: they are taken for one"}};
+  const std::array uids{Uid{&FileHeader::study, say("each-of-its-files-names-a-study")},
+                        Uid{&FileHeader::frame_of_reference, say("each-of-its-files-names-a-frame")}};
   constexpr std::size_t fewest = 3;
   for (auto& [key, files] : by_series) {
     if (files.size() < fewest) continue;
@@ -359,7 +354,7 @@ void join_what_was_torn_apart(std::vector<FileHeader>& headers) {
       if (different.size() < files.size() || different.contains("") || !make_up_a_stack(files)) continue;
       for (FileHeader* file : files) {
         file->*one.uid = files.front()->*one.uid;
-        file->remarks.emplace_back(one.remark);
+        file->remarks.push_back(one.remark);
       }
     }
   }

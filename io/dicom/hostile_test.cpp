@@ -78,7 +78,7 @@ std::string part_10_start() {
 std::string only_reason(const TestFolder& folder) {
   const Catalogue found = find_series(std::array{folder.path()});
   EXPECT_THAT(found.skipped, SizeIs(1));
-  return found.skipped.empty() ? "" : found.skipped[0].reason;
+  return found.skipped.empty() ? Text() : found.skipped[0].reason;
 }
 
 constexpr std::array codings{EXS_RLELossless, EXS_JPEGProcess14SV1, EXS_JPEGLSLossless, EXS_JPEG2000LosslessOnly};

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 
@@ -13,7 +14,7 @@ InputFile::InputFile(const std::filesystem::path& path)
   struct stat status {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
     if (descriptor_ >= 0) ::close(descriptor_);
-    throw DicomError("cannot be opened: check that it exists and may be read");
+    throw DicomError(say("cannot-be-opened"));
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -23,10 +24,10 @@ InputFile::~InputFile() {
 }
 
 void InputFile::read(std::uint64_t at, std::span<std::byte> into) const {
-  if (at > size_ || into.size() > size_ - at) throw DicomError("truncated: the file ends early");
+  if (at > size_ || into.size() > size_ - at) throw DicomError(say("truncated-the-file-ends-early"));
   while (!into.empty()) {
     const ssize_t got = ::pread(descriptor_, into.data(), into.size(), static_cast<off_t>(at));
-    if (got <= 0) throw DicomError("cannot be read to its end");
+    if (got <= 0) throw DicomError(say("cannot-be-read-to-its-end"));
     at += static_cast<std::uint64_t>(got);
     into = into.subspan(static_cast<std::size_t>(got));
   }

@@ -10,6 +10,7 @@
 
 #include "io/dicom/decode.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -54,7 +55,7 @@ bool mend_scan_headers(std::vector<Uint8>& bytes) {
 }
 
 template <typename Decompressor>
-std::string decompress(std::span<const std::byte> bytes, std::span<std::byte> samples) {
+Text decompress(std::span<const std::byte> bytes, std::span<std::byte> samples) {
   const DJCodecParameter parameters(ECC_lossyYCbCr, EDC_never, EUC_never, EPC_default);
   StrictDecompressor<Decompressor> decompressor(parameters, OFFalse);
   std::vector<Uint8> input(bytes.size() + bytes.size() % 2);  // the decoder wants to be able to write to it
@@ -66,9 +67,9 @@ std::string decompress(std::span<const std::byte> bytes, std::span<std::byte> sa
         decompressor.decode(input.data(), static_cast<Uint32>(input.size()), reinterpret_cast<Uint8*>(samples.data()),
                             static_cast<Uint32>(samples.size()), OFFalse);
   }
-  if (result.bad()) throw DicomError(std::string("damaged: its JPEG image cannot be decoded (") + result.text() + ")");
-  if (decompressor.damaged()) throw DicomError("damaged: its JPEG image holds errors");
-  return mended ? "its JPEG images name a range of frequencies that they do not have; they are read whole" : "";
+  if (result.bad()) throw DicomError(say("jpeg-cannot-be-decoded", result.text()));
+  if (decompressor.damaged()) throw DicomError(say("jpeg-holds-errors"));
+  return mended ? say("jpeg-images-name-a-range") : Text();
 }
 
 }  // namespace
@@ -110,7 +111,7 @@ void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bit
         const std::size_t last = std::min(table + 1 + counts + symbols, bytes.size());
         const bool differences = byte(table) >> 4 == 0;
         for (std::size_t symbol = table + 1 + counts; differences && symbol < last; ++symbol) {
-          if (byte(symbol) > most_bits) throw DicomError("damaged: a Huffman table of its JPEG image is impossible");
+          if (byte(symbol) > most_bits) throw DicomError(say("jpeg-huffman-table"));
         }
         table = last;
       }
@@ -119,14 +120,12 @@ void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bit
   }
 }
 
-std::string decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+Text decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   const auto frame = jpeg_frame(bytes);
-  if (!frame) throw DicomError("damaged: no JPEG image in its compressed pixels");
+  if (!frame) throw DicomError(say("no-jpeg-image"));
   // Before anything is decoded: these numbers decide how much memory that takes.
   if (frame->columns != format.columns || frame->rows != format.rows) {
-    throw DicomError("damaged: its JPEG image is " + std::to_string(frame->columns) + " x " +
-                     std::to_string(frame->rows) + ", not " + std::to_string(format.columns) + " x " +
-                     std::to_string(format.rows));
+    throw DicomError(say("jpeg-size", frame->columns, frame->rows, format.columns, format.rows));
   }
   check_huffman_tables(bytes, frame->precision > 12 ? 16 : 15);  // the 16-bit decoder's table is longer by one
   if (frame->precision > 12) {
@@ -134,7 +133,7 @@ std::string decode_jpeg(const PixelFormat& format, std::span<const std::byte> by
   }
   if (frame->precision > 8) return decompress<DJDecompressIJG12Bit>(bytes, std::as_writable_bytes(values));
   std::vector<std::uint8_t> small(values.size());
-  std::string note = decompress<DJDecompressIJG8Bit>(bytes, std::as_writable_bytes(std::span(small)));
+  Text note = decompress<DJDecompressIJG8Bit>(bytes, std::as_writable_bytes(std::span(small)));
   std::copy(small.begin(), small.end(), values.begin());
   return note;
 }

@@ -7,6 +7,7 @@
 
 #include "io/dicom/decode.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -59,14 +60,13 @@ void note_damage(const char* /*message*/, void* damaged) {
   *static_cast<bool*>(damaged) = true;
 }
 
-[[noreturn]] void refuse(const char* why) {
-  throw DicomError(std::string("damaged: its JPEG 2000 image ") + why);
+[[noreturn]] void refuse(const Text& why) {
+  throw DicomError(say("jpeg-2000", why));
 }
 
 }  // namespace
 
-std::string decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes,
-                            std::span<std::uint16_t> values) {
+Text decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   Source source{bytes};
   const bool bare = bytes.size() > 2 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0x4F};
   const Stream stream = stream_of(source);
@@ -80,22 +80,22 @@ std::string decode_jpeg2000(const PixelFormat& format, std::span<const std::byte
   opj_image_t* read_image = nullptr;
   const bool has_header = is_ready && opj_read_header(stream.get(), codec.get(), &read_image) == OPJ_TRUE;
   const std::unique_ptr<opj_image_t, void (*)(opj_image_t*)> image(read_image, opj_image_destroy);
-  if (!has_header || !image) refuse("has no readable header");
+  if (!has_header || !image) refuse(say("jpeg-2000-no-header"));
   // Before anything is decoded: its own header decides how much memory that takes.
   const auto columns = static_cast<OPJ_UINT32>(format.columns);
   const auto rows = static_cast<OPJ_UINT32>(format.rows);
   if (image->numcomps != 1 || image->x1 - image->x0 != columns || image->y1 - image->y0 != rows) {
-    refuse("is of another size than the file says");
+    refuse(say("jpeg-2000-size"));
   }
-  if (image->comps[0].prec > 16 || image->comps[0].dx != 1 || image->comps[0].dy != 1) refuse("is of an unknown kind");
+  if (image->comps[0].prec > 16 || image->comps[0].dx != 1 || image->comps[0].dy != 1) refuse(say("jpeg-2000-kind"));
   bool damaged = false;
   opj_set_warning_handler(codec.get(), note_damage, &damaged);
   const bool is_decoded = opj_decode(codec.get(), stream.get(), image.get()) == OPJ_TRUE;
   const opj_image_comp_t& component = image->comps[0];
   if (!is_decoded || component.data == nullptr || component.w != columns || component.h != rows) {
-    refuse("cannot be decoded to its end");
+    refuse(say("jpeg-2000-ends-early"));
   }
-  if (damaged) refuse("holds errors");
+  if (damaged) refuse(say("jpeg-2000-holds-errors"));
   // Sign and unused bits are treated as for every other coder, by what the file says of them.
   std::transform(component.data, component.data + values.size(), values.begin(),
                  [](OPJ_INT32 v) { return static_cast<std::uint16_t>(v); });

@@ -6,6 +6,7 @@
 
 #include "io/dicom/decode.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -16,7 +17,7 @@ void decode_whole(const PixelFormat& format, std::span<const std::byte> bytes, s
   // Before anything is decoded: its own header decides how much memory that takes.
   if (frame.width != static_cast<std::uint32_t>(format.columns) ||
       frame.height != static_cast<std::uint32_t>(format.rows) || frame.component_count != 1) {
-    throw DicomError("damaged: its JPEG-LS image is of another size than the file says");
+    throw DicomError(say("jpeg-ls-size"));
   }
   if (frame.bits_per_sample > 8) {
     decoder.decode(values.data(), values.size_bytes());
@@ -45,18 +46,17 @@ std::optional<std::vector<std::byte>> without_zero_before_end(std::span<const st
 
 }  // namespace
 
-std::string decode_jpeg_ls(const PixelFormat& format, std::span<const std::byte> bytes,
-                           std::span<std::uint16_t> values) {
+Text decode_jpeg_ls(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   try {
     decode_whole(format, bytes, values);
     return {};
   } catch (const charls::jpegls_error& error) {
-    const std::string why = std::string("damaged: its JPEG-LS image cannot be decoded (") + error.what() + ")";
+    const Text why = say("jpeg-ls-cannot-be-decoded", error.what());
     auto shorter = without_zero_before_end(bytes);
     for (int n = 0; n < 4 && shorter; ++n) {
       try {
         decode_whole(format, *shorter, values);
-        return "its JPEG-LS images hold zeros before their end; they are whole without these";
+        return say("jpeg-ls-images-hold-zeros-before");
       } catch (const charls::jpegls_error&) {
         shorter = without_zero_before_end(*shorter);
       }

@@ -26,7 +26,7 @@ using testing::SizeIs;
 std::string only_reason(const Catalogue& found) {
   EXPECT_THAT(found.series, IsEmpty());
   EXPECT_THAT(found.skipped, SizeIs(1));
-  return found.skipped.empty() ? "" : found.skipped[0].reason;
+  return found.skipped.empty() ? Text() : found.skipped[0].reason;
 }
 
 // --- Rescale ---------------------------------------------------------------------------------------------------------

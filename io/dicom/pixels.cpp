@@ -7,6 +7,7 @@
 #include "io/dicom/dataset.h"
 #include "io/dicom/decode.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -53,7 +54,7 @@ void PixelReader::read_deflated(std::uint64_t offset, std::span<std::byte> bytes
   }
   if (!inflated_->skip(at - inflated_to_) || inflated_->read(bytes) != bytes.size()) {
     inflated_.reset();
-    throw DicomError("truncated: its deflated pixels end early");
+    throw DicomError(say("truncated-its-deflated-pixels-end-early"));
   }
   inflated_to_ = at + bytes.size();
 }
@@ -66,10 +67,10 @@ void PixelReader::read_uncompressed(std::uint64_t offset, std::span<std::byte> b
   }
 }
 
-std::string PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
+Text PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
   const PixelFormat& format = header_.format;
   const std::size_t frame_bytes = format.bytes_per_frame();
-  std::string note;
+  Text note;
   if (header_.coding == PixelCoding::encapsulated) {
     note = decode_frame(header_.transfer_syntax, format, read_fragments(file_, header_.fragments.at(frame)), values);
   } else if (format.bits_allocated == 16) {

@@ -19,7 +19,7 @@ class PixelReader {
   /// The stored values of a frame as the file holds it (all of a mosaic), rows * columns of them, sign extended; bits
   /// outside BitsStored, such as overlays, are removed, but for padding that needs them. Signed ones are to be read as
   /// int16. Returns decode_frame()'s word on it. Throws DicomError with a reason that does not name the file.
-  std::string read(std::uint32_t frame, std::span<std::uint16_t> values);
+  Text read(std::uint32_t frame, std::span<std::uint16_t> values);
 
  private:
   void read_uncompressed(std::uint64_t offset, std::span<std::byte> bytes);

@@ -11,6 +11,7 @@
 #include "io/dicom/b_value.h"
 #include "io/dicom/dicom_value.h"
 #include "io/dicom/velocity.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -84,7 +85,7 @@ double rescale_number(DcmItem* item, const DcmTagKey& tag, double otherwise, Fil
   if (item == nullptr) return otherwise;
   const auto value = number_of(*item, tag);
   if (value) return *value;
-  if (!text_of(*item, tag).empty()) header.unfit = "its rescale slope or intercept is no number";
+  if (!text_of(*item, tag).empty()) header.unfit = say("rescale-is-no-number");
   return otherwise;
 }
 
@@ -92,7 +93,7 @@ double rescale_number(DcmItem* item, const DcmTagKey& tag, double otherwise, Fil
 void read_rescale(DcmItem* item, FileHeader& header, Plane& plane) {
   plane.slope = rescale_number(item, DCM_RescaleSlope, 1, header);
   plane.intercept = rescale_number(item, DCM_RescaleIntercept, 0, header);
-  if (plane.slope == 0) header.unfit = "its rescale slope is 0: it says that all values are the same";
+  if (plane.slope == 0) header.unfit = say("rescale-slope-is-0");
   if (header.modality != "CT") return;
   const bool rescaled = item != nullptr && !text_of(*item, DCM_RescaleIntercept).empty();
   const std::string type = item != nullptr ? text_of(*item, DCM_RescaleType) : std::string();

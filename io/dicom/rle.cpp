@@ -5,12 +5,13 @@
 
 #include "io/dicom/decode.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
 
-[[noreturn]] void refuse(const char* why) {
-  throw DicomError(std::string("damaged: its RLE segments ") + why);
+[[noreturn]] void refuse(const Text& why) {
+  throw DicomError(say("rle", why));
 }
 
 std::size_t little_endian(std::span<const std::byte> bytes, std::size_t at) {
@@ -23,13 +24,13 @@ void unpack(std::span<const std::byte> packed, std::span<std::uint8_t> bytes) {
   std::size_t from = 0;
   std::size_t to = 0;
   while (to < bytes.size()) {
-    if (from >= packed.size()) refuse("end early");
+    if (from >= packed.size()) refuse(say("rle-ends-early"));
     const auto code = std::to_integer<std::size_t>(packed[from++]);
     if (code == 128) continue;
     const bool run = code > 128;
     const std::size_t count = run ? 257 - code : code + 1;
     const std::size_t used = run ? 1 : count;
-    if (used > packed.size() - from || count > bytes.size() - to) refuse("do not fit the image");
+    if (used > packed.size() - from || count > bytes.size() - to) refuse(say("rle-does-not-fit"));
     for (std::size_t i = 0; i < count; ++i) bytes[to + i] = std::to_integer<std::uint8_t>(packed[from + (run ? 0 : i)]);
     from += used;
     to += count;
@@ -38,17 +39,17 @@ void unpack(std::span<const std::byte> packed, std::span<std::uint8_t> bytes) {
 
 }  // namespace
 
-std::string decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+Text decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
   constexpr std::size_t header_size = 64;
   const auto segments = static_cast<std::size_t>(format.bits_allocated / 8);
-  if (bytes.size() < header_size) refuse("are missing");
-  if (little_endian(bytes, 0) != segments) refuse("are not one a byte of a pixel");
+  if (bytes.size() < header_size) refuse(say("rle-is-missing"));
+  if (little_endian(bytes, 0) != segments) refuse(say("rle-not-one-a-byte"));
   std::fill(values.begin(), values.end(), std::uint16_t{0});
   std::vector<std::uint8_t> segment(values.size());
   for (std::size_t s = 0; s < segments; ++s) {
     const std::size_t start = little_endian(bytes, 4 + 4 * s);
     const std::size_t end = s + 1 < segments ? little_endian(bytes, 8 + 4 * s) : bytes.size();
-    if (start < header_size || start > end || end > bytes.size()) refuse("lie outside the file");
+    if (start < header_size || start > end || end > bytes.size()) refuse(say("rle-outside-the-file"));
     unpack(bytes.subspan(start, end - start), segment);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(values[i] << 8 | segment[i]);
   }

@@ -89,7 +89,7 @@ std::vector<SliceUnit> slice_units(const Reading& reading) {
 
 void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& voxels,
                const std::function<void(std::size_t, const char*)>& failed,
-               const std::function<void(const std::string&)>& noted) {
+               const std::function<void(const Text&)>& noted) {
   const SeriesSource& source = reading.source;
   const Slices& slices = reading.frame.slices;
   const FileHeader& file = source.file_of(slices[unit.front()]);
@@ -98,7 +98,7 @@ void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& vo
   std::vector<std::uint16_t> frame;
   std::optional<std::uint32_t> held;
   const auto read = [&](std::uint32_t wanted, std::span<std::uint16_t> values) {
-    const std::string note = reader->read(wanted, values);
+    const Text note = reader->read(wanted, values);
     if (!note.empty()) noted(note);
   };
   for (const std::size_t k : unit) {

@@ -42,6 +42,6 @@ std::vector<SliceUnit> slice_units(const Reading& reading);
 /// pixels were read that are not coded as they should be.
 void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& voxels,
                const std::function<void(std::size_t, const char*)>& failed,
-               const std::function<void(const std::string&)>& noted);
+               const std::function<void(const Text&)>& noted);
 
 }  // namespace palpate::io::internal

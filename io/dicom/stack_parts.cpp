@@ -11,6 +11,7 @@
 #include "io/dicom/frames.h"
 #include "io/dicom/lattice.h"
 #include "io/dicom/stacking.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -340,9 +341,7 @@ PartedStack part_stack(const SeriesSource& source, std::vector<Slice> slices) {
     result.parts.push_back({one.slices, parts.size() > 1 ? one.name : std::string(), volume});
   }
   for (const std::string& what : undecided) {
-    result.doubts.push_back("slices of " + what +
-                            " lie by turns, and no slice thickness says whether that is one scan or two: compare the "
-                            "two before you trust what is felt");
+    result.doubts.push_back(say("slices-lie-by-turns", what));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/dicom/series_source.h"
+#include "messages/message.h"
 
 namespace palpate::io::internal {
 
@@ -19,7 +20,7 @@ struct StackPart {
 
 struct PartedStack {
   std::vector<StackPart> parts;
-  std::vector<std::string> doubts;  ///< what a user should check, where the headers do not decide it
+  std::vector<Text> doubts;  ///< what a user should check, where the headers do not decide it
 };
 
 /// Images of one orientation and size -> the stacks they make up. Images that a label tells apart (side of the body,

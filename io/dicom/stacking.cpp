@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "io/messages.h"
 #include "io/quantile.h"
 
 namespace palpate::io::internal {
@@ -82,29 +83,26 @@ Geometry stack_geometry(int columns, int rows, const Placement& reference, std::
   return geometry;
 }
 
-std::vector<std::string> geometry_warnings(const Geometry& geometry, double thickness) {
-  std::vector<std::string> warnings;
+std::vector<Text> geometry_warnings(const Geometry& geometry, double thickness) {
+  std::vector<Text> warnings;
   const auto intervals = intervals_of(geometry);
   const double median = quantile(intervals, 0.5);
   for (const int k : geometry.gaps) {
     const double interval = intervals[static_cast<std::size_t>(k)];
     const auto missing = std::max(1L, std::lround(interval / median) - 1);
-    warnings.push_back(std::to_string(missing) + (missing == 1 ? " slice is" : " slices are") +
-                       " missing between slices " + std::to_string(k) + " and " + std::to_string(k + 1) + " (" +
-                       millimeters(interval) + " apart, elsewhere " + millimeters(median) + "): nothing is felt there");
+    const std::string apart = millimeters(interval), elsewhere = millimeters(median);
+    warnings.push_back(missing == 1 ? say("slice-is-missing-between-slices", missing, k, k + 1, apart, elsewhere)
+                                    : say("slices-are-missing-between", missing, k, k + 1, apart, elsewhere));
   }
   if (!geometry.uniform && geometry.gaps.empty()) {
     const auto [least, most] = std::minmax_element(intervals.begin(), intervals.end());
     const bool even = *most - *least < uniform_tolerance * median;
-    warnings.push_back(even ? "slices are displaced sideways against each other: each is used where it is"
-                            : "slices are unevenly spaced, " + millimeters(*least) + " to " + millimeters(*most) +
-                                  " apart: each is used where it is");
+    warnings.push_back(even ? say("slices-displaced-sideways")
+                            : say("slices-are-unevenly-spaced", millimeters(*least), millimeters(*most)));
   }
   constexpr double half = 0.55;
   if (median > 0 && median <= half * thickness) {
-    warnings.push_back("slices are " + millimeters(thickness) + " thick and " + millimeters(median) +
-                       " apart, so that neighbors overlap: one scan with overlap, or two in one series that nothing "
-                       "tells apart; compare neighboring slices");
+    warnings.push_back(say("slices-overlap", millimeters(thickness), millimeters(median)));
   }
   return warnings;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/dicom/file_header.h"
+#include "messages/message.h"
 
 namespace palpate::io::internal {
 
@@ -30,6 +31,6 @@ Geometry stack_geometry(int columns, int rows, const Placement& reference, std::
 
 /// What a user should know of it: missing slices with their place, uneven steps. One sentence each; may be empty.
 /// `thickness` (mm, 0 where unknown) is that of a slice: where neighbors overlap by half of it, that is said.
-std::vector<std::string> geometry_warnings(const Geometry& geometry, double thickness);
+std::vector<Text> geometry_warnings(const Geometry& geometry, double thickness);
 
 }  // namespace palpate::io::internal

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -22,8 +23,6 @@ constexpr std::uint32_t sequence_end = 0xFFFEE0DD;
 constexpr std::uint32_t float_pixel_data = 0x7FE00008;
 constexpr std::uint32_t double_pixel_data = 0x7FE00009;
 constexpr std::uint32_t pixel_data = 0x7FE00010;
-
-constexpr const char* too_deep = "damaged: its sequences are nested too deeply";
 
 enum class Holds { elements, items, fragments };
 
@@ -68,15 +67,15 @@ class Walk {
   std::uint32_t number(std::size_t bytes) {
     std::array<std::byte, 4> raw{};
     const auto wanted = std::span(raw).first(bytes);
-    if (take(wanted) != bytes) throw DicomError("truncated in its header");
+    if (take(wanted) != bytes) throw DicomError(say("truncated-in-its-header"));
     return number_in(wanted, levels_.back().encoding.big_endian);
   }
   void skip(std::uint64_t count) {
-    if (!in_.skip(count)) throw DicomError("truncated in its header");
+    if (!in_.skip(count)) throw DicomError(say("truncated-in-its-header"));
     at_ += count;
   }
   void push(Holds holds, std::uint32_t length, Encoding encoding) {
-    if (levels_.size() >= deepest) throw DicomError(too_deep);
+    if (levels_.size() >= deepest) throw DicomError(say("damaged-its-sequences-are-nested-too-deeply"));
     const auto end = length == undefined_length ? std::nullopt : std::optional(at_ + length);
     levels_.push_back({holds, end, encoding, 0});
   }
@@ -85,7 +84,7 @@ class Walk {
   Head head() {
     if (!levels_.back().encoding.explicit_vr) return {"", number(4)};
     std::array<std::byte, 2> vr{};
-    if (take(vr) != vr.size()) throw DicomError("truncated in its header");
+    if (take(vr) != vr.size()) throw DicomError(say("truncated-in-its-header"));
     const std::string name{std::to_integer<char>(vr[0]), std::to_integer<char>(vr[1])};
     constexpr std::string_view brief = "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US";
     const bool letters = std::all_of(name.begin(), name.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
@@ -111,11 +110,11 @@ class Walk {
       shape_.header_end = start;
       return false;
     }
-    if (got != raw.size()) throw DicomError("truncated in its header");
+    if (got != raw.size()) throw DicomError(say("truncated-in-its-header"));
     const bool big_endian = levels_.back().encoding.big_endian;
     const std::uint32_t tag =
         number_in(std::span(raw).first(2), big_endian) << 16 | number_in(std::span(raw).last(2), big_endian);
-    if (++elements_ > most_elements) throw DicomError("damaged: its header has no end");
+    if (++elements_ > most_elements) throw DicomError(say("damaged-its-header-has-no-end"));
     return levels_.back().holds == Holds::elements ? element(tag, start) : item(tag);
   }
 
@@ -138,7 +137,8 @@ class Walk {
       stretch_ ? end_stretch(start) : void(stretch_ = start);
     }
     Level& level = levels_.back();
-    if (tag <= level.last_tag && ++disorder_ > most_disorder) throw DicomError("damaged: its header is in disorder");
+    if (tag <= level.last_tag && ++disorder_ > most_disorder)
+      throw DicomError(say("damaged-its-header-is-in-disorder"));
     level.last_tag = tag;
     const Encoding inside = level.encoding;
     const Head is = head();
@@ -163,7 +163,7 @@ class Walk {
       skip(length - 4);
       return;
     }
-    if (levels_.size() >= deepest) throw DicomError(too_deep);
+    if (levels_.size() >= deepest) throw DicomError(say("damaged-its-sequences-are-nested-too-deeply"));
     levels_.push_back(level);
     item(tag);
   }
@@ -173,7 +173,7 @@ class Walk {
     if (tag == sequence_end) {
       levels_.pop_back();
     } else if (tag != item_tag) {
-      throw DicomError("damaged: a sequence in its header is not made of items");
+      throw DicomError(say("sequence-is-not-items"));
     } else if (levels_.back().holds == Holds::fragments) {
       skip(length);
     } else {

@@ -14,6 +14,7 @@
 
 #include "io/dicom/dicom_value.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -124,7 +125,7 @@ Series joined(const Group& group) {
     series.uid += (series.uid.empty() ? "" : "+") + part->uid;
     series.description += (part == group.series.front() ? " " : ", ") + part->description;
     series.files.insert(series.files.end(), part->files.begin(), part->files.end());
-    for (const std::string& warning : part->warnings) {
+    for (const Text& warning : part->warnings) {
       const bool is_new = std::find(series.warnings.begin(), series.warnings.end(), warning) == series.warnings.end();
       if (is_new) series.warnings.push_back(warning);
     }
@@ -176,10 +177,7 @@ void read_classic_velocity(DcmItem& dataset, FileHeader& header, Plane& plane) {
     plane.velocity = velocity_of(named->direction, named->venc, unit, plane, header.format);
     if (!plane.velocity) return;
     label = text_of(dataset, DCM_SequenceName);
-    header.remarks.emplace_back(
-        "which way its velocities point is read from the sequence's name and not confirmed: the flow may be reversed, "
-        "so "
-        "check it in a vessel where it is known");
+    header.remarks.push_back(say("velocities-may-be-reversed"));
   }
 }
 
@@ -204,7 +202,7 @@ std::vector<Series> join_velocities(const std::vector<Series>& all) {
 Volume vector_field(std::array<Volume, 3> components, const std::array<Vec3, 3>& directions) {
   for (const Volume& component : components) {
     if (!same_grid(component.geometry, components[0].geometry)) {
-      throw DicomError("the three directions of the velocity do not hold the same slices: send the series again");
+      throw DicomError(say("velocity-directions-differ"));
     }
   }
   auto vectors = std::make_shared<VectorComponents>();

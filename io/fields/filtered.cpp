@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/parallel.h"
 
 namespace palpate::io {
@@ -226,9 +227,7 @@ std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volu
   validate(filter);
   if (filter_of(*volume) == filter) return volume;
   if (raw->vectors) {
-    throw std::invalid_argument(
-        "a velocity field is not filtered: its vectors are felt as they were measured; take the "
-        "filter out of the scene");
+    throw InvalidInput(say("velocity-is-not-filtered"));
   }
   auto result = std::make_shared<Volume>();
   result->geometry = raw->geometry;

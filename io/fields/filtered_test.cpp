@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/fields/volume_fields.h"
+#include "io/messages.h"
 #include "testdata/scan.h"
 
 namespace palpate::io {
@@ -86,7 +87,7 @@ TEST(Filtered, IsTheSameScanBesideItsValues) {
   scan.unit = "HU";
   scan.modality = "CT";
   scan.frame_of_reference_uid = "1.2.3";
-  scan.warnings = {"a slice is missing"};
+  scan.warnings = {say("no-readable-images")};
   const auto smooth = filtered(std::make_shared<const Volume>(scan), filters[0]);
   EXPECT_EQ(smooth->unit, "HU");
   EXPECT_EQ(smooth->modality, "CT");

@@ -206,7 +206,7 @@ double default_gradient_scale_mm(const Geometry& geometry) noexcept {
 
 GradientKernel::GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm) {
   if (!volume) {
-    throw std::invalid_argument("a gradient needs a volume");
+    throw std::logic_error("a gradient needs a volume");
   }
   auto weights = std::make_unique<Weights>();
   weights->slices = internal::make_slice_kernel(volume->geometry, scale_mm);
@@ -219,7 +219,7 @@ GradientKernel::GradientKernel(std::shared_ptr<const Volume> volume, double scal
 
 GradientKernel::GradientKernel(std::shared_ptr<const Volume> volume, CentralDifferences) {
   if (!volume) {
-    throw std::invalid_argument("a gradient needs a volume");
+    throw std::logic_error("a gradient needs a volume");
   }
   const Geometry& g = volume->geometry;
   auto weights = std::make_unique<Weights>();

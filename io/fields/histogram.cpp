@@ -14,7 +14,7 @@ namespace {
 
 void check(const Bins& bins, const char* what) {
   if (bins.count < 1 || !(bins.high > bins.low)) {
-    throw std::invalid_argument(std::string("histogram: the bins of the ") + what + " are empty");
+    throw std::logic_error(std::string("histogram: the bins of the ") + what + " are empty");
   }
 }
 

@@ -65,8 +65,8 @@ TEST(JointHistogram, OfASphereIsTwoTissuesAndAnArch) {
 TEST(JointHistogram, RefusesBinsThatAreNone) {
   const auto volume = sphere(0);
   const GradientKernel kernel(volume, 2);
-  EXPECT_THROW(joint_histogram(*volume, kernel, {0, 0, 4}, magnitudes), std::invalid_argument);
-  EXPECT_THROW(joint_histogram(*volume, kernel, values, {0, 1, 0}), std::invalid_argument);
+  EXPECT_THROW(joint_histogram(*volume, kernel, {0, 0, 4}, magnitudes), std::logic_error);
+  EXPECT_THROW(joint_histogram(*volume, kernel, values, {0, 1, 0}), std::logic_error);
 }
 
 TEST(Bins, CountWhatLiesOutsideInTheOutermost) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "io/messages.h"
 #include "io/quantile.h"
 
 namespace palpate::io::internal {
@@ -160,12 +161,11 @@ class Builder {
 
 SliceKernel make_slice_kernel(const Geometry& geometry, double scale_mm) {
   if (!(scale_mm > 0)) {
-    throw std::invalid_argument("the scale of the gradient has to be above 0 mm");
+    throw InvalidInput(say("scale-of-the-gradient"));
   }
   const double finest = std::min(geometry.spacing_i, geometry.spacing_j);
   const auto too_large = [&] {
-    return std::invalid_argument("a gradient scale of " + std::to_string(scale_mm) + " mm reaches over more than " +
-                                 std::to_string(largest_radius) + " voxels of this scan; take a smaller one");
+    return InvalidInput(say("gradient-scale-too-large", std::to_string(scale_mm), largest_radius));
   };
   if (cut_off * scale_mm / finest > largest_radius - 1) {
     throw too_large();

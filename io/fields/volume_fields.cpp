@@ -17,6 +17,7 @@
 #include "io/fields/cubic_spline.h"
 #include "io/fields/low_high.h"
 #include "io/fields/symmetric_eigen.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -155,13 +156,11 @@ VolumeFields::VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted
                            const FieldOptions& options)
     : volume_(std::move(volume)), available_(wanted), gradient_(options.gradient), value_(options.value) {
   if (!volume_) {
-    throw std::invalid_argument("fields need a volume");
+    throw std::logic_error("fields need a volume");
   }
   b_spline_part_ = b_spline_part(volume_->geometry);
   if (!contains(fields_of(*volume_), wanted)) {
-    throw std::invalid_argument(
-        "a scan offers its value, its gradient, the values on both sides of a boundary and the direction of tubes, and "
-        "vectors only where velocities were measured along three directions");
+    throw InvalidInput(say("scan-offers-its-value"));
   }
   const bool tube = contains(wanted, FieldSet::tube);
   // The spline needs no gradients of voxels; the values on both sides of a boundary do.

@@ -274,7 +274,7 @@ TEST(VolumeFields, GivesAndPreparesOnlyWhatIsWanted) {
 
 TEST(VolumeFields, RefusesWhatItCannotGive) {
   const auto volume = linear_volume(small());
-  EXPECT_THROW(VolumeFields(nullptr, both, 2), std::invalid_argument);
+  EXPECT_THROW(VolumeFields(nullptr, both, 2), std::logic_error);
   EXPECT_THROW(VolumeFields(volume, both, 0), std::invalid_argument);
   EXPECT_THROW(VolumeFields(volume, both, 1000), std::invalid_argument);
   EXPECT_THROW(VolumeFields(volume, FieldSet::vector, 2), std::invalid_argument);

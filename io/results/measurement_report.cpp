@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/results/study_header.h"
 
 namespace palpate::io {
@@ -50,7 +51,7 @@ class Tree {
 
  private:
   static void check(const OFCondition& condition) {
-    if (condition.bad()) throw DicomError(fmt::format("the report cannot be made: {}", condition.text()));
+    if (condition.bad()) throw DicomError(say("report-cannot-be-made", condition.text()));
   }
   DSRContentItem& item() { return tree_.getCurrentContentItem(); }
 
@@ -58,7 +59,7 @@ class Tree {
   void begin(DSRTypes::E_RelationshipType relation, DSRTypes::E_ValueType type,
              const DSRCodedEntryValue& concept_name) {
     if (tree_.addContentItem(relation, type, DSRTypes::AM_belowCurrent) == 0) {
-      throw DicomError(fmt::format("the report cannot be made: {}", concept_name.getCodeMeaning().c_str()));
+      throw DicomError(say("report-cannot-be-made", concept_name.getCodeMeaning().c_str()));
     }
     if (concept_name.isComplete()) check(item().setConceptName(concept_name));
   }
@@ -163,8 +164,7 @@ class Tree {
 
 void save(DcmFileFormat& format, const std::filesystem::path& file) {
   const OFCondition saved = format.saveFile(file.c_str(), EXS_LittleEndianExplicit);
-  if (saved.bad())
-    throw DicomError(fmt::format("{} cannot be written: make room, or name another folder", file.string()));
+  if (saved.bad()) throw DicomError(say("report-cannot-be-written", file.string()));
 }
 
 void put(DcmItem& item, const DcmTagKey& key, const std::string& value) {
@@ -198,7 +198,7 @@ void write_measurement_report(const Series& series, const MeasurementReport& rep
   }
   DcmFileFormat format;
   const OFCondition written = document.write(*format.getDataset());
-  if (written.bad()) throw DicomError(fmt::format("the report cannot be made: {}", written.text()));
+  if (written.bad()) throw DicomError(say("report-cannot-be-made", written.text()));
   put_study(header, *format.getDataset());
   save(format, file);
 }

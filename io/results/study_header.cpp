@@ -3,11 +3,11 @@
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
 #include <dcmtk/dcmdata/dctk.h>
-#include <fmt/format.h>
 
 #include "io/dicom/character_set.h"
 #include "io/dicom/dcmtk_start.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -32,7 +32,7 @@ std::uint32_t number_of(const DcmTagKey& key) {
 void read_image(const std::filesystem::path& file, StudyHeader& header) {
   DcmFileFormat format;
   if (format.loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_autoDetect, DCM_PixelData).bad()) {
-    throw DicomError(fmt::format("{} cannot be read to its end, so nothing can refer to it", file.string()));
+    throw DicomError(say("cannot-be-referred-to", file.string()));
   }
   DcmDataset& data = *format.getDataset();
   header.images.push_back({value_of(data, DCM_SOPClassUID), value_of(data, DCM_SOPInstanceUID)});
@@ -54,11 +54,7 @@ StudyHeader read_study_header(const Series& series) {
   StudyHeader header;
   for (const std::filesystem::path& file : series.files) read_image(file, header);
   if (header.study_uid.empty() || header.series_uid.empty() || header.frame_of_reference_uid.empty()) {
-    throw DicomError(
-        fmt::format("series {}: its images name no study, series or frame of reference (FrameOfReferenceUID), so "
-                    "nothing can refer to "
-                    "places in it: export the original images",
-                    series.uid));
+    throw DicomError(say("series-its-images-name-no-study", series.uid));
   }
   return header;
 }

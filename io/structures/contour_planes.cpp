@@ -9,6 +9,7 @@
 #include <map>
 
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/structures/beyond_slices.h"
 
 namespace palpate::io {
@@ -184,7 +185,7 @@ void compute_plane(const Layout& layout, const NodeLattice& lattice, double band
 
 ContourStack stack_of(const std::vector<Contour>& contours) {
   if (contours.empty()) {
-    throw DicomError("it is empty: it has no contour");
+    throw DicomError(say("no-contour"));
   }
   Vec3 normal(0);
   for (const Contour& contour : contours) {
@@ -192,7 +193,7 @@ ContourStack stack_of(const std::vector<Contour>& contours) {
     if (glm::length(own) > glm::length(normal)) normal = own;
   }
   if (!(glm::length(normal) > 0)) {
-    throw DicomError("its contours have no area");
+    throw DicomError(say("contours-have-no-area"));
   }
   ContourStack stack;
   stack.axes = axes_of(glm::normalize(normal));
@@ -210,7 +211,7 @@ ContourStack stack_of(const std::vector<Contour>& contours) {
       sum += at.z;
     }
     if (!(high - low < 0.5)) {
-      throw DicomError("its contours do not lie in parallel planes: export it as SEG");
+      throw DicomError(say("contours-do-not-lie-in-parallel"));
     }
     const double height = sum / static_cast<double>(contour.size());
     const auto [place, is_new] = plane_at.try_emplace(std::llround(height / same_plane_mm), stack.planes.size());
@@ -219,7 +220,7 @@ ContourStack stack_of(const std::vector<Contour>& contours) {
   }
   std::sort(stack.planes.begin(), stack.planes.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
   if (static_cast<int>(stack.planes.size()) > most_planes) {
-    throw DicomError("its contours lie in " + std::to_string(stack.planes.size()) + " planes; there may be 4096");
+    throw DicomError(say("contours-lie-in-planes", stack.planes.size()));
   }
   stack.step_mm = typical_step(stack.planes);
   return stack;
@@ -255,7 +256,7 @@ StructureMeasures measures_of(const std::vector<Contour>& contours) {
     }
   }
   if (!(area > 0)) {
-    throw DicomError("its contours have no area");
+    throw DicomError(say("contours-have-no-area"));
   }
   measures.volume_mm3 = area * stack.step_mm;
   measures.centroid_mm = stack.axes * (moment / area);
@@ -317,8 +318,7 @@ OutlinePlanes planes_of(const ContourStack& stack, const DistanceOptions& option
   lattice.bricks = (glm::ivec3(size, tall) + NodeBricks::edge - 1) / NodeBricks::edge;
   constexpr double most_nodes = 2e9;
   if (static_cast<double>(lattice.bricks.x) * lattice.bricks.y * lattice.bricks.z * 512 > most_nodes) {
-    throw DicomError("its contours span " + std::to_string(std::lround(glm::length(high - low))) +
-                     " mm: more than can be felt");
+    throw DicomError(say("contours-span-mm", std::lround(glm::length(high - low))));
   }
   lattice.origin = stack.axes * Vec3(layout.origin, bottom);
   planes.compute = [layout, lattice, band = planes.band_mm](std::size_t n, PlaneDistances& distances) {

@@ -13,6 +13,7 @@
 #include "io/dicom/character_set.h"
 #include "io/dicom/dicom_value.h"
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/structures/color.h"
 #include "io/structures/contour_planes.h"
 #include "io/structures/structure_file.h"
@@ -55,7 +56,7 @@ Contour contour_in(DcmItem& item) {
   Contour contour;
   const std::vector<double> numbers = numbers_of(item, DCM_ContourData);
   if (numbers.empty() || numbers.size() % 3 != 0) {
-    throw DicomError("a contour of it has " + std::to_string(numbers.size()) + " numbers, not three a point");
+    throw DicomError(say("contour-of-it-has-numbers", numbers.size()));
   }
   contour.reserve(numbers.size() / 3);
   for (std::size_t n = 0; n < numbers.size(); n += 3) {
@@ -65,7 +66,7 @@ Contour contour_in(DcmItem& item) {
 }
 
 /// The closed contours of a ROI, and in `unfit` why it cannot be felt.
-std::vector<Contour> closed_contours(DcmItem& roi, std::string& unfit, std::vector<std::string>& warnings) {
+std::vector<Contour> closed_contours(DcmItem& roi, Text& unfit, std::vector<Text>& warnings) {
   std::vector<Contour> contours;
   std::map<std::string, int> others;
   for_items(roi, DCM_ContourSequence, [&](DcmItem& item) {
@@ -82,9 +83,9 @@ std::vector<Contour> closed_contours(DcmItem& roi, std::string& unfit, std::vect
     open += (open.empty() ? "" : ", ") + std::to_string(count) + " " + (type.empty() ? "of no type" : type);
   }
   if (contours.empty()) {
-    unfit = open.empty() ? "it is empty: it has no contour" : "it has no closed contour, only " + open;
+    unfit = open.empty() ? say("no-contour") : say("no-closed-contour", open);
   } else if (!open.empty()) {
-    warnings.push_back("contours that are not closed are left out: " + open);
+    warnings.push_back(say("contours-that-are-not-closed-are-left", open));
   }
   return contours;
 }
@@ -104,11 +105,11 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
     structure.name = internal::utf8_of(text_of(item, DCM_ROIName), characters);
     if (structure.name.empty()) structure.name = "ROI " + std::to_string(structure.number);
     structure.frame_of_reference_uid = text_of(item, DCM_ReferencedFrameOfReferenceUID);
-    structure.unfit = "it is empty: it has no contour";
+    structure.unfit = say("no-contour");
     structures.emplace(structure.number, std::move(structure));
   });
   if (structures.empty()) {
-    throw DicomError("it names no ROI (StructureSetROISequence): export it again");
+    throw DicomError(say("names-no-roi"));
   }
   std::map<int, std::vector<Contour>> rois;
   for_items(dataset, DCM_ROIContourSequence, [&](DcmItem& item) {
@@ -122,7 +123,7 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
       rois[structure.number] = closed_contours(item, structure.unfit, structure.warnings);
       if (structure.unfit.empty()) stack_of(rois[structure.number]);  // refuses what does not lie in parallel planes
     } catch (const DicomError& error) {
-      structure.unfit = error.what();
+      structure.unfit = error.text();
     }
   });
   const auto source = std::make_shared<const ContourSource>(std::move(rois));

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/messages.h"
 #include "io/structures/closest_points.h"
 #include "io/structures/coarse_distance.h"
 #include "io/structures/cubic.h"
@@ -206,7 +207,7 @@ std::shared_ptr<const DistanceField> distance_of(const Mask& mask, const Distanc
   bool any = false;
   for (const std::uint8_t share : mask.occupancy) any = any || share >= Mask::half;
   if (!any) {
-    throw std::invalid_argument("it is empty: no voxel is inside");
+    throw InvalidInput(say("no-voxel-inside"));
   }
   return std::make_shared<const DistanceField>(planes_of(mask, options.reach_mm), options);
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -73,7 +74,7 @@ struct CloseGz {
 using GzFile = std::unique_ptr<gzFile_s, CloseGz>;
 
 [[noreturn]] void refuse_end() {
-  throw DicomError("it ends before its last voxel: copy or export it again");
+  throw DicomError(say("labels-end-early"));
 }
 
 /// At the first voxel. zlib passes through what is not compressed.
@@ -129,7 +130,7 @@ void place(const Vec3& along_i, const Vec3& along_j, const Vec3& along_k, const 
                      static_cast<double>(size.x) * size.y * size.z <= most_voxels;
   const bool finite = std::isfinite(i + j + k + glm::length(first)) && i > 0 && j > 0 && k > 0;
   if (!sized || !finite || std::abs(glm::dot(along_i, along_j)) > square * i * j) {
-    throw DicomError("its voxels are on no lattice that can be felt: resample it on the scan, or export it as SEG");
+    throw DicomError(say("labels-on-no-lattice"));
   }
   Geometry& geometry = image.geometry;
   geometry.dimensions = size;

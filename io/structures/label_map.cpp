@@ -5,6 +5,7 @@
 #include <map>
 
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/structures/beyond_slices.h"
 #include "io/structures/label_image.h"
 #include "io/structures/mask_measures.h"
@@ -121,7 +122,7 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
     structure.name =
         named == names.end() || named->second.name.empty() ? "label " + std::to_string(number) : named->second.name;
     structure.color = named == names.end() ? std::string() : named->second.color;
-    structure.warnings.emplace_back("a label map names no scan: see in the views that it lies where it should");
+    structure.warnings.push_back(say("label-map-names-no-scan"));
     structure.source = source;
     structures.push_back(std::move(structure));
   }

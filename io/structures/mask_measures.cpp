@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 
@@ -28,7 +29,7 @@ StructureMeasures measures_of(const Mask& mask) {
     }
   }
   if (voxels == 0) {
-    throw DicomError("it is empty: no voxel is inside");
+    throw DicomError(say("no-voxel-inside"));
   }
   const Geometry& geometry = mask.geometry;
   measures.voxels = voxels;

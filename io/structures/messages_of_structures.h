@@ -7,6 +7,9 @@
 namespace palpate::io::messages {
 
 inline constexpr MessageRow structures[] = {
+    {"label maps hold no name of the scan that they belong to",
+     "as it says",
+     {{"label-map-names-no-scan", "a label map names no scan: see in the views that it lies where it should"}}},
     {"as it goes on",
      "as it goes on",
      {{"structure-cannot-be-read", "{} cannot be read: {}"}, {"structure-cannot-be-felt", "{} cannot be felt: {}"}}},

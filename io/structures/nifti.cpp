@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/structures/color.h"
 #include "io/structures/label_image.h"
 
@@ -72,7 +73,7 @@ LabelImage::Number number_of(int type) {
     case 768:
       return LabelImage::Number::u32;
     default:
-      throw DicomError("its voxels are of a type that labels are not: save it as whole numbers of 8, 16 or 32 bits");
+      throw DicomError(say("labels-of-another-type"));
   }
 }
 
@@ -101,7 +102,7 @@ Affine affine_of(const Header& header) {
     map.k = handed * size.z * Vec3(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c);
     map.first = {header.number(268), header.number(272), header.number(276)};
   } else {
-    throw DicomError("it does not say where it lies in the patient (neither sform nor qform): save it with its place");
+    throw DicomError(say("nifti-without-a-place"));
   }
   constexpr std::uint8_t meters = 1, micrometers = 3;
   const std::uint8_t unit = header.at<std::uint8_t>(123) & 7U;
@@ -154,7 +155,7 @@ std::optional<LabelImage> open_nifti(const std::filesystem::path& path) {
   const bool swapped = Header(start, true).at<std::int32_t>(0) == header_bytes;
   const Header header(start, swapped);
   if (header.at<std::int32_t>(0) != header_bytes || std::memcmp(start.data() + 344, "n+1", 3) != 0) {
-    throw DicomError("it is no NIfTI-1 file with header and voxels in one: save it as such");
+    throw DicomError(say("labels-of-another-nifti"));
   }
   LabelImage image;
   image.path = path;
@@ -164,7 +165,7 @@ std::optional<LabelImage> open_nifti(const std::filesystem::path& path) {
   std::size_t at = 48;
   for (int axis = 4; axis <= std::min(axes, 7); ++axis, at += 2) {
     if (header.at<std::int16_t>(at) > 1) {
-      throw DicomError("it holds several volumes: save each in a file of its own");
+      throw DicomError(say("labels-in-several-volumes"));
     }
   }
   image.number = number_of(header.at<std::int16_t>(70));

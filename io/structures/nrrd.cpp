@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/structures/color.h"
 #include "io/structures/label_image.h"
 
@@ -34,7 +35,7 @@ Fields fields_in(std::istream& file) {
     const bool pair = colon + 1 < line.size() && line[colon + 1] == '=';
     fields[trimmed(line.substr(0, colon))] = trimmed(line.substr(colon + (pair ? 2 : 1)));
   }
-  throw DicomError("its voxels are not in it, but in a file of their own: save header and voxels in one file");
+  throw DicomError(say("labels-in-another-file"));
 }
 
 std::string field(const Fields& fields, const std::string& name) {
@@ -65,7 +66,7 @@ LabelImage::Number number_of(const std::string& type) {
       {"uint32_t", Number::u32},     {"float", Number::f32},          {"double", Number::f64}};
   const auto found = types.find(type);
   if (found == types.end()) {
-    throw DicomError("its voxels are of a type that labels are not: save it as whole numbers of 8, 16 or 32 bits");
+    throw DicomError(say("labels-of-another-type"));
   }
   return found->second;
 }
@@ -75,8 +76,7 @@ Vec3 to_lps(const std::string& space) {
   if (space == "left-posterior-superior" || space == "LPS") return {1, 1, 1};
   if (space == "right-anterior-superior" || space == "RAS") return {-1, -1, 1};
   if (space == "left-anterior-superior" || space == "LAS") return {1, -1, 1};
-  throw DicomError(
-      "it does not say where it lies in the patient (its space is not LPS, RAS or LAS): save it with its place");
+  throw DicomError(say("nrrd-without-a-place"));
 }
 
 /// Slicer's: Segment0_Name, Segment0_LabelValue, Segment0_Color.
@@ -109,17 +109,17 @@ std::optional<LabelImage> open_nrrd(const std::filesystem::path& path) {
   image.path = path;
   image.first = static_cast<std::int64_t>(file.tellg());
   if (!field(fields, "data file").empty() || !field(fields, "datafile").empty()) {
-    throw DicomError("its voxels are not in it, but in a file of their own: save header and voxels in one file");
+    throw DicomError(say("labels-in-another-file"));
   }
   const std::string encoding = field(fields, "encoding");
   image.packed_after = encoding == "gzip" || encoding == "gz";
   if (!image.packed_after && encoding != "raw") {
-    throw DicomError("its encoding \"" + encoding + "\" is not read; there are: raw, gzip");
+    throw DicomError(say("labels-in-another-encoding", encoding));
   }
   const std::vector<double> sizes = numbers(field(fields, "sizes"));
   const std::vector<double> directions = numbers(field(fields, "space directions"));
   const std::vector<double> origin = numbers(field(fields, "space origin"));
-  if (sizes.size() != 3) throw DicomError("it holds several volumes: save each in a file of its own");
+  if (sizes.size() != 3) throw DicomError(say("labels-in-several-volumes"));
   if (directions.size() != 9 || origin.size() != 3) to_lps({});
   image.number = number_of(field(fields, "type"));
   image.swapped = field(fields, "endian") == (std::endian::native == std::endian::little ? "big" : "little");

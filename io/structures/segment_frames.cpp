@@ -9,6 +9,7 @@
 #include "io/dicom/decode.h"
 #include "io/dicom/fragments.h"
 #include "io/errors.h"
+#include "io/messages.h"
 
 namespace palpate::io {
 namespace {
@@ -33,7 +34,7 @@ std::vector<std::byte> read_bytes(const SegmentationPixels& pixels, std::uint64_
   if (pixels.coding == PixelCoding::deflated) {
     const auto source = internal::inflated(pixels.path, pixels.start);
     if (!source->skip(pixels.at + offset) || source->read(bytes) != bytes.size()) {
-      throw DicomError("truncated: its deflated pixels end early");
+      throw DicomError(say("truncated-its-deflated-pixels-end-early"));
     }
   } else {
     internal::InputFile(pixels.path).read(pixels.at + offset, bytes);
@@ -93,18 +94,17 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
                                const internal::PixelElement& element, const PixelFormat& format, std::size_t frames) {
   SegmentationPixels pixels{.path = path, .start = start, .format = format};
   if (format.columns < 1 || format.rows < 1) {
-    throw DicomError("it has no pixels: Rows or Columns is missing");
+    throw DicomError(say("no-pixels-rows"));
   }
   if (element.is_float || (format.bits_allocated != 1 && format.bits_allocated != 8 && format.bits_allocated != 16)) {
-    throw DicomError("its pixels have " + std::to_string(format.bits_allocated) +
-                     " bits: a segmentation has 1, 8 or 16");
+    throw DicomError(say("pixels-have-bits", format.bits_allocated));
   }
   const internal::InputFile file(path);
   pixels.at = start.deflated ? element.value_at : start.at + element.value_at;
   pixels.big_endian = DcmXfer(start.transfer_syntax.c_str()).getPixelDataByteOrder() == EBO_BigEndian;
   if (element.length == internal::PixelElement::undefined_length) {
     if (!internal::can_decode(start.transfer_syntax)) {
-      throw DicomError("its compression is unknown here: " + start.transfer_syntax);
+      throw DicomError(say("compression-is-unknown-here", start.transfer_syntax));
     }
     pixels.coding = PixelCoding::encapsulated;
     internal::check_density(start.transfer_syntax, format.bits_allocated == 1 ? as_bytes(format) : format, frames,
@@ -118,7 +118,7 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
       start.deflated ? element.length
                      : std::min<std::uint64_t>(element.length, file.size() - std::min(file.size(), pixels.at));
   if (present < needed) {
-    throw DicomError("truncated: " + std::to_string(present) + " of " + std::to_string(needed) + " bytes of pixels");
+    throw DicomError(say("truncated-pixels", present, needed));
   }
   return pixels;
 }

@@ -15,6 +15,7 @@
 #include "io/dicom/file_header.h"
 #include "io/dicom/stacking.h"
 #include "io/errors.h"
+#include "io/messages.h"
 #include "io/structures/beyond_slices.h"
 #include "io/structures/color.h"
 #include "io/structures/mask_measures.h"
@@ -60,8 +61,7 @@ PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
       numbers_in(group_of(own, shared, DCM_PlaneOrientationSequence), DCM_ImageOrientationPatient),
       numbers_in(measures, DCM_PixelSpacing));
   if (!placement) {
-    throw DicomError(
-        "a frame of it does not say where it lies in the patient (position, orientation or spacing): export it again");
+    throw DicomError(say("frame-without-a-position"));
   }
   PlacedFrame frame{.placement = *placement};
   const auto spacing = numbers_in(measures, DCM_SpacingBetweenSlices);
@@ -70,7 +70,7 @@ PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
     const auto number =
         numbers_in(group_of(own, shared, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);
     if (number.empty()) {
-      throw DicomError("a frame of it does not say to which segment it belongs: export it again");
+      throw DicomError(say("frame-without-a-segment"));
     }
     frame.segment = static_cast<int>(std::clamp(number.front(), 0.0, 65535.0));
   }
@@ -81,7 +81,7 @@ std::vector<PlacedFrame> placed_frames(DcmItem& dataset, SegmentationType type, 
   std::vector<PlacedFrame> frames;
   DcmSequenceOfItems* per_frame = nullptr;
   if (dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, per_frame).bad()) {
-    throw DicomError("it does not say where its frames lie (PerFrameFunctionalGroupsSequence): export it again");
+    throw DicomError(say("does-not-say-where-its-frames"));
   }
   DcmItem* const shared = first_item(dataset, DCM_SharedFunctionalGroupsSequence);
   DcmObject* object = nullptr;
@@ -91,8 +91,7 @@ std::vector<PlacedFrame> placed_frames(DcmItem& dataset, SegmentationType type, 
     frames.push_back(placed_frame(*own, shared, type));
   }
   if (frames.size() < count) {
-    throw DicomError("it says of " + std::to_string(frames.size()) + " of its " + std::to_string(count) +
-                     " frames where they lie: export it again");
+    throw DicomError(say("frames-without-a-position", frames.size(), count));
   }
   return frames;
 }
@@ -144,8 +143,7 @@ class SegmentationSource final : public StructureSource {
     heights.reserve(frames.size());
     for (const PlacedFrame& frame : frames) {
       if (!share_lattice(frame.placement, reference)) {
-        throw DicomError(
-            "its frames have several orientations or pixel sizes: export each as a segmentation of its own");
+        throw DicomError(say("frames-have-several-orientations-or-pixel"));
       }
       heights.push_back(glm::dot(frame.placement.position, normal));
     }
@@ -300,7 +298,7 @@ std::vector<Structure> segments_in(DcmItem& dataset) {
   const std::string characters = text_of(dataset, DCM_SpecificCharacterSet);
   DcmSequenceOfItems* segments = nullptr;
   if (dataset.findAndGetSequence(DCM_SegmentSequence, segments).bad()) {
-    throw DicomError("it names no segments (SegmentSequence): export it again");
+    throw DicomError(say("names-no-segments"));
   }
   DcmObject* object = nullptr;
   while ((object = segments->nextInContainer(object)) != nullptr) {
@@ -324,7 +322,7 @@ SegmentationType type_in(DcmItem& dataset, const std::string& sop_class) {
   if (type == "LABELMAP" || sop_class == "1.2.840.10008.5.1.4.1.1.66.7") return SegmentationType::label_map;
   if (type == "FRACTIONAL") return SegmentationType::fractional;
   if (type == "BINARY") return SegmentationType::binary;
-  throw DicomError("its segmentation type \"" + type + "\" is unknown; there are: BINARY, FRACTIONAL, LABELMAP");
+  throw DicomError(say("segmentation-type-is-unknown", type));
 }
 
 internal::PixelFormat format_in(DcmItem& dataset) {
@@ -345,10 +343,10 @@ internal::PixelFormat format_in(DcmItem& dataset) {
 std::vector<Structure> structures_of_segmentation(const StructureDataset& file) {
   DcmItem& dataset = file.dataset;
   if (dataset.tagExists(DCM_TotalPixelMatrixColumns)) {
-    throw DicomError("it outlines a microscope's slide, not a scan: it cannot be felt");
+    throw DicomError(say("outlines-a-microscope-slide"));
   }
   if (!file.pixels) {
-    throw DicomError("it has no pixels: export it again");
+    throw DicomError(say("no-pixels-export"));
   }
   const SegmentationType type = type_in(dataset, text_of(dataset, DCM_SOPClassUID));
   std::vector<Structure> structures = segments_in(dataset);
@@ -357,7 +355,7 @@ std::vector<Structure> structures_of_segmentation(const StructureDataset& file) 
   const double most =
       type == SegmentationType::fractional ? number_of(dataset, DCM_MaximumFractionalValue).value_or(255) : 1;
   if (!(most > 0)) {
-    throw DicomError("its MaximumFractionalValue is not above 0: export it again");
+    throw DicomError(say("maximumfractionalvalue-is-not-above-0"));
   }
   const auto source = std::make_shared<const SegmentationSource>(
       find_pixels(file.path, file.start, *file.pixels, format_in(dataset), count), type, most, frames);

@@ -13,6 +13,7 @@
 #include "io/dicom/dicom_value.h"
 #include "io/errors.h"
 #include "io/files_below.h"
+#include "io/messages.h"
 #include "io/parallel.h"
 #include "io/structures/structure_file.h"
 
@@ -50,7 +51,7 @@ std::vector<Structure> structures_in(const fs::path& path) {
   } else if (sop_class == structure_set_storage) {
     structures = structures_of_contours(read);
   } else if (sop_class == surface_segmentation_storage) {
-    throw DicomError("it holds surfaces (Surface Segmentation), which are not read: export it as SEG");
+    throw DicomError(say("holds-surfaces"));
   }
   const std::string frame_of_reference = text_of(dataset, DCM_FrameOfReferenceUID);
   for (Structure& structure : structures) {
@@ -71,12 +72,12 @@ std::string in_words(const Structure& structure) {
 template <typename Work>
 auto named(const Structure& structure, const Work& work) {
   if (!structure.source || !structure.unfit.empty()) {
-    throw DicomError(in_words(structure) + " cannot be felt: " + structure.unfit);
+    throw DicomError(say("structure-cannot-be-felt", in_words(structure), structure.unfit));
   }
   try {
     return work(*structure.source);
   } catch (const std::exception& error) {
-    throw DicomError(in_words(structure) + " cannot be read: " + error.what());
+    throw DicomError(say("structure-cannot-be-read", in_words(structure), error.what()));
   }
 }
 
@@ -99,14 +100,14 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
   StructureCatalogue catalogue;
   const std::vector<fs::path> files = internal::files_below(paths, catalogue.skipped);
   std::vector<std::vector<Structure>> found(files.size());
-  std::vector<std::string> reasons(files.size());
+  std::vector<Text> reasons(files.size());
   internal::parallel_for(
       files.size(),
       [&](std::size_t n) {
         try {
           found[n] = structures_in(files[n]);
         } catch (const std::exception& error) {
-          reasons[n] = error.what();
+          reasons[n] = say("file-cannot-be-read", error.what());
         }
       },
       progress, 0);

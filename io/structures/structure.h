@@ -14,6 +14,7 @@
 #include "io/progress.h"
 #include "io/series.h"
 #include "io/structures/distance_field.h"
+#include "messages/message.h"
 
 namespace palpate::io {
 
@@ -30,7 +31,7 @@ struct StructureMeasures {
   Vec3 centroid_mm{0};
   Vec3 box_low_mm{0};  ///< of voxel centers or contour points
   Vec3 box_high_mm{0};
-  std::vector<std::string> warnings;
+  std::vector<Text> warnings;
 };
 
 /// A file that holds structures. Immutable; from any thread.
@@ -56,8 +57,8 @@ struct Structure {
   std::string frame_of_reference_uid;  ///< empty where it is not said
   std::string study_uid;
   std::string patient_id;  ///< to be compared with the scan's; never written or shown
-  std::string unfit;       ///< why it cannot be felt; empty where it can
-  std::vector<std::string> warnings;
+  Text unfit;              ///< why it cannot be felt; empty where it can
+  std::vector<Text> warnings;
   std::shared_ptr<const StructureSource> source;
 };
 

@@ -176,14 +176,14 @@ TEST(Segmentations, AreReadCompressed) {
   };
   write(segmentation, folder / "seg.dcm");
   const StructureCatalogue catalogue = structures_in(folder);
-  ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? "" : catalogue.skipped[0].reason);
+  ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? Text() : catalogue.skipped[0].reason);
   EXPECT_EQ(voxels_of(catalogue.structures[0]), 2U * 20U);
 }
 
 std::string refusal_of(const TestSegmentation& segmentation) {
   try {
     const StructureCatalogue catalogue = found_of(segmentation);
-    return catalogue.skipped.empty() ? "not refused" : catalogue.skipped.front().reason;
+    return catalogue.skipped.empty() ? "not refused" : catalogue.skipped.front().reason.c_str();
   } catch (const DicomError& error) {
     return error.what();
   }

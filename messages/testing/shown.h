@@ -31,9 +31,9 @@ struct NotShown {
 /// Whether the fixed pieces of the message stand in the text, in their order.
 bool fits(std::string_view message, std::string_view text);
 
-/// A failure for each message of the table that no test shows, for each that was provoked and was not said, and for
+/// A failure for each message of these tables that no test shows, for each that was provoked and was not said, and for
 /// each that cannot be had and was. `sources` is the root of the tree.
-void expect_all_shown(std::span<const MessageRow> table, std::span<const Provoked> provoked,
+void expect_all_shown(const std::vector<std::span<const MessageRow>>& tables, std::span<const Provoked> provoked,
                       std::span<const NotShown> not_shown, const char* sources);
 
 }  // namespace palpate::testing

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "modes/messages.h"
 #include "modes/scene/number_text.h"
 
 namespace palpate::modes {
 
-[[noreturn]] inline void refuse(const std::string& path, const std::string& why) {
-  throw std::invalid_argument(path + ": " + why);
+[[noreturn]] inline void refuse(const std::string& path, const Text& why) {
+  throw InvalidInput(at_place(path, why));
 }
 
 /// A value and the path to it.
@@ -26,35 +27,35 @@ struct At {
 
 inline double number(const At& at) {
   if (!at.value.is_number()) {
-    refuse(at.path, at.value.dump() + " is not a number");
+    refuse(at.path, say("not-a-number", at.value.dump()));
   }
   return at.value.get<double>();
 }
 
 inline int integer(const At& at) {
   if (!at.value.is_number_integer() || at.value.get<double>() < -2e9 || at.value.get<double>() > 2e9) {
-    refuse(at.path, at.value.dump() + " is not a whole number");
+    refuse(at.path, say("not-a-whole-number", at.value.dump()));
   }
   return at.value.get<int>();
 }
 
 inline bool boolean(const At& at) {
   if (!at.value.is_boolean()) {
-    refuse(at.path, at.value.dump() + " is not true or false");
+    refuse(at.path, say("not-true-or-false", at.value.dump()));
   }
   return at.value.get<bool>();
 }
 
 inline std::string text(const At& at) {
   if (!at.value.is_string()) {
-    refuse(at.path, at.value.dump() + " is not a text in quotes");
+    refuse(at.path, say("not-a-text-in-quotes", at.value.dump()));
   }
   return at.value.get<std::string>();
 }
 
 inline std::size_t length_of_array(const At& at, std::size_t wanted = 0) {
   if (!at.value.is_array() || (wanted != 0 && at.value.size() != wanted)) {
-    refuse(at.path, wanted == 0 ? "is not a list" : "is not a list of " + std::to_string(wanted));
+    refuse(at.path, wanted == 0 ? say("not-a-list") : say("not-a-list-of", wanted));
   }
   return at.value.size();
 }
@@ -69,7 +70,7 @@ class Members {
  public:
   explicit Members(const At& at) : at_(at) {
     if (!at.value.is_object()) {
-      refuse(at.path.empty() ? "scene" : at.path, "is not an object in braces");
+      refuse(at.path.empty() ? "scene" : at.path, say("not-an-object-in-braces"));
     }
   }
 
@@ -80,7 +81,7 @@ class Members {
   }
   At get(const std::string& key) {
     if (!has(key)) {
-      refuse(path_of(key), "is missing");
+      refuse(path_of(key), say("is-missing"));
     }
     return {at_.value.at(key), path_of(key)};
   }
@@ -98,7 +99,7 @@ class Members {
         for (const std::string& name : known_) {
           known += (known.empty() ? "" : ", ") + name;
         }
-        refuse(path_of(key), "there is no such key here; there are: " + known);
+        refuse(path_of(key), say("there-is-no-such-key-here", known));
       }
     }
   }

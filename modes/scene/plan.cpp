@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "modes/messages.h"
 #include "modes/scene/boundary.h"
 #include "modes/types/keep.h"
 
@@ -76,8 +77,7 @@ class StructureIndex {
       read_.push_back(of_scene);
     }
     if (read_.size() > io::most_structures) {
-      throw std::invalid_argument("structures: more than " + std::to_string(io::most_structures) +
-                                  " are read by modes or have a margin; switch some off");
+      throw InvalidInput(say("too-many-structures", io::most_structures));
     }
     return index;
   }

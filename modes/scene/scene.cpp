@@ -7,25 +7,26 @@
 #include <set>
 #include <stdexcept>
 
+#include "modes/messages.h"
 #include "modes/scene/number_text.h"
 #include "modes/types/mode_type.h"
 
 namespace palpate::modes {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw std::invalid_argument(path + ": " + why);
+[[noreturn]] void refuse(const std::string& path, const Text& why) {
+  throw InvalidInput(at_place(path, why));
 }
 
 void check_positive(const std::string& path, double value, const std::string& unit) {
   if (!(value > 0) || !std::isfinite(value)) {
-    refuse(path, number_text(value) + " is not a number above 0; it is in " + unit);
+    refuse(path, say("not-a-number-above-0", number_text(value), unit));
   }
 }
 
 void check_finite(const std::string& path, const Vec3& vector) {
   if (!std::isfinite(vector.x) || !std::isfinite(vector.y) || !std::isfinite(vector.z)) {
-    refuse(path, "is not finite");
+    refuse(path, say("not-finite"));
   }
 }
 
@@ -33,19 +34,19 @@ void check_color(const std::string& path, const std::string& color) {
   const bool hexadecimal =
       color.size() == 7 && color[0] == '#' && color.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   if (!color.empty() && !hexadecimal) {
-    refuse(path, "\"" + color + "\" is not a color such as \"#0072b2\"");
+    refuse(path, say("not-a-color-such-as-0072b2", color));
   }
 }
 
 void check_function(const std::string& path, const TransferFunction& function, const std::string& what) {
   if (function.nodes().empty()) {
-    refuse(path, "is missing; it is " + what);
+    refuse(path, say("missing-strength", what));
   }
   for (std::size_t i = 0; i < function.nodes().size(); ++i) {
     const double value = function.nodes()[i].value;
     if (value < 0) {
       const std::string node = function.nodes().size() == 1 ? "" : ".nodes[" + std::to_string(i) + "][1]";
-      refuse(path + node, number_text(value) + " is negative; " + what + ", 0 or more");
+      refuse(path + node, say("negative-value", number_text(value), what));
     }
   }
 }
@@ -62,10 +63,10 @@ void check_rotation(const std::string& path, const glm::dmat3& rotation) {
   // A similarity has to turn unit directions into unit directions; what is looser than this was not meant as a
   // rotation.
   if (worst > 1e-9) {
-    refuse(path, "its axes are not of unit length and at right angles");
+    refuse(path, say("axes-are-not-of-unit-length"));
   }
   if (glm::determinant(rotation) < 0) {
-    refuse(path, "is a mirror image: right would be left");
+    refuse(path, say("mirror-image"));
   }
 }
 
@@ -79,13 +80,13 @@ void check_workspace(const WorkspaceSettings& workspace) {
 
 void check_tissue(const std::string& path, const Tissue& tissue) {
   if (tissue.name.empty()) {
-    refuse(path + ".name", "is missing");
+    refuse(path + ".name", say("is-missing"));
   }
   if (std::isnan(tissue.low) || std::isnan(tissue.high) || !(tissue.low < tissue.high)) {
-    refuse(path + ".low", "has to be below high");
+    refuse(path + ".low", say("low-not-below-high"));
   }
   if (!(tissue.softness > 0) || !(tissue.softness <= tissue.high - tissue.low)) {
-    refuse(path + ".softness", number_text(tissue.softness) + " is not above 0 and at most high - low");
+    refuse(path + ".softness", say("not-above-0-and-at-most", number_text(tissue.softness)));
   }
   check_color(path + ".color", tissue.color);
 }
@@ -97,18 +98,18 @@ void check_boundary(const std::string& path, const Mode& mode, const Scene& scen
   for (const auto& [key, name] : {std::pair{".from", mode.from}, std::pair{".to", mode.to}}) {
     const auto named = [&name = name](const Tissue& tissue) { return tissue.name == name; };
     if (std::none_of(scene.tissues.begin(), scene.tissues.end(), named)) {
-      refuse(path + key, "there is no tissue \"" + name + "\" in tissues");
+      refuse(path + key, say("there-is-no-tissue-in-tissues", name));
     }
   }
   if (mode.from == mode.to) {
-    refuse(path + ".to", "a boundary lies between two different tissues");
+    refuse(path + ".to", say("boundary-lies-between-two-different-tissues"));
   }
 }
 
 void check_structure_of(const std::string& path, const std::string& name, const Scene& scene) {
   const auto named = [&name](const SceneStructure& structure) { return structure.name == name; };
   if (std::none_of(scene.structures.begin(), scene.structures.end(), named)) {
-    refuse(path, "there is no structure \"" + name + "\" in structures");
+    refuse(path, say("there-is-no-structure", name));
   }
 }
 
@@ -121,13 +122,13 @@ void check_datum(const std::string& path, Datum of, const std::string& structure
 
 void check_structure(const std::string& path, const SceneStructure& structure) {
   if (structure.name.empty()) {
-    refuse(path + ".name", "is missing");
+    refuse(path + ".name", say("is-missing"));
   }
   if (structure.file.empty()) {
-    refuse(path + ".file", "is missing");
+    refuse(path + ".file", say("is-missing"));
   }
   if (structure.segment.empty() && !structure.segment_number) {
-    refuse(path + ".segment", "is missing");
+    refuse(path + ".segment", say("is-missing"));
   }
   if (structure.margin_mm) {
     check_positive(path + ".margin_mm", *structure.margin_mm, "mm");
@@ -138,7 +139,7 @@ void check_structure(const std::string& path, const SceneStructure& structure) {
 void check_mode(const std::string& path, const Mode& mode, const Scene& scene) {
   const ModeType* type = find_mode_type(mode.type);
   if (type == nullptr) {
-    refuse(path + ".type", "there is no mode \"" + mode.type + "\"; there are: " + mode_type_names());
+    refuse(path + ".type", say("there-is-no-mode", mode.type, mode_type_names()));
   }
   check_function(path + ".strength_n", mode.strength_n, "a strength is in newtons");
   for (std::size_t i = 0; i < mode.gates.size(); ++i) {
@@ -156,7 +157,7 @@ void check_mode(const std::string& path, const Mode& mode, const Scene& scene) {
   check_finite(path + ".position_mm", mode.position_mm);
   check_finite(path + ".direction", mode.direction);
   if (!(glm::length(mode.direction) > 1e-100)) {
-    refuse(path + ".direction", "has no length");
+    refuse(path + ".direction", say("no-length"));
   }
   check_color(path + ".color", mode.color);
 }
@@ -166,7 +167,7 @@ void check_unique_names(const std::string& list, const Items& items) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (!items[i].name.empty() && !names.insert(items[i].name).second) {
-      refuse(list + "[" + std::to_string(i) + "].name", "\"" + items[i].name + "\" is used twice");
+      refuse(list + "[" + std::to_string(i) + "].name", say("used-twice", items[i].name));
     }
   }
 }
@@ -181,20 +182,20 @@ void validate(const Scene& scene) {
   check_positive("limits.speed_limit_m_per_s", scene.limits.speed_m_per_s, "meters per second");
   check_workspace(scene.workspace);
   if (!scene.solvers.analytical && !scene.solvers.exact && !scene.solvers.descent) {
-    refuse("solvers", "all are switched off");
+    refuse("solvers", say("all-are-switched-off"));
   }
   check_positive("subdivision.step_mm", scene.subdivision.step_mm, "mm of patient");
   check_positive("subdivision.proxy_step_mm", scene.subdivision.proxy_step_mm, "mm of patient");
   if (scene.subdivision.most_halts < 0 || scene.subdivision.most_halts > 1000) {
-    refuse("subdivision.most_halts", std::to_string(scene.subdivision.most_halts) + " is not between 0 and 1000");
+    refuse("subdivision.most_halts", say("not-between-0-and-1000", scene.subdivision.most_halts));
   }
   if (scene.subdivision.most < 1 || scene.subdivision.most > 1000) {
-    refuse("subdivision.most", std::to_string(scene.subdivision.most) + " is not between 1 and 1000");
+    refuse("subdivision.most", say("not-between-1-and-1000", scene.subdivision.most));
   }
   try {
     io::validate(scene.filter);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string("filter.") + error.what());
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(at_place("filter.", error.text(), ""));
   }
   if (scene.gradient_scale_mm) {
     check_positive("gradient_scale_mm", *scene.gradient_scale_mm, "mm");
@@ -203,8 +204,7 @@ void validate(const Scene& scene) {
     check_tissue("tissues[" + std::to_string(i) + "]", scene.tissues[i]);
   }
   if (scene.modes.size() > Scene::most_modes) {
-    refuse("modes",
-           std::to_string(scene.modes.size()) + " are too many; there may be " + std::to_string(Scene::most_modes));
+    refuse("modes", say("too-many", scene.modes.size(), Scene::most_modes));
   }
   for (std::size_t i = 0; i < scene.modes.size(); ++i) {
     check_mode("modes[" + std::to_string(i) + "]", scene.modes[i], scene);
@@ -244,7 +244,7 @@ Workspace place_workspace(const WorkspaceSettings& settings, const Vec3& box_low
       mm_per_m = std::max(mm_per_m, reach_mm / half_extent_m[axis]);
     }
     if (!(mm_per_m > 0) || !std::isfinite(mm_per_m)) {
-      throw std::invalid_argument("workspace.fit: the scan or the device has no extent");
+      throw InvalidInput(say("workspace-fit-the-scan-or-the-device"));
     }
     workspace.mm_per_m = mm_per_m;
   }

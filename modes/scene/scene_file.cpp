@@ -2,6 +2,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "modes/messages.h"
 #include "modes/scene/embedded_scenes.h"
 #include "modes/scene/scene_json.h"
 
@@ -35,7 +36,7 @@ Scene load_scene(const std::string& file_or_name) {
     for (const std::string& name : starting_scenes()) {
       known += (known.empty() ? "" : ", ") + name;
     }
-    throw std::invalid_argument(file_or_name + ": no such scene file can be read; the starting scenes are: " + known);
+    throw InvalidInput(say("no-such-scene-file-can-be-read", file_or_name, known));
   }
   std::ostringstream text;
   text << file.rdbuf();

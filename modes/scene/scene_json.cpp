@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "modes/messages.h"
 #include "modes/scene/json_reader.h"
 #include "modes/scene/scene_names.h"
 #include "modes/types/mode_type.h"
@@ -20,7 +21,7 @@ auto choice(const At& at, const Names& names) {
     }
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
-  refuse(at.path, "there is no \"" + name + "\"; there are: " + known);
+  refuse(at.path, say("there-is-no-such-name", name, known));
 }
 
 /// Reads nodes and interpolation from the members of an object that may hold other keys too. `what` says in what the
@@ -33,15 +34,15 @@ TransferFunction transfer_function(Members& members, const std::string& what) {
     length_of_array(node, 2);
     nodes.push_back({number(node[0]), number(node[1])});
     if (nodes.back().value < 0) {
-      refuse(node[1].path, number_text(nodes.back().value) + " is negative; " + what + ", 0 or more");
+      refuse(node[1].path, say("negative-value", number_text(nodes.back().value), what));
     }
   }
   Interpolation interpolation = Interpolation::linear;
   members.optional("interpolation", interpolation, [](const At& at) { return choice(at, interpolation_names); });
   try {
     return TransferFunction(std::move(nodes), interpolation);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(members.path_of(error.what()));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(at_place(members.path_of(""), error.text(), ""));
   }
 }
 
@@ -57,7 +58,7 @@ std::string structure_of(Members& members, Datum of, const Mode& mode) {
 void read_strength(const At& at, Mode& mode) {
   if (at.value.is_number()) {
     if (number(at) < 0) {
-      refuse(at.path, number_text(number(at)) + " is negative; a strength is in newtons, 0 or more");
+      refuse(at.path, say("negative-strength", number_text(number(at))));
     }
     mode.strength_n = TransferFunction(number(at));
     return;
@@ -90,7 +91,7 @@ void read_side_or_tissues(Members& members, Mode& mode) {
     return;
   }
   if (members.has("side")) {
-    refuse(members.path_of("side"), "the side follows from the tissues; leave out side, or from and to");
+    refuse(members.path_of("side"), say("side-follows-from-the-tissues"));
   }
   mode.from = text(members.get("from"));
   mode.to = text(members.get("to"));
@@ -110,7 +111,7 @@ Mode read_mode(const At& at) {
   mode.type = text(members.get("type"));
   const ModeType* type = find_mode_type(mode.type);
   if (type == nullptr) {
-    refuse(members.path_of("type"), "there is no mode \"" + mode.type + "\"; there are: " + mode_type_names());
+    refuse(members.path_of("type"), say("there-is-no-mode", mode.type, mode_type_names()));
   }
   members.optional("name", mode.name, text);
   members.optional("enabled", mode.enabled, boolean);
@@ -252,7 +253,7 @@ Scene read_scene(const nlohmann::json& json) {
   Members members({json, ""});
   const int version = integer(members.get("version"));
   if (version != Scene::version) {
-    refuse("version", std::to_string(version) + " is not known; this program reads " + std::to_string(Scene::version));
+    refuse("version", say("not-known", version, Scene::version));
   }
   Scene scene;
   members.optional("name", scene.name, text);
@@ -281,7 +282,7 @@ nlohmann::json parse(std::string_view text) {
     } else if (event == nlohmann::json::parse_event_t::object_end) {
       open.pop_back();
     } else if (event == nlohmann::json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second) {
-      refuse(parsed.get<std::string>(), "is given twice");
+      refuse(parsed.get<std::string>(), say("given-twice"));
     }
     return true;
   };
@@ -296,10 +297,9 @@ auto read_from(const std::string& source, const Read& read) {
   } catch (const nlohmann::json::exception& error) {
     const std::string what = error.what();
     const auto end_of_code = what.find("] ");
-    throw std::invalid_argument(source + ": " +
-                                (end_of_code == std::string::npos ? what : what.substr(end_of_code + 2)));
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(source + ": " + error.what());
+    throw InvalidInput(say("not-json", source, end_of_code == std::string::npos ? what : what.substr(end_of_code + 2)));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(at_place(source, error.text()));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "modes/messages.h"
+
 namespace palpate::modes {
 namespace {
 
@@ -13,15 +15,15 @@ constexpr double least_spacing = 1e-30;
 
 void check(std::span<const Node> nodes) {
   if (nodes.empty()) {
-    throw std::invalid_argument("nodes: there are none; at least one is needed");
+    throw InvalidInput(say("nodes-there-are-none"));
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::string path = "nodes[" + std::to_string(i) + "]";
     if (!(std::abs(nodes[i].at) <= largest) || !(std::abs(nodes[i].value) <= largest)) {
-      throw std::invalid_argument(path + ": is not a usable number (finite, at most 1e30)");
+      throw InvalidInput(say("not-a-usable-number", path));
     }
     if (i > 0 && !(nodes[i].at - nodes[i - 1].at >= least_spacing)) {
-      throw std::invalid_argument(path + ": has to lie beyond the node before (nodes ascend in their first number)");
+      throw InvalidInput(say("nodes-do-not-ascend", path));
     }
   }
 }

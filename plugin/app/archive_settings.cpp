@@ -1,7 +1,6 @@
 #include "plugin/app/archive_settings.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <system_error>
 
 #include "plugin/app/errors.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -25,7 +25,7 @@ fs::path base_folder(const char* variable, const char* under_home) {
   if (named != nullptr && named[0] == '/') return fs::path(named) / "palpate";
   const char* const home = std::getenv("HOME");
   if (home == nullptr || home[0] != '/') {
-    throw InputRefused(fmt::format("neither {} nor HOME names a folder for the settings: set one of them", variable));
+    throw InputRefused(say("neither-nor-home-names-a-folder", variable));
   }
   return fs::path(home) / under_home / "palpate";
 }
@@ -69,8 +69,7 @@ io::Archive from_json(const Json& json) {
 }
 
 [[noreturn]] void cannot_write(const fs::path& file, const std::string& why) {
-  throw InputRefused(
-      fmt::format("the settings {} cannot be written ({}): make room, or make the folder yours", file.string(), why));
+  throw InputRefused(say("settings-cannot-be-written", file.string(), why));
 }
 
 void write_private(const fs::path& file, const std::string& text) {
@@ -97,8 +96,7 @@ std::vector<io::Archive> read_archives() {
     const Json json = Json::parse(stream);
     for (const Json& one : json.at("archives")) archives.push_back(from_json(one));
   } catch (const std::exception& error) {
-    throw InputRefused(
-        fmt::format("the settings {} cannot be read ({}): mend or delete the file", file.string(), error.what()));
+    throw InputRefused(say("settings-cannot-be-read", file.string(), error.what()));
   }
   return archives;
 }
@@ -120,8 +118,7 @@ void write_archives(const std::vector<io::Archive>& archives) {
 io::Archive archive_named(const std::string& name) {
   const std::vector<io::Archive> archives = read_archives();
   if (archives.empty()) {
-    throw InputRefused(
-        "no archive is entered yet: enter one with `palpate archive add NAME --host --port --called --calling`");
+    throw InputRefused(say("no-archive-is-entered-yet"));
   }
   if (name.empty() && archives.size() == 1) return archives.front();
   std::string names;
@@ -129,8 +126,8 @@ io::Archive archive_named(const std::string& name) {
     if (archive.name == name) return archive;
     names += (names.empty() ? "" : ", ") + archive.name;
   }
-  if (name.empty()) throw InputRefused(fmt::format("choose one of the archives with --archive: {}", names));
-  throw InputRefused(fmt::format("no archive {} is entered; there are: {}", name, names));
+  if (name.empty()) throw InputRefused(say("choose-one-of-the-archives-with-archive", names));
+  throw InputRefused(say("no-archive-is-entered", name, names));
 }
 
 fs::path fetched_folder() {
@@ -153,8 +150,7 @@ void empty_fetched() {
   const fs::path folder = fetched_folder();
   std::error_code error;
   fs::remove_all(folder, error);
-  if (error)
-    throw InputRefused(fmt::format("{} cannot be deleted ({}): delete it by hand", folder.string(), error.message()));
+  if (error) throw InputRefused(say("cannot-be-deleted", folder.string(), error.message()));
 }
 
 }  // namespace palpate::plugin

@@ -11,6 +11,7 @@
 #include "io/fields/gradient.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/app/recording_header.h"
+#include "plugin/messages/messages.h"
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {
@@ -87,7 +88,7 @@ void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
 }
 
 void LiveSession::connect(std::shared_ptr<device::Stylus> stylus, Start start) {
-  if (!volume_) throw std::runtime_error("there is no scan to feel yet: open one first");
+  if (!volume_) throw Refusal(say("there-is-no-scan-to-feel-yet"));
   disconnect();
   start_ = start;
   begin(std::move(stylus), {});
@@ -164,7 +165,7 @@ void LiveSession::heartbeat() {
 }
 
 void LiveSession::record(const std::filesystem::path& file) {
-  if (!is_connected()) throw std::runtime_error("no stylus is held: connect one, then record");
+  if (!is_connected()) throw Refusal(say("no-stylus-is-held"));
   std::shared_ptr<device::Stylus> stylus = stylus_;
   const Start before = start_;
   disconnect();

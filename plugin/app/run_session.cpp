@@ -10,6 +10,8 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/app/interruptible.h"
 #include "plugin/app/recording_header.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 #include "plugin/report/live_view.h"
 #include "plugin/session/servo.h"
 
@@ -39,7 +41,8 @@ class Watch {
     const RecorderStatus status = recorder_.status();
     if (status.stopped && !told_) {
       told_ = true;
-      fmt::print(stderr, "\npalpate: {}. The session goes on unrecorded.\n", status.why);
+      std::fputs("\n", stderr);
+      tell(say("goes-on-unrecorded", status.why));
     }
   }
 
@@ -55,7 +58,7 @@ void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, 
   Servo servo(session, rate_hz);
   result.realtime = servo.realtime();
   if (!result.realtime.advice.empty()) {
-    fmt::print(stderr, "palpate: real time: {}\n", result.realtime.advice);
+    tell(say("real-time", result.realtime.advice));
   }
   const auto end = Clock::now() + std::chrono::duration<double>(run.seconds);
   while (!Interruptible::interrupted() && (run.seconds <= 0 || Clock::now() < end)) {
@@ -84,8 +87,8 @@ void run_in_arithmetic(const SessionRun& run, Session& session, double rate_hz, 
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) {
   const double stable = stiffness_for(scene, stylus);
   if (stable < scene.stiffness_n_per_m) {
-    fmt::print(stderr, "palpate: the scene's stiffness of {:.0f} N/m is taken down to {:.0f}, what {} renders stably\n",
-               scene.stiffness_n_per_m, stable, stylus.name);
+    tell(say("stiffness-taken-down", fmt::format("{:.0f}", scene.stiffness_n_per_m), fmt::format("{:.0f}", stable),
+             stylus.name));
     scene.stiffness_n_per_m = stable;
   }
   return scene;

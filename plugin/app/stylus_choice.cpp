@@ -2,13 +2,14 @@
 
 #include "device/device_type.h"
 #include "plugin/app/errors.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 
 const device::DeviceType& type_of(const StylusChoice& choice) {
   const device::DeviceType* const type = device::find_device_type(choice.device.substr(0, choice.device.find('@')));
   if (type == nullptr) {
-    throw WrongUsage("--device: there is no device \"" + choice.device + "\"; there are: " + device::device_kinds());
+    throw WrongUsage(say("device-there-is-no-device", choice.device, device::device_kinds()));
   }
   return *type;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plugin/app/errors.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 
@@ -16,7 +17,7 @@ glm::dvec3 parse_vector(const std::string& text, const std::string& option) {
     const auto [next, error] = std::from_chars(at, end, vector[axis]);
     const bool complete = axis == 2 ? next == end : next != end && *next == ',';
     if (error != std::errc{} || !complete || !std::isfinite(vector[axis])) {
-      throw WrongUsage(option + ": \"" + text + "\" is not a point; write x,y,z in mm, such as -12.5,40,88");
+      throw WrongUsage(at_place(option, say("not-a-point", text)));
     }
     at = next + 1;
   }

@@ -24,6 +24,7 @@
 #include "io/fresh_folder.h"
 #include "io/load.h"
 #include "plugin/app/errors.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
 #include "plugin/session/scan.h"
 
@@ -212,7 +213,7 @@ void run(const LoadOptions& options) {
   }
   const auto compressor = find_program("dcmcjpeg");
   if (options.jpeg_lossless && !compressor) {
-    throw InputRefused("--jpeg-lossless needs dcmcjpeg: install the package dcmtk");
+    throw InputRefused(say("jpeg-lossless-needs-dcmcjpeg"));
   }
   for (const std::string& folder : options.folders) {
     compare(folder, folder, options.rounds);

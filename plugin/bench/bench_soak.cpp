@@ -14,6 +14,8 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/run_session.h"
 #include "plugin/bench/soak.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 
 namespace palpate::plugin {
 namespace {
@@ -49,8 +51,7 @@ void start_again_without_thread_caches() {
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execv("/proc/self/exe", arguments.data());
-  fmt::print(stderr,
-             "palpate: could not start again without thread caches; the heap's figures are off by what they hold\n");
+  tell(say("no-start-without-thread-caches"));
 }
 
 void run(SoakOptions options) {
@@ -66,7 +67,7 @@ void run(SoakOptions options) {
   if (result.over_limit + result.not_finite + result.unaccounted + result.lost + result.replay.different +
           result.replay.after_gap >
       0) {
-    throw InputRefused("the soak found what may not be: see above");
+    throw InputRefused(say("soak-found-a-fault"));
   }
 }
 

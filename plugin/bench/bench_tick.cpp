@@ -18,6 +18,7 @@
 #include "plugin/bench/place_study.h"
 #include "plugin/bench/sphere_study.h"
 #include "plugin/bench/tick_study.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/probe_path.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/text_file.h"
@@ -230,7 +231,7 @@ void add_bench_tick(CLI::App& bench) {
   command->add_option("-o,--output", arguments->output, "also write a CSV file to this folder; new or empty");
   command->callback([arguments] {
     if (arguments->series.path.empty() && !arguments->sphere && !arguments->place) {
-      throw WrongUsage("palpate-bench tick needs a SERIES, --sphere or --place");
+      throw WrongUsage(say("tick-needs-a-scan"));
     }
     io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) { run(*arguments, folder); });
   });

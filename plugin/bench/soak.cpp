@@ -176,7 +176,7 @@ class Probing {
     session_->collect();
     const std::filesystem::path file = part_file_;
     const RecorderStatus status = recorder_->finish();
-    if (status.stopped) throw std::runtime_error(status.why);
+    if (status.stopped) throw Refusal(status.why);
     const std::uint64_t next = recorder_->next();
     recorder_.reset();
     result.points.push_back({now_s(), live_heap_bytes(), resident_bytes()});

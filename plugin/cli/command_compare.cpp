@@ -7,6 +7,7 @@
 
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/compare_strokes.h"
 
@@ -21,9 +22,11 @@ struct CompareOptions {
 
 RecordedSession read_session(const std::filesystem::path& file, const io::Volume& volume) try {
   return RecordedSession(read_recording(file), volume);
-} catch (const std::exception& error) {
+} catch (const Refusal& error) {
   const std::string name = file.string();
-  throw InputRefused(std::string(error.what()).starts_with(name) ? error.what() : name + ": " + error.what());
+  throw InputRefused(error.text().starts_with(name) ? error.text() : at_place(name, error.text()));
+} catch (const std::exception& error) {
+  throw InputRefused(say("cannot-read-the-recording", file.string(), error.what()));
 }
 
 void run(const CompareOptions& options) {

@@ -12,6 +12,8 @@
 #include "plugin/app/interruptible.h"
 #include "plugin/cli/archive_option.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 
 namespace palpate::plugin {
 namespace {
@@ -67,11 +69,11 @@ void run(FetchOptions options) {
   }
   show_progress("");
   print_fetched(fetched, options.json);
-  for (const std::string& warning : fetched.warnings) fmt::print(stderr, "palpate: warning: {}\n", warning);
+  for (const Text& warning : fetched.warnings) tell(at_place("palpate: warning", warning));
   if (options.output.empty()) {
-    fmt::print(stderr, "palpate: what was fetched stays in {} until `palpate archive empty`\n", folder.string());
+    tell(say("fetched-stays", folder.string()));
   }
-  if (!fetched.complete) throw InputRefused("not all images came: see the warnings");
+  if (!fetched.complete) throw InputRefused(say("not-all-images-came"));
 }
 
 }  // namespace

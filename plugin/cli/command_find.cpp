@@ -9,6 +9,8 @@
 #include "plugin/app/interruptible.h"
 #include "plugin/cli/archive_option.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 
 namespace palpate::plugin {
 namespace {
@@ -59,9 +61,7 @@ void run(const FindOptions& options) {
       io::find(archive_named(options.archive), options.query, [] { return !Interruptible::interrupted(); });
   options.json ? print_found_json(found) : print_found(found);
   if (found.more) {
-    fmt::print(stderr,
-               "palpate: the archive holds more than these {} studies: ask more narrowly, or for more with --most\n",
-               found.studies.size());
+    tell(say("more-studies-than-these", found.studies.size()));
   }
 }
 

@@ -18,6 +18,7 @@
 #include "io/series.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
 
 namespace palpate::plugin {
@@ -57,7 +58,7 @@ Examined examine(io::Series series) {
       if (frame == 0) s.geometry = volume.geometry;  // without the slices that turned out to be unreadable
     } catch (const io::DicomError& error) {
       // Also of what is no volume: why it shows nothing is what is asked.
-      s.warnings.emplace_back(error.what());
+      s.warnings.push_back(error.text());
     }
   }
   s.usable = s.usable && readable > 0;
@@ -239,8 +240,7 @@ void run(const InfoOptions& options) {
     }
     print_skipped(catalogue.skipped, options.all || catalogue.series.empty());
   }
-  if (catalogue.series.empty())
-    throw InputRefused("no image series in what was given; the files and why are listed above");
+  if (catalogue.series.empty()) throw InputRefused(say("no-image-series-in-what-was-given"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "io/results/measurement_report.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
 #include "plugin/recording/marks.h"
 #include "plugin/report/mark_pictures.h"
@@ -79,9 +80,7 @@ void run_export(const MarksOptions& options) {
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   const Marks marks = marks_of(RecordedSession(read_recording(options.recording), *volume));
   if (marks.points.empty() && marks.paths.empty()) {
-    throw InputRefused(
-        fmt::format("{} holds no marks: the stylus' second button makes them, or the column `buttons` of a --path",
-                    options.recording.string()));
+    throw InputRefused(say("holds-no-marks", options.recording.string()));
   }
   io::FreshFolder folder(options.output);
   io::write_measurement_report(series, report_of(marks), folder.path() / "measurements.dcm");

@@ -10,6 +10,7 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/vector_text.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/stroke_picture.h"
 #include "plugin/report/summary.h"
@@ -102,7 +103,7 @@ void run(const ProfileOptions& options) {
   const glm::dvec3 from = parse_vector(options.from, "--from");
   const glm::dvec3 to = parse_vector(options.to, "--to");
   if (!(options.speed > 0)) {
-    throw WrongUsage("--speed has to be above 0 mm/s");
+    throw WrongUsage(say("speed-has-to-be-above-0-mm"));
   }
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   const modes::Scene scene = scene_for(options.scene, *volume);

@@ -6,6 +6,7 @@
 
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/session_option.h"
 
 namespace palpate::plugin {
@@ -18,7 +19,7 @@ struct RecordOptions {
 
 void run(const RecordOptions& options) {
   if (std::filesystem::exists(options.output)) {
-    throw InputRefused(options.output.string() + " exists; name another file");
+    throw InputRefused(say("exists-name-another-file", options.output.string()));
   }
   const ReadySession session = prepare_session(options.session, make_stylus(options.session.stylus));
   const SessionRunResult result = run_session(session.run, options.output);

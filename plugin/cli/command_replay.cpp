@@ -10,6 +10,8 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/run_session.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 #include "plugin/options/series_option.h"
 #include "plugin/recording/replay.h"
 #include "plugin/session/scan_hash.h"
@@ -29,9 +31,7 @@ SnapshotMaker on_scan(const std::shared_ptr<const io::Volume>& volume, Structure
   const std::string hash = hash_of(*volume);
   return [volume, hash, files = std::move(files)](const SceneRecord& record) mutable {
     if (record.scan_hash != hash) {
-      throw InputRefused(fmt::format(
-          "the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",
-          record.scan_hash, hash));
+      throw InputRefused(say("recorded-on-another-scan", record.scan_hash, hash));
     }
     return snapshot_of(record, volume, files);
   };
@@ -63,12 +63,11 @@ void print_json(const Replay& replay) {
 
 void run(const ReplayOptions& options) {
   if (options.series.path.empty() && options.csv.empty()) {
-    throw WrongUsage("replay needs the SERIES that was felt, or --csv to export the recording alone");
+    throw WrongUsage(say("replay-needs-the-series-that-was-felt"));
   }
   const Recording recording = read_recording(options.recording);
   if (!recording.complete) {
-    fmt::print(stderr, "palpate: {} was not closed in good order; {} frames of it can be read\n",
-               options.recording.string(), recording.frames.size());
+    tell(say("not-closed-in-good-order", options.recording.string(), recording.frames.size()));
   }
   if (!options.csv.empty()) {
     write_csv(recording, options.csv);
@@ -90,8 +89,7 @@ void run(const ReplayOptions& options) {
   }
   // Another build may differ by what both certify; more than that is another session.
   if (!(result.largest_proxy_m <= result.largest_bound_m) || !std::isfinite(result.largest_force_n)) {
-    throw InputRefused(
-        "the replay is not the session that was recorded: was the recording changed, or made by another version?");
+    throw InputRefused(say("replay-is-not-the-session"));
   }
 }
 

@@ -12,6 +12,8 @@
 #include "plugin/app/interruptible.h"
 #include "plugin/cli/archive_option.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 
 namespace palpate::plugin {
 namespace {
@@ -55,9 +57,8 @@ void run(const SendOptions& options) {
   } else {
     fmt::print("{} files sent to {}\n", sent.files, archive.name);
   }
-  for (const io::NotSent& one : sent.not_sent) fmt::print(stderr, "palpate: {}: {}\n", one.file.string(), one.why);
-  if (!sent.not_sent.empty())
-    throw InputRefused(fmt::format("{} of {} files were not sent", sent.not_sent.size(), files.size()));
+  for (const io::NotSent& one : sent.not_sent) tell(at_place("palpate: " + one.file.string(), one.why));
+  if (!sent.not_sent.empty()) throw InputRefused(say("files-not-sent", sent.not_sent.size(), files.size()));
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
 #include "plugin/cli/solve_json.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -36,13 +36,12 @@ void run(const SolveOptions& options) {
     // Flushed, so that a program at the other end of the pipe may wait for each answer.
     if (std::fwrite(answer.json.data(), 1, answer.json.size(), stdout) != answer.json.size() ||
         std::fflush(stdout) != 0) {
-      throw InputRefused("standard output cannot be written");
+      throw InputRefused(say("standard-output-cannot-be-written"));
     }
   }
-  if (std::ferror(stdin) != 0) throw InputRefused("standard input cannot be read");
+  if (std::ferror(stdin) != 0) throw InputRefused(say("standard-input-cannot-be-read"));
   if (refused > 0) {
-    throw InputRefused(fmt::format("{} of {} line{} could not be solved: see \"error\" in the answers", refused, lines,
-                                   lines == 1 ? "" : "s"));
+    throw InputRefused(say("lines-not-solved", refused, lines, lines == 1 ? "" : "s"));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "io/structures/structure.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
 
 namespace palpate::plugin {
@@ -27,7 +28,7 @@ struct StructuresOptions {
 struct MeasuredStructure {
   io::Structure structure;
   std::optional<io::StructureMeasures> measures;
-  std::string refused;
+  Text refused;
 };
 
 MeasuredStructure measured(io::Structure structure) {
@@ -35,13 +36,13 @@ MeasuredStructure measured(io::Structure structure) {
   try {
     result.measures = io::measure(result.structure);
   } catch (const io::DicomError& error) {
-    result.refused = error.what();
+    result.refused = error.text();
   }
   return result;
 }
 
-std::vector<std::string> warnings_of(const MeasuredStructure& found) {
-  std::vector<std::string> warnings = found.structure.warnings;
+std::vector<Text> warnings_of(const MeasuredStructure& found) {
+  std::vector<Text> warnings = found.structure.warnings;
   if (found.measures) {
     warnings.insert(warnings.end(), found.measures->warnings.begin(), found.measures->warnings.end());
   }
@@ -116,7 +117,7 @@ void run_structures(const StructuresOptions& options) {
     for (const io::SkippedFile& one : catalogue.skipped) fmt::print("   {}: {}\n", one.path.string(), one.reason);
   }
   if (catalogue.structures.empty()) {
-    throw InputRefused("no structures in what was given: no DICOM SEG, RTSTRUCT or label map that can be read");
+    throw InputRefused(say("no-structures-in-what-was-given"));
   }
 }
 

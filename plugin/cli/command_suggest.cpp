@@ -9,6 +9,7 @@
 #include "modes/scene/suggest.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/suggestion_picture.h"
 #include "plugin/report/text_file.h"
@@ -37,9 +38,7 @@ void run(const SuggestOptions& options) {
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
   const modes::Suggestion suggestion = modes::suggest(volume, terminal_progress("looking for tissues"));
   if (suggestion.boundaries.empty()) {
-    throw InputRefused(options.series.path +
-                       ": no boundary between tissues was found in this series; take a starting scene, such as "
-                       "ct-skin-and-bone");
+    throw InputRefused(say("no-boundary-between-tissues-was-found", options.series.path));
   }
   const std::string text = modes::to_json(suggestion.scene);
   if (options.output.empty()) {

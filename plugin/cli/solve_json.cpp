@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "plugin/messages/messages.h"
 #include "solver/analytical.h"
 #include "solver/chain.h"
 #include "solver/descent.h"
@@ -24,10 +25,15 @@ using Json = nlohmann::ordered_json;
 using solver::Vec3;
 
 /// A balance that cannot be read or solved; what() is the answer's "error".
-class Refused : public std::runtime_error {
+class Refused : public Refusal {
  public:
-  using std::runtime_error::runtime_error;
+  using Refusal::Refusal;
 };
+
+/// `where` is a primitive of the balance, or nothing.
+Text in(std::string_view where, const Text& text) {
+  return where.empty() ? text : at_place(where, text);
+}
 
 /// A balance with its primitives.
 struct Problem {
@@ -56,14 +62,14 @@ Json parse(std::string_view line, Json& id) {
   bool id_is_next = false;
   const auto look = [&](int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
-    if (depth > deepest) throw Refused("nested more than " + std::to_string(deepest) + " deep");
+    if (depth > deepest) throw Refused(say("nested-more-than-deep", deepest));
     if (event == Event::value && depth == 1 && id_is_next) id = parsed;
     if (event == Event::object_start) open.emplace_back();
     if (event == Event::object_end) open.pop_back();
     if (event == Event::key) {
       const auto& key = parsed.get_ref<const std::string&>();
       // The library would silently keep the last.
-      if (!open.back().insert(key).second) throw Refused("\"" + shortened(key) + "\" is given twice");
+      if (!open.back().insert(key).second) throw Refused(say("given-twice", shortened(key)));
       if (depth == 1) id_is_next = key == "id";
     }
     return true;
@@ -73,20 +79,20 @@ Json parse(std::string_view line, Json& id) {
   } catch (const Json::exception& error) {
     const std::string what = error.what();
     const auto end_of_code = what.find("] ");
-    throw Refused("not JSON: " +
-                  (end_of_code == std::string::npos ? what : what.substr(end_of_code + 2)).substr(0, 300));
+    throw Refused(
+        say("not-json", (end_of_code == std::string::npos ? what : what.substr(end_of_code + 2)).substr(0, 300)));
   }
 }
 
 const Json& member(const Json& object, const char* key, std::string_view where) {
   const auto found = object.find(key);
-  if (found == object.end()) throw Refused(std::string(where) + key + " is missing");
+  if (found == object.end()) throw Refused(in(where, say("is-missing", key)));
   return *found;
 }
 
 double number(const Json& object, const char* key, const std::string& where) {
   const Json& value = member(object, key, where);
-  if (!value.is_number()) throw Refused(where + key + " is not a number");
+  if (!value.is_number()) throw Refused(in(where, say("not-a-number", key)));
   return value.get<double>();
 }
 
@@ -94,7 +100,7 @@ Vec3 vector(const Json& object, const char* key, const std::string& where) {
   const Json& value = member(object, key, where);
   if (!value.is_array() || value.size() != 3 ||
       !std::all_of(value.begin(), value.end(), [](const Json& component) { return component.is_number(); })) {
-    throw Refused(where + key + " is not an array of three numbers");
+    throw Refused(in(where, say("not-an-array-of-three-numbers", key)));
   }
   return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }
@@ -102,25 +108,25 @@ Vec3 vector(const Json& object, const char* key, const std::string& where) {
 double strength(const Json& object, const std::string& where) {
   const Json& value = member(object, "strength", where);
   if (value == "inf") return std::numeric_limits<double>::infinity();
-  if (!value.is_number()) throw Refused(where + "strength is neither a number nor \"inf\"");
+  if (!value.is_number()) throw Refused(in(where, say("strength-is-neither-a-number-nor-inf")));
   return value.get<double>();
 }
 
 solver::PrimitiveType type(const Json& object, const std::string& where) {
   using solver::PrimitiveType;
   const Json& value = member(object, "type", where);
-  if (!value.is_string()) throw Refused(where + "type is not a string");
+  if (!value.is_string()) throw Refused(in(where, say("type-is-not-a-string")));
   const auto& name = value.get_ref<const std::string&>();
   for (const auto known :
        {PrimitiveType::directed_force, PrimitiveType::plane, PrimitiveType::line, PrimitiveType::point}) {
     if (name == name_of(known)) return known;
   }
-  throw Refused(where + "type \"" + shortened(name) + "\" is unknown; there are force, plane, line and point");
+  throw Refused(in(where, say("type-is-unknown", shortened(name))));
 }
 
 solver::Primitive primitive(const Json& json, std::size_t index) {
-  const std::string where = "primitive " + std::to_string(index) + ": ";
-  if (!json.is_object()) throw Refused(where + "not an object");
+  const std::string where = "primitive " + std::to_string(index);
+  if (!json.is_object()) throw Refused(in(where, say("not-an-object")));
   solver::Primitive result;
   result.type = type(json, where);
   result.strength = strength(json, where);
@@ -130,14 +136,14 @@ solver::Primitive primitive(const Json& json, std::size_t index) {
 }
 
 Problem problem_of(const Json& json) {
-  if (!json.is_object()) throw Refused(std::string("not a JSON object but of type ") + json.type_name());
-  if (json.contains("id") && json["id"].is_structured()) throw Refused("id is neither a string nor a number");
+  if (!json.is_object()) throw Refused(say("not-a-json-object-but-of-type", json.type_name()));
+  if (json.contains("id") && json["id"].is_structured()) throw Refused(say("id-is-neither-a-string-nor"));
   Problem problem;
   problem.stiffness = number(json, "stiffness", "");
   problem.probe = vector(json, "probe", "");
   problem.previous = json.contains("previous") ? vector(json, "previous", "") : problem.probe;
   const Json& primitives = member(json, "primitives", "");
-  if (!primitives.is_array()) throw Refused("primitives is not an array");
+  if (!primitives.is_array()) throw Refused(say("primitives-is-not-an-array"));
   for (const Json& each : primitives) problem.primitives.push_back(primitive(each, problem.primitives.size()));
   return problem;
 }
@@ -193,7 +199,7 @@ const char* name_of(SolverChoice choice) {
 
 Json json_of(const Vec3& v) {
   if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
-    throw Refused("the answer is not finite: the numbers given are too large to be computed with");
+    throw Refused(say("answer-is-not-finite"));
   }
   return Json::array({v.x, v.y, v.z});
 }
@@ -208,7 +214,7 @@ double distance(const solver::Primitive& constraint, const Vec3& proxy) {
 }
 
 /// Why an answer whose error bound is infinite is none: the hard constraint that it is furthest from.
-std::string without_bound(const solver::Balance& balance, const Vec3& proxy) {
+Text without_bound(const solver::Balance& balance, const Vec3& proxy) {
   double furthest = 0;
   std::size_t index = 0;
   for (std::size_t i = 0; i < balance.primitives.size(); ++i) {
@@ -219,9 +225,8 @@ std::string without_bound(const solver::Balance& balance, const Vec3& proxy) {
       index = i;
     }
   }
-  if (furthest == 0) return "no answer with a finite error bound was found";
-  return "primitive " + std::to_string(index) + ": has infinite strength, but the best answer found stays " +
-         Json(furthest).dump() + " m away: the hard constraints seem to have no common point";
+  if (furthest == 0) return say("no-answer-with-a-finite-error-bound");
+  return say("hard-constraints-disagree", index, Json(furthest).dump());
 }
 
 void answer(const Problem& problem, const SolveOptions& options, Json& out) {
@@ -232,7 +237,7 @@ void answer(const Problem& problem, const SolveOptions& options, Json& out) {
     throw Refused(describe(solution.rejection.value()));
   }
   if (solution.outcome == solver::Outcome::unsuitable) {
-    throw Refused(std::string("the ") + name_of(options.solver) + " solver does not fit this configuration");
+    throw Refused(say("solver-does-not-fit-this-configuration", name_of(options.solver)));
   }
   if (!std::isfinite(solution.error_bound)) throw Refused(without_bound(balance, solution.proxy));
   out["proxy"] = json_of(solution.proxy);
@@ -254,8 +259,8 @@ std::string text_of(const Json& json) {
 SolvedLine answer_or_refusal(std::string_view line, const SolveOptions& options) {
   Json id;
   try {
-    if (line.size() > longest_line) throw Refused("longer than " + std::to_string(longest_line) + " bytes");
-    if (line.find_first_not_of(" \t\r\n") == std::string_view::npos) throw Refused("the line is empty");
+    if (line.size() > longest_line) throw Refused(say("longer-than-bytes", longest_line));
+    if (line.find_first_not_of(" \t\r\n") == std::string_view::npos) throw Refused(say("line-is-empty"));
     const Problem problem = problem_of(parse(line, id));
     Json out{{"id", id}};
     answer(problem, options, out);

@@ -30,7 +30,8 @@ inline constexpr MessageRow balances[] = {
      "smaller numbers; fewer infinite strengths",
      {{"no-answer-with-a-finite-error-bound", "no answer with a finite error bound was found"},
       {"hard-constraints-disagree",
-       ": has infinite strength, but the best answer found stays {} m away: the hard constraints seem to have no "
+       "primitive {}: has infinite strength, but the best answer found stays {} m away: the hard constraints seem to "
+       "have no "
        "common point"}}},
     {"that solver is for other primitives",
      "`--solver chain` fits all",

@@ -9,8 +9,7 @@ namespace palpate::plugin::messages {
 inline constexpr MessageRow structures[] = {
     {"the scene's `file` or `segment` is not what it is called",
      "`palpate structures` lists them",
-     {{"structure", "structure \"{}\": {}"},
-      {"file-holds-no-structures", "{} holds no structures{}"},
+     {{"file-holds-no-structures", "{} holds no structures{}"},
       {"file-has-no-such-structure", "{} has no \"{}\"; there are: {}"}}},
     {"a recording holds no path: its structures are looked for beside the series",
      "as it says",

@@ -9,14 +9,16 @@
 #include <string>
 
 #include "device/simulated/simulated_stylus.h"
+#include "io/testing/test_image.h"
 #include "plugin/app/live_session.h"
 #include "plugin/messages/provoked.h"
-#include "plugin/messages/provoked_scans.h"
 #include "plugin/session/path.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin::testing {
 namespace {
+
+using palpate::testing::said_when;
 
 std::string file_with(const std::string& name, const std::string& text) {
   const auto file = fresh_path(name);
@@ -42,7 +44,7 @@ std::string two_of_one_uid() {
   for (const bool sagittal : {false, true}) {
     const auto part = folder / (sagittal ? "sagittal" : "axial");
     std::filesystem::create_directories(part);
-    io::internal::write_stack(part, 3, [&](int k, TestImage& image) {
+    io::internal::write_stack(part, 3, [&](int k, io::internal::TestImage& image) {
       if (!sagittal) return;
       image.edit = [k](DcmDataset& d) {
         io::internal::put(d, DCM_ImageOrientationPatient, std::string("0\\1\\0\\0\\0\\-1"));
@@ -90,78 +92,53 @@ std::vector<Provoked> provoke_programs() {
   const std::string path = "probe " + scan + " --scene ct-skin-and-bone -o " + fresh_path("out").string() + " --path ";
   const auto said = [](const std::string& arguments) { return palpate(arguments).output; };
   return {
-      {"{}; choose one with --series N or --series UID:{}", said("profile " + two.string() + forehead)},
-      {"--frame {}: series {} has {} frame{}, counted from 0", said("profile " + scan + forehead + "--frame 7")},
-      {"no usable series in {}{}; `palpate info` tells more", said("profile " + letter + forehead)},
-      {": of {} files none is an image, the first ({}) because: {}", said("profile " + letter + forehead)},
-      {"no image series in what was given; the files and why are listed above", said("info " + letter)},
-      {"{}: no such scene file can be read; the starting scenes are: {}", said("plan " + scan + " --scene absent")},
-      {R"("{}" is not a point; write x,y,z in mm, such as -12.5,40,88)",
-       said("profile " + scan + " --from a --to 0,0,0")},
-      {"--speed has to be above 0 mm/s", said("profile " + scan + forehead + "--speed 0")},
-      {"a stroke of {} mm at {} mm/s would have {} frames; from one to {} can be run",
-       said("profile " + scan + forehead + "--speed 1e-9")},
-      {"{}, line {}: not four finite numbers; expected {}", said(path + file_with("a.csv", "0,1,2\n"))},
-      {"{}, line {}: time_s {} does not come after the previous line's; times ascend from 0",
-       said(path + file_with("b.csv", "0,1,2,3\n0,2,3,4\n"))},
-      {"{}: a path needs at least two points ({})", said(path + file_with("c.csv", "0,1,2,3\n"))},
-      {"the path's point at {} s, {}, is {} mm from the workspace's center, beyond the device's reach: set "
-       "workspace.center_mm or workspace.scale in the scene",
-       said(path + file_with("d.csv", "0,0,0,0\n1,9000,0,0\n"))},
-      {"the scene lets nothing be felt between {}, {}, {} and {}, {}, {} mm: choose another stroke with --from and "
-       "--to, "
-       "or another scene",
+      {"choose-a-series", said("profile " + two.string() + forehead)},
+      {"no-such-frame", said("profile " + scan + forehead + "--frame 7")},
+      {"no-usable-series", said("profile " + letter + forehead)},
+      {"none-is-an-image", said("profile " + letter + forehead)},
+      {"no-image-series-in-what-was-given", said("info " + letter)},
+      {"not-a-point", said("profile " + scan + " --from a --to 0,0,0")},
+      {"speed-has-to-be-above-0-mm", said("profile " + scan + forehead + "--speed 0")},
+      {"stroke-has-no-frames", said("profile " + scan + forehead + "--speed 1e-9")},
+      {"line-not-four-finite-numbers", said(path + file_with("a.csv", "0,1,2\n"))},
+      {"line-time-s-does-not-come-after", said(path + file_with("b.csv", "0,1,2,3\n0,2,3,4\n"))},
+      {"path-needs-at-least-two-points", said(path + file_with("c.csv", "0,1,2,3\n"))},
+      {"path-point-at-s", said(path + file_with("d.csv", "0,0,0,0\n1,9000,0,0\n"))},
+      {"scene-lets-nothing-be-felt-between",
        said("probe " + scan + " --scene ct-skin-and-bone --from 0,-29,0 --to 0,-28,0 -o " + fresh_path("n").string())},
-      {"{}: no boundary between tissues was found in this series; take a starting scene, such as ct-skin-and-bone",
-       said("suggest " + air.string())},
-      {R"(--device: there is no device "{}"; there are: {})",
-       said("probe " + scan + " --device hand -o " + fresh_path("h").string())},
-      {"{} exists; name another file", said("record " + scan + press + "-o " + recording.string())},
-      {"cannot read the recording {}: {}", said("replay " + letter + " " + scan)},
-      {"cannot write the recording {}: {}", said("record " + scan + press + "-o /absent/a.h5")},
-      {"HDF5 cannot {}", said("record " + scan + press + "-o /absent/a.h5")},
-      {"create the file", said("record " + scan + press + "-o /absent/a.h5")},
-      {"cannot open the path file {}; check its name, and that it is yours to read",
-       said_when([] { read_path_csv("/absent.csv"); })},
-      {"palpate: the scene's stiffness of {} N/m is taken down to {}, what {} renders stably",
+      {"no-boundary-between-tissues-was-found", said("suggest " + air.string())},
+      {"device-there-is-no-device", said("probe " + scan + " --device hand -o " + fresh_path("h").string())},
+      {"exists-name-another-file", said("record " + scan + press + "-o " + recording.string())},
+      {"cannot-read-the-recording", said("replay " + letter + " " + scan)},
+      {"cannot-write-the-recording", said("record " + scan + press + "-o /absent/a.h5")},
+      {"hdf5-cannot", said("record " + scan + press + "-o /absent/a.h5")},
+      {"create-the-file", said("record " + scan + press + "-o /absent/a.h5")},
+      {"create-it-there", said("record " + scan + press + "-o /absent/a.h5")},
+      {"open-it-as-a-recording", said("replay " + letter + " " + scan)},
+      {"cannot-open-the-path-file", said_when([] { read_path_csv("/absent.csv"); })},
+      {"stiffness-taken-down",
        said("record " + scan + " --seconds 0.2 --from 0,-29,0 --to 0,0,0 -o " + fresh_path("stiff.h5").string() +
             " --scene " + file_with("stiff.json", scene_with(R"("stiffness_n_per_m": 9000)")))},
-      {"a gradient scale of {} mm reaches over more than {} voxels of this scan; take a smaller one",
-       said("profile " + scan + forehead + "--scene " +
-            file_with("wide.json", scene_with(R"("gradient_scale_mm": 500)")))},
-      {"there is no series {} in {}", said("profile " + scan + forehead + "--series 9")},
-      {"series {} holds {} volumes that do not fit together",
-       said("profile " + two_of_one_uid() + forehead + "--series 1.2.3.4")},
-      {"DCMTK's data dictionary is missing: reinstall the package libdcmtk17, or let the environment variable "
-       "DCMDICTPATH name its dicom.dic",
-       output_of("DCMDICTPATH=/absent " PALPATE_PROGRAM " info " + scan)},
-      {"--jpeg-lossless needs dcmcjpeg: install the package dcmtk",
-       output_of("PATH= " PALPATE_BENCH " load --jpeg-lossless " + scan)},
-      {"standard output cannot be written", output_of("echo {} | " PALPATE_PROGRAM " solve > /dev/full")},
-      {"standard input cannot be read", output_of(PALPATE_PROGRAM " solve < /")},
-      {"the balance at {}, {}, {} mm could not be solved: does the scene switch off the solver it needs?",
-       said("profile " + small_ball() + " --from 0,-14,0 --to 3,0,2 --scene " +
-            file_with("unsolved.json", unsolvable))},
-      {"palpate: real time: {}", without_real_time()},
-      {"replay needs the SERIES that was felt, or --csv to export the recording alone",
-       said("replay " + recording.string())},
-      {"the recording was made on another scan: its hash is {}, this one's {}; name the scan that was felt",
-       said("replay " + recording.string() + " " + (two / "one").string())},
-      {"cannot write {}: {} (is the disk full?)", said("replay " + recording.string() + " --csv /absent/a.csv")},
-      {"cannot write the picture {}: {} (is the folder there, and room on the disk?)",
-       said("profile " + scan + forehead + "--picture /absent/a.png")},
-      {"{}: cannot be written; is the folder there, is it yours to write, and is there room?",
-       said("suggest " + scan + " -o " + no_file.string())},
-      {"{} of {} line{} could not be solved: see \"error\" in the answers", said("solve < " + letter)},
-      {"{}: exists and is not an empty folder; choose another or remove it",
-       said("probe " + small_ball() + " -o " + two.parent_path().string())},
-      {"{}: cannot make a folder in it ({})", said("probe " + small_ball() + " -o /proc/out")},
-      {"palpate-bench tick needs a SERIES, --sphere or --place", output_of(PALPATE_BENCH " tick")},
-      {"there is no scan to feel yet: open one first", said_when([] {
+      {"there-is-no-series", said("profile " + scan + forehead + "--series 9")},
+      {"volumes-do-not-fit-together", said("profile " + two_of_one_uid() + forehead + "--series 1.2.3.4")},
+      {"jpeg-lossless-needs-dcmcjpeg", output_of("PATH= " PALPATE_BENCH " load --jpeg-lossless " + scan)},
+      {"standard-output-cannot-be-written", output_of("echo {} | " PALPATE_PROGRAM " solve > /dev/full")},
+      {"standard-input-cannot-be-read", output_of(PALPATE_PROGRAM " solve < /")},
+      {"balance-not-solved", said("profile " + small_ball() + " --from 0,-14,0 --to 3,0,2 --scene " +
+                                  file_with("unsolved.json", unsolvable))},
+      {"real-time", without_real_time()},
+      {"replay-needs-the-series-that-was-felt", said("replay " + recording.string())},
+      {"recorded-on-another-scan", said("replay " + recording.string() + " " + (two / "one").string())},
+      {"cannot-write-is-the-disk-full", said("replay " + recording.string() + " --csv /absent/a.csv")},
+      {"cannot-write-the-picture", said("profile " + scan + forehead + "--picture /absent/a.png")},
+      {"cannot-be-written", said("suggest " + scan + " -o " + no_file.string())},
+      {"lines-not-solved", said("solve < " + letter)},
+      {"tick-needs-a-scan", output_of(PALPATE_BENCH " tick")},
+      {"there-is-no-scan-to-feel-yet", said_when([] {
          LiveSession session;
          session.connect(std::make_shared<device::SimulatedStylus>());
        })},
-      {"no stylus is held: connect one, then record", said_when([] { LiveSession().record("a.h5"); })},
+      {"no-stylus-is-held", said_when([] { LiveSession().record("a.h5"); })},
   };
 }
 

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,7 +12,6 @@
 #include "io/load.h"
 #include "io/series.h"
 #include "plugin/messages/provoked.h"
-#include "plugin/messages/provoked_scans.h"
 #include "plugin/recording/recorded_session.h"
 #include "plugin/recording/recorder.h"
 #include "plugin/recording/recording.h"
@@ -19,6 +20,17 @@
 
 namespace palpate::plugin::testing {
 namespace {
+
+using palpate::testing::said_when;
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
 
 namespace fs = std::filesystem;
 
@@ -83,32 +95,26 @@ std::vector<Provoked> provoke_recordings() {
   io::Volume another = scan;
   another.slope *= 2;
   return {
-      {"palpate: {}. The session goes on unrecorded.", unrecorded},
-      {"{}; what was written before is in {}", unrecorded},
-      {"write (is the disk full?)", unrecorded},
-      {"palpate: {} was not closed in good order; {} frames of it can be read",
-       palpate("replay " + full.string() + ".partial --csv /dev/null").output},
-      {"let the file be read while it is written", recorded_within(1000, fresh_path("tiny.h5"), "0.1")},
-      {"less than {} MiB are left on the disk of {}", of_little_room()},
-      {"open it", said_when([] { read_recording("/absent.h5"); })},
-      {"find what a recording holds", of_another_hdf5_file()},
-      {"read what is in it", of_damage(good)},
-      {"the recording lacks its {} {}: the file is damaged, record anew", replayed(recording,
-                                                                                   [](Recording& changed) {
-                                                                                     for (SceneRecord& scene :
-                                                                                          changed.scenes)
-                                                                                       scene.epoch += 7;
-                                                                                   })},
-      {"the replay is not the session that was recorded: was the recording changed, or made by another version?",
-       replayed(recording,
-                [](Recording& changed) {
-                  for (TickRecord& frame : changed.frames) frame.proxy_m[0] += 0.001;
-                })},
-      {"the recording is empty: no frame of it was written", said_when([&] { RecordedSession({}, scan); })},
-      {"the recording was made on another scan: its hash is {}, this one's {}; open the scan that was felt",
-       said_when([&] { RecordedSession(recording, another); })},
-      {"{}: the table cannot be written: {}",
-       palpate("profile " + phantom().string() + forehead + "--table /absent/a.csv").output},
+      {"goes-on-unrecorded", unrecorded},
+      {"what-was-written-before", unrecorded},
+      {"write-is-the-disk-full", unrecorded},
+      {"not-closed-in-good-order", palpate("replay " + full.string() + ".partial --csv /dev/null").output},
+      {"let-the-file-be-read-while", recorded_within(1000, fresh_path("tiny.h5"), "0.1")},
+      {"less-than-mib-are-left-on", of_little_room()},
+      {"open-it", said_when([] { read_recording("/absent.h5"); })},
+      {"find-what-a-recording-holds", of_another_hdf5_file()},
+      {"read-what-is-in-it", of_damage(good)},
+      {"recording-lacks", replayed(recording,
+                                   [](Recording& changed) {
+                                     for (SceneRecord& scene : changed.scenes) scene.epoch += 7;
+                                   })},
+      {"replay-is-not-the-session", replayed(recording,
+                                             [](Recording& changed) {
+                                               for (TickRecord& frame : changed.frames) frame.proxy_m[0] += 0.001;
+                                             })},
+      {"recording-is-empty", said_when([&] { RecordedSession({}, scan); })},
+      {"recorded-on-another-scan-open", said_when([&] { RecordedSession(recording, another); })},
+      {"table-cannot-be-written", palpate("profile " + phantom().string() + forehead + "--table /absent/a.csv").output},
   };
 }
 

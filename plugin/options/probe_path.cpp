@@ -11,6 +11,7 @@
 #include "device/simulated/simulated_stylus.h"
 #include "plugin/app/errors.h"
 #include "plugin/app/vector_text.h"
+#include "plugin/messages/messages.h"
 #include "plugin/report/summary.h"
 #include "plugin/session/press_path.h"
 
@@ -46,10 +47,8 @@ std::vector<device::Waypoint> to_device(const std::vector<PathPoint>& path, cons
   for (const PathPoint& point : path) {
     const glm::dvec3 at = workspace.to_device(point.position_mm);
     if (glm::any(glm::greaterThan(glm::abs(at), half_extent_m))) {
-      throw InputRefused(fmt::format(
-          "the path's point at {} s, {}, is {:.0f} mm from the workspace's center, beyond the device's reach: set "
-          "workspace.center_mm or workspace.scale in the scene",
-          point.time_s, patient_coordinates(point.position_mm), 1e3 * glm::length(at)));
+      throw InputRefused(say("path-point-at-s", fmt::format("{}", point.time_s), patient_coordinates(point.position_mm),
+                             fmt::format("{:.0f}", 1e3 * glm::length(at))));
     }
     waypoints.push_back({.time = point.time_s, .position = at, .buttons = point.buttons});
   }

@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "plugin/app/errors.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 
 namespace palpate::plugin {
 
@@ -29,8 +31,8 @@ int run_program(CLI::App& program, int argc, char** argv) {
   } catch (const std::invalid_argument& error) {  // scenes
     return told(error, 1);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: internal fault: %s\nPlease report it with the command that caused it.\n",
-                 program.get_name().c_str(), error.what());
+    tell(say("internal-fault", program.get_name(), error.what()));
+    tell(say("please-report-it-with-the-command"));
     return 3;
   }
 }

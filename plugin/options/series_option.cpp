@@ -14,6 +14,7 @@
 #include "io/errors.h"
 #include "io/load.h"
 #include "plugin/app/errors.h"
+#include "plugin/messages/messages.h"
 #include "plugin/session/scan_values.h"
 
 namespace palpate::plugin {
@@ -27,9 +28,8 @@ std::string list_of(const std::vector<io::Series>& series, bool usable_only) {
   return list;
 }
 
-[[noreturn]] void refuse_choice(const std::string& why, const io::Catalogue& catalogue, bool usable_only) {
-  throw WrongUsage(why +
-                   "; choose one with --series N or --series UID:" + list_of(numbered_series(catalogue), usable_only));
+[[noreturn]] void refuse_choice(const Text& why, const io::Catalogue& catalogue, bool usable_only) {
+  throw WrongUsage(say("choose-a-series", why, list_of(numbered_series(catalogue), usable_only)));
 }
 
 io::Series named_series(const SeriesOption& option, const io::Catalogue& catalogue) {
@@ -39,31 +39,28 @@ io::Series named_series(const SeriesOption& option, const io::Catalogue& catalog
   const auto parsed = std::from_chars(option.series.data(), end, number);
   if (parsed.ec == std::errc() && parsed.ptr == end) {
     if (number >= 1 && number <= series.size()) return series[number - 1];
-    refuse_choice(fmt::format("there is no series {} in {}", number, option.path), catalogue, false);
+    refuse_choice(say("there-is-no-series", number, option.path), catalogue, false);
   }
   const auto has_uid = [&](const io::Series& s) { return s.uid == option.series; };
   const auto count = std::count_if(series.begin(), series.end(), has_uid);
   if (count == 1) return *std::find_if(series.begin(), series.end(), has_uid);
-  if (count == 0)
-    refuse_choice(fmt::format("there is no series {} in {}", option.series, option.path), catalogue, false);
-  refuse_choice(fmt::format("series {} holds {} volumes that do not fit together", option.series, count), catalogue,
-                false);
+  if (count == 0) refuse_choice(say("there-is-no-series", option.series, option.path), catalogue, false);
+  refuse_choice(say("volumes-do-not-fit-together", option.series, count), catalogue, false);
 }
 
 io::Series only_series(const SeriesOption& option, const io::Catalogue& catalogue) {
   const auto usable =
       std::count_if(catalogue.series.begin(), catalogue.series.end(), [](const auto& s) { return s.usable; });
   if (usable == 1) return catalogue.series.front();  // usable ones come first
-  if (usable > 1) refuse_choice(fmt::format("{} holds {} series", option.path, usable), catalogue, true);
+  if (usable > 1) refuse_choice(say("holds-series", option.path, usable), catalogue, true);
   std::string why;
   if (!catalogue.series.empty()) {
     why = catalogue.series.front().warnings.empty() ? "" : ": " + catalogue.series.front().warnings.front();
   } else if (!catalogue.skipped.empty()) {
     const io::SkippedFile& first = catalogue.skipped.front();
-    why = fmt::format(": of {} files none is an image, the first ({}) because: {}", catalogue.skipped.size(),
-                      first.path.filename().string(), first.reason);
+    why = say("none-is-an-image", catalogue.skipped.size(), first.path.filename().string(), first.reason);
   }
-  throw InputRefused(fmt::format("no usable series in {}{}; `palpate info` tells more", option.path, why));
+  throw InputRefused(say("no-usable-series", option.path, why));
 }
 
 }  // namespace
@@ -85,8 +82,8 @@ void add_series_option(CLI::App& command, SeriesOption& option) {
 io::Series choose_series(const SeriesOption& option, const io::Catalogue& catalogue) {
   io::Series series = option.series.empty() ? only_series(option, catalogue) : named_series(option, catalogue);
   if (option.frame >= series.frames_per_position) {
-    throw WrongUsage(fmt::format("--frame {}: series {} has {} frame{}, counted from 0", option.frame, series.uid,
-                                 series.frames_per_position, series.frames_per_position == 1 ? "" : "s"));
+    throw WrongUsage(say("no-such-frame", option.frame, series.uid, series.frames_per_position,
+                         series.frames_per_position == 1 ? "" : "s"));
   }
   return series;
 }

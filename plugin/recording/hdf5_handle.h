@@ -2,20 +2,24 @@
 
 /// HDF5's C interface with identifiers that close themselves and failures that throw.
 
-#include <fmt/format.h>
 #include <hdf5.h>
 
 #include <stdexcept>
 #include <utility>
 
+#include "plugin/messages/messages.h"
+
 namespace palpate::plugin::hdf5 {
+
+/// What could not be done: the id of its message.
+using Step = ChosenMessage<0, messages::sessions>;
 
 class Handle {
  public:
   Handle() = default;
-  Handle(hid_t id, herr_t (*close)(hid_t), const char* what) : id_(id), close_(close) {
+  Handle(hid_t id, herr_t (*close)(hid_t), Step what) : id_(id), close_(close) {
     if (id < 0) {
-      throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
+      throw Refusal(say("hdf5-cannot", what.filled()));
     }
   }
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
@@ -41,9 +45,9 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-inline void check(herr_t status, const char* what) {
+inline void check(herr_t status, Step what) {
   if (status < 0) {
-    throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
+    throw Refusal(say("hdf5-cannot", what.filled()));
   }
 }
 

@@ -1,13 +1,12 @@
 #include "plugin/recording/recorded_session.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/messages/messages.h"
 #include "plugin/session/scan.h"
 #include "plugin/session/scan_hash.h"
 
@@ -43,11 +42,8 @@ RecordedSession::RecordedSession(Recording recording, const io::Volume& volume) 
   }
   elsewhere_ = leave_out_others(recording_, here);
   if (recording_.frames.empty()) {
-    throw std::runtime_error(
-        elsewhere_ == 0 ? std::string("the recording is empty: no frame of it was written")
-                        : fmt::format("the recording was made on another scan: its hash is {}, this one's {}; open "
-                                      "the scan that was felt",
-                                      recording_.header.scan_hash, hash));
+    throw Refusal(elsewhere_ == 0 ? say("recording-is-empty")
+                                  : say("recorded-on-another-scan-open", recording_.header.scan_hash, hash));
   }
   first_share_.reserve(size());
   std::size_t share = 0;

@@ -1,10 +1,10 @@
 #include "plugin/recording/recorder.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
+
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -81,7 +81,7 @@ void Recorder::run() {
     while (write_batch() || !ending) {
       if (!has_room()) {
         writer_.finish();
-        stop(fmt::format("less than {} MiB are left on the disk of {}", options_.spare_bytes >> 20U, file_.string()));
+        stop(say("less-than-mib-are-left-on", options_.spare_bytes >> 20U, file_.string()));
         return;
       }
       if (Clock::now() - flushed >= between_flushes) {
@@ -96,7 +96,7 @@ void Recorder::run() {
     writer_.finish();
   } catch (const std::exception& error) {
     writer_.abandon();
-    stop(fmt::format("{}; what was written before is in {}", error.what(), writer_.partial().string()));
+    stop(say("what-was-written-before", error.what(), writer_.partial().string()));
   }
 }
 
@@ -164,7 +164,7 @@ void Recorder::write_frames(std::uint64_t until) {
   status_.lost += gap.frames;
 }
 
-void Recorder::stop(const std::string& why) {
+void Recorder::stop(const Text& why) {
   {
     const std::lock_guard lock(mutex_);
     status_.stopped = true;

@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "messages/message.h"
 #include "plugin/recording/recording_writer.h"
 #include "plugin/session/tick_ring.h"
 
@@ -34,7 +35,7 @@ struct RecorderStatus {
   std::uint64_t written = 0;  ///< frames
   std::uint64_t lost = 0;     ///< frames
   bool stopped = false;       ///< early: `why` says so for the user
-  std::string why;
+  Text why;
 };
 
 class Recorder {
@@ -69,7 +70,7 @@ class Recorder {
   bool write_batch();
   bool has_room() const;
   void write_frames(std::uint64_t until);
-  void stop(const std::string& why);
+  void stop(const Text& why);
 
   const TickRing& ring_;
   RecorderOptions options_;

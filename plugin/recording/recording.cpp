@@ -1,10 +1,9 @@
 #include "plugin/recording/recording.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 
+#include "plugin/messages/messages.h"
 #include "plugin/recording/recording_rows.h"
 #include "plugin/recording/recording_writer.h"
 
@@ -16,20 +15,20 @@ using hdf5::Handle;
 
 template <typename Row>
 std::vector<Row> read_table(hid_t file, const char* name, const Handle& type) {
-  const Handle table(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find what a recording holds");
-  const Handle space(H5Dget_space(table), H5Sclose, "read what is in it");
+  const Handle table(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find-what-a-recording-holds");
+  const Handle space(H5Dget_space(table), H5Sclose, "read-what-is-in-it");
   std::vector<Row> rows(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
   if (!rows.empty()) {
-    check(H5Dread(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), "read what is in it");
+    check(H5Dread(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), "read-what-is-in-it");
   }
   return rows;
 }
 
 std::string read_text(hid_t file, const char* name) {
-  const Handle data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find what a recording holds");
-  const Handle type(H5Dget_type(data), H5Tclose, "read what is in it");
+  const Handle data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find-what-a-recording-holds");
+  const Handle type(H5Dget_type(data), H5Tclose, "read-what-is-in-it");
   std::string text(H5Tget_size(type), '\0');
-  check(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read what is in it");
+  check(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read-what-is-in-it");
   text.resize(std::min(text.size(), text.find('\0')));
   return text;
 }
@@ -39,10 +38,9 @@ Handle open(const std::filesystem::path& file, bool& complete) {
   const hid_t closed = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   complete = closed >= 0;
   if (complete) {
-    return {closed, H5Fclose, "open it"};
+    return {closed, H5Fclose, "open-it"};
   }
-  return {H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose,
-          "open it (is it a recording of Palpate's?)"};
+  return {H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose, "open-it-as-a-recording"};
 }
 
 /// Where the writer died between two tables, only frames with all their shares count.
@@ -101,7 +99,7 @@ Recording read_recording(const std::filesystem::path& file) {
     recording.frames = read_table<TickRecord>(input, "frames", frame_row_type());
     recording.shares = read_table<PrimitiveRecord>(input, "shares", share_row_type());
     keep_whole_frames(recording);
-    const Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "read what is in it");
+    const Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "read-what-is-in-it");
     const auto events = read_table<char>(input, "events", byte);
     read_events({events.data(), events.size()}, recording);
     if (!recording.scenes.empty()) {
@@ -109,7 +107,7 @@ Recording read_recording(const std::filesystem::path& file) {
     }
     return recording;
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("cannot read the recording {}: {}", file.string(), error.what()));
+    throw Refusal(say("cannot-read-the-recording", file.string(), error.what()));
   }
 }
 

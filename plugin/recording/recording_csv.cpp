@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "plugin/messages/messages.h"
 #include "plugin/recording/recording.h"
 
 namespace palpate::plugin {
@@ -83,7 +84,7 @@ void write_csv(const Recording& recording, const std::filesystem::path& file) tr
   }
   out.close();
 } catch (const std::exception& error) {
-  throw std::runtime_error(fmt::format("cannot write {}: {} (is the disk full?)", file.string(), error.what()));
+  throw Refusal(say("cannot-write-is-the-disk-full", file.string(), error.what()));
 }
 
 }  // namespace palpate::plugin

@@ -18,13 +18,13 @@ struct Member {
 };
 
 Handle make_row_type(std::size_t size, std::span<const Member> members) {
-  Handle row(H5Tcreate(H5T_COMPOUND, size), H5Tclose, "make a table");
+  Handle row(H5Tcreate(H5T_COMPOUND, size), H5Tclose, "make-a-table");
   for (const Member& member : members) {
     if (member.count == 1) {
-      check(H5Tinsert(row, member.name, member.offset, member.type), "make a table");
+      check(H5Tinsert(row, member.name, member.offset, member.type), "make-a-table");
     } else {
-      const Handle array(H5Tarray_create2(member.type, 1, &member.count), H5Tclose, "make a table");
-      check(H5Tinsert(row, member.name, member.offset, array), "make a table");
+      const Handle array(H5Tarray_create2(member.type, 1, &member.count), H5Tclose, "make-a-table");
+      check(H5Tinsert(row, member.name, member.offset, array), "make-a-table");
     }
   }
   return row;

@@ -1,8 +1,11 @@
 #include "plugin/recording/recording_writer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "plugin/messages/messages.h"
 #include "plugin/recording/recording_rows.h"
 
 namespace palpate::plugin {
@@ -15,13 +18,13 @@ constexpr hsize_t rows_of_chunk = 1024;  // 270 KB of frames: within HDF5's cach
 
 /// A text as a dataset, not an attribute: an attribute in the object's header may not pass 64 KiB.
 void write_text(hid_t file, const char* name, const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a table");
-  check(H5Tset_size(type, std::max<std::size_t>(1, text.size())), "make a table");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "make a table");
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a table");
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make-a-table");
+  check(H5Tset_size(type, std::max<std::size_t>(1, text.size())), "make-a-table");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "make-a-table");
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make-a-table");
   const Handle data(H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                    "make a table");
-  check(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write (is the disk full?)");
+                    "make-a-table");
+  check(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write-is-the-disk-full");
 }
 
 /// A table that grows.
@@ -34,12 +37,12 @@ struct Table {
 Table make_table(hid_t file, const char* name, Handle type, hsize_t chunk) {
   const hsize_t none = 0;
   const hsize_t unlimited = H5S_UNLIMITED;
-  const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "make a table");
-  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a table");
-  check(H5Pset_chunk(properties, 1, &chunk), "make a table");
-  check(H5Pset_shuffle(properties), "make a table");
-  check(H5Pset_deflate(properties, 1), "make a table");
-  Handle data(H5Dcreate2(file, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "make a table");
+  const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "make-a-table");
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make-a-table");
+  check(H5Pset_chunk(properties, 1, &chunk), "make-a-table");
+  check(H5Pset_shuffle(properties), "make-a-table");
+  check(H5Pset_deflate(properties, 1), "make-a-table");
+  Handle data(H5Dcreate2(file, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "make-a-table");
   return {std::move(type), std::move(data)};
 }
 
@@ -49,20 +52,19 @@ void append_rows(Table& table, const void* rows, std::size_t count) {
   }
   const hsize_t added = count;
   const hsize_t size = table.rows + added;
-  check(H5Dset_extent(table.data, &size), "write (is the disk full?)");
-  const Handle all(H5Dget_space(table.data), H5Sclose, "write");
-  check(H5Sselect_hyperslab(all, H5S_SELECT_SET, &table.rows, nullptr, &added, nullptr), "write");
-  const Handle memory(H5Screate_simple(1, &added, nullptr), H5Sclose, "write");
-  check(H5Dwrite(table.data, table.type, memory, all, H5P_DEFAULT, rows), "write (is the disk full?)");
+  check(H5Dset_extent(table.data, &size), "write-is-the-disk-full");
+  const Handle all(H5Dget_space(table.data), H5Sclose, "write-it");
+  check(H5Sselect_hyperslab(all, H5S_SELECT_SET, &table.rows, nullptr, &added, nullptr), "write-it");
+  const Handle memory(H5Screate_simple(1, &added, nullptr), H5Sclose, "write-it");
+  check(H5Dwrite(table.data, table.type, memory, all, H5P_DEFAULT, rows), "write-is-the-disk-full");
   table.rows = size;
 }
 
 Handle create(const std::filesystem::path& file) {
   hdf5::silence();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "create the file");
-  check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "create the file");
-  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
-          "create the file (does its folder exist, and may you write there?)"};
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "create-the-file");
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "create-the-file");
+  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create-it-there"};
 }
 
 }  // namespace
@@ -76,9 +78,9 @@ struct RecordingWriter::File {
     write_text(file, "rate_hz", fmt::format("{}", header.rate_hz));
     frames = make_table(file, "frames", frame_row_type(), rows_of_chunk);
     shares = make_table(file, "shares", share_row_type(), 4 * rows_of_chunk);
-    Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "make a table");
+    Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "make-a-table");
     events = make_table(file, "events", std::move(byte), 16 * rows_of_chunk);
-    check(H5Fstart_swmr_write(file), "let the file be read while it is written");
+    check(H5Fstart_swmr_write(file), "let-the-file-be-read-while");
   }
   void forget() noexcept {
     for (Table* table : {&frames, &shares, &events}) {
@@ -101,7 +103,7 @@ void naming(const std::filesystem::path& file, Step&& step) {
   try {
     step();
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("cannot write the recording {}: {}", file.string(), error.what()));
+    throw Refusal(say("cannot-write-the-recording", file.string(), error.what()));
   }
 }
 
@@ -140,7 +142,7 @@ void RecordingWriter::append(const Gap& gap) {
 void RecordingWriter::flush() {
   naming(file_, [&] {
     for (const Table* table : {&open_->events, &open_->shares, &open_->frames}) {
-      check(H5Dflush(table->data), "write (is the disk full?)");
+      check(H5Dflush(table->data), "write-is-the-disk-full");
     }
   });
 }

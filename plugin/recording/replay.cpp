@@ -1,7 +1,5 @@
 #include "plugin/recording/replay.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "device/simulated/replay_stylus.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -65,8 +64,7 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
   const auto found =
       std::find_if(records.begin(), records.end(), [&](const Record& record) { return record.epoch == epoch; });
   if (found == records.end()) {
-    throw std::runtime_error(
-        fmt::format("the recording lacks its {} {}: the file is damaged, record anew", what, epoch));
+    throw Refusal(say("recording-lacks", what, epoch));
   }
   return *found;
 }

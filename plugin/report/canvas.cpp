@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "plugin/messages/messages.h"
+
 namespace palpate::plugin {
 
 Canvas::Canvas(int width, int height, const Color& background)
@@ -176,8 +178,7 @@ void Canvas::unclip() {
 void Canvas::write_png(const std::filesystem::path& file) const {
   const cairo_status_t status = cairo_surface_write_to_png(surface_.get(), file.c_str());
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error("cannot write the picture " + file.string() + ": " + cairo_status_to_string(status) +
-                             " (is the folder there, and room on the disk?)");
+    throw Refusal(say("cannot-write-the-picture", file.string(), cairo_status_to_string(status)));
   }
 }
 

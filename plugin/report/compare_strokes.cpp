@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "plugin/messages/messages.h"
+
 namespace palpate::plugin {
 namespace {
 
@@ -144,7 +146,7 @@ void write_csv(const Comparison& comparison, const std::filesystem::path& file) 
   }
   out.close();
 } catch (const std::exception& error) {
-  throw std::runtime_error(fmt::format("{}: the table cannot be written: {}", file.string(), error.what()));
+  throw Refusal(say("table-cannot-be-written", file.string(), error.what()));
 }
 
 std::string in_words(const Comparison& comparison) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "plugin/messages/messages.h"
 #include "plugin/report/live_view.h"
 #include "plugin/report/summary.h"
 
@@ -177,7 +178,7 @@ void write_csv(const Profile& profile, const std::filesystem::path& file) try {
   }
   out.close();
 } catch (const std::exception& error) {
-  throw std::runtime_error(fmt::format("{}: the table cannot be written: {}", file.string(), error.what()));
+  throw Refusal(say("table-cannot-be-written", file.string(), error.what()));
 }
 
 std::string point_in_words(const Profile& profile, std::size_t point) {

@@ -3,14 +3,15 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "plugin/messages/messages.h"
+
 namespace palpate::plugin {
 
 void write_text(const std::filesystem::path& file, std::string_view text) {
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << text;
   if (!stream.flush()) {
-    throw std::runtime_error(file.string() +
-                             ": cannot be written; is the folder there, is it yours to write, and is there room?");
+    throw Refusal(say("cannot-be-written", file.string()));
   }
 }
 

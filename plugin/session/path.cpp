@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "plugin/messages/messages.h"
+
 namespace palpate::plugin {
 namespace {
 
@@ -46,8 +48,7 @@ bool parse(std::string_view line, std::span<double> numbers) {
 std::vector<PathPoint> read_path_csv(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) {
-    throw std::runtime_error(
-        fmt::format("cannot open the path file {}; check its name, and that it is yours to read", file.string()));
+    throw Refusal(say("cannot-open-the-path-file", file.string()));
   }
   std::vector<PathPoint> path;
   std::string line;
@@ -60,23 +61,18 @@ std::vector<PathPoint> read_path_csv(const std::filesystem::path& file) {
     }
     std::array<double, 5> cells{};
     if (!parse(content, std::span(cells).first(with_buttons ? 5 : 4))) {
-      throw std::runtime_error(
-          fmt::format("{}, line {}: not four finite numbers; expected {}", file.string(), number, header));
+      throw Refusal(say("line-not-four-finite-numbers", file.string(), number, header));
     }
     if (cells[4] < 0 || cells[4] > most_buttons || cells[4] != std::floor(cells[4])) {
-      throw std::runtime_error(
-          fmt::format("{}, line {}: buttons {} is no bit mask: 0 is none, 1 the first, 2 the second", file.string(),
-                      number, cells[4]));
+      throw Refusal(say("line-buttons-is-no-bit-mask", file.string(), number, fmt::format("{}", cells[4])));
     }
     if (cells[0] < 0 || (!path.empty() && cells[0] <= path.back().time_s)) {
-      throw std::runtime_error(
-          fmt::format("{}, line {}: time_s {} does not come after the previous line's; times ascend from 0",
-                      file.string(), number, cells[0]));
+      throw Refusal(say("line-time-s-does-not-come-after", file.string(), number, fmt::format("{}", cells[0])));
     }
     path.push_back({cells[0], {cells[1], cells[2], cells[3]}, static_cast<std::uint32_t>(cells[4])});
   }
   if (path.size() < 2) {
-    throw std::runtime_error(fmt::format("{}: a path needs at least two points ({})", file.string(), header));
+    throw Refusal(say("path-needs-at-least-two-points", file.string(), header));
   }
   return path;
 }

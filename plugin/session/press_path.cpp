@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "device/simulated/simulated_hand.h"
+#include "plugin/messages/messages.h"
 #include "plugin/session/stroke.h"
 
 namespace palpate::plugin {
@@ -45,11 +46,9 @@ PressPath make_press_path(const modes::Plan& plan, const io::FieldSource& source
                           const glm::dvec3& to_mm) {
   const Met met = feel(plan, source, from_mm, to_mm);
   if (met.contacts.empty()) {
-    throw std::runtime_error(
-        fmt::format("the scene lets nothing be felt between {:.1f}, {:.1f}, {:.1f} and {:.1f}, {:.1f}, {:.1f} mm: "
-                    "choose another stroke "
-                    "with --from and --to, or another scene",
-                    from_mm.x, from_mm.y, from_mm.z, to_mm.x, to_mm.y, to_mm.z));
+    throw Refusal(say("scene-lets-nothing-be-felt-between",
+                      fmt::format("{:.1f}, {:.1f}, {:.1f}", from_mm.x, from_mm.y, from_mm.z),
+                      fmt::format("{:.1f}, {:.1f}, {:.1f}", to_mm.x, to_mm.y, to_mm.z)));
   }
   PressPath path;
   path.inward = glm::normalize(to_mm - from_mm);

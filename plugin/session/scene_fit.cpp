@@ -7,6 +7,7 @@
 #include "modes/scene/plan.h"
 #include "modes/scene/strength.h"
 #include "modes/types/mode_type.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -23,7 +24,7 @@ io::FieldSet without(io::FieldSet set, io::FieldSet taken) {
 
 }  // namespace
 
-std::string why_not_felt(const modes::Scene& scene, const io::Volume& volume) {
+Text why_not_felt(const modes::Scene& scene, const io::Volume& volume) {
   const io::FieldSet available = io::fields_of(volume);
   io::FieldSet missing = io::FieldSet::none;
   for (const modes::Mode& mode : scene.modes) {
@@ -34,10 +35,7 @@ std::string why_not_felt(const modes::Scene& scene, const io::Volume& volume) {
   }
   if (missing == io::FieldSet::none) return {};
   const std::string name = scene.name.empty() ? "this scene" : "the scene \"" + scene.name + "\"";
-  return fmt::format(
-      "{} cannot be felt on this scan, which has no {}: open a velocity field (phase contrast), or choose another "
-      "scene",
-      name, fmt::join(modes::names_of(missing), ", "));
+  return say("cannot-be-felt-on-this-scan", name, fmt::format("{}", fmt::join(modes::names_of(missing), ", ")));
 }
 
 }  // namespace palpate::plugin

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "io/volume.h"
+#include "messages/message.h"
 #include "modes/scene/scene.h"
 
 namespace palpate::plugin {
 
 /// Why nothing of the scene could be felt on this scan: every mode that is switched on reads a field that the scan does
 /// not have. Empty where something can be felt, or where nothing is switched on.
-std::string why_not_felt(const modes::Scene& scene, const io::Volume& volume);
+Text why_not_felt(const modes::Scene& scene, const io::Volume& volume);
 
 }  // namespace palpate::plugin

@@ -10,6 +10,7 @@
 
 #include "io/errors.h"
 #include "io/structures/structure.h"
+#include "plugin/messages/messages.h"
 #include "plugin/session/shared_distance.h"
 #include "plugin/session/study_structures.h"
 
@@ -39,8 +40,8 @@ double reach_of(const modes::Scene& scene, const modes::SceneStructure& structur
   return enough == reaches_mm.end() ? reaches_mm.back() : *enough;
 }
 
-[[noreturn]] void refuse(const modes::SceneStructure& structure, const std::string& why) {
-  throw std::invalid_argument("structure \"" + structure.name + "\": " + why);
+[[noreturn]] void refuse(const modes::SceneStructure& structure, const Text& why) {
+  throw InvalidInput(at_place("structure \"" + structure.name + "\"", why));
 }
 
 io::Structure find_structure(const modes::SceneStructure& wanted, const std::filesystem::path& file) {
@@ -48,7 +49,7 @@ io::Structure find_structure(const modes::SceneStructure& wanted, const std::fil
   try {
     catalogue = io::find_structures(std::array{file});
   } catch (const io::DicomError& error) {
-    refuse(wanted, error.what());
+    refuse(wanted, error.text());
   }
   std::string known;
   for (const io::Structure& structure : catalogue.structures) {
@@ -59,10 +60,10 @@ io::Structure find_structure(const modes::SceneStructure& wanted, const std::fil
   }
   if (known.empty()) {
     const std::string why = catalogue.skipped.empty() ? "" : ": " + catalogue.skipped.front().reason;
-    refuse(wanted, file.filename().string() + " holds no structures" + why);
+    refuse(wanted, say("file-holds-no-structures", file.filename().string(), why));
   }
   const std::string asked = wanted.segment_number ? std::to_string(*wanted.segment_number) : wanted.segment;
-  refuse(wanted, file.filename().string() + " has no \"" + asked + "\"; there are: " + known);
+  refuse(wanted, say("file-has-no-such-structure", file.filename().string(), asked, known));
 }
 
 }  // namespace
@@ -83,11 +84,11 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       continue;
     }
     const io::Structure structure = find_structure(wanted, file);
-    if (const std::string why = why_not_on(structure, volume); !why.empty()) refuse(wanted, why);
+    if (const Text why = why_not_on(structure, volume); !why.empty()) refuse(wanted, why);
     try {
       loaded.push_back({file.string(), segment, shared_distance(structure, volume.geometry, reach)});
     } catch (const io::DicomError& error) {
-      refuse(wanted, error.what());
+      refuse(wanted, error.text());
     }
   }
   return loaded;

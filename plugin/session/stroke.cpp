@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "modes/tick/haptic_step.h"
+#include "plugin/messages/messages.h"
 #include "solver/chain.h"
 
 namespace palpate::plugin {
@@ -54,9 +55,8 @@ std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSour
   const double length = glm::distance(from_mm, to_mm);
   const double count = std::ceil(length / speed_mm_per_s * frames_per_s);
   if (!(count >= 1) || count > most_frames) {
-    throw std::runtime_error(
-        fmt::format("a stroke of {} mm at {} mm/s would have {} frames; from one to {:.0f} can be run", length,
-                    speed_mm_per_s, count, most_frames));
+    throw Refusal(say("stroke-has-no-frames", fmt::format("{}", length), fmt::format("{}", speed_mm_per_s),
+                      fmt::format("{}", count), fmt::format("{:.0f}", most_frames)));
   }
   std::vector<StrokePoint> stroke;
   stroke.reserve(static_cast<std::size_t>(count) + 1);
@@ -69,10 +69,8 @@ std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSour
     const modes::StepResult result =
         modes::step(plan, source, plan.workspace.to_device(position), touch, chain, *scratch);
     if (result.outcome == solver::Outcome::refused || result.outcome == solver::Outcome::unsuitable) {
-      throw std::runtime_error(
-          fmt::format("the balance at {:.3f}, {:.3f}, {:.3f} mm could not be solved: does the scene switch off the "
-                      "solver it needs?",
-                      position.x, position.y, position.z));
+      throw Refusal(
+          say("balance-not-solved", fmt::format("{:.3f}, {:.3f}, {:.3f}", position.x, position.y, position.z)));
     }
     const glm::dvec3 proxy = plan.workspace.to_patient(result.proxy_m);
     const std::optional<std::size_t> most = pushes_most(result);

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "io/structures/structure.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -74,8 +75,7 @@ modes::Scene StructureFiles::with_paths(modes::Scene scene) {
     }
     const auto found = by_hash_.find(structure.file);
     if (found == by_hash_.end()) {
-      throw std::invalid_argument(fmt::format(
-          "structure \"{}\": the file that it was felt from is not here: name it with --structures", structure.name));
+      throw InvalidInput(say("structure-of-a-recording-is-not-here", structure.name));
     }
     structure.file = std::filesystem::absolute(found->second).string();
   }

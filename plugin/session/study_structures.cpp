@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modes/types/mode_type.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -36,12 +37,11 @@ modes::Mode mode_of(const modes::Scene& scene, const std::string& type, const st
 
 }  // namespace
 
-std::string why_not_on(const io::Structure& structure, const io::Volume& scan) {
+Text why_not_on(const io::Structure& structure, const io::Volume& scan) {
   if (!structure.unfit.empty()) return structure.unfit;
   if (!structure.frame_of_reference_uid.empty() && !scan.frame_of_reference_uid.empty() &&
       structure.frame_of_reference_uid != scan.frame_of_reference_uid) {
-    return structure.file.filename().string() +
-           " lies in another frame of reference than the scan: choose one that was outlined on this study";
+    return say("another-frame-of-reference", structure.file.filename().string());
   }
   return {};
 }

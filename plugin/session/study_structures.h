@@ -11,7 +11,7 @@
 namespace palpate::plugin {
 
 /// Why it cannot be felt on this scan, and what to do; empty where it can.
-std::string why_not_on(const io::Structure& structure, const io::Volume& scan);
+Text why_not_on(const io::Structure& structure, const io::Volume& scan);
 
 /// Whether that is what the scene's structure means.
 bool is_same(const modes::SceneStructure& named, const io::Structure& structure);

@@ -38,6 +38,7 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/layout/clinical_toolbar.h"
 #include "plugin/paraview/client/layout/enlarged_view.h"
 #include "plugin/paraview/client/layout/help_menu.h"
@@ -67,6 +68,7 @@
 #include "plugin/paraview/client/views/flow_views.h"
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/views/reference_lines.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/session/scan.h"
 
 using namespace palpate;
@@ -267,11 +269,7 @@ void PalpatePanel::Parts::build() {
     touching.disconnect_stylus();
   });
   QObject::connect(&servers, &ServerWatch::leaving, &dock, [this] { leave_server(); });
-  QObject::connect(&servers, &ServerWatch::lost, &dock, [this] {
-    leave(
-        tr("The server is lost: the force was taken away, and a recording closed. ParaView cannot go on without its "
-           "server: it asks whether to save the state, and ends."));
-  });
+  QObject::connect(&servers, &ServerWatch::lost, &dock, [this] { leave(words(say("server-is-lost"))); });
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
   open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
 }
@@ -310,7 +308,9 @@ void PalpatePanel::Parts::ask_picture() {
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return;
   const QString file = dialog.selectedFiles().first();
   if (!save_picture(*marked, file)) {
-    emit touching.told(tr("%1 cannot be written: %2").arg(file, tr("no such folder, or no right to it")), true);
+    emit touching.told(
+        words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())),
+        true);
   }
 }
 
@@ -323,11 +323,10 @@ void PalpatePanel::Parts::enlarge(bool enlarged) {
 void PalpatePanel::Parts::leave_server() {
   if (remote_server()) {
     const bool records = touching.live().recording().has_value();
-    leave(records ? tr("ParaView left the server: the stylus was let go, and a recording closed.")
-                  : tr("ParaView left the server: the stylus was let go."));
+    leave(records ? words(say("left-the-server-recording")) : words(say("left-the-server")));
     return;
   }
-  touching.keep_off(tr("ParaView's session ended, and the scan went with it. Open a scan, then press Feel"));
+  touching.keep_off(words(say("paraview-session-ended")));
   scan->server_gone();
   leave_views();
 }
@@ -450,14 +449,7 @@ glm::dvec3 PalpatePanel::Parts::start_of(const device::Specification& of) {
       [this](const glm::dvec3& place) { return views.shows(place); });
   if (!start.outside) {
     QMetaObject::invokeMethod(
-        &dock,
-        [this] {
-          emit touching.told(
-              tr("No place outside the patient is in reach: the stylus begins inside. Choose Reach: Scan "
-                 "before you press Feel."),
-              true);
-        },
-        Qt::QueuedConnection);
+        &dock, [this] { emit touching.told(words(say("no-place-outside-the-patient")), true); }, Qt::QueuedConnection);
   }
   return start.place_mm;
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "io/errors.h"
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
@@ -23,16 +24,17 @@ bool has_file(const io::Series& series, const std::filesystem::path& path) {
   });
 }
 
-[[noreturn]] void refuse(const io::Catalogue& catalogue, const std::string& why) {
+/// What may be chosen instead, for a message.
+std::string what_is_there(const io::Catalogue& catalogue) {
   std::string there;
   for (std::size_t n = 0; n < scan_count(catalogue); ++n) {
     there += fmt::format("\n  {}  {}", scan_name(catalogue, n), scan_label(scan_at(catalogue, n)));
   }
   if (there.empty() && !catalogue.skipped.empty()) {
-    there = fmt::format(" no image among {} files; the first, {}: {}", catalogue.skipped.size(),
-                        catalogue.skipped.front().path.filename().string(), catalogue.skipped.front().reason);
+    const io::SkippedFile& first = catalogue.skipped.front();
+    there = " " + say("no-image-among-files", catalogue.skipped.size(), first.path.filename().string(), first.reason);
   }
-  throw io::DicomError(why + "; there is:" + (there.empty() ? " nothing" : there));
+  return there.empty() ? " nothing" : there;
 }
 
 }  // namespace
@@ -82,17 +84,17 @@ std::size_t choose_scan(const io::Catalogue& catalogue, const std::string& name,
     for (std::size_t n = 0; n < scan_count(catalogue); ++n) {
       if (scan_name(catalogue, n) == name) return n;
     }
-    refuse(catalogue, fmt::format("{}: no series {}", where, name));
+    throw io::DicomError(say("no-series-there", where, name, what_is_there(catalogue)));
   }
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) {
     if (std::ranges::none_of(catalogue.series, [&](const auto& series) { return has_file(series, path); })) {
-      refuse(catalogue, where + " is not part of a series");
+      throw io::DicomError(say("not-part-of-a-series", where, what_is_there(catalogue)));
     }
     return choices(catalogue, path).front();
   }
   if (std::ranges::none_of(catalogue.series, [](const auto& series) { return series.usable; })) {
-    refuse(catalogue, where + ": no series that is a volume");
+    throw io::DicomError(say("no-series-that-is-a-volume", where, what_is_there(catalogue)));
   }
   return choices(catalogue, path).front();
 }

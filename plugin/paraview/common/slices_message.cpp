@@ -1,7 +1,5 @@
 #include "plugin/paraview/common/slices_message.h"
 
-#include <fmt/format.h>
-
 #include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 #include <variant>
 
 #include "io/errors.h"
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/session/scan_hash.h"
 
@@ -51,7 +50,7 @@ io::Geometry geometry_of(const json& from) {
   g.uniform = from.at("uniform");
   g.gaps = from.at("gaps").get<std::vector<int>>();
   if (g.dimensions.x < 1 || g.dimensions.y < 1 || g.dimensions.z != static_cast<int>(g.slice_positions.size())) {
-    throw std::invalid_argument("a size that no scan has");
+    throw InvalidInput(say("no-scan-has-this-size"));
   }
   return g;
 }
@@ -102,7 +101,7 @@ io::Volume volume_of_head(const std::string& text) {
     if (head.contains("padding")) volume.padding = {head.at("padding").at(0), head.at("padding").at(1)};
     return volume;
   } catch (const std::exception& error) {
-    throw std::invalid_argument(fmt::format("what the server says of the scan cannot be read: {}", error.what()));
+    throw InvalidInput(say("what-the-server-says-of-the-scan", error.what()));
   }
 }
 
@@ -119,7 +118,7 @@ SlicesAnswered answer(const io::Series& series, const SlicesAsked& asked) {
     if (!whole && some->geometry.dimensions.z != asked.count) throw io::DicomError(some->warnings.front());
     const int first = whole ? asked.first : 0;
     if (first < 0 || asked.count < 1 || asked.count > some->geometry.dimensions.z - first) {
-      throw std::out_of_range("the scan has no such slices");
+      throw Refusal(say("scan-has-no-such-slices"));
     }
     for (int k = first; k < first + asked.count; ++k) answered.hashes.push_back(hash_of_slice(*some, k));
     if (asked.what == SlicesAsked::What::voxels) answered.voxels = voxels_of(*some, first, asked.count);

@@ -19,9 +19,11 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/panel/chart_picture.h"
 #include "plugin/paraview/client/panel/save_buttons.h"
 #include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {
 namespace {
@@ -194,7 +196,7 @@ void RecordingsSection::open(const QString& file) {
 void RecordingsSection::read(const QString& file, bool second) {
   const std::shared_ptr<const io::Volume> volume = touching_.live().scan();
   if (!volume) {
-    tell(tr("There is no scan to see it in yet: open the scan that was felt, then the recording."), true);
+    tell(words(say("there-is-no-scan-to-see")), true);
     return;
   }
   (second ? second_job_ : first_job_).ask([file, volume] {
@@ -203,11 +205,11 @@ void RecordingsSection::read(const QString& file, bool second) {
       return Opened{name, std::make_shared<const RecordedSession>(read_recording(file.toStdString()), *volume), volume};
     } catch (const std::exception& error) {
       // The file's name without its folders, which may hold a patient's.
-      const std::string what = error.what();
+      std::string what = error.what();
       const std::size_t path = what.find(file.toStdString());
-      throw std::runtime_error(path == std::string::npos
-                                   ? name.toStdString() + ": " + what
-                                   : std::string(what).replace(path, file.toStdString().size(), name.toStdString()));
+      what = path == std::string::npos ? name.toStdString() + ": " + what
+                                       : what.replace(path, file.toStdString().size(), name.toStdString());
+      throw std::runtime_error(what);
     }
   });
 }

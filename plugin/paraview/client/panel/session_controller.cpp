@@ -8,6 +8,8 @@
 
 #include "modes/scene/scene.h"
 #include "plugin/app/stylus_choice.h"
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/report/live_view.h"
 #include "plugin/report/summary.h"
 #include "plugin/session/scene_fit.h"
@@ -20,7 +22,7 @@ constexpr int look_ms = 33;
 constexpr std::uint32_t clutch_button = 1, release_button = 2;
 
 void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
-  if (const std::string why = why_not_felt(scene, volume); !why.empty()) throw std::invalid_argument(why);
+  if (const Text why = why_not_felt(scene, volume); !why.empty()) throw InvalidInput(why);
 }
 
 }  // namespace
@@ -162,9 +164,7 @@ void SessionController::record(const std::string& file) {
     problem = QString::fromUtf8(error.what());
   }
   emit connection_changed();
-  problem.isEmpty()
-      ? emit told(tr("Recording: the session began anew, so that it can be repeated to the last bit."), false)
-      : emit told(problem, true);
+  problem.isEmpty() ? emit told(words(say("recording-the-session-began-anew")), false) : emit told(problem, true);
 }
 
 void SessionController::stop_recording() {
@@ -183,7 +183,7 @@ void SessionController::stop_recording() {
 void SessionController::tell_recorded(const std::optional<RecorderStatus>& status) {
   if (!status) return;
   emit told(status->stopped ? QString::fromStdString(status->why)
-                            : tr("Recorded: %1 frames, %2 lost.").arg(status->written).arg(status->lost),
+                            : words(say("recorded-frames-lost", status->written, status->lost)),
             status->stopped);
   if (!status->stopped) emit recorded(recording_to_);
 }

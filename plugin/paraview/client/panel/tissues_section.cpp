@@ -21,9 +21,11 @@
 
 #include "modes/scene/scene_json.h"
 #include "modes/types/mode_type.h"
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/panel/column_scroll.h"
 #include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {
 namespace {
@@ -204,7 +206,7 @@ void TissuesSection::save_file() {
   const std::string text = modes::to_json(model_.scene());
   const auto size = static_cast<qint64>(text.size());
   if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size || !file.commit()) {
-    emit model_.refused(tr("%1 cannot be written: %2").arg(name, file.errorString()));
+    emit model_.refused(words(say("panel-cannot-write", name.toStdString(), file.errorString().toStdString())));
   }
 }
 

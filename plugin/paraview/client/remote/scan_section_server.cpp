@@ -13,7 +13,9 @@
 #include <cmath>
 #include <exception>
 
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/scan_choice.h"
 
 // What of the panel's first section has to do with another program: a server, or a state file's reader.
@@ -47,7 +49,7 @@ void ScanSection::open_on_server() {
   if (usable.size() == 1) {
     load(usable.front());
   } else {
-    tell(tr("%n series: choose one.", nullptr, static_cast<int>(on_server_->series.size())));
+    tell(words(say("series-choose-one", on_server_->series.size())));
   }
 }
 

@@ -16,6 +16,8 @@
 #include <utility>
 #include <variant>
 
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
 #include "plugin/session/scan_hash.h"
 
@@ -81,7 +83,7 @@ void ServerScan::next(Step step, int delay_ms) {
     if (run != run_) return;
     constexpr int again_ms = 20;
     if (!reader_) {
-      finish(nullptr, tr("The scan is no longer on the server."));
+      finish(nullptr, words(say("scan-left-the-server")));
     } else if (!is_free(*reader_->getServer())) {
       next(step, again_ms);
     } else {
@@ -103,12 +105,12 @@ bool ServerScan::ask(SlicesAsked asked, SlicesAnswered& answered) {
   vtkSMProxy& proxy = *reader_->getProxy();
   const unsigned run = run_;
   // What GatherInformation() returns of a remote server says nothing; an answer takes this away.
-  slices->Answered().error = tr("it does not answer, and needs the Palpate plug-in of this version").toStdString();
+  slices->Answered().error = say("does-not-answer");
   proxy.GetSession()->GatherInformation(vtkPVSession::DATA_SERVER_ROOT, slices, proxy.GetGlobalID());
   answered = std::move(slices->Answered());
   if (run != run_) return false;  // given up meanwhile: the server went
   if (answered.error.empty()) return true;
-  finish(nullptr, tr("The server cannot give the scan's voxels: %1").arg(QString::fromStdString(answered.error)));
+  finish(nullptr, words(say("server-cannot-give-the-scan-voxels", answered.error)));
   return false;
 }
 
@@ -145,7 +147,7 @@ bool ServerScan::more(SlicesAsked::What what, Step step) {
   SlicesAnswered answered;
   if (!ask({.what = what, .first = slice_, .count = count}, answered)) return false;
   if (what == SlicesAsked::What::voxels && !append_checked(answered, count)) {
-    finish(nullptr, tr("The voxels did not arrive as the server sent them: open the scan again."));
+    finish(nullptr, words(say("voxels-did-not-arrive")));
     return false;
   }
   hashes_.insert(hashes_.end(), answered.hashes.begin(), answered.hashes.end());
@@ -179,7 +181,7 @@ void ServerScan::ask_hashes() {
   if (!more(SlicesAsked::What::hashes, &ServerScan::ask_hashes)) return;
   const std::string hash = hash_of(head_, hashes_);
   if (const auto held = fetched_.find(hash); held != fetched_.end()) {
-    finish(held->second, tr("Fetched from the server before."));
+    finish(held->second, words(say("fetched-from-the-server-before")));
     return;
   }
   compare_copies();
@@ -196,7 +198,7 @@ void ServerScan::compare_copies() {
       copies_, hash, [this](double done) { progress_(tr("Comparing the copy here"), done); },
       [this](const auto& volume, const std::string&) {
         if (volume) {
-          finish(volume, tr("Felt from the copy on this machine, which is the same as the server's."));
+          finish(volume, words(say("felt-from-the-copy-on-this-machine")));
           return;
         }
         differs_ = true;
@@ -211,11 +213,9 @@ void ServerScan::fetch() {
     whole.voxels = std::move(voxels_);
     const auto volume = std::make_shared<const io::Volume>(std::move(whole));
     fetched_[hash_of(head_, hashes_)] = volume;
-    finish(volume, differs_ ? tr("The copy on this machine is not the server's scan, by its values or places: it was "
-                                 "fetched from the server.")
-                            : tr("Fetched from the server."));
+    finish(volume, differs_ ? words(say("copy-on-this-machine-is-not")) : words(say("fetched-from-the-server")));
   } catch (const std::bad_alloc&) {
-    finish(nullptr, tr("This machine has not enough memory for the scan, which has to be felt here."));
+    finish(nullptr, words(say("this-machine-has-not-enough-memory")));
   }
 }
 

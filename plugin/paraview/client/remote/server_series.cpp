@@ -6,16 +6,10 @@
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 
-#include <QCoreApplication>
-
-#include <stdexcept>
+#include "plugin/messages/messages.h"
 
 namespace palpate::plugin {
 namespace {
-
-std::runtime_error refusal(const char* text) {
-  return std::runtime_error(QCoreApplication::translate("ServerSeries", text).toStdString());
-}
 
 std::vector<std::string> texts_of(vtkSMProxy& proxy, const char* name) {
   vtkSMPropertyHelper helper(&proxy, name);
@@ -36,7 +30,7 @@ std::unique_ptr<ServerSeries> find_on_server(pqServer& server, const std::string
   found->finder = vtkSmartPointer<vtkSMSourceProxy>::Take(
       vtkSMSourceProxy::SafeDownCast(server.proxyManager()->NewProxy("sources", "PalpateDicomReader")));
   if (!found->finder || !found->finder->GetProperty("SeriesUsable")) {
-    throw refusal("The server has no Palpate plug-in of this version: load Palpate.so there (Tools > Manage Plugins).");
+    throw Refusal(say("server-has-no-palpate-plug"));
   }
   vtkSMSourceProxy& finder = *found->finder;
   vtkSMPropertyHelper(&finder, "FileName").Set(path.c_str());
@@ -49,8 +43,7 @@ std::unique_ptr<ServerSeries> find_on_server(pqServer& server, const std::string
     found->series.push_back({names[n], labels[n], usable.GetAsInt(static_cast<unsigned>(n)) != 0});
   }
   if (found->series.empty()) {
-    throw refusal(
-        "The server finds no image series there: choose a folder that it can read, by the server's own names.");
+    throw Refusal(say("server-finds-no-image-series-there"));
   }
   return found;
 }

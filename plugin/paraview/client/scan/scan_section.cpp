@@ -30,8 +30,10 @@
 #include <algorithm>
 #include <exception>
 
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/scan/animation_time.h"
 #include "plugin/paraview/client/scan/recent_folders.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/display_image.h"
 #include "plugin/paraview/common/scan_choice.h"
 #include "plugin/session/scan.h"
@@ -84,10 +86,9 @@ void ScanSection::build() {
     loader_.cancel();
     server_scan_.cancel();
     set_busy(false);
-    tell(tr("Cancelled."));
+    tell(words(say("cancelled")));
     if (remote_server() && source_) {
-      emit out_of_reach(
-          tr("The scan is on the server, and was not fetched: choose it again in the list, or name a copy here."));
+      emit out_of_reach(words(say("scan-is-on-the-server")));
     }
   });
   work->addWidget(progress_, 1);
@@ -208,14 +209,12 @@ void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std
   });
   const auto usable = std::ranges::count_if(catalogue_->series, [](const io::Series& s) { return s.usable; });
   if (catalogue_->series.empty()) {
-    tell(tr("No image series in this folder (%n file(s) looked at): choose the one that holds the DICOM files.",
-            nullptr, static_cast<int>(catalogue_->skipped.size())),
-         true);
+    tell(words(say("no-image-series-in-this-folder", catalogue_->skipped.size())), true);
   } else if (usable == 1 && catalogue_->velocity_fields.empty()) {
     series_->setCurrentRow(0);
     load(choices(*catalogue_, path_).front());
   } else {
-    tell(tr("%n series: choose one.", nullptr, static_cast<int>(scan_count(*catalogue_))));
+    tell(words(say("series-choose-one", scan_count(*catalogue_))));
   }
 }
 
@@ -252,7 +251,7 @@ void ScanSection::show_now(const Loaded& loaded) {
   pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
   pqServer* const server = pqActiveObjects::instance().activeServer();
   if (!server) {
-    tell(tr("ParaView is not connected to a server: File > Connect."), true);
+    tell(words(say("paraview-is-not-connected-to-a-server")), true);
     return;
   }
   try {
@@ -266,8 +265,7 @@ void ScanSection::show_now(const Loaded& loaded) {
     if (source_) builder.destroy(source_);
     source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
     if (!source_) {
-      throw std::runtime_error(
-          "The server has no Palpate plug-in of this version: load Palpate.so there (Tools > Manage Plugins).");
+      throw Refusal(say("server-has-no-palpate-plug"));
     }
     vtkSMProxy& proxy = *source_->getProxy();
     {
@@ -355,9 +353,9 @@ void ScanSection::say_what_to_know(const Loaded& loaded) {
   const io::Series& shown = scan_at(*loaded.catalogue, loaded.series);
   for (const std::string& warning : shown.warnings) notes << text(warning);
   for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
-  if (display_grid(shown.geometry).resampled) notes << tr("Display resampled, touch is not.");
+  if (display_grid(shown.geometry).resampled) notes << words(say("display-resampled-touch-is-not"));
   if (!is_straight(display_grid(shown.geometry))) {
-    notes << tr("Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.");
+    notes << words(say("oblique-or-tilted"));
   }
   tell(notes.join(QStringLiteral("\n")));
 }

@@ -20,9 +20,11 @@
 #include <string>
 #include <utility>
 
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/panel/tool_button.h"
 #include "plugin/paraview/client/scan/animation_time.h"
 #include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/scan_choice.h"
 
 // Which frame of the scan is meant, and whether what is shown is what is felt.
@@ -138,19 +140,19 @@ void ScanSection::follow_time() {
 }
 
 QString ScanSection::why_not_felt() const {
-  if (!source_) return tr("the scan is no longer in the pipeline. Open a scan, then press Feel");
-  if (source_ != felt_source_) return tr("the scan is still being read. Wait until it is shown, then press Feel");
+  if (!source_) return words(say("scan-left-the-pipeline"));
+  if (source_ != felt_source_) return words(say("scan-is-still-being-read"));
   if (!is_seen(*source_)) {
-    return tr("no view shows the scan. Show it again (the eye in the Pipeline Browser), then press Feel");
+    return words(say("no-view-shows-the-scan"));
   }
   pqPipelineSource* const active = pqActiveObjects::instance().activeSource();
   if (active && active != source_ && is_scan(*active)) {
-    return tr("another scan, %1, is active in the Pipeline Browser. Choose %2 there, then press Feel")
-        .arg(active->getSMName(), source_->getSMName());
+    return words(say("another-scan-is-active-in-the-pipeline", active->getSMName().toStdString(),
+                     source_->getSMName().toStdString()));
   }
   if (const int frame = frame_of_time(); frame != handle_.frame && !frame_loader_.is_busy()) {
-    return tr("the views show %1, and the stylus has %2. Go back to that one, then press Feel")
-        .arg(handle_.frame_in_words(frame), handle_.frame_in_words());
+    return words(say("views-show-another-scan", handle_.frame_in_words(frame).toStdString(),
+                     handle_.frame_in_words().toStdString()));
   }
   return {};
 }

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "plugin/messages/messages.h"
+
 namespace palpate::plugin {
 
 glm::dvec3 ImageLattice::center() const {
@@ -25,8 +27,7 @@ glm::dvec3 ImageLattice::center() const {
 ImageLattice lattice_of(vtkSMSourceProxy& source) {
   source.UpdatePropertyInformation();
   const auto numbers = vtkSMPropertyHelper(&source, "Lattice").GetDoubleArray();
-  if (numbers.size() != 18 || numbers[0] < 1)
-    throw std::runtime_error("this series could not be read: see the messages");
+  if (numbers.size() != 18 || numbers[0] < 1) throw Refusal(say("this-series-could-not-be-read"));
   const auto row = [&](std::size_t n) { return glm::dvec3(numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]); };
   ImageLattice lattice;
   lattice.dimensions = glm::ivec3(row(0));
@@ -35,7 +36,7 @@ ImageLattice lattice_of(vtkSMSourceProxy& source) {
   lattice.directions = {row(3), row(4), row(5)};
   vtkPVDataSetAttributesInformation& points = *source.GetDataInformation(0)->GetPointDataInformation();
   vtkPVArrayInformation* const scalars = points.GetAttributeInformation(vtkDataSetAttributes::SCALARS);
-  if (!scalars) throw std::runtime_error("this series has no values: see the messages");
+  if (!scalars) throw Refusal(say("this-series-has-no-values"));
   lattice.array = scalars->GetName();
   lattice.counted_from_last = vtkSMPropertyHelper(&source, "CountedFromLast", true).GetAsInt() != 0;
   Values& values = lattice.values;

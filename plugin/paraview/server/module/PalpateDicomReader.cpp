@@ -1,4 +1,5 @@
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
+#include "plugin/messages/messages.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
@@ -64,8 +65,7 @@ plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const io::Filter& 
                         extent[4] <= extent[5];
   if (!in_parts) return plugin::whole_part(plugin::load_scan(series(), wanted_frame, filter, progress), grid);
   if (filter.type != io::FilterType::none) {
-    throw std::invalid_argument(
-        "a server of several ranks does not filter: clear the reader's Filter, or use one rank");
+    throw InvalidInput(plugin::say("several-ranks-do-not-filter"));
   }
   if (const auto whole = plugin::held_scan(series(), wanted_frame)) return plugin::whole_part(whole, grid);
   if (volume && part_extent && plugin::contains(*part_extent, extent)) return {volume, *part_extent, true};
@@ -243,18 +243,17 @@ void PalpateDicomReader::find() {
   found->chosen = plugin::choose_scan(*found->catalogue, series_uid_, file_name_);
   const io::Series& series = found->series();
   if (series.geometry.slice_positions.empty()) {
-    const std::string why = series.warnings.empty() ? "it has no readable images" : series.warnings.front();
-    throw io::DicomError(plugin::scan_label(series) + ": " + why);
+    throw io::DicomError(palpate::at_place(plugin::scan_label(series), series.warnings.empty()
+                                                                           ? plugin::say("it-has-no-readable-images")
+                                                                           : series.warnings.front()));
   }
   found->grid = plugin::display_grid(series.geometry);
   found->loaded_elsewhere = plugin::held_scan(series, 0) != nullptr;
   scan_ = std::move(found);
   for (const std::string& warning : series.warnings) tell(warning);
-  if (scan_->grid.resampled) tell("slices are unevenly spaced: the display is resampled, touch is not");
+  if (scan_->grid.resampled) tell(plugin::say("slices-are-unevenly-spaced"));
   if (!plugin::is_straight(scan_->grid)) {
-    tell(
-        "this scan is oblique or tilted: ParaView's Contour, Clip, Iso Volume and Resample To Image can misplace it by "
-        "centimeters; use Palpate's Tissue Surface");
+    tell(plugin::say("this-scan-is-oblique-or-tilted"));
   }
 }
 

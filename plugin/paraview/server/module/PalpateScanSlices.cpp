@@ -1,4 +1,5 @@
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
+#include "plugin/messages/messages.h"
 
 #include <vtkClientServerStream.h>
 #include <vtkMultiProcessStream.h>
@@ -55,7 +56,7 @@ void PalpateScanSlices::CopyFromObject(vtkObject* object) {
   if (series) {
     *answered_ = answer(*series, *asked_);
   } else {
-    answered_->error = "the server has not opened the scan";
+    answered_->error = palpate::plugin::say("server-has-not-opened-the-scan");
   }
 }
 
@@ -83,7 +84,7 @@ void PalpateScanSlices::CopyFromStream(const vtkClientServerStream* stream) {
   int type = 0;
   if (!stream->GetArgument(0, 0, &answered_->error) || !stream->GetArgument(0, 1, &answered_->head) ||
       !stream->GetArgument(0, 3, &type)) {
-    answered_->error = "the server answers in another version's way: it needs the Palpate of this program";
+    answered_->error = palpate::plugin::say("server-answers-in-another-version-way");
     return;
   }
   answered_->hashes = get<std::uint64_t>(*stream, 2);

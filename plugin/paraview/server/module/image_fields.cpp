@@ -19,6 +19,7 @@
 #include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 #include "modes/types/mode_type.h"
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/common/all_cores.h"
 #include "plugin/paraview/server/module/scan_of_image.h"
 #include "plugin/session/scan.h"
@@ -35,8 +36,7 @@ std::vector<const modes::ActiveMode*> felt_modes(const modes::Plan& plan, const 
   const auto& all = choice.scene.modes;
   if (!choice.mode.empty() &&
       std::ranges::none_of(all, [&](const modes::Mode& mode) { return mode.name == choice.mode; })) {
-    throw std::invalid_argument("the scene has no mode named \"" + choice.mode +
-                                "\"; leave Mode empty for all that hold the stylus");
+    throw InvalidInput(say("scene-has-no-mode-named", choice.mode));
   }
   for (const modes::ActiveMode& mode : plan.modes) {
     const bool wanted =

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/common/shared_voxels.h"
 #include "plugin/session/scan.h"
 
@@ -58,12 +59,10 @@ std::string note_of(vtkImageData& image, const char* name) {
 
 std::shared_ptr<const io::Volume> scan_of(vtkImageData& image) {
   vtkDataArray* const scalars = image.GetPointData()->GetScalars();
-  if (!scalars || scalars->GetNumberOfTuples() == 0)
-    throw std::invalid_argument("the image has no point scalars: put the filter on the scan's reader");
+  if (!scalars || scalars->GetNumberOfTuples() == 0) throw InvalidInput(say("image-has-no-point-scalars"));
   if (auto behind = volume_behind(*scalars)) return behind;
   if (scalars->GetNumberOfComponents() != 1) {
-    throw std::invalid_argument(std::string(scalars->GetName()) +
-                                " has several components; a scan has one value a point: choose another array");
+    throw InvalidInput(say("several-components", scalars->GetName()));
   }
   io::Volume volume;
   volume.geometry = geometry_of(image);

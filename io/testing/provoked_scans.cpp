@@ -1,4 +1,4 @@
-#include "plugin/messages/provoked_scans.h"
+#include "io/testing/provoked_scans.h"
 
 #include <array>
 #include <exception>
@@ -8,7 +8,7 @@
 #include "io/load.h"
 #include "io/series.h"
 
-namespace palpate::plugin::testing {
+namespace palpate::io::testing {
 
 namespace fs = std::filesystem;
 
@@ -23,14 +23,14 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
 
 std::string said_of(const fs::path& folder, const std::function<void()>& between) {
   std::string said;
-  const auto catalogue = io::find_series(std::array{folder});
+  const auto catalogue = find_series(std::array{folder});
   between();
-  for (const io::SkippedFile& file : catalogue.skipped) said += file.reason + "\n";
+  for (const SkippedFile& file : catalogue.skipped) said += file.reason + "\n";
   for (const auto& all : {catalogue.series, catalogue.velocity_fields}) {
-    for (const io::Series& series : all) {
+    for (const Series& series : all) {
       for (const std::string& warning : series.warnings) said += warning + "\n";
       said += said_when([&] {
-        for (const std::string& warning : io::load(series).warnings) said += warning + "\n";
+        for (const std::string& warning : load(series).warnings) said += warning + "\n";
       });
       said += "\n";
     }
@@ -46,7 +46,7 @@ std::string said_of(const std::function<void(const TestFolder&)>& fill) {
 
 std::string of_bytes(const std::function<std::string(std::string)>& damage) {
   return said_of([&](const TestFolder& folder) {
-    io::internal::write({}, folder / "a.dcm");
+    internal::write({}, folder / "a.dcm");
     write_bytes(folder / "a.dcm", damage(bytes_of(folder / "a.dcm")));
   });
 }
@@ -55,21 +55,12 @@ std::string of_image(const std::function<void(DcmDataset&)>& edit) {
   return said_of([&](const TestFolder& folder) {
     TestImage image;
     image.edit = edit;
-    io::internal::write(image, folder / "a.dcm");
+    internal::write(image, folder / "a.dcm");
   });
 }
 
 std::string of_stack(int count, const std::function<void(int, TestImage&)>& change) {
-  return said_of([&](const TestFolder& folder) { io::internal::write_stack(folder.path(), count, change); });
+  return said_of([&](const TestFolder& folder) { internal::write_stack(folder.path(), count, change); });
 }
 
-std::string said_when(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-
-}  // namespace palpate::plugin::testing
+}  // namespace palpate::io::testing

@@ -12,15 +12,14 @@
 #include <vector>
 
 #include "io/dicom/decode.h"
+#include "io/testing/provoked_scans.h"
 #include "io/testing/test_coders.h"
-#include "plugin/messages/provoked.h"
-#include "plugin/messages/provoked_scans.h"
 
-namespace palpate::plugin::testing {
+namespace palpate::io::testing {
 namespace {
 
 using namespace std::string_literals;
-using namespace io::internal;
+using namespace internal;
 using Bytes = std::vector<Uint8>;
 
 constexpr int edge = 32;  // columns and rows of the images
@@ -116,35 +115,30 @@ void three_fragments_of_two_frames(DcmDataset& dataset) {
 
 std::vector<Provoked> provoke_lossless_coders() {
   return {
-      {"damaged: its RLE segments {}", of_coded(EXS_RLELossless, Bytes(10, 7))},
-      {"are missing", of_coded(EXS_RLELossless, Bytes(10, 7))},
-      {"are not one a byte of a pixel", of_coded(EXS_RLELossless, Bytes(100, 7))},
-      {"end early", of_coded(EXS_RLELossless, rle({64, 66}, {0, 1, 0, 1}))},
-      {"do not fit the image", of_coded(EXS_RLELossless, rle({64, 66}, {9, 1, 0, 1}))},
-      {"lie outside the file", of_coded(EXS_RLELossless, rle({64, 200}, {0, 1}))},
-      {"damaged: its JPEG-LS image cannot be decoded ({})", of_coded(EXS_JPEGLSLossless, Bytes(100, 7))},
-      {"damaged: its JPEG-LS image is of another size than the file says",
-       of_coded(EXS_JPEGLSLossless, jpeg_ls(edge + 1, edge, 12, 0, texture))},
-      {"damaged: its JPEG 2000 image {}", of_coded(EXS_JPEG2000LosslessOnly, Bytes(100, 7))},
-      {"has no readable header", of_coded(EXS_JPEG2000LosslessOnly, Bytes(100, 7))},
-      {"is of another size than the file says", of_coded(EXS_JPEG2000LosslessOnly, coded_2000(edge + 1, 12))},
-      {"is of an unknown kind", of_coded(EXS_JPEG2000LosslessOnly, coded_2000(edge, 20))},
-      {"cannot be decoded to its end", of_coded(EXS_JPEG2000LosslessOnly, first_half(coded_2000(edge, 12)))},
-      {"holds errors", of_a_broken_byte()},
+      {"rle", of_coded(EXS_RLELossless, Bytes(10, 7))},
+      {"rle-is-missing", of_coded(EXS_RLELossless, Bytes(10, 7))},
+      {"rle-not-one-a-byte", of_coded(EXS_RLELossless, Bytes(100, 7))},
+      {"rle-ends-early", of_coded(EXS_RLELossless, rle({64, 66}, {0, 1, 0, 1}))},
+      {"rle-does-not-fit", of_coded(EXS_RLELossless, rle({64, 66}, {9, 1, 0, 1}))},
+      {"rle-outside-the-file", of_coded(EXS_RLELossless, rle({64, 200}, {0, 1}))},
+      {"jpeg-ls-cannot-be-decoded", of_coded(EXS_JPEGLSLossless, Bytes(100, 7))},
+      {"jpeg-ls-size", of_coded(EXS_JPEGLSLossless, jpeg_ls(edge + 1, edge, 12, 0, texture))},
+      {"jpeg-2000", of_coded(EXS_JPEG2000LosslessOnly, Bytes(100, 7))},
+      {"jpeg-2000-no-header", of_coded(EXS_JPEG2000LosslessOnly, Bytes(100, 7))},
+      {"jpeg-2000-size", of_coded(EXS_JPEG2000LosslessOnly, coded_2000(edge + 1, 12))},
+      {"jpeg-2000-kind", of_coded(EXS_JPEG2000LosslessOnly, coded_2000(edge, 20))},
+      {"jpeg-2000-ends-early", of_coded(EXS_JPEG2000LosslessOnly, first_half(coded_2000(edge, 12)))},
+      {"jpeg-2000-holds-errors", of_a_broken_byte()},
   };
 }
 
 std::vector<Provoked> provoke_jpeg() {
   return {
-      {"damaged: no JPEG image in its compressed pixels", of_coded(EXS_JPEGProcess14SV1, Bytes(100, 7))},
-      {"damaged: its JPEG image is {}",
-       of_jpeg([](std::string& b) { b[b.find("\xFF\xC3") + 6] = static_cast<char>(edge + 1); })},
-      {"damaged: a Huffman table of its JPEG image is impossible",
-       of_jpeg([](std::string& b) { b[b.find("\xFF\xC4") + 21] = '\x77'; })},
-      {"damaged: its JPEG image holds errors",
-       of_jpeg([](std::string& b) { b.replace(b.size() - 300, 200, 200, '\x55'); })},
-      {"damaged: its JPEG image cannot be decoded ({})",
-       of_jpeg([](std::string& b) { b[b.find("\xFF\xC3") + 1] = '\xC9'; })},
+      {"no-jpeg-image", of_coded(EXS_JPEGProcess14SV1, Bytes(100, 7))},
+      {"jpeg-size", of_jpeg([](std::string& b) { b[b.find("\xFF\xC3") + 6] = static_cast<char>(edge + 1); })},
+      {"jpeg-huffman-table", of_jpeg([](std::string& b) { b[b.find("\xFF\xC4") + 21] = '\x77'; })},
+      {"jpeg-holds-errors", of_jpeg([](std::string& b) { b.replace(b.size() - 300, 200, 200, '\x55'); })},
+      {"jpeg-cannot-be-decoded", of_jpeg([](std::string& b) { b[b.find("\xFF\xC3") + 1] = '\xC9'; })},
   };
 }
 
@@ -152,25 +146,25 @@ std::vector<Provoked> provoke_jpeg() {
 
 std::vector<Provoked> provoke_pixels() {
   std::vector<Provoked> said{
-      {"{} cannot be read: {}; send the series again", of_coded(EXS_RLELossless, Bytes(10, 7))},
-      {"its compression is unknown here: {}", of_coded(EXS_MPEG2MainProfileAtMainLevel, Bytes(100, 7))},
-      {"damaged: its pixels are not compressed as it says", of_bytes([](std::string b) {
+      {"series-cannot-be-read", of_coded(EXS_RLELossless, Bytes(10, 7))},
+      {"compression-is-unknown-here", of_coded(EXS_MPEG2MainProfileAtMainLevel, Bytes(100, 7))},
+      {"pixels-are-not-compressed", of_bytes([](std::string b) {
          return b.replace(b.find(UID_LittleEndianExplicitTransferSyntax), 19, "1.2.840.10008.1.2.5");
        })},
-      {"damaged: its compressed pixels are not made of items",
+      {"compressed-pixels-are-not-items",
        of_coded_file([](std::string& b) { b[b.rfind("\xFE\xFF\x00\xE0"s) + 2] = 7; })},
-      {"truncated: its compressed pixels end early",
+      {"truncated-its-compressed-pixels-end-early",
        of_coded_file([](std::string& b) { b[b.rfind("\xFE\xFF\x00\xE0"s) + 6] = 7; })},
-      {"truncated: the file ends early", of_coded_file([](std::string& b) { b.resize(b.find("\xFE\xFF\x00\xE0"s)); })},
-      {"no pixels in it", of_coded(EXS_RLELossless, {})},
-      {"damaged: {} bytes cannot hold {} pixels",
+      {"truncated-the-file-ends-early", of_coded_file([](std::string& b) { b.resize(b.find("\xFE\xFF\x00\xE0"s)); })},
+      {"no-pixels-in-it", of_coded(EXS_RLELossless, {})},
+      {"damaged-bytes-cannot-hold-pixels",
        of_coded(EXS_RLELossless, Bytes(100, 7), [](DcmDataset& d) { put(d, DCM_Rows, 60000); })},
-      {"truncated: its deflated pixels end early", of_stack(2,
-                                                            [](int, TestImage& image) {
-                                                              image.syntax = EXS_DeflatedLittleEndianExplicit;
-                                                              image.edit = [](DcmDataset& d) { put(d, DCM_Rows, 8); };
-                                                            })},
-      {"{} compressed fragments do not make up {}", said_of([](const TestFolder& folder) {
+      {"truncated-its-deflated-pixels-end-early", of_stack(2,
+                                                           [](int, TestImage& image) {
+                                                             image.syntax = EXS_DeflatedLittleEndianExplicit;
+                                                             image.edit = [](DcmDataset& d) { put(d, DCM_Rows, 8); };
+                                                           })},
+      {"compressed-fragments-do-not-make-up", said_of([](const TestFolder& folder) {
          TestImage image;
          image.syntax = EXS_RLELossless;
          image.edit = three_fragments_of_two_frames;
@@ -183,4 +177,4 @@ std::vector<Provoked> provoke_pixels() {
   return said;
 }
 
-}  // namespace palpate::plugin::testing
+}  // namespace palpate::io::testing

@@ -5,13 +5,17 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "io/testing/test_image.h"
+#include "messages/testing/shown.h"
 
-namespace palpate::plugin::testing {
+namespace palpate::io::testing {
 
-using io::internal::TestFolder;
-using io::internal::TestImage;
+using internal::TestFolder;
+using internal::TestImage;
+using palpate::testing::Provoked;
+using palpate::testing::said_when;
 
 std::string bytes_of(const std::filesystem::path& file);
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
@@ -30,7 +34,9 @@ std::string of_image(const std::function<void(DcmDataset&)>& edit);
 /// Of a stack of so many slices, 2 mm apart.
 std::string of_stack(int count, const std::function<void(int, TestImage&)>& change);
 
-/// What an exception says that comes of it.
-std::string said_when(const std::function<void()>& run);
+/// Each refusal of the reader, by an input that it refuses.
+std::vector<Provoked> provoke_files();
+std::vector<Provoked> provoke_headers();
+std::vector<Provoked> provoke_pixels();
 
-}  // namespace palpate::plugin::testing
+}  // namespace palpate::io::testing

@@ -5,10 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "plugin/messages/provoked.h"
-#include "plugin/messages/provoked_scans.h"
+#include "io/testing/provoked_scans.h"
 
-namespace palpate::plugin::testing {
+namespace palpate::io::testing {
 namespace {
 
 using namespace std::string_literals;
@@ -40,7 +39,7 @@ std::string descending_elements() {
 /// An image whose header holds one element of 300 MiB, which are a hole on the disk.
 std::string of_a_long_header() {
   return said_of([](const TestFolder& folder) {
-    io::internal::write({}, folder / "long.dcm");
+    internal::write({}, folder / "long.dcm");
     const std::string bytes = bytes_of(folder / "long.dcm");
     constexpr std::size_t length = 300U << 20;
     const std::string element = "\x09\x00\x01\x10OB\0\0"s + "\0\0\xC0\x12"s;  // 300 MiB, little endian
@@ -55,7 +54,7 @@ std::string of_deflated(const std::function<std::string(std::string)>& damage) {
   return said_of([&](const TestFolder& folder) {
     TestImage image;
     image.syntax = EXS_DeflatedLittleEndianExplicit;
-    io::internal::write(image, folder / "a.dcm");
+    internal::write(image, folder / "a.dcm");
     write_bytes(folder / "a.dcm", damage(bytes_of(folder / "a.dcm")));
   });
 }
@@ -64,21 +63,20 @@ std::string of_deflated(const std::function<std::string(std::string)>& damage) {
 
 std::vector<Provoked> provoke_headers() {
   return {
-      {"empty file", of_bytes([](const std::string&) { return std::string(); })},
-      {"not a DICOM file", of_bytes([](const std::string&) { return std::string(600, 'x'); })},
-      {"truncated in its header", of_bytes([](const std::string& b) { return b.substr(0, b.find("1.2.3.4") + 3); })},
-      {"truncated: {} of {} bytes of pixels",
-       of_bytes([](const std::string& b) { return b.substr(0, b.size() - 10); })},
-      {"damaged: no dataset in it",
+      {"empty-file", of_bytes([](const std::string&) { return std::string(); })},
+      {"not-a-dicom-file", of_bytes([](const std::string&) { return std::string(600, 'x'); })},
+      {"truncated-in-its-header", of_bytes([](const std::string& b) { return b.substr(0, b.find("1.2.3.4") + 3); })},
+      {"truncated-pixels", of_bytes([](const std::string& b) { return b.substr(0, b.size() - 10); })},
+      {"damaged-no-dataset",
        of_bytes([](const std::string& b) { return b.substr(0, 200) + std::string(200, '\xee'); })},
-      {"damaged: its sequences are nested too deeply", of_elements(repeated(open_sequence + item + unknown, 100))},
-      {"damaged: a sequence in its header is not made of items", of_elements(open_sequence + "no item."s)},
-      {"damaged: its header is in disorder", of_elements(descending_elements())},
-      {"damaged: its header has no end", of_elements(open_sequence + repeated(item + nothing, 4'000'001))},
-      {"its header is larger than 256 MiB", of_a_long_header()},
-      {"damaged header: {}",
+      {"damaged-its-sequences-are-nested-too-deeply", of_elements(repeated(open_sequence + item + unknown, 100))},
+      {"sequence-is-not-items", of_elements(open_sequence + "no item."s)},
+      {"damaged-its-header-is-in-disorder", of_elements(descending_elements())},
+      {"damaged-its-header-has-no-end", of_elements(open_sequence + repeated(item + nothing, 4'000'001))},
+      {"header-is-larger-than-256-mib", of_a_long_header()},
+      {"damaged-header",
        of_deflated([](const std::string& b) { return b.substr(0, b.size() - 200) + std::string(200, '\xee'); })},
   };
 }
 
-}  // namespace palpate::plugin::testing
+}  // namespace palpate::io::testing

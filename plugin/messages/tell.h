@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdio>
+
+#include "messages/message.h"
+
+namespace palpate::plugin {
+
+/// Says it on stderr, in a line of its own.
+inline void tell(const Text& text) {
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+}  // namespace palpate::plugin
