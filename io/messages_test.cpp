@@ -71,7 +71,8 @@ TEST(MessagesOfArchives, EachIsShown) {
 }
 
 TEST(MessagesOfStructures, EachIsShown) {
-  expect_all_shown({messages::structures}, {}, {}, PALPATE_SOURCES);
+  const std::array not_shown{NotShown{"label-map-names-no-scan", "every label map says it: the views show it"}};
+  expect_all_shown({messages::structures}, {}, not_shown, PALPATE_SOURCES);
 }
 
 }  // namespace
