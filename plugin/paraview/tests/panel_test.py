@@ -89,6 +89,7 @@ SCENARIOS = [
     "the_layout_is_clinical",
     "one_tab_is_used_again",
     "ones_way_is_found",
+    "a_chosen_look_stays",
     "boundaries_are_drawn_where_they_are_felt",
     "four_clicks",
     "letting_go",

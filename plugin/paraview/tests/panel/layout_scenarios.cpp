@@ -3,8 +3,10 @@
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
 #include <pqRenderView.h>
+#include <pqRepresentation.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
+#include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMViewLayoutProxy.h>
@@ -12,6 +14,7 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileInfo>
 #include <QImage>
@@ -30,6 +33,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
@@ -220,6 +224,43 @@ void ones_way_is_found() {
   scan_is_shown();
 }
 
+/// Opacity of the volume over its values, as it is shown.
+std::vector<double> volume_opacity() {
+  for (auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    if (one->getSMName() != QLatin1String("Volume")) continue;
+    for (pqRepresentation* const shown : one->getRepresentations()) {
+      vtkSMProxy& proxy = *shown->getProxy();
+      if (!shown->isVisible() || !proxy.GetProperty("ScalarOpacityFunction")) continue;
+      return vtkSMPropertyHelper(vtkSMPropertyHelper(&proxy, "ScalarOpacityFunction").GetAsProxy(), "Points")
+          .GetDoubleArray();
+    }
+  }
+  return {};
+}
+
+/// Whatever is tuned: only *Felt boundaries* follows the scene.
+void a_chosen_look_stays() {
+  scan_is_shown();
+  auto& looks = find<QComboBox>("palpateVolumeLook");
+  expect(looks.currentText() == "CT skin", "a body in air is shown by its skin");
+  const auto choose = [&](const char* look) {
+    looks.setCurrentText(QLatin1String(look));
+    emit looks.activated(looks.currentIndex());
+    wait_ms(500);
+  };
+  const std::vector<double> skin = volume_opacity();
+  choose("CT bone");
+  const std::vector<double> bone = volume_opacity();
+  expect(!bone.empty() && bone != skin, "it is shown as chosen");
+  auto& strength = find<QDoubleSpinBox>("palpateStrength0");
+  strength.setValue(strength.value() / 2);
+  wait_ms(1000);
+  expect(volume_opacity() == bone, "tuning leaves the look that was chosen");
+  choose("Felt boundaries");
+  expect(volume_opacity() != bone, "the boundaries are shown where that is chosen");
+  save_screen("felt-boundaries");
+}
+
 int tabs() {
   auto* const server = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqServer*>().first();
   return static_cast<int>(server->proxyManager()->GetNumberOfProxies("layouts"));
@@ -248,6 +289,7 @@ const Scenarios& layout_scenarios() {
   static const Scenarios scenarios{{"the_layout_is_clinical", the_layout_is_clinical},
                                    {"advanced_is_remembered", advanced_is_remembered},
                                    {"ones_way_is_found", ones_way_is_found},
+                                   {"a_chosen_look_stays", a_chosen_look_stays},
                                    {"one_tab_is_used_again", one_tab_is_used_again}};
   return scenarios;
 }
