@@ -27,7 +27,14 @@ constexpr double least_step = 0.06;   // of the range: less is texture, not a bo
 constexpr double bandwidth_of_range = 0.008;
 constexpr float valley_floor = 0.05F;  // of the lower of two hills
 constexpr double prominence = 0.15, tissue_mass = 0.01;
-constexpr double boundary_share = 0.02;     // of the voxels at boundaries
+constexpr double boundary_share = 0.02;  // of the voxels at boundaries
+// Of a typical boundary's steepest gradient: where its strength begins, and where it is whole. What is thin or faint
+// has a small part of the gradient, and is a boundary all the same.
+// Where between two tissues the boundary is. Bone comes in all degrees from cancellous to cortical: its boundary is
+// nearer to soft tissue, so that a sternum of 400 HU is bone beside a skull of 1000.
+constexpr double usual_place = 0.5, bone_place = 0.3;
+constexpr double least_soft_hu = -200, least_bone_hu = 150;
+constexpr double ramp_from = 0.08, ramp_to = 0.2;
 constexpr std::size_t most_boundaries = 8;  // as many as have a color
 // Okabe and Ito's colors: told apart by the color-blind too. Source: "Color universal design", 2008.
 constexpr std::array<const char*, most_boundaries> colors{"#e69f00", "#0072b2", "#009e73", "#d55e00",
@@ -107,8 +114,16 @@ int bins_of_least_step(const io::Bins& values) {
   return static_cast<int>(least_step / (1 + 2 * margin) * values.count);
 }
 
-/// Neighbors part in the middle of the valley between them, which may be wide and empty.
-void part_in_the_middle(std::span<const float> curve, std::vector<internal::Hill>& hills) {
+/// Of the way from one typical value to another.
+double place_between(double low, double high, bool is_ct) {
+  const bool is_soft = low > least_soft_hu && low < least_bone_hu;
+  return is_ct && is_soft && high > least_bone_hu ? bone_place : usual_place;
+}
+
+/// Neighbors part within the valley between them, which may be wide and empty: in its middle, or nearer to what is
+/// softer than bone.
+void part_neighbors(std::span<const float> curve, const io::Bins& values, bool is_ct,
+                    std::vector<internal::Hill>& hills) {
   for (std::size_t h = 1; h < hills.size(); ++h) {
     const float* left = curve.data() + hills[h - 1].top;
     const float* right = curve.data() + hills[h].top;
@@ -119,11 +134,14 @@ void part_in_the_middle(std::span<const float> curve, std::vector<internal::Hill
     while (last > first && !is_floor(*last)) {
       --last;
     }
-    hills[h].first = hills[h - 1].end = static_cast<std::size_t>((first - curve.data()) + (last - first) / 2);
+    const double place = place_between(values.middle(static_cast<int>(hills[h - 1].top)),
+                                       values.middle(static_cast<int>(hills[h].top)), is_ct);
+    hills[h].first = hills[h - 1].end =
+        static_cast<std::size_t>((first - curve.data()) + std::lround(place * static_cast<double>(last - first)));
   }
 }
 
-Found find_tissues(const io::LowHighHistogram& edges, double bandwidth) {
+Found find_tissues(const io::LowHighHistogram& edges, double bandwidth, bool is_ct) {
   const int bins = edges.values.count;
   const int least_bins = bins_of_least_step(edges.values);
   cv::Mat1f both(1, bins, 0.0F);
@@ -140,7 +158,7 @@ Found find_tissues(const io::LowHighHistogram& edges, double bandwidth) {
   Found found;
   const std::span<const float> curve(smooth[0], static_cast<std::size_t>(bins));
   found.hills = internal::hills_of(curve, prominence, tissue_mass);
-  part_in_the_middle(curve, found.hills);
+  part_neighbors(curve, edges.values, is_ct, found.hills);
   for (const internal::Hill& hill : found.hills) {
     // The middle of what lies near the top: the top alone is one bin of many.
     const int reach = static_cast<int>(2 * bandwidth / edges.values.width());
@@ -175,7 +193,7 @@ std::vector<Tissue> tissues_of(const Found& found, const io::Bins& values, const
   return tissues;
 }
 
-std::vector<FoundBoundary> boundaries_of(const Found& found, const io::LowHighHistogram& edges) {
+std::vector<FoundBoundary> boundaries_of(const Found& found, const io::LowHighHistogram& edges, bool is_ct) {
   const std::size_t tissues = found.hills.size();
   std::vector<std::size_t> tissue_of_bin;
   for (std::size_t t = 0; t < tissues; ++t) {
@@ -196,8 +214,11 @@ std::vector<FoundBoundary> boundaries_of(const Found& found, const io::LowHighHi
       const double share =
           static_cast<double>(counts[low * tissues + high]) / static_cast<double>(std::max<std::uint64_t>(all, 1));
       if (share >= boundary_share) {
-        boundaries.push_back(
-            {.low = low, .high = high, .middle = 0.5 * (found.typical[low] + found.typical[high]), .share = share});
+        // Two kinds of bone part from each other where they do, and not where bone begins.
+        const bool is_first = high == 0 || found.typical[high - 1] < least_bone_hu;
+        const double place = place_between(found.typical[low], found.typical[high], is_ct && is_first);
+        const double middle = found.typical[low] + place * (found.typical[high] - found.typical[low]);
+        boundaries.push_back({.low = low, .high = high, .middle = middle, .share = share});
       }
     }
   }
@@ -221,7 +242,7 @@ Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, co
   const double step = suggestion.typical[boundary.high] - suggestion.typical[boundary.low];
   // Steepest gradient of a step at a scale.
   const double peak = step / (scale_mm * std::sqrt(2 * std::numbers::pi));
-  const bool is_hard = is_ct && suggestion.typical[boundary.high] > 150;
+  const bool is_hard = is_ct && suggestion.typical[boundary.high] > least_bone_hu;
   Mode mode;
   mode.type = "surface";
   mode.from = suggestion.scene.tissues[up ? boundary.low : boundary.high].name;
@@ -230,8 +251,8 @@ Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, co
   mode.name = up ? name : way_back_name(name);
   mode.strength_of = Datum::gradient_magnitude;
   mode.strength_n =
-      TransferFunction({{readable(0.15 * peak), 0},
-                        {readable(0.4 * peak), is_hard ? defaults::bone_strength_n : defaults::skin_strength_n}});
+      TransferFunction({{readable(ramp_from * peak), 0},
+                        {readable(ramp_to * peak), is_hard ? defaults::bone_strength_n : defaults::skin_strength_n}});
   mode.gates = {{Datum::value, beyond_the_middle(boundary, step, 1, up)}};
   return mode;
 }
@@ -263,11 +284,11 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   suggestion.edges =
       io::low_high_histogram(*volume, kernel, {spread.low - margin * range, spread.high + margin * range, value_bins},
                              steepest_of_least, progress, threads);
-  const Found found = find_tissues(suggestion.edges, std::max(bandwidth_of_range * range, 0.75 * spread.noise));
+  const bool is_ct = volume->unit == "HU";
+  const Found found = find_tissues(suggestion.edges, std::max(bandwidth_of_range * range, 0.75 * spread.noise), is_ct);
   suggestion.typical = found.typical;
   suggestion.scene.tissues = tissues_of(found, suggestion.edges.values, *volume);
-  suggestion.boundaries = boundaries_of(found, suggestion.edges);
-  const bool is_ct = volume->unit == "HU";
+  suggestion.boundaries = boundaries_of(found, suggestion.edges, is_ct);
   std::vector<NamedPair> pairs;
   for (const FoundBoundary& boundary : suggestion.boundaries) {
     pairs.push_back({suggestion.typical[boundary.low], suggestion.typical[boundary.high]});

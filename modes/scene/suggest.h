@@ -21,8 +21,9 @@ struct FoundBoundary {
   std::size_t mode = 0;           ///< crossed from the lower to the higher values
   std::size_t way_back = 0;       ///< the mode that is crossed the other way; switched off
   std::size_t low = 0, high = 0;  ///< its two tissues in the scene
-  double middle = 0;              ///< half-way from the one's typical value to the other's, scan's unit
-  double share = 0;               ///< of all voxels at boundaries
+  double middle = 0;  ///< where it is felt: half-way from the one's typical value to the other's, or nearer to the
+                      ///< softer tissue of bone; scan's unit
+  double share = 0;   ///< of all voxels at boundaries
 };
 
 struct Suggestion {

@@ -15,6 +15,8 @@
 #include "io/fields/gradient.h"
 #include "io/quantile.h"
 #include "modes/scene/suggest.h"
+#include "plugin/app/errors.h"
+#include "plugin/bench/ray_study.h"
 #include "plugin/options/series_option.h"
 #include "plugin/session/scan.h"
 #include "testdata/scan.h"
@@ -24,6 +26,7 @@ namespace {
 
 struct SuggestArguments {
   SeriesOption series;
+  bool rays = false;
   int rounds = 5;
   int largest = 512;
 };
@@ -64,6 +67,12 @@ void print_row(const std::string& name, const std::shared_ptr<const io::Volume>&
 }
 
 void run(const SuggestArguments& arguments) {
+  if (arguments.rays) {
+    if (arguments.series.path.empty()) throw WrongUsage("palpate-bench suggest --rays needs a SERIES");
+    const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
+    run_ray_study(describe_scan(*volume), volume);
+    return;
+  }
   fmt::print("seconds, median of {} rounds; {} cores\n", arguments.rounds, std::thread::hardware_concurrency());
   fmt::print("{:<36} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "scan", "read", "gradient", "all cores", "suggest",
              "all cores", "ratio");
@@ -88,6 +97,7 @@ void add_bench_suggest(CLI::App& bench) {
   const auto arguments = std::make_shared<SuggestArguments>();
   add_series_option(*command, arguments->series);
   command->get_option("SERIES")->required(false);
+  command->add_flag("--rays", arguments->rays, "what bone on 20 rays into the scan is felt with the suggestion");
   command->add_option("--rounds", arguments->rounds, "runs of each, in turn")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
