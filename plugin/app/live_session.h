@@ -53,6 +53,8 @@ class LiveSession {
   std::shared_ptr<const modes::Plan> plan() const noexcept { return felt_.plan; }
   /// Of the scene: TickRecord::scene_epoch of the frames that feel it.
   std::uint32_t epoch() const noexcept { return last_epoch_; }
+  /// All that is felt.
+  const PreparedScene& felt() const noexcept { return felt_; }
   /// N/m: what is felt, for a scene may ask for more than the stylus renders stably.
   double stiffness_n_per_m() const noexcept { return felt_.plan ? felt_.plan->stiffness_n_per_m : 0; }
 

@@ -13,33 +13,14 @@
 
 #include "device/safety/safety_filter.h"
 #include "io/fields/boundary_uncertainty.h"
+#include "plugin/report/held_boundary.h"
 #include "plugin/session/session.h"
 #include "solver/solution.h"
 
 namespace palpate::plugin {
 namespace {
 
-constexpr double felt_n = 0.05;       // below, a boundary is not said to be felt
 constexpr double same_hold_s = 0.05;  // a shorter interruption does not end a hold: contact chatters at its edge
-
-bool is_surface(const modes::Plan& plan, std::size_t mode) {
-  return std::any_of(plan.modes.begin(), plan.modes.end(),
-                     [&](const modes::ActiveMode& active) { return active.scene_index == mode && active.holds; });
-}
-
-/// The surface that pushes most in a frame, if one is felt.
-std::optional<std::size_t> holding_surface(std::span<const PrimitiveRecord> shares, const modes::Plan& plan) {
-  std::optional<std::size_t> most;
-  double largest = felt_n;
-  for (const PrimitiveRecord& share : shares) {
-    const double force = glm::length(vector_of(share.force_n));
-    if (force > largest && is_surface(plan, share.mode)) {
-      largest = force;
-      most = share.mode;
-    }
-  }
-  return most;
-}
 
 void extend_approaches(std::vector<Approach>& approaches, const TickRecord& frame) {
   for (std::size_t n = 0; n < approaches.size(); ++n) {

@@ -129,10 +129,14 @@ void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> str
 }
 
 std::string strength_to_text(const Contact& contact) {
+  return strength_to_text(contact.strength_n, contact.full_strength_n);
+}
+
+std::string strength_to_text(double strength_n, double full_strength_n) {
   constexpr double noticeably = 0.75;
-  const double part = contact.full_strength_n > 0 ? contact.strength_n / contact.full_strength_n : 1;
+  const double part = full_strength_n > 0 ? strength_n / full_strength_n : 1;
   return part > 0.01 && part < noticeably
-             ? fmt::format("; {:.2f} of its {:.2g} N: thin or faint there", part, contact.full_strength_n)
+             ? fmt::format("; {:.2f} of its {:.2g} N: thin or faint there", part, full_strength_n)
              : "";
 }
 

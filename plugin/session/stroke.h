@@ -55,5 +55,6 @@ void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> str
                    const io::FieldSource& source);
 /// "; 0.31 of its 2.5 N: thin or faint there" where a boundary takes less than three quarters of its full strength.
 std::string strength_to_text(const Contact& contact);
+std::string strength_to_text(double strength_n, double full_strength_n);
 
 }  // namespace palpate::plugin

@@ -187,7 +187,11 @@ void Footer::show_look(const SessionStatus& look) {
   strip_->add(look.peak_n);
   force_->setText(tr("%1 N").arg(look.force_n, 0, 'f', 2));
   const double depth_mm = glm::length(look.proxy_mm - look.probe_mm);
-  depth_->setText(look.force_n > 0 ? tr("%1 mm past the boundary").arg(depth_mm, 0, 'f', 1) : tr("nothing held"));
+  const QString depth = tr("%1 mm").arg(depth_mm, 0, 'f', 1);
+  depth_->setText(look.force_n == 0   ? tr("nothing held")
+                  : look.held.empty() ? tr("%1 behind the proxy").arg(depth)
+                                      : tr("%1 past %2").arg(depth, QString::fromStdString(look.held)));
+  depth_->setToolTip(depth_->text());
   const QString tissue = QString::fromStdString(look.tissue);
   const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
   tissue_->setText(std::isfinite(frame.value) ? value_text(frame.value, QString::fromStdString(unit), tissue)

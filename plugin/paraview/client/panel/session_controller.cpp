@@ -10,6 +10,7 @@
 #include "plugin/app/stylus_choice.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/report/held_boundary.h"
 #include "plugin/report/live_view.h"
 #include "plugin/report/summary.h"
 #include "plugin/session/scene_fit.h"
@@ -281,6 +282,8 @@ void SessionController::look() {
   if (const auto plan = live_.plan(); plan && frame.scene_epoch == live_.epoch()) {
     look_.nearest = nearest_structure(frame, model_.scene(), plan->structures);
   }
+  const auto held = held_boundary(look_.shares, live_.felt(), live_.scene(), look_.proxy_mm, look_.probe_mm);
+  look_.held = held ? in_words(*held, live_.scene()) : "";
   obey_buttons(frame.buttons);
   give_way();
   emit looked(look_);

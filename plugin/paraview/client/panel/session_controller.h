@@ -32,6 +32,7 @@ struct SessionStatus {
   modes::Workspace workspace;           ///< of the frame
   glm::dvec3 probe_mm{0}, proxy_mm{0};  ///< patient space
   std::string tissue;
+  std::string held;                         ///< the boundary that holds the proxy, in words; empty where none does
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
   double force_n = 0;                       ///< that the device was fed, in the last frame
   double peak_n = 0;                        ///< the largest since the last look

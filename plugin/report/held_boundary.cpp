@@ -1,0 +1,64 @@
+#include "plugin/report/held_boundary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "plugin/report/summary.h"
+#include "plugin/session/stroke.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double felt_n = 0.05;  // below, a boundary is not said to be felt
+constexpr double way_mm = 3, step_mm = 0.1;
+
+bool is_surface(const modes::Plan& plan, std::size_t mode) {
+  return std::any_of(plan.modes.begin(), plan.modes.end(),
+                     [&](const modes::ActiveMode& active) { return active.scene_index == mode && active.holds; });
+}
+
+}  // namespace
+
+std::optional<std::size_t> holding_surface(std::span<const PrimitiveRecord> shares, const modes::Plan& plan) {
+  std::optional<std::size_t> most;
+  double largest = felt_n;
+  for (const PrimitiveRecord& share : shares) {
+    const double force = glm::length(vector_of(share.force_n));
+    if (force > largest && is_surface(plan, share.mode)) {
+      largest = force;
+      most = share.mode;
+    }
+  }
+  return most;
+}
+
+std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> shares, const PreparedScene& felt,
+                                          const modes::Scene& scene, const glm::dvec3& proxy_mm,
+                                          const glm::dvec3& probe_mm) {
+  const auto mode = felt.plan ? holding_surface(shares, *felt.plan) : std::nullopt;
+  if (!mode) return std::nullopt;
+  HeldBoundary held{.mode = *mode};
+  for (const modes::ActiveMode& active : felt.plan->modes) {
+    if (active.scene_index != *mode) continue;
+    held.full_strength_n = active.strength.most_n();
+    // The proxy rests where the strength, on its rise, is just the force: what the boundary takes lies farther in.
+    const double pressed_mm = glm::distance(proxy_mm, probe_mm);
+    const glm::dvec3 inward = pressed_mm > 0 ? (probe_mm - proxy_mm) / pressed_mm : glm::dvec3(0);
+    for (double way = 0; way <= way_mm; way += step_mm) {
+      const io::Sample sample = felt.source->sample(proxy_mm + way * inward, felt.plan->fields);
+      if (sample.inside) held.strength_n = std::max(held.strength_n, active.strength(sample));
+    }
+  }
+  held.known_to_mm = known_to_mm(*felt.source, felt.volume->geometry, scene, proxy_mm);
+  return held;
+}
+
+std::string in_words(const HeldBoundary& held, const modes::Scene& scene) {
+  return display_name(scene, held.mode) +
+         (held.known_to_mm ? fmt::format(", known to \u00b1{:.2g} mm", *held.known_to_mm) : "") +
+         strength_to_text(held.strength_n, held.full_strength_n);
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,83 @@
+// What is said of the boundary that holds the proxy, against phantoms whose surfaces and contrasts are known.
+#include "plugin/report/held_boundary.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "modes/scene/scene_json.h"
+#include "modes/tick/haptic_step.h"
+#include "solver/chain.h"
+#include "testdata/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+const modes::Scene& scene() {
+  static const modes::Scene skin = modes::scene_from_json(
+      R"({"version": 1, "modes": [{"type": "friction", "strength_n": 0.1},
+          {"type": "surface", "name": "skin", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [170, 1.5]]},
+           "gates": [{"of": "value", "nodes": [[-510, 0], [-490, 1]]}]}]})",
+      "skin");
+  return skin;
+}
+
+/// Pressed 1 mm beyond the top of a ball of 20 mm: what is told there.
+std::optional<HeldBoundary> pressed_on(double value_hu, double noise_hu) {
+  const auto volume = std::make_shared<const io::Volume>(testdata::scan(
+      testdata::make_sphere(20, value_hu), testdata::make_geometry({.size = glm::ivec3(56)}), {.noise = noise_hu}));
+  const PreparedScene felt = prepare(scene(), volume, glm::dvec3(0.1));
+  solver::Chain chain;
+  const auto scratch = std::make_unique<modes::StepScratch>();
+  modes::Touch touch;
+  const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, -1, 0.2));
+  glm::dvec3 probe_mm(0);
+  modes::StepResult result;
+  for (double away = 4; away >= -1; away -= 0.05) {
+    probe_mm = (20 + away) * up;
+    result = modes::step(*felt.plan, *felt.source, felt.plan->workspace.to_device(probe_mm), touch, chain, *scratch);
+  }
+  std::vector<PrimitiveRecord> shares;
+  for (std::size_t n = 0; n < result.shares.size(); ++n) {
+    PrimitiveRecord share{};
+    share.mode = static_cast<decltype(share.mode)>(result.mode_of[n]);
+    for (int axis = 0; axis < 3; ++axis) share.force_n[axis] = result.shares[n][axis];
+    shares.push_back(share);
+  }
+  return held_boundary(shares, felt, scene(), felt.plan->workspace.to_patient(result.proxy_m), probe_mm);
+}
+
+TEST(HeldBoundary, IsTheSurfaceWithItsWholeStrengthWhereTheContrastIsWhole) {
+  const auto held = pressed_on(testdata::soft_tissue_hu, 20);
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->mode, 1U);
+  EXPECT_EQ(held->full_strength_n, 1.5);
+  EXPECT_EQ(held->strength_n, 1.5);
+  // 20 HU of 1040 HU over the blur of a voxel: some hundredths of a millimeter, and the voxels' own part.
+  ASSERT_TRUE(held->known_to_mm);
+  EXPECT_GT(*held->known_to_mm, 0.03);
+  EXPECT_LT(*held->known_to_mm, 0.2);
+  EXPECT_EQ(in_words(*held, scene()).find("skin, known to ±0."), 0U);
+  EXPECT_EQ(in_words(*held, scene()).find("thin"), std::string::npos);
+}
+
+TEST(HeldBoundary, SaysWhatAFaintBoundaryLacksAndThatNoiseMakesItLessKnown) {
+  // Steepest gradient of a step of 600 HU at 2 mm: 600 / (2 sqrt(2 pi)) = 120 HU/mm, of which the strength is
+  // 1.5 (120 - 20) / 150 N; on a ball of 20 mm the gradient is a little less.
+  const auto faint = pressed_on(-400, 20);
+  ASSERT_TRUE(faint);
+  EXPECT_NEAR(faint->strength_n, 1.0, 0.08);
+  EXPECT_NE(in_words(*faint, scene()).find(" of its 1.5 N: thin or faint there"), std::string::npos);
+  const auto noisy = pressed_on(-400, 60);
+  ASSERT_TRUE(noisy && noisy->known_to_mm && faint->known_to_mm);
+  EXPECT_GT(*noisy->known_to_mm, 1.3 * *faint->known_to_mm);
+}
+
+TEST(HeldBoundary, IsNoneWhereNothingHolds) {
+  const PreparedScene nothing;
+  EXPECT_FALSE(held_boundary({}, nothing, scene(), {}, {}));
+}
+
+}  // namespace
+}  // namespace palpate::plugin
