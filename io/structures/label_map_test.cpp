@@ -122,7 +122,7 @@ TEST(LabelMap, AnImageIsNone) {
 std::string refusal_of(const fs::path& file) {
   const StructureCatalogue found = find_structures(std::array{file});
   EXPECT_TRUE(found.structures.empty());
-  return found.skipped.empty() ? "not refused" : found.skipped.front().reason;
+  return found.skipped.empty() ? std::string("not refused") : std::string(found.skipped.front().reason);
 }
 
 std::string nrrd(const std::string& fields) {

@@ -15,7 +15,6 @@
 #include "io/fields/gradient.h"
 #include "io/quantile.h"
 #include "modes/scene/suggest.h"
-#include "plugin/app/errors.h"
 #include "plugin/bench/ray_study.h"
 #include "plugin/options/series_option.h"
 #include "plugin/session/scan.h"
@@ -68,7 +67,6 @@ void print_row(const std::string& name, const std::shared_ptr<const io::Volume>&
 
 void run(const SuggestArguments& arguments) {
   if (arguments.rays) {
-    if (arguments.series.path.empty()) throw WrongUsage("palpate-bench suggest --rays needs a SERIES");
     const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
     run_ray_study(describe_scan(*volume), volume);
     return;
@@ -97,7 +95,8 @@ void add_bench_suggest(CLI::App& bench) {
   const auto arguments = std::make_shared<SuggestArguments>();
   add_series_option(*command, arguments->series);
   command->get_option("SERIES")->required(false);
-  command->add_flag("--rays", arguments->rays, "what bone on 20 rays into the scan is felt with the suggestion");
+  command->add_flag("--rays", arguments->rays, "what bone on 20 rays into the scan is felt with the suggestion")
+      ->needs(command->get_option("SERIES"));
   command->add_option("--rounds", arguments->rounds, "runs of each, in turn")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

@@ -32,7 +32,8 @@ std::string what_is_there(const io::Catalogue& catalogue) {
   }
   if (there.empty() && !catalogue.skipped.empty()) {
     const io::SkippedFile& first = catalogue.skipped.front();
-    there = " " + say("no-image-among-files", catalogue.skipped.size(), first.path.filename().string(), first.reason);
+    there = fmt::format(" {}", static_cast<const std::string&>(say("no-image-among-files", catalogue.skipped.size(),
+                                                                   first.path.filename().string(), first.reason)));
   }
   return there.empty() ? " nothing" : there;
 }
