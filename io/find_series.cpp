@@ -61,6 +61,8 @@ Catalogue find_series(std::span<const fs::path> paths, const Progress& progress)
         } catch (const internal::NotAnImage& error) {
           reasons[i] = error.text();
           known[i].sop_class = error.sop_class;
+        } catch (const Refusal& error) {
+          reasons[i] = error.text();
         } catch (const std::exception& error) {
           reasons[i] = say("file-cannot-be-read", error.what());
         }

@@ -106,6 +106,8 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
       [&](std::size_t n) {
         try {
           found[n] = structures_in(files[n]);
+        } catch (const Refusal& error) {
+          reasons[n] = error.text();
         } catch (const std::exception& error) {
           reasons[n] = say("file-cannot-be-read", error.what());
         }

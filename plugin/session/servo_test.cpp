@@ -94,8 +94,8 @@ TEST(Servo, ACommanderThatIsGoneLetsGo) {
 
 TEST(Servo, RefusesARateThatNoServoHas) {
   Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
-  EXPECT_THROW(Servo(session, 1e6), std::invalid_argument);
-  EXPECT_THROW(Servo(session, 0), std::invalid_argument);
+  EXPECT_THROW(Servo(session, 1e6), std::logic_error);
+  EXPECT_THROW(Servo(session, 0), std::logic_error);
 }
 
 }  // namespace
