@@ -79,6 +79,8 @@ void color_volume(vtkSMProxy& representation, const modes::Scene& scene, double 
   vtkSMPropertyHelper(opacity, "Points").Set(points.data(), static_cast<unsigned>(points.size()));
   colors->UpdateVTKObjects();
   opacity->UpdateVTKObjects();
+  vtkSMPropertyHelper(&representation, "Shade", true).Set(0);  // the colors are the legend's
+  representation.UpdateVTKObjects();
 }
 
 std::vector<OpacityNode> opacity_of(vtkSMProxy& representation) {

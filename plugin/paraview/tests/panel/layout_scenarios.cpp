@@ -239,6 +239,18 @@ std::vector<double> volume_opacity() {
 }
 
 /// Whatever is tuned: only *Felt boundaries* follows the scene.
+/// Of the volume view's pixels, those that are not black: its letters and marker are one in fifty.
+double shown_part() {
+  const QImage picture = view("Volume").grab().toImage();
+  int shown = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      shown += picture.pixelColor(x, y).value() > 40 ? 1 : 0;
+    }
+  }
+  return static_cast<double>(shown) / (picture.width() * picture.height());
+}
+
 void a_chosen_look_stays() {
   scan_is_shown();
   auto& looks = find<QComboBox>("palpateVolumeLook");
@@ -258,6 +270,8 @@ void a_chosen_look_stays() {
   expect(volume_opacity() == bone, "tuning leaves the look that was chosen");
   choose("Felt boundaries");
   expect(volume_opacity() != bone, "the boundaries are shown where that is chosen");
+  wait_for(
+      "they are seen: " + std::to_string(shown_part()), [] { return shown_part() > 0.05; }, 5);
   save_screen("felt-boundaries");
 }
 
