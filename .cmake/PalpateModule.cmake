@@ -34,7 +34,7 @@ if(PALPATE_SANITIZE)
   target_link_options(palpate_compile_options INTERFACE -fsanitize=${PALPATE_SANITIZE})
 endif()
 
-# The arrows: what a folder may depend on; all know messages/. palpate_module() refuses any other, and the test `arrows` reads
+# The arrows: what a folder may depend on; all know solver/text. palpate_module() refuses any other, and the test `arrows` reads
 # the includes of every file, at any depth.
 set(PALPATE_ARROWS_solver "")
 set(PALPATE_ARROWS_io "")
@@ -62,7 +62,7 @@ function(palpate_module name)
   set_target_properties(palpate_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   target_include_directories(palpate_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_compile_features(palpate_${name} PUBLIC cxx_std_20)
-  target_link_libraries(palpate_${name} PUBLIC palpate::messages ${ARG_PUBLIC}
+  target_link_libraries(palpate_${name} PUBLIC palpate::text ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:palpate_compile_options>)
   if(NOT ARG_HEADERS)
     return()

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::device {
 

@@ -2,7 +2,7 @@
 
 /// What is said of styluses, and of the threads that serve them.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::device::messages {
 

@@ -31,7 +31,7 @@
 #include "device/testing/fake_wooden_haptics.h"
 #include "device/wooden_haptics/wooden_haptics.h"
 #include "device/wooden_haptics/wooden_haptics_driver.h"
-#include "messages/testing/shown.h"
+#include "solver/text/testing/shown.h"
 
 namespace palpate::device {
 namespace {

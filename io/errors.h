@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io {
 

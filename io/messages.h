@@ -5,7 +5,7 @@
 #include "io/archive/messages_of_archives.h"
 #include "io/dicom/messages_of_series.h"
 #include "io/structures/messages_of_structures.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io {
 

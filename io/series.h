@@ -12,7 +12,7 @@
 
 #include "io/geometry.h"
 #include "io/progress.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io {
 

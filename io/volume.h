@@ -15,7 +15,7 @@
 
 #include "io/filter.h"
 #include "io/geometry.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io {
 

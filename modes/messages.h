@@ -2,7 +2,7 @@
 
 /// What is said of scenes.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::modes::messages {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "messages/testing/shown.h"
 #include "modes/scene/scene_json.h"
+#include "solver/text/testing/shown.h"
 
 namespace palpate::modes {
 namespace {

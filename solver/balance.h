@@ -10,8 +10,8 @@
 #include <span>
 #include <string>
 
-#include "messages/message.h"
 #include "solver/primitive.h"
+#include "solver/text/message.h"
 
 namespace palpate::solver {
 

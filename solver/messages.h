@@ -2,7 +2,7 @@
 
 /// What is said of balances.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::solver::messages {
 

@@ -6,8 +6,8 @@
 
 #include <array>
 
-#include "messages/testing/shown.h"
 #include "solver/balance.h"
+#include "solver/text/testing/shown.h"
 
 namespace palpate::solver {
 namespace {

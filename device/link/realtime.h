@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::device {
 

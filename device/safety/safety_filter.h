@@ -12,7 +12,7 @@
 
 #include "device/safety/safety_limits.h"
 #include "device/stylus.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::device {
 

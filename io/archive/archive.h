@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io {
 

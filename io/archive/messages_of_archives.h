@@ -2,7 +2,7 @@
 
 /// What is said of archives, of what they hold and of the way to them.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io::messages {
 

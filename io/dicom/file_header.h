@@ -14,7 +14,7 @@
 #include "io/dicom/fragments.h"
 #include "io/geometry.h"
 #include "io/series.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io::internal {
 

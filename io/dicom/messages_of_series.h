@@ -2,7 +2,7 @@
 
 /// What the reader says of files and series.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io::messages {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/dicom/series_source.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io::internal {
 

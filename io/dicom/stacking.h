@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/dicom/file_header.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io::internal {
 

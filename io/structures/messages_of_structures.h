@@ -2,7 +2,7 @@
 
 /// What is said of structures: segmentations, contours, label maps.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io::messages {
 

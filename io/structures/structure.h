@@ -14,7 +14,7 @@
 #include "io/progress.h"
 #include "io/series.h"
 #include "io/structures/distance_field.h"
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::io {
 

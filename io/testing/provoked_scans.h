@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/testing/test_image.h"
-#include "messages/testing/shown.h"
+#include "solver/text/testing/shown.h"
 
 namespace palpate::io::testing {
 

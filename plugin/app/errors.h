@@ -2,7 +2,7 @@
 
 /// What goes wrong for a user's reasons. The programs turn each into an exit code.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 

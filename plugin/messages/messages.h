@@ -2,13 +2,13 @@
 
 /// What plugin says to a user.
 
-#include "messages/message.h"
 #include "plugin/messages/messages_of_archives.h"
 #include "plugin/messages/messages_of_balances.h"
 #include "plugin/messages/messages_of_paraview.h"
 #include "plugin/messages/messages_of_series.h"
 #include "plugin/messages/messages_of_sessions.h"
 #include "plugin/messages/messages_of_structures.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 

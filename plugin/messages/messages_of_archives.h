@@ -2,7 +2,7 @@
 
 /// What is said of the archives that are entered and of what was fetched.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin::messages {
 

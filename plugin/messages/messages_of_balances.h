@@ -2,7 +2,7 @@
 
 /// What `palpate solve` says.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin::messages {
 

@@ -2,7 +2,7 @@
 
 /// What is said in ParaView and in the panel.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin::messages {
 

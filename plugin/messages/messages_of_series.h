@@ -2,7 +2,7 @@
 
 /// What is said of the choice of a series.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin::messages {
 

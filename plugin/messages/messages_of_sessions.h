@@ -2,7 +2,7 @@
 
 /// What is said of strokes, sessions and recordings.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin::messages {
 

@@ -2,7 +2,7 @@
 
 /// What is said where structures are asked for.
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin::messages {
 

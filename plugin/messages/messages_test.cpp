@@ -16,11 +16,11 @@
 
 #include "device/messages.h"
 #include "io/messages.h"
-#include "messages/testing/shown.h"
 #include "modes/messages.h"
 #include "plugin/messages/page.h"
 #include "plugin/messages/provoked.h"
 #include "solver/messages.h"
+#include "solver/text/testing/shown.h"
 
 namespace palpate::plugin {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "messages/testing/shown.h"
+#include "solver/text/testing/shown.h"
 
 namespace palpate::plugin::testing {
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 

@@ -18,9 +18,9 @@
 #include <thread>
 #include <vector>
 
-#include "messages/message.h"
 #include "plugin/recording/recording_writer.h"
 #include "plugin/session/tick_ring.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "io/volume.h"
-#include "messages/message.h"
 #include "modes/scene/scene.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 

@@ -2,7 +2,7 @@
 
 #include <QString>
 
-#include "messages/message.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 

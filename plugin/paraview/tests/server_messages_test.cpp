@@ -23,13 +23,13 @@
 
 #include "io/messages.h"
 #include "io/series.h"
-#include "messages/testing/shown.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/common/slices_message.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
 #include "plugin/paraview/server/module/PalpateFields.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
 #include "plugin/testing/test_files.h"
+#include "solver/text/testing/shown.h"
 #include "testdata/scan.h"
 #include "testdata/write_series.h"
 

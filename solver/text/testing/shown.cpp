@@ -1,4 +1,4 @@
-#include "messages/testing/shown.h"
+#include "solver/text/testing/shown.h"
 
 #include <gtest/gtest.h>
 
