@@ -493,6 +493,7 @@ void a_filter_is_felt_and_shown() {
   const double raw_felt = number("palpateTissue");
   expect(raw_noise > 60 && raw_noise < 100, "the noise is the phantom's: " + std::to_string(raw_noise));
   auto& type = find<QComboBox>("palpateFilter");
+  if (!type.isVisible()) click("palpateScanSectionFold");
   scroll_to(type);
   type.setCurrentIndex(type.findText("Gaussian"));
   emit type.activated(type.currentIndex());
