@@ -1,6 +1,7 @@
 // Label maps that are no DICOM: where they lie by the standards' own formulas, what they are called, and what is
 // refused.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstring>
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path fresh_folder() {
-  fs::path folder = fs::path(testing::TempDir()) / "label_maps";
+  fs::path folder = fs::path(testing::TempDir()) / ("label_maps-" + std::to_string(::getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

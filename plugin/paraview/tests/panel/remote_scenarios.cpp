@@ -14,6 +14,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTimer>
+#include <QToolButton>
 #include <QtTest/QTest>
 
 #include <csignal>
@@ -84,6 +85,8 @@ void feel_patiently(bool recorded) {
   scan_is_shown();
   find<QCheckBox>("palpateFollow").setChecked(false);  // each slice is a question to the server
   connect_stylus();
+  find<QToolButton>("palpateGoToStylus").click();  // where the mouse can take it
+  wait_ms(2000);
   if (recorded) record();
   QWidget& sagittal = view("Sagittal");
   const QPoint from = proxy_in(sagittal);
