@@ -530,7 +530,8 @@ void a_filter_is_felt_and_shown() {
   wait_for(
       "the raw values are shown", [&] { return shown_noise() == raw_noise; }, 20);
   wait_ms(500);
-  expect(number("palpateTissue") == raw_felt, "the raw values are felt");
+  // With its force on the stylus may have moved a little, and the noise with it.
+  expect(std::abs(number("palpateTissue") - raw_felt) < raw_noise / 2, "the raw values are felt");
 }
 
 void a_flow_is_shown_and_felt() {
