@@ -170,6 +170,21 @@ TEST(Filtered, GaussianSpreadsAlikeAlongAllAxes) {
   }
 }
 
+TEST(Filtered, GaussianCountsASliceForTheRoomThatItHas) {
+  Geometry geometry;
+  geometry.dimensions = {4, 4, 50};
+  for (double z = -14; z < -0.2; z += 0.4) geometry.slice_positions.emplace_back(0, 0, z);
+  const int change = static_cast<int>(geometry.slice_positions.size());
+  for (double z = 0; static_cast<int>(geometry.slice_positions.size()) < geometry.dimensions.z; z += 1.6) {
+    geometry.slice_positions.emplace_back(0, 0, z);
+  }
+  geometry.uniform = false;
+  const auto ramp = filtered(painted(geometry, [](const Vec3& p) { return 100 * p.z; }),
+                             {.type = FilterType::gaussian, .sigma_mm = 2});
+  // Where dense slices end, counting slices alone would draw the mean towards them, by about a millimeter.
+  EXPECT_NEAR(at(*ramp, 2, 2, change) / 100, geometry.slice_positions[static_cast<std::size_t>(change)].z, 0.1);
+}
+
 TEST(Filtered, NothingComesAcrossMissingSlices) {
   testdata::Grid grid;
   grid.size = {8, 8, 12};
