@@ -8,6 +8,11 @@ install(FILES ${PROJECT_BINARY_DIR}/palpateConfig.cmake ${PROJECT_BINARY_DIR}/pa
   ${CMAKE_CURRENT_LIST_DIR}/FindOpenCVParts.cmake
   DESTINATION ${config_dir})
 
+# What the API pages are made of (`plugin/run docs`).
+get_property(headers GLOBAL PROPERTY PALPATE_PUBLIC_HEADERS)
+list(JOIN headers "\n" headers)
+file(WRITE ${PROJECT_BINARY_DIR}/public_headers.txt "${headers}\nsolver/text/message.h\n")
+
 if(PALPATE_TESTS)
   add_test(NAME arrows COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -P ${CMAKE_CURRENT_LIST_DIR}/TestArrows.cmake)
   if("modes" IN_LIST PALPATE_MODULES AND NOT PALPATE_SANITIZE)

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a kind of stylus is: one object each (<kind>/<kind>_type.cpp). The list of them is one line in
-/// device/CMakeLists.txt; the command line, the plan, the guardian and the panel read it.
+/// The description of a kind of stylus: one object for each kind (<kind>/<kind>_type.cpp). device/CMakeLists.txt lists
+/// the kinds. The command line, the plan, the guardian and the panel read the list.
 
 #include <cstdint>
 #include <memory>
@@ -15,13 +15,13 @@
 
 namespace palpate::device {
 
-/// What a user names to have a stylus.
+/// How a user chooses a stylus of a kind.
 struct DeviceChoice {
-  std::string address;   ///< which one, where several are plugged in: FoundDevice::address
+  std::string address;   ///< which one, if several are plugged in: FoundDevice::address
   std::string firmware;  ///< a file, for kinds that need it
   std::string settings;  ///< a JSON file; its keys are the names in the kind's settings
   std::uint64_t seed = 1;
-  double rate_hz = 1000;  ///< of the simulated one
+  double rate_hz = 1000;  ///< of the simulated stylus
 };
 
 /// The file that a kind is asked for.
@@ -34,20 +34,20 @@ struct DeviceType {
   std::string_view needs;     ///< before it can be opened; empty: nothing
   std::string_view homing;    ///< what the user does while its state is State::homing; empty: nothing
   std::string_view sold;      ///< whether it can be bought
-  std::string_view tested;    ///< how
-  std::string_view watchdog;  ///< what takes the force away when nobody reaches it any more
+  std::string_view tested;    ///< how it was tested
+  std::string_view watchdog;  ///< what takes the force away when the program cannot reach it any more
   DeviceFile file = DeviceFile::none;
   std::string_view file_hint;  ///< what that file is
   bool has_force = true;
   std::vector<FoundDevice> (*find)() = nullptr;  ///< never throws; null: it is always there
   /// Not open yet. Throws std::runtime_error naming the device, what is wrong with its settings and what to do.
   std::shared_ptr<Stylus> (*make)(const DeviceChoice& choice) = nullptr;
-  /// For the guardian: opens the device anew and sends zeros; `take_away`: from a process that is stopped. Null: the
-  /// device, or its maker's service, does so itself.
+  /// For the guardian: opens the device again and sends zeros. `take_away`: takes it from a process that is stopped.
+  /// Null: the kind has no motors.
   bool (*send_zeros)(const std::string& address, bool take_away) = nullptr;
 };
 
-/// How every driver of real hardware was tested, and what that leaves open.
+/// How every driver of real hardware was tested.
 constexpr std::string_view protocol_tested = "protocol-tested, never run on hardware";
 
 /// All kinds, the simulated one first.

@@ -293,6 +293,7 @@ std::vector<Provoked> provoke_styluses() {
       {"current-limit-lies-between-0", said_of_arm(R"({"current_limit": 30})")},
       {"torque-constant-must-be-above-zero", said_of_arm(R"({"torque_constant": [0, 1, 1]})")},
       {"counts-per-turn-must-be-above", said_of_arm(R"({"counts_per_turn": [0, 1, 1]})")},
+      {"axis-signs-are-1-or-1", said_of_arm(R"({"force_signs": [1, 2, 1]})")},
       {"encoder-sign-is-1-or-1", said_of_arm(R"({"encoder_sign": [0, 1, 1]})")},
       {"home-counts-must-fit-16-bits", said_of_arm(R"({"home_counts": [99999, 1, 1]})")},
       {"diameters-must-be-above-zero", said_of_arm(R"({"capstan_diameter": [0, 0.01, 0.01]})")},

@@ -2,11 +2,16 @@
 
 /// A device's settings as JSON: one object, whose keys are the names of the settings.
 
+#include <array>
+#include <cmath>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "device/axis_signs.h"
+#include "device/device_type.h"
 #include "device/messages.h"
 
 namespace palpate::device {
@@ -37,6 +42,27 @@ class SettingsReader {
   nlohmann::json left_;
 };
 
+/// Three times 1 or -1. Throws std::runtime_error naming the key.
+inline void take_signs(SettingsReader& reader, const char* key, Vec3& signs) {
+  std::array<double, 3> values{signs.x, signs.y, signs.z};
+  reader.take(key, values);
+  for (const double value : values) {
+    if (std::abs(value) != 1) throw Refusal(say("axis-signs-are-1-or-1", key));
+  }
+  signs = {values[0], values[1], values[2]};
+}
+
+/// What the settings of every kind with motors have.
+template <typename Settings>
+void take_common(SettingsReader& reader, Settings& settings) {
+  reader.take("address", settings.address);
+  reader.take("maximum_force", settings.maximum_force);
+  reader.take("stiffness_limit", settings.stiffness_limit);
+  reader.take("guarded", settings.guarded);
+  take_signs(reader, "position_signs", settings.signs.position);
+  take_signs(reader, "force_signs", settings.signs.force);
+}
+
 /// read(SettingsReader&) makes the settings. Throws std::runtime_error naming the device, the file, the key and what is
 /// wrong with it.
 template <typename Read>
@@ -51,6 +77,20 @@ auto read_settings_file(const std::string& device, const std::string& file, cons
   } catch (const std::exception& error) {
     throw Refusal(say("settings-refused", device, file, error.what()));
   }
+}
+
+/// The stylus that a user chose: from the settings file if there is one, else from `settings`; then with the address
+/// and the firmware that were chosen beside it.
+template <typename Settings>
+std::shared_ptr<Stylus> make_with_settings(const DeviceChoice& choice, Settings (*read)(const std::string& file),
+                                           std::unique_ptr<Stylus> (*make)(const Settings& settings),
+                                           Settings settings = {}) {
+  if (!choice.settings.empty()) settings = read(choice.settings);
+  if (!choice.address.empty()) settings.address = choice.address;
+  if constexpr (requires { settings.firmware_file; }) {
+    if (!choice.firmware.empty()) settings.firmware_file = choice.firmware;
+  }
+  return make(settings);
 }
 
 }  // namespace palpate::device

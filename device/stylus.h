@@ -21,7 +21,7 @@ struct Specification {
   double position_resolution = 0;  ///< m: one step of the position
   double maximum_force = 0;        ///< N, peak
   double continuous_force = 0;     ///< N, sustained
-  double stiffness_limit = 0;      ///< N/m that it renders stably
+  double stiffness_limit = 0;      ///< N/m: a stiffer wall may ring
   double rate = 1000;              ///< Hz
 };
 
@@ -48,7 +48,7 @@ class Stylus {
   virtual void open() = 0;
   /// Zero force, then closed. Never throws; may be called twice.
   virtual void close() noexcept = 0;
-  /// The newest pose. In the tick: does not throw or allocate; a lost device reads as state() fault.
+  /// The newest pose. Called in the tick: does not throw or allocate. If the device is lost, state() is State::fault.
   virtual Reading read() noexcept = 0;
   /// N. Only the safety filter's output may be written.
   virtual void write_force(const Vec3& force) noexcept = 0;

@@ -16,9 +16,9 @@ struct FirstChoice {
   std::string why;  ///< "slices of 1.00 mm, soft kernel B30f, 512 slices"
 };
 
-/// The volume that shows most of what can be felt: CT or MR as it was acquired before what was computed from it or lost
-/// in compression; thin slices; a kernel for soft tissue, whose noise is not felt as roughness; most slices. Nothing
-/// where none is usable.
+/// The volume with most to feel. First CT and MR as acquired, before computed or lossy images; then thin slices; then a
+/// kernel for soft tissue, because the noise of a sharp one is felt as roughness; then most slices. Nothing if no
+/// series is usable.
 std::optional<FirstChoice> choose_first(std::span<const Series> series);
 
 /// Whether a reconstruction kernel sharpens, by the makers' names: Siemens' numbers from 60 on, Canon's FC 30, 50 and

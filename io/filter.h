@@ -1,7 +1,7 @@
 #pragma once
 
-/// A filter of a scan's values against noise, which a stylus feels as roughness: a setting of the scene. What it makes
-/// of a volume is in fields/filtered.h.
+/// A filter of a scan's values against noise, which a stylus feels as roughness. It is a setting of the scene;
+/// fields/filtered.h applies it to a volume.
 
 #include <cstdint>
 #include <string>

@@ -15,14 +15,9 @@
 #include "io/series.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
-using internal::find_in;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write_stack;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -103,12 +98,12 @@ TEST(FindFiles, CancelledHalfWayLeavesNothingRunning) {
 }
 
 TEST(FindFiles, MissingDataDictionaryIsRefusedByName) {
-  EXPECT_NO_THROW(internal::start_dcmtk());
+  EXPECT_NO_THROW(start_dcmtk());
   DcmDataDictionary empty(OFFalse, OFFalse);
   empty.clear();
   for (const bool loaded : {false, true}) {
     try {
-      internal::check_dictionary(empty, loaded);
+      check_dictionary(empty, loaded);
       FAIL();
     } catch (const DicomError& error) {
       EXPECT_THAT(error.what(), HasSubstr("DCMDICTPATH"));
@@ -177,4 +172,4 @@ TEST(FindFiles, FolderBelowThatMayNotBeReadIsNamed) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

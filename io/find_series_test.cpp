@@ -9,16 +9,9 @@
 #include "io/series.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
-using internal::find_in;
-using internal::load_frame;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write;
-using internal::write_stack;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -120,7 +113,7 @@ TEST(FindSeries, RepeatsWithoutALabelBecomeFramesByTime) {
     image.z = 2.0 * (n % 4);
     image.value = [n](int, int) { return n / 4; };
     image.edit = [n](DcmDataset& d) { put(d, DCM_AcquisitionTime, std::to_string(100000 + 7 * n)); };
-    write(image, folder / internal::numbered("f", 97 - n));
+    write(image, folder / numbered("f", 97 - n));
   }
   const Series series = find_in(folder).series.at(0);
   ASSERT_EQ(series.frames_per_position, 3);
@@ -187,8 +180,8 @@ TEST(FindSeries, SeveralMultiFrameFilesOfASeriesAreOneVolume) {
   for (std::size_t file = 0; file < heights.size(); ++file) {
     TestImage image;
     image.edit = [&](DcmDataset& d) {
-      internal::make_multi_frame(d, heights[file]);
-      internal::repeat_pixels(d, heights[file].size());
+      make_multi_frame(d, heights[file]);
+      repeat_pixels(d, heights[file].size());
     };
     write(image, folder / std::to_string(file));
   }
@@ -219,7 +212,7 @@ TEST(FindSeries, LocalizerInASeriesIsSetApart) {
 
 TEST(FindSeries, ReadableCopyWinsOverTruncatedTwin) {
   const TestFolder folder;
-  write_stack(folder.path(), 3, [](int k, TestImage& image) { image.instance = internal::numbered("1.2.7.", k); });
+  write_stack(folder.path(), 3, [](int k, TestImage& image) { image.instance = numbered("1.2.7.", k); });
   std::filesystem::copy_file(folder / "s1.dcm", folder / "a_cut.dcm");  // before s1.dcm in any order of names
   std::filesystem::resize_file(folder / "a_cut.dcm", std::filesystem::file_size(folder / "a_cut.dcm") - 10);
   const Catalogue found = find_in(folder);
@@ -240,7 +233,7 @@ TEST(FindSeries, WhatCannotBeFeltIsRefusedWithAReason) {
       Unfit{"color",
             [](DcmDataset& d) { put(d, DCM_SamplesPerPixel, 3), put(d, DCM_PhotometricInterpretation, "RGB"); },
             "color"},
-      Unfit{"unplaced", [](DcmDataset& d) { internal::succeed(d.findAndDeleteElement(DCM_ImagePositionPatient)); },
+      Unfit{"unplaced", [](DcmDataset& d) { succeed(d.findAndDeleteElement(DCM_ImagePositionPatient)); },
             "no position"},
       Unfit{"no spacing", [](DcmDataset& d) { put(d, DCM_PixelSpacing, "0\\0"); }, "no position"},
       Unfit{"not a number", [](DcmDataset& d) { put(d, DCM_ImagePositionPatient, "0\\0\\here"); }, "no position"},
@@ -249,8 +242,8 @@ TEST(FindSeries, WhatCannotBeFeltIsRefusedWithAReason) {
       Unfit{"look-up table",
             [](DcmDataset& d) {
               DcmItem* item = nullptr;
-              internal::succeed(d.findOrCreateSequenceItem(DCM_ModalityLUTSequence, item, 0));
-              internal::succeed(item->putAndInsertString(DCM_ModalityLUTType, "HU"));
+              succeed(d.findOrCreateSequenceItem(DCM_ModalityLUTSequence, item, 0));
+              succeed(item->putAndInsertString(DCM_ModalityLUTType, "HU"));
             },
             "look-up table"},
       Unfit{"loop of frames", [](DcmDataset& d) { put(d, DCM_NumberOfFrames, "2"); }, "several frames"},
@@ -268,4 +261,4 @@ TEST(FindSeries, WhatCannotBeFeltIsRefusedWithAReason) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-/// All of a folder's files or none: they are written beside it and moved to their place at the end.
+/// Writes a folder whole or not at all: its files are written beside it, and moved to their place at the end.
 
 #include <filesystem>
 #include <functional>
@@ -26,11 +26,11 @@ class FreshFolder {
   std::filesystem::path working_;
 };
 
-/// A folder in the system's temporary one, gone with the object: it is never committed.
+/// A temporary folder that is removed with the object. It is never committed.
 FreshFolder temporary_folder();
 
-/// Has `write` fill a fresh folder, which is committed when it returns. An empty `final_path` is handed on as it is:
-/// nothing is to be written.
+/// Lets `write` fill a fresh folder, and commits the folder when `write` returns. With an empty `final_path` nothing is
+/// to be written, and `write` gets the empty path.
 void write_all_or_none(const std::filesystem::path& final_path,
                        const std::function<void(const std::filesystem::path& folder)>& write);
 

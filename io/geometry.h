@@ -24,8 +24,8 @@ struct Geometry {
   double spacing_j = 1;               ///< mm between rows (first value of PixelSpacing)
   std::vector<Vec3> slice_positions;  ///< mm: center of each slice's first voxel
 
-  /// Mean vector from a slice to the next, mm; the unit normal times the slice's own thickness where there is one
-  /// slice.
+  /// Mean vector from a slice to the next, mm. With a single slice it is the unit normal times the slice's
+  /// thickness.
   Vec3 step{0, 0, 1};
   /// Whether every step is the mean one (to the tolerance that the reader states).
   bool uniform = true;
@@ -34,12 +34,12 @@ struct Geometry {
 
   /// Patient position of a continuous voxel index, mm.
   Vec3 to_patient(const Vec3& index) const noexcept;
-  /// Continuous voxel index of a patient position (mm). Exact at voxel centers, also where slices are unevenly spaced;
-  /// linear between them; outside the volume it continues the nearest step.
+  /// Continuous voxel index of a patient position (mm). Exact at voxel centers, even if slices are unevenly spaced, and
+  /// linear between them. Outside the volume the nearest step is continued.
   Vec3 to_index(const Vec3& position_mm) const noexcept;
   /// Whether an index lies within the hull of the voxel centers.
   bool contains(const Vec3& index) const noexcept;
-  /// Mean distance between neighboring slices along their normal, mm; under gantry tilt less than the length of
+  /// Mean distance between neighboring slices along their normal, mm. With gantry tilt this is less than the length of
   /// `step`.
   double slice_spacing() const noexcept;
   /// Gradient per index step -> gradient per mm in patient space, at slice interval k (the transposed inverse

@@ -10,6 +10,7 @@
 #include "io/dicom/stacking.h"
 #include "io/dicom/velocity.h"
 #include "io/errors.h"
+#include "io/interchange/voxel_scan.h"
 #include "io/messages.h"
 #include "io/pages.h"
 #include "io/parallel.h"
@@ -40,6 +41,7 @@ Storage storage_for(const Reading& reading) {
   bool any_large = false;
   for (const auto& slice : reading.frame.slices) {
     const internal::FileHeader& file = reading.source.file_of(slice);
+    if (file.format.is_wide() || file.table) return Storage::as_float;
     any_signed |= file.format.is_signed;
     any_large |= !file.format.is_signed && (file.format.bits_stored == 16 || file.padding_is_wide());
   }
@@ -99,15 +101,82 @@ Geometry geometry_of_slices(Geometry whole, int first, int count) {
   return whole;
 }
 
+/// What the stored numbers mean: rescale and padding.
+void describe_values(const Reading& whole, Storage storage, Volume& volume) {
+  const Slices& slices = whole.frame.slices;
+  if (storage != Storage::as_float) {
+    const Reading::Rescale by = whole.rescale_of(slices.front());
+    volume.slope = by.slope;
+    volume.intercept = by.intercept;
+    volume.padding = whole.source.file_of(slices.front()).padding;
+    return;
+  }
+  const bool any_padding = std::ranges::any_of(slices, [&](const auto& slice) {
+    const internal::FileHeader& file = whole.source.file_of(slice);
+    return file.padding.has_value() || file.format.is_float;
+  });
+  if (any_padding) volume.padding = {internal::float_padding, internal::float_padding};
+}
+
+/// Reads all slices to their places in the volume and adds its warnings. Returns the slices that cannot be read,
+/// ascending. Throws DicomError where none can be.
+std::vector<std::size_t> read_slices(const Reading& reading, const std::string& name, const LoadOptions& options,
+                                     Volume& volume) {
+  std::vector<std::size_t> failed;
+  std::set<Text> oddities;
+  std::mutex noting;
+  const auto note_failure = [&](std::size_t k, const char* why) {
+    const std::lock_guard lock(noting);
+    failed.push_back(k);
+    const auto& file = reading.source.file_of(reading.frame.slices[k]);
+    volume.warnings.push_back(say("left-out", file.path.filename().string(), why));
+  };
+  const auto note_oddity = [&](const Text& what) {
+    const std::lock_guard lock(noting);
+    oddities.insert(what);
+  };
+  const std::vector<internal::SliceUnit> units = internal::slice_units(reading);
+  internal::parallel_for(
+      units.size(),
+      [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure, note_oddity); },
+      options.progress, options.threads);
+  std::vector<Text>& warnings = volume.warnings;
+  if (failed.size() == reading.frame.slices.size()) {
+    throw DicomError(say("series-cannot-be-read", name, warnings.front()));
+  }
+  std::sort(failed.begin(), failed.end());
+  std::sort(warnings.begin(), warnings.end());
+  warnings.erase(std::unique(warnings.begin(), warnings.end()), warnings.end());
+  warnings.insert(warnings.end(), oddities.begin(), oddities.end());
+  return failed;
+}
+
+/// `failed`: slices of the range, ascending.
+Geometry geometry_of(const Reading& whole, const LoadOptions::Range& range, bool only_range,
+                     const std::vector<std::size_t>& failed) {
+  const SeriesSource& source = whole.source;
+  const Slices& slices = whole.frame.slices;
+  std::vector<Vec3> positions;
+  std::vector<Vec3> lost = whole.frame.lost;
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    const bool is_lost = std::ranges::binary_search(failed, k - static_cast<std::size_t>(range.first));
+    (is_lost ? lost : positions).push_back(source.plane_of(slices[k]).placement->position);
+  }
+  const SeriesSource::Slice& first = slices[static_cast<std::size_t>(range.first)];
+  const internal::FileHeader& file = source.file_of(first);
+  Geometry geometry = internal::stack_geometry(file.columns, file.rows, *source.plane_of(first).placement,
+                                               std::move(positions), lost, file.thickness);
+  if (!only_range) return geometry;
+  return geometry_of_slices(std::move(geometry), range.first, range.count - static_cast<int>(failed.size()));
+}
+
 /// `name` is for errors.
 Volume read_frame(const Reading& whole, const std::string& name, const LoadOptions& options) {
   const LoadOptions::Range range = checked_range(whole.frame, name, options);
   const auto begin = whole.frame.slices.begin() + range.first;
   const SeriesSource::Frame part{Slices(begin, begin + range.count), {}};
   const Reading reading{whole.source, part, whole.as_velocity};
-  const SeriesSource& source = reading.source;
-  const Slices& slices = part.slices;
-  const internal::FileHeader& first = source.file_of(slices.front());
+  const internal::FileHeader& first = whole.source.file_of(part.slices.front());
   const std::size_t size = static_cast<std::size_t>(first.columns) * static_cast<std::size_t>(first.rows);
 
   Volume volume;
@@ -116,58 +185,14 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   volume.frame_of_reference_uid = first.frame_of_reference;
   const Storage storage = storage_for(whole);
   try {
-    volume.voxels = allocate(storage, size * slices.size(), options.threads);
+    volume.voxels = allocate(storage, size * part.slices.size(), options.threads);
   } catch (const std::bad_alloc&) {
-    throw DicomError(say("needs-more-memory-than-there", name, size * slices.size() >> 19));
+    throw DicomError(say("needs-more-memory-than-there", name, size * part.slices.size() >> 19));
   }
-  if (storage == Storage::as_float) {
-    const bool any_padding = std::ranges::any_of(
-        whole.frame.slices, [&](const auto& slice) { return source.file_of(slice).padding.has_value(); });
-    if (any_padding) volume.padding = {internal::float_padding, internal::float_padding};
-  } else {
-    const Reading::Rescale by = reading.rescale_of(slices.front());
-    volume.slope = by.slope;
-    volume.intercept = by.intercept;
-    volume.padding = first.padding;
-  }
-
-  std::vector<std::size_t> failed;
-  std::mutex failed_mutex;
-  const auto note_failure = [&](std::size_t k, const char* why) {
-    const std::lock_guard lock(failed_mutex);
-    failed.push_back(k);
-    volume.warnings.push_back(say("left-out", source.file_of(slices[k]).path.filename().string(), why));
-  };
-  std::set<Text> oddities;
-  const auto note_oddity = [&](const Text& what) {
-    const std::lock_guard lock(failed_mutex);
-    oddities.insert(what);
-  };
-  const std::vector<internal::SliceUnit> units = internal::slice_units(reading);
-  internal::parallel_for(
-      units.size(),
-      [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure, note_oddity); },
-      options.progress, options.threads);
-  if (failed.size() == slices.size()) throw DicomError(say("series-cannot-be-read", name, volume.warnings.front()));
-
-  std::sort(failed.begin(), failed.end());
-  std::sort(volume.warnings.begin(), volume.warnings.end());
-  volume.warnings.erase(std::unique(volume.warnings.begin(), volume.warnings.end()), volume.warnings.end());
-  volume.warnings.insert(volume.warnings.end(), oddities.begin(), oddities.end());
+  describe_values(whole, storage, volume);
+  const std::vector<std::size_t> failed = read_slices(reading, name, options, volume);
   drop_slices(failed, size, volume.voxels);
-
-  std::vector<Vec3> positions;
-  std::vector<Vec3> lost = whole.frame.lost;
-  for (std::size_t k = 0; k < whole.frame.slices.size(); ++k) {
-    const bool is_lost = std::ranges::binary_search(failed, k - static_cast<std::size_t>(range.first));
-    (is_lost ? lost : positions).push_back(source.plane_of(whole.frame.slices[k]).placement->position);
-  }
-  volume.geometry = internal::stack_geometry(first.columns, first.rows, *source.plane_of(slices.front()).placement,
-                                             std::move(positions), lost, first.thickness);
-  if (options.slices) {
-    volume.geometry =
-        geometry_of_slices(std::move(volume.geometry), range.first, range.count - static_cast<int>(failed.size()));
-  }
+  volume.geometry = geometry_of(whole, range, options.slices.has_value(), failed);
   return volume;
 }
 
@@ -189,10 +214,9 @@ Volume read_velocity(const std::array<SeriesSource::Component, 3>& along, const 
   return internal::vector_field(std::move(components), directions);
 }
 
-}  // namespace
-
-Volume load(const Series& series, const LoadOptions& options) {
+Volume load_unnamed(const Series& series, const LoadOptions& options) {
   const std::string name = name_of(series);
+  if (series.source && series.source->voxel_file) return load_voxels(*series.source->voxel_file, name, options);
   const std::size_t frames =
       series.source ? std::max(series.source->frames.size(), series.source->velocities.size()) : 0;
   if (frames == 0) {
@@ -206,6 +230,15 @@ Volume load(const Series& series, const LoadOptions& options) {
   const SeriesSource& source = *series.source;
   if (!source.velocities.empty()) return read_velocity(source.velocities[wanted], name, options);
   return read_frame({source, source.frames[wanted]}, name, options);
+}
+
+}  // namespace
+
+Volume load(const Series& series, const LoadOptions& options) {
+  Volume volume = load_unnamed(series, options);
+  volume.patient_id = series.identity.patient_id;
+  volume.patient_name = series.identity.patient_name;
+  return volume;
 }
 
 }  // namespace palpate::io

@@ -58,7 +58,8 @@ TEST(MessagesOfSeries, EachIsShown) {
   for (const auto& some : {testing::provoke_files(), testing::provoke_headers(), testing::provoke_pixels()}) {
     provoked.insert(provoked.end(), some.begin(), some.end());
   }
-  std::vector<NotShown> not_shown;
+  for (const Provoked& one : testing::provoke_archives()) provoked.push_back(one);
+  std::vector<NotShown> not_shown{{"archive-holds-too-many-files", "a million files take a minute"}};
   if (testdata::is_sanitized) {
     not_shown.push_back({"needs-more-memory-than-there", "sanitizers end a program that asks for too much"});
   }

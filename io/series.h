@@ -1,7 +1,7 @@
 #pragma once
 
-/// From folders to series: every file is judged by its content, images are grouped into series that can become a
-/// volume, and what is set apart is named with a reason. Only headers are read here; load() reads the voxels.
+/// Finds the series in folders. Every file is judged by its content; images are grouped into series that can become a
+/// volume; what is set apart is listed with a reason. Only headers are read here; load() reads the voxels.
 
 #include <filesystem>
 #include <memory>
@@ -24,12 +24,12 @@ struct Series {
   std::string study_uid;    ///< StudyInstanceUID
   std::string modality;     ///< Modality: "CT", "MR", ...
   std::string description;  ///< SeriesDescription
-  /// Where several volumes lie in one another under one UID, what tells this one from the others, such as
-  /// "acquisition 2"; else empty.
+  /// If several volumes share this UID and overlap: what tells this one from the others, such as
+  /// "acquisition 2". Else empty.
   std::string part;
   std::string unit;  ///< of the rescaled values: "HU", or empty where the modality has none
 
-  /// How it was acquired, to be told from others by; empty where it is not said.
+  /// How it was acquired, so that a user can tell it from others. Empty where the file does not say.
   struct Details {
     std::optional<int> number;     ///< SeriesNumber
     std::string date;              ///< SeriesDate, else AcquisitionDate or StudyDate: YYYYMMDD
@@ -54,20 +54,20 @@ struct Series {
   std::vector<std::string>
       frame_names;  ///< what each frame is, such as "b = 1000 s/mm2"; one a frame, empty where unknown
 
-  /// How its makers would have it shown: rescaled values below level - width / 2 black, above level + width / 2 white
-  /// (WindowCenter and WindowWidth, the first of several, of the middle slice of the first frame).
+  /// The window that the file asks for: rescaled values below level - width / 2 are black, above level + width / 2
+  /// white (WindowCenter and WindowWidth, the first of several, of the middle slice of the first frame).
   struct Window {
     double level = 0;
     double width = 1;
   };
   std::optional<Window> window;
 
-  /// Whether it is a volume: placed in the patient, scalar, at least two slices, no localizer. load() may still read
-  /// what is not usable (one slice, a localizer), and says what it cannot.
+  /// Whether it is a volume: placed in the patient, scalar, at least two slices, no localizer. load() may still read a
+  /// series that is not usable (one slice, a localizer), and its message says so if it cannot.
   bool usable = false;
   std::vector<Text> warnings;  ///< what a user should know: missing slices, files left out, why it is not usable
 
-  /// Who was scanned and when, to be shown on a screen on request so that the right scan can be verified. Never written
+  /// Who was scanned and when. Shown on the screen, on request, so that the right scan can be verified. Never written
   /// to a log, recording, picture or report.
   struct Identity {
     std::string patient_name;
@@ -87,14 +87,14 @@ struct SkippedFile {
 struct Catalogue {
   std::vector<Series> series;        ///< usable ones first, then by date and UID of the study, series number, path
   std::vector<SkippedFile> skipped;  ///< by path
-  /// Velocities that were measured along three directions (phase contrast), joined: what load() gives of one is a
-  /// vector field (Volume::vectors) in m/s. The series they are made of are among `series` as well.
+  /// Velocity fields: three series of phase contrast along three directions, joined. load() makes a vector field
+  /// (Volume::vectors) in m/s of one. The three series are in `series`, too.
   std::vector<Series> velocity_fields;
 };
 
-/// The series in these files and folders (searched to the bottom, names and extensions ignored). A DICOMDIR among the
-/// paths stands for its folder; none is trusted. A damaged file costs that file. Throws DicomError where a path does
-/// not exist or cannot be listed, or DICOM's data dictionary is missing; Cancelled.
+/// The series in these files and folders. Folders are searched to the bottom; names and extensions do not matter. A
+/// DICOMDIR among the paths means its folder; its contents are not trusted. A damaged file is left out alone. Throws
+/// DicomError if a path does not exist or cannot be listed, or DICOM's data dictionary is missing; Cancelled.
 Catalogue find_series(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
 }  // namespace palpate::io

@@ -13,15 +13,10 @@
 #include "io/load.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::find_in;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write_stack;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -118,12 +113,13 @@ TEST(SeriesDetails, NotesTellWhereWhatIsFeltIsNotWhatIsThought) {
                                      {DCM_LossyImageCompression, "01"},
                                      {DCM_LossyImageCompressionRatio, "12.5"}},
                                     20);
-  EXPECT_THAT(series.warnings,
-              testing::IsSupersetOf(
-                  {"slices are 5.00 mm thick and 20.00 mm apart: what lies between them was not scanned",
-                   "its slices are projections (the largest or least value of several): depth is not felt where it is",
-                   "lossy compression of 12.5 to 1: fine edges may be artifacts",
-                   "PET: its values are uptake, not density; a scene made for CT does not fit"}));
+  EXPECT_THAT(
+      series.warnings,
+      testing::IsSupersetOf(
+          {"slices are 5.00 mm thick and 20.00 mm apart: what lies between them was not scanned",
+           "its slices are projections (the largest or least value of several): depth is not felt at its true place",
+           "lossy compression of 12.5 to 1: fine edges may be artifacts",
+           "PET: its values are uptake, not density; a scene made for CT does not fit"}));
   EXPECT_EQ(series.unit, "Bq/ml");
   EXPECT_EQ(series_with({{DCM_Modality, "PT"}, {DCM_Units, "GML"}}).unit, "g/ml");
   EXPECT_EQ(series_with({{DCM_Modality, "PT"}, {DCM_Units, "CNTS"}}).unit, "");
@@ -168,7 +164,7 @@ TEST(SeriesDetails, FirstChoiceIsThinAndSoft) {
     fs::create_directory(part);
     write_stack(part, kinds[n].count, [&, n](int k, TestImage& image) {
       image.z = kinds[n].step * k;
-      image.series = internal::numbered("1.2.3.4.", static_cast<int>(n));
+      image.series = numbered("1.2.3.4.", static_cast<int>(n));
       image.edit = [&, n](DcmDataset& d) {
         put(d, DCM_Modality, kinds[n].modality);
         put(d, DCM_ConvolutionKernel, kinds[n].kernel);
@@ -210,7 +206,7 @@ TEST(SeriesDetails, SeriesAreSortedByStudyAndNumber) {
     const fs::path part = folder / std::to_string((5 * n + 3) % places.size());
     fs::create_directory(part);
     write_stack(part, 3, [&, n](int, TestImage& image) {
-      image.series = internal::numbered("1.2.3.4.", static_cast<int>(n));
+      image.series = numbered("1.2.3.4.", static_cast<int>(n));
       image.edit = [&, n](DcmDataset& d) {
         put(d, DCM_StudyInstanceUID, places[n].study);
         put(d, DCM_StudyDate, places[n].date);
@@ -245,7 +241,7 @@ TEST(SeriesDetails, WhatIsSetApartHasAKind) {
       d.findAndDeleteElement(DCM_PixelData);
       put(d, DCM_SOPClassUID, kind[0]);
     };
-    internal::write(report, folder / kind[1]);
+    write(report, folder / kind[1]);
     expected.emplace_back(kind[1]);
   }
   TestImage scout;  // in the volume's series
@@ -253,7 +249,7 @@ TEST(SeriesDetails, WhatIsSetApartHasAKind) {
     put(d, DCM_ImageType, "ORIGINAL\\PRIMARY\\LOCALIZER");
     put(d, DCM_ImageOrientationPatient, "1\\0\\0\\0\\0\\-1");
   };
-  internal::write(scout, folder / "scout");
+  write(scout, folder / "scout");
   fs::copy_file(folder / "s1.dcm", folder / "z");
   std::vector<std::string> found;
   for (const SkippedFile& file : find_in(folder).skipped) found.push_back(file.kind);
@@ -306,4 +302,4 @@ TEST(SeriesDetails, StatisticsWithoutPaddingAreOfTheOthers) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

@@ -24,8 +24,8 @@ struct VectorComponents;
 
 /// value = slope * stored + intercept, in `unit`.
 ///
-/// Voxels are stored as they came (16 bit) wherever one rescale holds for the whole series, and as rescaled floats with
-/// slope 1 and intercept 0 where it differs by slice.
+/// Voxels are kept as stored (16 bit) if one rescale holds for the whole series. If it differs from slice to slice,
+/// they are rescaled floats, with slope 1 and intercept 0.
 struct Volume {
   using Voxels = std::variant<std::vector<std::int16_t>, std::vector<std::uint16_t>, std::vector<float>>;
 
@@ -36,13 +36,15 @@ struct Volume {
   std::string unit;                    ///< "HU", or empty where the modality has none
   std::string frame_of_reference_uid;  ///< empty where it is not said
   std::string modality;                ///< DICOM Modality: "CT", "MR", ...
+  /// Who was scanned, to be compared with what structures say; never written or shown.
+  std::string patient_id, patient_name;
   /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).
   std::optional<std::pair<double, double>> padding;
   /// What load() had to leave out, in words for the user.
   std::vector<Text> warnings;
   /// Where the volume is a vector field; its values are then the vectors' lengths. Null for all others.
   std::shared_ptr<const VectorComponents> vectors;
-  /// What made the values, where it was a filter (fields/filtered.h). Null for a scan as it was stored.
+  /// The filter that made the values (fields/filtered.h). Null for a scan as it was stored.
   std::shared_ptr<const FilteredFrom> filtered_from;
 
   std::size_t offset(int i, int j, int k) const noexcept {
@@ -70,7 +72,7 @@ struct VectorComponents {
   glm::dmat3 to_patient{1};
 };
 
-/// Of rescaled values, over all voxels; padding included where it is stored as it came (16 bit).
+/// Of rescaled values, over all voxels; with padding if the voxels are kept as stored (16 bit).
 struct Statistics {
   double minimum = 0;
   double maximum = 0;
@@ -81,7 +83,7 @@ struct Statistics {
 /// Exact sums for 16-bit voxels. All zero for a volume without values. On all cores, with the same result on any
 /// number.
 Statistics statistics(const Volume& volume);
-/// The same without padding: of what was scanned.
+/// The same without padding.
 Statistics statistics_without_padding(const Volume& volume);
 /// Of two sets of voxels together.
 Statistics merge(const Statistics& a, const Statistics& b) noexcept;

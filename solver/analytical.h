@@ -9,14 +9,15 @@
 
 namespace palpate::solver {
 
-/// Co-directional planes, parallel lines and points that coincide are merged: their strengths add, and each has its
-/// share of the force in proportion to its strength (the hard ones alone, in equal parts, where there are any).
+/// Planes of one direction, parallel lines and points that coincide are merged. Their strengths add up, and each takes
+/// a part of the force in proportion to its strength. If some are hard, they share the force equally and the others
+/// take none.
 ///
-/// One pass is exact where each force that a movement stands for is one that its primitive still exerts where the pass
-/// ends. That is judged there, by the certificate: the answer is accepted where the error that it may have, for data
-/// within 4 ulp of those given, is at most promised_accuracy(); otherwise Outcome::unsuitable. The configurations of
-/// section 3.1 always pass: co-located constraints, planes orthogonal or opposed or merged, lines merged and along or
-/// across every plane's normal. Others pass where one movement happens not to disturb another.
+/// One pass is exact if, at its end, every primitive can still exert the force that its movement stands for. The
+/// certificate decides this: the answer is accepted if its error, for data within 4 ulp of those given, is at most
+/// promised_accuracy(); otherwise the outcome is Outcome::unsuitable. The configurations of section 3.1 are always
+/// accepted: co-located constraints, with planes that are orthogonal, opposed or merged, and lines that are merged and
+/// along or across every plane's normal. Others are accepted if no movement disturbs another.
 ///
 /// forces: as many as primitives; each one's force on the proxy, N. The balance has to be one that validate() accepts.
 /// No allocation; O(n) for any number of primitives that merge into at most 16. iterations is the number of movements.

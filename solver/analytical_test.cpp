@@ -188,7 +188,7 @@ TEST(Analytical, SolvesWhereFrictionIsAboutToSlip) {
   EXPECT_LT(answer.solution.error_bound, 1e-14);
 }
 
-TEST(Analytical, SolvesEveryFrameOfAStylusThatComesToRestOnFriction) {
+TEST(Analytical, SolvesEveryTickOfAStylusThatComesToRestOnFriction) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Random random(seed);
     const Vec3 probe = 5 * mm * random.normal_vector(1);
@@ -196,12 +196,12 @@ TEST(Analytical, SolvesEveryFrameOfAStylusThatComesToRestOnFriction) {
     // The surface curves away beneath a proxy that creeps: its normal turns with the place.
     const Vec3 center = probe + 30 * mm * random.unit_vector();
     const double friction = random.uniform(0.02, 0.3);
-    for (int frame = 0; frame < 200; ++frame) {
+    for (int tick = 0; tick < 200; ++tick) {
       const Vec3 normal = glm::normalize(at - center);
       const std::array rest{make_plane(2, at, normal), make_point(friction, at)};
       std::array<Vec3, 2> forces{};
       const Solution solution = solve_analytical({k, probe, at, rest}, forces);
-      ASSERT_EQ(solution.outcome, Outcome::solved) << "seed " << seed << ", frame " << frame;
+      ASSERT_EQ(solution.outcome, Outcome::solved) << "seed " << seed << ", tick " << tick;
       at = solution.proxy;
     }
   }

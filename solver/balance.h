@@ -1,6 +1,6 @@
 #pragma once
 
-/// The force balance of one frame, equations (1) and (7): find the proxy where the coupling's pull equals the sum of
+/// The force balance of one tick, equations (1) and (7): find the proxy where the coupling's pull equals the sum of
 /// the primitives' forces. It is the minimum of a strongly convex energy, so it exists and is unique for every
 /// combination of primitives (infinite strength included, as long as the hard constraints have a common point).
 
@@ -19,14 +19,14 @@ namespace palpate::solver {
 struct Balance {
   double stiffness = 0;    ///< k, N/m, > 0: of the coupling between probe and proxy
   Vec3 probe{0};           ///< m: where the hand is
-  Vec3 previous_proxy{0};  ///< m: the proxy of the previous frame, where descent starts
+  Vec3 previous_proxy{0};  ///< m: the proxy of the previous tick, where descent starts
   std::span<const Primitive> primitives;
 };
 
 /// f = -k (probe - proxy), equation (1): what the device is fed, N.
 Vec3 coupling_force(const Balance& balance, const Vec3& proxy);
 
-/// epsilon = -f(proxy) + sum F_i(proxy), equation (7): N. Says nothing of a constraint that holds the proxy.
+/// epsilon = -f(proxy) + sum F_i(proxy), equation (7): N. A constraint that holds the proxy is not counted in it.
 Vec3 residual(const Balance& balance, const Vec3& proxy);
 
 /// What can be wrong with the numbers of a balance.
@@ -39,7 +39,7 @@ enum class Flaw : std::uint8_t {
   out_of_range     ///< larger than largest_quantity, or a stiffness below smallest_stiffness
 };
 
-/// Quantities (m, N, N/m) up to this are computed with; beyond it their products would leave the range of a double.
+/// The largest quantity (m, N, N/m) that is accepted. The products of larger ones would leave the range of a double.
 inline constexpr double largest_quantity = 1e50;
 /// N/m.
 inline constexpr double smallest_stiffness = 1e-50;

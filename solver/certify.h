@@ -14,8 +14,8 @@ namespace palpate::solver {
 /// |x - x*| <= (r + sqrt(r^2 + 4 k eps)) / (2 k).
 struct Certificate {
   double error_bound = 0;  ///< m: |proxy - exact proxy| is at most this; rounded outwards
-  /// m: the same for the most favorable balance within 4 ulp of the data. Where constraints are redundant but for
-  /// rounding, error_bound is honest and loose; this one says whether the answer is as exact as the data allow.
+  /// m: the same for the most favorable balance within 4 ulp of the data. If constraints are redundant except for
+  /// rounding, error_bound is true but loose; this one says whether the answer is as exact as the data allow.
   double backward_bound = 0;
   double residual = 0;  ///< N: r, where the bound was evaluated
   double slack = 0;     ///< J: eps, where the bound was evaluated
@@ -24,17 +24,17 @@ struct Certificate {
 /// The law above, evaluated in double-double at the point nearest to the proxy of the flat that holds it (a rounded
 /// proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, where that is less.
 ///
-/// forces: as many as primitives, N. Where one lies outside its primitive's force body the nearest force inside is
-/// taken, so any forces give a true bound, good ones a tight one. A hard constraint that the proxy does not meet costs
-/// the way to it. Where what holds the proxy and the hard constraints cannot all be met at once, those missed by no
-/// more than hard_tolerance count as met (the bound is then that of the balance with them moved there); where one is
-/// missed by more there is no bound: infinity. The balance has to be one that validate() accepts. O(n), no allocation,
-/// noexcept.
+/// forces: as many as primitives, N. A force outside its primitive's force body is replaced by the nearest one inside;
+/// so any forces give a true bound, and good ones a tight one. A hard constraint that the proxy does not meet adds its
+/// distance to the bound. If the constraints that hold the proxy and the hard ones cannot all be met at once, those
+/// that are missed by at most hard_tolerance count as met: the bound is that of the balance with them moved by that
+/// much. If one is missed by more, the bound is infinite. The balance must be one that validate() accepts. O(n), no
+/// allocation.
 Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
-/// What a solver of this library promises of a well-conditioned balance, m: 1e-14 m + 16 ulp of the coordinates (of the
-/// probe and of the primitives that act) and of the distance |sum of the forces| / k. The measure for "this answer is
-/// exact".
+/// The largest error that counts as exact, m; every solver here keeps to it where the balance is well conditioned:
+/// 1e-14 m + 16 ulp of the coordinates (of the probe and of the primitives that act) and of the distance
+/// |sum of the forces| / k.
 double promised_accuracy(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
 /// A hard constraint (infinite strength) counts as met by a point that is nearer to it than this fraction of the

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The priority chain of section 5: the first solver that can solve the balance does. A solver known not to be needed
-/// can be switched off. Where only the analytical one is left and its bound just misses the promise (within 1e-9 m),
-/// its answer is given as Outcome::capped: the best there is, with its true bound.
+/// The priority chain of section 5: the solvers are tried in order, and the first that can solve the balance answers. A
+/// solver that is known not to be needed can be switched off. If only the analytical one is left and its bound misses
+/// the promise by at most 1e-9 m, its answer is returned as Outcome::capped, with its true bound.
 
 #include <cstddef>
 #include <span>
@@ -24,7 +24,7 @@ struct ChainOptions {
   std::size_t capacity = 64;  ///< primitives to reserve memory for
 };
 
-/// Holds what one frame hands to the next (the forces, as a start) and scratch memory: one for each thread.
+/// Holds what one tick hands to the next (the forces, as a start) and scratch memory: one for each thread.
 class Chain {
  public:
   explicit Chain(const ChainOptions& options = {});
@@ -32,11 +32,11 @@ class Chain {
   /// forces: one for each primitive, in the order given; each primitive's force on the proxy, N. Does not allocate,
   /// lock, throw or log for balances of up to the number of primitives reserved.
   ///
-  /// The balance of the last call (but for the previous proxy, unless descent solved it) gets its answer once more, so
-  /// that a force at rest is constant to the last bit in spite of the warm start.
+  /// The same balance twice in a row returns the same answer, so that a force at rest is constant to the last bit in
+  /// spite of the warm start. The previous proxy is not compared, unless descent solved the balance.
   Solution solve(const Balance& balance, std::span<Vec3> forces) noexcept;
 
-  /// What it holds beyond itself; for the exact solver only where it is switched on.
+  /// Bytes on the heap; those of the exact solver only if it is switched on.
   std::size_t memory_bytes() const noexcept;
 
   /// The next balance starts cold.

@@ -90,10 +90,10 @@ TEST(Chain, RestIsConstantToTheLastBit) {
       std::vector<Vec3> forces(problem.primitives.size());
       Chain chain;
       Vec3 proxy{0};
-      for (int frame = 0; frame < 50; ++frame) {
+      for (int tick = 0; tick < 50; ++tick) {
         const Solution solution = chain.solve(problem.balance(), forces);
-        if (frame > 1) {
-          ASSERT_EQ(solution.proxy, proxy) << name_of(family) << " " << seed << " frame " << frame;
+        if (tick > 1) {
+          ASSERT_EQ(solution.proxy, proxy) << name_of(family) << " " << seed << " tick " << tick;
         }
         proxy = solution.proxy;
       }
@@ -113,7 +113,7 @@ TEST(Chain, DoesNotAllocateWithinItsCapacity) {
                      .descent_options = {.max_iterations = 50},
                      .capacity = 100});
       trap = true;
-      for (int frame = 0; frame < 3; ++frame) {
+      for (int tick = 0; tick < 3; ++tick) {
         chain.solve(problem.balance(), forces);
       }
       descent.solve(problem.balance(), forces);

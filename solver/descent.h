@@ -1,8 +1,8 @@
 #pragma once
 
 /// The paper's numerical solver, section 4: steepest descent from the previous proxy, kept as the reference that the
-/// other solvers are measured against. As printed it can cycle forever and can freeze millimeters away from the proxy;
-/// nothing of that is mended here.
+/// other solvers are measured against. As printed it can cycle forever and can freeze millimeters away from the proxy.
+/// It is kept as printed.
 
 #include <limits>
 #include <span>
@@ -19,8 +19,8 @@ struct DescentOptions {
   int max_iterations = 10000;                                     ///< then Outcome::capped
 };
 
-/// forces: as many as primitives; the force functions' values at the proxy found, N. They vanish on a constraint, so
-/// that the (true) error bound of a proxy held by one is loose: about the force that is missing / k.
+/// forces: as many as primitives; the force functions' values at the proxy found, N. They are zero on a constraint, so
+/// the error bound of a proxy that is held by one is true but loose: about the missing force / k.
 ///
 /// Outcome::unsuitable where a strength is infinite. The balance has to be one that validate() accepts. No allocation.
 Solution solve_descent(const Balance& balance, const DescentOptions& options, std::span<Vec3> forces) noexcept;

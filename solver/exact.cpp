@@ -121,7 +121,7 @@ Search::Search(const Balance& balance, std::span<Vec3> forces, ExactScratch::Arr
 // Where the forces given would put the proxy, locked to what they do not exhaust.
 void Search::start_from_forces() {
   Vec3 sum = walk_.pull;
-  walk_.frame = {};
+  walk_.active = {};
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     const Placed& placed = placed_[i];
     if (placed.type == PrimitiveType::directed_force) {
@@ -131,7 +131,7 @@ void Search::start_from_forces() {
     const Vec3 force = internal::project(placed, forces_[i], hold);
     sum += force;
     if (hold == ForceRegion::held && length_of(force) < placed.strength * (1 - 1e-12) && force != Vec3{0}) {
-      lock(walk_.frame, placed_, static_cast<std::uint32_t>(i));
+      lock(walk_.active, placed_, static_cast<std::uint32_t>(i));
     }
   }
   walk_.z = internal::fine(sum / balance_.stiffness);
@@ -141,7 +141,7 @@ void Search::start_from_forces() {
 // One pass of proximal steps: the analytical solver without its conditions.
 void Search::start_from_sweep() {
   Vec3 z = walk_.pull / balance_.stiffness;
-  walk_.frame = {};
+  walk_.active = {};
   for (const PrimitiveType type : {PrimitiveType::plane, PrimitiveType::line, PrimitiveType::point}) {
     for (std::size_t i = 0; i < placed_.size(); ++i) {
       const Placed& placed = placed_[i];
@@ -152,9 +152,9 @@ void Search::start_from_sweep() {
       const Vec3 step = internal::project(placed, (placed.offset.hi() - z) * balance_.stiffness, hold);
       if (hold == ForceRegion::held && step != Vec3{0}) {
         if (type != PrimitiveType::plane) {
-          walk_.frame = {};
+          walk_.active = {};
         }
-        lock(walk_.frame, placed_, static_cast<std::uint32_t>(i));
+        lock(walk_.active, placed_, static_cast<std::uint32_t>(i));
       }
       z += step / balance_.stiffness;
     }
@@ -181,7 +181,7 @@ std::size_t Search::start_at_common_position() {
     if (there > most) {
       most = there;
       walk_.z = placed_[i].offset;
-      walk_.frame = {};
+      walk_.active = {};
     }
   }
   for (const Placed& placed : placed_) {
@@ -237,7 +237,7 @@ bool Search::walk(int cap, bool anyway) {
 }
 
 void Search::consider() {
-  internal::Settled settled = internal::settle_on(walk_.frame, placed_, balance_.stiffness, walk_.z, walk_.forces);
+  internal::Settled settled = internal::settle_on(walk_.active, placed_, balance_.stiffness, walk_.z, walk_.forces);
   const double promise = promised_accuracy(balance_, balance_.probe + settled.z.hi(), walk_.forces);
   if (!(settled.bound.error <= 0.05 * promise)) {
     const internal::PlacedPrimitives primitives = placed_.empty()

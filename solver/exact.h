@@ -2,23 +2,26 @@
 
 /// The exact solver: any finite set of primitives, co-located or not, orthogonal or not, hard or not.
 ///
-/// The proxy minimises a strongly convex energy of three unknowns, E(x) = k/2 |x - probe|^2 + sum phi_i(x), smooth but
-/// for the primitives themselves. So it lies on a flat (all of space, a plane, a line or a point) where some primitives
-/// hold it, and is there the minimum of a smooth function. The solver walks down E from flat to flat:
+/// The proxy minimizes a strongly convex energy of three unknowns, E(x) = k/2 |x - probe|^2 + sum phi_i(x). E is smooth
+/// except on the planes, lines and points of the primitives. So the proxy lies on a flat (all of space, a plane, a line
+/// or a point) on which some primitives hold it, and is the minimum of a smooth function there. The solver walks down E
+/// from flat to flat:
 ///
-/// * on a flat, Newton's steps, cut back to where E is least along them. A plane that is crossed on the way and pushes
-///   back from both sides is locked, an attractor that is passed and lies deeper too: the flat loses a dimension;
-/// * at the minimum on a flat, the force needed is shared among what is locked. Where each can exert its share that is
-///   the proxy. Otherwise the one that can do it least is let go, and the walk goes on.
+/// * On a flat it takes Newton's steps, each cut back to where E is least along it. A plane that the step crosses is
+///   locked if it pushes back from both sides. A line or point that the step passes is locked if E is lower on it. The
+///   flat loses a dimension with each lock.
+/// * At the minimum on a flat, the force needed is shared among the locked primitives. If each can exert its share, the
+///   proxy is found. Otherwise the one that falls shortest is released, and the walk goes on.
 ///
-/// It ends: every step lowers E, every flat's minimum is reached before the flat is left, so no flat is left twice, and
-/// there are finitely many. (In rounding: at the cap on work, Outcome::capped, with the best answer found and its true
-/// bound.) Where more primitives meet than fix a point, as they do at the old proxy, they share the force as the
-/// nearest point of the sum of their force bodies (internal/share.h); if that does not tell, they are moved apart by
-/// less than half an ulp, each its own way, and the walk is done again. Distances to what is near are in double-double,
-/// in coordinates relative to the probe, so primitives parallel to within an ulp are still told apart.
+/// The walk ends: every step lowers E, and the minimum of a flat is reached before the flat is left, so no flat is left
+/// twice, and there are finitely many. Where rounding prevents this, the cap on work ends it: Outcome::capped, with the
+/// best answer found and its true bound. If more primitives meet than are needed to fix a point, as at the old proxy,
+/// they share the force as the nearest point of the sum of their force bodies (exact/share.h). If that does not decide,
+/// they are moved apart by less than half an ulp, each in its own direction, and the walk is done again. Distances to
+/// near primitives are computed in double-double, relative to the probe, so that primitives parallel to within an ulp
+/// are told apart.
 ///
-/// A hard constraint counts as one of a very large strength, which is raised until all of them are met: an exact
+/// A hard constraint is given a very large strength, which is raised until all hard constraints are met: an exact
 /// penalty (D. P. Bertsekas, Constrained Optimization and Lagrange Multiplier Methods, 1982, 4.3).
 
 #include <cstddef>
@@ -31,12 +34,12 @@
 namespace palpate::solver {
 
 struct ExactOptions {
-  int max_iterations = 400;  ///< looks at all primitives, of O(n) each, in the one walk that is long where any is
+  int max_iterations = 400;  ///< passes over all primitives, O(n) each, in the longest walk
 };
 
 enum class Start : std::uint8_t {
   cold,  ///< the forces given are not read
-  warm   ///< from the forces given (N), for example those of the previous frame; any finite numbers will do
+  warm   ///< from the forces given (N), for example those of the previous tick; any finite numbers will do
 };
 
 /// Memory for balances of up to `capacity` primitives; a larger balance makes it grow, which allocates.
@@ -47,7 +50,7 @@ class ExactScratch {
   ExactScratch(ExactScratch&&) noexcept;
   ExactScratch& operator=(ExactScratch&&) noexcept;
 
-  std::size_t memory_bytes() const noexcept;  ///< what it holds beyond itself
+  std::size_t memory_bytes() const noexcept;  ///< on the heap
 
   struct Arrays;
   Arrays& arrays() { return *arrays_; }
@@ -56,13 +59,13 @@ class ExactScratch {
   std::unique_ptr<Arrays> arrays_;
 };
 
-/// forces: as many as primitives; out: each primitive's force on the proxy, N. Where the constraints are redundant
-/// these are one of many possible sets; the proxy is unique.
+/// forces: as many as primitives; out: each primitive's force on the proxy, N. If constraints are redundant, these are
+/// one of many possible sets; the proxy is unique.
 ///
-/// error_bound is certify()'s law, evaluated in double-double where the answer was found. Solved: within
-/// promised_accuracy(), or as exact as data within 4 ulp allow (then the bound may be looser, and is still true).
-/// Refused: hard constraints without a common point, Flaw::incompatible. The balance has to be one that validate()
-/// accepts. No allocation within the scratch's capacity.
+/// error_bound is certify()'s law, evaluated in double-double where the answer was found. Outcome::solved means: within
+/// promised_accuracy(), or as exact as data within 4 ulp allow (the bound may then be looser, and is still true).
+/// Outcome::refused means: the hard constraints have no common point, Flaw::incompatible. The balance must be one that
+/// validate() accepts. No allocation within the scratch's capacity.
 Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch, Start start = Start::cold,
                      const ExactOptions& options = {}) noexcept;
 

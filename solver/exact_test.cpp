@@ -28,16 +28,16 @@ TEST(Exact, SolvesWhereFrictionIsAboutToSlip) {
   EXPECT_LT(solution.error_bound, 1e-14);
 }
 
-TEST(Exact, SolvesAFrameOfTheWindTunnelWhereALineIsAboutToSlip) {
+TEST(Exact, SolvesATickOfTheWindTunnelWhereALineIsAboutToSlip) {
   const Vec3 probe{-0.02501458516181757, 0.003028759345811337, -0.011869639772527748};
   const Vec3 at{-0.024486129030581866, 0.003040738721459386, -0.012170241426160829};
   const Vec3 flow{0.9530129609314653, 0.07342979821558453, -0.293895153125498};
-  const std::array frame{
+  const std::array primitives{
       make_line(0.38595517989772277, at, flow), make_directed_force(0.23157310793863364, flow),
       make_plane(0.4155712920127649, at, {-0.3031095453165028, 0.23099546507408253, -0.924535396106191})};
   std::array<Vec3, 3> forces;
   ExactScratch scratch;
-  const Solution solution = solve_exact({400, probe, at, frame}, forces, scratch);
+  const Solution solution = solve_exact({400, probe, at, primitives}, forces, scratch);
   EXPECT_EQ(solution.outcome, Outcome::solved);
   EXPECT_LT(solution.error_bound, 1e-14);
 }
@@ -51,15 +51,15 @@ TEST(Exact, SolvesWhereALineLeansOutOfTheHeldPlaneByLittle) {
   const Vec3 tube{-0.1420531787392866, 0.8982161041166317, -0.41596721591443314};
   const Vec3 landmark{-0.0002255859375, 0.76371, -0.1134244140625};
   const Vec3 across{0.2672612419124244, 0.8017837257372732, -0.5345224838248488};
-  const std::array frame{make_plane(1, at, -uphill),        make_plane(0.4, at, -uphill),
-                         make_plane(0.4, at, uphill),       make_point(0.1, at),
-                         make_line(0.3, at, tube),          make_line(0.2, at, uphill),
-                         make_directed_force(0.2, uphill),  make_point(0.15, landmark),
-                         make_line(0.15, landmark, across), make_plane(0.15, landmark, across)};
+  const std::array primitives{make_plane(1, at, -uphill),        make_plane(0.4, at, -uphill),
+                              make_plane(0.4, at, uphill),       make_point(0.1, at),
+                              make_line(0.3, at, tube),          make_line(0.2, at, uphill),
+                              make_directed_force(0.2, uphill),  make_point(0.15, landmark),
+                              make_line(0.15, landmark, across), make_plane(0.15, landmark, across)};
   std::array<Vec3, 10> forces;
   ExactScratch scratch;
   const Vec3 probe{0.020511062153500768, 0.7609019540688479, -0.13346132977127995};
-  const Solution solution = solve_exact({400, probe, at, frame}, forces, scratch);
+  const Solution solution = solve_exact({400, probe, at, primitives}, forces, scratch);
   EXPECT_EQ(solution.outcome, Outcome::solved) << solution.iterations;
   EXPECT_LT(solution.error_bound, 1e-14);
 }

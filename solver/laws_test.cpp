@@ -201,9 +201,9 @@ TEST(Laws, AtRestTheForceIsConstantToTheLastBit) {
     moving.probe += Vec3(1e-5, -2e-5, 0.5e-5);
     chain.solve(moving.balance(), forces);
     const Vec3 first = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
-    for (int frame = 0; frame < 10; ++frame) {
+    for (int tick = 0; tick < 10; ++tick) {
       const Vec3 force = coupling_force(problem.balance(), chain.solve(problem.balance(), forces).proxy);
-      ASSERT_EQ(force, first) << "frame " << frame;
+      ASSERT_EQ(force, first) << "tick " << tick;
     }
   });
 }

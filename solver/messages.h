@@ -14,11 +14,11 @@ inline constexpr MessageRow balances[] = {
       {"no-length", "{} has no length ({})"},
       {"not-finite", "{} is not finite ({})"},
       {"out-of-range", "{} is out of range ({}): at most {}{}"}}},
-    {"the balance has no answer that can be vouched for",
+    {"no answer can be certified",
      "smaller numbers; fewer infinite strengths",
      {{"no-point-meets-it",
        "has infinite strength, but no point meets it together with the other hard constraints: it stays {} m away "
-       "(taken as met: {} of the largest distance between probe and constraints)"}}},
+       "(tolerance: {} of the largest distance between probe and constraints)"}}},
 };
 
 }  // namespace palpate::solver::messages

@@ -12,7 +12,7 @@ using Vec3 = glm::dvec3;
 
 enum class PrimitiveType : std::uint8_t { directed_force, plane, line, point };
 
-/// One primitive, constant during a frame.
+/// One primitive, constant during a tick.
 ///
 /// A plane pushes along +direction a proxy that is behind it ((position - proxy) . direction > 0); a line and a point
 /// attract; a directed force acts everywhere.

@@ -18,8 +18,8 @@ constexpr std::uint64_t seeds = 256;
 
 struct Case {
   Problem problem;
-  std::vector<Vec3> start;   ///< forces of the frame before, whose probe was 0.05 mm away
-  std::vector<Vec3> forces;  ///< of the frame
+  std::vector<Vec3> start;   ///< forces of the tick before, whose probe was 0.05 mm away
+  std::vector<Vec3> forces;  ///< of the tick
 };
 
 std::vector<Case> cases_of(Family family, ExactScratch& scratch) {

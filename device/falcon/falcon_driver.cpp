@@ -40,7 +40,9 @@ void FalconProtocol::receive(std::span<const std::uint8_t> packet, double now) n
 
 void FalconProtocol::take(const FalconReply& reply, double now) noexcept {
   if (status_.state == State::fault) return;
-  status_.buttons = reply.buttons;
+  // The grip: 1 plus, 2 forward, 4 centre, 8 minus. The centre is under the thumb: it is the first button, too.
+  constexpr unsigned first = 1, centre = 4;
+  status_.buttons = reply.buttons | ((reply.buttons & centre) != 0 ? first : 0);
   const bool homed = std::all_of(reply.homed.begin(), reply.homed.end(), [](bool leg) { return leg; });
   if (!homed) {
     if (status_.state != State::homing) return fail(LinkFault::unhomed);
@@ -99,7 +101,7 @@ Specification falcon_specification(const FalconSettings& settings) {
   specification.position_resolution = 0.035e-3;
   specification.maximum_force = settings.maximum_force;
   specification.continuous_force = settings.maximum_force / 2;
-  specification.stiffness_limit = 1000;
+  specification.stiffness_limit = settings.stiffness_limit;
   specification.rate = 1000;
   return specification;
 }

@@ -30,14 +30,14 @@ struct FalconGeometry {
   /// 360 deg in 320 slots x 4 edges of the motor's wheel, geared by a 14.25 mm shaft on a 110 mm drum.
   double angle_per_count = 2 * 3.141592653589793 / 1280 * 14.25 / 110;
   double center = 0.120;  ///< m along z: the middle of what the grip reaches, origin of the device's frame
-  double reach = 0.090;   ///< m from the center: the corner of the vendor's 10 cm cube; further the stops do not let it
+  double reach = 0.090;   ///< m from the center to the corner of the vendor's 10 cm cube, where the stops are
 };
 
 /// The joint angles of a position (m, robot's frame); nothing where the arms cannot reach.
 std::optional<Vec3> falcon_angles(const FalconGeometry& geometry, const Vec3& position) noexcept;
 
-/// d angle_leg / d position, row by row: m[column][row] as everywhere in GLM. Nothing where the arms cannot reach or
-/// are stretched out, where the Jacobian has no end.
+/// d angle_leg / d position, row by row: m[column][row] as everywhere in GLM. Nothing where the arms cannot reach, or
+/// where they are stretched out and the Jacobian is singular.
 std::optional<glm::dmat3> falcon_jacobian(const FalconGeometry& geometry, const Vec3& position) noexcept;
 
 /// The position of joint angles by Newton's method from a nearby position, to 1e-11 rad; nothing where there is none

@@ -14,24 +14,19 @@ namespace {
 
 FalconSettings read(SettingsReader& reader) {
   FalconSettings settings;
-  reader.take("address", settings.address);
+  take_common(reader, settings);
   reader.take("firmware_file", settings.firmware_file);
   reader.take("motor_gain", settings.motor_gain);
-  reader.take("maximum_force", settings.maximum_force);
-  reader.take("guarded", settings.guarded);
   if (!(settings.motor_gain > 0)) throw Refusal(say("motor-gain-must-be-above-zero"));
   if (!(settings.maximum_force > 0 && settings.maximum_force <= 12)) {
     throw Refusal(say("falcon-largest-force"));
   }
+  if (!(settings.stiffness_limit > 0)) throw Refusal(say("stiffness-limit-must-be-above-zero"));
   return settings;
 }
 
 std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
-  FalconSettings settings;
-  if (!choice.settings.empty()) settings = read_settings_file("Novint Falcon", choice.settings, read);
-  if (!choice.address.empty()) settings.address = choice.address;
-  if (!choice.firmware.empty()) settings.firmware_file = choice.firmware;
-  return make_falcon(settings);
+  return make_with_settings(choice, &read_falcon, &make_falcon);
 }
 
 /// The homing bit stays set: dropping it would make the Falcon forget where it is.
@@ -68,6 +63,10 @@ bool send_zeros(const std::string& address, bool take_away) {
 
 }  // namespace
 
+FalconSettings read_falcon(const std::string& json_file) {
+  return read_settings_file("Novint Falcon", json_file, read);
+}
+
 extern const DeviceType falcon_type;
 const DeviceType falcon_type{
     .kind = "falcon",
@@ -79,7 +78,7 @@ const DeviceType falcon_type{
     .tested = protocol_tested,
     .watchdog = "unknown: switch it off",
     .file = DeviceFile::firmware,
-    .file_hint = "Novint's firmware file, if it was switched off",
+    .file_hint = "Novint's firmware file, if it was switched off; or its settings: a JSON file",
     .find = &find_falcons,
     .make = &make,
     .send_zeros = &send_zeros,

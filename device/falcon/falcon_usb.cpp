@@ -295,6 +295,8 @@ bool take_falcon_and_send_zeros(const std::string& address) noexcept {
 std::unique_ptr<Stylus> make_falcon(const FalconSettings& settings) {
   LinkStylusOptions options;
   if (settings.guarded) options.guardian = {guardian_program(), "falcon", settings.address};
+  options.signs = settings.signs;
+  options.stays_awake = true;
   return make_falcon_on(
       settings, [address = settings.address] { return open_falcon_usb(address); }, options);
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "device/axis_signs.h"
 #include "device/found_devices.h"
 #include "device/stylus.h"
 
@@ -16,17 +17,19 @@ namespace palpate::device {
 struct ForceDimensionSettings {
   std::string address;            ///< its serial number; empty: the only one there is
   bool may_home = false;          ///< an arm that has no home yet may move by itself to find it
-  double maximum_force = 0;       ///< N; 0: what the device says of itself, at most 12
+  double maximum_force = 0;       ///< N; 0: what the device reports, at most 12
   double stiffness_limit = 1500;  ///< N/m
+  bool guarded = true;            ///< start a guardian process where palpate-guardian is found
+  AxisSigns signs;
 };
 
 ForceDimensionSettings read_force_dimension(const std::string& json_file);
 
-/// Not open yet. open() throws std::runtime_error: no library, another version of it, no device, an arm without a home
-/// that may not move.
+/// Not open yet. open() throws std::runtime_error if the library or the device is missing, the library has another
+/// version, or the arm has no home and may not move.
 std::unique_ptr<Stylus> make_force_dimension(const ForceDimensionSettings& settings = {});
 
-/// Opens and closes each device that the library finds. Never throws: no library is no devices.
+/// Opens and closes each device that the library finds. Never throws; without the library there are none.
 std::vector<FoundDevice> find_force_dimension();
 
 }  // namespace palpate::device

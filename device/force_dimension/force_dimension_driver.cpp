@@ -139,7 +139,7 @@ void ForceDimensionDriver::disconnect() noexcept {
 }
 
 double ForceDimensionDriver::now() noexcept {
-  return monotonic_time();
+  return clock_.now();
 }
 
 void ForceDimensionDriver::note(int result) noexcept {
@@ -150,7 +150,7 @@ void ForceDimensionDriver::note(int result) noexcept {
 
 void ForceDimensionDriver::take(double timeout) noexcept {
   const double wait = std::min(next_ - now(), timeout);
-  if (wait > 0) std::this_thread::sleep_for(std::chrono::duration<double>(wait));
+  if (wait > 0) clock_.sleep(wait);
   next_ = std::max(next_ + period, now());
   Vec3 place;
   const int result = drd_->get_position(&place.x, &place.y, &place.z, id_);
@@ -183,6 +183,11 @@ void ForceDimensionDriver::take(double timeout) noexcept {
 }
 
 void ForceDimensionDriver::judge_status() noexcept {
+  if (!drd_->is_initialized(id_)) {
+    status_.state = State::fault;
+    status_.fault = LinkFault::unhomed;
+    return;
+  }
   std::array<int, 17> told{};
   if (drd_->get_status(told.data(), id_) < 0) return;
   if (told[status_error] == 0 && told[status_force] != 0) return;
@@ -205,7 +210,7 @@ void ForceDimensionDriver::describe(Specification& specification) const {
 }
 
 std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettings& settings,
-                                                      const LinkStylusOptions& options) {
+                                                      const LinkStylusOptions& options, const DriverClock& clock) {
   Specification specification;
   specification.name = "Force Dimension";
   specification.workspace_half_extent = Vec3(0.04);
@@ -214,11 +219,30 @@ std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettin
   specification.continuous_force = specification.maximum_force;
   specification.stiffness_limit = settings.stiffness_limit;
   specification.rate = 1000;
-  return std::make_unique<LinkStylus>(specification, std::make_unique<ForceDimensionDriver>(settings), options);
+  return std::make_unique<LinkStylus>(specification, std::make_unique<ForceDimensionDriver>(settings, clock), options);
 }
 
 std::unique_ptr<Stylus> make_force_dimension(const ForceDimensionSettings& settings) {
-  return make_force_dimension_with(settings, {});
+  LinkStylusOptions options;
+  if (settings.guarded) options.guardian = {guardian_program(), "force_dimension", settings.address};
+  options.signs = settings.signs;
+  options.stays_awake = true;
+  return make_force_dimension_with(settings, options);
+}
+
+bool stop_force_dimension(const std::string& address) {
+  const DrdLibrary drd;
+  bool stopped = false;
+  const int count = drd.get_device_count();
+  for (int i = 0; i < count; ++i) {
+    const int id = drd.open(static_cast<char>(i));
+    if (id < 0) continue;
+    unsigned short serial = 0;
+    drd.get_serial_number(&serial, static_cast<char>(id));
+    if (address.empty() || address == std::to_string(serial)) stopped = drd.dhd_stop(static_cast<char>(id)) >= 0;
+    drd.close(static_cast<char>(id));
+  }
+  return stopped;
 }
 
 std::vector<FoundDevice> find_force_dimension() {

@@ -7,6 +7,7 @@
 #include "device/force_dimension/drd_library.h"
 #include "device/force_dimension/force_dimension.h"
 #include "device/link/driver.h"
+#include "device/link/driver_clock.h"
 #include "device/link/link_stylus.h"
 
 namespace palpate::device {
@@ -14,7 +15,8 @@ namespace palpate::device {
 /// A device that answers each call over USB: it is asked and told in the stylus' own thread.
 class ForceDimensionDriver final : public Driver {
  public:
-  explicit ForceDimensionDriver(const ForceDimensionSettings& settings) : settings_(settings) {}
+  explicit ForceDimensionDriver(const ForceDimensionSettings& settings, const DriverClock& clock = {})
+      : settings_(settings), clock_(clock) {}
 
   void connect() override;
   void disconnect() noexcept override;
@@ -34,6 +36,7 @@ class ForceDimensionDriver final : public Driver {
   std::string last_error() const;
 
   ForceDimensionSettings settings_;
+  DriverClock clock_;
   std::unique_ptr<DrdLibrary> drd_;
   char id_ = -1;
   bool has_wrist_ = false;
@@ -48,6 +51,9 @@ class ForceDimensionDriver final : public Driver {
 
 /// The same stylus as make_force_dimension()'s, with other options.
 std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettings& settings,
-                                                      const LinkStylusOptions& options);
+                                                      const LinkStylusOptions& options, const DriverClock& clock = {});
+
+/// Opens the device, switches its forces off and its brakes on, and closes it. Throws std::runtime_error.
+bool stop_force_dimension(const std::string& address);
 
 }  // namespace palpate::device

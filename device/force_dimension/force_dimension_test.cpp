@@ -4,12 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
-#include <thread>
 
 #include "device/force_dimension/force_dimension_driver.h"
 #include "device/testing/fake_libdrd.h"
@@ -17,6 +15,7 @@
 namespace palpate::device {
 namespace {
 
+/// By a clock that only the exchanges move.
 class ForceDimension : public testing::Test {
  protected:
   ForceDimension() {
@@ -25,16 +24,24 @@ class ForceDimension : public testing::Test {
     drd = reinterpret_cast<FakeDrd* (*)()>(dlsym(library, "fake_drd"))();
     is_pushing = reinterpret_cast<bool (*)()>(dlsym(library, "fake_drd_is_pushing"));
     *drd = FakeDrd{};
+    set_clock = reinterpret_cast<void (*)(double (*)())>(dlsym(library, "fake_drd_set_clock"));
+    set_clock([] { return time; });
   }
-  ~ForceDimension() override { unsetenv("PALPATE_LIBDRD"); }
+  ~ForceDimension() override {
+    set_clock(nullptr);
+    unsetenv("PALPATE_LIBDRD");
+  }
 
   std::unique_ptr<LinkStylus> unthreaded(const ForceDimensionSettings& settings = {}) {
     LinkStylusOptions options;
     options.threaded = false;
-    return make_force_dimension_with(settings, options);
+    return make_force_dimension_with(settings, options, {&now, &pass});
   }
+  static double now() noexcept { return time; }
+  static void pass(double seconds) noexcept { time += seconds; }
   static void push(LinkStylus& stylus, const Vec3& force, int exchanges = 5) {
     for (int i = 0; i < exchanges; ++i) {
+      pass(1e-3);
       stylus.write_force(force);
       stylus.service(1e-3);
     }
@@ -51,6 +58,8 @@ class ForceDimension : public testing::Test {
 
   FakeDrd* drd = nullptr;
   bool (*is_pushing)() = nullptr;
+  void (*set_clock)(double (*)()) = nullptr;
+  inline static double time = 0;  // s
 };
 
 TEST_F(ForceDimension, PoseAndForceChangeFramesAndNothingElse) {
@@ -87,17 +96,16 @@ TEST_F(ForceDimension, ItsFirmwareTakesAForceAwayThatIsNotRenewed) {
   stylus->open();
   push(*stylus, Vec3(0, 1, 0));
   ASSERT_TRUE(is_pushing());
-  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  pass(0.029);
+  EXPECT_TRUE(is_pushing());
+  pass(0.002);
   EXPECT_FALSE(is_pushing());
 }
 
 TEST_F(ForceDimension, ClosingLeavesNoForce) {
-  auto stylus = make_force_dimension({});
+  auto stylus = unthreaded();
   stylus->open();
-  for (int i = 0; i < 200 && !is_pushing(); ++i) {
-    stylus->write_force(Vec3(0, 1, 0));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  push(*stylus, Vec3(0, 1, 0));
   EXPECT_TRUE(is_pushing());
   stylus->close();
   EXPECT_EQ(drd->force[2], 0);

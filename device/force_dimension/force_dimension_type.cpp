@@ -1,5 +1,6 @@
 #include "device/device_type.h"
 #include "device/force_dimension/force_dimension.h"
+#include "device/force_dimension/force_dimension_driver.h"
 #include "device/settings_file.h"
 
 namespace palpate::device {
@@ -7,10 +8,8 @@ namespace palpate::device {
 ForceDimensionSettings read_force_dimension(const std::string& json_file) {
   return read_settings_file("Force Dimension", json_file, [](SettingsReader& reader) {
     ForceDimensionSettings settings;
-    reader.take("address", settings.address);
+    take_common(reader, settings);
     reader.take("may_home", settings.may_home);
-    reader.take("maximum_force", settings.maximum_force);
-    reader.take("stiffness_limit", settings.stiffness_limit);
     return settings;
   });
 }
@@ -18,10 +17,11 @@ ForceDimensionSettings read_force_dimension(const std::string& json_file) {
 namespace {
 
 std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
-  ForceDimensionSettings settings;
-  if (!choice.settings.empty()) settings = read_force_dimension(choice.settings);
-  if (!choice.address.empty()) settings.address = choice.address;
-  return make_force_dimension(settings);
+  return make_with_settings(choice, &read_force_dimension, &make_force_dimension);
+}
+
+bool send_zeros(const std::string& address, bool /*take_away*/) {
+  return stop_force_dimension(address);
 }
 
 }  // namespace
@@ -39,6 +39,7 @@ const DeviceType force_dimension_type{
     .file_hint = "Leave to home (\"may_home\": true), largest force: a JSON file",
     .find = &find_force_dimension,
     .make = &make,
+    .send_zeros = &send_zeros,
 };
 
 }  // namespace palpate::device

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "device/axis_signs.h"
 #include "device/stylus.h"
 
 namespace palpate::device {
@@ -15,15 +16,17 @@ struct HaplySettings {
   std::string address;             ///< the device's id ("049D"), as FoundDevice::address; empty: the only one there is
   std::string host = "localhost";  ///< of the service
   int port = 10001;                ///< its simulation channel
-  std::string preset = "arm_front_centered";  ///< puts the origin into the middle of the workspace
+  std::string preset = "arm_front_centered";  ///< puts the origin in the middle of the workspace
   double maximum_force = 3;                   ///< N; the maker publishes none
   double stiffness_limit = 400;               ///< N/m, likewise
+  bool guarded = true;                        ///< start a guardian process where palpate-guardian is found
+  AxisSigns signs;
 };
 
 /// Throws std::runtime_error naming the file, the key and what is wrong with it. Absent keys keep their defaults.
 HaplySettings read_haply(const std::string& json_file);
 
-/// Not open yet. open() throws std::runtime_error naming what is missing: the service, a device, one of several.
+/// Not open yet. open() throws std::runtime_error if the service or the device is missing, or several could be meant.
 std::unique_ptr<Stylus> make_haply(const HaplySettings& settings = {});
 
 }  // namespace palpate::device

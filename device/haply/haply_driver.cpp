@@ -210,6 +210,7 @@ void HaplyProtocol::connect(Link& link) {
   switched_key_ = false;
   in_flight_ = unheeded_ = 0;
   sent_force_ = Vec3(0);
+  acting_.reset();
   std::vector<std::uint8_t> packet(packet_size());
   const double start = link.now();
   std::vector<HaplyDevice> devices;
@@ -218,7 +219,10 @@ void HaplyProtocol::connect(Link& link) {
     const std::size_t size = link.receive(packet, 0.01);
     const std::string_view message(reinterpret_cast<const char*>(packet.data()), size);
     told = size > 0 && message.find("\"inverse3\"") != std::string_view::npos;
-    if (told) devices = haply_inventory(message);
+    if (told) {
+      devices = haply_inventory(message);
+      has_grip_ = orientation_of(Json::parse(message, nullptr, false)).has_value();
+    }
   }
   if (!told) {
     throw Refusal(say("haply-its-service-does-not-tell-which"));
@@ -243,6 +247,7 @@ std::string HaplyProtocol::first_message() const {
 void HaplyProtocol::describe(Specification& specification) const {
   const bool is_small = device_.type == "minverse";
   specification.name = is_small ? "Haply Minverse" : "Haply Inverse3";
+  specification.orientation_axes = has_grip_ ? 3 : 0;
   specification.workspace_half_extent = Vec3(is_small ? 0.04 : 0.10) / std::sqrt(3.0);
 }
 
@@ -284,6 +289,7 @@ void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/
 }
 
 void HaplyProtocol::judge_force(const Vec3& acting) noexcept {
+  acting_ = acting;
   // Which of the two spellings the service reads is not certain from its version: it tells the force that acts.
   const bool heeded = glm::length(sent_force_) < noticeable || glm::length(acting) > 0.1 * glm::length(sent_force_);
   unheeded_ = heeded ? 0 : unheeded_ + 1;

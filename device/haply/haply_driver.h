@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,8 @@ class HaplyProtocol final : public Protocol {
   const ProtocolStatus& status() const noexcept override { return status_; }
   std::size_t packet_size() const noexcept override { return 1 << 16; }
   void describe(Specification& specification) const override;
+  /// N, that the service told last to act; the service's frame. Nothing before it told any.
+  const std::optional<Vec3>& acting_force() const noexcept { return acting_; }
 
  private:
   void choose(const std::vector<HaplyDevice>& devices);
@@ -64,12 +67,14 @@ class HaplyProtocol final : public Protocol {
   HaplySettings settings_;
   ProtocolStatus status_;
   HaplyDevice device_;
+  bool has_grip_ = false;              // a VerseGrip, which tells how it is turned
   const char* vector_key_ = "vector";  // of 3.5; 3.1 says "values"
   bool switched_key_ = false;
   int in_flight_ = 0;  // messages sent and not answered yet
   double sent_ = 0;
   Vec3 sent_force_{0};  // N, the service's frame
-  int unheeded_ = 0;    // answers in a row that tell of no force where one was sent
+  std::optional<Vec3> acting_;
+  int unheeded_ = 0;  // answers in a row that tell of no force where one was sent
 };
 
 }  // namespace palpate::device

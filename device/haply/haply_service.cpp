@@ -9,11 +9,16 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <exception>
 #include <functional>
+#include <glm/geometric.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "device/link/realtime.h"
 #include "device/messages.h"
@@ -206,7 +211,7 @@ std::unique_ptr<HaplyLink> open_haply_service(const HaplySettings& settings) {
 std::vector<FoundDevice> find_haply() {
   std::vector<FoundDevice> found;
   try {
-    const auto service = open_haply_service({});
+    const auto service = open_haply_service(haply_defaults());
     std::vector<std::uint8_t> packet(longest_message);
     const std::size_t size = service->receive(packet, 0.5);
     for (const HaplyDevice& device : haply_inventory({reinterpret_cast<const char*>(packet.data()), size})) {
@@ -218,8 +223,59 @@ std::vector<FoundDevice> find_haply() {
   return found;
 }
 
+namespace {
+
+/// "HOST:PORT" into the settings; what is no port leaves them as they are.
+void take_place(std::string_view place, HaplySettings& settings) {
+  const auto colon = place.rfind(':');
+  if (colon == std::string_view::npos || colon == 0) return;
+  int port = 0;
+  const char* const end = place.data() + place.size();
+  if (std::from_chars(place.data() + colon + 1, end, port).ptr != end || port <= 0 || port > 65535) return;
+  settings.host = place.substr(0, colon);
+  settings.port = port;
+}
+
+}  // namespace
+
+HaplySettings haply_defaults() {
+  HaplySettings settings;
+  if (const char* const named = std::getenv("PALPATE_HAPLY")) take_place(named, settings);
+  return settings;
+}
+
+bool send_zeros_to_haply(const std::string& address) {
+  constexpr double patience = 0.3, nothing = 0.02;  // s; N
+  const auto at = address.find('@');
+  HaplySettings settings = haply_defaults();
+  settings.address = address.substr(0, at);
+  if (at != std::string::npos) take_place(std::string_view(address).substr(at + 1), settings);
+  const auto service = open_haply_service(settings);
+  HaplyProtocol protocol(settings);
+  protocol.connect(*service);
+  std::vector<std::uint8_t> packet(longest_message);
+  const double begun = monotonic_time();
+  while (!service->lost() && monotonic_time() - begun < patience) {
+    if (const std::size_t size = service->receive(packet, 0.005); size > 0) {
+      protocol.receive(std::span(packet).first(size), monotonic_time());
+      const std::optional<Vec3> acting = protocol.acting_force();
+      if (acting && glm::length(*acting) < nothing) return true;
+    }
+    if (const std::size_t due = protocol.step(Vec3(0), monotonic_time(), packet); due > 0) {
+      service->send(std::span(packet).first(due));
+    }
+  }
+  return false;
+}
+
 std::unique_ptr<Stylus> make_haply(const HaplySettings& settings) {
-  return make_haply_on(settings, [settings]() -> std::unique_ptr<Link> { return open_haply_service(settings); }, {});
+  LinkStylusOptions options;
+  const std::string place = settings.address + "@" + settings.host + ":" + std::to_string(settings.port);
+  if (settings.guarded) options.guardian = {guardian_program(), "haply", place};
+  options.signs = settings.signs;
+  options.stays_awake = true;
+  return make_haply_on(
+      settings, [settings]() -> std::unique_ptr<Link> { return open_haply_service(settings); }, options);
 }
 
 }  // namespace palpate::device

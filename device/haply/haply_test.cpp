@@ -11,113 +11,22 @@
 #include <string>
 
 #include "device/haply/haply_driver.h"
+#include "device/testing/fake_haply.h"
 
 namespace palpate::device {
 namespace {
 
 using Json = nlohmann::json;
 
-/// The service as its documents have it: an inventory first, then one state for each message. On a clock that runs only
-/// while somebody waits; x right, y away from the user, z up.
-struct Service {
-  double time = 0;
-  HaplyVersion version{3, 5};
-  std::string spelling = "vector";  ///< of a force's components: what this service reads
-  std::vector<std::string> ids{"049D"};
-  std::string type = "inverse3";
-  Vec3 place{0};  // m
-  Vec3 force{0};  // N, that acts
-  bool ready = true;
-  bool silent = false, gone = false, garbles = false, halves = false, loses_device = false;
-  double delay = 0.3e-3;
-  Json first_message;
-  int messages = 0;
-  std::vector<std::pair<double, std::string>> to_client;
-
-  void start() { to_client = {{time, inventory()}}; }
-  static Json vector(const Vec3& v) { return {{"x", v.x}, {"y", v.y}, {"z", v.z}}; }
-  std::string inventory() const {
-    Json list = Json::array();
-    for (const std::string& id : ids) {
-      list.push_back({{"device_id", id},
-                      {"config",
-                       {{"type", type},
-                        {"handedness", "right"},
-                        {"gravity_compensation", {{"enabled", true}, {"scaling_factor", 1.0}}},
-                        {"torque_scaling", {{"enabled", true}}},
-                        {"filters", {{"force_gate", {{"gain", 0.3}}}, {"damping", {{"scalar", 0.0}}}}}}},
-                      {"state", {{"cursor_position", vector(place)}}},
-                      {"status", {{"calibrated", ready}, {"ready", ready}}}});
-    }
-    return Json{{"session_id", 7}, {"inverse3", list}, {"wireless_verse_grip", Json::array()}}.dump();
-  }
-  std::string state() const {
-    Json list = Json::array();
-    if (!loses_device) {
-      list.push_back({{"device_id", ids.front()},
-                      {"state", {{"cursor_position", vector(place)}, {"current_cursor_force", vector(force)}}},
-                      {"status", {{"calibrated", ready}, {"ready", ready}}}});
-    }
-    const Json grip{{"device_id", "61576"},
-                    {"state",
-                     {{"buttons", {{"a", false}, {"b", true}, {"c", false}}},
-                      {"orientation", {{"w", std::sqrt(0.5)}, {"x", 0.0}, {"y", 0.0}, {"z", std::sqrt(0.5)}}}}}};
-    return Json{{"inverse3", list}, {"wireless_verse_grip", Json::array({grip})}}.dump();
-  }
-  void take(const std::string& text) {
-    const Json message = Json::parse(text);
-    if (messages++ == 0) first_message = message;
-    force = Vec3(0);  // a command lasts one message
-    const Json& commands = message.at("inverse3").at(0).at("commands").at("set_cursor_force");
-    if (commands.contains(spelling)) {
-      const Json& v = commands.at(spelling);
-      force = {v.at("x").get<double>(), v.at("y").get<double>(), v.at("z").get<double>()};
-    }
-    std::string answer = garbles ? "{\"inverse3\": nonsense" : state();
-    if (halves) answer.resize(answer.size() / 2);
-    to_client.emplace_back(time + delay, answer);
-  }
-};
-
-class ServiceLink final : public HaplyLink {
- public:
-  explicit ServiceLink(Service& service) : service_(service) { service.start(); }
-  HaplyVersion version() const noexcept override { return service_.version; }
-  double now() noexcept override { return service_.time; }
-  bool lost() const noexcept override { return service_.gone; }
-  bool flush(double /*timeout*/) noexcept override { return !service_.gone; }
-  bool send(std::span<const std::uint8_t> packet) noexcept override {
-    if (!service_.gone) service_.take({packet.begin(), packet.end()});
-    return !service_.gone;
-  }
-  std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept override {
-    const double end = service_.time + timeout;
-    for (;;) {
-      auto& waiting = service_.to_client;
-      if (!service_.silent && !waiting.empty() && waiting.front().first <= service_.time) {
-        const std::string text = waiting.front().second;
-        waiting.erase(waiting.begin());
-        std::copy(text.begin(), text.end(), packet.begin());
-        return text.size();
-      }
-      if (service_.time >= end) return 0;
-      service_.time = std::min(service_.time + 50e-6, end);
-    }
-  }
-
- private:
-  Service& service_;
-};
-
 struct Bench {
-  Service service;
+  FakeHaply service;
   std::unique_ptr<LinkStylus> stylus;
 
   explicit Bench(const HaplySettings& settings = {}) {
     LinkStylusOptions options;
     options.threaded = false;
     stylus = make_haply_on(
-        settings, [this] { return std::make_unique<ServiceLink>(service); }, options);
+        settings, [this] { return std::make_unique<FakeHaplyLink>(service); }, options);
   }
   void run(double seconds, const Vec3& force = Vec3(0)) {
     const double end = service.time + seconds;
@@ -126,6 +35,8 @@ struct Bench {
       stylus->service(1e-3);
     }
   }
+  /// N, that acts; the service's frame.
+  Vec3 force() const { return service.acting(service.time); }
   void expect_refusal(const std::string& why) {
     try {
       stylus->open();
@@ -143,7 +54,7 @@ TEST(Haply, PosesAndForcesChangeFrames) {
   bench.stylus->open();
   bench.run(0.05, Vec3(0.1, 0.2, 0.3));
   EXPECT_LT(glm::distance(bench.stylus->read().position, Vec3(0.01, 0.03, -0.02)), 1e-12);
-  EXPECT_LT(glm::distance(bench.service.force, Vec3(0.1, -0.3, 0.2)), 1e-5);
+  EXPECT_LT(glm::distance(bench.force(), Vec3(0.1, -0.3, 0.2)), 1e-5);
   EXPECT_EQ(bench.stylus->state(), State::idle);
 }
 
@@ -164,7 +75,7 @@ TEST(Haply, SpeaksBothSpellingsOfAForce) {
     bench.service.spelling = minor == 1 ? "values" : "vector";
     bench.stylus->open();
     bench.run(0.02, Vec3(1, 0, 0));
-    EXPECT_EQ(bench.service.force, Vec3(1, 0, 0)) << minor;
+    EXPECT_EQ(bench.force(), Vec3(1, 0, 0)) << minor;
   }
 }
 
@@ -174,7 +85,7 @@ TEST(Haply, FindsTheSpellingWhereTheVersionMisleads) {
   bench.service.spelling = "values";
   bench.stylus->open();
   bench.run(0.5, Vec3(1, 0, 0));
-  EXPECT_EQ(bench.service.force, Vec3(1, 0, 0));
+  EXPECT_EQ(bench.force(), Vec3(1, 0, 0));
   EXPECT_EQ(bench.stylus->fault(), LinkFault::none);
 }
 
@@ -202,10 +113,10 @@ TEST(Haply, WaitsUntilTheDeviceIsReady) {
   bench.stylus->open();
   bench.run(0.1, Vec3(1, 0, 0));
   EXPECT_EQ(bench.stylus->state(), State::homing);
-  EXPECT_EQ(bench.service.force, Vec3(0));
+  EXPECT_EQ(bench.force(), Vec3(0));
   bench.service.ready = true;
   bench.run(0.1, Vec3(1, 0, 0));
-  EXPECT_EQ(bench.service.force, Vec3(1, 0, 0));
+  EXPECT_EQ(bench.force(), Vec3(1, 0, 0));
 }
 
 TEST(Haply, OneMessageIsUnderWayAtATime) {
@@ -224,23 +135,23 @@ TEST(Haply, OneMessageIsUnderWayAtATime) {
 TEST(Haply, WhatGoesWrongEndsWithoutForce) {
   const struct {
     const char* what;
-    std::function<void(Service&)> cause;
+    std::function<void(FakeHaply&)> cause;
     LinkFault fault;
-  } cases[] = {{"gone", [](Service& s) { s.gone = true; }, LinkFault::unplugged},
-               {"the arm is unplugged", [](Service& s) { s.loses_device = true; }, LinkFault::unplugged},
-               {"silent", [](Service& s) { s.silent = true; }, LinkFault::silent},
-               {"garbage", [](Service& s) { s.garbles = true; }, LinkFault::silent},
-               {"half messages", [](Service& s) { s.halves = true; }, LinkFault::silent},
-               {"a place that cannot be", [](Service& s) { s.place = Vec3(5, 0, 0); }, LinkFault::unreachable_pose}};
+  } cases[] = {{"gone", [](FakeHaply& s) { s.gone = true; }, LinkFault::unplugged},
+               {"the arm is unplugged", [](FakeHaply& s) { s.loses_device = true; }, LinkFault::unplugged},
+               {"silent", [](FakeHaply& s) { s.silent = true; }, LinkFault::silent},
+               {"garbage", [](FakeHaply& s) { s.garbles = true; }, LinkFault::silent},
+               {"half messages", [](FakeHaply& s) { s.halves = true; }, LinkFault::silent},
+               {"a place that cannot be", [](FakeHaply& s) { s.place = Vec3(5, 0, 0); }, LinkFault::unreachable_pose}};
   for (const auto& one : cases) {
     Bench bench;
     bench.stylus->open();
     bench.run(0.1, Vec3(1, 0, 0));
-    ASSERT_EQ(bench.service.force, Vec3(1, 0, 0));
+    ASSERT_EQ(bench.force(), Vec3(1, 0, 0));
     one.cause(bench.service);
     bench.run(0.3, Vec3(1, 0, 0));
     EXPECT_EQ(bench.stylus->fault(), one.fault) << one.what;
-    EXPECT_TRUE(bench.service.gone || bench.service.force == Vec3(0)) << one.what;
+    EXPECT_TRUE(bench.service.gone || bench.force() == Vec3(0)) << one.what;
   }
 }
 
@@ -279,7 +190,7 @@ TEST(Haply, SaysWhatIsMissing) {
 }
 
 TEST(Haply, TellsWhatChangesWhatIsFelt) {
-  const auto devices = haply_inventory(Service().inventory());
+  const auto devices = haply_inventory(FakeHaply().inventory());
   ASSERT_EQ(devices.size(), 1U);
   EXPECT_THAT(describe(devices[0]), testing::HasSubstr("gravity compensation on"));
   EXPECT_THAT(describe(devices[0]), testing::HasSubstr("force gate 0.30"));

@@ -7,13 +7,11 @@ namespace palpate::device {
 
 HaplySettings read_haply(const std::string& json_file) {
   return read_settings_file("Haply", json_file, [](SettingsReader& reader) {
-    HaplySettings settings;
-    reader.take("address", settings.address);
+    HaplySettings settings = haply_defaults();
+    take_common(reader, settings);
     reader.take("host", settings.host);
     reader.take("port", settings.port);
     reader.take("preset", settings.preset);
-    reader.take("maximum_force", settings.maximum_force);
-    reader.take("stiffness_limit", settings.stiffness_limit);
     return settings;
   });
 }
@@ -21,10 +19,11 @@ HaplySettings read_haply(const std::string& json_file) {
 namespace {
 
 std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
-  HaplySettings settings;
-  if (!choice.settings.empty()) settings = read_haply(choice.settings);
-  if (!choice.address.empty()) settings.address = choice.address;
-  return make_haply(settings);
+  return make_with_settings(choice, &read_haply, &make_haply, haply_defaults());
+}
+
+bool send_zeros(const std::string& address, bool /*take_away*/) {
+  return send_zeros_to_haply(address);
 }
 
 }  // namespace
@@ -43,6 +42,7 @@ const DeviceType haply_type{
     .file_hint = "Largest force and stiffness, if others are wanted: a JSON file",
     .find = &find_haply,
     .make = &make,
+    .send_zeros = &send_zeros,
 };
 
 }  // namespace palpate::device

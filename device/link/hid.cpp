@@ -122,6 +122,8 @@ std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& setting
   }
   LinkStylusOptions options;
   if (settings.guarded) options.guardian = {guardian_program(), "wooden_haptics", settings.address};
+  options.signs = settings.signs;
+  options.stays_awake = true;
   return make_wooden_haptics_on(
       settings, [address = settings.address] { return open_hid("wooden_haptics", address); }, options);
 }

@@ -8,7 +8,7 @@
 
 namespace palpate::device {
 
-/// One writing thread and one reading thread; values in between are dropped, the newest is never torn.
+/// One thread writes and one reads. Values that are not read in time are dropped; the newest one is always whole.
 template <typename T>
 class Latest {
  public:

@@ -40,7 +40,9 @@ namespace {
 // At a period of 8 ms and a delay of as much, the linear bound of stiffness.h lies below a wall of 400 N/m.
 constexpr double rate_window = 0.25;  // s
 constexpr std::uint64_t fewest_in_window = 30;
-constexpr double longest_gap = 0.25;    // s between two exchanges: longer, and this process was stopped
+// s between two exchanges: longer, and this process was stopped. The guardian waits as long before it takes the force
+// away, so a session that goes on after that is in this fault.
+constexpr double longest_gap = 0.2;
 constexpr double shortest_sleep = 0.1;  // s: of a machine that was suspended
 
 }  // namespace
@@ -69,6 +71,7 @@ void LinkStylus::open() {
   }
   connected_ = true;
   driver_->describe(specification_);
+  if (options_.stays_awake) awake_ = stay_awake(specification_.name + " is held");
   opened_ = exchange_time_ = news_time_ = window_start_ = driver_->now();
   asleep_ = options_.asleep();
   news_ = window_news_ = driver_->status().news;
@@ -111,6 +114,7 @@ void LinkStylus::close() noexcept {
   connected_ = false;
   if (guardian_) lost ? guardian_->hand_over() : guardian_->dismiss();
   guardian_.reset();
+  awake_.reset();
   state_.store(State::disconnected, std::memory_order_relaxed);
 }
 
@@ -134,7 +138,8 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
   if (status.news != news_) {
     news_ = status.news;
     news_time_ = now;
-    reading_.store({now - opened_, status.position, status.buttons, true, status.orientation});
+    reading_.store(
+        {now - opened_, options_.signs.position * status.position, status.buttons, true, status.orientation});
   }
   if (status.state == State::fault) fail(status.fault);
   if (now - news_time_ > driver_->longest_silence()) fail(LinkFault::silent);
@@ -142,7 +147,7 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
   judge_clocks(now);
 
   const Vec3 force = force_for(now, closing);
-  driver_->give(force);
+  driver_->give(options_.signs.force * force);
   if (guardian_) guardian_->beat(force != Vec3(0));
   exchange_time_ = now;
   if (fault() == LinkFault::none) state_.store(driver_->status().state, std::memory_order_relaxed);

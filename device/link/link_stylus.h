@@ -7,11 +7,13 @@
 #include <memory>
 #include <thread>
 
+#include "device/axis_signs.h"
 #include "device/link/driver.h"
 #include "device/link/latest.h"
 #include "device/link/packet_driver.h"
 #include "device/link/realtime.h"
 #include "device/safety/guardian.h"
+#include "device/safety/stay_awake.h"
 #include "device/safety/sustained.h"
 #include "device/stylus.h"
 
@@ -22,6 +24,8 @@ struct LinkStylusOptions {
   double force_age = 0.020;  ///< s: a force that write_force() does not renew becomes zero
   int priority = 60;         ///< SCHED_FIFO of the thread, above the servo's; where not allowed it goes without
   GuardianSettings guardian;
+  AxisSigns signs;
+  bool stays_awake = false;                   ///< the machine is asked not to sleep while the stylus is open
   double (*asleep)() noexcept = time_asleep;  ///< s that the machine has slept: a jump is a fault
 };
 
@@ -59,6 +63,7 @@ class LinkStylus final : public Stylus {
   std::unique_ptr<Driver> driver_;
   LinkStylusOptions options_;
   std::unique_ptr<Guardian> guardian_;
+  std::unique_ptr<StayAwake> awake_;
   bool connected_ = false;
   std::thread thread_;
   std::atomic<bool> stop_{false};

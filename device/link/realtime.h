@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a servo thread asks of the operating system, and how well it was served.
+/// What a servo thread asks of the operating system, and how well its deadlines were met.
 
 #include <cstdint>
 #include <string>
@@ -18,18 +18,18 @@ struct RealtimeStatus {
 /// SCHED_FIFO for the calling thread. False where the system does not allow it; nothing else changes then.
 bool make_thread_realtime(int priority) noexcept;
 
-/// SCHED_FIFO for the calling thread and locked memory for the process. Never throws for what is refused: it says so.
+/// SCHED_FIFO for the calling thread and locked memory for the process. Never throws; the result says what was refused.
 RealtimeStatus become_realtime(int priority = 50);
 
-/// Absolute deadlines at an even rate, so that lateness never adds up. All times are of CLOCK_MONOTONIC.
+/// Absolute deadlines at an even rate, so that delays do not add up. All times are of CLOCK_MONOTONIC.
 class Metronome {
  public:
   /// The first deadline is one period from now. The period (s) must lie between 10 us and 1 s; throws
   /// std::invalid_argument otherwise.
   explicit Metronome(double period);
 
-  /// Sleeps until the next deadline and returns how late it woke, s. Deadlines that have passed altogether are skipped
-  /// and counted, never made up for.
+  /// Sleeps until the next deadline and returns how late it woke, s. Deadlines that have passed by more than a period
+  /// are skipped and counted.
   double wait() noexcept;
 
   std::uint64_t ticks() const noexcept { return ticks_; }    ///< deadlines met or late by less than a period
@@ -45,7 +45,7 @@ class Metronome {
 /// s of CLOCK_MONOTONIC.
 double monotonic_time() noexcept;
 
-/// s that the machine has slept since it was started: CLOCK_MONOTONIC stands still meanwhile, so that no age shows it.
+/// s that the machine has slept since it was started. CLOCK_MONOTONIC stands still then, so no age shows it.
 double time_asleep() noexcept;
 
 }  // namespace palpate::device

@@ -1,9 +1,9 @@
 #pragma once
 
-/// Ringing is taken out where it begins. A passive wall gives back at most what the hand put in; one that is too stiff
-/// for its delay gives back more, in the band where it rings. That energy is observed, and damping injected while it
-/// lasts: B. Hannaford and J.-H. Ryu, "Time-domain passivity control of haptic interfaces", 2002, but of the fast part
-/// of force and velocity only, since a scene may well push the hand along slowly.
+/// Damps ringing as soon as it begins. A passive wall returns at most the energy that the hand put in. A wall that is
+/// too stiff for its delay returns more, at the frequencies at which it rings. This energy is observed, and damping is
+/// added while there is any: B. Hannaford and J.-H. Ryu, "Time-domain passivity control of haptic interfaces", 2002.
+/// Only the fast part of force and velocity is counted, because a scene may push the hand along slowly.
 
 #include <glm/vec3.hpp>
 
@@ -12,7 +12,7 @@
 namespace palpate::device {
 
 struct EnergyLimits {
-  double corner = 20;           ///< Hz: slower power is the scene's own
+  double corner = 20;           ///< Hz: below this the scene may push by itself
   double memory = 0.1;          ///< s: how long generated energy counts
   double tolerated = 10e-6;     ///< J within the memory
   double full_damping = 50e-6;  ///< J at which the damping is `most_damping`
@@ -27,10 +27,11 @@ struct EnergyState {
   Vec3 slow_velocity{0};  ///< m/s, below the corner
   Vec3 slow_force{0};     ///< N
   Vec3 force{0};          ///< N: what was asked for in the tick before
-  double generated = 0;   ///< J in the fast band, forgotten over the memory; below zero where energy was taken
+  double generated = 0;   ///< J in the fast band, forgotten over the memory; below zero if the wall has taken energy
 };
 
-/// The force with damping added, to be called on every tick before the safety filter. No allocation, lock or exception.
+/// The force with damping added. To be called in every tick, before the safety filter. No allocation, lock or
+/// exception.
 Vec3 damp_ringing(const EnergyLimits& limits, const Reading& reading, const Vec3& force, EnergyState& state) noexcept;
 
 }  // namespace palpate::device

@@ -8,22 +8,24 @@ void FaultLog::record(const SafetyInput& input, const SafetyResult& result) noex
   if (stopped_.load(std::memory_order_relaxed)) return;
   ring_[count_ % capacity] = {input, result};
   ++count_;
-  if (result.fault != Fault::none && after_fault_++ == frames_after_fault) {
-    stopped_.store(true, std::memory_order_release);
-  }
+  const bool faulty = result.fault != Fault::none;
+  was_clear_ = was_clear_ || !faulty;
+  const bool has_enough = faulty && was_clear_ && after_fault_++ == ticks_after_fault;
+  if (has_enough || (!faulty && after_fault_ > 0)) stopped_.store(true, std::memory_order_release);
 }
 
-std::vector<SafetyFrame> FaultLog::frames() const {
+std::vector<SafetyTick> FaultLog::ticks() const {
   const std::size_t kept = std::min(count_, capacity);
-  std::vector<SafetyFrame> frames;
-  frames.reserve(kept);
-  for (std::size_t i = count_ - kept; i < count_; ++i) frames.push_back(ring_[i % capacity]);
-  return frames;
+  std::vector<SafetyTick> ticks;
+  ticks.reserve(kept);
+  for (std::size_t i = count_ - kept; i < count_; ++i) ticks.push_back(ring_[i % capacity]);
+  return ticks;
 }
 
 void FaultLog::clear() noexcept {
   count_ = 0;
   after_fault_ = 0;
+  was_clear_ = false;
   stopped_.store(false, std::memory_order_release);
 }
 

@@ -114,26 +114,24 @@ std::string own_file() {
   return failed ? std::string() : file.string();
 }
 
-/// Beside the running program, then in the folders above the plug-in: in a build's bin/, or where it was installed.
-std::vector<std::string> guardian_candidates() {
-  std::vector<std::string> candidates;
-  const std::string program = running_program();
-  candidates.push_back(program.substr(0, program.rfind('/') + 1) + "palpate-guardian");
-  for (std::filesystem::path at = std::filesystem::path(own_file()).parent_path(); at.has_relative_path();
-       at = at.parent_path()) {
-    for (const char* below : {"palpate-guardian", "bin/palpate-guardian", "libexec/palpate/palpate-guardian"}) {
-      candidates.push_back(at / below);
-    }
+}  // namespace
+
+std::vector<std::string> guardian_candidates(const std::string& program, const std::string& loaded_from,
+                                             const std::string& installed) {
+  const std::filesystem::path beside = std::filesystem::path(loaded_from).parent_path();
+  std::vector<std::string> candidates{std::filesystem::path(program).parent_path() / "palpate-guardian",
+                                      beside / "palpate-guardian"};
+  for (std::filesystem::path at = beside; at.has_relative_path(); at = at.parent_path()) {
+    candidates.push_back(at / "bin/palpate-guardian");
+    candidates.push_back(at / "libexec/palpate/palpate-guardian");
   }
-  candidates.emplace_back(PALPATE_GUARDIAN_PATH);
+  candidates.push_back(installed);
   return candidates;
 }
 
-}  // namespace
-
 std::string guardian_program() {
   if (const char* named = std::getenv("PALPATE_GUARDIAN")) return named;
-  for (const std::string& candidate : guardian_candidates()) {
+  for (const std::string& candidate : guardian_candidates(running_program(), own_file(), PALPATE_GUARDIAN_PATH)) {
     if (access(candidate.c_str(), X_OK) == 0) return candidate;
   }
   return {};

@@ -1,24 +1,25 @@
 #pragma once
 
-/// Takes the force away when the session's process dies without a word (SIGKILL, a crash), or is stopped while it
-/// pushes (Ctrl-Z, a debugger): a small process of its own, joined to the session by a pipe and a shared count of the
-/// exchanges with the device. When the pipe ends or the count stands still, it opens the device and sends zeros. A
-/// device that was unplugged gets them when it comes back.
+/// A small process that takes the force away when the session's process is killed, crashes, or is stopped while the
+/// stylus pushes (Ctrl-Z, a debugger). A pipe and a shared count of the exchanges with the device join the two. When
+/// the pipe ends or the count stands still, the guardian opens the device and sends zeros. A device that was unplugged
+/// gets them when it comes back.
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace palpate::device {
 
 struct GuardianSettings {
   std::string program;  ///< path of palpate-guardian; empty: no guardian
-  std::string kind;     ///< "falcon" or "wooden_haptics"
+  std::string kind;     ///< DeviceType::kind
   std::string address;  ///< of the one device, as FoundDevice::address
 };
 
-/// In memory that session and guardian share.
+/// Lies in memory that session and guardian share.
 struct GuardianBeat {
   std::atomic<std::uint32_t> count{0};    ///< exchanges with the device
   std::atomic<std::uint32_t> pushing{0};  ///< 1: the last of them carried a force
@@ -33,8 +34,8 @@ class Guardian {
 
   /// The device was closed in good order: the guardian leaves it alone and ends.
   void dismiss() noexcept { end('q'); }
-  /// The device is gone, perhaps with its force on: for a minute the guardian goes on by itself and sends zeros as soon
-  /// as the device is back.
+  /// The device was lost, perhaps with its force on. The guardian goes on by itself for a minute, and sends zeros as
+  /// soon as the device is back.
   void hand_over() noexcept { end('w'); }
   /// After each exchange with the device. Wait-free.
   void beat(bool pushing) noexcept {
@@ -54,8 +55,14 @@ class Guardian {
 /// Nothing where no program is named. Throws std::runtime_error where it cannot be started.
 std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings);
 
-/// The installed or built palpate-guardian: $PALPATE_GUARDIAN, else beside the running program, else where it was
-/// installed; empty where there is none.
+/// The path of palpate-guardian: $PALPATE_GUARDIAN if it is set; else the first one that is found of
+/// guardian_candidates(). Empty if there is none.
 std::string guardian_program();
+
+/// Where palpate-guardian may lie, in the order of search: beside `program`; beside the plug-in or program
+/// `loaded_from`; in bin and libexec/palpate of every folder above it, which finds a build's and an installed one; and
+/// at `installed`.
+std::vector<std::string> guardian_candidates(const std::string& program, const std::string& loaded_from,
+                                             const std::string& installed);
 
 }  // namespace palpate::device

@@ -1,11 +1,11 @@
 #pragma once
 
-/// The one function that every force passes on its way to a device, whichever device it is.
+/// The safety filter. Every force passes through it on its way to a device, whichever device it is.
 ///
 /// In this order: finite -> armed -> fresh -> speed -> length clamped, direction kept -> slew -> ramp -> device's
-/// limit. A force comes out only while the user has armed the filter and the device is ready; a fault is latched with
-/// its cause and takes the force to zero within SafetyLimits::fall_time (at once where pose or force is not a number)
-/// until the user clears it and arms again.
+/// limit. A force comes out only while the user has armed the filter and the device is ready. A fault is latched with
+/// its cause. It takes the force to zero within SafetyLimits::fall_time, at once if pose or force is not a number. The
+/// force comes back when the user has cleared the fault and armed again.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -29,7 +29,7 @@ enum class Fault : std::uint8_t {
   commander_silent,  ///< no sign of life for SafetyLimits::heartbeat_time
 };
 const char* name_of(Fault fault);
-/// What happened and what the user can do about it, in a sentence; nothing where nothing is wrong.
+/// A sentence on what happened and what the user can do about it; empty without a fault.
 Text advice_for(Fault fault);
 
 struct SafetyInput {
@@ -51,7 +51,7 @@ struct SafetyResult {
   bool slewed = false;        ///< the force changed faster than the limit
 };
 
-/// What the filter remembers from tick to tick. A value: copy it, compare it, start over with SafetyState{}.
+/// What the filter keeps from tick to tick. A plain value: SafetyState{} starts over.
 struct SafetyState {
   bool armed = false;
   Fault fault = Fault::none;
@@ -65,10 +65,10 @@ struct SafetyState {
   Vec3 velocity{0};  ///< m/s, low-passed
 };
 
-/// Pure but for `state`; no allocation, lock, log, exception or system call.
+/// Changes `state` and nothing else. No allocation, lock, log, exception or system call.
 SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, SafetyState& state) noexcept;
 
-/// The user's hand: forces are ramped up from here on. Does nothing, and returns false, while a fault is latched.
+/// Called when the user arms the stylus: forces are ramped up from now on. False, and nothing changes, with a fault.
 bool arm(SafetyState& state) noexcept;
 /// The force falls to zero within SafetyLimits::fall_time.
 void disarm(SafetyState& state) noexcept;

@@ -316,6 +316,21 @@ TEST(SafetyLayers, WhatIsNotANumberEndsTheForceAtOnce) {
   }
 }
 
+/// What is told is what came first: a fault is not renamed by what it brings with it.
+TEST(SafetyLayers, TheFirstCauseIsKept) {
+  Session session;
+  session.push(Vec3(0, 1, 0));
+  session.input.device = State::fault;
+  EXPECT_EQ(session.step().fault, Fault::device_lost);
+  session.input.reading.position.x = std::nan("");
+  EXPECT_EQ(session.step().fault, Fault::device_lost);
+  session.input.reading.position.x = 0;
+  session.input.force.z = std::nan("");
+  EXPECT_EQ(session.step().fault, Fault::device_lost);
+  clear_fault(session.state);
+  EXPECT_EQ(session.step().fault, Fault::force_not_finite);
+}
+
 TEST(SafetyLayers, ADeviceThatCannotPushGetsNothing) {
   for (const State state :
        {State::disconnected, State::idle, State::homing, State::ramping, State::active, State::fault}) {

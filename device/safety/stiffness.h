@@ -1,6 +1,6 @@
 #pragma once
 
-/// How stiff a wall may be that a sampled, delayed, quantised device renders without ringing.
+/// How stiff a wall can be before a sampled, delayed and quantized device makes it ring.
 
 namespace palpate::device {
 
@@ -15,15 +15,15 @@ struct RenderingDynamics {
 
 /// N/m, all of them.
 struct StiffnessBounds {
-  double passive = 0;    ///< never gives energy, with no hand: b / (T/2 + t_d); J. E. Colgate and G. Schenkel, 1997
+  double passive = 0;    ///< passive without a hand: b / (T/2 + t_d); J. E. Colgate and G. Schenkel, 1997
   double held = 0;       ///< the same with the hand's damping
-  double near_rest = 0;  ///< friction eats the energy of the position steps: 2 c / D; N. Diolaiti et al., 2006
+  double near_rest = 0;  ///< friction takes up the energy of the position steps: 2 c / D; N. Diolaiti et al., 2006
   double advised = 0;    ///< the cap: see stiffness_bounds()
 };
 
-/// Real arms have almost no damping, which makes `passive` useless as a cap, and `near_rest` holds only for small
-/// motion while a hand's damping varies: so the cap is the larger of `passive` and the smaller of `held` and
-/// `near_rest`, the latter two reduced by `margin`, and never above `configured`.
+/// No bound is enough by itself: real arms have almost no damping, so `passive` is far too low; `near_rest` holds for
+/// small motion only; and a hand's damping varies. So the cap is the larger of two numbers: `passive`, and the smaller
+/// of `held` and `near_rest`, both reduced by `margin`. It is never above `configured`.
 StiffnessBounds stiffness_bounds(const RenderingDynamics& dynamics, double configured = 3000, double margin = 0.6);
 
 }  // namespace palpate::device

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where a scripted hand means to be, over time.
+/// Where a scripted hand is meant to be, over time.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -21,10 +21,10 @@ enum class PathInterpolation : std::uint8_t {
   minimum_jerk,  ///< from rest to rest: T. Flash and N. Hogan, J. Neuroscience 5(7), 1985; 10 s^3 - 15 s^4 + 6 s^5
 };
 
-/// Throws std::invalid_argument naming the waypoint: none, not finite, or times that do not increase.
+/// Throws std::invalid_argument naming the waypoint: there is none, one is not finite, or times do not increase.
 void check_path(std::span<const Waypoint> path);
 
-/// The path at a time: before its first waypoint that one, after its last that one. Checked paths only.
+/// The path at a time; before the first waypoint the first, after the last the last. For checked paths only.
 Waypoint point_on(std::span<const Waypoint> path, PathInterpolation interpolation, double time) noexcept;
 
 }  // namespace palpate::device

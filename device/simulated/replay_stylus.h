@@ -1,6 +1,6 @@
 #pragma once
 
-/// A stylus that reads back poses handed in, one a tick, and feels nothing: for replaying a session.
+/// A stylus that returns given poses, one a tick, and is not moved by forces: for replaying a session.
 
 #include <cstddef>
 #include <span>
@@ -11,18 +11,18 @@ namespace palpate::device {
 
 class ReplayStylus final : public Stylus {
  public:
-  /// Does not copy: `readings` must outlive the stylus. They are returned as they are, also what is not fresh or
-  /// finite.
+  /// Does not copy: `readings` must outlive the stylus. They are returned as they are, even if they are not fresh or
+  /// not finite.
   explicit ReplayStylus(std::span<const Reading> readings, const Specification& recorded = {});
-  /// The same with the state of each tick, as many as readings: also what was lost or homing is repeated. Throws
-  /// std::invalid_argument where they are not as many.
+  /// The same with the state of each tick, so that a lost or homing stylus is repeated, too. Throws
+  /// std::invalid_argument if there are not as many states as readings.
   ReplayStylus(std::span<const Reading> readings, std::span<const State> states, const Specification& recorded = {});
 
   Specification specification() const override { return specification_; }
   /// Starts at the first reading. Throws std::runtime_error when there is none.
   void open() override;
   void close() noexcept override;
-  /// After the last reading: that one, not fresh.
+  /// After the last reading it returns that one again, not fresh.
   Reading read() noexcept override;
   /// Kept for last_force(); the next read() is the next reading.
   void write_force(const Vec3& force) noexcept override;

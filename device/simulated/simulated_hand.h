@@ -1,7 +1,7 @@
 #pragma once
 
-/// A hand that holds a stylus, as a rigid grip: one mass (hand and device together), drawn by a spring and a damper to
-/// where the hand means to be, held back by the device's friction, pushed by the device's force.
+/// A hand that holds a stylus in a rigid grip: one mass, of hand and device together. A spring and a damper draw it to
+/// where the hand wants to be; the device's friction holds it back; the device's force pushes it.
 ///
 /// (m_d + m_h) a = F - b v - c v/|v| + k_h (target - x) + b_h (target' - v)
 
@@ -13,7 +13,7 @@
 
 namespace palpate::device {
 
-/// One definition for every study: "simulated hand" of the design's defaults.
+/// The simulated hand of every study.
 struct HandModel {
   double mass = 0.050;          ///< kg
   double stiffness = 500;       ///< N/m

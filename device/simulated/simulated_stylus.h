@@ -1,7 +1,7 @@
 #pragma once
 
-/// A stylus that exists only in arithmetic: the simulated arm, held by the simulated hand, which follows a scripted
-/// path or a live target and is moved by the forces written.
+/// A stylus that exists only in arithmetic: a simulated arm, held by a simulated hand. The hand follows a scripted path
+/// or a live target, and is moved by the forces that are written.
 ///
 /// Stepped by simulated time, never by the clock: each read() and write_force() pair is one tick of 1 / rate, so the
 /// same forces give the same poses bit for bit. A force is held for a tick (zero-order hold) and acts `delay` after it
@@ -20,7 +20,7 @@
 
 namespace palpate::device {
 
-/// "Simulated device" of the design's defaults: Desktop-PHANTOM-like; one definition that every study shares.
+/// The simulated device of every study, modeled on a Desktop PHANTOM.
 struct SimulatedDevice {
   ArmModel arm;
   HandModel hand;
@@ -29,7 +29,7 @@ struct SimulatedDevice {
   double delay = 0.5e-3;           ///< s, rounded to sub-steps of at most 50 us
   double maximum_force = 7.9;      ///< N: more than this saturates, direction kept
   double continuous_force = 1.75;  ///< N
-  double target_speed = 0.25;      ///< m/s: how fast the hand goes after a live target
+  double target_speed = 0.25;      ///< m/s: how fast the hand follows a live target
 };
 
 enum class SimulatedFault : std::uint8_t {
@@ -46,8 +46,8 @@ class SimulatedStylus final : public Stylus {
 
   /// The hand follows these waypoints from open() on; copied. Not while ticking. Throws as check_path().
   void follow(std::span<const Waypoint> path, PathInterpolation interpolation = PathInterpolation::minimum_jerk);
-  /// The hand leaves its path and goes after this target (m); from one thread at a time, also while ticking. It stays
-  /// there while the device is closed: opened again, it is there from the first tick on.
+  /// The hand leaves its path and moves to this target (m). From one thread at a time, also while ticking. The hand
+  /// keeps its place while the device is closed.
   void move_target(const Vec3& target, std::uint32_t buttons = 0) noexcept;
   /// From any thread, also while ticking. SimulatedFault::none plugs it in again; open() is needed after unplugged.
   void inject(SimulatedFault fault) noexcept { fault_.store(fault, std::memory_order_relaxed); }
@@ -59,9 +59,8 @@ class SimulatedStylus final : public Stylus {
   void write_force(const Vec3& force) noexcept override;
   State state() const noexcept override { return state_.load(std::memory_order_relaxed); }
 
-  // What no real device tells; for studies and tests, from the ticking thread.
+  // Not known of a real device; for studies and tests, from the ticking thread.
   const BodyState& body() const noexcept { return body_; }             ///< before the position steps
-  const Vec3& hand_target() const noexcept { return target_; }         ///< m, tremor included
   const Vec3& acting_force() const noexcept { return acting_force_; }  ///< N, now on the arm
 
  private:

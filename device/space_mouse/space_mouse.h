@@ -1,7 +1,7 @@
 #pragma once
 
-/// 3Dconnexion's SpaceMouse family and its ancestors: a puck that is pushed, not carried. It feels nothing and tells a
-/// rate, which is integrated to a pose. Tested against a fake of its reports: never run on hardware.
+/// 3Dconnexion's SpaceMouse family and its ancestors: a puck that is pushed and does not travel. It gives no force. It
+/// reports a rate, which is integrated to a pose. Tested against a fake of its reports: never run on hardware.
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 // A session's part of the tests that go through the real libraries: opens a device as palpate does, pushes, ends.
 //   device_client KIND SCENARIO [FILE]
-// KIND: falcon (FILE: firmware), wooden_haptics (FILE: settings), space_mouse.
-// SCENARIO: run | unplug | sigint | sigterm | sigkill | denied.
+// KIND: falcon (FILE: firmware), wooden_haptics (FILE: settings), space_mouse, haply, touch, force_dimension.
+// SCENARIO: run | unplug | sigint | sigterm | sigkill | sigstop | denied.
 
 #include <csignal>
 #include <cstdio>
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "device/device_type.h"
 #include "device/falcon/falcon.h"
 #include "device/found_devices.h"
 #include "device/link/realtime.h"
@@ -75,6 +76,7 @@ int play(Stylus& stylus, const std::string& scenario) {
   if (scenario == "sigint") std::raise(SIGINT);
   if (scenario == "sigterm") std::raise(SIGTERM);
   if (scenario == "sigkill") std::raise(SIGKILL);
+  if (scenario == "sigstop") std::raise(SIGSTOP);
   if (stylus.specification().force_axes == 0) {
     failures += expect(stylus.read().position.x > 0.05, "a puck that is pushed for a second moves");
   }
@@ -116,6 +118,7 @@ int main(int count, char** arguments) {
       return play(make_wooden_haptics(read_wooden_haptics(arguments[3])), scenario);
     }
     if (kind == "space_mouse") return play(make_space_mouse(), scenario);
+    if (const DeviceType* const type = find_device_type(kind)) return play(*type->make({}), scenario);
   } catch (const std::exception& error) {
     std::printf("client: refused: %s\n", error.what());
     return 1;

@@ -55,6 +55,7 @@ class FakeFalcon {
   bool is_pushing() const noexcept { return motors_ != std::array<int, 3>{}; }
   double pushed_until() const noexcept { return pushed_until_; }  ///< s: the last command that was not zero
   const FakeHand& hand() const noexcept { return hand_; }
+  FakeHand& hand() noexcept { return hand_; }
   bool firmware_runs() const noexcept { return firmware_loaded_ && baud_ == 2; }
   std::uint64_t commands() const noexcept { return commands_; }
   int uploads() const noexcept { return uploads_; }

@@ -18,7 +18,8 @@ void FakeHand::advance(double now, const Vec3& force) noexcept {
   while (time_ + step <= now - start_) {
     time_ += step;
     const Waypoint aim = point_on(path_, PathInterpolation::minimum_jerk, time_);
-    const Vec3 target = aim.position + tremor_(time_);
+    const Vec3 thrown = flung_from_ + (time_ - flung_at_) * flung_;
+    const Vec3 target = flung_ != Vec3(0) ? thrown : aim.position + tremor_(time_);
     buttons_ = aim.buttons;
     step_body(arm_, hand_, force, target, (target - target_) / step, step, body_);
     target_ = target;

@@ -17,6 +17,12 @@ class FakeHand {
 
   /// Moves on to `now` (s since the first call) under a constant force (N).
   void advance(double now, const Vec3& force) noexcept;
+  /// The hand goes on with this velocity (m/s) from where it is.
+  void fling(const Vec3& velocity) noexcept {
+    body_.velocity = flung_ = velocity;
+    flung_from_ = body_.position;
+    flung_at_ = time_;
+  }
   const BodyState& body() const noexcept { return body_; }
   double time() const noexcept { return time_; }
   std::uint32_t buttons() const noexcept { return buttons_; }
@@ -28,6 +34,9 @@ class FakeHand {
   std::vector<Waypoint> path_;
   BodyState body_;
   Vec3 target_{0};
+  Vec3 flung_{0};
+  Vec3 flung_from_{0};
+  double flung_at_ = 0;
   std::uint32_t buttons_ = 0;
   double start_ = 0;
   double time_ = 0;

@@ -2,18 +2,22 @@
 
 #include <ctime>
 
+#include "device/testing/shared_state.h"
+
 namespace {
 
-FakeDrd state;
+FakeDrd& state = palpate::device::shared_state<FakeDrd>("PALPATE_FAKE_DRD");
+double (*clock_of_test)() = nullptr;
 
 double now() {
+  if (clock_of_test != nullptr) return clock_of_test();
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 int result() {
-  return state.failing != 0 ? -1 : 0;
+  return state.failing != 0 || state.unplugged != 0 ? -1 : 0;
 }
 
 }  // namespace
@@ -22,6 +26,9 @@ extern "C" {
 
 FakeDrd* fake_drd() {
   return &state;
+}
+void fake_drd_set_clock(double (*clock)()) {
+  clock_of_test = clock;
 }
 void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
   *major = state.major;
@@ -90,7 +97,7 @@ int dhdEnableForce(unsigned char on, char) {
 }
 int dhdStop(char) {
   state.stopped = state.stopped + 1;
-  state.forces_on = 0;
+  if (state.unplugged == 0) state.forces_on = 0;
   return 0;
 }
 int dhdGetPosition(double* x, double* y, double* z, char) {
@@ -119,7 +126,10 @@ int dhdGetStatus(int status[17], char) {
   status[9] = state.in_error;
   return 0;
 }
-int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double, double, double, double, char) {
+int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz, double grip,
+                                        char) {
+  if (state.unplugged != 0) return result();
+  if (tx != 0 || ty != 0 || tz != 0 || grip != 0) state.torques = state.torques + 1;
   state.force[0] = fx;
   state.force[1] = fy;
   state.force[2] = fz;

@@ -1,7 +1,9 @@
 #pragma once
 
 /// A library of libdrd.so's C interface with one device behind it, whose firmware has a watchdog. Plain C data, since
-/// it is reached through dlsym: `struct FakeDrd* fake_drd(void)`.
+/// it is reached through dlsym: `struct FakeDrd* fake_drd(void)`; `bool fake_drd_is_pushing(void)`; and
+/// `void fake_drd_set_clock(double (*)(void))`, for a clock of the test's own. In a file that processes share where
+/// $PALPATE_FAKE_DRD names one.
 
 struct FakeDrd {
   int devices = 1;
@@ -26,4 +28,6 @@ struct FakeDrd {
   int in_error = 0;  // of its status
   unsigned buttons = 0;
   int has_wrist = 0;
+  int unplugged = 0;  // nothing arrives any more; what the device does then is its firmware's
+  int torques = 0;    // commands with a torque or a grip's force
 };

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <thread>
 
+#include "device/testing/shared_state.h"
+
 namespace {
 
 struct ErrorInfo {
@@ -13,18 +15,22 @@ struct ErrorInfo {
   unsigned device;
 };
 
-FakeHd state;
+FakeHd& state = palpate::device::shared_state<FakeHd>("PALPATE_FAKE_HD");
 unsigned (*callback)(void*) = nullptr;
 void* callback_data = nullptr;
 std::atomic<bool> stop{false};
 std::thread scheduler;
+bool by_hand = false;
+
+void call_back() {
+  if (state.stalled != 0 || callback == nullptr || state.running == 0) return;
+  callback(callback_data);
+  state.callbacks = state.callbacks + 1;
+}
 
 void run() {
   while (!stop) {
-    if (state.stalled == 0 && callback != nullptr) {
-      callback(callback_data);
-      state.callbacks = state.callbacks + 1;
-    }
+    call_back();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
@@ -39,6 +45,12 @@ extern "C" {
 
 FakeHd* fake_hd() {
   return &state;
+}
+void fake_hd_by_hand(bool on) {
+  by_hand = on;
+}
+void fake_hd_call() {
+  call_back();
 }
 unsigned hdInitDevice(const char* name) {
   if (name != nullptr) std::strncpy(state.named, name, sizeof state.named - 1);
@@ -60,7 +72,7 @@ void hdEndFrame(unsigned) {
   state.in_frame = 0;
 }
 ErrorInfo hdGetError() {
-  const ErrorInfo info = {state.error, 0, 7};
+  const ErrorInfo info = {state.unplugged != 0 ? 0x302U : state.error, 0, 7};
   return info;
 }
 const char* hdGetErrorString(unsigned) {
@@ -104,7 +116,8 @@ const char* hdGetString(unsigned) {
 }
 void hdSetDoublev(unsigned what, const double* values) {
   must_be_in_frame();
-  if (what != 0x2700) return;
+  if (what != 0x2700) state.torques = state.torques + 1;
+  if (what != 0x2700 || state.unplugged != 0) return;
   for (int i = 0; i < 3; ++i) state.force[i] = values[i];
 }
 unsigned hdCheckCalibration() {
@@ -116,7 +129,7 @@ void hdUpdateCalibration(unsigned) {
 void hdStartScheduler() {
   state.running = 1;
   stop = false;
-  scheduler = std::thread(run);
+  if (!by_hand) scheduler = std::thread(run);
 }
 void hdStopScheduler() {
   stop = true;

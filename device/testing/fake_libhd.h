@@ -1,7 +1,9 @@
 #pragma once
 
 /// A library of libHD.so's C interface with one device behind it and a scheduler of 1 kHz. Plain C data, since it is
-/// reached through dlsym: `struct FakeHd* fake_hd(void)`.
+/// reached through dlsym: `struct FakeHd* fake_hd(void)`; `void fake_hd_by_hand(bool)` takes the scheduler's thread
+/// away, and `void fake_hd_call(void)` is then one of its rounds. In a file that processes share where $PALPATE_FAKE_HD
+/// names one.
 
 struct FakeHd {
   int present = 1;
@@ -20,4 +22,6 @@ struct FakeHd {
   int disabled = 0;
   int callbacks = 0;
   char named[64] = {};
+  int unplugged = 0;  // no force arrives any more, and the library tells of it
+  int torques = 0;    // anything set but a force
 };

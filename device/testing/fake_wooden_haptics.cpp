@@ -85,6 +85,10 @@ std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> repor
     report[2 * i] = static_cast<std::uint8_t>(value & 0xff);
     report[2 * i + 1] = static_cast<std::uint8_t>((value >> 8) & 0xff);
   }
+  if (size != 8) {
+    report[6] = static_cast<std::uint8_t>(faults.fourth_encoder & 0xff);
+    report[7] = static_cast<std::uint8_t>((faults.fourth_encoder >> 8) & 0xff);
+  }
   if (size != 8) report[12] = button_latched_ || faults.button_pressed ? 1 : 0;
   waits_for_output_ = true;
   ++reports_;

@@ -29,7 +29,8 @@ struct FakeWoodenHapticsFaults {
   int drop_every = 0;       ///< each n-th report is lost on the way
   int garble_every = 0;     ///< each n-th report has its bytes turned over
   bool impossible_pose = false;
-  bool button_pressed = false;  ///< held down from now on
+  bool button_pressed = false;  ///< the calibration button, held down from now on
+  int fourth_encoder = 0;       ///< counts; a button on the stylus adds 10000
 };
 
 class FakeWoodenHaptics final : public FakeHid {
@@ -48,6 +49,7 @@ class FakeWoodenHaptics final : public FakeHid {
   const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the longest force there was
   double pushed_until() const noexcept { return pushed_until_; }       ///< s: the last report with a current in it
   const FakeHand& hand() const noexcept { return hand_; }
+  FakeHand& hand() noexcept { return hand_; }
   std::uint64_t reports() const noexcept { return reports_; }
   std::uint64_t outputs() const noexcept { return outputs_; }
   std::uint64_t odd_outputs() const noexcept { return odd_outputs_; }  ///< of another size than its reports have

@@ -37,6 +37,20 @@ int wait_for(pid_t pid) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+/// Waits until all are gone whose session has left them behind, and returns how the guardian among them ended; -1:
+/// there was none. What keeps the machine awake is another, and ends by itself.
+int wait_for_guardian() {
+  int guardian = -1;
+  siginfo_t ended{};
+  while (waitid(P_ALL, 0, &ended, WEXITED | WNOWAIT) == 0) {
+    std::string name;
+    std::ifstream("/proc/" + std::to_string(ended.si_pid) + "/comm") >> name;
+    const int code = wait_for(ended.si_pid);
+    if (name.starts_with("palpate-guard")) guardian = code;
+  }
+  return guardian;
+}
+
 int run_client(const Scenario& scenario, const std::string& client, const std::string& file) {
   const pid_t pid = fork();
   if (pid == 0) {
@@ -136,7 +150,7 @@ int Play::run(const std::string& client) {
   const double zero_after = monotonic_time() - ended;
   // One whose device was unplugged waits for it to come back: as it should, but not here.
   if (scenario_.name == "unplug" && scenario_.kind != "space_mouse") end_children();
-  const int guardian = wait_for(-1);
+  const int guardian = wait_for_guardian();
 
   // An unplugged device is its own watchdog's affair; nobody can tell one what may not be opened anything at all.
   const bool was_opened = scenario_.name != "denied";

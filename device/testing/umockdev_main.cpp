@@ -11,6 +11,7 @@
 #include "device/testing/play.h"
 #include "device/testing/umockdev_falcon.h"
 #include "device/testing/umockdev_hid.h"
+#include "device/testing/undisturbed.h"
 
 namespace {
 
@@ -40,7 +41,9 @@ int main(int count, char** arguments) {
   make_thread_realtime(65);
   try {
     Play play({.kind = arguments[2], .name = arguments[3], .address = "/dev/hidraw0"});
-    return play.falcon ? run_on<UmockdevFalcon>(play, arguments[1]) : run_on<UmockdevHid>(play, arguments[1]);
+    const StallMeter meter;
+    return judged(play.falcon ? run_on<UmockdevFalcon>(play, arguments[1]) : run_on<UmockdevHid>(play, arguments[1]),
+                  meter, arguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "device_umockdev: %s\n", error.what());
     return 2;

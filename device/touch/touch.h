@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "device/axis_signs.h"
 #include "device/found_devices.h"
 #include "device/stylus.h"
 
@@ -17,15 +18,17 @@ struct TouchSettings {
   std::string address;       ///< the name given to it in the maker's set-up ("Default Device"); empty: the default one
   double maximum_force = 0;  ///< N; 0: what the device says of itself
   double stiffness_limit = 0;  ///< N/m; 0: of its model
+  bool guarded = true;         ///< start a guardian process where palpate-guardian is found
+  AxisSigns signs;
 };
 
 TouchSettings read_touch(const std::string& json_file);
 
-/// Not open yet. open() throws std::runtime_error: no library, another version of it, no device. State::homing until
-/// the device is calibrated, which the user does by its inkwell where the model has one.
+/// Not open yet. open() throws std::runtime_error if the library or the device is missing, or the library has another
+/// version. The state is State::homing until the device is calibrated, by its inkwell if the model has one.
 std::unique_ptr<Stylus> make_touch(const TouchSettings& settings = {});
 
-/// One entry where the library is installed; which devices it drives it tells only when one is opened.
+/// One entry if the library is installed: the library names its device only after it was opened.
 std::vector<FoundDevice> find_touch();
 
 }  // namespace palpate::device

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double mm = 1e-3;                  // m
 constexpr int callbacks_without_force = 20;  // after which a force that is not renewed becomes zero
+constexpr double longest_gap = 0.1;          // s between two callbacks
 constexpr int calibration_every = 100;       // callbacks
 constexpr unsigned short top_priority = 65535;
 
@@ -39,7 +40,7 @@ double stiffness_of(std::string_view name) {
 
 }  // namespace
 
-TouchDriver::TouchDriver(const TouchSettings& settings) : settings_(settings) {
+TouchDriver::TouchDriver(const TouchSettings& settings, const DriverClock& clock) : settings_(settings), clock_(clock) {
   sem_init(&sampled_, 0, 0);
 }
 
@@ -107,8 +108,10 @@ void TouchDriver::connect() {
   throw_error(say("touch-has-no-forces"));
   force_.store(Vec3(0));
   unrenewed_ = callbacks_without_force;
+  called_ = clock_.now();
   calibrating_ = 0;
   calibration_ = hd::needs_update;
+  was_calibrated_ = false;
   hd_->set_scheduler_rate(1000);
   scheduled_ = hd_->schedule_asynchronous(&TouchDriver::on_schedule, this, top_priority);
   hd_->start_scheduler();
@@ -129,7 +132,7 @@ void TouchDriver::disconnect() noexcept {
 }
 
 double TouchDriver::now() noexcept {
-  return monotonic_time();
+  return clock_.now();
 }
 
 unsigned TouchDriver::on_schedule(void* self) {
@@ -141,17 +144,25 @@ unsigned TouchDriver::on_schedule(void* self) {
 
 TouchDriver::Sample TouchDriver::exchange() noexcept {
   Sample sample;
-  unrenewed_ = force_.has_news() ? 0 : std::min(unrenewed_ + 1, callbacks_without_force);
+  // After a standstill (Ctrl-Z, a debugger) the force of before is nothing to begin with.
+  const double now = clock_.now();
+  const bool stood_still = now - called_ > longest_gap;
+  called_ = now;
+  const bool renewed = !stood_still && force_.has_news();
+  unrenewed_ =
+      renewed ? 0 : (stood_still ? callbacks_without_force : std::min(unrenewed_ + 1, callbacks_without_force));
   const Vec3 newest = force_.load();
   hd_->begin_frame(device_);
-  if (calibration_ != hd::calibrated && calibrating_++ % calibration_every == 0) {
+  if (calibrating_++ % calibration_every == 0) {
     calibration_ = hd_->check_calibration();
-    if (calibration_ == hd::needs_update) {
+    // An arm that pushed loses its home: it is not set anew under the hand.
+    if (calibration_ == hd::needs_update && !was_calibrated_) {
       int style = 0;
       hd_->get_integers(hd::calibration_style, &style);
       hd_->update_calibration(static_cast<unsigned>(style));
       calibration_ = hd_->check_calibration();
     }
+    was_calibrated_ = was_calibrated_ || calibration_ == hd::calibrated;
   }
   hd_->get_doubles(hd::position, &sample.position_mm.x);
   hd_->get_doubles(hd::transform, sample.transform);
@@ -203,7 +214,9 @@ void TouchDriver::follow(const Sample& sample) noexcept {
   ++status_.news;
   status_.buttons = static_cast<std::uint32_t>(sample.buttons);
   if (sample.calibration != hd::calibrated) {
-    status_.state = State::homing;
+    const bool had_a_home = status_.state == State::idle;
+    status_.state = had_a_home ? State::fault : State::homing;
+    if (had_a_home) status_.fault = LinkFault::unhomed;
     return;
   }
   status_.state = State::idle;
@@ -219,10 +232,11 @@ void TouchDriver::follow(const Sample& sample) noexcept {
 
 void TouchDriver::flush(double timeout) noexcept {
   // The library's thread takes the last force within its period.
-  std::this_thread::sleep_for(std::chrono::duration<double>(std::min(timeout, 0.003)));
+  clock_.sleep(std::min(timeout, 0.003));
 }
 
-std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const LinkStylusOptions& options) {
+std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const LinkStylusOptions& options,
+                                            const DriverClock& clock) {
   Specification specification;
   specification.name = "3D Systems Touch";
   specification.orientation_axes = 3;
@@ -232,11 +246,52 @@ std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const
   specification.continuous_force = specification.maximum_force / 4;
   specification.stiffness_limit = settings.stiffness_limit > 0 ? settings.stiffness_limit : 400;
   specification.rate = 1000;
-  return std::make_unique<LinkStylus>(specification, std::make_unique<TouchDriver>(settings), options);
+  return std::make_unique<LinkStylus>(specification, std::make_unique<TouchDriver>(settings, clock), options);
 }
 
 std::unique_ptr<Stylus> make_touch(const TouchSettings& settings) {
-  return make_touch_with(settings, {});
+  LinkStylusOptions options;
+  if (settings.guarded) options.guardian = {guardian_program(), "touch", settings.address};
+  options.signs = settings.signs;
+  options.stays_awake = true;
+  return make_touch_with(settings, options);
+}
+
+namespace {
+
+/// What the guardian's callbacks do.
+struct Zeros {
+  const HdLibrary& hd;
+  unsigned device;
+  std::atomic<int> sent{0};
+
+  static unsigned send(void* self) {
+    auto& zeros = *static_cast<Zeros*>(self);
+    const Vec3 zero(0);
+    zeros.hd.begin_frame(zeros.device);
+    zeros.hd.set_doubles(hd::current_force, &zero.x);
+    zeros.hd.end_frame(zeros.device);
+    if (zeros.hd.get_error().code == hd::success) ++zeros.sent;
+    return hd::callback_continue;
+  }
+};
+
+}  // namespace
+
+bool send_zeros_to_touch(const std::string& address) {
+  constexpr int enough = 5, longest_ms = 100;
+  const HdLibrary hd;
+  const unsigned device = hd.init_device(address.empty() ? nullptr : address.c_str());
+  if (device == hd::invalid_device || hd.get_error().code != hd::success) return false;
+  hd.make_current_device(device);
+  Zeros zeros{hd, device};
+  const unsigned long scheduled = hd.schedule_asynchronous(&Zeros::send, &zeros, top_priority);
+  hd.start_scheduler();
+  for (int ms = 0; ms < longest_ms && zeros.sent < enough; ++ms) sleep_seconds(1e-3);
+  hd.stop_scheduler();
+  hd.unschedule(scheduled);
+  hd.disable_device(device);
+  return zeros.sent >= enough;
 }
 
 std::vector<FoundDevice> find_touch() {

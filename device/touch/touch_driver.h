@@ -7,6 +7,7 @@
 #include <string>
 
 #include "device/link/driver.h"
+#include "device/link/driver_clock.h"
 #include "device/link/latest.h"
 #include "device/link/link_stylus.h"
 #include "device/touch/hd_library.h"
@@ -17,7 +18,7 @@ namespace palpate::device {
 /// The library calls back a thousand times a second, in a thread of its own: poses and forces are handed across.
 class TouchDriver final : public Driver {
  public:
-  explicit TouchDriver(const TouchSettings& settings);
+  explicit TouchDriver(const TouchSettings& settings, const DriverClock& clock = {});
   ~TouchDriver() override;
 
   void connect() override;
@@ -47,6 +48,7 @@ class TouchDriver final : public Driver {
   void throw_error(const Text& what);
 
   TouchSettings settings_;
+  DriverClock clock_;
   std::unique_ptr<HdLibrary> hd_;
   unsigned device_ = hd::invalid_device;
   unsigned long scheduled_ = 0;
@@ -60,12 +62,19 @@ class TouchDriver final : public Driver {
   Latest<Vec3> force_;
   sem_t sampled_;
   // The library's thread's.
+  double called_ = 0;    // s: of the last callback
   int unrenewed_ = 0;    // callbacks since a force came
   int calibrating_ = 0;  // callbacks since the calibration was looked at
   unsigned calibration_ = hd::needs_update;
+  bool was_calibrated_ = false;
 };
 
 /// The same stylus as make_touch()'s, with other options.
-std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const LinkStylusOptions& options);
+std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const LinkStylusOptions& options,
+                                            const DriverClock& clock = {});
+
+/// Opens the device in this process, sends zeros from the library's own thread, and closes it. Throws
+/// std::runtime_error.
+bool send_zeros_to_touch(const std::string& address);
 
 }  // namespace palpate::device

@@ -1,15 +1,14 @@
 #include "device/device_type.h"
 #include "device/settings_file.h"
 #include "device/touch/touch.h"
+#include "device/touch/touch_driver.h"
 
 namespace palpate::device {
 
 TouchSettings read_touch(const std::string& json_file) {
   return read_settings_file("3D Systems Touch", json_file, [](SettingsReader& reader) {
     TouchSettings settings;
-    reader.take("address", settings.address);
-    reader.take("maximum_force", settings.maximum_force);
-    reader.take("stiffness_limit", settings.stiffness_limit);
+    take_common(reader, settings);
     return settings;
   });
 }
@@ -17,10 +16,11 @@ TouchSettings read_touch(const std::string& json_file) {
 namespace {
 
 std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
-  TouchSettings settings;
-  if (!choice.settings.empty()) settings = read_touch(choice.settings);
-  if (!choice.address.empty()) settings.address = choice.address;
-  return make_touch(settings);
+  return make_with_settings(choice, &read_touch, &make_touch);
+}
+
+bool send_zeros(const std::string& address, bool /*take_away*/) {
+  return send_zeros_to_touch(address);
 }
 
 }  // namespace
@@ -34,11 +34,12 @@ const DeviceType touch_type{
     .homing = "put the stylus into its inkwell",
     .sold = "sold now",
     .tested = protocol_tested,
-    .watchdog = "the maker's library",
+    .watchdog = "unknown: switch it off",
     .file = DeviceFile::settings,
     .file_hint = "Largest force and stiffness, if others are wanted: a JSON file",
     .find = &find_touch,
     .make = &make,
+    .send_zeros = &send_zeros,
 };
 
 }  // namespace palpate::device

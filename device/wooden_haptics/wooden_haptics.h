@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "device/axis_signs.h"
 #include "device/stylus.h"
 
 namespace palpate::device {
@@ -14,9 +15,10 @@ namespace palpate::device {
 /// Meters, newton meters per ampere, amperes; per axis in the order a (base), b (lower body), c (upper body). Boards
 /// and arms differ: keep yours in a JSON file whose keys are these names (read_wooden_haptics).
 struct WoodenHapticsSettings {
-  std::string preset;          ///< which arm these settings began with; needed: a wrong one pushes many times too hard
-  std::string address;         ///< the hidraw path; needed, since other devices share its USB ids
+  std::string preset;          ///< the arm; required, because the settings of another arm push many times too hard
+  std::string address;         ///< the hidraw path; required, because other devices share its USB ids
   bool short_reports = false;  ///< firmware of 2016: reports of 8 bytes, no calibration button
+  bool stylus_button = false;  ///< the stylus has a button, which adds 10000 to the fourth encoder
   std::array<double, 3> capstan_diameter{0.010, 0.010, 0.010};
   std::array<double, 3> body_diameter{0.160, 0.120, 0.120};
   double base_height = 0.080;                     ///< Ln
@@ -29,21 +31,22 @@ struct WoodenHapticsSettings {
   std::array<int, 3> encoder_sign{1, 1, 1};
   std::array<bool, 3> motor_aligned{false, true, false};  ///< motor and body turn the same way
   std::array<int, 3> home_counts{0, 0, 0};                ///< encoders in the home pose; of the 2019 arm {0, 0, 6000}
-  double current_limit = 2.0;       ///< A: all three are scaled down together; the amplifiers bear it for 4 s
-  double continuous_current = 1.0;  ///< A that each motor bears for ever
+  double current_limit = 2.0;       ///< A: all three are scaled down together; the amplifiers take it for 4 s
+  double continuous_current = 1.0;  ///< A that each motor takes without end
   double maximum_force = 5.0;       ///< N
   double stiffness_limit = 1000;    ///< N/m
   bool guarded = true;              ///< start a guardian process where palpate-guardian is found
+  AxisSigns signs;                  ///< of the device frame, beside those of the motors
 };
 
-/// "2015" and "2019" are the arms of haptikfabrikenapi (14 bytes), "2016" is that of woody-experimental (8 bytes; its
-/// firmware counts and its board turns the other way), "woody" haptikfabrikenapi's default. Throws std::runtime_error
-/// naming them for another name.
+/// "2015" and "2019" are the arms of haptikfabrikenapi (reports of 14 bytes), and "woody" is its default. "2016" is the
+/// arm of woody-experimental (8 bytes); its firmware counts, and its board turns, the other way. Throws
+/// std::runtime_error with the list of names for any other.
 WoodenHapticsSettings wooden_haptics_preset(const std::string& name);
 /// Throws std::runtime_error naming the file, the key and what is wrong with it. The key "preset" is needed; keys that
 /// are absent have the preset's values.
 WoodenHapticsSettings read_wooden_haptics(const std::string& json_file);
-/// Throws std::runtime_error naming the value that no arm can have.
+/// Throws std::runtime_error naming a value that no arm can have.
 void check(const WoodenHapticsSettings& settings);
 
 /// Radians of the three bodies for encoder counts: dir 2 pi count / counts_per_turn x capstan / body.
@@ -56,8 +59,8 @@ Vec3 wooden_haptics_torques(const WoodenHapticsSettings& settings, const Vec3& a
 std::array<int, 3> wooden_haptics_currents(const WoodenHapticsSettings& settings, const Vec3& torques) noexcept;
 
 /// Not open yet. open() throws std::runtime_error naming the device and what to do. The state is State::homing, without
-/// force, until the user has put the arm into its home pose and pressed its calibration button; firmware of 2016 has no
-/// such button, and takes the pose in which it is opened for the home pose.
+/// force, until the user has put the arm into its home pose and pressed its calibration button. Firmware of 2016 knows
+/// no button: the pose in which the arm is opened counts as the home pose.
 std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings);
 
 }  // namespace palpate::device

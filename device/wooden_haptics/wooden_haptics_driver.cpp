@@ -18,6 +18,9 @@ constexpr std::size_t report_hid = 14;
 constexpr std::size_t report_teensy = 64;
 constexpr int set_encoders = 1;
 constexpr int button_pressed = 1;
+// haptikfabrikenapi's host reads the stylus's button off the fourth encoder (src/fsusbhapticdevicethread.cpp): 10000 is
+// added to its counts, and a gimbal has fewer than 5000.
+constexpr int pressed_counts = 5000;
 constexpr double start_time = 0.010;  // s of silence after which the firmware waits for us
 // An arm is in reach of its origin; its home pose lies outside the workspace.
 constexpr double reach_in_radii = 3;
@@ -88,10 +91,7 @@ std::array<int, 3> WoodenHapticsProtocol::within_load(std::array<int, 3> milliam
 
 void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
   const bool known = packet.size() == report_2016 || packet.size() == report_hid || packet.size() == report_teensy;
-  if (!known || (report_size_ != 0 && packet.size() != report_size_)) {
-    ++refused_;
-    return;
-  }
+  if (!known || (report_size_ != 0 && packet.size() != report_size_)) return;
   const std::array<int, 3> counts{word(packet, 0), word(packet, 1), word(packet, 2)};
   if (report_size_ == 0 && packet.size() == report_2016 && !keeps_home_) {
     // No button: the arm was opened in its home pose.
@@ -101,6 +101,7 @@ void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double
   report_size_ = packet.size();
   reply_due_ = true;
   if (packet.size() != report_2016) {
+    status_.buttons = settings_.stylus_button && word(packet, 3) > pressed_counts ? 1 : 0;
     const bool pressed = word(packet, 6) == button_pressed;
     // The latch is cleared by the counters being set: from then on they count from home.
     if (button_ && !pressed) {

@@ -26,8 +26,6 @@ class WoodenHapticsProtocol final : public Protocol {
   std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept override;
   const ProtocolStatus& status() const noexcept override { return status_; }
 
-  std::uint64_t refused_packets() const noexcept { return refused_; }
-
  private:
   void take(const std::array<int, 3>& counts, double now) noexcept;
   std::array<int, 3> within_load(std::array<int, 3> milliamperes, double elapsed) noexcept;
@@ -47,7 +45,6 @@ class WoodenHapticsProtocol final : public Protocol {
   std::array<SustainedLoad, 3> loads_;  // of the motors
   bool keeps_home_ = false;             // it was closed and not unplugged: its counters have counted on
   int starts_ = 0;
-  std::uint64_t refused_ = 0;
 };
 
 }  // namespace palpate::device

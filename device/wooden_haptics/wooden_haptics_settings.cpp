@@ -19,8 +19,8 @@ WoodenHapticsSettings read(SettingsReader& reader) {
   reader.take("preset", preset);
   WoodenHapticsSettings s = wooden_haptics_preset(preset);
   reader.take("short_reports", s.short_reports);
+  reader.take("stylus_button", s.stylus_button);
   reader.take("continuous_current", s.continuous_current);
-  reader.take("address", s.address);
   reader.take("capstan_diameter", s.capstan_diameter);
   reader.take("body_diameter", s.body_diameter);
   reader.take("base_height", s.base_height);
@@ -34,9 +34,7 @@ WoodenHapticsSettings read(SettingsReader& reader) {
   reader.take("motor_aligned", s.motor_aligned);
   reader.take("home_counts", s.home_counts);
   reader.take("current_limit", s.current_limit);
-  reader.take("maximum_force", s.maximum_force);
-  reader.take("stiffness_limit", s.stiffness_limit);
-  reader.take("guarded", s.guarded);
+  take_common(reader, s);
   reader.finish();
   check(s);
   return s;

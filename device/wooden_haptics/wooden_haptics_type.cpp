@@ -6,6 +6,7 @@
 
 #include "device/device_type.h"
 #include "device/link/hid.h"
+#include "device/settings_file.h"
 #include "device/wooden_haptics/wooden_haptics.h"
 
 namespace palpate::device {
@@ -17,10 +18,7 @@ std::vector<FoundDevice> find() {
 }
 
 std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
-  WoodenHapticsSettings settings;
-  if (!choice.settings.empty()) settings = read_wooden_haptics(choice.settings);
-  if (!choice.address.empty()) settings.address = choice.address;
-  return make_wooden_haptics(settings);
+  return make_with_settings(choice, &read_wooden_haptics, &make_wooden_haptics);
 }
 
 /// Straight to the hidraw node, which several may hold at once: a report number and zeros, in each of the lengths that

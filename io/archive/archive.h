@@ -20,12 +20,14 @@ class ArchiveError : public Refusal {
   using Refusal::Refusal;
 };
 
-/// Files in PEM. The archive's certificate is checked against `authorities`; ours is shown to it.
+/// Files in PEM. The archive's certificate is checked against `authorities`, and has to be for the archive's host; ours
+/// is shown to it.
 struct Tls {
   bool used = false;
   std::filesystem::path authorities;  ///< certificates trusted to sign the archive's
   std::filesystem::path certificate;  ///< ours; empty: none is shown, and nothing can be sent to us by C-MOVE
   std::filesystem::path key;          ///< its private key, without a pass phrase
+  std::string name;  ///< the machine that the archive's certificate is for, where it is not Archive::host
 
   bool operator==(const Tls&) const = default;
 };

@@ -72,6 +72,11 @@ Text connection_words(const Archive& archive, const OFCondition& condition) {
   return failure_words(archive, condition, false);
 }
 
+Text other_machine_words(const Archive& archive) {
+  const std::string& name = archive.tls.name.empty() ? archive.host : archive.tls.name;
+  return say("certificate-is-for-another-machine", where(archive), name);
+}
+
 void require(const OFCondition& condition, const Archive& archive) {
   if (condition.bad()) throw ArchiveError(failure_words(archive, condition, false));
 }
@@ -150,8 +155,9 @@ Association::Association(const Archive& archive, const std::vector<Proposal>& pr
   const OFCondition asked =
       ASC_requestAssociation(network_, parameters, &association_, nullptr, nullptr, DUL_NOBLOCK, archive.silence_s);
   if (asked.bad()) {
-    const Text words =
-        is(asked, DULC_ASSOCIATIONREJECTED) ? refusal_words(archive, parameters) : connection_words(archive, asked);
+    const Text words = is(asked, DULC_ASSOCIATIONREJECTED) ? refusal_words(archive, parameters)
+                       : transport_->names_other           ? other_machine_words(archive)
+                                                           : connection_words(archive, asked);
     if (association_ != nullptr) {
       ASC_destroyAssociation(&association_);
     } else {

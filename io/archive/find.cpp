@@ -145,6 +145,15 @@ int count_images(Association& association, const std::string& study, const std::
   return static_cast<int>(ask(association, keys, 1000000, keep_going).items.size());
 }
 
+std::vector<ArchivedSeries> counted_series_of(Association& association, const std::string& study,
+                                              const std::string& modality, const KeepGoing& keep_going) {
+  std::vector<ArchivedSeries> all = series_of(association, study, modality, keep_going);
+  for (ArchivedSeries& series : all) {
+    if (series.images < 0) series.images = count_images(association, study, series.uid, keep_going);
+  }
+  return all;
+}
+
 DcmDataset study_keys(const ArchiveQuery& query) {
   DcmDataset keys;
   set_character_set(keys, query);
@@ -169,6 +178,12 @@ void check_date(const std::string& date) {
   if (!good) throw ArchiveError(say("date-has-to-be-yyyymmdd"));
 }
 
+void check_uid(const std::string& uid) {
+  if (uid.empty() || uid.size() > 64 || uid.find_first_not_of("0123456789.") != std::string::npos) {
+    throw ArchiveError(say("no-uid", printable(uid)));
+  }
+}
+
 }  // namespace
 
 Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& keep_going) {
@@ -185,10 +200,7 @@ Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& k
     study.patient = text_of(*item, DCM_PatientName);
     study.patient_id = text_of(*item, DCM_PatientID);
     if (query.with_series) {
-      study.series = series_of(association, study.uid, query.modality, keep_going);
-      for (ArchivedSeries& series : study.series) {
-        if (series.images < 0) series.images = count_images(association, study.uid, series.uid, keep_going);
-      }
+      study.series = counted_series_of(association, study.uid, query.modality, keep_going);
     }
     found.studies.push_back(std::move(study));
   }
@@ -196,10 +208,15 @@ Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& k
   return found;
 }
 
+std::vector<ArchivedSeries> find_series_of(const Archive& archive, const std::string& study_uid,
+                                           const KeepGoing& keep_going) {
+  check_uid(study_uid);
+  Association association(archive, {{model, uncompressed_syntaxes()}});
+  return counted_series_of(association, study_uid, "", keep_going);
+}
+
 Wanted find_uid(const Archive& archive, const std::string& uid, const KeepGoing& keep_going) {
-  if (uid.empty() || uid.size() > 64 || uid.find_first_not_of("0123456789.") != std::string::npos) {
-    throw ArchiveError(say("no-uid", printable(uid)));
-  }
+  check_uid(uid);
   Association association(archive, {{model, uncompressed_syntaxes()}});
   DcmDataset studies;
   put(studies, DCM_QueryRetrieveLevel, "STUDY");

@@ -39,6 +39,10 @@ struct Found {
 /// C-FIND, study root. Throws ArchiveError, and Cancelled where keep_going says so.
 Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& keep_going = {});
 
+/// The series of a study that was found without them, by number. Throws as find().
+std::vector<ArchivedSeries> find_series_of(const Archive& archive, const std::string& study_uid,
+                                           const KeepGoing& keep_going = {});
+
 /// A study, or a series of one.
 struct Wanted {
   std::string study_uid;

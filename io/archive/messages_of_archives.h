@@ -29,6 +29,10 @@ inline constexpr MessageRow archives[] = {
      "ask who runs the archive for the certificate of its authority, and for one of your own",
      {{"tls-with-failed",
        "TLS with {} failed: check --tls-ca, --tls-certificate and --tls-key, and that the port speaks TLS"},
+      {"certificate-is-for-another-machine",
+       "{} showed a certificate that is not for {}: set --host to the name or address that it is for, or, where you "
+       "know "
+       "that it is the archive's, --tls-name"},
       {"archive-cannot-be-used-for-tls",
        "archive {}: {} {} cannot be used for TLS: it has to be a readable file in PEM; give the right one with "
        "`palpate archive add`"},
@@ -39,7 +43,7 @@ inline constexpr MessageRow archives[] = {
      {{"does-not-offer-us-this-service", "{} does not offer us this service ({}): have it allowed there for {}"}}},
     {"a fault of the archive, or a refusal in its own words",
      "tell who runs it",
-     {{"answer-too-long", "{} sent an answer of more than {} bytes, which is no answer"},
+     {{"answer-too-long", "{} sent an answer of more than {} bytes, which cannot be right"},
       {"answer-is-no-dataset", "{} sent an answer that is no DICOM dataset"},
       {"archive-answered-a-question-with-something-else", "archive {} answered a question with something else"},
       {"archive-answered-a-file-with-something-else", "archive {} answered a file with something else"},

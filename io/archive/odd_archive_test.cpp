@@ -133,7 +133,7 @@ TEST(OddArchive, ThatIsNoneIsToldFromOne) {
   EXPECT_TRUE(says(OddArchive("not-dicom").refused_echo(),
                    "{} broke the connection off: it ended, or does not speak DICOM{} on that port"));
   OddArchive secure("not-dicom");
-  secure.archive().tls = {true, "/no/such.pem", "", ""};
+  secure.archive().tls = {true, "/no/such.pem", "", "", ""};
   EXPECT_TRUE(says(secure.refused_echo(),
                    "archive {}: {} {} cannot be used for TLS: it has to be a readable file in PEM; give the right one "
                    "with `palpate archive add`"));
@@ -152,8 +152,8 @@ TEST(OddArchive, ThatRefusesToFindSaysWhy) {
   EXPECT_TRUE(says(OddArchive("refuses-find").refused_fetch(), "archive {} refused the question: {}"));
   EXPECT_TRUE(says(OddArchive("dies-at-find").refused_fetch(),
                    "{} broke the connection off: it ended, or does not speak DICOM{} on that port"));
-  EXPECT_TRUE(
-      says(OddArchive("huge-answer").refused_fetch(), "{} sent an answer of more than {} bytes, which is no answer"));
+  EXPECT_TRUE(says(OddArchive("huge-answer").refused_fetch(),
+                   "{} sent an answer of more than {} bytes, which cannot be right"));
 }
 
 TEST(OddArchive, ThatFindsWithoutEndIsStopped) {
@@ -375,9 +375,11 @@ TEST(ArchiveSettings, ThatCannotBeAreRefused) {
   refused("TLS needs --tls-ca, the certificate of who signed the archive's", [](Archive& a) { a.tls.used = true; });
   refused("C-MOVE with TLS needs --tls-certificate and --tls-key, since the archive then connects to us; or set --get",
           [](Archive& a) {
-            a.tls = {true, "ca.pem", "", ""};
+            a.tls = {true, "ca.pem", "", "", ""};
           });
-  refused("--tls-certificate and --tls-key go together", [](Archive& a) { a.tls = {true, "ca.pem", "own.pem", ""}; });
+  refused("--tls-certificate and --tls-key go together", [](Archive& a) {
+    a.tls = {true, "ca.pem", "own.pem", "", ""};
+  });
 }
 
 }  // namespace

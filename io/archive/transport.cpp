@@ -3,6 +3,9 @@
 #include <dcmtk/dcmtls/tlslayer.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <openssl/ssl.h>
+#include <openssl/x509_vfy.h>
+#include <openssl/x509v3.h>
 #include <sys/socket.h>
 
 #include <filesystem>
@@ -78,6 +81,40 @@ void set_up(DcmTLSTransportLayer& layer, const Archive& archive) {
   layer.setCertificateVerification(DCV_requireCertificate);
 }
 
+/// Where a context's Transport is found by a callback of OpenSSL's.
+int transport_index() {
+  static const int index = SSL_CTX_get_ex_new_index(0, nullptr, nullptr, nullptr, nullptr);
+  return index;
+}
+
+/// Changes nothing of the verdict; remembers why it was bad.
+int note_verdict(int good, X509_STORE_CTX* verified) {
+  const int error = X509_STORE_CTX_get_error(verified);
+  if (good == 0 && (error == X509_V_ERR_HOSTNAME_MISMATCH || error == X509_V_ERR_IP_ADDRESS_MISMATCH)) {
+    auto* const connection =
+        static_cast<SSL*>(X509_STORE_CTX_get_ex_data(verified, SSL_get_ex_data_X509_STORE_CTX_idx()));
+    auto* const transport =
+        static_cast<Transport*>(SSL_CTX_get_ex_data(SSL_get_SSL_CTX(connection), transport_index()));
+    transport->names_other = true;
+  }
+  return good;
+}
+
+/// OpenSSL then refuses, during the handshake, a certificate for another machine. An address is looked for among the
+/// certificate's addresses, a name among its names, or in its common name where it has none.
+void require_name(DcmTLSTransportLayer& layer, const Archive& archive, Transport& transport) {
+  const std::string& name = archive.tls.name.empty() ? archive.host : archive.tls.name;
+  SSL_CTX* const context = layer.getNativeHandle();
+  X509_VERIFY_PARAM* const wanted = SSL_CTX_get0_param(context);
+  X509_VERIFY_PARAM_set_hostflags(wanted, X509_CHECK_FLAG_NO_PARTIAL_WILDCARDS);
+  const bool is_known = X509_VERIFY_PARAM_set1_ip_asc(wanted, name.c_str()) == 1 ||
+                        X509_VERIFY_PARAM_set1_host(wanted, name.data(), name.size()) == 1;
+  if (!is_known || SSL_CTX_set_ex_data(context, transport_index(), &transport) != 1) {
+    throw ArchiveError(say("archive-the-openssl-that-is-installed-cannot", archive.name));
+  }
+  SSL_CTX_set_verify(context, SSL_VERIFY_PEER, note_verdict);
+}
+
 }  // namespace
 
 std::unique_ptr<Transport> make_transport(const Archive& archive, T_ASC_NetworkRole role) {
@@ -87,6 +124,7 @@ std::unique_ptr<Transport> make_transport(const Archive& archive, T_ASC_NetworkR
     std::call_once(once, [] { DcmTLSTransportLayer::initializeOpenSSL(); });
     auto layer = std::make_unique<TlsLayer>(*transport, role);
     set_up(*layer, archive);
+    if (role == NET_REQUESTOR) require_name(*layer, archive, *transport);
     transport->layer = std::move(layer);
   } else {
     transport->layer = std::make_unique<PlainLayer>(*transport);

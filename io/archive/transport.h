@@ -21,11 +21,13 @@ namespace palpate::io {
 /// DCMTK's layer for one connection, which also remembers the connection's socket.
 struct Transport {
   std::unique_ptr<DcmTransportLayer> layer;
-  int socket = -1;  ///< of the connection that was made last; DCMTK's to close
+  int socket = -1;           ///< of the connection that was made last; DCMTK's to close
+  bool names_other = false;  ///< the peer's certificate is for another machine than the archive's
 };
 
-/// Of the side that asks (NET_REQUESTOR) or is asked (NET_ACCEPTOR). Throws ArchiveError naming the certificate or key
-/// that cannot be used.
+/// Of the side that asks (NET_REQUESTOR) or is asked (NET_ACCEPTOR). The certificate of a machine that we ask has to be
+/// for that machine (RFC 6125); one that asks us is known by its authority and its AE title alone. Throws ArchiveError
+/// naming the certificate or key that cannot be used.
 std::unique_ptr<Transport> make_transport(const Archive& archive, T_ASC_NetworkRole role);
 
 /// Shuts a socket down where nothing was heard on it for a while. Without it a peer that sends a byte now and then

@@ -19,6 +19,7 @@ struct PrivateAttribute {
 
 constexpr std::array attributes{PrivateAttribute{0x0019, "SIEMENS MR HEADER", 0x100C},
                                 PrivateAttribute{0x0043, "GEMS_PARM_01", 0x1039},
+                                PrivateAttribute{0x0065, "Image Private Header", 0x1009},
                                 PrivateAttribute{0x2001, "Philips Imaging DD 001", 0x1003}};
 
 }  // namespace

@@ -40,11 +40,12 @@ std::vector<Fragment> coded_pixels(const FileHeader& file) {
   return stretches;
 }
 
-// As they are coded; what is coded in two ways is not compared.
-bool pixels_differ(const FileHeader& a, const FileHeader& b) {
+// As they are coded; what is coded in two ways is not compared, nor what cannot be read: images that are unfit for a
+// volume have not been checked for their length.
+bool pixels_differ(const FileHeader& a, const FileHeader& b) try {
   if (a.transfer_syntax != b.transfer_syntax) return false;
-  const InputFile file_a(a.path);
-  const InputFile file_b(b.path);
+  const InputFile file_a(a.stored_at);
+  const InputFile file_b(b.stored_at);
   const auto coded_a = coded_pixels(a);
   const auto coded_b = coded_pixels(b);
   const auto differ = [&](const Fragment& x, const Fragment& y) {
@@ -52,6 +53,8 @@ bool pixels_differ(const FileHeader& a, const FileHeader& b) {
   };
   return !std::equal(coded_a.begin(), coded_a.end(), coded_b.begin(), coded_b.end(),
                      [&](const Fragment& x, const Fragment& y) { return !differ(x, y); });
+} catch (const DicomError&) {
+  return false;
 }
 
 // Archives number images anew; images of one place and time that differ in number and pixels are two.

@@ -9,9 +9,9 @@
 
 namespace palpate::io::internal {
 
-/// Drops what is an image that another file holds too: the same SOP instance, place and time. The readable one is kept;
-/// where both are readable and their pixels differ, it gets a remark. Files of one SOP instance UID that lie elsewhere
-/// are other images, whatever their UID says: kept, with a remark.
+/// Drops an image that another file holds, too: the same SOP instance, place and time. The readable one is kept; where
+/// both are readable and their pixels differ, the kept one gets a remark. Files of one SOP instance UID at different
+/// places are different images, whatever their UID says: both are kept, with a remark.
 std::vector<FileHeader> drop_copies(std::vector<FileHeader> files, std::vector<SkippedFile>& skipped);
 
 }  // namespace palpate::io::internal

@@ -230,19 +230,16 @@ bool is_in_dictionary(const DcmTagKey& key) {
   return known;
 }
 
-// The same element as it would be read without a VR; null where its bytes are none.
-std::unique_ptr<DcmElement> with_known_vr(DcmElement& unknown) {
-  Uint8* value = nullptr;
-  const std::uint32_t length = unknown.getLength();
-  if (length > 0 && (unknown.getUint8Array(value).bad() || value == nullptr)) return nullptr;
+// The element of this tag and value as it is read without a VR; null where its bytes are none.
+std::unique_ptr<DcmElement> without_vr(const DcmTagKey& tag, std::span<const std::byte> content) {
+  const auto length = static_cast<std::uint32_t>(content.size());
   std::vector<std::byte> bytes;
   const auto add = [&](std::uint32_t number, std::size_t size) {
     for (std::size_t n = 0; n < size; ++n) bytes.push_back(static_cast<std::byte>(number >> 8 * n));
   };
-  add(unknown.getGTag(), 2);
-  add(unknown.getETag(), 2);
+  add(tag.getGroup(), 2);
+  add(tag.getElement(), 2);
   add(length, 4);
-  const auto content = std::as_bytes(std::span(value, length));
   bytes.insert(bytes.end(), content.begin(), content.end());
   try {
     Bytes source(bytes);
@@ -259,6 +256,14 @@ std::unique_ptr<DcmElement> with_known_vr(DcmElement& unknown) {
   dataset.transferEnd();
   if (read.bad() || dataset.card() != 1) return nullptr;
   return std::unique_ptr<DcmElement>(dataset.remove(static_cast<unsigned long>(0)));
+}
+
+// The same element as it would be read without a VR.
+std::unique_ptr<DcmElement> with_known_vr(DcmElement& unknown) {
+  Uint8* value = nullptr;
+  const std::uint32_t length = unknown.getLength();
+  if (length > 0 && (unknown.getUint8Array(value).bad() || value == nullptr)) return nullptr;
+  return without_vr(unknown.getTag(), std::as_bytes(std::span(value, length)));
 }
 
 void settle_unknown(DcmItem& item) {
@@ -310,6 +315,13 @@ DatasetStart find_dataset(const InputFile& file) {
   start.encoding = *guess;
   if (start.transfer_syntax.empty()) start.transfer_syntax = DcmXfer(syntax_of(start)).getXferID();
   return start;
+}
+
+std::unique_ptr<DcmSequenceOfItems> sequence_in(std::span<const std::byte> value) {
+  // By a tag that the dictionary knows for a sequence.
+  std::unique_ptr<DcmElement> element = without_vr(DCM_ReferencedImageSequence, value);
+  if (dynamic_cast<DcmSequenceOfItems*>(element.get()) == nullptr) return nullptr;
+  return std::unique_ptr<DcmSequenceOfItems>(dynamic_cast<DcmSequenceOfItems*>(element.release()));
 }
 
 std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "io/dicom/asked_for.h"
@@ -11,6 +12,7 @@
 #include "io/dicom/structure.h"
 
 class DcmDataset;
+class DcmSequenceOfItems;
 
 namespace palpate::io::internal {
 
@@ -36,5 +38,9 @@ std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const Da
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
                                          const DatasetStart& start, DcmDataset& dataset,
                                          bool (*wants)(std::uint32_t tag) = is_asked_for);
+
+/// The sequence that these bytes are, where they were written without their VR (implicit VR, little endian; PS3.5
+/// 6.2.2): the value alone, without tag and length. Null where they are none.
+std::unique_ptr<DcmSequenceOfItems> sequence_in(std::span<const std::byte> value);
 
 }  // namespace palpate::io::internal

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "io/errors.h"
 #include "io/messages.h"
@@ -43,6 +44,42 @@ const Syntax* find_syntax(const std::string& uid) {
 
 bool can_decode(const std::string& transfer_syntax) {
   return find_syntax(transfer_syntax) != nullptr;
+}
+
+Text why_not_decoded(const std::string& transfer_syntax) {
+  struct Named {  // PS3.6 annex A
+    std::string_view uid;
+    const char* name;
+  };
+  constexpr std::array names{Named{"1.2.840.10008.1.2.4.201", "HTJ2K (High-Throughput JPEG 2000)"},
+                             Named{"1.2.840.10008.1.2.4.202", "HTJ2K (High-Throughput JPEG 2000)"},
+                             Named{"1.2.840.10008.1.2.4.203", "HTJ2K (High-Throughput JPEG 2000)"},
+                             Named{"1.2.840.10008.1.2.4.204", "HTJ2K (High-Throughput JPEG 2000, by JPIP)"},
+                             Named{"1.2.840.10008.1.2.4.205", "HTJ2K (High-Throughput JPEG 2000, by JPIP)"},
+                             Named{"1.2.840.10008.1.2.4.92", "JPEG 2000 of several components (part 2)"},
+                             Named{"1.2.840.10008.1.2.4.93", "JPEG 2000 of several components (part 2)"},
+                             Named{"1.2.840.10008.1.2.4.94", "JPIP, which leaves the pixels at a server"},
+                             Named{"1.2.840.10008.1.2.4.95", "JPIP, which leaves the pixels at a server"},
+                             Named{"1.2.840.10008.1.2.4.100", "MPEG-2, a video"},
+                             Named{"1.2.840.10008.1.2.4.101", "MPEG-2, a video"},
+                             Named{"1.2.840.10008.1.2.4.102", "MPEG-4 (H.264), a video"},
+                             Named{"1.2.840.10008.1.2.4.103", "MPEG-4 (H.264), a video"},
+                             Named{"1.2.840.10008.1.2.4.107", "HEVC (H.265), a video"},
+                             Named{"1.2.840.10008.1.2.4.108", "HEVC (H.265), a video"},
+                             Named{"1.2.840.10008.1.2.4.110", "JPEG XL"},
+                             Named{"1.2.840.10008.1.2.4.111", "JPEG XL"},
+                             Named{"1.2.840.10008.1.2.4.112", "JPEG XL"}};
+  const auto found = std::ranges::find(names, transfer_syntax, &Named::uid);
+  if (found == names.end()) return say("compression-is-unknown-here", transfer_syntax);
+  return say("compression-is-not-decoded-here", found->name);
+}
+
+void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in) {
+  constexpr std::uint64_t any = std::uint64_t{1} << 28, most = std::uint64_t{1} << 33;
+  constexpr std::uint64_t most_times = 50;  // scans come to 2 to 10 times
+  if (bytes_out > any && (bytes_out > most || bytes_out / most_times > bytes_in)) {
+    throw DicomError(say("inflates-to-too-much", bytes_in, bytes_out >> 20U));
+  }
 }
 
 void check_density(const std::string& transfer_syntax, const PixelFormat& format, std::size_t frames,

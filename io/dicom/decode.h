@@ -21,6 +21,13 @@ bool can_decode(const std::string& transfer_syntax);
 void check_density(const std::string& transfer_syntax, const PixelFormat& format, std::size_t frames,
                    std::uint64_t bytes);
 
+/// Why pixels of a syntax that can_decode() does not know are refused: by the name of the compression.
+Text why_not_decoded(const std::string& transfer_syntax);
+
+/// Throws DicomError where what was deflated would come out so large that it is a trap, or damaged: more than 256 MiB
+/// and 50 times the file, or more than 8 GiB. `bytes_out` is what is claimed, `bytes_in` the file.
+void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in);
+
 /// Decodes one frame: `values` holds rows * columns. Returns what of the stream is against its standard without costing
 /// a pixel, in words for the user; empty where nothing is. Throws DicomError with a reason where the stream is damaged
 /// or is an image of another size than the header says.

@@ -4,6 +4,7 @@
 #include <dcmtk/dcmdata/dcbytstr.h>
 #include <dcmtk/dcmdata/dcelem.h>
 #include <dcmtk/dcmdata/dcitem.h>
+#include <dcmtk/dcmdata/dcsequen.h>
 #include <dcmtk/dcmdata/dctagkey.h>
 
 #include <algorithm>
@@ -26,10 +27,13 @@ void check_asked_for(const DcmItem& item, const DcmTagKey& tag) {
   }
 }
 
+// Elements stand in the order of their tags. DCMTK's own search goes on to the last for each that is absent, as most
+// are, and keeps a stack on the heap.
 DcmElement* element_of(DcmItem& item, const DcmTagKey& tag) {
   check_asked_for(item, tag);
-  DcmElement* element = nullptr;
-  return item.findAndGetElement(tag, element).good() ? element : nullptr;
+  DcmObject* at = item.nextInContainer(nullptr);
+  while (at != nullptr && at->getTag() < tag) at = item.nextInContainer(at);
+  return at != nullptr && at->getTag() == tag ? dynamic_cast<DcmElement*>(at) : nullptr;
 }
 
 bool is_unknown(DcmElement& element) {
@@ -65,19 +69,23 @@ std::vector<double> parsed_list(std::string_view text) {
   }
 }
 
+std::string text_in(DcmElement& element) {
+  OFString value;
+  if (element.getOFStringArray(value, OFTrue).bad()) return {};
+  return std::string(trimmed(std::string_view(value.c_str(), value.length())));
+}
+
 }  // namespace
 
 std::string text_of(DcmItem& item, const DcmTagKey& tag) {
-  DcmElement* element = element_of(item, tag);
-  OFString value;
-  if (element == nullptr || element->getOFStringArray(value, OFTrue).bad()) return {};
-  return std::string(trimmed(std::string_view(value.c_str(), value.length())));
+  DcmElement* const element = element_of(item, tag);
+  return element != nullptr ? text_in(*element) : std::string();
 }
 
 std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag) {
   DcmElement* element = element_of(item, tag);
   if (element == nullptr || element->isEmpty()) return {};
-  if (dynamic_cast<DcmByteString*>(element) != nullptr) return parsed_list(text_of(item, tag));
+  if (dynamic_cast<DcmByteString*>(element) != nullptr) return parsed_list(text_in(*element));
   if (Uint8* bytes = nullptr; is_unknown(*element) && element->getUint8Array(bytes).good()) {
     return parsed_list(
         {reinterpret_cast<const char*>(bytes), element->getLength()});  // private, and not in a dictionary
@@ -117,9 +125,8 @@ std::optional<double> number_of(DcmItem& item, const DcmTagKey& tag) {
 }
 
 DcmItem* first_item(DcmItem& item, const DcmTagKey& sequence) {
-  check_asked_for(item, sequence);
-  DcmItem* found = nullptr;
-  return item.findAndGetSequenceItem(sequence, found, 0).good() ? found : nullptr;
+  auto* const found = dynamic_cast<DcmSequenceOfItems*>(element_of(item, sequence));
+  return found != nullptr && found->card() > 0 ? found->getItem(0) : nullptr;
 }
 
 }  // namespace palpate::io::internal

@@ -88,7 +88,15 @@ std::string what_it_is(const FileHeader& header) {
   return name != nullptr ? std::string(name) : header.modality.empty() ? "DICOM" : header.modality;
 }
 
-void read_format(DcmItem& item, FileHeader& header) {
+// Whether numbers of so many bits can be read.
+bool can_read(const PixelFormat& format, bool is_double) {
+  if (format.is_float) return format.bits_allocated == (is_double ? 64 : 32);
+  return (format.bits_allocated == 8 || format.bits_allocated == 16 || format.bits_allocated == 32) &&
+         format.bits_stored >= 1 && format.high_bit >= format.bits_stored - 1 &&
+         format.high_bit < format.bits_allocated;
+}
+
+void read_format(DcmItem& item, const std::optional<PixelElement>& pixels, FileHeader& header) {
   const auto whole = [&](const DcmTagKey& tag, int otherwise) {
     return static_cast<int>(std::clamp(number_of(item, tag).value_or(otherwise), -1.0, 65536.0));
   };
@@ -99,6 +107,7 @@ void read_format(DcmItem& item, FileHeader& header) {
   format.bits_stored = whole(DCM_BitsStored, format.bits_allocated);
   format.high_bit = whole(DCM_HighBit, format.bits_stored - 1);
   format.is_signed = whole(DCM_PixelRepresentation, 0) == 1;
+  format.is_float = pixels && pixels->is_float;
   if (format.columns < 1 || format.rows < 1) throw NotAnImage(say("no-image", what_it_is(header)), header.sop_class);
 
   header.columns = format.columns;
@@ -108,8 +117,7 @@ void read_format(DcmItem& item, FileHeader& header) {
   const bool gray = photometric.empty() || photometric == "MONOCHROME1" || photometric == "MONOCHROME2";
   if (whole(DCM_SamplesPerPixel, 1) != 1 || !gray) {
     header.unfit = say("color-image-it-has-no-values", photometric);
-  } else if ((format.bits_allocated != 8 && format.bits_allocated != 16) || format.bits_stored < 1 ||
-             format.high_bit < format.bits_stored - 1 || format.high_bit >= format.bits_allocated) {
+  } else if (!can_read(format, pixels && pixels->is_double)) {
     header.unfit = say("pixels-of-bits", format.bits_stored, format.bits_allocated, format.high_bit);
   }
 }
@@ -117,6 +125,14 @@ void read_format(DcmItem& item, FileHeader& header) {
 // What lies outside the patient's image. MR scanners write 0 here although 0 is also what air reads: taken for padding,
 // it would hide the skin.
 std::optional<std::pair<double, double>> padding_of(DcmItem& item, const FileHeader& header) {
+  if (header.format.is_float) {
+    const bool wide = header.format.bits_allocated == 64;
+    const auto value = number_of(item, wide ? DCM_DoubleFloatPixelPaddingValue : DCM_FloatPixelPaddingValue);
+    if (!value) return std::nullopt;
+    return std::minmax(*value,
+                       number_of(item, wide ? DCM_DoubleFloatPixelPaddingRangeLimit : DCM_FloatPixelPaddingRangeLimit)
+                           .value_or(*value));
+  }
   const auto signed_value = [&](double v) { return header.format.is_signed && v > 32767 ? v - 65536 : v; };
   const auto value = number_of(item, DCM_PixelPaddingValue);
   if (!value || (header.modality != "CT" && *value == 0)) return std::nullopt;
@@ -135,9 +151,6 @@ void remark_on_lost_frames(double frames, FileHeader& header) {
 void read_planes(DcmItem& item, FileHeader& header) {
   const double frames = number_of(item, DCM_NumberOfFrames).value_or(1);
   header.padding = padding_of(item, header);
-  if (first_item(item, DCM_ModalityLUTSequence) != nullptr && header.unfit.empty()) {
-    header.unfit = say("values-need-a-modality-look-up");
-  }
   if (first_item(item, DCM_PerFrameFunctionalGroupsSequence) != nullptr) {
     header.planes = functional_group_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
     remark_on_lost_frames(frames, header);
@@ -146,10 +159,16 @@ void read_planes(DcmItem& item, FileHeader& header) {
     if (header.planes.empty() && header.unfit.empty()) {
       header.unfit = say("siemens-mosaic-without-the-private-header");
     }
+  } else if (header.image_type.find("VFRAME") != std::string::npos) {
+    header.planes = grid_planes(item, header);
+    if (header.planes.empty() && header.unfit.empty()) header.unfit = say("grid-without-the-places-of-its-slices");
+  } else if (frames > 1 || header.modality == "RTDOSE") {
+    header.planes = stacked_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
   } else {
     header.planes.push_back(classic_plane(item, header));
-    if (frames > 1 && header.unfit.empty()) header.unfit = say("several-frames-without-a-position-for-each");
   }
+  read_modality_table(item, header);
+  if (header.modality == "RTDOSE") header.remarks.push_back(say("dose-its-values-are-no-density"));
   const bool placed =
       std::any_of(header.planes.begin(), header.planes.end(), [](const Plane& p) { return p.placement; });
   if (header.modality == "CT" && header.unit.empty()) {
@@ -177,12 +196,12 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
   header.swapped_words = header.big_endian && header.format.bits_allocated == 8 && pixels.vr == "OW";
   header.pixels_at = header.start.deflated ? pixels.value_at : header.start.at + pixels.value_at;
   const bool encapsulated = pixels.length == PixelElement::undefined_length;
-  if (pixels.is_float) {
-    if (header.unfit.empty()) header.unfit = say("floating-point-pixels");
+  if (encapsulated && !can_decode(header.transfer_syntax)) {
+    if (header.unfit.empty()) header.unfit = why_not_decoded(header.transfer_syntax);
     return;
   }
-  if (encapsulated && !can_decode(header.transfer_syntax)) {
-    if (header.unfit.empty()) header.unfit = say("compression-is-unknown-here", header.transfer_syntax);
+  if (encapsulated && header.format.is_wide()) {
+    if (header.unfit.empty()) header.unfit = say("compressed-pixels-of-bits", header.format.bits_allocated);
     return;
   }
   try {
@@ -195,6 +214,7 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
     } else if (header.start.deflated) {
       header.coding = PixelCoding::deflated;
       check_density(header.transfer_syntax, header.format, frames, file.size());
+      check_inflation(header.format.bytes_per_frame() * frames, file.size());
     } else if (can_decode(header.transfer_syntax)) {
       header.defect = say("pixels-are-not-compressed");
     } else {
@@ -234,20 +254,20 @@ bool FileHeader::padding_is_wide() const {
   return padding->second < least || padding->first > most;
 }
 
-FileHeader read_file_header(const std::filesystem::path& path) {
-  const InputFile file(path);
+FileHeader read_file_header(const std::filesystem::path& stored_at) {
+  const InputFile file(stored_at);
   FileHeader header;
-  header.path = path;
+  header.path = header.stored_at = stored_at;
   header.start = find_dataset(file);
   header.transfer_syntax = header.start.transfer_syntax;
   DcmDataset dataset;
-  const auto pixels = parse_header(file, path, header.start, dataset);
+  const auto pixels = parse_header(file, stored_at, header.start, dataset);
   if (dataset.tagExists(DCM_DirectoryRecordSequence)) {
     throw DicomError(say("dicomdir-an-index"));
   }
   read_identity(dataset, header);
   read_details(dataset, header);
-  read_format(dataset, header);
+  read_format(dataset, pixels, header);
   if (!pixels) throw NotAnImage(say("no-pixels", what_it_is(header)), header.sop_class);
   read_planes(dataset, header);
   locate_pixels(file, *pixels, header);

@@ -2,9 +2,11 @@
 
 /// What one file's header says, as far as grouping, placing and decoding its images needs it.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,7 +76,10 @@ struct PixelFormat {
   int bits_stored = 16;
   int high_bit = 15;
   bool is_signed = false;
+  bool is_float = false;  ///< numbers of 32 or 64 bits, IEEE 754
 
+  /// Whether stored values do not fit into 16 bits.
+  bool is_wide() const { return is_float || bits_allocated > 16; }
   std::size_t bytes_per_frame() const {
     return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
            static_cast<std::size_t>(bits_allocated / 8);
@@ -83,8 +88,23 @@ struct PixelFormat {
 
 enum class PixelCoding { native, deflated, encapsulated };
 
+/// A modality look-up table (PS3.3 C.11.1): what a stored value stands for. Values below its first and above its last
+/// take that one's.
+struct ModalityTable {
+  double first = 0;  ///< the stored value of its first entry
+  std::vector<float> values;
+
+  double value_of(double stored) const {
+    const double last = static_cast<double>(values.size() - 1);
+    return static_cast<double>(values[static_cast<std::size_t>(std::clamp(stored - first, 0.0, last))]);
+  }
+};
+
 struct FileHeader {
-  std::filesystem::path path;
+  std::filesystem::path path;       ///< as a user is told it; inside an archive: the archive's, and its path in there
+  std::filesystem::path stored_at;  ///< where its bytes are
+  /// What keeps these bytes there; null for files that lie there anyway.
+  std::shared_ptr<const void> keeper;
   std::string transfer_syntax;     ///< UID
   std::string sop_class;           ///< UID
   std::string sop_instance;        ///< UID
@@ -106,6 +126,7 @@ struct FileHeader {
   int columns = 0;  ///< of one image (of a tile of a mosaic)
   int rows = 0;
   std::optional<std::pair<double, double>> padding;  ///< stored values, both ends included
+  std::shared_ptr<const ModalityTable> table;        ///< stands for the rescale; null where there is none
   /// Whether that is no value that BitsStored can hold, but a word of BitsAllocated that stands for none.
   bool padding_is_wide() const;
 
@@ -124,6 +145,6 @@ struct FileHeader {
 
 /// Reads a file up to its pixel data. Throws DicomError with a reason (that does not name the file) where it holds no
 /// image.
-FileHeader read_file_header(const std::filesystem::path& path);
+FileHeader read_file_header(const std::filesystem::path& stored_at);
 
 }  // namespace palpate::io::internal

@@ -42,6 +42,8 @@ std::string kind_of_file(const std::string& sop_class, const std::string& image_
   if (reason.starts_with("a copy of")) return "copy";
   if (reason.starts_with("DICOMDIR")) return "index";
   if (reason.starts_with("a folder")) return "locked folder";
+  if (reason.starts_with("a label map")) return "label map";
+  if (reason.starts_with("an archive")) return "packed file";
   for (const char* word : {"truncated", "damaged", "empty file"}) {
     if (reason.starts_with(word)) return "damaged file";
   }

@@ -68,6 +68,7 @@ std::vector<std::size_t> telling_labels(const SeriesSource& source, const Positi
   std::size_t most = 0;
   for (const auto& position : positions) most = std::max(most, position.size());
   std::vector<std::size_t> telling;
+  if (most < 2) return telling;  // nothing repeats
   for (std::size_t label = 0; label < label_count; ++label) {
     std::map<std::string, std::size_t> positions_with;
     for (const auto& position : positions) {

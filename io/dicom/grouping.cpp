@@ -165,14 +165,6 @@ void remark_on_wide_gaps(Series& series) {
       say("slices-far-apart", millimeters(g.slice_spacing()), millimeters(std::min(g.spacing_i, g.spacing_j))));
 }
 
-std::string orientation_of(const Geometry& geometry) {
-  const Vec3 normal = glm::abs(glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j)));
-  constexpr double along = 0.94;  // within 20 degrees
-  if (normal.z > along) return "axial";
-  if (normal.y > along) return "coronal";
-  return normal.x > along ? "sagittal" : "oblique";
-}
-
 std::string compression_of(const Series::Details& details) {
   if (!(details.compression_ratio > 0)) return {};
   const auto tenths = std::llround(10 * std::min(details.compression_ratio, 1e6));
@@ -361,6 +353,14 @@ void join_what_was_torn_apart(std::vector<FileHeader>& headers) {
 }
 
 }  // namespace
+
+std::string orientation_of(const Geometry& geometry) {
+  const Vec3 normal = glm::abs(glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j)));
+  constexpr double along = 0.94;  // within 20 degrees
+  if (normal.z > along) return "axial";
+  if (normal.y > along) return "coronal";
+  return normal.x > along ? "sagittal" : "oblique";
+}
 
 std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped) {
   join_what_was_torn_apart(headers);

@@ -2,6 +2,7 @@
 
 /// From headers to series.
 
+#include <string>
 #include <vector>
 
 #include "io/dicom/file_header.h"
@@ -12,5 +13,8 @@ namespace palpate::io::internal {
 /// Groups the images of all files by series UID (of one study and patient), orientation, size and pixel spacing, sorts
 /// them by position, and describes the result. Files that end up in no series are named in `skipped`.
 std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped);
+
+/// "axial", "coronal", "sagittal" (within 20 degrees) or "oblique".
+std::string orientation_of(const Geometry& geometry);
 
 }  // namespace palpate::io::internal

@@ -13,30 +13,17 @@
 
 #include "io/errors.h"
 #include "io/load.h"
+#include "io/testing/file_bytes.h"
 #include "io/testing/test_coders.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write;
-using internal::write_stack;
 using testing::AnyOf;
 using testing::HasSubstr;
 using testing::SizeIs;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void write_file(const fs::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool under_sanitizer = true;
@@ -71,7 +58,7 @@ long peak_now_mib() {
 std::string part_10_start() {
   const TestFolder folder;
   write(TestImage(), folder / "f");
-  const std::string bytes = read_file(folder / "f");
+  const std::string bytes = bytes_of(folder / "f");
   return bytes.substr(0, bytes.find(std::string("\x08\x00\x08\x00", 4)));
 }
 
@@ -85,16 +72,16 @@ constexpr std::array codings{EXS_RLELossless, EXS_JPEGProcess14SV1, EXS_JPEGLSLo
 
 /// Three slices of 32 x 32, s0.dcm to s2.dcm, compressed.
 void write_coded(const fs::path& folder, E_TransferSyntax syntax) {
-  internal::register_encoders();
+  register_encoders();
   write_stack(folder, 3, [syntax](int, TestImage& image) {
     image.columns = image.rows = 32;
     image.value = [](int i, int j) { return 13 * i + 7 * j; };
     image.syntax = syntax;
     image.edit = [syntax, &image](DcmDataset& d) {
-      const auto coded = syntax == EXS_JPEGLSLossless         ? internal::jpeg_ls(32, 32, 16, 0, image.value)
-                         : syntax == EXS_JPEG2000LosslessOnly ? internal::jpeg2000(32, 32, 16, false, image.value)
+      const auto coded = syntax == EXS_JPEGLSLossless         ? jpeg_ls(32, 32, 16, 0, image.value)
+                         : syntax == EXS_JPEG2000LosslessOnly ? jpeg2000(32, 32, 16, false, image.value)
                                                               : std::vector<Uint8>();
-      if (!coded.empty()) internal::encapsulate(d, syntax, {coded}, 1U << 20);
+      if (!coded.empty()) encapsulate(d, syntax, {coded}, 1U << 20);
     };
   });
 }
@@ -104,7 +91,7 @@ TEST(Hostile, ClaimedSizesCostNoMemory) {
   for (const bool many_frames : {false, true}) {
     const auto claim = [&](DcmDataset& d) {
       if (many_frames) {
-        internal::make_multi_frame(d, {1, 2, 3});
+        make_multi_frame(d, {1, 2, 3});
         put(d, DCM_NumberOfFrames, "100000000");
       }
       put(d, DCM_Rows, 60000);
@@ -124,12 +111,12 @@ TEST(Hostile, ClaimedSizesCostNoMemory) {
     write_coded(folder.path(), syntax);
     ASSERT_TRUE(find_series(std::array{folder.path()}).series.at(0).usable);
     for (int k = 0; k < 3; ++k) {
-      const fs::path file = folder / (internal::numbered("s", k) + ".dcm");
-      std::string bytes = read_file(file);
+      const fs::path file = folder / (numbered("s", k) + ".dcm");
+      std::string bytes = bytes_of(file);
       for (const char* attribute : {"\x28\x00\x10\x00US", "\x28\x00\x11\x00US"}) {
         bytes.replace(bytes.find(std::string(attribute, 6)) + 8, 2, "\x60\xEA");
       }
-      write_file(file, bytes);
+      write_bytes(file, bytes);
     }
     for (const Series& series : find_series(std::array{folder.path()}).series) EXPECT_FALSE(series.usable);
   }
@@ -203,7 +190,7 @@ TEST(Hostile, SequencesNestedWithoutEndAreRefused) {
   for (int n = 0; n < 100000; ++n) {
     bytes += std::string("\x08\x00\x40\x11SQ\0\0\xFF\xFF\xFF\xFF\xFE\xFF\x00\xE0\xFF\xFF\xFF\xFF", 20);
   }
-  write_file(folder / "deep", bytes);
+  write_bytes(folder / "deep", bytes);
   EXPECT_THAT(only_reason(folder), HasSubstr("nested too deeply"));
 }
 
@@ -217,7 +204,7 @@ TEST(Hostile, ElementsInNoOrderAreRefused) {
                  "ab",
                  4);
   }
-  write_file(folder / "descending", bytes);
+  write_bytes(folder / "descending", bytes);
   EXPECT_THAT(only_reason(folder), HasSubstr("in disorder"));
 }
 
@@ -225,9 +212,9 @@ TEST(Hostile, ElementsInNoOrderAreRefused) {
 TEST(Hostile, FileCutAnywhere) {
   const TestFolder folder;
   write_stack(folder.path(), 3);
-  const std::string whole = read_file(folder / "s1.dcm");
+  const std::string whole = bytes_of(folder / "s1.dcm");
   for (std::size_t length = 0; length < whole.size(); length += 3) {
-    write_file(folder / "s1.dcm", whole.substr(0, length));
+    write_bytes(folder / "s1.dcm", whole.substr(0, length));
     const Catalogue found = find_series(std::array{folder.path()});
     ASSERT_THAT(found.skipped, SizeIs(1)) << length;
     EXPECT_THAT(found.skipped[0].reason, AnyOf(HasSubstr("truncated"), HasSubstr("not a DICOM"), HasSubstr("empty"),
@@ -257,7 +244,7 @@ TEST(Hostile, RandomDamageCostsAtMostThatSlice) {
   const long before = peak_mib();
   std::mt19937 random(20240229);
   for (const fs::path& seed : seeds) {
-    const std::string good = read_file(seed);
+    const std::string good = bytes_of(seed);
     for (int n = 0; n < 24; ++n) {
       const TestFolder folder;
       std::string bad = good;
@@ -267,7 +254,7 @@ TEST(Hostile, RandomDamageCostsAtMostThatSlice) {
         const std::size_t range = random() % 2 == 0 ? std::min<std::size_t>(2000, bad.size() - 132) : bad.size() - 132;
         bad[132 + random() % range] = static_cast<char>(random());
       }
-      write_file(folder / "bad", bad);
+      write_bytes(folder / "bad", bad);
       write_stack(folder.path(), 3);
       const Catalogue found = find_series(std::array{folder.path()});
       const auto ours =
@@ -316,7 +303,7 @@ void write_deflated(const fs::path& path, int mib_of_zeros) {
   TestImage image;
   image.value = [](int i, int j) { return 10 * j + i; };
   write(image, path);
-  std::string plain = read_file(path);
+  std::string plain = bytes_of(path);
   const std::size_t at = plain.find(std::string("\x08\x00\x08\x00", 4));
   std::string meta = plain.substr(0, at);
   const std::size_t syntax = meta.find("1.2.840.10008.1.2.1");
@@ -335,7 +322,7 @@ void write_deflated(const fs::path& path, int mib_of_zeros) {
   deflater.add(element);
   for (int n = 0; n < mib_of_zeros; ++n) deflater.add(std::string(1U << 20, '\0'));
   deflater.add(dataset.substr(patient), Z_FINISH);
-  write_file(path, meta + deflater.deflated);
+  write_bytes(path, meta + deflater.deflated);
 }
 
 // What a few megabytes may grow to is bounded as what lies there in full would be.
@@ -364,4 +351,4 @@ TEST(Hostile, DeflatedPrivateElementCostsNoMemory) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

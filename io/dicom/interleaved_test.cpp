@@ -10,15 +10,9 @@
 #include "io/load.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
-using internal::find_in;
-using internal::load_frame;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -101,8 +95,7 @@ const std::vector<Edit> labels{
     {"backwards", [](DcmDataset& d, int s, int k) { put(d, DCM_InstanceNumber, text(100 * s + 50 - k)); }},
     {"time_point", [](DcmDataset& d, int s, int) { put(d, DCM_TemporalPositionIdentifier, text(s + 1)); }},
     {"echo", [](DcmDataset& d, int s, int) { put(d, DCM_EchoTime, text(10 * (s + 1))); }},
-    {"b_value",
-     [](DcmDataset& d, int s, int) { internal::succeed(d.putAndInsertFloat64(DCM_DiffusionBValue, 400.0 * s)); }},
+    {"b_value", [](DcmDataset& d, int s, int) { succeed(d.putAndInsertFloat64(DCM_DiffusionBValue, 400.0 * s)); }},
     {"trigger_time", [](DcmDataset& d, int s, int) { put(d, DCM_TriggerTime, text(100 * s)); }},
     {"image_type", [](DcmDataset& d, int s, int) { put(d, DCM_ImageType, "DERIVED\\PRIMARY\\AXIAL\\CT_" + text(s)); }},
     {"kernel", [](DcmDataset& d, int s, int) { put(d, DCM_ConvolutionKernel, s == 0 ? "B30f" : "B70f" + text(s)); }}};
@@ -200,9 +193,8 @@ TEST(InterleavedStacks, WithoutAThicknessPassesOfMrAreOneWithAWord) {
   EXPECT_EQ(found.series[0].geometry.dimensions.z, 20);
   EXPECT_THAT(
       found.series[0].warnings,
-      Contains(
-          "slices of acquisition 1 and acquisition 2 lie by turns, and no slice thickness says whether that is one "
-          "scan or two: compare the two before you trust what is felt"));
+      Contains("slices of acquisition 1 and acquisition 2 alternate, and no slice thickness says whether they are one "
+               "scan or two: compare neighboring slices before you trust what is felt"));
 }
 
 TEST(InterleavedStacks, NeighborsThatOverlapByHalfAreToldOfWhereNothingPartsThem) {
@@ -210,10 +202,9 @@ TEST(InterleavedStacks, NeighborsThatOverlapByHalfAreToldOfWhereNothingPartsThem
   write_stacks(folder, {{0, 2.5, 20}}, {"", [](DcmDataset&, int, int) {}}, 5);
   const Catalogue found = find_in(folder);
   ASSERT_THAT(found.series, SizeIs(1));
-  EXPECT_THAT(
-      found.series[0].warnings,
-      Contains("slices are 5.00 mm thick and 2.50 mm apart, so that neighbors overlap: one scan with overlap, or two "
-               "in one series that nothing tells apart; compare neighboring slices"));
+  EXPECT_THAT(found.series[0].warnings,
+              Contains("slices are 5.00 mm thick and 2.50 mm apart, so that neighbors overlap: this is one scan with "
+                       "overlap, or two scans in one series; compare neighboring slices"));
 
   const TestFolder contiguous;
   write_stacks(contiguous, {{0, 4, 20}}, {"", [](DcmDataset&, int, int) {}}, 5);
@@ -258,8 +249,8 @@ TEST(InterleavedStacks, FilesOfSeveralFramesAreNeverMixed) {
       TestImage image;
       image.value = [s](int, int) { return 100 + s; };
       image.edit = [&](DcmDataset& d) {
-        internal::repeat_pixels(d, heights.size());
-        internal::make_multi_frame(d, heights);
+        repeat_pixels(d, heights.size());
+        make_multi_frame(d, heights);
       };
       write(image, folder / text(s));
       Stack& stack = truth.emplace_back();
@@ -312,9 +303,9 @@ TEST(InterleavedStacks, MosaicsAreNeverMixed) {
       put(d, DCM_Modality, "MR");
       put(d, DCM_ImageType, "ORIGINAL\\PRIMARY\\M\\ND\\MOSAIC");
       put(d, DCM_SpacingBetweenSlices, "3");
-      internal::succeed(d.putAndInsertString(DcmTag(0x0029, 0x0010, EVR_LO), "SIEMENS CSA HEADER"));
+      succeed(d.putAndInsertString(DcmTag(0x0029, 0x0010, EVR_LO), "SIEMENS CSA HEADER"));
       const auto csa = csa_header({{"NumberOfImagesInMosaic", {"4"}}, {"SliceNormalVector", {"0", "0", "1"}}});
-      internal::succeed(
+      succeed(
           d.putAndInsertUint8Array(DcmTag(0x0029, 0x1010, EVR_OB), csa.data(), static_cast<unsigned long>(csa.size())));
     };
     write(image, folder / text(s));
@@ -337,4 +328,4 @@ TEST(InterleavedStacks, TimesThatFollowAHeadAreFrames) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

@@ -4,16 +4,10 @@
 #include <cmath>
 
 #include "io/dicom/stacking.h"
+#include "io/quantile.h"
 
 namespace palpate::io::internal {
 namespace {
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 bool is_even(const std::vector<double>& steps, double usual) {
   constexpr double tolerance = 0.1;
@@ -54,7 +48,7 @@ Lattice lattice_of(const SeriesSource& source, const std::vector<SeriesSource::S
   for (std::size_t k = 1; k < lattice.heights.size(); ++k) {
     steps.push_back(lattice.heights[k] - lattice.heights[k - 1]);
   }
-  lattice.step = median_of(steps);
+  lattice.step = quantile(steps, 0.5);
   lattice.even = !steps.empty() && is_even(steps, lattice.step);
   return lattice;
 }
@@ -69,7 +63,7 @@ Overlap overlap_of(const Lattice& a, const Lattice& b, double same_place) {
   const auto at_one = std::count_if(fewer.begin(), fewer.end(), [&](double d) { return d <= same_place; });
   overlap.coincide = 2 * static_cast<std::size_t>(at_one) >= fewer.size();
   overlap.shifted = from_a.size() < a.heights.size() && from_b.size() < b.heights.size();
-  overlap.distance = median_of(fewer);
+  overlap.distance = quantile(fewer, 0.5);
   return overlap;
 }
 

@@ -6,22 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <fstream>
 
 #include "io/load.h"
+#include "io/testing/file_bytes.h"
 #include "io/testing/test_coders.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::find_in;
-using internal::numbered;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write;
-using internal::write_stack;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::SizeIs;
@@ -29,11 +23,11 @@ using testing::SizeIs;
 void write_bare(const TestImage& image, const fs::path& path, E_TransferSyntax syntax, E_FileWriteMode mode,
                 E_EncodingType lengths, E_GrpLenEncoding groups) {
   DcmFileFormat file;
-  internal::fill(*file.getDataset(), image);
+  fill(*file.getDataset(), image);
   DcmItem* item = nullptr;
-  internal::succeed(file.getDataset()->findOrCreateSequenceItem(DCM_ReferencedImageSequence, item, -2));
-  internal::succeed(item->putAndInsertString(DCM_ReferencedSOPInstanceUID, "1.2.3"));
-  internal::succeed(file.saveFile(OFFilename(path.c_str()), syntax, lengths, groups, EPD_noChange, 0, 0, mode));
+  succeed(file.getDataset()->findOrCreateSequenceItem(DCM_ReferencedImageSequence, item, -2));
+  succeed(item->putAndInsertString(DCM_ReferencedSOPInstanceUID, "1.2.3"));
+  succeed(file.saveFile(OFFilename(path.c_str()), syntax, lengths, groups, EPD_noChange, 0, 0, mode));
 }
 
 TEST(OddFiles, WithoutPreambleOrWithGroupLengthsAndOpenSequences) {
@@ -56,11 +50,6 @@ TEST(OddFiles, WithoutPreambleOrWithGroupLengthsAndOpenSequences) {
   }
 }
 
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // An archive that rewrites datasets and leaves what the meta information says of them.
 TEST(OddFiles, DatasetWrittenOtherwiseThanItSaysIsRead) {
   const std::string explicit_uid = "1.2.840.10008.1.2.1";
@@ -73,13 +62,13 @@ TEST(OddFiles, DatasetWrittenOtherwiseThanItSaysIsRead) {
       write(image, folder / "says");
       image.syntax = EXS_LittleEndianImplicit;
       write(image, folder / "is");
-      std::array parts{read_file(folder / "says"), read_file(folder / "is")};
+      std::array parts{bytes_of(folder / "says"), bytes_of(folder / "is")};
       fs::remove(folder / "says");
       fs::remove(folder / "is");
       if (k == 1) std::swap(parts[0], parts[1]);
       const auto meta_end = [](const std::string& bytes) { return bytes.find(std::string("\x08\0\x08\0", 4)); };
-      std::ofstream(folder / (numbered("s", slice)), std::ios::binary)
-          << parts[0].substr(0, meta_end(parts[0])) << parts[1].substr(meta_end(parts[1]));
+      write_bytes(folder / numbered("s", slice),
+                  parts[0].substr(0, meta_end(parts[0])) + parts[1].substr(meta_end(parts[1])));
     }
     EXPECT_EQ(load(find_in(folder).series.at(0)).value_at(3, 2, 1), 32);
   }
@@ -90,12 +79,12 @@ TEST(OddFiles, ValuesOfOddLengthAreRead) {
   write_stack(folder.path(), 2);
   for (const int k : {0, 1}) {
     const fs::path path = folder / (numbered("s", k) + ".dcm");
-    std::string bytes = read_file(path);
+    std::string bytes = bytes_of(path);
     const std::string padded("\x08\0\x60\0CS\x02\0CT", 10);
     const std::size_t at = bytes.find(padded);
     ASSERT_NE(at, std::string::npos);
     bytes.replace(at, padded.size(), std::string("\x08\0\x60\0CS\x03\0CT ", 11));
-    std::ofstream(path, std::ios::binary) << bytes;
+    write_bytes(path, bytes);
   }
   const Series series = find_in(folder).series.at(0);
   EXPECT_EQ(series.modality, "CT");
@@ -104,7 +93,7 @@ TEST(OddFiles, ValuesOfOddLengthAreRead) {
 
 // PS3.5 A.4: a sequence delimiter ends the fragments. Some writers leave it out.
 TEST(OddFiles, CompressedPixelsWithoutTheirEndMarkAreRead) {
-  internal::register_encoders();
+  register_encoders();
   for (const E_TransferSyntax syntax : {EXS_RLELossless, EXS_JPEGProcess14SV1}) {
     for (const std::uintmax_t cut : {4U, 8U}) {
       const TestFolder folder;
@@ -128,4 +117,4 @@ TEST(OddFiles, CompressedPixelsWithoutTheirEndMarkAreRead) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

@@ -10,16 +10,10 @@
 #include "io/load.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::find_in;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write;
-using internal::write_stack;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -94,8 +88,7 @@ TEST(OddPlaces, WideGapsAreToldOf) {
     const TestFolder folder;
     write_stack(folder.path(), 5, [step](int k, TestImage& image) { image.z = step * k; });
     const std::string told =
-        "slices are 40.00 mm apart and pixels 0.50 mm: edges are felt as each slice shows them, and hardly from one "
-        "slice to the next";
+        "slices are 40.00 mm apart and pixels 0.50 mm: edges are felt within a slice, and hardly across slices";
     const Series series = find_in(folder).series.at(0);
     EXPECT_TRUE(series.usable);
     EXPECT_EQ(std::ranges::count(series.warnings, told), step > 20 ? 1 : 0);
@@ -103,4 +96,4 @@ TEST(OddPlaces, WideGapsAreToldOf) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

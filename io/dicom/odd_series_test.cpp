@@ -10,17 +10,10 @@
 #include "io/load.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::find_in;
-using internal::load_frame;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write;
-using internal::write_stack;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -28,8 +21,8 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 void put_private(DcmDataset& d, Uint16 group, const char* creator, Uint16 element, DcmEVR vr, const char* value) {
-  internal::succeed(d.putAndInsertString(DcmTag(group, 0x0010, EVR_LO), creator));
-  internal::succeed(d.putAndInsertString(DcmTag(group, element, vr), value));
+  succeed(d.putAndInsertString(DcmTag(group, 0x0010, EVR_LO), creator));
+  succeed(d.putAndInsertString(DcmTag(group, element, vr), value));
 }
 
 // --- Which images belong together ------------------------------------------------------------------------------------
@@ -87,7 +80,7 @@ TEST(OddSeries, CopyThatWasNumberedAnewIsACopy) {
   for (const int first : {0, 100}) {
     fs::create_directory(folder / std::to_string(first));
     write_stack(folder / std::to_string(first), 3, [=](int k, TestImage& image) {
-      image.instance = internal::numbered("1.2.7.", k);
+      image.instance = numbered("1.2.7.", k);
       image.edit = [=](DcmDataset& d) { put(d, DCM_InstanceNumber, std::to_string(first + k)); };
     });
   }
@@ -116,7 +109,7 @@ TEST(OddSeries, CopyWithOtherPixelsIsSaidToBeOne) {
   for (const E_TransferSyntax syntax : {EXS_LittleEndianExplicit, EXS_BigEndianExplicit}) {
     const TestFolder folder;
     const auto with_instance = [&](int k, TestImage& image) {
-      image.instance = internal::numbered("1.2.7.", k);
+      image.instance = numbered("1.2.7.", k);
       image.syntax = syntax;
     };
     write_stack(folder.path(), 3, with_instance);
@@ -209,7 +202,7 @@ TEST(OddSeries, MagnitudeAndPhaseOfACineAreFrames) {
       put(d, DCM_AcquisitionTime, std::to_string(100000 + 100 * k + 10 * time));
       put(d, DCM_InstanceNumber, std::to_string(k + 1));
     };
-    write(image, folder / internal::numbered("i", 90 - n));
+    write(image, folder / numbered("i", 90 - n));
   }
   const Series series = find_in(folder).series.at(0);
   ASSERT_EQ(series.frames_per_position, 6);
@@ -226,7 +219,7 @@ TEST(OddSeries, EnhancedFilesOfOneFrameEachAreAVolume) {
   for (int k = 0; k < 4; ++k) {
     TestImage image;
     image.value = [k](int, int) { return k; };
-    image.edit = [k](DcmDataset& d) { internal::make_multi_frame(d, {3.0 * k}); };
+    image.edit = [k](DcmDataset& d) { make_multi_frame(d, {3.0 * k}); };
     write(image, folder / std::to_string(9 - k));
   }
   const Volume volume = load(find_in(folder).series.at(0));
@@ -238,8 +231,8 @@ TEST(OddSeries, FramesThatAreNotDescribedAreLeftOutWithAWord) {
   const TestFolder folder;
   TestImage image;
   image.edit = [](DcmDataset& d) {
-    internal::repeat_pixels(d, 5);
-    internal::make_multi_frame(d, {0, 2, 4});
+    repeat_pixels(d, 5);
+    make_multi_frame(d, {0, 2, 4});
     put(d, DCM_NumberOfFrames, "5");
   };
   write(image, folder / "enhanced");
@@ -283,14 +276,14 @@ TEST(OddSeries, DamagedTimePointCostsThatTimePoint) {
 // Anonymizers that give every file a study or a frame of reference of its own leave the places: they are one stack.
 TEST(OddSeries, FilesThatWereTornApartByTheirUidsAreOneStack) {
   const std::array<std::pair<DcmTagKey, const char*>, 2> uids{
-      {{DCM_StudyInstanceUID, "each of its files names a study of its own: they are taken for one"},
-       {DCM_FrameOfReferenceUID, "each of its files names a frame of reference of its own: they are taken for one"}}};
+      {{DCM_StudyInstanceUID, "each of its files names another study: they are read as one"},
+       {DCM_FrameOfReferenceUID, "each of its files names another frame of reference: they are read as one"}}};
   for (const auto& [tag, told] : uids) {
     for (const bool same_place : {false, true}) {
       const TestFolder folder;
       write_stack(folder.path(), 5, [&, key = tag](int k, TestImage& image) {
         if (same_place) image.z = 0;
-        image.edit = [=](DcmDataset& d) { put(d, key, internal::numbered("1.2.77.", k)); };
+        image.edit = [=](DcmDataset& d) { put(d, key, numbered("1.2.77.", k)); };
       });
       const Catalogue found = find_in(folder);
       const auto usable = std::ranges::count_if(found.series, [](const Series& s) { return s.usable; });
@@ -304,4 +297,4 @@ TEST(OddSeries, FilesThatWereTornApartByTheirUidsAreOneStack) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

@@ -9,15 +9,9 @@
 #include "io/load.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
-using internal::find_in;
-using internal::put;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write;
-using internal::write_stack;
 using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -83,11 +77,11 @@ TEST(OddValues, EnhancedFramesEachHaveTheirRescale) {
   const TestFolder folder;
   TestImage image;
   image.edit = [](DcmDataset& d) {
-    internal::repeat_pixels(d, 3);
-    internal::make_multi_frame(d, {0, 2, 4}, [](std::size_t n, DcmItem& frame) {
-      DcmItem& rescale = internal::group(frame, DCM_PixelValueTransformationSequence);
-      internal::succeed(rescale.putAndInsertString(DCM_RescaleSlope, std::to_string(n + 1).c_str()));
-      internal::succeed(rescale.putAndInsertString(DCM_RescaleIntercept, "-7"));
+    repeat_pixels(d, 3);
+    make_multi_frame(d, {0, 2, 4}, [](std::size_t n, DcmItem& frame) {
+      DcmItem& rescale = group(frame, DCM_PixelValueTransformationSequence);
+      succeed(rescale.putAndInsertString(DCM_RescaleSlope, std::to_string(n + 1).c_str()));
+      succeed(rescale.putAndInsertString(DCM_RescaleIntercept, "-7"));
     });
   };
   write(image, folder / "enhanced");
@@ -106,7 +100,7 @@ TEST(OddValues, PaddingOutsideTheStoredBitsIsNoTissue) {
         put(d, DCM_BitsStored, 12);
         put(d, DCM_HighBit, 11);
         put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
-        is_signed ? internal::succeed(d.putAndInsertSint16(DcmTag(DCM_PixelPaddingValue, EVR_SS), -32768))
+        is_signed ? succeed(d.putAndInsertSint16(DcmTag(DCM_PixelPaddingValue, EVR_SS), -32768))
                   : put(d, DCM_PixelPaddingValue, 0x8000);
       };
     });
@@ -141,7 +135,7 @@ TEST(OddValues, EightSignedBits) {
       put(d, DCM_PixelRepresentation, 1);
       std::array<Uint8, 24> pixels{};
       for (std::size_t n = 0; n < pixels.size(); ++n) pixels[n] = static_cast<Uint8>(10 * static_cast<int>(n) - 120);
-      internal::succeed(d.putAndInsertUint8Array(DCM_PixelData, pixels.data(), pixels.size()));
+      succeed(d.putAndInsertUint8Array(DCM_PixelData, pixels.data(), pixels.size()));
     };
   });
   const Volume volume = load(find_in(folder).series.at(0));
@@ -176,11 +170,10 @@ TEST(OddValues, PixelsThatCannotBeReadAreNamed) {
       Case{"color image (YBR_FULL_422)", colors("YBR_FULL_422")},
       Case{"12 bits in 12", [](DcmDataset& d) { put(d, DCM_BitsAllocated, 12), put(d, DCM_BitsStored, 12); }},
       Case{"highest of them bit 3", [](DcmDataset& d) { put(d, DCM_HighBit, 3); }},
-      Case{"floating-point", [](DcmDataset& d) {
-             internal::succeed(d.findAndDeleteElement(DCM_PixelData));
+      Case{"pixels of 16 bits in 16", [](DcmDataset& d) {  // floating-point numbers of 32
+             succeed(d.findAndDeleteElement(DCM_PixelData));
              const std::array<Float32, 24> pixels{};
-             internal::succeed(
-                 d.putAndInsertFloat32Array(DcmTag(0x7FE0, 0x0008, EVR_OF), pixels.data(), pixels.size()));
+             succeed(d.putAndInsertFloat32Array(DcmTag(0x7FE0, 0x0008, EVR_OF), pixels.data(), pixels.size()));
            }}};
   for (const Case& pixels : cases) {
     const TestFolder folder;
@@ -194,4 +187,4 @@ TEST(OddValues, PixelsThatCannotBeReadAreNamed) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

@@ -1,6 +1,7 @@
 #include "io/dicom/pixels.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <vector>
 
@@ -42,14 +43,37 @@ void clean_bits(const FileHeader& header, std::span<std::uint16_t> values) {
   }
 }
 
+// Of big-endian files: floating-point numbers are swapped as wholes, words of 16 bits each by itself (PS3.5 8.1.1).
+void swap_within(std::span<std::byte> bytes, std::size_t unit) {
+  for (std::size_t at = 0; at + unit <= bytes.size(); at += unit) {
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + unit));
+  }
+}
+
+template <typename Number>
+Number number_at(std::span<const std::byte> bytes, std::size_t n) {
+  std::array<std::byte, sizeof(Number)> raw{};
+  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(n * sizeof(Number)), sizeof(Number), raw.begin());
+  return std::bit_cast<Number>(raw);
+}
+
+double wide_integer(std::uint32_t word, const PixelFormat& format) {
+  const auto above = static_cast<std::uint32_t>(31 - format.high_bit);
+  const auto unused = static_cast<std::uint32_t>(32 - format.bits_stored);
+  const std::uint32_t up = word << above;
+  if (!format.is_signed) return static_cast<double>(up >> unused);
+  return static_cast<double>(static_cast<std::int32_t>(up) >> unused);
+}
+
 }  // namespace
 
-PixelReader::PixelReader(const FileHeader& header) : header_(header), file_(header.path) {}
+PixelReader::PixelReader(const FileHeader& header) : header_(header), file_(header.stored_at) {}
 
 void PixelReader::read_deflated(std::uint64_t offset, std::span<std::byte> bytes) {
   const std::uint64_t at = header_.pixels_at + offset;
   if (!inflated_ || at < inflated_to_) {
-    inflated_ = inflated(header_.path, header_.start);
+    inflated_ = inflated(header_.stored_at, header_.start);
     inflated_to_ = 0;
   }
   if (!inflated_->skip(at - inflated_to_) || inflated_->read(bytes) != bytes.size()) {
@@ -87,6 +111,23 @@ Text PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
   }
   clean_bits(header_, values);
   return note;
+}
+
+void PixelReader::read_wide(std::uint32_t frame, std::span<double> values) {
+  const PixelFormat& format = header_.format;
+  std::vector<std::byte> bytes(format.bytes_per_frame());
+  read_uncompressed(frame * bytes.size(), bytes);
+  const std::size_t number = format.is_float ? static_cast<std::size_t>(format.bits_allocated / 8) : 2;
+  if (header_.big_endian) swap_within(bytes, number);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    if (!format.is_float) {
+      values[n] = wide_integer(number_at<std::uint32_t>(bytes, n), format);
+    } else if (format.bits_allocated == 64) {
+      values[n] = number_at<double>(bytes, n);
+    } else {
+      values[n] = static_cast<double>(number_at<float>(bytes, n));
+    }
+  }
 }
 
 }  // namespace palpate::io::internal

@@ -4,6 +4,7 @@
 #include <dcmtk/dcmdata/dcdeftag.h>
 #include <dcmtk/dcmdata/dcitem.h>
 #include <dcmtk/dcmdata/dcsequen.h>
+#include <dcmtk/dcmdata/dcuid.h>
 
 #include <charconv>
 #include <cmath>
@@ -100,6 +101,27 @@ void read_rescale(DcmItem* item, FileHeader& header, Plane& plane) {
   header.unit = rescaled && (type.empty() || type == "HU") ? "HU" : "";
 }
 
+// A parametric map says what its values are by a real world value mapping (PS3.3 C.7.6.16.2.11): slope, intercept and
+// a unit of UCUM. Of several mappings, the first one that is linear.
+void read_real_world_values(const FunctionalGroups& groups, FileHeader& header, Plane& plane) {
+  DcmItem* const mapping = groups.group(DCM_RealWorldValueMappingSequence);
+  if (mapping == nullptr) return;
+  const auto slope = number_of(*mapping, DCM_RealWorldValueSlope);
+  const auto intercept = number_of(*mapping, DCM_RealWorldValueIntercept);
+  if (!slope || !intercept) {
+    header.unfit = say("real-world-values-need-a-table");
+    return;
+  }
+  if (*slope == 0) header.unfit = say("rescale-slope-is-0");
+  plane.slope = *slope;
+  plane.intercept = *intercept;
+  at(plane.labels, Label::image_type) += text_of(*mapping, DCM_LUTLabel);
+  DcmItem* const unit = first_item(*mapping, DCM_MeasurementUnitsCodeSequence);
+  // "1" and "{ratio}" are UCUM's ways to say that there is none.
+  const std::string code = unit != nullptr ? text_of(*unit, DCM_CodeValue) : std::string();
+  header.unit = code == "1" || code.starts_with('{') ? "" : code == "[hnsf'U]" ? "HU" : code;
+}
+
 Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, FileHeader& header) {
   Plane plane;
   plane.frame = frame;
@@ -110,6 +132,7 @@ Plane plane_of(const FunctionalGroups& groups, std::uint32_t frame, FileHeader& 
   plane.window = window_of(groups.number(DCM_FrameVOILUTSequence, DCM_WindowCenter),
                            groups.number(DCM_FrameVOILUTSequence, DCM_WindowWidth));
   plane.labels = labels_of(groups);
+  if (header.sop_class == UID_ParametricMapStorage) read_real_world_values(groups, header, plane);
   std::string& type = at(plane.labels, Label::image_type);
   if (type.empty()) type = header.image_type;
   plane.velocity =

@@ -20,4 +20,16 @@ std::vector<Plane> functional_group_planes(DcmItem& dataset, FileHeader& header,
 /// normal. Empty where it is none. Sets the size of a tile in `header`.
 std::vector<Plane> mosaic_planes(DcmItem& dataset, FileHeader& header);
 
+/// The tiles of a grid of UIH (ImageType VFRAME), a mosaic whose private sequence says where each slice lies. Empty
+/// where it does not. Sets the size of a tile in `header`. Source: UIH's table in the notes of dcm2niix.
+std::vector<Plane> grid_planes(DcmItem& dataset, FileHeader& header);
+
+/// The frames of a file without functional groups, which lie behind one another: where GridFrameOffsetVector says
+/// (doses; PS3.3 C.8.8.3.2), or SpacingBetweenSlices. Where neither does, or frames follow in time, the first alone,
+/// and `header` is unfit.
+std::vector<Plane> stacked_planes(DcmItem& dataset, FileHeader& header, std::size_t frames);
+
+/// Reads the modality look-up table, where there is one: `header` is unfit where that is damaged. It sets the unit.
+void read_modality_table(DcmItem& dataset, FileHeader& header);
+
 }  // namespace palpate::io::internal

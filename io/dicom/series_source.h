@@ -9,6 +9,8 @@
 
 namespace palpate::io {
 
+struct VoxelFile;
+
 struct SeriesSource {
   struct Slice {
     std::uint32_t file = 0;   ///< index into files
@@ -22,6 +24,8 @@ struct SeriesSource {
 
   std::shared_ptr<const std::vector<internal::FileHeader>> files;  ///< shared by all series of one UID
   std::vector<Frame> frames;
+  std::shared_ptr<const VoxelFile> voxel_file;  ///< of a scan that is no DICOM, which has no files and frames
+  std::shared_ptr<const void> keeper;           ///< of that file, where it was unpacked; else null
 
   /// One direction of a velocity: a frame of the series that holds it.
   struct Component {

@@ -1,6 +1,7 @@
 #include "io/dicom/slice_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
@@ -14,17 +15,22 @@
 namespace palpate::io::internal {
 namespace {
 
-void rescale(const FileHeader& file, const Reading::Rescale& by, std::span<const std::uint16_t> stored,
+// Stored values of 16 bits, or wide ones.
+template <typename Stored>
+void rescale(const FileHeader& file, const Reading::Rescale& by, std::span<const Stored> stored,
              std::span<float> values) {
   for (std::size_t i = 0; i < stored.size(); ++i) {
-    const double v = file.format.is_signed ? static_cast<std::int16_t>(stored[i]) : stored[i];
-    const bool padded = file.padding && v >= file.padding->first && v <= file.padding->second;
-    values[i] = padded ? float_padding : static_cast<float>(by.slope * v + by.intercept);
+    double v = static_cast<double>(stored[i]);
+    if constexpr (sizeof(Stored) == 2) v = file.format.is_signed ? static_cast<std::int16_t>(stored[i]) : stored[i];
+    const bool padded = !std::isfinite(v) || (file.padding && v >= file.padding->first && v <= file.padding->second);
+    const double value = file.table ? file.table->value_of(v) : by.slope * v + by.intercept;
+    values[i] = padded ? float_padding : static_cast<float>(value);
   }
 }
 
 // Stored values of a slice -> its place in the volume, rescaled where the volume is of floats.
-void place_slice(const Reading& reading, const SeriesSource::Slice& slice, std::span<const std::uint16_t> frame,
+template <typename Stored>
+void place_slice(const Reading& reading, const SeriesSource::Slice& slice, std::span<const Stored> frame,
                  std::size_t at, Volume::Voxels& voxels) {
   const FileHeader& file = reading.source.file_of(slice);
   const Plane& plane = reading.source.plane_of(slice);
@@ -37,7 +43,7 @@ void place_slice(const Reading& reading, const SeriesSource::Slice& slice, std::
           const auto target = std::span(v).subspan(at + row * columns, columns);
           if constexpr (std::is_same_v<std::decay_t<decltype(v[0])>, float>) {
             rescale(file, reading.rescale_of(slice), stored, target);
-          } else {
+          } else if constexpr (sizeof(Stored) == 2) {
             std::memcpy(target.data(), stored.data(), target.size_bytes());
           }
         },
@@ -47,7 +53,7 @@ void place_slice(const Reading& reading, const SeriesSource::Slice& slice, std::
 
 // Where a whole frame is one slice of 16-bit voxels, it is decoded in place.
 std::span<std::uint16_t> in_place(const FileHeader& file, std::size_t at, Volume::Voxels& voxels) {
-  if (file.columns != file.format.columns || file.rows != file.format.rows) return {};
+  if (file.columns != file.format.columns || file.rows != file.format.rows || file.format.is_wide()) return {};
   return std::visit(
       [&](auto& v) -> std::span<std::uint16_t> {
         if constexpr (sizeof(v[0]) != 2) return {};
@@ -96,6 +102,7 @@ void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& vo
   const std::size_t size = static_cast<std::size_t>(file.columns) * static_cast<std::size_t>(file.rows);
   std::optional<PixelReader> reader;
   std::vector<std::uint16_t> frame;
+  std::vector<double> wide_frame;
   std::optional<std::uint32_t> held;
   const auto read = [&](std::uint32_t wanted, std::span<std::uint16_t> values) {
     const Text note = reader->read(wanted, values);
@@ -111,11 +118,22 @@ void read_unit(const Reading& reading, const SliceUnit& unit, Volume::Voxels& vo
       }
       if (held != wanted) {
         held.reset();
-        frame.resize(static_cast<std::size_t>(file.format.columns) * static_cast<std::size_t>(file.format.rows));
-        read(wanted, frame);
+        const std::size_t pixels =
+            static_cast<std::size_t>(file.format.columns) * static_cast<std::size_t>(file.format.rows);
+        if (file.format.is_wide()) {
+          wide_frame.resize(pixels);
+          reader->read_wide(wanted, wide_frame);
+        } else {
+          frame.resize(pixels);
+          read(wanted, frame);
+        }
         held = wanted;
       }
-      place_slice(reading, slices[k], frame, k * size, voxels);
+      if (file.format.is_wide()) {
+        place_slice<double>(reading, slices[k], wide_frame, k * size, voxels);
+      } else {
+        place_slice<std::uint16_t>(reading, slices[k], frame, k * size, voxels);
+      }
     } catch (const std::exception& error) {
       failed(k, error.what());
     }

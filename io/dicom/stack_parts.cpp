@@ -12,6 +12,7 @@
 #include "io/dicom/lattice.h"
 #include "io/dicom/stacking.h"
 #include "io/messages.h"
+#include "io/quantile.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -315,9 +316,7 @@ double usual_thickness(const SeriesSource& source, const std::vector<Slice>& sli
   std::vector<double> all;
   all.reserve(slices.size());
   for (const Slice& slice : slices) all.push_back(source.file_of(slice).thickness);
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
+  return quantile(std::move(all), 0.5);
 }
 
 }  // namespace

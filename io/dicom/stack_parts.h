@@ -28,8 +28,8 @@ struct PartedStack {
 /// parts where each of them is an even stack by itself and their extents overlap, but not their slices.
 ///
 /// A label that may also number the passes of one interleaved acquisition (acquisition, trigger time, times and order)
-/// parts only what cannot be such passes: neighbours that overlap by their SliceThickness, or steps that are uneven
-/// when taken together. Stacks that follow each other are one.
+/// makes parts only of what cannot be such passes: of neighbors that overlap by their SliceThickness, and of steps that
+/// are uneven when taken together. Stacks that follow each other are one.
 PartedStack part_stack(const SeriesSource& source, std::vector<SeriesSource::Slice> slices);
 
 }  // namespace palpate::io::internal

@@ -129,7 +129,7 @@ class Walk {
       const bool is_float = tag == float_pixel_data || tag == double_pixel_data;
       if (tag == pixel_data || is_float) {
         const Head is = head();
-        shape_.pixels = PixelElement{at_, is.length, is_float, is.vr};
+        shape_.pixels = PixelElement{at_, is.length, is_float, tag == double_pixel_data, is.vr};
       }
       return false;
     }

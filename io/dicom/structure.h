@@ -36,6 +36,7 @@ struct PixelElement {
   std::uint64_t value_at = 0;                                    ///< bytes of the dataset before its value
   std::uint32_t length = 0;                                      ///< of its value, as claimed
   bool is_float = false;                                         ///< FloatPixelData or DoubleFloatPixelData
+  bool is_double = false;                                        ///< the latter
   std::string vr;                                                ///< empty where the dataset has none
 };
 

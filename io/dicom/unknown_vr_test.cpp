@@ -12,15 +12,9 @@
 #include "io/load.h"
 #include "io/testing/test_image.h"
 
-namespace palpate::io {
+namespace palpate::io::internal {
 namespace {
 
-using internal::find_in;
-using internal::put;
-using internal::succeed;
-using internal::TestFolder;
-using internal::TestImage;
-using internal::write_stack;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -96,14 +90,14 @@ TEST(UnknownVr, FunctionalGroupsAreRead) {
   const TestFolder folder;
   TestImage image;
   image.edit = [](DcmDataset& d) {
-    internal::repeat_pixels(d, 3);
-    internal::make_multi_frame(d, {1, 4, 7}, [](std::size_t f, DcmItem& frame) {
-      succeed(internal::group(frame, DCM_PixelValueTransformationSequence)
+    repeat_pixels(d, 3);
+    make_multi_frame(d, {1, 4, 7}, [](std::size_t f, DcmItem& frame) {
+      succeed(group(frame, DCM_PixelValueTransformationSequence)
                   .putAndInsertString(DCM_RescaleSlope, std::to_string(f + 1).c_str()));
     });
     make_unknown(d);
   };
-  internal::write(image, folder / "enhanced");
+  write(image, folder / "enhanced");
   const Catalogue found = find_in(folder);
   ASSERT_THAT(found.series, SizeIs(1));
   const Volume volume = load(found.series[0]);
@@ -113,4 +107,4 @@ TEST(UnknownVr, FunctionalGroupsAreRead) {
 }
 
 }  // namespace
-}  // namespace palpate::io
+}  // namespace palpate::io::internal

@@ -2,15 +2,15 @@
 
 /// How far a boundary that is felt may be from the true one.
 ///
-/// The boundary is the iso-surface of the interpolated value. Noise of the value moves it by noise / slope; the
-/// interpolation moves it with its phase between the voxels; and the blur of voxel and interpolation moves it on a
-/// curved body towards the center of curvature, by the blur's variance times the curvature, in the mean of the tangent
-/// directions.
+/// The boundary is the iso-surface of the interpolated value. Three things move it. Noise of the value moves it by
+/// noise / slope. The interpolation moves it with its phase between the voxels. The blur of voxel and interpolation
+/// moves it on a curved body towards the center of curvature, by the blur's variance times the mean curvature of the
+/// tangent directions.
 ///
-/// The noise is measured at the boundary itself: differences of the interpolated value at two points of the tangent
-/// plane, opposite each other, in which curvature cancels, less the linear part that a slightly wrong normal leaves. So
-/// filter, reconstruction kernel and interpolation are in it, and nothing is assumed of the noise but that it is alike
-/// over a dozen voxels.
+/// The noise is measured at the boundary itself, from differences of the interpolated value at two opposite points of
+/// the tangent plane. Curvature cancels in them; the linear part that a slightly wrong normal leaves is subtracted. So
+/// the noise holds the effects of filter, reconstruction kernel and interpolation. It is assumed to be alike over a
+/// dozen voxels, and nothing else.
 
 #include "io/fields/field_options.h"
 #include "io/fields/field_source.h"
@@ -29,10 +29,10 @@ struct BoundaryUncertainty {
   double two_sigma_mm = 0;  ///< the true boundary is within this in 95 of 100 places
 };
 
-/// At a place on the boundary, mm. The source has to give value and gradient; `value` is the method of its values, and
-/// `filter` what they were filtered with: its blur is added. Bilateral and non-local means filters are taken not to
-/// blur. Outside the scan, or where the value does not rise there, two_sigma_mm is infinite. Not for the tick: some 150
-/// samples.
+/// At a place on the boundary, mm. The source must give value and gradient. `value` is the method of its values, and
+/// `filter` is what they were filtered with: its blur is added. Bilateral and non-local means filters count as free of
+/// blur. Outside the scan, and where the value does not rise, two_sigma_mm is infinite. Not for the tick: it takes some
+/// 150 samples.
 BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& geometry, ValueMethod value,
                                    const Vec3& place_mm, const Filter& filter = {});
 

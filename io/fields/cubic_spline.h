@@ -27,7 +27,7 @@ struct ValueAndGradient {
 /// The B-spline's part (B) along each axis of a grid.
 Vec3 b_spline_part(const Geometry& geometry) noexcept;
 
-/// In a cell of the volume's (internal/cell.h); part: what b_spline_part() says of its geometry. What the stencil lacks
+/// In a cell of the volume's (cell.h); part: what b_spline_part() says of its geometry. What the stencil lacks
 /// (beyond the edge, in padding, behind missing slices) is continued straight from what there is, so linear fields stay
 /// exact to the edge; between uneven slices, too, and there the gradient is that of the value to first order. Where all
 /// 64 voxels are alike the value is theirs, to the last bit. In the tick.

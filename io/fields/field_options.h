@@ -11,14 +11,14 @@ namespace palpate::io {
 /// The value between voxels.
 enum class ValueMethod : std::uint8_t {
   cubic,     ///< smooth, from 64 voxels (cubic_spline.h): a boundary is felt where it is; blurred by 0.58 voxels
-  trilinear  ///< exact at the voxels' centers, from 8 voxels; its iso-surfaces are flatter than a round body
+  trilinear  ///< exact at the voxels' centers, from 8 voxels; makes round bodies too flat
 };
 
 /// Where the gradient comes from.
 enum class GradientMethod : std::uint8_t {
   gaussian,             ///< derivative of Gaussian at a scale
   central_differences,  ///< sharper, noisier, without a scale
-  cubic                 ///< of the cubic value (cubic_spline.h), which is then the value whatever ValueMethod says
+  cubic                 ///< of the cubic value (cubic_spline.h), which then is also the value, whatever ValueMethod is
 };
 
 /// Slices of a scan, both ends included; none where last < first.

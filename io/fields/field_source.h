@@ -42,6 +42,33 @@ struct Distance {
   Vec3 gradient{0};  ///< per mm, along patient axes: inward, of about unit length
 };
 
+/// From the surfaces of a source's structures, in its order; zero where it has fewer. Only the distances that are there
+/// are set and copied: eight take 256 bytes, and each sub-step of a tick copies its sample several times.
+class Distances {
+ public:
+  Distances() noexcept {}
+  Distances(const Distances& other) noexcept { *this = other; }
+  Distances& operator=(const Distances& other) noexcept {
+    size_ = other.size_;
+    for (std::size_t n = 0; n < size_; ++n) of_[n] = other.of_[n];
+    return *this;
+  }
+  ~Distances() = default;
+
+  Distance operator[](std::size_t n) const noexcept { return n < size_ ? of_[n] : Distance{}; }
+  /// To be written. Those before it that are not there yet are zero. n: less than most_structures.
+  Distance& operator[](std::size_t n) noexcept {
+    while (size_ <= n) of_[size_++] = Distance{};
+    return of_[n];
+  }
+
+ private:
+  std::size_t size_ = 0;
+  union {  // not set by the constructor
+    std::array<Distance, most_structures> of_;
+  };
+};
+
 /// Fields at a point. Outside the data (beyond the volume, in padding) `inside` is false and all else is zero: nothing
 /// is felt there.
 struct Sample {
@@ -54,7 +81,7 @@ struct Sample {
   double high = 0;   ///< value on the denser side
   /// Whether the gradient was read from a brick computed ahead, or (false) at the sample: slower, with the same bits.
   bool from_brick = false;
-  std::array<Distance, most_structures> distance{};  ///< in the source's order; zero where it has fewer
+  Distances distance;
 };
 
 class FieldSource {

@@ -4,15 +4,15 @@
 ///
 /// At a voxel it is the slope of the plane that fits the voxels around best, each weighted by a Gaussian of its
 /// distance in mm (cut off at 3.2 sigma along each axis). On a complete neighborhood that is the derivative of
-/// Gaussian; at the edge of the volume, beside padding and between uneven or tilted slices it stays exact on linear
-/// fields, and what lies outside has no say: there is no boundary where the data ends. Source: Knutsson and Westin,
+/// Gaussian. At the edge of the volume, beside padding, and between uneven or tilted slices it stays exact on linear
+/// fields. Voxels outside do not count, so the end of the data is no boundary. Source: Knutsson and Westin,
 /// "Normalized and differential convolution", CVPR 1993.
 ///
-/// Or, sharper and noisier: central differences between neighboring voxels.
+/// Central differences between neighboring voxels can be had instead; they are sharper and noisier.
 ///
-/// One kernel serves the whole volume, a brick and a single sample, and gives the same bits in all three: every sum is
-/// taken in the same order, in single precision, without fused operations. That is why OpenCV's filters do not do it:
-/// they round differently in their vectorised part, in a row's tail and from one processor to the next.
+/// One kernel serves the whole volume, a brick and a single sample, with the same bits in all three: every sum is taken
+/// in the same order, in single precision, without fused operations. OpenCV's filters cannot be used for this. Their
+/// rounding differs between vectorized part and end of a row, and from one processor to the next.
 
 #include <array>
 #include <cstddef>
@@ -28,7 +28,7 @@
 
 namespace palpate::io {
 
-/// What a derivative of Gaussian can span on this grid: mm. A larger scale is refused.
+/// The largest scale of a derivative of Gaussian on this grid, mm. A larger one is refused.
 double largest_gradient_scale_mm(const Geometry& geometry) noexcept;
 
 /// max(1.5 mm, 2 in-plane voxels, 0.6 slice spacing), but no more than the largest: mm.
@@ -44,7 +44,7 @@ struct Block {
   }
 };
 
-/// Reads the volume; keeps little more than the weights of its own. Immutable, so any number of threads may use it.
+/// Reads the volume, and holds little more than weights itself. Immutable: any number of threads may use it.
 class GradientKernel {
  public:
   struct CentralDifferences {};
@@ -57,7 +57,7 @@ class GradientKernel {
   GradientKernel(const GradientKernel&) = delete;
   GradientKernel& operator=(const GradientKernel&) = delete;
 
-  /// Of the Gaussian; of central differences, half the distance that they span at the most.
+  /// Sigma of the Gaussian; for central differences, half the largest distance that they span.
   double scale_mm() const noexcept;
   /// Voxels that the kernel reaches over on each side of the one it is centered on.
   glm::ivec3 radius() const noexcept;
@@ -65,8 +65,8 @@ class GradientKernel {
   /// The eight voxels of a cell or fewer: writes size.x * size.y * size.z gradients, i fastest. May be called in the
   /// tick. At most 2 voxels along each axis, all of them within the volume.
   void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
-  /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel in patient space, per mm^2, without the rescale slope's
-  /// sign and size; not-a-number where the neighborhood is not complete: second derivatives of what is not there would
+  /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel's stored value in patient space, per mm^2; the rescale
+  /// slope is not applied. Not a number where the neighborhood is incomplete, because second derivatives there would
   /// be guesses.
   using Hessian = std::array<float, 6>;
   /// Those of the same Gaussian at a cell's voxels; none of central differences. May be called in the tick.
@@ -81,8 +81,8 @@ class GradientKernel {
                       const Progress& progress = {}, int threads = 0) const;
   /// The whole volume's gradients: 12 bytes a voxel. Throws Cancelled.
   std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
-  /// The same into memory of the caller's: one for each voxel, i fastest. Fresh memory is best left untouched: it is
-  /// asked for in large pages and first touched on all threads.
+  /// The same into the caller's memory: one for each voxel, i fastest. Memory that nobody has written to yet is best:
+  /// it is mapped in large pages, and first written by all threads.
   void whole_into(std::span<glm::vec3> gradients, const Progress& progress = {}, int threads = 0) const;
 
  private:

@@ -1,11 +1,13 @@
 #include "io/fields/histogram.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "io/fields/low_high.h"
 
@@ -61,35 +63,49 @@ JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kerne
 
 LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                     double least_magnitude, const Progress& progress, int threads) {
+  return std::move(low_high_histograms(volume, kernel, values, std::array{least_magnitude}, progress, threads).front());
+}
+
+std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const GradientKernel& kernel,
+                                                  const Bins& values, std::span<const double> least_magnitudes,
+                                                  const Progress& progress, int threads) {
   check(values, "values");
   constexpr std::uint64_t enough_voxels = 1'000'000;  // far more than the bins can show
   const std::uint64_t stride = 1 + volume.offset(0, 0, volume.geometry.dimensions.z) / enough_voxels;
-  LowHighHistogram all{values, {}, 0};
-  all.counts.resize(static_cast<std::size_t>(values.count) * static_cast<std::size_t>(values.count));
+  const auto columns = static_cast<std::size_t>(values.count);
+  std::vector<LowHighHistogram> all(least_magnitudes.size(), {values, std::vector<std::uint64_t>(columns * columns)});
+  const double least_of_all = *std::min_element(least_magnitudes.begin(), least_magnitudes.end());
+  struct Edge {
+    std::size_t bin;
+    double magnitude;
+  };
   std::mutex adding;
   const auto count_block = [&](const Block& block, std::span<const glm::vec3> gradients) {
-    std::vector<std::size_t> found;
+    std::vector<Edge> found;
     auto gradient = gradients.begin();
     for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
       for (int j = block.first.y; j < block.first.y + block.size.y; ++j) {
         for (int i = block.first.x; i < block.first.x + block.size.x; ++i, ++gradient) {
           // Hashed: an even stride would fall into step with the rows.
           const std::uint64_t hash = (volume.offset(i, j, k) * 0x9E3779B97F4A7C15U) >> 32U;
-          if (hash % stride != 0 || !(static_cast<double>(glm::length(*gradient)) > least_magnitude) ||
-              volume.is_padding(i, j, k)) {
-            continue;
-          }
+          if (hash % stride != 0) continue;
+          const auto magnitude = static_cast<double>(glm::length(*gradient));
+          if (!(magnitude > least_of_all) || volume.is_padding(i, j, k)) continue;
           const LowHigh sides = low_high_at(volume, {i, j, k}, Vec3(*gradient), kernel.scale_mm());
-          found.push_back(static_cast<std::size_t>(values.bin_of(sides.high)) * static_cast<std::size_t>(values.count) +
-                          static_cast<std::size_t>(values.bin_of(sides.low)));
+          found.push_back({static_cast<std::size_t>(values.bin_of(sides.high)) * columns +
+                               static_cast<std::size_t>(values.bin_of(sides.low)),
+                           magnitude});
         }
       }
     }
     const std::scoped_lock lock(adding);
-    for (const std::size_t bin : found) {
-      ++all.counts[bin];
+    for (std::size_t h = 0; h < all.size(); ++h) {
+      for (const Edge& edge : found) {
+        if (!(edge.magnitude > least_magnitudes[h])) continue;
+        ++all[h].counts[edge.bin];
+        ++all[h].voxels;
+      }
     }
-    all.voxels += found.size();
   };
   kernel.for_each_block(count_block, progress, threads);
   return all;

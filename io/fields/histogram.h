@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "io/fields/gradient.h"
@@ -40,7 +41,7 @@ struct JointHistogram {
 JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                const Bins& magnitudes, const Progress& progress = {}, int threads = 0);
 
-/// Which pairs of values boundaries lie between: how often each low occurs together with each high (low_high.h).
+/// The pairs of values on the two sides of boundaries: how often each low occurs with each high (low_high.h).
 struct LowHighHistogram {
   Bins values;                        ///< of low and of high, in the volume's unit
   std::vector<std::uint64_t> counts;  ///< low bins fastest
@@ -52,10 +53,14 @@ struct LowHighHistogram {
   }
 };
 
-/// Counts the voxels whose gradient's magnitude is above the least (per mm), but for padding; of a volume of more than
-/// some millions of voxels, evenly spread ones. `threads` 0: all cores; the counts do not depend on them. Throws
-/// std::invalid_argument for empty bins, Cancelled.
+/// Counts the voxels whose gradient is steeper than the least magnitude (per mm), padding left out. Of a volume of more
+/// than some millions of voxels an evenly spread part is counted. `threads` 0: all cores; the counts do not depend on
+/// them. Throws std::invalid_argument for empty bins, Cancelled.
 LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                     double least_magnitude, const Progress& progress = {}, int threads = 0);
+/// The same for several least magnitudes, in one pass over the volume: one histogram for each.
+std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const GradientKernel& kernel,
+                                                  const Bins& values, std::span<const double> least_magnitudes,
+                                                  const Progress& progress = {}, int threads = 0);
 
 }  // namespace palpate::io

@@ -108,8 +108,4 @@ LowHigh low_high_at(const Volume& volume, const glm::ivec3& voxel, const Vec3& g
   return {static_cast<float>(profile.at(low)), static_cast<float>(profile.at(high))};
 }
 
-double low_high_reach_mm(const Geometry& g, double scale_mm) noexcept {
-  return scales_reached * scale_mm + glm::length(Vec3(g.spacing_i, g.spacing_j, glm::length(g.step)));
-}
-
 }  // namespace palpate::io

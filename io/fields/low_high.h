@@ -19,11 +19,8 @@ struct LowHigh {
 
 /// At a voxel, given its gradient (patient axes, per mm) at a scale (sigma, mm): along the straight line through it the
 /// steepest rise is found, each weighted by its nearness, and followed both ways until it is a tenth as steep. Both
-/// values are the voxel's own where there is no rise: in a flat neighborhood, beside padding. Reaches over
-/// low_high_reach_mm(). In the tick; the same bits wherever it is called from.
+/// values are the voxel's own where there is no rise: in a flat neighborhood, beside padding. In the tick; the same
+/// bits wherever it is called from.
 LowHigh low_high_at(const Volume& volume, const glm::ivec3& voxel, const Vec3& gradient, double scale_mm) noexcept;
-
-/// The farthest from a voxel (mm) that low_high_at() reads, along the gradient.
-double low_high_reach_mm(const Geometry& geometry, double scale_mm) noexcept;
 
 }  // namespace palpate::io

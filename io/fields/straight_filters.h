@@ -26,7 +26,7 @@ void filter_row(const float* in, float middle, const TapPair* pairs, int count, 
 void filter_column(const float* rows, std::ptrdiff_t stride, float middle, const TapPair* pairs, int count, int width,
                    float* one, float* p, float* q);
 
-/// A slice, or two as far on either side, that add to a sum.
+/// One slice, or two slices at the same distance on both sides, whose values are added to a sum.
 struct SlicePair {
   const float* below = nullptr;  ///< planes one, p, q
   const float* above = nullptr;  ///< null where there is but one slice

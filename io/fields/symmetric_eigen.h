@@ -11,7 +11,8 @@ struct SymmetricEigen {
   glm::dmat3 vectors{1};
 };
 
-/// Cyclic Jacobi: Golub and Van Loan, "Matrix Computations", section 8.5. In the tick: a fixed number of sweeps.
-SymmetricEigen eigen_of_symmetric(glm::dmat3 matrix) noexcept;
+/// By Eigen's symmetric QR iteration: Golub and Van Loan, "Matrix Computations", section 8.3. For the tick: it
+/// allocates nothing, and its number of steps is bounded.
+SymmetricEigen eigen_of_symmetric(const glm::dmat3& matrix) noexcept;
 
 }  // namespace palpate::io::internal

@@ -17,12 +17,12 @@ class BrickCache;
 struct Cell;
 }  // namespace internal
 
-/// What a volume's fields can be: the value and what is derived from it, and vectors where it holds them.
+/// The fields that a volume can give: the value and all that is derived from it, and vectors if it holds them.
 FieldSet fields_of(const Volume& volume) noexcept;
 
 /// Value: between voxel centers by FieldOptions::value, in `Volume::unit`. Gradient: trilinear between the voxels'
-/// gradients (GradientKernel), per mm. Between voxels of unevenly spaced or tilted slices the grid is followed as it
-/// lies.
+/// gradients (GradientKernel), per mm. Where slices are unevenly spaced or tilted, interpolation follows the grid as it
+/// is.
 ///
 /// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square.
 ///
@@ -39,7 +39,7 @@ FieldSet fields_of(const Volume& volume) noexcept;
 /// interpolation needs is padding.
 class VolumeFields : public FieldSource {
  public:
-  /// Prepares what the wanted fields need and no more; `scale_mm` is that of the Gaussian and is not read without one.
+  /// Prepares what the wanted fields need and no more. `scale_mm` is the Gaussian's; without a Gaussian it is not read.
   /// Throws std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
   VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                const FieldOptions& options = {});

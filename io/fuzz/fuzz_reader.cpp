@@ -1,26 +1,65 @@
-// libFuzzer's way into the reader: the bytes are a file; its header is read and every image in it decoded.
+// libFuzzer's way into the reader: the bytes are a file, or several with "<next>" between them; headers are read and
+// every image in them decoded, and structures are looked for. A file's name is what its first bytes ask for.
 // Built and run by io/fuzz/run.
 //
 // DCMTK asks for as many bytes as an element claims (up to 4 GiB) before it finds that they are not there. It touches
 // none of them and takes a refusal well; that is what the second limit is for. The first one holds for memory in use.
-#include <fcntl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 
 #include "io/errors.h"
 #include "io/load.h"
+#include "io/structures/structure.h"
 
 namespace {
 
 using namespace palpate::io;
 
-void read_all(const std::filesystem::path& path) {
+namespace fs = std::filesystem;
+
+// NIfTI and MetaImage are known by their names.
+const char* ending_of(std::string_view bytes) {
+  constexpr std::size_t nifti_magic = 344;
+  if (bytes.substr(std::min(bytes.size(), nifti_magic)).starts_with("n+1")) return ".nii";
+  if (bytes.starts_with("ObjectType") || bytes.starts_with("NDims")) return ".mha";
+  return bytes.starts_with("\x1f\x8b") ? ".nii.gz" : "";
+}
+
+// In memory, where there is a file system of it.
+fs::path scratch_folder() {
+  // Never destroyed: what removes it at the end of the program reads it.
+  static const fs::path& folder = *[] {
+    std::string name =
+        (fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path().string()) + "/palpate_fuzz_XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) std::abort();
+    std::atexit([] { fs::remove_all(scratch_folder()); });
+    return new fs::path(name);
+  }();
+  return folder;
+}
+
+void write_files(std::string_view bytes) {
+  for (const auto& entry : fs::directory_iterator(scratch_folder())) fs::remove_all(entry.path());
+  constexpr std::string_view next = "<next>";
+  for (int n = 0;; ++n) {
+    const std::size_t end = bytes.find(next);
+    const std::string_view one = bytes.substr(0, end);
+    std::ofstream(scratch_folder() / (std::to_string(n) + ending_of(one)), std::ios::binary) << one;
+    if (end == std::string_view::npos) return;
+    bytes.remove_prefix(end + next.size());
+  }
+}
+
+void read_all(const fs::path& path) {
   const Catalogue found = find_series(std::array{path});
   for (const Series& series : found.series) {
     for (int frame = 0; frame < series.frames_per_position; ++frame) {
@@ -39,10 +78,8 @@ void read_all(const std::filesystem::path& path) {
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // A file in memory: the reader takes paths.
-  const int file = ::memfd_create("fuzz", MFD_CLOEXEC);
-  if (file < 0 || ::write(file, data, size) != static_cast<ssize_t>(size)) return 0;
-  read_all("/proc/self/fd/" + std::to_string(file));
-  ::close(file);
+  write_files({reinterpret_cast<const char*>(data), size});
+  read_all(scratch_folder());
+  static_cast<void>(find_structures(std::array{scratch_folder()}));
   return 0;
 }

@@ -91,8 +91,13 @@ void offer(const Vec3f& node, const Vec3f& point, float& least, Vec3f& closest) 
 void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest) {
   const Vec3& spacing = bricks.lattice.spacing;
   const Vec3 corner = Vec3(bricks.place[slot] * edge) * spacing;
-  const Surroundings around(bricks, f, slot);
   const double near = 2.2 * std::max({spacing.x, spacing.y, spacing.z});
+  const float* const own = f.data() + slot * nodes;
+  if (std::none_of(own, own + nodes, [&](float here) { return std::abs(here) <= near; })) {
+    std::fill_n(closest, nodes, Vec3f(nowhere));
+    return;
+  }
+  const Surroundings around(bricks, f, slot);
   for (int k = 0; k < edge; ++k) {
     for (int j = 0; j < edge; ++j) {
       for (int i = 0; i < edge; ++i) {
@@ -127,11 +132,15 @@ void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, 
   }
 }
 
-/// Takes the neighbors' closest points over where they are closer: forth and back through a brick.
-void spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::size_t slot, Vec3f* closest) {
+/// Takes the neighbors' closest points over where they are closer: forth and back through a brick. Whether any changed.
+bool spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::size_t slot, Vec3f* closest) {
   constexpr std::ptrdiff_t side = edge + 2;
   std::array<Vec3f, static_cast<std::size_t>(side) * side * side> around;
   gather<1, Vec3f>(bricks, before, slot, Vec3f(nowhere), around.data());
+  if (std::ranges::all_of(around, [](const Vec3f& point) { return point.x == nowhere; })) {
+    std::fill_n(closest, nodes, Vec3f(nowhere));
+    return false;
+  }
   const Vec3f spacing(bricks.lattice.spacing);
   const Vec3f corner = Vec3f(bricks.place[slot] * edge) * spacing;
   const auto visit = [&](int i, int j, int k) {
@@ -153,13 +162,30 @@ void spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::siz
       for (int i = edge; i-- > 0;) visit(i, j, k);
     }
   }
+  bool changed = false;
   for (int k = 0; k < edge; ++k) {
     for (int j = 0; j < edge; ++j) {
       for (int i = 0; i < edge; ++i) {
-        closest[NodeBricks::at(i, j, k)] = around[static_cast<std::size_t>(((k + 1) * side + j + 1) * side + i + 1)];
+        Vec3f& point = closest[NodeBricks::at(i, j, k)];
+        const Vec3f nearer = around[static_cast<std::size_t>(((k + 1) * side + j + 1) * side + i + 1)];
+        changed = changed || nearer != before[slot * nodes + NodeBricks::at(i, j, k)];
+        point = nearer;
       }
     }
   }
+  return changed;
+}
+
+/// Whether a brick or one that shares a face with it changed.
+bool changed_around(const NodeBricks& bricks, const std::vector<char>& changed, std::size_t slot) {
+  const glm::ivec3 place = bricks.place[slot];
+  for (int side = 0; side < 6; ++side) {
+    glm::ivec3 at = place;
+    at[side / 2] += side % 2 == 0 ? -1 : 1;
+    const std::int32_t beside = bricks.slot_at(at.x, at.y, at.z);
+    if (beside >= 0 && changed[static_cast<std::size_t>(beside)] != 0) return true;
+  }
+  return changed[slot] != 0;
 }
 
 }  // namespace
@@ -181,9 +207,19 @@ std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<fl
   const double brick_mm = edge * std::min({h.x, h.y, h.z});
   const int passes = 2 + static_cast<int>(std::ceil(band_mm / brick_mm));
   std::vector<Vec3f> next(closest.size());
+  std::vector<char> changed(count, 1), changed_now(count);
   for (int pass = 0; pass < passes; ++pass) {
-    for_bricks([&](std::size_t slot) { spread(bricks, closest, slot, next.data() + slot * nodes); });
+    for_bricks([&](std::size_t slot) {
+      const Vec3f* const here = closest.data() + slot * nodes;
+      changed_now[slot] = 0;
+      if (changed_around(bricks, changed, slot)) {
+        changed_now[slot] = spread(bricks, closest, slot, next.data() + slot * nodes) ? 1 : 0;
+      } else {
+        std::copy_n(here, nodes, next.data() + slot * nodes);  // what would come of the same once more
+      }
+    });
     closest.swap(next);
+    changed.swap(changed_now);
   }
   return closest;
 }

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "io/errors.h"
 #include "io/messages.h"
+#include "io/quantile.h"
 #include "io/structures/beyond_slices.h"
 
 namespace palpate::io {
@@ -77,11 +80,7 @@ double typical_step(const std::vector<ContourStack::Plane>& planes) {
   std::vector<double> steps;
   steps.reserve(planes.size());
   for (std::size_t n = 0; n + 1 < planes.size(); ++n) steps.push_back(planes[n + 1].height - planes[n].height);
-  if (steps.empty()) {
-    return 1;
-  }
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-  return steps[steps.size() / 2];
+  return steps.empty() ? 1 : quantile(std::move(steps), 0.5);
 }
 
 /// Which columns of a row of nodes lie inside, by even-odd.
@@ -181,6 +180,74 @@ void compute_plane(const Layout& layout, const NodeLattice& lattice, double band
   }
 }
 
+/// Around all polygons, in a plane.
+struct Rectangle {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+};
+
+Rectangle rectangle_around(const ContourStack& stack) {
+  Rectangle all;
+  for (const ContourStack::Plane& plane : stack.planes) {
+    for (const Polygon& polygon : plane.polygons) {
+      for (const glm::dvec2& point : polygon) {
+        all.low = glm::min(all.low, point);
+        all.high = glm::max(all.high, point);
+      }
+    }
+  }
+  return all;
+}
+
+/// The axes and spacing of the lattice, and the band that this spacing needs.
+OutlinePlanes spaced_for(const ContourStack& stack, double reach_mm) {
+  OutlinePlanes planes;
+  NodeLattice& lattice = planes.lattice;
+  lattice.axes = stack.axes;
+  const double in_plane = std::clamp(stack.step_mm, finest_mm, 1.0);
+  // A power of two: so a lattice of every second node, and of every second of those, still has all planes.
+  const unsigned parts =
+      std::bit_ceil(static_cast<unsigned>(std::clamp(std::ceil(stack.step_mm / coarsest_mm), 1.0, 8.0)));
+  planes.coarser = std::countr_zero(parts);
+  lattice.spacing = Vec3(in_plane, in_plane, stack.step_mm / parts);
+  planes.play_mm = glm::length(Vec3(in_plane, in_plane, stack.step_mm));
+  planes.band_mm = band_for(reach_mm, lattice, planes.play_mm);
+  return planes;
+}
+
+/// A plane of the lattice: at its height the contours of `plane`; null: none.
+struct Level {
+  double height = 0;  // along the normal, mm
+  const ContourStack::Plane* plane = nullptr;
+};
+
+/// Ascending: the contours' planes, those that are missing between them, and `beyond` more at each end.
+std::vector<Level> levels_of(const ContourStack& stack, const Rectangle& all, int beyond,
+                             const DistanceOptions& options) {
+  std::vector<Level> levels;
+  const glm::dvec2 middle = 0.5 * (all.low + all.high);
+  // Where the scan ends too, nobody has seen whether it goes on: there it goes on as it is at its end.
+  const auto add_beyond = [&](double height, const ContourStack::Plane& end) {
+    levels.push_back({height, is_seen(options, stack.axes * Vec3(middle, height)) ? nullptr : &end});
+  };
+  for (int n = beyond; n > 0; --n) {
+    add_beyond(stack.planes.front().height - n * stack.step_mm, stack.planes.front());
+  }
+  for (std::size_t n = 0; n < stack.planes.size(); ++n) {
+    const double height = stack.planes[n].height;
+    // The surface goes on through planes that are missing; where many are, there are two bodies.
+    const double from_last = n == 0 ? 0 : height - stack.planes[n - 1].height;
+    for (double part = 1; from_last > most_missing * stack.step_mm && part * stack.step_mm < from_last - 1e-3; ++part) {
+      levels.push_back({height - from_last + part * stack.step_mm, nullptr});
+    }
+    levels.push_back({height, &stack.planes[n]});
+  }
+  for (int n = 1; n <= beyond; ++n) {
+    add_beyond(stack.planes.back().height + n * stack.step_mm, stack.planes.back());
+  }
+  return levels;
+}
+
 }  // namespace
 
 ContourStack stack_of(const std::vector<Contour>& contours) {
@@ -264,61 +331,30 @@ StructureMeasures measures_of(const std::vector<Contour>& contours) {
 }
 
 OutlinePlanes planes_of(const ContourStack& stack, const DistanceOptions& options) {
-  glm::dvec2 low(std::numeric_limits<double>::infinity());
-  glm::dvec2 high(-low);
-  for (const ContourStack::Plane& plane : stack.planes) {
-    for (const Polygon& polygon : plane.polygons) {
-      for (const glm::dvec2& point : polygon) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-      }
-    }
-  }
-  OutlinePlanes planes;
+  const Rectangle all = rectangle_around(stack);
+  OutlinePlanes planes = spaced_for(stack, options.reach_mm);
   NodeLattice& lattice = planes.lattice;
-  lattice.axes = stack.axes;
-  const double in_plane = std::clamp(stack.step_mm, finest_mm, 1.0);
-  const int parts = std::clamp(static_cast<int>(std::ceil(stack.step_mm / coarsest_mm)), 1, 8);
-  lattice.spacing = Vec3(in_plane, in_plane, stack.step_mm / parts);
-  planes.play_mm = glm::length(Vec3(in_plane, in_plane, stack.step_mm));
-  planes.band_mm = band_for(options.reach_mm, lattice, planes.play_mm);
-
-  Layout layout;
-  const double around = planes.band_mm + 2 * in_plane;
+  const double around = planes.band_mm + 2 * lattice.spacing.x;
   const int beyond = static_cast<int>(std::ceil(around / stack.step_mm));
   const double bottom = stack.planes.front().height - beyond * stack.step_mm;
-  const auto add = [&](double height, const ContourStack::Plane* plane) {
-    const int node = static_cast<int>(std::lround((height - bottom) / lattice.spacing.z));
+  const auto node_at = [&](double height) {
+    return static_cast<int>(std::lround((height - bottom) / lattice.spacing.z));
+  };
+  Layout layout;
+  for (const Level& level : levels_of(stack, all, beyond, options)) {
+    const int node = node_at(level.height);
     if (planes.node.empty() || node > planes.node.back()) {
       planes.node.push_back(node);
-      layout.planes.push_back(plane);
+      layout.planes.push_back(level.plane);
     }
-  };
-  const glm::dvec2 middle = 0.5 * (low + high);
-  const auto add_empty = [&](double height) {
-    if (is_seen(options, stack.axes * Vec3(middle, height))) add(height, nullptr);
-  };
-  for (int n = beyond; n > 0; --n) add_empty(stack.planes.front().height - n * stack.step_mm);
-  for (std::size_t n = 0; n < stack.planes.size(); ++n) {
-    const double height = stack.planes[n].height;
-    // The surface goes on through planes that are missing; where many are, there are two bodies.
-    const double from_last = n == 0 ? 0 : height - stack.planes[n - 1].height;
-    for (double part = 1; from_last > most_missing * stack.step_mm && part * stack.step_mm < from_last - 1e-3; ++part) {
-      add(height - from_last + part * stack.step_mm, nullptr);
-    }
-    add(height, &stack.planes[n]);
   }
-  for (int n = 1; n <= beyond; ++n) add_empty(stack.planes.back().height + n * stack.step_mm);
-
-  layout.origin = low - around;
-  const glm::ivec2 size = glm::ivec2(glm::ceil((high - low + 2 * around) / in_plane)) + 1;
-  const int tall = static_cast<int>(std::lround((stack.planes.back().height + beyond * stack.step_mm - bottom) /
-                                                lattice.spacing.z)) +
-                   1;
+  layout.origin = all.low - around;
+  const glm::ivec2 size = glm::ivec2(glm::ceil((all.high - all.low + 2 * around) / lattice.spacing.x)) + 1;
+  const int tall = node_at(stack.planes.back().height + beyond * stack.step_mm) + 1;
   lattice.bricks = (glm::ivec3(size, tall) + NodeBricks::edge - 1) / NodeBricks::edge;
   constexpr double most_nodes = 2e9;
   if (static_cast<double>(lattice.bricks.x) * lattice.bricks.y * lattice.bricks.z * 512 > most_nodes) {
-    throw DicomError(say("contours-span-mm", std::lround(glm::length(high - low))));
+    throw DicomError(say("contours-span-mm", std::lround(glm::length(all.high - all.low))));
   }
   lattice.origin = stack.axes * Vec3(layout.origin, bottom);
   planes.compute = [layout, lattice, band = planes.band_mm](std::size_t n, PlaneDistances& distances) {

@@ -30,13 +30,24 @@ class ContourSource final : public StructureSource {
  public:
   explicit ContourSource(std::map<int, std::vector<Contour>> rois) : rois_(std::move(rois)) {}
 
-  StructureMeasures measure(int number) const override { return measures_of(rois_.at(number)); }
+  StructureMeasures measure(int number, const RigidMotion& motion) const override {
+    return measures_of(moved(number, motion));
+  }
   std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override {
-    const ContourStack stack = stack_of(rois_.at(number));
+    const ContourStack stack = stack_of(moved(number, options.motion));
     return std::make_shared<const DistanceField>(planes_of(stack, options), options);
   }
 
  private:
+  std::vector<Contour> moved(int number, const RigidMotion& motion) const {
+    std::vector<Contour> contours = rois_.at(number);
+    if (motion == RigidMotion()) return contours;
+    for (Contour& contour : contours) {
+      for (Vec3& point : contour) point = motion(point);
+    }
+    return contours;
+  }
+
   std::map<int, std::vector<Contour>> rois_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "io/parallel.h"
@@ -11,6 +12,7 @@ namespace palpate::io {
 namespace {
 
 constexpr int edge = NodeBricks::edge;
+constexpr float known_to = 0.01F;  // of a voxel's diagonal: room for what is smooth
 
 /// The bricks of one layer (eight planes of nodes).
 struct Layer {
@@ -51,12 +53,14 @@ class PlaneWindow {
 struct BrickDistances {
   std::array<float, NodeBricks::nodes> to_inside;
   std::array<float, NodeBricks::nodes> to_outside;
+  std::array<float, NodeBricks::nodes> known;  ///< mm; NaN where it is not
 };
 
 void nearest_of_planes(const std::vector<std::pair<int, const PlaneDistances*>>& near, const NodeLattice& lattice,
                        const glm::ivec3& brick, BrickDistances& distances) {
   distances.to_inside.fill(PlaneDistances::far);
   distances.to_outside.fill(PlaneDistances::far);
+  distances.known.fill(std::numeric_limits<float>::quiet_NaN());
   const int columns = lattice.bricks.x * edge;
   for (const auto& [node, plane] : near) {
     for (int k = 0; k < edge; ++k) {
@@ -67,6 +71,9 @@ void nearest_of_planes(const std::vector<std::pair<int, const PlaneDistances*>>&
                            static_cast<std::size_t>(brick.x * edge);
         const float* in = plane->to_inside.data() + first;
         const float* out = plane->to_outside.data() + first;
+        if (brick.z * edge + k == node && !plane->known.empty()) {
+          std::copy_n(plane->known.data() + first, edge, distances.known.data() + NodeBricks::at(0, j, k));
+        }
         float* nearest_in = distances.to_inside.data() + NodeBricks::at(0, j, k);
         float* nearest_out = distances.to_outside.data() + NodeBricks::at(0, j, k);
         for (int i = 0; i < edge; ++i) {
@@ -105,6 +112,10 @@ std::int32_t take_brick(const OutlinePlanes& planes, const glm::ivec3& brick, co
     // Not where nothing is known around the node: beyond the lattice that was outlined on.
     if (out > play && in <= play) lower = std::max(lower, out - play);
     if (in > play && out <= play) upper = std::min(upper, play - in);
+    if (const float known = distances.known[n]; !std::isnan(known)) {
+      lower = std::max(lower, known - known_to * play);
+      upper = std::min(upper, known + known_to * play);
+    }
     if (in == 0) lower = std::max(lower, least);
     if (out == 0) upper = std::min(upper, -least);
     layer.lower.push_back(std::min(lower, upper));

@@ -1,8 +1,8 @@
 #pragma once
 
-/// How near and how far the surface can be of every node near it, from what an outline says: a point that is known to
-/// be inside has no more of the outside around it than to the nearest point that is known to be outside, and so on.
-/// What obeys these bounds has every voxel on its side.
+/// The least and the largest distance that each node near the surface can have from it, by what an outline says. A node
+/// inside is at most as far from the surface as from the nearest point that is known to be outside; for a node outside
+/// the same holds the other way round. A field within these bounds has every voxel on its own side of the surface.
 
 #include <vector>
 

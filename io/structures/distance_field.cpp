@@ -111,6 +111,7 @@ DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions&
   const DistanceBounds bounds = bounds_of(planes, options.threads);
   SmoothestOptions smooth;
   smooth.threads = options.threads;
+  smooth.coarser = planes.coarser;
   const std::vector<float> f = smoothest(bounds, smooth);
   const std::vector<Vec3f> closest = closest_points(bounds.bricks, f, planes.band_mm, options.threads);
 
@@ -121,6 +122,13 @@ DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions&
   std::vector<std::size_t> kept;
   const double cell_mm = glm::length(planes.lattice.spacing);
   near_ = bricks_within(bounds.bricks, closest, reach_mm_ + blend_mm_ + cell_mm, kept);
+  const Vec3 per_mm = 1.0 / planes.lattice.spacing;
+  to_node_ = glm::transpose(planes.lattice.axes);
+  from_node_ = planes.lattice.axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    to_node_[axis] *= per_mm;
+    from_node_[axis] *= per_mm[axis];
+  }
   std::vector<Nearest> nearest(closest.size());
   for (std::size_t n = 0; n < nearest.size(); ++n) {
     nearest[n] = {closest[n], f[n]};
@@ -132,31 +140,34 @@ DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions&
 }
 
 bool DistanceField::sample_near(const Vec3& position_mm, Distance& distance) const noexcept {
-  const NodeLattice& lattice = near_.lattice;
-  const Vec3 node = lattice.node_of(position_mm);
-  const glm::ivec3 last = lattice.bricks * edge;
+  const Vec3 node = to_node_ * (position_mm - near_.lattice.origin);
+  const glm::ivec3& bricks = near_.lattice.bricks;
+  const glm::ivec3 last = bricks * edge;
   if (!(node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < last.x && node.y < last.y && node.z < last.z)) {
     return false;
   }
   const glm::ivec3 cell(node);
-  const glm::ivec3 place = cell / edge;
-  const std::int32_t slot = near_.slot_at(place.x, place.y, place.z);
+  const glm::uvec3 place = glm::uvec3(cell) / unsigned{edge};
+  const auto columns = static_cast<std::size_t>(bricks.x);
+  const auto rows = static_cast<std::size_t>(bricks.y);
+  const std::int32_t slot = near_.slot[(place.z * rows + place.y) * columns + place.x];
   if (slot < 0) {
     return false;
   }
-  const glm::ivec3 in = cell - place * edge;
+  const glm::ivec3 in = cell - glm::ivec3(place) * edge;
   const Vec3 t = node - Vec3(cell);
   const float* first = near_mm_.data() + static_cast<std::size_t>(slot) * nodes_of_a_brick +
                        static_cast<std::size_t>((in.z * wide + in.y) * wide + in.x);
   const CubicSample sample =
       cubic_sample(first, wide, wide * wide, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
   distance.mm = sample.value;
-  distance.gradient = lattice.axes * (Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / lattice.spacing);
+  distance.gradient = from_node_ * Vec3(sample.slope[0], sample.slope[1], sample.slope[2]);
   return true;
 }
 
 Distance DistanceField::sample_far(const Vec3& position_mm) const noexcept {
-  const Vec3 node = (position_mm - far_.origin) / far_.spacing;
+  const double per_mm = 1 / far_.spacing;
+  const Vec3 node = (position_mm - far_.origin) * per_mm;
   // Beyond the lattice the distance goes on as it is at its edge, plus the way there.
   const Vec3 held = glm::clamp(node, Vec3(1), Vec3(far_.size) - 2.001);
   const glm::ivec3 cell(held);
@@ -167,11 +178,10 @@ Distance DistanceField::sample_far(const Vec3& position_mm) const noexcept {
                        static_cast<std::size_t>(cell.y - 1) * static_cast<std::size_t>(row) +
                        static_cast<std::size_t>(cell.x - 1);
   const CubicSample sample = cubic_sample(first, row, plane, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
-  Distance distance{.mm = sample.value,
-                    .gradient = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / far_.spacing};
-  const Vec3 beyond = (node - held) * far_.spacing;
-  const double way = glm::length(beyond);
-  if (way > 0) {
+  Distance distance{.mm = sample.value, .gradient = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) * per_mm};
+  if (node != held) {
+    const Vec3 beyond = (node - held) * far_.spacing;
+    const double way = glm::length(beyond);
     distance.mm -= way;
     distance.gradient -= beyond / way;
   }

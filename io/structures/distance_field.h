@@ -11,22 +11,25 @@
 #include "io/structures/mask.h"
 #include "io/structures/node_bricks.h"
 #include "io/structures/outline_planes.h"
+#include "io/structures/rigid_motion.h"
 
 namespace palpate::io {
 
 struct DistanceOptions {
-  /// Farthest from the surface that the distance is kept at full detail, mm: a margin or a gate's last node. Farther
+  /// How far from the surface the distance is kept at full detail, mm: a margin, or the last node of a gate. Farther
   /// away it is interpolated on a coarse lattice.
   double reach_mm = 3;
-  /// The scan that it is felt with: distances are kept for all of it, and beyond its ends a structure is taken to go
-  /// on. Null: for the structure's own box and some way around it. Read while the field is made.
+  /// The scan that it is felt with. Distances are kept for all of it, and a structure is assumed to go on beyond its
+  /// ends. Null: they are kept for the structure's box and some way around. Read only while the field is made.
   const Geometry* scan = nullptr;
+  /// Where the structure lies: from its own frame of reference to the scan's.
+  RigidMotion motion;
   int threads = 0;  ///< 0: all cores
 };
 
-/// Smooth: the surface is the smoothest that has every voxel's centre on its own side (smoothest.h), and the distance
-/// is the one from that surface (closest_points.h), cubic between the nodes of bricks near it, so once differentiable.
-/// Immutable.
+/// A smooth field. Its surface is the smoothest one that has every voxel's center on the right side (smoothest.h). The
+/// distance is measured from that surface (closest_points.h), and is cubic between nodes near it, so once
+/// differentiable. Immutable.
 class DistanceField {
  public:
   DistanceField(const OutlinePlanes& planes, const DistanceOptions& options);
@@ -46,6 +49,8 @@ class DistanceField {
   double reach_mm_;
   double blend_mm_;  ///< beyond the reach: from the bricks to the coarse lattice
   NodeBricks near_;
+  glm::dmat3 to_node_;          ///< from mm to near_'s nodes
+  glm::dmat3 from_node_;        ///< a slope per node to a gradient per mm
   std::vector<float> near_mm_;  ///< of each brick (8 + 3)^3 nodes: its cells need one before and two behind
   struct Coarse {
     Vec3 origin{0};

@@ -8,9 +8,11 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
 #include <random>
 
 #include "io/structures/contour_planes.h"
+#include "io/structures/fraction_edges.h"
 #include "io/structures/label_planes.h"
 
 namespace palpate::io {
@@ -88,16 +90,152 @@ TEST(DistanceField, IsThatOfABallFarAndNear) {
   }
 }
 
+struct BallGoal {
+  double radius = 20, slices = 1;
+  double mm = 0.12, degrees = 1.6;
+};
+
+TEST(DistanceField, IsAsTrueToABallAsItsGoals) {
+  for (const BallGoal& goal : {BallGoal{20, 1, 0.12, 1.6}, {20, 3, 0.40, 3}, {20, 5, 0.95, 6}, {3, 1, 0.35, 13}}) {
+    const Vec3 center(0.31, -0.17, 0.23 * goal.slices);
+    const auto field =
+        distance_of(labels_of(ball(goal.radius, center), goal.radius + 3 + 3 * goal.slices, {1, 1, goal.slices}));
+    for (const Vec3& direction : directions(2000)) {
+      double in = 0, out = goal.radius + 6;
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (in + out);
+        (field->sample(center + middle * direction).mm > 0 ? in : out) = middle;
+      }
+      ASSERT_NEAR(in, goal.radius, goal.mm) << goal.slices;
+      const Vec3 inward = glm::normalize(field->sample(center + in * direction).gradient);
+      ASSERT_GT(glm::dot(inward, -direction), std::cos(glm::radians(goal.degrees))) << goal.slices;
+    }
+  }
+}
+
+/// How much of each voxel a ball fills, by 12^3 points in it.
+Mask shares_of(double radius, const Vec3& center, double extent, const Vec3& spacing) {
+  Mask mask = labels_of(ball(radius, center), extent, spacing);
+  mask.fractions = Mask::Fractions::occupancy;
+  constexpr int parts = 12;
+  for (int k = 0; k < mask.size.z; ++k) {
+    for (int j = 0; j < mask.size.y; ++j) {
+      for (int i = 0; i < mask.size.x; ++i) {
+        const Vec3 middle = mask.geometry.to_patient({i, j, k});
+        if (std::abs(glm::distance(middle, center) - radius) > glm::length(spacing)) continue;
+        int inside = 0;
+        for (int n = 0; n < parts * parts * parts; ++n) {
+          const Vec3 part(n % parts, n / parts % parts, n / (parts * parts));
+          inside += glm::distance(middle + ((part + 0.5) / double{parts} - 0.5) * spacing, center) < radius ? 1 : 0;
+        }
+        mask.occupancy[mask.offset(i, j, k)] =
+            static_cast<std::uint8_t>(std::lround(double{Mask::full} * inside / (parts * parts * parts)));
+      }
+    }
+  }
+  return mask;
+}
+
+/// Rising through half at the edge, over 3 mm.
+Mask likelihoods_of(double radius, const Vec3& center, double extent, const Vec3& spacing) {
+  Mask mask = labels_of(ball(radius, center), extent, spacing);
+  mask.fractions = Mask::Fractions::probability;
+  for (int k = 0; k < mask.size.z; ++k) {
+    for (int j = 0; j < mask.size.y; ++j) {
+      for (int i = 0; i < mask.size.x; ++i) {
+        const double depth = radius - glm::distance(mask.geometry.to_patient({i, j, k}), center);
+        mask.occupancy[mask.offset(i, j, k)] =
+            static_cast<std::uint8_t>(std::lround(Mask::full * std::clamp(0.5 + depth / 3, 0.0, 1.0)));
+      }
+    }
+  }
+  return mask;
+}
+
+Mask binarised(Mask mask) {
+  mask.fractions = Mask::Fractions::none;
+  for (std::uint8_t& share : mask.occupancy) share = share >= Mask::half ? Mask::full : 0;
+  return mask;
+}
+
+/// Of a ball's surface: the largest error and the root of the mean of the squares, mm.
+std::pair<double, double> errors_of(const Mask& mask, double radius, const Vec3& center) {
+  const auto field = distance_of(mask);
+  double largest = 0, squares = 0;
+  constexpr int rays = 2000;
+  for (const Vec3& direction : directions(rays)) {
+    double in = 0, out = radius + 6;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (in + out);
+      (field->sample(center + middle * direction).mm > 0 ? in : out) = middle;
+    }
+    largest = std::max(largest, std::abs(in - radius));
+    squares += (in - radius) * (in - radius) / rays;
+  }
+  return {largest, std::sqrt(squares)};
+}
+
+TEST(DistanceField, OfFractionsIsTruerThanThatOfTheVoxelsInside) {
+  for (const double radius : {3.0, 12.0}) {
+    for (const double slices : {1.0, 2.0}) {
+      const Vec3 center(0.31, -0.17, 0.23 * slices), spacing(1, 1, slices);
+      const double extent = radius + 3 + 3 * slices;
+      for (const Mask& mask :
+           {shares_of(radius, center, extent, spacing), likelihoods_of(radius, center, extent, spacing)}) {
+        const auto [largest, rms] = errors_of(mask, radius, center);
+        const auto [largest_without, rms_without] = errors_of(binarised(mask), radius, center);
+        SCOPED_TRACE(testing::Message() << "R " << radius << ", slices " << slices << ": largest " << largest << " for "
+                                        << largest_without << ", rms " << rms << " for " << rms_without);
+        // A large ball is nearly found again by its smoothness alone; a small one is not.
+        const double part = radius > 5 ? 1.2 : 0.5;
+        EXPECT_LT(largest, part * largest_without);
+        EXPECT_LT(rms, part * rms_without);
+        EXPECT_LT(largest, radius > 5 ? 0.06 : 0.15);
+      }
+    }
+  }
+}
+
+TEST(FractionEdges, ArePlanesThroughABox) {
+  // Against points that are counted.
+  constexpr int parts = 60;
+  const Vec3 size(1, 0.7, 2);
+  for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(1, 1, 1), Vec3(0.3, -0.9, 0.1), Vec3(-2, 0.1, 0.7)}) {
+    for (const double share : {0.1, 0.3, 0.5, 0.8}) {
+      const double far = plane_distance(size, normal, share);
+      int inside = 0;
+      for (int n = 0; n < parts * parts * parts; ++n) {
+        const Vec3 part(n % parts, n / parts % parts, n / (parts * parts));
+        const Vec3 at = ((part + 0.5) / double{parts} - 0.5) * size;
+        inside += glm::dot(at, glm::normalize(normal)) + far > 0 ? 1 : 0;
+      }
+      EXPECT_NEAR(inside, share * parts * parts * parts, 0.02 * parts * parts * parts) << share;
+    }
+  }
+}
+
+TEST(DistanceField, KeepsAPlateOfOneVoxelAboutThatThick) {
+  const Inside plate = [](const Vec3& at) { return std::abs(at.x) < 0.6 && std::abs(at.y) < 8 && std::abs(at.z) < 8; };
+  const auto field = distance_of(labels_of(plate, 14.5, {1, 1, 1}));
+  for (double y = -5; y <= 5; y += 0.7) {
+    EXPECT_NEAR(field->sample({0, y, 1.3}).mm, 0.5, 0.3);
+    EXPECT_LT(field->sample({0.9, y, 1.3}).mm, 0);
+  }
+}
+
 TEST(DistanceField, KeepsEveryVoxelOnItsSide) {
   const Inside plate = [](const Vec3& at) { return std::abs(at.x) < 0.6 && std::abs(at.y) < 8 && std::abs(at.z) < 8; };
   const Inside tube = [](const Vec3& at) { return std::hypot(at.x, at.y) < 2.1 && std::abs(at.z) < 10; };
   const Inside block = [](const Vec3& at) { return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < 7.2; };
   const Inside shell = [](const Vec3& at) { return std::abs(glm::length(at) - 8) < 1.2; };
-  for (const Inside& body : {plate, tube, block, shell, ball(3, {0.2, 0.4, 0.1})}) {
-    for (const Vec3& spacing : {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(0.7, 0.9, 1.3)}) {
-      const Mask mask = labels_of(body, 14, spacing);
-      EXPECT_EQ(voxels_on_the_wrong_side(mask, *distance_of(mask)), 0) << spacing.z;
-    }
+  const auto expect_it = [](const Inside& body, const Vec3& spacing) {
+    const Mask mask = labels_of(body, 12, spacing);
+    EXPECT_EQ(voxels_on_the_wrong_side(mask, *distance_of(mask)), 0) << spacing.z;
+  };
+  for (const Inside& body : {plate, tube, block, shell, ball(3, {0.2, 0.4, 0.1})}) expect_it(body, {1, 1, 3});
+  for (const Inside& body : {plate, shell}) {
+    expect_it(body, {1, 1, 1});
+    expect_it(body, {0.7, 0.9, 1.3});
   }
 }
 

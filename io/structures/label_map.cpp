@@ -3,11 +3,13 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "io/errors.h"
+#include "io/interchange/voxel_bytes.h"
+#include "io/interchange/voxel_file.h"
 #include "io/messages.h"
 #include "io/structures/beyond_slices.h"
-#include "io/structures/label_image.h"
 #include "io/structures/mask_measures.h"
 #include "io/structures/structure_file.h"
 
@@ -22,17 +24,24 @@ struct Box {
 
 class LabelMapSource final : public StructureSource {
  public:
-  LabelMapSource(LabelImage image, std::map<int, Box> boxes) : image_(std::move(image)), boxes_(std::move(boxes)) {}
+  LabelMapSource(VoxelFile image, std::map<int, Box> boxes) : image_(std::move(image)), boxes_(std::move(boxes)) {}
 
-  StructureMeasures measure(int number) const override { return measures_of(mask_of(number)); }
+  StructureMeasures measure(int number, const RigidMotion& motion) const override {
+    return measures_of(moved_mask(number, motion));
+  }
   std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override {
-    Mask mask = mask_of(number);
+    Mask mask = moved_mask(number, options.motion);
     measures_of(mask);  // refuses one that is empty
     add_empty_slices(options, mask);
     return distance_of(mask, options);
   }
 
  private:
+  Mask moved_mask(int number, const RigidMotion& motion) const {
+    Mask mask = mask_of(number);
+    move(motion, mask.geometry);
+    return mask;
+  }
   Mask mask_of(int number) const {
     Mask mask;
     mask.geometry = image_.geometry;
@@ -45,12 +54,16 @@ class LabelMapSource final : public StructureSource {
                               static_cast<std::size_t>(mask.size.z),
                           0);
     const auto columns = static_cast<std::size_t>(image_.geometry.dimensions.x);
+    const auto layers = static_cast<std::size_t>(image_.layers);
+    const std::size_t layer = image_.layers > 1 ? static_cast<std::size_t>(number / label_number(1, 0)) : 0;
+    const int value = number - label_number(static_cast<int>(layer), 0);
     int left = mask.size.z;
     read_slices(image_, [&](int k, std::span<const double> values) {
       if (k < low.z || k > high.z) return true;
       for (int j = low.y; j <= high.y; ++j) {
         for (int i = low.x; i <= high.x; ++i) {
-          if (values[static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i)] == number) {
+          const std::size_t voxel = static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i);
+          if (values[voxel * layers + layer] == value) {
             mask.occupancy[mask.offset(i - low.x, j - low.y, k - low.z)] = Mask::full;
           }
         }
@@ -60,23 +73,29 @@ class LabelMapSource final : public StructureSource {
     return mask;
   }
 
-  LabelImage image_;
+  VoxelFile image_;
   std::map<int, Box> boxes_;
 };
 
-/// Where each label lies; nothing where the values are those of an image and no labels.
-std::map<int, Box> boxes_in(const LabelImage& image) {
+/// Where each label lies, by its number; nothing where the values are those of an image and no labels.
+std::map<int, Box> boxes_in(const VoxelFile& image) {
   constexpr std::size_t most_labels = 4096;
   std::map<int, Box> boxes;
   std::uint64_t inside = 0,
                 changes = 0;  // voxels with a label, and those of them that the one before them differs from
   bool is_map = true;
+  // Labels come in stretches; an image's values differ from voxel to voxel.
+  constexpr std::uint64_t least_stretch = 3, enough = 1'000'000;
+  const auto looks_like_an_image = [&] {
+    return !image.said_to_be_labels && changes * least_stretch > inside && boxes.size() > 2;
+  };
   const int columns = image.geometry.dimensions.x;
-  read_slices(image, [&](int k, std::span<const double> values) {
+  const auto layers = static_cast<std::size_t>(image.layers);
+  const auto look_at = [&](int k, std::size_t layer, std::span<const double> values) {
     double before = 0;
     Box* box = nullptr;  // of the label before
-    for (std::size_t n = 0; n < values.size(); ++n) {
-      const double value = values[n];
+    for (std::size_t n = 0; n < values.size() / layers; ++n) {
+      const double value = values[n * layers + layer];
       const bool same = value == before;
       if (value == 0) {
         before = 0;
@@ -84,7 +103,7 @@ std::map<int, Box> boxes_in(const LabelImage& image) {
       }
       if (!same) {
         if (!(value > 0 && value <= most_label) || value != std::floor(value)) return is_map = false;
-        box = &boxes[static_cast<int>(value)];
+        box = &boxes[label_number(static_cast<int>(layer), static_cast<int>(value))];
         if (boxes.size() > most_labels) return is_map = false;
         before = value;
         ++changes;
@@ -95,26 +114,42 @@ std::map<int, Box> boxes_in(const LabelImage& image) {
       box->low = glm::min(box->low, voxel);
       box->high = glm::max(box->high, voxel);
     }
-    return true;
+    if (inside > enough && looks_like_an_image()) is_map = false;
+    return is_map;
+  };
+  read_slices(image, [&](int k, std::span<const double> values) {
+    for (std::size_t layer = 0; layer < layers && is_map; ++layer) look_at(k, layer, values);
+    return is_map;
   });
-  // Labels come in stretches; an image's values differ from voxel to voxel.
-  constexpr std::uint64_t least_stretch = 3;
-  if (!image.said_to_be_labels && changes * least_stretch > inside && boxes.size() > 2) is_map = false;
+  if (looks_like_an_image()) is_map = false;
   return is_map ? boxes : std::map<int, Box>();
 }
 
 }  // namespace
 
+bool is_label_map(const VoxelFile& file) {
+  return file.volumes == 1 && file.axes == std::array{0, 1, 2} && !boxes_in(file).empty();
+}
+
 std::vector<Structure> structures_of_label_map(const std::filesystem::path& path) {
-  auto image = open_nifti(path);
-  if (!image) image = open_nrrd(path);
+  auto image = open_voxel_file(path, path);
   if (!image) return {};
+  if (image->volumes > 1) throw DicomError(say("labels-in-several-volumes"));
+  check_size(*image);
+  if (image->axes != std::array{0, 1, 2}) throw DicomError(say("labels-in-another-order"));
   const std::map<int, Box> boxes = boxes_in(*image);
   const std::map<int, LabelName> names = image->names;
   const auto source = std::make_shared<const LabelMapSource>(std::move(*image), boxes);
+  std::set<int> numbers;
+  for (const auto& [number, box] : boxes) numbers.insert(number);
+  // Those that the file names and nobody outlined are listed, too, and cannot be felt.
+  if (!boxes.empty()) {
+    for (const auto& [number, name] : names) numbers.insert(number);
+  }
   std::vector<Structure> structures;
-  for (const auto& [number, box] : boxes) {
+  for (const int number : numbers) {
     Structure structure;
+    if (!boxes.contains(number)) structure.unfit = say("no-voxel-inside");
     structure.file = path;
     structure.kind = StructureKind::label_map;
     structure.number = number;

@@ -1,8 +1,10 @@
 // Label maps that are no DICOM: where they lie by the standards' own formulas, what they are called, and what is
 // refused.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
@@ -10,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "io/errors.h"
 #include "io/structures/structure.h"
 
 namespace palpate::io {
@@ -113,6 +116,73 @@ TEST(LabelMap, HasTheNamesThatSlicerWrites) {
   expect_at(file, 9, {-1 - 4, -2 - 3, 3 + 4});
 }
 
+/// Two layers of 3 x 2 x 2 voxels, one number of each side by side: label 1 in the first two voxels of the first layer
+/// and label 1 in the second and third of the second one, label 2 in the last.
+const std::string layered_voxels{
+    "\1\0\1\1\0\1"
+    "\0\0\0\0\0\0"
+    "\0\0\0\0\0\0"
+    "\0\0\0\0\0\2",
+    24};
+
+std::string layered(const std::string& more) {
+  return "NRRD0004\ntype: uint8\ndimension: 4\nspace: left-posterior-superior\nsizes: 2 3 2 2\nspace directions: none "
+         "(2,0,0) (0,3,0) (0,0,4)\nkinds: list domain domain domain\nencoding: raw\nspace origin: (1,2,3)\n" +
+         more + "\n" + layered_voxels;
+}
+
+// As Slicer writes segments that overlap.
+TEST(LabelMap, OfSeveralLayersOverlaps) {
+  const fs::path file =
+      write("layers.seg.nrrd", layered("Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+                                       "Segment1_Name:=tumor\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n"
+                                       "Segment2_Name:=vein\nSegment2_LabelValue:=2\nSegment2_Layer:=1\n"));
+  const StructureCatalogue found = find_structures(std::array{file});
+  ASSERT_EQ(found.structures.size(), 3U) << (found.skipped.empty() ? Text() : found.skipped.front().reason);
+  const std::array<const char*, 3> names{"liver", "tumor", "vein"};
+  const std::array<std::uint64_t, 3> voxels_of{2, 2, 1};
+  const std::array centroids{Vec3(2, 2, 3), Vec3(4, 2, 3), Vec3(5, 5, 7)};
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(found.structures[n].name, names[n]);
+    const StructureMeasures measures = measure(found.structures[n]);
+    EXPECT_EQ(measures.voxels, voxels_of[n]);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(measures.centroid_mm[axis], centroids[n][axis], 1e-9) << names[n];
+  }
+  EXPECT_EQ(found.structures[0].number, 1);
+  // The second voxel belongs to both.
+  const auto liver = load_distance(found.structures[0]), tumor = load_distance(found.structures[1]);
+  EXPECT_GT(liver->sample({3, 2, 3}).mm, 0);
+  EXPECT_GT(tumor->sample({3, 2, 3}).mm, 0);
+  EXPECT_LT(liver->sample({5, 2, 3}).mm, 0);
+  EXPECT_LT(tumor->sample({1, 2, 3}).mm, 0);
+}
+
+TEST(LabelMap, OfSeveralLayersIsNoScan) {
+  const fs::path file = write("layers.seg.nrrd", layered("Segment0_Name:=liver\nSegment0_Layer:=0\n"));
+  const Catalogue found = find_series(std::array{file});
+  EXPECT_TRUE(found.series.empty());
+  ASSERT_EQ(found.skipped.size(), 1U);
+  EXPECT_EQ(found.skipped.front().reason, "it holds 2 values a voxel: save one of them in a file of its own");
+}
+
+TEST(LabelMap, ASegmentThatIsNamedAndNotOutlinedIsListedAndRefused) {
+  const fs::path file =
+      write("layers.seg.nrrd", layered("Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+                                       "Segment1_Name:=spleen\nSegment1_LabelValue:=5\nSegment1_Layer:=0\n"));
+  const StructureCatalogue found = find_structures(std::array{file});
+  const auto spleen = std::ranges::find(found.structures, "spleen", &Structure::name);
+  ASSERT_NE(spleen, found.structures.end());
+  EXPECT_EQ(spleen->number, 5);
+  try {
+    measure(*spleen);
+    FAIL() << "was measured";
+  } catch (const DicomError& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::EndsWith("layers.seg.nrrd: label map \"spleen\" (5) cannot be felt: it is empty: "
+                                    "no voxel is inside"));
+  }
+}
+
 TEST(LabelMap, AnImageIsNone) {
   std::string noise(12, '\0');
   for (std::size_t n = 0; n < noise.size(); ++n) noise[n] = static_cast<char>(n + 1);
@@ -141,15 +211,17 @@ TEST(LabelMap, IsRefusedInWords) {
   EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(40, 4).put<std::int16_t>(48, 5).written()),
             "it holds several volumes: save each in a file of its own");
   EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(70, 32).written()),
-            "its voxels are of a type that labels are not: save it as whole numbers of 8, 16 or 32 bits");
+            "its voxels are of a type that is not read: save it as numbers of 8 to 64 bits");
   EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(46, 3).written()),
             "it ends before its last voxel: copy or export it again");
-  EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(42, -1).written()),
-            "its voxels are on no lattice that can be felt: resample it on the scan, or export it as SEG");
+  EXPECT_EQ(
+      refusal_of(Nifti().put<std::int16_t>(42, -1).written()),
+      "its voxels are on no lattice that can be felt (no size, or axes that are sheared): resample it with axes at "
+      "right angles");
   EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: bzip2\n" + placed))),
             "its encoding \"bzip2\" is not read; there are: raw, gzip");
   EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: raw\ndata file: b.raw\n" + placed))),
-            "its voxels are not in it, but in a file of their own: save header and voxels in one file");
+            "its voxels are in several files, or in one that is not beside it: save header and voxels in one file");
   EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: raw\n"))),
             "it does not say where it lies in the patient (its space is not LPS, RAS or LAS): save it with its place");
 }

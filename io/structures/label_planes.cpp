@@ -1,9 +1,14 @@
 #include "io/structures/label_planes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
+#include <vector>
+
+#include "io/structures/fraction_edges.h"
 
 namespace palpate::io {
 namespace {
@@ -15,7 +20,7 @@ struct Layout {
   glm::ivec3 per_voxel{1};
   std::vector<int> slice_node;          // of every slice of the box and of those beside it, along the third axis
   std::vector<glm::ivec2> slice_first;  // node of pixel 0, 0 of the whole lattice
-  std::vector<int> slice;               // which slice of the whole lattice; -1: beside it, and empty
+  std::vector<int> slice;               // which slice of the whole lattice it is, or is like
   glm::ivec2 low{0}, high{0};           // pixels around the box that are known, both ends included
 };
 
@@ -66,113 +71,165 @@ void across_rows(const std::vector<float>& along, int columns, int rows, float s
 
 enum Seed : std::uint8_t { unknown = 0, in = 1, out = 2 };
 
-}  // namespace
+/// The mask's slices in patient space: their axes, and how far each lies from the first.
+struct Slices {
+  const Geometry& geometry;
+  Vec3 normal, across;          // unit vectors: of the planes, and along their columns
+  std::vector<double> heights;  // along the normal, mm
+  double step = 1;              // mm: the least between two heights
 
-OutlinePlanes planes_of(const Mask& mask, double reach_mm) {
-  const Geometry& geometry = mask.geometry;
-  const Vec3 normal = glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j));
-  const Vec3 across = glm::cross(normal, geometry.direction_i);
-  const int slices = geometry.dimensions.z;
-  std::vector<double> heights;
-  heights.reserve(geometry.slice_positions.size());
-  for (const Vec3& position : geometry.slice_positions) {
-    heights.push_back(glm::dot(position - geometry.slice_positions.front(), normal));
+  Vec3 slide_of(const Vec3& position) const { return position - geometry.slice_positions.front(); }
+  /// Beyond the lattice nobody has seen anything: there it goes on as it is at its edge.
+  Vec3 position_of(int k) const {
+    const int held = std::clamp(k, 0, geometry.dimensions.z - 1);
+    return geometry.slice_positions[static_cast<std::size_t>(held)] + static_cast<double>(k - held) * geometry.step;
   }
-  const double step = least_step(heights, std::max(glm::dot(geometry.step, normal), 0.01));
-  const double finest_mm = std::min({geometry.spacing_i, geometry.spacing_j, step});
-  Layout layout;
-  const Vec3 voxel(geometry.spacing_i, geometry.spacing_j, step);
+  double height_of(int k) const { return glm::dot(slide_of(position_of(k)), normal); }
+  Vec3 voxel() const { return {geometry.spacing_i, geometry.spacing_j, step}; }
+};
+
+Slices slices_of(const Geometry& geometry) {
+  Slices slices{geometry, glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j)), {}, {}, 1};
+  slices.across = glm::cross(slices.normal, geometry.direction_i);
+  slices.heights.reserve(geometry.slice_positions.size());
+  for (const Vec3& position : geometry.slice_positions) {
+    slices.heights.push_back(glm::dot(slices.slide_of(position), slices.normal));
+  }
+  slices.step = least_step(slices.heights, std::max(glm::dot(geometry.step, slices.normal), 0.01));
+  return slices;
+}
+
+/// How many nodes lie between two voxels along each axis, so that tilted and uneven slices find a node near them.
+glm::ivec3 nodes_per_voxel(const Slices& slices) {
+  const Geometry& geometry = slices.geometry;
+  constexpr double off = 0.02;  // of a voxel
+  const auto is_off = [](double voxels) { return std::abs(voxels - std::round(voxels)) > off; };
   bool tilted = false;
   bool uneven = false;
-  for (int k = 0; k < slices; ++k) {
-    const Vec3 slide = geometry.slice_positions[static_cast<std::size_t>(k)] - geometry.slice_positions.front();
-    const double along_i = glm::dot(slide, geometry.direction_i) / geometry.spacing_i;
-    const double along_j = glm::dot(slide, across) / geometry.spacing_j;
-    tilted = tilted || std::abs(along_i - std::round(along_i)) > 0.02 || std::abs(along_j - std::round(along_j)) > 0.02;
-    const double up = heights[static_cast<std::size_t>(k)] / step;
-    uneven = uneven || std::abs(up - std::round(up)) > 0.02;
+  for (std::size_t k = 0; k < slices.heights.size(); ++k) {
+    const Vec3 slide = slices.slide_of(geometry.slice_positions[k]);
+    tilted = tilted || is_off(glm::dot(slide, geometry.direction_i) / geometry.spacing_i) ||
+             is_off(glm::dot(slide, slices.across) / geometry.spacing_j);
+    uneven = uneven || is_off(slices.heights[k] / slices.step);
   }
+  const Vec3 voxel = slices.voxel();
+  const double finest_mm = std::min({voxel.x, voxel.y, voxel.z});
+  glm::ivec3 per_voxel(1);
   for (int a = 0; a < 3; ++a) {
     int parts = std::clamp(static_cast<int>(std::lround(voxel[a] / finest_mm)), 1, finest);
     if ((tilted && a < 2) || (uneven && a == 2)) {
       parts = std::min(2 * parts, finest);
     }
-    layout.per_voxel[a] = parts;
+    // A power of two: so a lattice of every second node, and of every second of those, still has all voxels.
+    per_voxel[a] = static_cast<int>(std::bit_floor(static_cast<unsigned>(parts)));
   }
-  OutlinePlanes planes;
-  NodeLattice& lattice = planes.lattice;
-  lattice.axes = glm::dmat3(geometry.direction_i, across, normal);
-  lattice.spacing = voxel / Vec3(layout.per_voxel);
-  planes.play_mm = glm::length(Vec3(geometry.spacing_i, geometry.spacing_j, step));
-  planes.band_mm = band_for(reach_mm, lattice, planes.play_mm);
+  return per_voxel;
+}
 
-  // The box, and what is known around it, in pixels and slices.
-  const glm::ivec3 around = glm::ivec3(glm::ceil(Vec3(planes.band_mm) / voxel)) + 1;
+int most_of(const glm::ivec3& parts) {
+  return std::max({parts.x, parts.y, parts.z});
+}
+
+/// Lays the box and what is known around it on the lattice, whose size and origin follow.
+Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_voxel, double band_mm,
+               NodeLattice& lattice) {
+  const Geometry& geometry = slices.geometry;
+  const glm::ivec3 around = glm::ivec3(glm::ceil(Vec3(band_mm) / slices.voxel())) + 1;
   const glm::ivec3 low = mask.low - around;
   const glm::ivec3 high = mask.low + mask.size - 1 + around;
-  layout.low = glm::max(glm::ivec2(low), glm::ivec2(0));
-  layout.high = glm::min(glm::ivec2(high), glm::ivec2(geometry.dimensions) - 1);
-  const double base = heights.empty() ? 0.0 : heights[static_cast<std::size_t>(std::max(low.z, 0))];
+  Layout layout;
+  layout.per_voxel = per_voxel;
+  layout.low = glm::ivec2(low);
+  layout.high = glm::ivec2(high);
+  const double base = slices.height_of(low.z);
   glm::dvec2 least_slide(std::numeric_limits<double>::infinity());
   glm::dvec2 most_slide(-std::numeric_limits<double>::infinity());
   std::vector<glm::dvec2> slides;
-  for (int k = std::max(low.z, 0); k <= std::min(high.z, slices - 1); ++k) {
-    const Vec3 slide = geometry.slice_positions[static_cast<std::size_t>(k)] - geometry.slice_positions.front();
+  for (int k = low.z; k <= high.z; ++k) {
+    const Vec3 slide = slices.slide_of(slices.position_of(k));
     const glm::dvec2 in_nodes(glm::dot(slide, geometry.direction_i) / lattice.spacing.x,
-                              glm::dot(slide, across) / lattice.spacing.y);
+                              glm::dot(slide, slices.across) / lattice.spacing.y);
     slides.push_back(in_nodes);
     least_slide = glm::min(least_slide, in_nodes);
     most_slide = glm::max(most_slide, in_nodes);
-    layout.slice.push_back(k);
-    layout.slice_node.push_back(
-        static_cast<int>(std::lround((heights[static_cast<std::size_t>(k)] - base) / lattice.spacing.z)));
+    layout.slice.push_back(std::clamp(k, 0, geometry.dimensions.z - 1));
+    layout.slice_node.push_back(static_cast<int>(std::lround((slices.height_of(k) - base) / lattice.spacing.z)));
   }
-  // Room beyond what is known, so that the field goes on there.
-  const glm::ivec3 room = glm::ivec3(glm::ceil(Vec3(planes.band_mm) / lattice.spacing));
-  const glm::ivec2 first_node =
-      glm::ivec2(glm::floor(least_slide)) + layout.low * glm::ivec2(layout.per_voxel) - glm::ivec2(room);
-  const glm::ivec2 last_node =
-      glm::ivec2(glm::ceil(most_slide)) + layout.high * glm::ivec2(layout.per_voxel) + glm::ivec2(room);
+  // What is known reaches as far as the band does; some room keeps its nodes those of the coarser lattices.
+  const int room = most_of(per_voxel);
+  const glm::ivec2 first_node = glm::ivec2(glm::floor(least_slide)) + layout.low * glm::ivec2(per_voxel) - room;
+  const glm::ivec2 last_node = glm::ivec2(glm::ceil(most_slide)) + layout.high * glm::ivec2(per_voxel) + room;
   for (std::size_t n = 0; n < slides.size(); ++n) {
     layout.slice_first.push_back(glm::ivec2(glm::round(slides[n])) - first_node);
-    layout.slice_node[n] += room.z;
+    layout.slice_node[n] += room;
   }
-  const int tall = layout.slice_node.empty() ? 1 : layout.slice_node.back() + room.z + 1;
+  const int tall = layout.slice_node.empty() ? 1 : layout.slice_node.back() + room + 1;
   const glm::ivec3 size(last_node - first_node + 1, tall);
   lattice.bricks = (size + NodeBricks::edge - 1) / NodeBricks::edge;
   lattice.origin = geometry.slice_positions.front() + lattice.axes[0] * (first_node.x * lattice.spacing.x) +
                    lattice.axes[1] * (first_node.y * lattice.spacing.y) +
-                   lattice.axes[2] * (base - room.z * lattice.spacing.z);
-  planes.node = layout.slice_node;
+                   lattice.axes[2] * (base - room * lattice.spacing.z);
+  return layout;
+}
 
+/// The nodes of a plane that are voxels, and where the mask has fractions their known distances.
+std::vector<std::uint8_t> seed_plane(const Mask& mask, const Layout& layout, const glm::ivec2& nodes, std::size_t plane,
+                                     PlaneDistances& distances) {
+  const auto count = static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y);
+  std::vector<std::uint8_t> seeds(count, unknown);
+  const bool has_fractions = mask.fractions != Mask::Fractions::none;
+  if (has_fractions) distances.known.assign(count, std::numeric_limits<float>::quiet_NaN());
+  const int k = layout.slice[plane];
+  const glm::ivec3 last = mask.geometry.dimensions - 1;
+  for (int j = layout.low.y; j <= layout.high.y; ++j) {
+    const int row = layout.slice_first[plane].y + j * layout.per_voxel.y;
+    for (int i = layout.low.x; i <= layout.high.x; ++i) {
+      const int column = layout.slice_first[plane].x + i * layout.per_voxel.x;
+      if (row >= 0 && row < nodes.y && column >= 0 && column < nodes.x) {
+        const std::size_t node =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(nodes.x) + static_cast<std::size_t>(column);
+        seeds[node] = mask.inside(std::clamp(i, 0, last.x), std::clamp(j, 0, last.y), k) ? in : out;
+        if (has_fractions) distances.known[node] = edge_distance(mask, i, j, k);
+      }
+    }
+  }
+  return seeds;
+}
+
+void compute_plane(const Mask& mask, const Layout& layout, const NodeLattice& lattice, double band_mm,
+                   std::size_t plane, PlaneDistances& distances) {
+  const glm::ivec2 nodes(lattice.bricks * NodeBricks::edge);
+  const std::vector<std::uint8_t> seeds = seed_plane(mask, layout, nodes, plane, distances);
+  std::vector<float> along(seeds.size());
+  const auto columns = static_cast<std::size_t>(nodes.x);
+  const int reach = static_cast<int>(std::ceil(band_mm / lattice.spacing.y));
+  for (const Seed wanted : {in, out}) {
+    for (int j = 0; j < nodes.y; ++j) {
+      const auto first = static_cast<std::size_t>(j) * columns;
+      along_row(std::span(seeds).subspan(first, columns), wanted, static_cast<float>(lattice.spacing.x),
+                std::span(along).subspan(first, columns));
+    }
+    across_rows(along, nodes.x, nodes.y, static_cast<float>(lattice.spacing.y), reach,
+                wanted == in ? distances.to_inside : distances.to_outside);
+  }
+}
+
+}  // namespace
+
+OutlinePlanes planes_of(const Mask& mask, double reach_mm) {
+  const Slices slices = slices_of(mask.geometry);
+  const glm::ivec3 per_voxel = nodes_per_voxel(slices);
+  OutlinePlanes planes;
+  planes.coarser = std::countr_zero(static_cast<unsigned>(most_of(per_voxel)));
+  NodeLattice& lattice = planes.lattice;
+  lattice.axes = glm::dmat3(mask.geometry.direction_i, slices.across, slices.normal);
+  lattice.spacing = slices.voxel() / Vec3(per_voxel);
+  planes.play_mm = glm::length(slices.voxel());
+  planes.band_mm = band_for(reach_mm, lattice, planes.play_mm);
+  const Layout layout = lay_out(mask, slices, per_voxel, planes.band_mm, lattice);
+  planes.node = layout.slice_node;
   planes.compute = [&mask, layout, lattice, band = planes.band_mm](std::size_t plane, PlaneDistances& distances) {
-    const int columns = lattice.bricks.x * NodeBricks::edge;
-    const int rows = lattice.bricks.y * NodeBricks::edge;
-    const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    std::vector<std::uint8_t> seeds(count, unknown);
-    const int k = layout.slice[plane];
-    for (int j = layout.low.y; j <= layout.high.y; ++j) {
-      const int row = layout.slice_first[plane].y + j * layout.per_voxel.y;
-      for (int i = layout.low.x; i <= layout.high.x; ++i) {
-        const int column = layout.slice_first[plane].x + i * layout.per_voxel.x;
-        if (row >= 0 && row < rows && column >= 0 && column < columns) {
-          seeds[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)] =
-              mask.inside(i, j, k) ? in : out;
-        }
-      }
-    }
-    std::vector<float> along(count);
-    const int reach = static_cast<int>(std::ceil(band / lattice.spacing.y));
-    for (const Seed wanted : {in, out}) {
-      for (int j = 0; j < rows; ++j) {
-        const auto first = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns);
-        along_row(std::span(seeds).subspan(first, static_cast<std::size_t>(columns)), wanted,
-                  static_cast<float>(lattice.spacing.x),
-                  std::span(along).subspan(first, static_cast<std::size_t>(columns)));
-      }
-      across_rows(along, columns, rows, static_cast<float>(lattice.spacing.y), reach,
-                  wanted == in ? distances.to_inside : distances.to_outside);
-    }
+    compute_plane(mask, layout, lattice, band, plane, distances);
   };
   return planes;
 }

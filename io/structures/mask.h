@@ -13,7 +13,7 @@ namespace palpate::io {
 
 /// Only the box that holds the structure is kept; all else is outside.
 struct Mask {
-  /// What a voxel that is wholly inside holds; from half of it on a voxel is inside.
+  /// The occupancy of a voxel that is wholly inside. A voxel with half of it or more counts as inside.
   static constexpr std::uint8_t full = 254;
   static constexpr std::uint8_t half = 127;
 
@@ -21,8 +21,12 @@ struct Mask {
   glm::ivec3 low{0};                    ///< first voxel of the box
   glm::ivec3 size{0};                   ///< voxels of the box
   std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: how much of a voxel is inside, 0 to full
-  /// Whether `occupancy` holds fractions: then they say where in a voxel the edge is, and the field uses them.
-  bool fractional = false;
+  /// What `occupancy` tells besides in and out. Where the edge is within a voxel is read of it, and the field keeps it.
+  enum class Fractions : std::uint8_t {
+    none,
+    probability,  ///< how likely it is inside: the edge is where half is reached between voxels
+    occupancy     ///< how much of the voxel is inside
+  } fractions = Fractions::none;
 
   std::size_t offset(int i, int j, int k) const noexcept {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(j)) *

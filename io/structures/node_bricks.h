@@ -1,8 +1,9 @@
 #pragma once
 
-/// The lattice that a structure's distance is computed on: straight, at right angles, near the voxels' own spacing
-/// along each axis, so that every voxel's centre lies on one of its nodes; kept in bricks, near the surface only.
+/// The lattice on which a structure's distance is computed. It is straight and at right angles, with a spacing near the
+/// voxels', so that every voxel's center is a node. It is kept in bricks, near the surface only.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,33 +57,42 @@ struct NodeBricks {
   }
 };
 
-/// A brick's numbers with those of its neighbours up to `margin` nodes around it: (8 + 2 margin)^3, i fastest. Where
-/// there is no brick: `missing`.
+/// So many numbers, whose count the compiler knows: rows are short, and calls would cost more than they copy.
+template <int count, typename Number>
+inline void put_row(const Number* from, const Number& missing, Number* into) noexcept {
+  if (from == nullptr) {
+    for (int n = 0; n < count; ++n) into[n] = missing;
+  } else {
+    for (int n = 0; n < count; ++n) into[n] = from[n];
+  }
+}
+
+/// A brick's numbers with those of its neighbors up to `margin` nodes around it: (8 + 2 margin)^3, i fastest. `missing`
+/// stands where there is no brick.
 template <int margin, typename Number>
 void gather(const NodeBricks& bricks, std::span<const Number> numbers, std::size_t slot, const Number& missing,
             Number* into) noexcept {
-  constexpr std::ptrdiff_t wide = NodeBricks::edge + 2 * margin;
+  constexpr int edge = NodeBricks::edge;
+  constexpr std::ptrdiff_t wide = edge + 2 * margin;
   const glm::ivec3 place = bricks.place[slot];
+  const auto first = [](int d) { return d < 0 ? -margin : d * edge; };
+  const auto end = [](int d) { return d < 0 ? 0 : (d == 0 ? edge : edge + margin); };
   for (int dz = -1; dz <= 1; ++dz) {
-    const int z0 = dz < 0 ? -margin : dz * NodeBricks::edge;
-    const int z1 = dz < 0 ? 0 : (dz == 0 ? NodeBricks::edge : NodeBricks::edge + margin);
     for (int dy = -1; dy <= 1; ++dy) {
-      const int y0 = dy < 0 ? -margin : dy * NodeBricks::edge;
-      const int y1 = dy < 0 ? 0 : (dy == 0 ? NodeBricks::edge : NodeBricks::edge + margin);
+      std::array<const Number*, 3> bases{};  // of the bricks before, at and behind
       for (int dx = -1; dx <= 1; ++dx) {
-        const int x0 = dx < 0 ? -margin : dx * NodeBricks::edge;
-        const int x1 = dx < 0 ? 0 : (dx == 0 ? NodeBricks::edge : NodeBricks::edge + margin);
         const std::int32_t from = bricks.slot_at(place.x + dx, place.y + dy, place.z + dz);
-        const Number* source = from < 0 ? nullptr : numbers.data() + static_cast<std::size_t>(from) * NodeBricks::nodes;
-        for (int z = z0; z < z1; ++z) {
-          for (int y = y0; y < y1; ++y) {
-            Number* row = into + ((z + margin) * wide + y + margin) * wide + margin;
-            for (int x = x0; x < x1; ++x) {
-              row[x] = source == nullptr ? missing
-                                         : source[NodeBricks::at(x - dx * NodeBricks::edge, y - dy * NodeBricks::edge,
-                                                                 z - dz * NodeBricks::edge)];
-            }
-          }
+        if (from < 0) continue;
+        bases.data()[dx + 1] = numbers.data() + static_cast<std::size_t>(from) * NodeBricks::nodes;
+      }
+      const auto [before, at, behind] = bases;
+      for (int z = first(dz); z < end(dz); ++z) {
+        for (int y = first(dy); y < end(dy); ++y) {
+          const std::size_t row = NodeBricks::at(0, y - dy * edge, z - dz * edge);
+          Number* const to = into + ((z + margin) * wide + y + margin) * wide;
+          put_row<margin>(before == nullptr ? nullptr : before + row + (edge - margin), missing, to);
+          put_row<edge>(at == nullptr ? nullptr : at + row, missing, to + margin);
+          put_row<margin>(behind == nullptr ? nullptr : behind + row, missing, to + margin + edge);
         }
       }
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What an outline says, plane by plane: of every node of a plane how far it is, within the plane, from what is inside
-/// and from what is outside. Labels (label_planes.h) and contours (contour_planes.h) are both read so.
+/// An outline, plane by plane. Each node of a plane has its distances, within the plane, to the nearest inside and to
+/// the nearest outside. Labels (label_planes.h) and contours (contour_planes.h) both become this.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,21 +14,23 @@
 
 namespace palpate::io {
 
-/// Of one plane, rows of nodes one after the other: squared, mm^2, in the plane; `far` where there is nothing within
-/// the band.
+/// The squared distances of one plane, mm^2, row by row and measured in the plane; `far` if there is nothing within the
+/// band.
 struct PlaneDistances {
   static constexpr float far = 1e12F;
 
   std::vector<float> to_inside;
   std::vector<float> to_outside;
-  /// Where the outline itself says how far a node is from the edge (fractions): mm, positive inside; NaN elsewhere.
-  /// Empty where it never does.
+  /// The distance of a node from the edge where the outline itself gives it (fractions): mm, positive inside; NaN
+  /// elsewhere. Empty if it never does.
   std::vector<float> known;
 };
 
 struct OutlinePlanes {
   NodeLattice lattice;
   std::vector<int> node;  ///< of each plane, ascending: which node along the third axis it lies on
+  /// A lattice of every 2^coarser-th node along each axis still holds all planes, and hardly a node between them.
+  int coarser = 0;
   /// How far the surface may be from the nearest point that is known to be on its other side, mm.
   double play_mm = 1;
   /// How far from the surface the field has to reach, mm.
@@ -37,12 +39,12 @@ struct OutlinePlanes {
   std::function<void(std::size_t plane, PlaneDistances& distances)> compute;
 };
 
-/// mm: over how far the field goes over from full detail to the coarse lattice.
+/// mm: the distance over which the field changes from full detail to the coarse lattice.
 inline double blend_mm(const NodeLattice& lattice) {
   return std::max(2.0, 2.0 * glm::length(lattice.spacing));
 }
 
-/// The band that a reach of the field needs.
+/// The band that a field of this reach needs.
 inline double band_for(double reach_mm, const NodeLattice& lattice, double play_mm) {
   const double cell_mm = glm::length(lattice.spacing);
   return std::max(reach_mm + blend_mm(lattice), play_mm) + 1.5 * cell_mm;

@@ -104,7 +104,7 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
   pixels.big_endian = DcmXfer(start.transfer_syntax.c_str()).getPixelDataByteOrder() == EBO_BigEndian;
   if (element.length == internal::PixelElement::undefined_length) {
     if (!internal::can_decode(start.transfer_syntax)) {
-      throw DicomError(say("compression-is-unknown-here", start.transfer_syntax));
+      throw DicomError(internal::why_not_decoded(start.transfer_syntax));
     }
     pixels.coding = PixelCoding::encapsulated;
     internal::check_density(start.transfer_syntax, format.bits_allocated == 1 ? as_bytes(format) : format, frames,
@@ -113,6 +113,7 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
     return pixels;
   }
   pixels.coding = start.deflated ? PixelCoding::deflated : PixelCoding::native;
+  if (start.deflated) internal::check_inflation(element.length, file.size());
   const std::uint64_t needed = (pixels_of(format) * frames * static_cast<std::uint64_t>(format.bits_allocated) + 7) / 8;
   const std::uint64_t present =
       start.deflated ? element.length

@@ -14,7 +14,7 @@
 
 namespace palpate::io {
 
-enum class SegmentationType : std::uint8_t { binary, fractional, label_map };
+enum class SegmentationType : std::uint8_t { binary, probability, occupancy, label_map };
 
 struct SegmentationPixels {
   std::filesystem::path path;

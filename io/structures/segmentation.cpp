@@ -96,6 +96,11 @@ std::vector<PlacedFrame> placed_frames(DcmItem& dataset, SegmentationType type, 
   return frames;
 }
 
+Mask::Fractions fractions_of(SegmentationType type) {
+  if (type == SegmentationType::probability) return Mask::Fractions::probability;
+  return type == SegmentationType::occupancy ? Mask::Fractions::occupancy : Mask::Fractions::none;
+}
+
 /// Whether two frames lie on parallel planes with the same pixels.
 bool share_lattice(const Placement& a, const Placement& b) {
   constexpr double tolerance = 1e-3;
@@ -177,15 +182,23 @@ class SegmentationSource final : public StructureSource {
     geometry_.gaps.clear();
   }
 
-  StructureMeasures measure(int number) const override { return measures_of(mask_of(number)); }
+  StructureMeasures measure(int number, const RigidMotion& motion) const override {
+    return measures_of(moved_mask(number, motion));
+  }
   std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override {
-    Mask mask = mask_of(number);
+    Mask mask = moved_mask(number, options.motion);
     measures_of(mask);  // refuses one that is empty
     add_empty_slices(options, mask);
     return distance_of(mask, options);
   }
 
  private:
+  Mask moved_mask(int number, const RigidMotion& motion) const {
+    Mask mask = mask_of(number);
+    move(motion, mask.geometry);
+    return mask;
+  }
+
   struct Cut {
     int slice = 0;
     glm::ivec2 low{0}, size{0};
@@ -251,7 +264,7 @@ class SegmentationSource final : public StructureSource {
     }
     Mask mask;
     mask.geometry = geometry_;
-    mask.fractional = type_ == SegmentationType::fractional;
+    mask.fractions = fractions_of(type_);
     if (cuts.empty()) {
       return mask;
     }
@@ -320,7 +333,10 @@ std::vector<Structure> segments_in(DcmItem& dataset) {
 SegmentationType type_in(DcmItem& dataset, const std::string& sop_class) {
   const std::string type = text_of(dataset, DCM_SegmentationType);
   if (type == "LABELMAP" || sop_class == "1.2.840.10008.5.1.4.1.1.66.7") return SegmentationType::label_map;
-  if (type == "FRACTIONAL") return SegmentationType::fractional;
+  if (type == "FRACTIONAL") {
+    const bool is_share = text_of(dataset, DCM_SegmentationFractionalType) == "OCCUPANCY";
+    return is_share ? SegmentationType::occupancy : SegmentationType::probability;
+  }
   if (type == "BINARY") return SegmentationType::binary;
   throw DicomError(say("segmentation-type-is-unknown", type));
 }
@@ -352,8 +368,8 @@ std::vector<Structure> structures_of_segmentation(const StructureDataset& file) 
   std::vector<Structure> structures = segments_in(dataset);
   const auto count = static_cast<std::size_t>(std::clamp(number_of(dataset, DCM_NumberOfFrames).value_or(1), 1.0, 1e6));
   const std::vector<PlacedFrame> frames = placed_frames(dataset, type, count);
-  const double most =
-      type == SegmentationType::fractional ? number_of(dataset, DCM_MaximumFractionalValue).value_or(255) : 1;
+  const bool is_fractional = fractions_of(type) != Mask::Fractions::none;
+  const double most = is_fractional ? number_of(dataset, DCM_MaximumFractionalValue).value_or(255) : 1;
   if (!(most > 0)) {
     throw DicomError(say("maximumfractionalvalue-is-not-above-0"));
   }

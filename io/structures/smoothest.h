@@ -1,9 +1,10 @@
 #pragma once
 
-/// The smoothest field within bounds: of all fields f with lower <= f <= upper at every node the one with the least
-/// integral of (Laplacian f)^2. A voxel's side is one of the bounds, so the surface f = 0 parts what is labelled from
-/// what is not, and is otherwise as smooth as it can be. Source: Lempitsky, "Surface extraction from binary volumes
-/// with higher-order smoothness", CVPR 2010.
+/// The smoothest surface that has every voxel's centre on its own side. Of all fields f that keep the signs and are the
+/// surface's own distance some way from it, the one with the least integral of (Laplacian f)^2; and then again with the
+/// distance from the surface that was found. What it comes to rest at is a distance whose bending is least: a ball
+/// stays a ball. Sources: Lempitsky, "Surface extraction from binary volumes with higher-order smoothness", CVPR 2010,
+/// for the signs as bounds; the distance in place of bounds far away is what keeps a surface from flattening.
 
 #include <vector>
 
@@ -11,16 +12,19 @@
 
 namespace palpate::io {
 
-/// How long it is sought: accelerated projected gradient steps (Beck and Teboulle 2009, restarted as by O'Donoghue and
-/// Candes 2015) on the coarser lattices, each half as fine as the next, and on the finest.
 struct SmoothestOptions {
-  int levels = 1;
-  int coarse_steps = 60;
-  int fine_steps = 150;
+  /// How many coarser lattices, each of every second node, it begins on: so many that the coarsest has no nodes between
+  /// the slices of an outline, where nothing is known.
+  int coarser = 0;
+  int coarse_rounds = 8;  ///< on each of them
+  int rounds = 6;         ///< how often the distance from the surface is taken anew, on the finest
+  /// Accelerated projected gradient steps in a round (Beck and Teboulle 2009, restarted as by O'Donoghue and Candes
+  /// 2015).
+  int steps = 60;
   int threads = 0;
 };
 
-/// f at every node of every brick, mm. The same to the last bit on any number of threads.
+/// f at every node of every brick, mm: its zero is the surface. The same to the last bit on any number of threads.
 std::vector<float> smoothest(const DistanceBounds& bounds, const SmoothestOptions& options = {});
 
 }  // namespace palpate::io

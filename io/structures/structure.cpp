@@ -29,8 +29,9 @@ constexpr const char* surface_segmentation_storage = "1.2.840.10008.5.1.4.1.1.66
 constexpr const char* structure_set_storage = "1.2.840.10008.5.1.4.1.1.481.3";
 
 /// What a file holds; nothing where it is of another kind.
-std::vector<Structure> structures_in(const fs::path& path) {
-  if (std::vector<Structure> labels = structures_of_label_map(path); !labels.empty()) return labels;
+StructureCatalogue structures_in(const fs::path& path) {
+  if (std::vector<Structure> labels = structures_of_label_map(path); !labels.empty())
+    return {std::move(labels), {}, {}};
   std::optional<internal::InputFile> file;
   internal::DatasetStart start;
   DcmDataset dataset;
@@ -45,6 +46,7 @@ std::vector<Structure> structures_in(const fs::path& path) {
     return {};  // no DICOM file, or none that can be read: find_series() says so
   }
   const StructureDataset read{path, start, pixels, dataset};
+  if (auto registration = registration_in(dataset, path)) return {{}, {std::move(*registration)}, {}};
   std::vector<Structure> structures;
   if (sop_class == segmentation_storage || sop_class == label_map_segmentation_storage) {
     structures = structures_of_segmentation(read);
@@ -58,9 +60,10 @@ std::vector<Structure> structures_in(const fs::path& path) {
     structure.file = path;
     structure.study_uid = text_of(dataset, DCM_StudyInstanceUID);
     structure.patient_id = text_of(dataset, DCM_PatientID);
+    structure.patient_name = text_of(dataset, DCM_PatientName);
     if (structure.frame_of_reference_uid.empty()) structure.frame_of_reference_uid = frame_of_reference;
   }
-  return structures;
+  return {std::move(structures), {}, {}};
 }
 
 std::string in_words(const Structure& structure) {
@@ -99,7 +102,7 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
   internal::start_dcmtk();
   StructureCatalogue catalogue;
   const std::vector<fs::path> files = internal::files_below(paths, catalogue.skipped);
-  std::vector<std::vector<Structure>> found(files.size());
+  std::vector<StructureCatalogue> found(files.size());
   std::vector<Text> reasons(files.size());
   internal::parallel_for(
       files.size(),
@@ -114,20 +117,23 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
       },
       progress, 0);
   for (std::size_t n = 0; n < files.size(); ++n) {
-    std::stable_sort(found[n].begin(), found[n].end(),
-                     [](const Structure& a, const Structure& b) { return a.number < b.number; });
-    std::move(found[n].begin(), found[n].end(), std::back_inserter(catalogue.structures));
+    std::ranges::stable_sort(found[n].structures, {}, &Structure::number);
+    std::ranges::move(found[n].structures, std::back_inserter(catalogue.structures));
+    std::ranges::move(found[n].registrations, std::back_inserter(catalogue.registrations));
     if (!reasons[n].empty()) catalogue.skipped.push_back({files[n], reasons[n]});
   }
   return catalogue;
 }
 
 std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options) {
-  return named(structure, [&](const StructureSource& source) { return source.distance(structure.number, options); });
+  DistanceOptions moved = options;
+  moved.motion = structure.motion;
+  return named(structure, [&](const StructureSource& source) { return source.distance(structure.number, moved); });
 }
 
 StructureMeasures measure(const Structure& structure) {
-  return named(structure, [&](const StructureSource& source) { return source.measure(structure.number); });
+  return named(structure,
+               [&](const StructureSource& source) { return source.measure(structure.number, structure.motion); });
 }
 
 }  // namespace palpate::io

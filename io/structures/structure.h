@@ -14,6 +14,7 @@
 #include "io/progress.h"
 #include "io/series.h"
 #include "io/structures/distance_field.h"
+#include "io/structures/registration.h"
 #include "solver/text/message.h"
 
 namespace palpate::io {
@@ -23,7 +24,7 @@ enum class StructureKind : std::uint8_t { segmentation, contours, label_map };
 /// "SEG", "RTSTRUCT", "label map".
 const char* name_of(StructureKind kind) noexcept;
 
-/// What a structure comes to, LPS, mm.
+/// The size of a structure, LPS, mm.
 struct StructureMeasures {
   std::optional<std::uint64_t> voxels;    ///< of SEG and label maps
   std::optional<std::uint64_t> contours;  ///< of RTSTRUCT
@@ -42,8 +43,8 @@ class StructureSource {
   StructureSource& operator=(const StructureSource&) = delete;
   virtual ~StructureSource() = default;
 
-  /// Both throw DicomError, with a reason that does not name the file, where the structure cannot be read or is empty.
-  virtual StructureMeasures measure(int number) const = 0;
+  /// Both throw DicomError if the structure cannot be read or is empty. The reason does not name the file.
+  virtual StructureMeasures measure(int number, const RigidMotion& motion) const = 0;
   virtual std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const = 0;
 };
 
@@ -56,25 +57,28 @@ struct Structure {
   std::string color;                   ///< "#rrggbb", or empty
   std::string frame_of_reference_uid;  ///< empty where it is not said
   std::string study_uid;
-  std::string patient_id;  ///< to be compared with the scan's; never written or shown
-  Text unfit;              ///< why it cannot be felt; empty where it can
+  std::string patient_id, patient_name;  ///< to be compared with the scan's; never written or shown
+  /// From the frame of reference that it was outlined in to the one above: a registration's (registration.h).
+  RigidMotion motion;
+  Text unfit;  ///< why it cannot be felt; empty where it can
   std::vector<Text> warnings;
   std::shared_ptr<const StructureSource> source;
 };
 
 struct StructureCatalogue {
-  std::vector<Structure> structures;  ///< by file, then by number
-  std::vector<SkippedFile> skipped;   ///< what claims to hold structures and does not
+  std::vector<Structure> structures;        ///< by file, then by number
+  std::vector<Registration> registrations;  ///< found among them, by file
+  std::vector<SkippedFile> skipped;         ///< what claims to hold structures and does not
 };
 
-/// The structures in these files and folders (searched to the bottom). Files of other kinds are passed over in silence.
-/// Throws DicomError where a path does not exist; Cancelled.
+/// The structures in these files and folders, which are searched to the bottom. Files of other kinds are ignored.
+/// Throws DicomError if a path does not exist; Cancelled.
 StructureCatalogue find_structures(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
-/// Reads one structure's distance. Throws DicomError that names the file and the structure.
+/// Reads one structure's distance, moved by its motion. Throws DicomError that names the file and the structure.
 std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options = {});
 
-/// Throws DicomError that names the file and the structure.
+/// Of the structure where its motion puts it. Throws DicomError that names the file and the structure.
 StructureMeasures measure(const Structure& structure);
 
 }  // namespace palpate::io

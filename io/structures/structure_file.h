@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/dicom/dataset.h"
+#include "io/interchange/voxel_file.h"
 #include "io/structures/structure.h"
 
 class DcmDataset;
@@ -23,7 +24,9 @@ struct StructureDataset {
 
 std::vector<Structure> structures_of_segmentation(const StructureDataset& file);
 std::vector<Structure> structures_of_contours(const StructureDataset& file);
-/// NIfTI and NRRD; none where it is another kind of file, or an image.
+/// NIfTI, NRRD and MetaImage; none where it is another kind of file, or an image.
 std::vector<Structure> structures_of_label_map(const std::filesystem::path& path);
+/// Whether such a file holds labels and not a scan, by its values. Reads as far as it has to.
+bool is_label_map(const VoxelFile& file);
 
 }  // namespace palpate::io

@@ -151,6 +151,31 @@ TEST(Segmentations, OfFractionsHaveTheirEdgeAtHalf) {
   EXPECT_EQ(voxels_of(structures_in(folder).structures.at(0)), 2U * rows * (columns - 5));
 }
 
+// Nothing up to column 4, 60 of 200 in column 5, all of what follows: the edge lies within column 5.
+TEST(Segmentations, OfFractionsAreFeltWhereTheirFractionsSay) {
+  const auto step = [](int i, int) { return i < 5 ? 0 : (i == 5 ? 60 : 200); };
+  const auto edge_of = [&](const char* type) {
+    const TestFolder folder;
+    TestSegmentation segmentation{.type = "FRACTIONAL", .bits = 8};
+    for (int n = 0; n < 24; ++n) segmentation.frames.push_back({1, 2.0 * n, step});
+    segmentation.edit = [&](DcmDataset& dataset) { put(dataset, DCM_SegmentationFractionalType, type); };
+    write(segmentation, folder / "seg.dcm");
+    const Structure structure = structures_in(folder).structures.at(0);
+    const auto field = load_distance(structure);
+    const StructureMeasures measures = measure(structure);  // of columns 6 to 12, all rows
+    const double spacing = (measures.box_high_mm.x - measures.box_low_mm.x) / 6;
+    const double y = 0.5 * (measures.box_low_mm.y + measures.box_high_mm.y);
+    double out = measures.box_low_mm.x - 2 * spacing, in = measures.box_low_mm.x;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (in + out);
+      (field->sample({middle, y, 23}).mm > 0 ? in : out) = middle;
+    }
+    return 6 + (in - measures.box_low_mm.x) / spacing;
+  };
+  EXPECT_NEAR(edge_of("OCCUPANCY"), 5.2, 0.05) << "0.7 of column 5, which ends at 5.5, is outside";
+  EXPECT_NEAR(edge_of("PROBABILITY"), 5 + 0.2 / 0.7, 0.05) << "half lies between 0.3 and 1";
+}
+
 TEST(Segmentations, OfLabelsHaveOneAFrame) {
   for (const int bits : {8, 16}) {
     const TestFolder folder;
@@ -211,7 +236,7 @@ TEST(Segmentations, AreRefusedInWords) {
   EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_PerFrameFunctionalGroupsSequence); }),
             "it does not say where its frames lie (PerFrameFunctionalGroupsSequence): export it again");
   EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_NumberOfFrames, "5"); }),
-            "it says of 2 of its 5 frames where they lie: export it again");
+            "it gives the positions of only 2 of its 5 frames: export it again");
   EXPECT_EQ(
       edited([](DcmDataset& d) { group(d, DCM_SharedFunctionalGroupsSequence).clear(); }),
       "a frame of it does not say where it lies in the patient (position, orientation or spacing): export it again");

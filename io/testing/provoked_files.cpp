@@ -1,5 +1,6 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcuid.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -215,7 +216,7 @@ std::vector<Provoked> provoke_files() {
            write_bytes(folder / name, bytes.substr(0, bytes.size() - 10));
          }
        })},
-      {"values-need-a-modality-look-up", of_image([](DcmDataset& d) {
+      {"modality-look-up-table-is-damaged", of_image([](DcmDataset& d) {
          DcmItem* item = nullptr;
          d.findOrCreateSequenceItem(DCM_ModalityLUTSequence, item, -2);
        })},
@@ -223,10 +224,11 @@ std::vector<Provoked> provoke_files() {
          put(d, DCM_NumberOfFrames, std::string("2"));
          repeat_pixels(d, 2);
        })},
-      {"floating-point-pixels", of_image([](DcmDataset& d) {
-         d.findAndDeleteElement(DCM_PixelData);
-         const std::vector<Float32> pixels(24);
-         succeed(d.putAndInsertFloat32Array(DcmTag(0x7FE0, 0x0008, EVR_OF), pixels.data(), pixels.size()));
+      {"real-world-values-need-a-table", of_image([](DcmDataset& d) {
+         make_multi_frame(d, {0, 2},
+                          [](std::size_t, DcmItem& frame) { group(frame, DCM_RealWorldValueMappingSequence); });
+         put(d, DCM_SOPClassUID, std::string(UID_ParametricMapStorage));
+         repeat_pixels(d, 2);
        })},
       {"rescale-is-no-number", of_image([](DcmDataset& d) { put(d, DCM_RescaleSlope, std::string("two")); })},
       {"rescale-slope-is-0", of_image([](DcmDataset& d) { put(d, DCM_RescaleSlope, std::string("0")); })},

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <exception>
-#include <fstream>
-#include <iterator>
 
 #include "io/load.h"
 #include "io/series.h"
@@ -11,15 +9,6 @@
 namespace palpate::io::testing {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-void write_bytes(const fs::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
 
 std::string said_of(const fs::path& folder, const std::function<void()>& between) {
   std::string said;

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
 #include "solver/text/testing/shown.h"
 
 namespace palpate::io::testing {
 
+using internal::bytes_of;
 using internal::TestFolder;
 using internal::TestImage;
+using internal::write_bytes;
 using palpate::testing::Provoked;
 using palpate::testing::said_when;
-
-std::string bytes_of(const std::filesystem::path& file);
-void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 
 /// What is said of a folder: why files were set apart, notes on its series, and why the first cannot be loaded.
 /// `between` is done after the headers are read and before the pixels are.
@@ -38,5 +38,6 @@ std::string of_stack(int count, const std::function<void(int, TestImage&)>& chan
 std::vector<Provoked> provoke_files();
 std::vector<Provoked> provoke_headers();
 std::vector<Provoked> provoke_pixels();
+std::vector<Provoked> provoke_archives();
 
 }  // namespace palpate::io::testing

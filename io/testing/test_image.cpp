@@ -78,6 +78,14 @@ Catalogue find_in(const TestFolder& folder) {
   return find_series(std::array{folder.path()});
 }
 
+Series only_series_in(const TestFolder& folder) {
+  const Catalogue found = find_in(folder);
+  if (found.series.size() == 1) return found.series.front();
+  std::string why = std::to_string(found.series.size()) + " series";
+  for (const SkippedFile& file : found.skipped) why += "; " + static_cast<const std::string&>(file.reason);
+  throw std::runtime_error(why);
+}
+
 Volume load_frame(const Series& series, int frame) {
   LoadOptions options;
   options.frame = frame;

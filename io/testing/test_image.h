@@ -70,6 +70,8 @@ void write_stack(
 
 /// What the reader finds there.
 Catalogue find_in(const TestFolder& folder);
+/// The one series there. Throws with what is set apart where there is none or there are several.
+Series only_series_in(const TestFolder& folder);
 Volume load_frame(const Series& series, int frame);
 
 /// Makes the dataset an enhanced one: a frame for each height z (mm), in this order, oriented and spaced as the image

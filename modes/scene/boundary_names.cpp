@@ -12,6 +12,8 @@ namespace {
 std::string ct_name(const NamedPair& boundary) {
   const std::string_view low = ct_tissue(boundary.low), high = ct_tissue(boundary.high);
   const bool from_air = low == "air", from_lung = low == "lung or foam";
+  if (!boundary.within.empty() && low == "fat" && high == "soft tissue") return "Soft tissue";
+  if (!boundary.within.empty()) return "Wall in " + boundary.within;
   if (high == "metal") return "Metal";
   if (high == "bone" && low == "bone") return "Dense bone";
   if (high == "bone") return from_air || from_lung ? "Bone at air" : "Bone";
@@ -24,6 +26,7 @@ std::string ct_name(const NamedPair& boundary) {
 std::vector<double> sorted_values(std::span<const NamedPair> boundaries) {
   std::vector<double> values;
   for (const NamedPair& boundary : boundaries) {
+    if (!boundary.within.empty()) continue;
     values.push_back(boundary.low);
     values.push_back(boundary.high);
   }
@@ -40,11 +43,16 @@ std::vector<std::string> ranked_names(std::span<const NamedPair> boundaries) {
   std::vector<std::string> names;
   std::size_t least = 0;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    if (!boundaries[b].within.empty()) {
+      names.push_back("Wall in " + boundaries[b].within + ", " + std::to_string(std::lround(boundaries[b].low)) +
+                      " to " + std::to_string(std::lround(boundaries[b].high)));
+      continue;
+    }
     names.push_back("Tissue " + rank(boundaries[b].low) + " to " + rank(boundaries[b].high));
     const auto sum = [&](std::size_t n) { return boundaries[n].low + boundaries[n].high; };
     if (sum(b) < sum(least)) least = b;
   }
-  if (!boundaries.empty() && boundaries[least].low == values.front()) names[least] = "Skin?";
+  if (!values.empty() && boundaries[least].low == values.front()) names[least] = "Skin?";
   return names;
 }
 

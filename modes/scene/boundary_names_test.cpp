@@ -26,6 +26,15 @@ TEST(BoundaryNames, without_hu_are_questions_or_ranks) {
   EXPECT_TRUE(boundary_names({}, false).empty());
 }
 
+TEST(BoundaryNames, of_walls_within_a_tissue_tell_which) {
+  const std::vector<NamedPair> ct{
+      {-850, 40}, {-850, -750, "lung or foam"}, {-90, 50, "soft tissue"}, {-2, 178, "soft tissue"}};
+  EXPECT_EQ(boundary_names(ct, true),
+            (Names{"Lung surface", "Wall in lung or foam", "Soft tissue", "Wall in soft tissue"}));
+  const std::vector<NamedPair> mr{{10, 300}, {300, 800}, {250, 340, "tissue 2 of 3"}};
+  EXPECT_EQ(boundary_names(mr, false), (Names{"Skin?", "Tissue 2 to 3", "Wall in tissue 2 of 3, 250 to 340"}));
+}
+
 TEST(BoundaryNames, tell_the_way_back) {
   EXPECT_EQ(way_back_name("Skin"), "Skin, from inside");
 }

@@ -1,16 +1,15 @@
 #pragma once
 
-/// Every default of a scene that a hand may feel, in one place, with its unit and its reason. Two are elsewhere, for
-/// these folders know nothing of each other: the gradient's scale, which io::default_gradient_scale_mm()
-/// (io/gradient.h) finds from a scan's voxels, and the simulated device and hand that every study shares
-/// (device/simulated_stylus.h, device/simulated_hand.h).
+/// The defaults of a scene that a hand may feel, with their units and reasons. Two kinds are elsewhere: the gradient's
+/// scale, which io::default_gradient_scale_mm() (io/fields/gradient.h) finds from a scan's voxels, and the simulated
+/// device and hand (device/simulated/simulated_stylus.h, simulated_hand.h).
 
 namespace palpate::modes::defaults {
 
 /// k of the coupling, N/m: the safe value of Palmerius (2007), section 5; raised where the device allows.
 inline constexpr double stiffness_n_per_m = 400.0;
 
-// Strengths, N: felt, and below every device's continuous force.
+// Strengths, N: strong enough to be felt, and below every device's continuous force.
 inline constexpr double skin_strength_n = 1.0;
 inline constexpr double bone_strength_n = 2.5;
 inline constexpr double friction_strength_n = 0.1;
@@ -27,18 +26,18 @@ inline constexpr double workspace_scale = 1.0;
 // The anchor that keeps a held proxy on its iso-surface (anchor.h), mm of patient.
 /// Largest correction in a sub-step.
 inline constexpr double anchor_step_mm = 0.1;
-/// Travel over which a held level returns to the sampled value: long beside a voxel, whose interpolation shall not be
-/// felt.
+/// Travel over which a held level returns to the sampled value. Much longer than a voxel, so that the interpolation is
+/// not felt.
 inline constexpr double level_length_mm = 20.0;
-/// Farthest iso-surface that it is drawn to.
+/// The anchor is not drawn to an iso-surface that is farther away than this.
 inline constexpr double level_reach_mm = 1.0;
 
-// Subdivision of a frame (haptic_step.h): probe travel of one sub-step, mm of patient, and the most sub-steps of a
-// frame.
+// Subdivision of a tick (haptic_step.h): probe travel of one sub-step, mm of patient, and the most sub-steps of a
+// tick.
 inline constexpr double sub_step_mm = 0.1;
 inline constexpr int most_sub_steps = 8;
-/// Farthest that the proxy jumps unsampled when a surface yields, mm of patient: thin beside a boundary that a CT
-/// can show. And the most halts of a frame.
+/// The farthest that the proxy jumps between two samples when a surface yields, mm of patient: less than the thinnest
+/// boundary that a CT can show. And the most halts of a tick.
 inline constexpr double proxy_step_mm = 0.125;
 inline constexpr int most_halts = 32;
 

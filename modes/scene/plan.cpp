@@ -4,7 +4,9 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "modes/messages.h"
 #include "modes/scene/boundary.h"
@@ -19,7 +21,7 @@ struct FieldName {
   const char* cost;
 };
 constexpr FieldName field_names[] = {
-    {io::FieldSet::value, "value", "one interpolation a sub-step; once a frame it is read all the same, to be shown"},
+    {io::FieldSet::value, "value", "one interpolation a sub-step; once a tick it is read all the same, to be shown"},
     {io::FieldSet::gradient, "gradient", "one gradient sample a tick, and its bricks"},
     {io::FieldSet::vector, "vector field", "one vector sample a tick"},
     {io::FieldSet::tube, "Hessian", "six second derivatives a tick, and their bricks"},
@@ -176,6 +178,59 @@ void choose_solvers(const Scene& scene, const std::vector<Footprint>& footprints
   plan.solvers.exact = plan.solvers.descent = false;
 }
 
+/// The mode in the form for the tick; its structures are added to `index`.
+ActiveMode activate(const Scene& scene, const Mode& mode, std::size_t scene_index, const Footprint& footprint,
+                    StructureIndex& index) {
+  return {.type = find_mode_type(mode.type),
+          .scene_index = scene_index,
+          .co_located = footprint.co_located,
+          .holds = footprint.primitive == solver::PrimitiveType::plane && footprint.co_located,
+          .strength = Strength(mode, std::ref(index)),
+          .side = mode.side,
+          .direction_of = mode.direction_of,
+          .structure = footprint.structure,
+          .level_mm = mode.level_mm,
+          .margin_mm = mode.margin_mm,
+          .push_share = push_share(mode, scene.stiffness_n_per_m),
+          .shape = mode.shape,
+          .position_mm = mode.position_mm,
+          .direction = glm::normalize(mode.direction)};
+}
+
+/// Why a mode is not part of the plan; nothing for one that is. `missing`: what it reads and the scan does not have.
+std::optional<LeftOut> why_left_out(const Mode& mode, std::size_t scene_index, io::FieldSet missing) {
+  const std::string name = name_of(mode, scene_index);
+  const ModeType& type = *find_mode_type(mode.type);
+  if (!mode.enabled) return LeftOut{name, "it is switched off", saved_by(type), io::FieldSet::none, scene_index};
+  if (is_zero_everywhere(mode)) {
+    return LeftOut{name, "its strength is zero everywhere", saved_by(type), io::FieldSet::none, scene_index};
+  }
+  if (missing != io::FieldSet::none) {
+    return LeftOut{name, "there is no " + words(missing) + " here",
+                   "nothing that could be measured: it cannot be felt here"};
+  }
+  return std::nullopt;
+}
+
+void add(const ActiveMode& mode, io::FieldSet reads, Plan& plan) {
+  plan.fields = plan.fields | reads;
+  if (mode.holds && mode.structure >= 0) {
+    plan.holds_structure[static_cast<std::size_t>(mode.structure)] = true;
+  } else {
+    plan.holds_iso_surface = plan.holds_iso_surface || mode.holds;
+  }
+  plan.modes.push_back(mode);
+}
+
+void leave_out_unread_fields(io::FieldSet available, Plan& plan) {
+  for (const FieldName& entry : field_names) {
+    if (entry.field == io::FieldSet::distance) continue;  // said of each structure
+    if (contains(available, entry.field) && !contains(plan.fields, entry.field)) {
+      plan.left_out.push_back({entry.name, "no mode reads it", entry.cost, entry.field});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> names_of(io::FieldSet fields) {
@@ -197,60 +252,24 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
   std::vector<Footprint> footprints;
   for (std::size_t i = 0; i < scene.modes.size(); ++i) {
     Mode mode = scene.modes[i];
-    const std::string name = name_of(mode, i);
     const ModeType& type = *find_mode_type(mode.type);
     add_boundary(scene, mode);
     Footprint footprint = type.footprint(mode);
     const std::vector<std::size_t> structures_before = plan.structures;
     StructureIndex index(scene, plan.structures);
-    if (!mode.structure.empty()) {
-      footprint.structure = static_cast<int>(index(mode.structure));
-    }
-    const ActiveMode active{.type = &type,
-                            .scene_index = i,
-                            .co_located = footprint.co_located,
-                            .holds = footprint.primitive == solver::PrimitiveType::plane && footprint.co_located,
-                            .strength = Strength(mode, std::ref(index)),
-                            .side = mode.side,
-                            .direction_of = mode.direction_of,
-                            .structure = footprint.structure,
-                            .level_mm = mode.level_mm,
-                            .margin_mm = mode.margin_mm,
-                            .push_share = push_share(mode, scene.stiffness_n_per_m),
-                            .shape = mode.shape,
-                            .position_mm = mode.position_mm,
-                            .direction = glm::normalize(mode.direction)};
+    if (!mode.structure.empty()) footprint.structure = static_cast<int>(index(mode.structure));
+    const ActiveMode active = activate(scene, mode, i, footprint, index);
     const io::FieldSet reads = type.reads(mode) | active.strength.reads();
-    const io::FieldSet missing = without(reads, available);
-    const auto left_out = plan.left_out.size();
-    if (!mode.enabled) {
-      plan.left_out.push_back({name, "it is switched off", saved_by(type), io::FieldSet::none, i});
-    } else if (is_zero_everywhere(mode)) {
-      plan.left_out.push_back({name, "its strength is zero everywhere", saved_by(type), io::FieldSet::none, i});
-    } else if (missing != io::FieldSet::none) {
-      plan.left_out.push_back(
-          {name, "there is no " + words(missing) + " here", "nothing that could be measured: it cannot be felt here"});
-    } else {
-      plan.fields = plan.fields | reads;
-      if (active.holds && active.structure >= 0) {
-        plan.holds_structure[static_cast<std::size_t>(active.structure)] = true;
-      } else {
-        plan.holds_iso_surface = plan.holds_iso_surface || active.holds;
-      }
-      footprints.push_back(footprint);
-      plan.modes.push_back(active);
-    }
-    if (plan.left_out.size() != left_out) {
+    if (auto left_out = why_left_out(mode, i, without(reads, available))) {
+      plan.left_out.push_back(std::move(*left_out));
       plan.structures = structures_before;
+    } else {
+      footprints.push_back(footprint);
+      add(active, reads, plan);
     }
   }
   add_watched_structures(scene, plan);
-  for (const FieldName& entry : field_names) {
-    if (entry.field == io::FieldSet::distance) continue;  // said of each structure
-    if (contains(available, entry.field) && !contains(plan.fields, entry.field)) {
-      plan.left_out.push_back({entry.name, "no mode reads it", entry.cost, entry.field});
-    }
-  }
+  leave_out_unread_fields(available, plan);
   choose_solvers(scene, footprints, plan);
   return plan;
 }

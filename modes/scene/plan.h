@@ -1,7 +1,7 @@
 #pragma once
 
-/// A plan: exactly what a scene needs on a scan, and in words what it left out. Made outside the tick; the tick runs
-/// it.
+/// A plan: what a scene needs on a scan and no more, and in words what was left out. It is made outside the tick, and
+/// the tick runs it.
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ struct LeftOut {
 struct Plan {
   io::FieldSet fields = io::FieldSet::none;  ///< sampled once a sub-step
   std::vector<ActiveMode> modes;             ///< in the scene's order
-  SolverSwitches solvers;                    ///< those that some frame of this scene can need
+  SolverSwitches solvers;                    ///< those that a tick of this scene can need
   double stiffness_n_per_m = 0;
   Workspace workspace;
   Subdivision subdivision;
@@ -38,7 +38,7 @@ struct Plan {
   std::vector<std::size_t> structures;
   std::array<bool, io::most_structures> holds_structure{};  ///< whether a surface is at that one's edge
   bool holds_iso_surface = false;                           ///< whether a surface mode needs the anchor (anchor.h)
-  io::SliceRange slices;  ///< of the scan: their fields are computed ahead and kept (reach.h); all where nobody said
+  io::SliceRange slices;  ///< whose fields are computed ahead and kept (reach.h); by default all
   std::vector<LeftOut> left_out;
 };
 

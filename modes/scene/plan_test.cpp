@@ -58,7 +58,7 @@ TEST(Plan, leaves_out_modes_that_can_never_be_felt_and_says_why) {
   EXPECT_EQ(left_out(plan, "follow (modes[3])")->why, "there is no vector field here");
 }
 
-TEST(Plan, keeps_the_general_solver_only_where_some_frame_can_need_it) {
+TEST(Plan, keeps_the_general_solver_only_where_some_tick_can_need_it) {
   const auto exact = [](std::vector<Mode> modes, FieldSet available) {
     const Plan plan = plan_of(std::move(modes), available);
     EXPECT_EQ(left_out(plan, "exact solver") == nullptr, plan.solvers.exact);

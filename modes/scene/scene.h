@@ -1,6 +1,6 @@
 #pragma once
 
-/// A scene: what a clinician tunes, as plain values. Its text form is in scene_json.h; what it comes to on a scan, in
+/// A scene: what a clinician tunes, as plain values. Its text form is in scene_json.h; what a scan makes of it is in
 /// plan.h.
 
 #include <cstdint>
@@ -41,7 +41,7 @@ enum class DirectionField : std::uint8_t { vector, gradient };
 /// What a landmark is.
 enum class Shape : std::uint8_t { point, line, plane };
 
-/// A factor on a strength, normally between 0 and 1: says where a mode acts.
+/// A factor on a strength, normally between 0 and 1. It decides where a mode acts.
 struct Gate {
   Datum of = Datum::value;
   TransferFunction factor;
@@ -59,10 +59,10 @@ struct Mode {
   std::vector<Gate> gates;         ///< multiplied into the strength
   Side side = Side::entering;
   DirectionField direction_of = DirectionField::vector;
-  std::string structure;  ///< the structure whose edge a surface is, or that is kept out of or in; or empty
+  std::string structure;  ///< whose edge a surface follows, or which keep_out and keep_in name; or empty
   double level_mm = 0;    ///< of such a surface: how far inside the edge
-  double margin_mm = 3;   ///< over how far a structure that is kept out of or in is felt before its edge, > 0
-  std::string from, to;   ///< names of tissues: the boundary that a surface is, instead of a side; or both empty
+  double margin_mm = 3;   ///< keep_out, keep_in: how far before the edge the force begins, > 0
+  std::string from, to;   ///< names of tissues: the boundary that a surface follows, instead of a side; or both empty
   Shape shape = Shape::point;
   Vec3 position_mm{0};      ///< patient space
   Vec3 direction{0, 0, 1};  ///< patient axes, unit: along a line; of a plane, the side it pushes to
@@ -78,14 +78,14 @@ struct Tissue {
   std::string color;    ///< "#rrggbb", or empty
 };
 
-/// Something that was outlined on the scan (io/structures): what scenes read of it is its distance.
+/// Something that was outlined on the scan (io/structures). A scene reads the distance from its surface.
 struct SceneStructure {
   std::string name;     ///< the scene's own, unique in it
   std::string file;     ///< that holds it; load_scene() makes it absolute, from the scene's own folder
   std::string segment;  ///< its name there; or its number
   std::optional<int> segment_number;
   std::string color;                ///< "#rrggbb", or empty
-  std::optional<double> margin_mm;  ///< nearer than this is told; its distance is then read even if no mode does
+  std::optional<double> margin_mm;  ///< the user is told when the stylus is nearer than this
 };
 
 struct Limits {
@@ -102,7 +102,7 @@ struct SolverSwitches {
   bool descent = false;
 };
 
-/// A frame is cut into as many sub-steps as the probe's travel needs (haptic_step.h).
+/// A tick is cut into as many sub-steps as the probe's travel needs (haptic_step.h).
 struct Subdivision {
   double step_mm = defaults::sub_step_mm;          ///< probe travel of one sub-step, mm of patient
   int most = defaults::most_sub_steps;             ///< 1: never subdivided
@@ -110,7 +110,7 @@ struct Subdivision {
   int most_halts = defaults::most_halts;           ///< 0: never halted
 };
 
-/// Where the scan meets the hand: settings, from which place_workspace() makes a Workspace for a scan.
+/// How the scan is placed in the hand's reach. place_workspace() makes a Workspace for a scan of it.
 struct WorkspaceSettings {
   std::optional<Vec3> center_mm;               ///< patient point at the device's origin; the scan's center by default
   glm::dmat3 rotation = Workspace{}.rotation;  ///< columns: the device's x, y and z axes in patient space
@@ -118,7 +118,7 @@ struct WorkspaceSettings {
   bool fit = false;                            ///< scale chosen so that the whole scan fits the device instead
 };
 
-/// How the scan is read between its voxels (io/field_options.h).
+/// How the scan is read between its voxels (io/fields/field_options.h).
 struct Sampling {
   io::ValueMethod value = io::ValueMethod::cubic;
   io::GradientMethod gradient = io::GradientMethod::gaussian;

@@ -5,8 +5,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "io/fresh_folder.h"
 
 namespace palpate::modes {
 namespace {
@@ -61,6 +64,49 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
   EXPECT_EQ(scene.modes[1].gates[0].factor.interpolation(), Interpolation::monotone_cubic);
   EXPECT_EQ(scene.modes[3].direction, Vec3(0.1, 0, 2));
   EXPECT_EQ(scene.modes[4].strength_n(0), 3.0);
+}
+
+/// A scene that gives every key, none at its default: read and written, its text says the same, key by key. So no key
+/// is lost or told as another, in either direction.
+TEST(SceneJson, every_key_comes_back) {
+  const std::string text = R"({
+    "version": 1, "name": "n", "description": "d", "stiffness_n_per_m": 411, "gradient_scale_mm": 1.7,
+    "limits": {"force_limit_n": 2.1, "slew_limit_n_per_ms": 0.7, "ramp_s": 0.31, "speed_limit_m_per_s": 0.83},
+    "workspace": {"center_mm": [1, 2, -3], "rotation": [[0, 1, 0], [0, 0, 1], [1, 0, 0]], "scale": 2.5, "fit": true},
+    "solvers": {"analytical": false, "exact": true, "descent": true},
+    "subdivision": {"step_mm": 0.2, "most": 3, "proxy_step_mm": 0.17, "most_halts": 5},
+    "filter": {"type": "bilateral", "sigma_mm": 0.6, "sigma_value": 41},
+    "sampling": {"value": "trilinear", "gradient": "cubic"},
+    "tissues": [{"name": "air", "high": -400, "softness": 100, "color": "#56b4e9"},
+                {"name": "fat", "low": -400, "high": 200, "softness": 90},
+                {"name": "bone", "low": 200, "softness": 80}],
+    "structures": [{"name": "liver", "file": "/l.dcm", "segment": "Liver", "color": "#0072b2", "margin_mm": 4},
+                   {"name": "aorta", "file": "/a.dcm", "segment": 3}],
+    "modes": [
+      {"type": "surface", "name": "a", "enabled": false, "color": "#112233", "side": "leaving",
+       "strength_n": {"of": "gradient_per_mm", "nodes": [[1, 2], [3, 4]], "interpolation": "monotone_cubic"},
+       "gates": [{"of": "low", "nodes": [[5, 0], [6, 0.5]]},
+                 {"of": "high", "nodes": [[7, 0.25], [8, 0.5]], "interpolation": "monotone_cubic"},
+                 {"of": "distance_mm", "structure": "aorta", "nodes": [[-9, 1], [10, 0]]}]},
+      {"type": "surface", "name": "b", "enabled": true, "side": "both", "strength_n": 1.1},
+      {"type": "surface", "name": "c", "enabled": true, "side": "entering", "strength_n": {"of": "value", "nodes": [[0, 3]]}},
+      {"type": "surface", "enabled": true, "from": "air", "to": "fat", "strength_n": 1.2},
+      {"type": "surface", "enabled": true, "structure": "liver", "level_mm": 2, "side": "leaving", "strength_n": 1.3},
+      {"type": "keep_out", "enabled": true, "margin_mm": 7,
+       "strength_n": {"of": "distance_mm", "structure": "liver", "nodes": [[11, 1], [12, 2]]}, "structure": "aorta"},
+      {"type": "keep_in", "enabled": true, "structure": "liver", "margin_mm": 8, "strength_n": 1.4},
+      {"type": "force", "enabled": true, "field": "gradient", "strength_n": {"of": "vector", "nodes": [[13, 0.5]]}},
+      {"type": "follow", "enabled": true, "field": "vector", "strength_n": 1.5},
+      {"type": "friction", "enabled": true, "strength_n": 1.6},
+      {"type": "tube", "enabled": true, "strength_n": 1.7},
+      {"type": "landmark", "enabled": true, "shape": "point", "position_mm": [14, 15, 16], "strength_n": 1.8},
+      {"type": "landmark", "enabled": true, "shape": "line", "position_mm": [17, 18, 19], "direction": [0, 0.6, 0.8],
+       "strength_n": 1.9},
+      {"type": "landmark", "enabled": true, "shape": "plane", "position_mm": [20, 21, 22], "direction": [0.6, 0.8, 0],
+       "strength_n": 2}]})";
+  const auto json = nlohmann::json::parse(text);
+  const auto again = nlohmann::json::parse(to_json(scene_from_json(text, "everything")));
+  EXPECT_EQ(again, json) << nlohmann::json::diff(json, again).dump(1);
 }
 
 TEST(SceneJson, a_filter_has_what_its_type_reads) {
@@ -154,6 +200,24 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
               StartsWith("mine.json: name: is given twice"));
   EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": [[0, 1]], "nodes": [[0, 2]]})")),
               HasSubstr("nodes: is given twice"));
+  EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "limits": {"ramp_s": 1}, "solvers": {}, "version": 1})"),
+              StartsWith("mine.json: version: is given twice"));
+}
+
+/// A structure's file is found from the folder of the scene's file, from wherever the program was started.
+TEST(SceneJson, the_files_of_structures_are_beside_the_scene) {
+  const io::FreshFolder folder = io::temporary_folder();
+  const auto file = folder.path() / "mine.json";
+  std::ofstream(file) << R"({"version": 1, "modes": [], "structures": [
+    {"name": "a", "file": "a.dcm", "segment": 1}, {"name": "b", "file": "../b/b.dcm", "segment": 1},
+    {"name": "c", "file": "/c/c.dcm", "segment": 1}]})";
+  for (const std::filesystem::path& name : {file, std::filesystem::proximate(file)}) {
+    const Scene scene = load_scene(name.string());
+    ASSERT_EQ(scene.structures.size(), 3U);
+    EXPECT_EQ(scene.structures[0].file, folder.path() / "a.dcm");
+    EXPECT_EQ(scene.structures[1].file, folder.path().parent_path() / "b/b.dcm");
+    EXPECT_EQ(scene.structures[2].file, "/c/c.dcm");
+  }
 }
 
 TEST(SceneJson, starting_scenes_are_found_by_name_and_are_the_files_of_the_folder) {

@@ -29,7 +29,7 @@ class Strength {
   double operator()(const io::Sample& sample) const noexcept;
   /// The fields that operator() reads.
   io::FieldSet reads() const noexcept;
-  /// N: it is never more.
+  /// N: the strength is never above this.
   double most_n() const noexcept { return most_n_; }
 
  private:

@@ -9,7 +9,7 @@
 
 namespace palpate::modes {
 
-/// Equal to its transfer function to within 1e-12 of the largest node value, both interpolations.
+/// Differs from its transfer function by at most 1e-12 of the largest node value, for both interpolations.
 class StrengthTable {
  public:
   StrengthTable() = default;

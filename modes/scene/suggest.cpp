@@ -5,72 +5,40 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 #include <string>
+#include <tuple>
 #include <utility>
 
-#include "io/quantile.h"
 #include "modes/scene/boundary_names.h"
 #include "modes/scene/ct_tissues.h"
 #include "modes/scene/defaults.h"
-#include "modes/scene/hills.h"
+#include "modes/scene/faint_walls.h"
+#include "modes/scene/merge_boundaries.h"
+#include "modes/scene/scan_noise.h"
+#include "modes/scene/tissue_hills.h"
 
 namespace palpate::modes {
 namespace {
 
+using internal::least_bone_hu;
+using internal::place_between;
+using internal::TissueHills;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int value_bins = 768;
-constexpr double outer_share = 1e-3;  // of the values on each side that do not count for the range
-constexpr double margin = 0.1;        // of the range, on each side of it
-constexpr double least_step = 0.06;   // of the range: less is texture, not a boundary
+constexpr double margin = 0.1;       // of the range, on each side of it
+constexpr double least_step = 0.06;  // of the range: less is texture, not a boundary
 constexpr double bandwidth_of_range = 0.008;
-constexpr float valley_floor = 0.05F;  // of the lower of two hills
-constexpr double prominence = 0.15, tissue_mass = 0.01;
 constexpr double boundary_share = 0.02;  // of the voxels at boundaries
 // Of a typical boundary's steepest gradient: where its strength begins, and where it is whole. What is thin or faint
 // has a small part of the gradient, and is a boundary all the same.
-// Where between two tissues the boundary is. Bone comes in all degrees from cancellous to cortical: its boundary is
-// nearer to soft tissue, so that a sternum of 400 HU is bone beside a skull of 1000.
-constexpr double usual_place = 0.5, bone_place = 0.3;
-constexpr double least_soft_hu = -200, least_bone_hu = 150;
 constexpr double ramp_from = 0.08, ramp_to = 0.2;
+constexpr double least_in_noise = 4;        // standard deviations of the gradient, where a faint wall is felt
 constexpr std::size_t most_boundaries = 8;  // as many as have a color
 // Okabe and Ito's colors: told apart by the color-blind too. Source: "Color universal design", 2008.
 constexpr std::array<const char*, most_boundaries> colors{"#e69f00", "#0072b2", "#009e73", "#d55e00",
                                                           "#56b4e9", "#cc79a7", "#f0e442", "#999999"};
-
-struct Spread {
-  double low = 0, high = 0;  ///< nearly all values lie between
-  double noise = 0;          ///< standard deviation from a voxel to its neighbor, over sqrt(2)
-};
-
-Spread spread_of(const io::Volume& volume) {
-  const glm::ivec3& size = volume.geometry.dimensions;
-  constexpr std::uint64_t enough = 500'000;
-  const std::uint64_t stride = 1 + volume.offset(0, 0, size.z) / enough;
-  std::vector<double> values, differences;
-  for (int k = 0; k < size.z; ++k) {
-    for (int j = 0; j < size.y; ++j) {
-      for (int i = 0; i < size.x; ++i) {
-        const std::uint64_t hash = (volume.offset(i, j, k) * 0x9E3779B97F4A7C15U) >> 32U;
-        if (hash % stride != 0 || volume.is_padding(i, j, k) || !std::isfinite(volume.value_at(i, j, k))) {
-          continue;
-        }
-        values.push_back(volume.value_at(i, j, k));
-        if (i > 0 && !volume.is_padding(i - 1, j, k)) {
-          const double difference = std::abs(values.back() - volume.value_at(i - 1, j, k));
-          if (difference > 0) {  // a background that was cut off at one value says nothing about noise
-            differences.push_back(difference);
-          }
-        }
-      }
-    }
-  }
-  // The median of |a - b| is 0.954 standard deviations of Gaussian noise; edges are too few to matter.
-  return {io::quantile(values, outer_share), io::quantile(values, 1 - outer_share),
-          io::quantile(std::move(differences), 0.5) / 0.954};
-}
 
 std::string whole_number(double value) {
   return std::to_string(std::lround(value));
@@ -105,76 +73,11 @@ double readable(double value) {
   return std::round(value / unit) * unit;
 }
 
-struct Found {
-  std::vector<internal::Hill> hills;
-  std::vector<double> typical;
-};
-
 int bins_of_least_step(const io::Bins& values) {
   return static_cast<int>(least_step / (1 + 2 * margin) * values.count);
 }
 
-/// Of the way from one typical value to another.
-double place_between(double low, double high, bool is_ct) {
-  const bool is_soft = low > least_soft_hu && low < least_bone_hu;
-  return is_ct && is_soft && high > least_bone_hu ? bone_place : usual_place;
-}
-
-/// Neighbors part within the valley between them, which may be wide and empty: in its middle, or nearer to what is
-/// softer than bone.
-void part_neighbors(std::span<const float> curve, const io::Bins& values, bool is_ct,
-                    std::vector<internal::Hill>& hills) {
-  for (std::size_t h = 1; h < hills.size(); ++h) {
-    const float* left = curve.data() + hills[h - 1].top;
-    const float* right = curve.data() + hills[h].top;
-    const float floor = *std::min_element(left, right) + valley_floor * std::min(*left, *right);
-    const auto is_floor = [=](float height) { return height <= floor; };
-    const float* first = std::find_if(left, right, is_floor);
-    const float* last = right;
-    while (last > first && !is_floor(*last)) {
-      --last;
-    }
-    const double place = place_between(values.middle(static_cast<int>(hills[h - 1].top)),
-                                       values.middle(static_cast<int>(hills[h].top)), is_ct);
-    hills[h].first = hills[h - 1].end =
-        static_cast<std::size_t>((first - curve.data()) + std::lround(place * static_cast<double>(last - first)));
-  }
-}
-
-Found find_tissues(const io::LowHighHistogram& edges, double bandwidth, bool is_ct) {
-  const int bins = edges.values.count;
-  const int least_bins = bins_of_least_step(edges.values);
-  cv::Mat1f both(1, bins, 0.0F);
-  // The outermost bins hold what lies beyond them: of no one value.
-  for (int high = 1; high < bins - 1; ++high) {
-    for (int low = 1; low < high - least_bins; ++low) {
-      const auto count = static_cast<float>(edges.at(low, high));
-      both(0, low) += count;
-      both(0, high) += count;
-    }
-  }
-  cv::Mat1f smooth;
-  cv::GaussianBlur(both, smooth, cv::Size(0, 0), bandwidth / edges.values.width(), 0, cv::BORDER_REPLICATE);
-  Found found;
-  const std::span<const float> curve(smooth[0], static_cast<std::size_t>(bins));
-  found.hills = internal::hills_of(curve, prominence, tissue_mass);
-  part_neighbors(curve, edges.values, is_ct, found.hills);
-  for (const internal::Hill& hill : found.hills) {
-    // The middle of what lies near the top: the top alone is one bin of many.
-    const int reach = static_cast<int>(2 * bandwidth / edges.values.width());
-    double sum = 0, weighted = 0;
-    for (int bin = std::max(static_cast<int>(hill.first), static_cast<int>(hill.top) - reach);
-         bin < std::min(static_cast<int>(hill.end), static_cast<int>(hill.top) + reach + 1); ++bin) {
-      const auto count = static_cast<double>(both(0, bin));
-      sum += count;
-      weighted += count * edges.values.middle(bin);
-    }
-    found.typical.push_back(sum > 0 ? weighted / sum : edges.values.middle(static_cast<int>(hill.top)));
-  }
-  return found;
-}
-
-std::vector<Tissue> tissues_of(const Found& found, const io::Bins& values, const io::Volume& volume) {
+std::vector<Tissue> tissues_of(const TissueHills& found, const io::Bins& values, const io::Volume& volume) {
   const std::vector<std::string> names = names_of(found.typical, volume);
   std::vector<Tissue> tissues;
   for (std::size_t t = 0; t < found.hills.size(); ++t) {
@@ -193,26 +96,40 @@ std::vector<Tissue> tissues_of(const Found& found, const io::Bins& values, const
   return tissues;
 }
 
-std::vector<FoundBoundary> boundaries_of(const Found& found, const io::LowHighHistogram& edges, bool is_ct) {
+/// Edges of at least the least step, by the two tissues that they lie between.
+struct PairCounts {
+  std::size_t tissues = 0;
+  std::vector<std::uint64_t> counts;
+  double all = 0;
+
+  double share(std::size_t low, std::size_t high) const {
+    return static_cast<double>(counts[low * tissues + high]) / std::max(all, 1.0);
+  }
+};
+
+PairCounts count_pairs(const TissueHills& found, const io::LowHighHistogram& edges) {
   const std::size_t tissues = found.hills.size();
   std::vector<std::size_t> tissue_of_bin;
   for (std::size_t t = 0; t < tissues; ++t) {
     tissue_of_bin.resize(found.hills[t].end, t);
   }
-  std::vector<std::uint64_t> counts(tissues * tissues);
-  std::uint64_t all = 0;
+  PairCounts pairs{tissues, std::vector<std::uint64_t>(tissues * tissues)};
   for (int high = 0; high < edges.values.count; ++high) {
     for (int low = 0; low < high - bins_of_least_step(edges.values); ++low) {
-      all += edges.at(low, high);
-      counts[tissue_of_bin[static_cast<std::size_t>(low)] * tissues + tissue_of_bin[static_cast<std::size_t>(high)]] +=
-          edges.at(low, high);
+      pairs.all += static_cast<double>(edges.at(low, high));
+      pairs.counts[tissue_of_bin[static_cast<std::size_t>(low)] * tissues +
+                   tissue_of_bin[static_cast<std::size_t>(high)]] += edges.at(low, high);
     }
   }
+  return pairs;
+}
+
+std::vector<FoundBoundary> boundaries_of(const TissueHills& found, const PairCounts& pairs, bool is_ct) {
+  const std::size_t tissues = found.hills.size();
   std::vector<FoundBoundary> boundaries;
   for (std::size_t low = 0; low < tissues; ++low) {
     for (std::size_t high = low + 1; high < tissues; ++high) {
-      const double share =
-          static_cast<double>(counts[low * tissues + high]) / static_cast<double>(std::max<std::uint64_t>(all, 1));
+      const double share = pairs.share(low, high);
       if (share >= boundary_share) {
         // Two kinds of bone part from each other where they do, and not where bone begins.
         const bool is_first = high == 0 || found.typical[high - 1] < least_bone_hu;
@@ -224,8 +141,35 @@ std::vector<FoundBoundary> boundaries_of(const Found& found, const io::LowHighHi
   }
   std::stable_sort(boundaries.begin(), boundaries.end(),
                    [](const FoundBoundary& a, const FoundBoundary& b) { return a.share > b.share; });
-  boundaries.resize(std::min(boundaries.size(), most_boundaries));
   return boundaries;
+}
+
+/// Each side of a faint wall is a tissue of its own, beside the one that both are part of: so the boundaries of that
+/// one stay as they are.
+void add_faint_walls(std::vector<internal::FaintWall> walls, Suggestion& suggestion,
+                     std::vector<double>& noise_gradients) {
+  walls.resize(std::min(walls.size(), most_boundaries - suggestion.boundaries.size()));
+  std::vector<Tissue>& tissues = suggestion.scene.tissues;
+  for (const internal::FaintWall& wall : walls) {
+    const std::string tissue = tissues[wall.within].name;
+    for (const auto& [side, typical, which] :
+         {std::tuple(wall.low_side, wall.low, "darker"), std::tuple(wall.high_side, wall.high, "brighter")}) {
+      const std::string name = tissue + ", " + which + " part (" + whole_number(typical) + ")";
+      if (std::ranges::any_of(tissues, [&](const Tissue& other) { return other.name == name; })) continue;
+      tissues.push_back({name, readable(side.low), readable(side.high), readable(side.softness)});
+      suggestion.typical.push_back(typical);
+    }
+    const auto index_of = [&](double typical) {
+      return static_cast<std::size_t>(std::find(suggestion.typical.begin(), suggestion.typical.end(), typical) -
+                                      suggestion.typical.begin());
+    };
+    suggestion.boundaries.push_back({.low = index_of(wall.low),
+                                     .high = index_of(wall.high),
+                                     .middle = 0.5 * (wall.low + wall.high),
+                                     .share = wall.share,
+                                     .within = tissue});
+    noise_gradients.push_back(wall.noise_gradient);
+  }
 }
 
 /// Factors that set in at the boundary's middle, on the way up or on the way down.
@@ -238,11 +182,11 @@ TransferFunction beyond_the_middle(const FoundBoundary& boundary, double step, d
 }
 
 Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, const std::string& name, double scale_mm,
-                 bool is_ct, bool up) {
+                 bool is_ct, double noise_gradient, bool up) {
   const double step = suggestion.typical[boundary.high] - suggestion.typical[boundary.low];
   // Steepest gradient of a step at a scale.
   const double peak = step / (scale_mm * std::sqrt(2 * std::numbers::pi));
-  const bool is_hard = is_ct && suggestion.typical[boundary.high] > least_bone_hu;
+  const bool is_hard = is_ct && boundary.within.empty() && suggestion.typical[boundary.high] > least_bone_hu;
   Mode mode;
   mode.type = "surface";
   mode.from = suggestion.scene.tissues[up ? boundary.low : boundary.high].name;
@@ -250,9 +194,11 @@ Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, co
   mode.enabled = up;
   mode.name = up ? name : way_back_name(name);
   mode.strength_of = Datum::gradient_magnitude;
-  mode.strength_n =
-      TransferFunction({{readable(ramp_from * peak), 0},
-                        {readable(ramp_to * peak), is_hard ? defaults::bone_strength_n : defaults::skin_strength_n}});
+  // What noise alone may be is not felt.
+  const double from = std::max(ramp_from * peak, least_in_noise * noise_gradient);
+  mode.strength_n = TransferFunction({{readable(from), 0},
+                                      {readable(std::max(ramp_to * peak, 1.5 * from)),
+                                       is_hard ? defaults::bone_strength_n : defaults::skin_strength_n}});
   mode.gates = {{Datum::value, beyond_the_middle(boundary, step, 1, up)}};
   return mode;
 }
@@ -267,12 +213,38 @@ Mode friction_above(const FoundBoundary& boundary, const Suggestion& suggestion)
   return mode;
 }
 
+/// A surface for each boundary, then the ways back, then the friction of the outermost of the first `between_tissues`
+/// boundaries: the others are faint walls. `noise_gradients`: of each boundary.
+void add_modes(Suggestion& suggestion, std::size_t between_tissues, const std::vector<double>& noise_gradients,
+               double scale_mm, bool is_ct) {
+  std::vector<FoundBoundary>& boundaries = suggestion.boundaries;
+  std::vector<NamedPair> pairs;
+  pairs.reserve(boundaries.size());
+  for (const FoundBoundary& boundary : boundaries) {
+    pairs.push_back({suggestion.typical[boundary.low], suggestion.typical[boundary.high], boundary.within});
+  }
+  const std::vector<std::string> names = boundary_names(pairs, is_ct);
+  std::vector<Mode>& modes = suggestion.scene.modes;
+  for (const bool up : {true, false}) {
+    for (std::size_t b = 0; b < boundaries.size(); ++b) {
+      (up ? boundaries[b].mode : boundaries[b].way_back) = modes.size();
+      modes.push_back(surface_for(boundaries[b], suggestion, names[b], scale_mm, is_ct, noise_gradients[b], up));
+      modes.back().color = colors[b];
+    }
+  }
+  if (between_tissues == 0) return;
+  const auto faint = boundaries.begin() + static_cast<std::ptrdiff_t>(between_tissues);
+  const auto outermost = std::min_element(boundaries.begin(), faint,
+                                          [](const auto& one, const auto& other) { return one.middle < other.middle; });
+  modes.push_back(friction_above(*outermost, suggestion));
+}
+
 }  // namespace
 
 Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress, int threads) {
   const double scale_mm = io::default_gradient_scale_mm(volume->geometry);
   const io::GradientKernel kernel(volume, scale_mm);
-  const Spread spread = spread_of(*volume);
+  const internal::Spread spread = internal::spread_of(*volume);
   const double range = spread.high - spread.low;
   Suggestion suggestion;
   suggestion.scene.name = "Suggested for this " + (volume->modality.empty() ? "scan" : volume->modality);
@@ -281,38 +253,27 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
     return suggestion;
   }
   const double steepest_of_least = least_step * range / (scale_mm * std::sqrt(2 * std::numbers::pi));
-  suggestion.edges =
-      io::low_high_histogram(*volume, kernel, {spread.low - margin * range, spread.high + margin * range, value_bins},
-                             steepest_of_least, progress, threads);
+  const std::array least_gradients{steepest_of_least, internal::least_gradient_of_walls(*volume, kernel, spread)};
+  std::vector<io::LowHighHistogram> edges =
+      io::low_high_histograms(*volume, kernel, {spread.low - margin * range, spread.high + margin * range, value_bins},
+                              least_gradients, progress, threads);
+  suggestion.edges = std::move(edges[0]);
   const bool is_ct = volume->unit == "HU";
-  const Found found = find_tissues(suggestion.edges, std::max(bandwidth_of_range * range, 0.75 * spread.noise), is_ct);
+  const TissueHills found =
+      internal::tissue_hills(suggestion.edges, {0, value_bins}, bins_of_least_step(suggestion.edges.values),
+                             std::max(bandwidth_of_range * range, 0.75 * spread.noise), is_ct);
   suggestion.typical = found.typical;
   suggestion.scene.tissues = tissues_of(found, suggestion.edges.values, *volume);
-  suggestion.boundaries = boundaries_of(found, suggestion.edges, is_ct);
-  std::vector<NamedPair> pairs;
-  for (const FoundBoundary& boundary : suggestion.boundaries) {
-    pairs.push_back({suggestion.typical[boundary.low], suggestion.typical[boundary.high]});
-  }
-  const std::vector<std::string> names = boundary_names(pairs, is_ct);
-  const FoundBoundary* outermost = nullptr;
-  for (std::size_t b = 0; b < suggestion.boundaries.size(); ++b) {
-    FoundBoundary& boundary = suggestion.boundaries[b];
-    boundary.mode = b;
-    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, names[b], scale_mm, is_ct, true));
-    suggestion.scene.modes.back().color = colors[b];
-    if (outermost == nullptr || boundary.middle < outermost->middle) {
-      outermost = &boundary;
-    }
-  }
-  for (std::size_t b = 0; b < suggestion.boundaries.size(); ++b) {
-    FoundBoundary& boundary = suggestion.boundaries[b];
-    boundary.way_back = suggestion.scene.modes.size();
-    suggestion.scene.modes.push_back(surface_for(boundary, suggestion, names[b], scale_mm, is_ct, false));
-    suggestion.scene.modes.back().color = colors[b];
-  }
-  if (outermost != nullptr) {
-    suggestion.scene.modes.push_back(friction_above(*outermost, suggestion));
-  }
+  const PairCounts counts = count_pairs(found, suggestion.edges);
+  suggestion.boundaries = boundaries_of(found, counts, is_ct);
+  if (is_ct) internal::merge_boundaries(suggestion.boundaries, suggestion);
+  suggestion.boundaries.resize(std::min(suggestion.boundaries.size(), most_boundaries));
+  std::vector<double> limits, noise_gradients(suggestion.boundaries.size());
+  for (std::size_t t = 1; t < found.hills.size(); ++t) limits.push_back(suggestion.scene.tissues[t].low);
+  const std::size_t between_tissues = suggestion.boundaries.size();
+  const std::vector<internal::Noise> noise = internal::noise_between(*volume, kernel, limits, spread.low);
+  add_faint_walls(internal::faint_walls(edges[1], found, noise, range, counts.all, is_ct), suggestion, noise_gradients);
+  add_modes(suggestion, between_tissues, noise_gradients, scale_mm, is_ct);
   suggestion.scene.description =
       "Tissues and boundaries as they were found in the scan: rename, switch and reshape them.";
   return suggestion;

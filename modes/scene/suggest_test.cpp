@@ -130,7 +130,32 @@ TEST(Suggest, finds_the_tissues_and_the_boundaries_of_every_phantom_and_no_other
           EXPECT_TRUE(std::any_of(found.boundaries.begin(), found.boundaries.end(), is_it)) << pair.low;
         }
         EXPECT_LE(share_of_others(found, phantom), 0.01);
+        double shares = 0;
+        for (std::size_t b = 0; b < found.boundaries.size(); ++b) {
+          shares += found.boundaries[b].share;
+          EXPECT_GT(found.boundaries[b].share, 0);
+          EXPECT_LE(found.boundaries[b].share, found.boundaries[b == 0 ? 0 : b - 1].share);
+        }
+        EXPECT_NEAR(shares, 1, 0.02) << "the phantom has no other boundary";
       }
+    }
+  }
+}
+
+/// Only of HU is it known that bone begins nearer to soft tissue: in any other unit, and so on any scale, boundaries
+/// are halfway.
+TEST(Suggest, boundaries_of_a_scan_without_hu_are_halfway) {
+  for (const double scale : {1.0, 3.0}) {
+    io::Volume volume = *scanned(cases()[0].phantom, testdata::Grid{}, 20);
+    volume.unit = "";
+    volume.modality = "MR";
+    volume.slope *= scale;
+    volume.intercept *= scale;
+    const Suggestion found = suggest(std::make_shared<const io::Volume>(std::move(volume)));
+    ASSERT_EQ(found.boundaries.size(), 2U);
+    for (const FoundBoundary& boundary : found.boundaries) {
+      const double low = found.typical[boundary.low], high = found.typical[boundary.high];
+      EXPECT_NEAR((boundary.middle - low) / (high - low), 0.5, 0.02) << scale;
     }
   }
 }

@@ -160,6 +160,14 @@ TEST(StrengthTable, agrees_with_its_transfer_function) {
     }
   }
   EXPECT_LE(worst, 5e-12);
+  // Without nodes it is zero everywhere, with one the same everywhere.
+  for (const TransferFunction& function : {TransferFunction(), TransferFunction(2.0), TransferFunction({{7.0, 3.0}})}) {
+    const StrengthTable table(function), none;
+    for (const double at : {-1e9, -1.0, -1e-9, 0.0, 1e-9, 0.5, 1.0, 1.5, 7.0, 7.5, 1e9}) {
+      EXPECT_EQ(table(at), function(at)) << at;
+      EXPECT_EQ(none(at), 0) << at;
+    }
+  }
 }
 
 TEST(StrengthTable, never_gives_a_force_that_is_not_finite) {

@@ -30,7 +30,7 @@ struct Workspace {
   bool operator==(const Workspace&) const = default;
 };
 
-/// On the way from one workspace to another, `part` 0 to 1: exactly those at the ends. In the tick.
+/// Between two workspaces: at `part` 0 exactly the first, at 1 exactly the second. In the tick.
 Workspace between(const Workspace& from, const Workspace& to, double part) noexcept;
 
 }  // namespace palpate::modes

@@ -12,6 +12,12 @@ namespace {
 // Below this a gradient has no direction that a step could take.
 constexpr double least_slope = 1e-150;
 
+// Of a movement, how much of it goes across the surface: the square of its direction's cosine to the normal, 0 to 1.
+double share_across(double rise, const Vec3& slope, const Vec3& moved) {
+  const double most = glm::dot(slope, slope) * glm::dot(moved, moved);
+  return most > 0 ? std::min(rise * rise / most, 1.0) : 0.0;
+}
+
 }  // namespace
 
 bool HeldSurfaces::is_held() const noexcept {
@@ -34,7 +40,12 @@ void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, Held
     contact.level = value;
   } else {
     const Vec3 moved = place_mm - contact.place_mm;
-    contact.level += 0.5 * glm::dot(contact.gradient + gradient, moved);
+    const Vec3 slope = 0.5 * (contact.gradient + gradient);
+    const double rise = glm::dot(slope, moved);
+    // A proxy that is held moves with the surface: what the value does there is interpolation and noise. And the step
+    // of the anchor is as long as the smoothed slope says.
+    const double across = contact.hold == HoldState::held ? 0.0 : share_across(rise, slope, moved);
+    contact.level += across * (value - contact.value) + (1 - across) * rise;
     if (contact.hold != HoldState::held) {
       contact.offset = 0;
     } else if (contact.before != HoldState::held) {
@@ -50,6 +61,7 @@ void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, Held
     }
   }
   contact.before = contact.hold;
+  contact.value = value;
   contact.place_mm = place_mm;
   contact.gradient = gradient;
 }

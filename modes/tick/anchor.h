@@ -1,20 +1,22 @@
 #pragma once
 
-/// The anchor: where all co-located primitives of a frame stand, so that a held proxy does not creep through a surface.
+/// The anchor: the place of all co-located primitives of a tick. It keeps a held proxy from creeping through a surface.
 ///
-/// A plane that is placed at the old proxy every frame is the tangent plane there; a tangential step t leaves the
-/// iso-surface by t^2 / 2R. On a concave wall that works the proxy into the wall: noise alone sinks it within a minute.
-/// So while a surface holds the proxy, the anchor is moved from the old proxy by one Newton step along grad V, back to
-/// the value at which it was held; that value is renewed only after the surface has yielded or the proxy has lifted
-/// off.
+/// A plane that is placed at the old proxy is the tangent plane there. A tangential step t along it leaves the
+/// iso-surface by t^2 / 2R. On a concave wall each step takes the proxy deeper into the wall: noise alone sinks it
+/// within a minute. So while a surface holds the proxy, the anchor is moved from the old proxy by one Newton step along
+/// grad V, back to the value at which the proxy was held. That value is renewed only after the surface has yielded or
+/// the proxy has lifted off.
 ///
-/// The value itself has to be taken with care. The sampled V is exact where it is on average, but between voxels its
-/// iso-surfaces are rough, by interpolation and by noise, and a hand would feel each voxel: as a wobble of the anchor,
-/// and as a strength that flickers. The gradient comes from a filter and is smooth, but its integral along the way
-/// drifts. The *level* joins the two: near a surface it follows, from frame to frame, the integral of the gradient
-/// (trapezoidal, so that a circle is closed to third order); while held it also returns to V, or to as far from V as it
-/// was when the hold began, over some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A
-/// proxy that does not move keeps its level, and its anchor, to the last bit.
+/// The sampled V cannot be that value. It is right on average, but between voxels its iso-surfaces are rough through
+/// interpolation and noise; a hand would feel each voxel as a wobble of the anchor and a flicker of the strength. The
+/// gradient comes from a filter and is smooth, but its integral along the way drifts. The *level* combines the two.
+/// Along a surface it follows the integral of the gradient from tick to tick (trapezoidal, so that a circle is closed
+/// to third order). Across it, where a proxy that is not held is pushed through, it follows V: at a plate thinner than
+/// the filter the gradient is a part of the slope, and its integral would never reach the plate's values. While the
+/// proxy is held, it also returns to V plus the offset that it had when the hold began, over
+/// some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A proxy that does not move keeps
+/// its level, and its anchor, to the last bit.
 
 #include <array>
 #include <cstdint>
@@ -34,10 +36,11 @@ enum class HoldState : std::uint8_t {
 /// What is remembered of the surface at the proxy.
 struct HeldSurface {
   HoldState hold = HoldState::none;
-  HoldState before = HoldState::none;  ///< a frame earlier
+  HoldState before = HoldState::none;  ///< a tick earlier
   double level = 0;                    ///< at the last place sampled, the scan's unit
   double offset = 0;                   ///< of the level from V, where it began to hold
   double held_level = 0;               ///< V_c
+  double value = 0;                    ///< V at the last place sampled, the scan's unit
   Vec3 place_mm{0};                    ///< last place sampled, patient space
   Vec3 gradient{0};                    ///< there, per mm
 };
@@ -48,7 +51,7 @@ struct HeldSurfaces {
   std::array<HeldSurface, io::most_structures> structure;
 
   bool is_held() const noexcept;
-  /// Forgets the holds, for the proxy has been moved.
+  /// Forgets every hold. To be called when the proxy has been moved from outside.
   void release() noexcept;
 };
 
@@ -56,11 +59,11 @@ struct HeldSurfaces {
 void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, HeldSurface& contact) noexcept;
 void follow_level(const io::Sample& sample, const Vec3& place_mm, HeldSurface& contact) noexcept;
 
-/// From the place sampled to the anchor, mm of patient space: zero while nothing holds the proxy, at most
-/// defaults::anchor_step_mm long. Renews held_level where nothing holds it. In the tick.
+/// The step from the place sampled to the anchor, mm of patient space. Zero while nothing holds the proxy, and at most
+/// defaults::anchor_step_mm long. Renews held_level while nothing holds the proxy. In the tick.
 Vec3 anchor_step_mm(HeldSurface& contact) noexcept;
 
-/// The level at the anchor: what strengths there are read from.
+/// The level at the anchor: the value at which strengths are looked up there.
 double level_at_anchor(const HeldSurface& contact, const Vec3& step_mm) noexcept;
 
 }  // namespace palpate::modes

@@ -16,7 +16,7 @@ namespace {
 constexpr double strength_n = 3.0;
 constexpr double push_n = 1.39;
 constexpr double push_mm = push_n / 400.0 * 1000.0;
-constexpr int frames = 60000;
+constexpr int ticks = 60000;
 
 struct Wall {
   const char* name;
@@ -30,7 +30,7 @@ testdata::Phantom phantom_of(const Wall& wall) {
 }
 
 struct Creep {
-  double least_n = 1e9, most_n = 0;  ///< normal force, noise averaged over 100 frames, after the first second
+  double least_n = 1e9, most_n = 0;  ///< normal force, noise averaged over 100 ticks, after the first second
 };
 
 /// Presses on to the wall, then holds there with noise, or slides along it on a great circle.
@@ -46,13 +46,13 @@ Creep hold(const Wall& wall, double speed_mm_per_ms, double noise_mm) {
   std::normal_distribution<double> noise(0, noise_mm);
   Creep creep;
   double angle = 0, sum = 0;
-  for (int frame = 1; frame <= frames; ++frame) {
+  for (int tick = 1; tick <= ticks; ++tick) {
     angle += speed_mm_per_ms / wall.radius_mm;
     const Vec3 radial{std::sin(angle), 0, std::cos(angle)};
     const double x = noise(random), y = noise(random), z = noise(random);  // in this order with every compiler
     hand.move_to(radial * pressed_radius + Vec3(x, y, z));
     sum += glm::dot(hand.force(), radial) * outward;
-    if (frame % 100 == 0) {
+    if (tick % 100 == 0) {
       creep.least_n = std::min(creep.least_n, sum / 100);
       creep.most_n = std::max(creep.most_n, sum / 100);
       sum = 0;

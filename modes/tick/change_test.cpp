@@ -14,7 +14,7 @@ namespace {
 using testing::scene_of;
 using testing::surface;
 
-constexpr int ramp_frames = 500;
+constexpr int ramp_ticks = 500;
 
 testdata::AnalyticSource slab_at(double depth_mm) {
   // Inwards is up: along the device's y.
@@ -46,11 +46,11 @@ Ramp change(const SceneOnData& from, const SceneOnData& to) {
   }
   Ramp ramp{.first_n = touch.force_n, .proxy_before_mm = touch.workspace.to_patient(touch.proxy_m)};
   Vec3 force = touch.force_n;
-  for (int i = 0; i <= 2 * ramp_frames; ++i) {
-    const StepResult result = i <= ramp_frames
-                                  ? step({.from = from, .to = to, .part = static_cast<double>(i) / ramp_frames}, at(3),
-                                         touch, chain, *scratch)
-                                  : step(*to.plan, *to.source, at(3), touch, chain, *scratch);
+  for (int i = 0; i <= 2 * ramp_ticks; ++i) {
+    const StepResult result =
+        i <= ramp_ticks
+            ? step({.from = from, .to = to, .part = static_cast<double>(i) / ramp_ticks}, at(3), touch, chain, *scratch)
+            : step(*to.plan, *to.source, at(3), touch, chain, *scratch);
     EXPECT_EQ(result.outcome, solver::Outcome::solved) << i;
     ramp.largest_step_n = std::max(ramp.largest_step_n, glm::length(result.force_n - force));
     force = result.force_n;

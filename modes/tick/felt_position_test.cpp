@@ -48,7 +48,7 @@ Felt feel(const Body& body, const testdata::Grid& grid) {
                           8),
         source);
     source.prepare(spot.at, 2);
-    // 5 mm/s: what a frame's travel adds to where it is held is less than what is asked.
+    // 5 mm/s: what a tick's travel adds to where it is held is less than what is asked.
     hand.stroke(spot.at + 2.0 * spot.outward, spot.at - 1.0 * spot.outward, 600);
     felt.worst_position = std::max(felt.worst_position, std::abs(glm::dot(hand.proxy_mm() - spot.at, spot.outward)) /
                                                             extent_along(g, spot.outward));

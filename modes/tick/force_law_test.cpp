@@ -49,16 +49,16 @@ double balance_mm(const io::FieldSource& source, const Strength& strength, doubl
   return high;
 }
 
-TEST(ForceLaw, pressing_on_a_rising_strength_follows_the_quasi_static_balance_within_one_frame_of_travel) {
+TEST(ForceLaw, pressing_on_a_rising_strength_follows_the_quasi_static_balance_within_one_tick_of_travel) {
   const AnalyticSource source = skin_slab();
   // Rises from nothing to 2.5 N towards the steepest place of the edge, at depth 0.
   const TransferFunction tau({{20, 0}, {400, 2.5}});
   const Strength strength(Datum::gradient_magnitude, tau, {});
-  for (const double speed : {0.001, 0.01, 0.05, 0.2}) {  // mm per frame of 1 ms
+  for (const double speed : {0.001, 0.01, 0.05, 0.2}) {  // mm per tick of 1 ms
     Hand hand(scene_of({surface(tau)}), source);
     double expected = -8;
-    for (int frame = 0; frame * speed < 14; ++frame) {
-      const double probe = -8 + frame * speed;
+    for (int tick = 0; tick * speed < 14; ++tick) {
+      const double probe = -8 + tick * speed;
       hand.move_to(probe * inward);
       expected = std::max(expected, balance_mm(source, strength, probe, expected));
       if (expected > -0.1) {
@@ -134,7 +134,7 @@ TEST(ForceLaw, the_side_says_which_crossing_is_resisted) {
     }
     return most;
   };
-  const auto lag = 8e-3;  // at most k v of one frame below the strength
+  const auto lag = 8e-3;  // at most k v of one tick below the strength
   EXPECT_NEAR(peak_force(Side::entering, -8, 8), 1.0, lag);
   EXPECT_EQ(peak_force(Side::entering, 8, -8), 0.0);
   EXPECT_EQ(peak_force(Side::leaving, -8, 8), 0.0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "modes/scene/plan.h"
 #include "solver/chain.h"
@@ -44,12 +45,13 @@ struct PlacedScene {
   std::size_t first = 0, end = 0;  ///< in the list of primitives
 };
 
-/// Where the planes of each structure's surface stand. Where the scan itself has no surfaces all else that is
+/// Where the planes of each structure's surface stand. Where the scan itself has no surface all else that is
 /// co-located stands there too, so that the analytical solver stays valid.
 void hold_structures(const Plan& plan, const Vec3& proxy_m, const Vec3& place_mm, HeldSurfaces& contact,
-                     io::Sample& felt, Place& here) {
+                     io::Sample& felt, std::span<Vec3> structure_anchor_m, Place& here) {
+  const bool alone = !plan.holds_iso_surface || contact.scan.hold == HoldState::none;
   for (std::size_t n = 0; n < plan.structures.size(); ++n) {
-    here.structure_anchor_m[n] = proxy_m;
+    structure_anchor_m[n] = proxy_m;
     if (!plan.holds_structure[n] || !felt.inside) {
       continue;
     }
@@ -59,8 +61,8 @@ void hold_structures(const Plan& plan, const Vec3& proxy_m, const Vec3& place_mm
     const Vec3 step_mm = anchor_step_mm(surface);
     distance.mm = level_at_anchor(surface, step_mm);
     const Vec3 step_m = here.workspace.direction_to_device(step_mm) / here.workspace.mm_per_m;
-    here.structure_anchor_m[n] += step_m;
-    if (!plan.holds_iso_surface) {
+    structure_anchor_m[n] += step_m;
+    if (alone) {
       here.anchor_m += step_m;
     }
   }
@@ -81,8 +83,9 @@ PlacedScene place(const SceneOnData& scenery, double weight, std::uint8_t mark, 
     felt.value = level_at_anchor(contact.scan, step_mm);
     placed.anchor_m += workspace.direction_to_device(step_mm) / workspace.mm_per_m;
   }
-  Place here{felt, workspace, placed.anchor_m};
-  hold_structures(plan, proxy_m, place_mm, contact, felt, here);
+  std::array<Vec3, io::most_structures> structure_anchor_m;  // those of the plan's structures are set below
+  Place here{felt, workspace, placed.anchor_m, structure_anchor_m};
+  hold_structures(plan, proxy_m, place_mm, contact, felt, structure_anchor_m, here);
   placed.anchor_m = here.anchor_m;
   list.set_weight(weight);
   for (std::size_t i = 0; i < plan.modes.size(); ++i) {
@@ -159,14 +162,14 @@ bool solve(const SubStepInput& setting, const Vec3& probe_m, std::span<Vec3> sha
   return false;
 }
 
-/// One sample, placement and solution at a probe position.
-StepResult sub_step(const SubStepInput& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
-                    StepScratch& scratch) {
-  StepResult result;
+/// One sample, placement and solution at a probe position. Writes the result where it stands: a sample holds the
+/// distances of all structures, and a tick with halts would copy it a hundred times.
+void sub_step(const SubStepInput& setting, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
+              StepScratch& scratch, StepResult& result) {
   PrimitiveList list(scratch.primitives, scratch.mode_of);
   const PlacedScene to =
       place(setting.to, setting.part, 0, setting.workspace, touch.proxy_m, touch.contact, list, scratch);
-  PlacedScene from;
+  std::optional<PlacedScene> from;
   if (setting.from.plan != nullptr) {
     from = place(setting.from, 1 - setting.part, of_scene_left, setting.workspace, touch.proxy_m, touch.leaving, list,
                  scratch);
@@ -175,15 +178,15 @@ StepResult sub_step(const SubStepInput& setting, const Vec3& probe_m, Touch& tou
   result.anchor_m = to.anchor_m;
   result.primitives = std::span(scratch.primitives).first(list.size());
   result.mode_of = std::span(scratch.mode_of).first(list.size());
+  result.hold = HoldState::none;
   const bool solved = solve(setting, probe_m, std::span(scratch.shares).first(list.size()), chain, touch, result);
   scratch.watch.lap(scratch.times.solve);
   if (solved) {
     result.hold = update_holds(to, *setting.to.plan, result, touch.proxy_m, touch.contact);
-    if (setting.from.plan != nullptr) {
-      update_holds(from, *setting.from.plan, result, touch.proxy_m, touch.leaving);
+    if (from) {
+      update_holds(*from, *setting.from.plan, result, touch.proxy_m, touch.leaving);
     }
   }
-  return result;
 }
 
 /// Within a step modes are counted as in the plan; the caller counts as in the scene.
@@ -245,7 +248,7 @@ StepResult step_setting(const SubStepInput& setting, const Vec3& probe_m, Touch&
   for (int i = 1; i <= sub_steps;) {
     const Vec3 probe = i == sub_steps ? probe_m : from + (probe_m - from) * (static_cast<double>(i) / sub_steps);
     const Vec3 old_proxy = touch.proxy_m;
-    result = sub_step(setting, probe, touch, chain, scratch);
+    sub_step(setting, probe, touch, chain, scratch, result);
     capped += result.outcome == solver::Outcome::capped ? 1 : 0;
     if (!is_answer(result.outcome)) {
       break;

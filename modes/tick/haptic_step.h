@@ -1,19 +1,19 @@
 #pragma once
 
-/// One headless haptic frame: probe position in; proxy, coupling force and everything a recording keeps out. The
-/// session calls exactly this every tick; so do the command line, the studies and the tests.
+/// The haptic part of one tick, without a device: from the probe's position to the proxy, the coupling's force and all
+/// that a recording keeps. The session calls this every tick; so do the command line, the studies and the tests.
 ///
-/// A frame (Palmerius 2007, section 2.2): sample the fields once at the proxy of the previous frame; let every mode of
-/// the plan place its primitives there; solve the force balance; what results is the new proxy. If the probe has
-/// travelled more than Subdivision::step_mm, the frame is cut into sub-steps at evenly spaced probe positions, each
-/// sampled, placed and solved in full; their number comes from the travel alone, never from the clock, so that a
-/// session can be replayed.
+/// A tick (Palmerius 2007, section 2.2) samples the fields once, at the proxy of the previous tick. Every mode of the
+/// plan places its primitives there. The solution of the force balance is the new proxy. If the probe has travelled
+/// more than Subdivision::step_mm, the tick is cut into sub-steps at evenly spaced probe positions, and each is
+/// sampled, placed and solved in full. Their number depends on the travel alone, never on the clock, so that a session
+/// can be replayed.
 ///
-/// The proxy can jump where the probe does not: when a surface yields it is up to s / k from the probe, 2.5 mm for
-/// 1 N at 400 N/m, and would pass a thin tissue, or the edge of the next one, in one frame. So a sub-step that would
-/// carry it farther than Subdivision::proxy_step_mm halts it on the way, and is sampled, placed and solved again there,
-/// at the same probe position; the last halt of a frame (most_halts) lets it go. Every frame still ends in a balance
-/// that is solved in full, and where no surface yields there is no halt.
+/// The proxy can jump while the probe does not. When a surface yields, the proxy is up to s / k from the probe, 2.5 mm
+/// for 1 N at 400 N/m, and would pass a thin tissue in one tick. So a sub-step that would move the proxy farther than
+/// Subdivision::proxy_step_mm halts it on the way; the fields are sampled there, and the balance is solved again at the
+/// same probe position. After Subdivision::most_halts halts in one tick the proxy is not halted any more. Every tick
+/// ends in a balance that is solved in full. Without a surface that yields there is no halt.
 
 #include <array>
 #include <cstddef>
@@ -36,27 +36,26 @@ namespace palpate::modes {
 
 struct Plan;
 
-/// The most primitives of a frame: every mode of a scene on both sides, and once more while a change of scene is ramped
-/// in.
+/// The most primitives of a tick: of every mode of a scene on both sides, and as many again during a change of scene.
 inline constexpr std::size_t most_primitives = 2 * Scene::most_modes * PrimitiveList::most_of_a_mode;
 
 /// Marks, in StepResult::mode_of, primitives of a scene that is being left.
 inline constexpr std::uint8_t of_scene_left = 0x80;
 
-/// What one frame hands to the next. Value-initialized: nothing has been touched, and the next frame starts in free
+/// What one tick hands to the next. Value-initialized: nothing has been touched, and the next tick starts in free
 /// space.
 struct Touch {
   bool started = false;
-  Vec3 probe_m{0};  ///< device's frame, of the last good frame
+  Vec3 probe_m{0};  ///< device's frame, of the last good tick
   Vec3 proxy_m{0};
   Vec3 force_n{0};
   HeldSurfaces contact;   ///< with the surfaces that hold the proxy
-  Workspace workspace;    ///< of the last frame: the proxy stays where it is in the patient when this changes
-  bool changing = false;  ///< whether the last frame was one of a change
+  Workspace workspace;    ///< of the last tick: the proxy stays where it is in the patient when this changes
+  bool changing = false;  ///< whether the last tick was one of a change
   HeldSurfaces leaving;   ///< contact with the scene that is being left
 };
 
-/// Room for one frame. Large: allocate it with the session, not in the tick.
+/// Room for one tick. Large: allocate it with the session, not in the tick.
 struct StepScratch {
   std::array<solver::Primitive, most_primitives> primitives;
   std::array<std::uint8_t, most_primitives> mode_of;
@@ -65,8 +64,8 @@ struct StepScratch {
   StepTimes times;  ///< of the last step
 };
 
-/// Of the last sub-step, but for sub_steps, halts and capped, which count over all of them. Vectors in the device's
-/// frame. Spans view the scratch: good until the next step.
+/// The last sub-step of a tick; sub_steps, halts and capped count over all of its sub-steps. Vectors are in the
+/// device's frame. The spans point into the scratch and hold until the next step.
 struct StepResult {
   Vec3 proxy_m{0};
   Vec3 force_n{0};   ///< f = -k (probe - proxy), equation (1), before any safety filter; always finite
@@ -78,7 +77,7 @@ struct StepResult {
   io::Sample sample;                 ///< what was sampled, at the old proxy: only the plan's fields
   HoldState hold = HoldState::none;  ///< how the surfaces hold the proxy
   /// solved; capped: the best answer, with its true bound; refused or unsuitable: a fault, whose proxy and force are
-  /// those of the last good frame, for the safety filter to bring to zero.
+  /// those of the last good tick, for the safety filter to bring to zero.
   solver::Outcome outcome = solver::Outcome::solved;
   solver::SolverKind solver = solver::SolverKind::none;
   int iterations = 0;      ///< of the solver
@@ -94,13 +93,13 @@ struct SceneOnData {
   const io::FieldSource* source = nullptr;
 };
 
-/// A change of scene, scan, time frame or workspace on its way. Both sceneries act, each sampled once a sub-step at the
-/// proxy, with their strengths weighted (1 - part) and part; stiffness and workspace go from one to the other. So
-/// whatever the change, the force follows the ramp and never steps, and the proxy moves with the data.
+/// A change of scene, scan, time frame or workspace under way. Old and new both act. Each is sampled once a sub-step at
+/// the proxy; their strengths are weighted by (1 - part) and part; stiffness and workspace go from one to the other. So
+/// the force follows the ramp and never steps, and the proxy moves with the data.
 struct SceneChange {
   SceneOnData from;
   SceneOnData to;
-  double part = 0;  ///< 0 to 1, never less than in the frame before; at 1 the next frame steps `to` alone
+  double part = 0;  ///< 0 to 1, never less than in the tick before; at 1 the next tick steps `to` alone
 };
 
 /// In the tick: does not allocate, lock, log or throw. A probe that is not finite is refused (outcome), and touch stays
@@ -108,8 +107,8 @@ struct SceneChange {
 StepResult step(const Plan& plan, const io::FieldSource& source, const Vec3& probe_m, Touch& touch,
                 solver::Chain& chain, StepScratch& scratch) noexcept;
 
-/// A frame of a change. One change at a time: the next begins when this has ended. The chain has to hold the exact
-/// solver, for two scenes together can need it where neither does alone.
+/// A tick during a change. Changes do not overlap: the next one begins when this one has ended. The chain must hold the
+/// exact solver, because two scenes together can need it when neither does alone.
 StepResult step(const SceneChange& change, const Vec3& probe_m, Touch& touch, solver::Chain& chain,
                 StepScratch& scratch) noexcept;
 

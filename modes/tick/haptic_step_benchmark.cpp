@@ -1,5 +1,5 @@
-// One frame of the modes and the solver, without a device: the scene of surface + friction, the wind tunnel's three
-// modes, and what a frame costs with the number of modes. Sources are analytic: what a scan's sampling costs is io's
+// One tick of the modes and the solver, without a device: the scene of surface + friction, the wind tunnel's three
+// modes, and what a tick costs with the number of modes. Sources are analytic: what a scan's sampling costs is io's
 // benchmark.
 #include <benchmark/benchmark.h>
 

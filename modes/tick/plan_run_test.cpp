@@ -82,8 +82,8 @@ Counts count(const Scene& scene) {
   Counts counts{.plan = make_plan(scene, io::fields_of(*volume), {})};
   const Counted source(volume, counts.plan.fields);
   testing::Hand hand(scene, source);
-  for (int frame = 0; frame < 3000; ++frame) {
-    hand.move_to({24 * std::sin(0.003 * frame), 4 * std::sin(0.02 * frame), 1});
+  for (int tick = 0; tick < 3000; ++tick) {
+    hand.move_to({24 * std::sin(0.003 * tick), 4 * std::sin(0.02 * tick), 1});
     counts.expected_samples += hand.result.sub_steps + hand.result.halts;
     counts.modes.insert(hand.result.mode_of.begin(), hand.result.mode_of.end());
     counts.exact_called = counts.exact_called || hand.result.solver == solver::SolverKind::exact;
@@ -147,7 +147,7 @@ TEST(PlanRun, samples_and_keeps_nothing_of_the_slices_that_were_left_out) {
   std::uniform_real_distribution<double> part(-1, 1);
   Vec3 probe(0);
   double farthest_m = 0;
-  for (int frame = 0; frame < 20000; ++frame) {
+  for (int tick = 0; tick < 20000; ++tick) {
     for (int axis = 0; axis < 3; ++axis) {
       probe[axis] = std::clamp(probe[axis] + 3e-4 * part(random), -half_extent_m[axis], half_extent_m[axis]);
     }

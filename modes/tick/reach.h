@@ -8,12 +8,12 @@
 
 namespace palpate::modes {
 
-/// The slices that a place within this distance from a device's origin along each of its axes lies in or between;
-/// none (last < first) where it meets no part of the scan. No more than these hold a field that is read there.
+/// The slices that hold all fields within this distance from a device's origin along each of its axes; none
+/// (last < first) if no part of the scan is that near.
 io::SliceRange slices_within_reach(const io::Geometry& geometry, const Workspace& workspace, const Vec3& half_extent_m);
 
-/// Leaves out of a plan the slices that no proxy of a device of this reach comes to: plan.slices, and what is said of
-/// them. The proxy goes no farther from the probe than all modes together can hold it.
+/// Limits plan.slices to those that the proxy of a device of this reach can come to, and says so in the plan. The proxy
+/// is never farther from the probe than all modes together can hold it.
 void leave_out_slices(const io::Geometry& geometry, const Vec3& half_extent_m, Plan& plan);
 
 }  // namespace palpate::modes

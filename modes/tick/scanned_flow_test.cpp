@@ -78,14 +78,14 @@ void on_all(const std::function<void(const Spot& spot, const io::VolumeFields& s
   }
 }
 
-Scene frame_by_frame(const Mode& mode) {
+Scene tick_by_tick(const Mode& mode) {
   Scene scene = scene_of({mode});
   scene.subdivision.most_halts = 0;
   return scene;
 }
 
 void expect_nothing_in_the_thinner(const Mode& mode, const Spot& spot, const io::VolumeFields& source) {
-  Hand hand(frame_by_frame(mode), source);
+  Hand hand(tick_by_tick(mode), source);
   hand.move_to(spot.at + 8.0 * spot.outward);
   hand.move_to(spot.at + 7.0 * spot.outward);
   EXPECT_EQ(hand.force(), Vec3(0));
@@ -97,7 +97,7 @@ TEST(ScannedFlow, follow_is_free_along_the_flow_and_resists_across_it_by_its_spe
   int slid = 0, stuck = 0;
   on_all([&](const Spot& spot, const io::VolumeFields& source) {
     const Mode mode = by_speed("follow", spot);
-    Hand hand(frame_by_frame(mode), source);
+    Hand hand(tick_by_tick(mode), source);
     hand.move_to(spot.at);
     const double x = any(random), y = any(random), z = any(random);
     const Vec3 moved = 1.7 * Vec3(x, y, z);
@@ -116,7 +116,7 @@ TEST(ScannedFlow, follow_is_free_along_the_flow_and_resists_across_it_by_its_spe
 TEST(ScannedFlow, force_pushes_along_the_flow_by_its_speed) {
   on_all([](const Spot& spot, const io::VolumeFields& source) {
     const Mode mode = by_speed("force", spot);
-    Hand hand(frame_by_frame(mode), source);
+    Hand hand(tick_by_tick(mode), source);
     hand.move_to(spot.at);
     EXPECT_LE(glm::length(hand.force() - 0.01 * flow_at(spot.at)), rounding);
     expect_nothing_in_the_thinner(mode, spot, source);

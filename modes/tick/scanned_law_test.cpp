@@ -58,7 +58,7 @@ Mode at_boundary(const char* type, const Spot& spot, double scale_mm) {
   return mode;
 }
 
-Scene frame_by_frame(const Mode& mode) {
+Scene tick_by_tick(const Mode& mode) {
   Scene scene = scene_of({mode});
   scene.subdivision.most_halts = 0;
   return scene;
@@ -87,7 +87,7 @@ void expect_law(const Body& body, const Scanned& scanned, const std::function<Mo
   std::uniform_real_distribution<double> any(-1, 1);
   int slid = 0, stuck = 0;
   for (const Spot& spot : body.spots) {
-    Hand hand(frame_by_frame(mode(spot)), *scanned.source);
+    Hand hand(tick_by_tick(mode(spot)), *scanned.source);
     hand.move_to(spot.at);
     ASSERT_EQ(hand.result.primitives.size(), 1U);
     const double x = any(random), y = any(random), z = any(random);
@@ -181,7 +181,7 @@ TEST(ScannedLaw, friction_holds_up_to_its_strength_whatever_way_it_is_pulled) {
     expect_law(
         body, scanned, friction, [](const Vec3& d, const Spot&) { return point_law(d); }, 0);
     for (const Spot& spot : body.spots) {
-      Hand hand(frame_by_frame(friction(spot)), *scanned.source);
+      Hand hand(tick_by_tick(friction(spot)), *scanned.source);
       const Vec3 thinner = spot.at - (2 * scanned.scale_mm + 2) * uphill(spot);
       hand.move_to(thinner);
       hand.move_to(thinner - 0.5 * uphill(spot));
@@ -196,10 +196,10 @@ TEST(ScannedLaw, force_pushes_uphill_by_the_strength_of_the_gradient_there) {
       const double peak = steepest(spot, scanned.scale_mm);
       Mode mode = at_boundary("force", spot, scanned.scale_mm);
       mode.strength_n = TransferFunction({{0, 0}, {2 * peak, 0.4}});
-      Hand hand(frame_by_frame(mode), *scanned.source);
+      Hand hand(tick_by_tick(mode), *scanned.source);
       for (const double along : {-0.8, 0.0, 0.8}) {
-        // The proxy is drawn ahead of the probe, until the force there is the pull: it settles within some frames.
-        for (int frame = 0; frame < 30; ++frame) {
+        // The proxy is drawn ahead of the probe, until the force there is the pull: it settles within some ticks.
+        for (int tick = 0; tick < 30; ++tick) {
           hand.move_to(spot.at + along * scanned.scale_mm * uphill(spot));
         }
         const double from_edge = glm::dot(hand.proxy_mm() - spot.at, uphill(spot));
@@ -226,7 +226,7 @@ TEST(ScannedLaw, landmark_acts_at_its_own_place_as_strongly_as_the_tissue_at_the
         mode.strength_n = TransferFunction({{middle - 0.4 * step, 0}, {middle - 0.25 * step, strength_n}});
         mode.position_mm = spot.at + 1.0 * uphill(spot);
         mode.direction = direction;
-        Hand hand(frame_by_frame(mode), *scanned.source);
+        Hand hand(tick_by_tick(mode), *scanned.source);
         const double x = any(random), y = any(random), z = any(random);
         const Vec3 d = 1.7 * Vec3(x, y, z);
         hand.move_to(mode.position_mm);
@@ -235,7 +235,7 @@ TEST(ScannedLaw, landmark_acts_at_its_own_place_as_strongly_as_the_tissue_at_the
                               : shape == Shape::line ? line_law(d, direction)
                                                      : plane_law(d, direction);
         EXPECT_LE(glm::length(hand.force() - expected), 1e-9);
-        Hand elsewhere(frame_by_frame(mode), *scanned.source);
+        Hand elsewhere(tick_by_tick(mode), *scanned.source);
         elsewhere.move_to(spot.at - (2 * scanned.scale_mm + 2) * uphill(spot));
         EXPECT_EQ(elsewhere.force(), Vec3(0)) << "felt in tissue where its strength is zero";
       }
@@ -266,7 +266,7 @@ TEST(ScannedLaw, tube_is_free_along_a_vessel_and_resists_across_it) {
     const Scanned scanned(vessel.phantom, sampling.grid);
     expect_law(
         vessel, scanned, tube_mode, [&](const Vec3& d, const Spot&) { return line_law(d, axis); }, 0.05);
-    Hand hand(frame_by_frame(tube_mode(vessel.spots[0])), *scanned.source);
+    Hand hand(tick_by_tick(tube_mode(vessel.spots[0])), *scanned.source);
     hand.move_to(20.0 * across(axis));
     EXPECT_TRUE(hand.result.primitives.empty()) << "there is no vessel here";
   }
@@ -280,7 +280,7 @@ TEST(ScannedLaw, tube_obeys_its_law_on_bodies_that_are_no_tubes) {
     mode.strength_n = TransferFunction(strength_n);
     for (const Spot& spot : body.spots) {
       const Vec3 q = scanned.source->sample(spot.at, fields).tube;
-      Hand hand(frame_by_frame(mode), *scanned.source);
+      Hand hand(tick_by_tick(mode), *scanned.source);
       hand.move_to(spot.at);
       const Vec3 d(0.7, -0.9, 0.4);
       hand.move_to(spot.at + d);

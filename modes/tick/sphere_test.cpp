@@ -25,7 +25,7 @@ io::VolumeFields scanned_sphere() {
 
 struct Slide {
   double worst_degrees = 0;                      ///< of the force against the radial direction, beyond v dt / R
-  double worst_change = 0;                       ///< |force change| of a frame over its bound
+  double worst_change = 0;                       ///< |force change| of a tick over its bound
   double least_felt_mm = 1e9, most_felt_mm = 0;  ///< radius of the proxy
 };
 
@@ -40,8 +40,8 @@ Slide slide(const io::FieldSource& source, double depth_mm, double speed_mm_per_
   Vec3 force = hand.force();
   Vec3 probe = pressed * a;
   const double angle_step = speed_mm_per_ms / pressed;
-  const int frames = static_cast<int>(6.283 / angle_step);
-  for (int i = 1; i <= frames; ++i) {
+  const int ticks = static_cast<int>(6.283 / angle_step);
+  for (int i = 1; i <= ticks; ++i) {
     // A great circle that also presses and eases by 0.2 mm, at 1/5 of the speed at most.
     const double angle = angle_step * i;
     const double r = pressed + 0.2 * std::sin(angle * pressed);

@@ -1,5 +1,5 @@
 /// Laws of the haptic step that hold for any scene and path: what the workspace is does not matter, nor whether a
-/// travel comes in one frame or in its sub-steps, nor a change to the same scene. Tried where every part of a step has
+/// travel comes in one tick or in its sub-steps, nor a change to the same scene. Tried where every part of a step has
 /// something to do: surfaces that hold and give way, friction that sticks and slips, halts and sub-steps.
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ Vec3 vector(std::mt19937& random, double size) {
   return {x, y, z};
 }
 
-/// In and out through the shells with travels of up to 0.6 mm a frame.
+/// In and out through the shells with travels of up to 0.6 mm a tick.
 std::vector<Vec3> path_mm(unsigned seed) {
   std::mt19937 random(seed);
   const Vec3 axis = glm::normalize(vector(random, 1));
@@ -83,7 +83,7 @@ Workspace any_workspace(std::mt19937& random) {
   return workspace;
 }
 
-// Between sharp edges rounding grows from frame to frame, as weather does: so each frame is begun from the same state.
+// Between sharp edges rounding grows from tick to tick, as weather does: so each tick is begun from the same state.
 constexpr double same_mm = 1e-6;
 constexpr double same_n = 1e-6;
 
@@ -103,7 +103,7 @@ struct Met {
   }
 };
 
-/// What one frame hands to the next, of a hand that works in another workspace.
+/// What one tick hands to the next, of a hand that works in another workspace.
 Touch seen_in(const Workspace& workspace, Touch touch) {
   const auto there = [&](const Vec3& here_m) { return workspace.to_device(touch.workspace.to_patient(here_m)); };
   touch.probe_m = there(touch.probe_m);
@@ -139,8 +139,8 @@ TEST(StepLaws, TheWorkspaceDoesNotMatter) {
   met.expect_all();
 }
 
-/// A travel in one frame is the same as its sub-steps in frames of their own.
-TEST(StepLaws, SubStepsAreFramesAtEvenlySpacedProbes) {
+/// A travel in one tick is the same as its sub-steps in ticks of their own.
+TEST(StepLaws, SubStepsAreTicksAtEvenlySpacedProbes) {
   const Shells shells;
   const Scene scene = everything();
   Met met;
@@ -165,7 +165,7 @@ TEST(StepLaws, SubStepsAreFramesAtEvenlySpacedProbes) {
       }
       from = probe;
       if (count == scene.subdivision.most || whole.result.halts == scene.subdivision.most_halts) {
-        continue;  // each frame has its own cap: here they may differ
+        continue;  // each tick has its own cap: here they may differ
       }
       ASSERT_LT(glm::length(whole.proxy_mm() - pieces.proxy_mm()), same_mm) << seed;
       ASSERT_LT(glm::length(whole.force() - pieces.force()), same_n) << seed;
@@ -185,7 +185,7 @@ TEST(StepLaws, AHaltIsAsLongAsTheStepInThePatient) {
   int halted = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
-    // One halt a frame, so that each frame with a halt ends one balance after it.
+    // One halt a tick, so that each tick with a halt ends one balance after it.
     scene.subdivision.most_halts = 1;
     Hand hand(scene, shells, any_workspace(random));
     for (const Vec3& probe : path_mm(seed)) {
@@ -223,8 +223,8 @@ TEST(StepLaws, AChangeToTheSameSceneIsNone) {
       const StepResult result =
           step({.from = same, .to = same, .part = part}, plan.workspace.to_device(probe), touch, chain, *scratch);
       plain.move_to(probe);
-      ASSERT_LT(glm::length(result.proxy_m - plain.result.proxy_m), 1e-3 * same_mm) << seed << " frame " << n;
-      ASSERT_LT(glm::length(result.force_n - plain.result.force_n), same_n) << seed << " frame " << n;
+      ASSERT_LT(glm::length(result.proxy_m - plain.result.proxy_m), 1e-3 * same_mm) << seed << " tick " << n;
+      ASSERT_LT(glm::length(result.force_n - plain.result.force_n), same_n) << seed << " tick " << n;
     }
   }
 }

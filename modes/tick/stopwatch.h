@@ -1,7 +1,7 @@
 #pragma once
 
-/// Where the time of a frame goes, counted so cheaply that every frame can be. Read, never acted upon: a replay gives
-/// the same forces.
+/// Where the time of a tick goes, measured cheaply enough to measure every tick. No force depends on it, so that a
+/// replay gives the same forces.
 
 #include <cstdint>
 
@@ -14,14 +14,14 @@ namespace palpate::modes {
 /// A count that grows evenly with time, in a unit of its own: counts_per_ns() tells.
 inline std::uint64_t clock_count() noexcept {
 #if defined(__x86_64__)
-  // The processor's time stamp: a quarter of the cost of std::chrono's clocks, which would be a tenth of a frame.
+  // The processor's time stamp: a quarter of the cost of std::chrono's clocks, which would be a tenth of a tick.
   return __builtin_ia32_rdtsc();
 #else
   return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
 #endif
 }
 
-/// Measured against the system's clock when first asked for, which takes some milliseconds: ask before the first tick.
+/// Measured against the system's clock by the first call, which takes some milliseconds: call it before the first tick.
 double counts_per_ns();
 
 /// Counts that each part of a step took, all sub-steps together.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -15,7 +16,8 @@ namespace {
 using testing::Hand;
 using ::testing::HasSubstr;
 
-/// A ball of 20 mm around the origin is structure 0; the scan is the same value everywhere.
+/// A ball of 20 mm around the origin is structure 0. The scan's value rises along x by 2.5 a mm, and is 50 in the
+/// middle: 100 where x leaves the ball, and 0 on the other side.
 class BallSource final : public io::FieldSource {
  public:
   io::FieldSet available() const noexcept override {
@@ -24,7 +26,8 @@ class BallSource final : public io::FieldSource {
   io::Sample sample(const Vec3& position_mm, io::FieldSet) const noexcept override {
     io::Sample sample;
     sample.inside = true;
-    sample.value = 40;
+    sample.value = 50 + 2.5 * position_mm.x;
+    sample.gradient = {2.5, 0, 0};
     const double r = glm::length(position_mm);
     sample.distance[0] = {.mm = 20 - r, .gradient = r > 0 ? -position_mm / r : Vec3(0)};
     return sample;
@@ -58,6 +61,57 @@ TEST(StructureLaw, ASurfaceThatIsLeftHoldsFromInside) {
   EXPECT_LT(hand.force().y, -0.5);
 }
 
+TEST(StructureLaw, ASurfaceOfBothSidesHoldsOnTheWayInAndOnTheWayOut) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "structure": "liver", "side": "both", "strength_n": 1.5})"), source);
+  hand.stroke({0, 30, 0}, {0, 18, 0}, 1200);
+  EXPECT_NEAR(glm::length(hand.proxy_mm()), 20, 0.11);
+  EXPECT_NEAR(hand.force().y, 0.4 * (20 - 18), 0.05);
+  hand.stroke({0, 18, 0}, {0, 10, 0}, 800);  // through it
+  EXPECT_NEAR(glm::length(hand.force()), 0, 1e-9);
+  hand.stroke({0, 10, 0}, {0, 22, 0}, 1200);
+  EXPECT_NEAR(glm::length(hand.proxy_mm()), 20, 0.11);
+  EXPECT_NEAR(hand.force().y, -0.4 * (22 - 20), 0.05);
+}
+
+/// The most that is felt on a straight way.
+double most_on_the_way(Hand& hand, const Vec3& from, const Vec3& to) {
+  constexpr int steps = 1600;
+  double most = 0;
+  for (int n = 0; n <= steps; ++n) {
+    hand.move_to(from + (to - from) * (static_cast<double>(n) / steps));
+    most = std::max(most, glm::length(hand.force()));
+  }
+  return most;
+}
+
+TEST(StructureLaw, ASurfaceIsAsStrongAsTheScanSaysWhereItIsMet) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "structure": "liver",
+    "strength_n": {"of": "value", "nodes": [[0, 0.5], [100, 1.5]]}})"),
+            source);
+  EXPECT_NEAR(most_on_the_way(hand, {30, 0, 0}, {14, 0, 0}), 1.5, 0.03);
+  EXPECT_NEAR(most_on_the_way(hand, {0, 30, 0}, {0, 14, 0}), 1.0, 0.03);
+  EXPECT_NEAR(most_on_the_way(hand, {-30, 0, 0}, {-14, 0, 0}), 0.5, 0.03);
+}
+
+TEST(StructureLaw, ABoundaryOfTheScanIsGatedByAStructure) {
+  // The value rises everywhere: without the gate this surface would hold at every place.
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "strength_n": 0.6, "gates":
+    [{"of": "distance_mm", "structure": "liver", "nodes": [[0, 0], [1, 1]]}]})"),
+            source);
+  hand.stroke({-5, 30, 0}, {5, 30, 0}, 1000);
+  EXPECT_NEAR(glm::length(hand.force()), 0, 1e-9);
+  hand.stroke({-5, 10, 0}, {5, 10, 0}, 1000);
+  EXPECT_NEAR(hand.force().x, -0.6, 1e-6);
+  hand.stroke({5, 19.6, 0}, {5, 18.87, 0}, 100);
+  hand.stroke({-5, 18.87, 0}, {5, 18.87, 0}, 1000);  // half a millimeter inside
+  const double inside = 20 - glm::length(hand.proxy_mm());
+  EXPECT_GT(inside, 0.3);
+  EXPECT_NEAR(glm::length(hand.force()), 0.6 * inside, 0.6 * 0.02);
+}
+
 TEST(StructureLaw, ALevelMovesTheSurface) {
   const BallSource source;
   Hand hand(scene_with(R"({"type": "surface", "structure": "liver", "level_mm": -3, "strength_n": 1.5})"), source);
@@ -75,6 +129,25 @@ TEST(StructureLaw, DoesNotCreepWhereAHandSlidesRoundIt) {
     hand.move_to(17.0 * Vec3(std::cos(angle), std::sin(angle), 0));
   }
   EXPECT_NEAR(glm::length(hand.force()), first, 0.02 * first);
+}
+
+TEST(StructureLaw, FrictionStandsWithItsWallWhereTheScanHasNone) {
+  // So a balance of both is the analytical solver's, though the scene has surfaces of the scan as well. Steps that are
+  // this long leave the round wall, and are brought back to it.
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [60, 1.5]]}},
+    {"type": "friction", "strength_n": 0.01},
+    {"type": "surface", "structure": "liver", "side": "leaving", "strength_n": 3})"),
+            source);
+  hand.stroke({0, 1, 0}, {0, 21, 0}, 2000);
+  int held = 0;
+  for (int n = 0; n < 500; ++n) {
+    const double angle = 0.02 * n;
+    hand.move_to(21.0 * Vec3(std::sin(angle), std::cos(angle), 0));
+    EXPECT_EQ(hand.result.solver, solver::SolverKind::analytical) << n;
+    held += hand.result.hold == HoldState::held ? 1 : 0;
+  }
+  EXPECT_GT(held, 50);
 }
 
 TEST(StructureLaw, AGateLetsAModeActInsideOnly) {
@@ -129,6 +202,24 @@ TEST(StructureLaw, KeepInHoldsBeforeTheWayOut) {
   hand.stroke({15, 0, 0}, {22, 0, 0}, 700);
   EXPECT_LT(hand.force().x, -0.5);
   EXPECT_LE(glm::length(hand.force()), 2 + 1e-9);
+}
+
+TEST(StructureLaw, KeepInIsBoundedContinuousAndZeroFartherInThanItsMargin) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "keep_in", "structure": "liver", "margin_mm": 4, "strength_n": 2})"), source);
+  double last = 0;
+  for (int n = 0; n <= 40000; ++n) {
+    const Vec3 probe(0.01, -10 - 0.001 * n, 0);  // out of the ball, and 30 mm beyond
+    hand.move_to(probe);
+    const double force = glm::length(hand.force());
+    if (glm::length(probe) < 16) {
+      EXPECT_NEAR(force, 0, 1e-9) << probe.y;
+    }
+    EXPECT_LE(force, 2 + 1e-9) << probe.y;
+    EXPECT_LE(std::abs(force - last), 0.02) << probe.y;
+    last = force;
+  }
+  EXPECT_GT(last, 1.9) << "all of it outside";
 }
 
 TEST(StructurePlan, LeavesOutWhatNoModeReads) {

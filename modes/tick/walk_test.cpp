@@ -1,5 +1,5 @@
-// Random walks through every shared scan with every mode on. PALPATE_WALK_FRAMES in the environment says how many
-// frames in each scan, and PALPATE_WALK_SCAN in which folder, if not in all. A million frames take a minute a scan.
+// Random walks through every shared scan with every mode on. PALPATE_WALK_TICKS in the environment says how many
+// ticks in each scan, and PALPATE_WALK_SCAN in which folder, if not in all. A million ticks take a minute a scan.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@
 namespace palpate::modes {
 namespace {
 
-int frames() {
-  const char* wanted = std::getenv("PALPATE_WALK_FRAMES");
+int ticks() {
+  const char* wanted = std::getenv("PALPATE_WALK_TICKS");
   return wanted != nullptr ? std::max(1, std::atoi(wanted)) : testdata::repeats(2000, 200);
 }
 
@@ -73,14 +73,14 @@ Scene every_mode(const io::Volume& volume, const Vec3& middle_mm) {
 
 struct Walk {
   std::vector<Vec3> forces;
-  int inside = 0;  ///< frames whose proxy was in the scan
+  int inside = 0;  ///< ticks whose proxy was in the scan
   int capped = 0;
   double worst_bound_m = 0;
   double largest_n = 0;
 };
 
 /// Steps of a hand that wanders, rests, and is put somewhere else now and then, also outside the scan.
-Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry& g, int frames) {
+Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry& g, int ticks) {
   testing::Hand hand(scene, source);
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> part(-0.05, 1.05);
@@ -94,7 +94,7 @@ Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry
   const bool had_failed = ::testing::Test::HasFailure();
   Walk result;
   Vec3 probe = anywhere();
-  for (int i = 0; i < frames; ++i) {
+  for (int i = 0; i < ticks; ++i) {
     const double what = part(random);
     // Outside there is little to be felt: it does not stay there as long.
     if (what < (i == 0 || hand.result.sample.inside ? -0.0485 : -0.03)) {
@@ -105,26 +105,26 @@ Walk walk(const Scene& scene, const io::VolumeFields& source, const io::Geometry
       const double x = step(random), y = step(random), z = step(random);
       probe += length * Vec3(x, y, z);
     }
-    const StepResult& frame = hand.move_to(probe);
+    const StepResult& tick = hand.move_to(probe);
     double most = 0;
-    for (const solver::Primitive& primitive : frame.primitives) {
+    for (const solver::Primitive& primitive : tick.primitives) {
       most += primitive.strength;
     }
-    EXPECT_TRUE(frame.outcome == solver::Outcome::solved || frame.outcome == solver::Outcome::capped) << i;
-    EXPECT_LT(frame.error_bound, 1e-6) << i;
-    EXPECT_TRUE(std::isfinite(glm::length(frame.force_n))) << i;
+    EXPECT_TRUE(tick.outcome == solver::Outcome::solved || tick.outcome == solver::Outcome::capped) << i;
+    EXPECT_LT(tick.error_bound, 1e-6) << i;
+    EXPECT_TRUE(std::isfinite(glm::length(tick.force_n))) << i;
     // The spring pulls no harder than all primitives together can hold, but for rounding and the certified error.
-    EXPECT_LE(glm::length(frame.force_n), most + hand.plan.stiffness_n_per_m * frame.error_bound + 1e-9) << i;
-    if (!frame.sample.inside) {
-      EXPECT_TRUE(std::all_of(frame.mode_of.begin(), frame.mode_of.end(),
+    EXPECT_LE(glm::length(tick.force_n), most + hand.plan.stiffness_n_per_m * tick.error_bound + 1e-9) << i;
+    if (!tick.sample.inside) {
+      EXPECT_TRUE(std::all_of(tick.mode_of.begin(), tick.mode_of.end(),
                               [&](std::uint8_t mode) { return scene.modes[mode].type == "landmark"; }))
-          << "felt outside the scan, frame " << i;
+          << "felt outside the scan, tick " << i;
     }
-    result.inside += frame.sample.inside ? 1 : 0;
-    result.capped += frame.capped;
-    result.worst_bound_m = std::max(result.worst_bound_m, frame.error_bound);
-    result.largest_n = std::max(result.largest_n, glm::length(frame.force_n));
-    result.forces.push_back(frame.force_n);
+    result.inside += tick.sample.inside ? 1 : 0;
+    result.capped += tick.capped;
+    result.worst_bound_m = std::max(result.worst_bound_m, tick.error_bound);
+    result.largest_n = std::max(result.largest_n, glm::length(tick.force_n));
+    result.forces.push_back(tick.force_n);
     if (::testing::Test::HasFailure() && !had_failed) {
       break;
     }
@@ -140,20 +140,20 @@ void walk_through(const std::string& name, const std::shared_ptr<const io::Volum
       io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::low_high | io::FieldSet::tube;
   const double scale_mm = io::default_gradient_scale_mm(g);
   const io::FieldOptions roomy{.brick_bytes = std::size_t{400} << 20};
-  const Walk first = walk(scene, io::VolumeFields(volume, fields, scale_mm, roomy), g, frames());
-  std::printf("%-28s %9zu frames, %4.1f %% inside, force at most %.2f N, %d sub-steps capped, bound at most %.0e m\n",
-              name.c_str(), first.forces.size(), 100.0 * first.inside / frames(), first.largest_n, first.capped,
+  const Walk first = walk(scene, io::VolumeFields(volume, fields, scale_mm, roomy), g, ticks());
+  std::printf("%-28s %9zu ticks, %4.1f %% inside, force at most %.2f N, %d sub-steps capped, bound at most %.0e m\n",
+              name.c_str(), first.forces.size(), 100.0 * first.inside / ticks(), first.largest_n, first.capped,
               first.worst_bound_m);
   std::fflush(stdout);
   EXPECT_GT(first.largest_n, 0.1);
   // A dozen primitives at once, as here, may exhaust the exact solver's work now and then; the bound is true then too.
-  EXPECT_LE(first.capped, frames() / 1000);
+  EXPECT_LE(first.capped, ticks() / 1000);
   const auto repeats = [&](int count, const io::FieldOptions& options) {
     const Walk again = walk(scene, io::VolumeFields(volume, fields, scale_mm, options), g, count);
     return std::equal(again.forces.begin(), again.forces.end(), first.forces.begin());
   };
-  EXPECT_TRUE(repeats(std::min(frames(), frames() / 10 + 500), roomy)) << "the same seed gave other forces";
-  EXPECT_TRUE(repeats(std::min(frames(), frames() / 50 + 500), {.brick_bytes = 0, .background = false}))
+  EXPECT_TRUE(repeats(std::min(ticks(), ticks() / 10 + 500), roomy)) << "the same seed gave other forces";
+  EXPECT_TRUE(repeats(std::min(ticks(), ticks() / 50 + 500), {.brick_bytes = 0, .background = false}))
       << "other forces without bricks";
 }
 

@@ -44,7 +44,7 @@ Scene follow_and_force() {
   return scene;
 }
 
-TEST(WindTunnel, follow_and_force_are_solved_by_the_analytical_solver_on_every_frame) {
+TEST(WindTunnel, follow_and_force_are_solved_by_the_analytical_solver_on_every_tick) {
   const testdata::FlowSource source({});
   Hand hand(follow_and_force(), source);
   EXPECT_FALSE(hand.plan.solvers.exact);

@@ -35,7 +35,7 @@ inline double push_share(const Mode& mode, double stiffness_n_per_m) {
 /// `outward`: away from the structure's inside (1: keep out, -1: keep in). In the tick.
 inline void place_keep(const ActiveMode& mode, const Place& place, double outward, PrimitiveList& primitives) noexcept {
   const auto n = static_cast<std::size_t>(mode.structure);
-  const io::Distance& distance = place.sample.distance[n];
+  const io::Distance distance = place.sample.distance[n];
   const double part = keep_part(-outward * distance.mm, mode.margin_mm);
   if (!(part > 0)) {
     return;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a haptic mode is: from the fields sampled at a place to primitives there. One file a mode (<name>_mode.cpp);
-/// the list of them is one line in modes/CMakeLists.txt.
+/// A haptic mode: it turns the fields sampled at a place into primitives there. Each mode is one file
+/// (<name>_mode.cpp), and one name in modes/CMakeLists.txt.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace palpate::modes {
 
-/// Along what a mode's constraint is directed: decides which combinations stay analytical (plan.h).
+/// The direction of a mode's constraint. It decides which combinations the analytical solver can solve (plan.h).
 enum class Axis : std::uint8_t { none, gradient, vector, tube, own, structure };
 
 /// What a mode places.
@@ -61,7 +61,7 @@ struct ActiveMode {
   int structure = -1;  ///< whose edge it is: index in Sample::distance; -1: the scan's own boundary
   double level_mm = 0;
   double margin_mm = 3;
-  double push_share = 0;  ///< of its strength: what pushes by itself, beside what resists (keep_out)
+  double push_share = 0;  ///< the part of its strength that pushes by itself; the rest only resists (keep_out)
   Shape shape = Shape::point;
   Vec3 position_mm{0};
   Vec3 direction{0, 0, 1};
@@ -72,11 +72,11 @@ struct Place {
   const io::Sample& sample;    ///< at the old proxy, patient space
   const Workspace& workspace;  ///< rotates directions into the device's frame
   Vec3 anchor_m{0};            ///< the place of all co-located primitives, device's frame
-  /// Where the planes of each structure's surface stand; those of the others at the anchor.
-  std::array<Vec3, io::most_structures> structure_anchor_m{};
+  /// Where the planes of each structure's surface stand. All other primitives stand at the anchor.
+  std::span<const Vec3> structure_anchor_m;
 };
 
-/// Primitives of a frame in the making: a list of fixed capacity.
+/// The primitives of the tick, as they are placed: a list of fixed capacity.
 class PrimitiveList {
  public:
   /// The most that one mode may place (surface on both sides).
@@ -87,7 +87,7 @@ class PrimitiveList {
   void set_mode(std::uint8_t mode) noexcept { mode_ = mode; }
   /// Multiplies the strength of what is added from here on.
   void set_weight(double weight) noexcept { weight_ = weight; }
-  /// Left out where the strength is zero; a mode leaves out itself what has no direction.
+  /// A primitive without strength is not added. A mode must not add one without a direction.
   void add(const solver::Primitive& primitive) noexcept;
   std::size_t size() const noexcept { return size_; }
 
@@ -108,7 +108,7 @@ struct ModeType {
   /// Fields it samples beside those that its strength and gates read.
   io::FieldSet (*reads)(const Mode& mode) = nullptr;
   Footprint (*footprint)(const Mode& mode) = nullptr;
-  /// Adds its primitives of this frame. In the tick: no allocation, lock, log or exception.
+  /// Adds its primitives. Called in the tick: no allocation, lock, log or exception.
   void (*place)(const ActiveMode& mode, const Place& place, PrimitiveList& primitives) noexcept = nullptr;
 };
 

@@ -37,7 +37,7 @@ void place_planes(Side side, double entering_n, double leaving_n, const Vec3& an
 
 void place_at_structure(const ActiveMode& mode, const Place& place, PrimitiveList& primitives) noexcept {
   const auto n = static_cast<std::size_t>(mode.structure);
-  const io::Distance& distance = place.sample.distance[n];
+  const io::Distance distance = place.sample.distance[n];
   const double way = distance.mm - mode.level_mm;
   const double entering = wall(way);
   const double leaving = wall(-way);

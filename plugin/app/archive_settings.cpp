@@ -19,31 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The XDG base directory specification: a variable that is empty or no absolute path counts as not set.
-fs::path base_folder(const char* variable, const char* under_home) {
-  const char* const named = std::getenv(variable);
-  if (named != nullptr && named[0] == '/') return fs::path(named) / "palpate";
-  const char* const home = std::getenv("HOME");
-  if (home == nullptr || home[0] != '/') {
-    throw InputRefused(say("neither-nor-home-names-a-folder", variable));
-  }
-  return fs::path(home) / under_home / "palpate";
-}
-
 Json to_json(const io::Archive& archive) {
-  Json json{{"name", archive.name},
-            {"host", archive.host},
-            {"port", archive.port},
-            {"called", archive.called},
-            {"calling", archive.calling},
-            {"get", archive.uses_get},
-            {"listen_address", archive.listen_address},
-            {"listen_port", archive.listen_port},
-            {"silence_s", archive.silence_s}};
+  Json json = connection_json(archive);
+  json["silence_s"] = archive.silence_s;
   if (archive.tls.used) {
     json["tls"] = {{"authorities", archive.tls.authorities.string()},
                    {"certificate", archive.tls.certificate.string()},
                    {"key", archive.tls.key.string()}};
+    if (!archive.tls.name.empty()) json["tls"]["name"] = archive.tls.name;
   }
   return json;
 }
@@ -62,7 +45,7 @@ io::Archive from_json(const Json& json) {
   if (json.contains("tls")) {
     const Json& tls = json.at("tls");
     archive.tls = {true, tls.at("authorities").get<std::string>(), tls.at("certificate").get<std::string>(),
-                   tls.at("key").get<std::string>()};
+                   tls.at("key").get<std::string>(), tls.value("name", std::string())};
   }
   io::check(archive);
   return archive;
@@ -83,8 +66,30 @@ void write_private(const fs::path& file, const std::string& text) {
 
 }  // namespace
 
+nlohmann::ordered_json connection_json(const io::Archive& archive) {
+  return {{"name", archive.name},
+          {"host", archive.host},
+          {"port", archive.port},
+          {"called", archive.called},
+          {"calling", archive.calling},
+          {"get", archive.uses_get},
+          {"listen_address", archive.listen_address},
+          {"listen_port", archive.listen_port}};
+}
+
+// A variable that is empty or no absolute path counts as not set.
+fs::path user_folder(const char* variable, const char* under_home) {
+  const char* const named = std::getenv(variable);
+  if (named != nullptr && named[0] == '/') return fs::path(named) / "palpate";
+  const char* const home = std::getenv("HOME");
+  if (home == nullptr || home[0] != '/') {
+    throw InputRefused(say("neither-nor-home-names-a-folder", variable));
+  }
+  return fs::path(home) / under_home / "palpate";
+}
+
 fs::path archive_settings_file() {
-  return base_folder("XDG_CONFIG_HOME", ".config") / "archives.json";
+  return user_folder("XDG_CONFIG_HOME", ".config") / "archives.json";
 }
 
 std::vector<io::Archive> read_archives() {
@@ -128,29 +133,6 @@ io::Archive archive_named(const std::string& name) {
   }
   if (name.empty()) throw InputRefused(say("choose-one-of-the-archives-with-archive", names));
   throw InputRefused(say("no-archive-is-entered", name, names));
-}
-
-fs::path fetched_folder() {
-  return base_folder("XDG_CACHE_HOME", ".cache") / "fetched";
-}
-
-OnDisk fetched_on_disk() {
-  OnDisk result;
-  std::error_code error;
-  for (const auto& series : fs::directory_iterator(fetched_folder(), error)) {
-    ++result.series;
-    for (const auto& file : fs::recursive_directory_iterator(series.path(), error)) {
-      if (file.is_regular_file(error)) result.bytes += file.file_size(error);
-    }
-  }
-  return result;
-}
-
-void empty_fetched() {
-  const fs::path folder = fetched_folder();
-  std::error_code error;
-  fs::remove_all(folder, error);
-  if (error) throw InputRefused(say("cannot-be-deleted", folder.string(), error.message()));
 }
 
 }  // namespace palpate::plugin

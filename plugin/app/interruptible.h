@@ -1,12 +1,12 @@
 #pragma once
 
-/// Ctrl-C as a wish to end in good order.
+/// Ctrl-C as a request to end properly.
 
 #include <csignal>
 
 namespace palpate::plugin {
 
-/// While it lives, SIGINT and SIGTERM only say that they came. One at a time.
+/// While this exists, SIGINT and SIGTERM only set a flag. One at a time.
 class Interruptible {
  public:
   Interruptible();
@@ -14,7 +14,7 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
   ~Interruptible();
 
-  /// Whether one came since the last Interruptible began.
+  /// Whether one of them has come since the last Interruptible began.
   static bool interrupted() noexcept;
 
  private:

@@ -12,6 +12,7 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/app/recording_header.h"
 #include "plugin/messages/messages.h"
+#include "plugin/report/held_boundary.h"
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {
@@ -47,10 +48,15 @@ Snapshot LiveSession::snapshot(double change_s) const {
 }
 
 SceneRecord LiveSession::record_of_scene(std::uint32_t epoch, double change_s) const {
-  SceneRecord record = record_of(suited(scene_, specification_), *felt_.plan, specification_, scan_hash());
+  SceneRecord record = record_of(suited(scene_, specification_), felt_, specification_, scan_hash());
   record.epoch = epoch;
   record.change_s = change_s;
+  record.frame = frame_;
   return record;
+}
+
+KnownTo LiveSession::known_to() const {
+  return known_to_of_ticks(felt_, scene_);
 }
 
 const std::string& LiveSession::scan_hash() const {
@@ -60,12 +66,13 @@ const std::string& LiveSession::scan_hash() const {
 
 void LiveSession::publish(double change_s) {
   if (!session_) return;
-  // Before the servo can take it, so that the recording has the scene of its every frame.
-  if (recorder_) recorder_->note(record_of_scene(last_epoch_ + 1, change_s));
+  // Before the servo can take it, so that the recording has the scene of its every tick.
+  if (recorder_) recorder_->note(record_of_scene(last_epoch_ + 1, change_s), known_to());
   last_epoch_ = session_->publish(snapshot(change_s));
 }
 
-void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene) {
+void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene,
+                           const ScanFrame& frame) {
   if (!volume) {
     disconnect();
     modes::validate(scene);
@@ -75,6 +82,7 @@ void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes
   volume = io::raw_of(volume);
   if (volume != volume_) scan_hash_.clear();
   volume_ = std::move(volume);
+  frame_ = frame;
   offered_.reset();
   publish(scene_.limits.ramp_s);
 }
@@ -100,19 +108,23 @@ void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optio
   const PreparedScene before = std::exchange(
       felt_, prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent, this->before()));
   last_epoch_ = 0;
+  faults_ = 0;
+  last_fault_.reset();
   try {
     ring_ = std::make_unique<TickRing>();
     if (file) {
       recorder_ = std::make_unique<Recorder>(*ring_, *file, header_for(scene_, specification_, scan_hash()));
-      recorder_->note(record_of_scene(0, scene_.limits.ramp_s));
+      recorder_->note(record_of_scene(0, scene_.limits.ramp_s), known_to());
       recorder_->note(StylusRecord{.epoch = 0,
                                    .name = specification_.name,
                                    .force_axes = specification_.force_axes,
                                    .maximum_force_n = specification_.maximum_force});
     }
     session_ = std::make_unique<Session>(snapshot(scene_.limits.ramp_s), stylus_, ring_.get());
-    if (start_ == Start::released) session_->disarm();  // before the first tick
-    servo_ = std::make_unique<Servo>(*session_, specification_.rate);
+    if (start_ == Start::released) session_->disarm();                            // before the first tick
+    specification_.orientation_axes = stylus_->specification().orientation_axes;  // told once it is open
+    const double period_s = 1 / specification_.rate;
+    servo_ = std::make_unique<Servo>(*session_, make_clock_(period_s), period_s);
   } catch (...) {
     end();
     felt_ = before;
@@ -131,13 +143,13 @@ std::optional<RecorderStatus> LiveSession::end() noexcept {
 std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
   if (servo_) {
     release();
-    TickRecord frame;
+    TickRecord tick;
     constexpr int longest_ms = 100;
     for (int ms = 0; ms < longest_ms; ++ms) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       const std::uint64_t written = ring_->written();
-      const bool zero = written > 0 && ring_->read(written - 1, frame) &&
-                        std::all_of(std::begin(frame.sent_n), std::end(frame.sent_n), [](double n) { return n == 0; });
+      const bool zero = written > 0 && ring_->read(written - 1, tick) &&
+                        std::all_of(std::begin(tick.sent_n), std::end(tick.sent_n), [](double n) { return n == 0; });
       if (zero && ms > 2) break;  // the release has been heard
     }
   }
@@ -154,6 +166,10 @@ void LiveSession::release() noexcept {
   if (session_) session_->disarm();
 }
 
+void LiveSession::press(std::uint32_t buttons) noexcept {
+  if (session_) session_->press(buttons);
+}
+
 void LiveSession::clear_fault() noexcept {
   if (session_) session_->clear_fault();
 }
@@ -162,6 +178,23 @@ void LiveSession::heartbeat() {
   if (!servo_) return;
   servo_->heartbeat();
   session_->collect();
+  if (session_->faults() != faults_) {
+    faults_ = session_->faults();
+    last_fault_ = keep_fault(session_->fault_ticks(), specification_.name);
+  }
+}
+
+std::optional<glm::dquat> LiveSession::orientation() noexcept {
+  if (!session_ || specification_.orientation_axes == 0) return {};
+  return session_->orientation();
+}
+
+void LiveSession::reopen() {
+  if (!is_connected()) throw Refusal(say("no-stylus-is-held"));
+  std::shared_ptr<device::Stylus> stylus = stylus_;
+  disconnect();
+  start_ = Start::released;
+  begin(std::move(stylus), {});
 }
 
 void LiveSession::record(const std::filesystem::path& file) {

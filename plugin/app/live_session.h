@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "device/stylus.h"
 #include "io/volume.h"
 #include "modes/scene/scene.h"
+#include "plugin/app/fault_report.h"
 #include "plugin/recording/recorder.h"
 #include "plugin/session/scan.h"
 #include "plugin/session/servo.h"
@@ -35,36 +37,42 @@ class LiveSession {
   /// As disconnect().
   ~LiveSession();
 
-  /// Another scan, or another frame of it, raw or filtered ahead; null: none, and the stylus is disconnected. Throws
-  /// std::invalid_argument where the scene cannot be felt on it.
+  /// Another scan, or another frame of it, either raw or already filtered. Null: no scan, and the stylus is
+  /// disconnected. Throws std::invalid_argument if the scene cannot be felt on it.
   void set_scan(std::shared_ptr<const io::Volume> volume) { set_scan(std::move(volume), modes::Scene(scene_)); }
-  /// The same with another scene, in one change. The scene is not felt before, on no scan.
-  void set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene);
-  /// Throws std::invalid_argument, naming the key, for a scene that is not valid; the last one then goes on.
+  /// The same together with another scene, in one change. Until this call the scene is not felt on any scan. `frame`:
+  /// which frame of its series the volume is, for recordings.
+  void set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene, const ScanFrame& frame = {});
+  /// Throws std::invalid_argument that names the key if a scene is not valid; the previous scene then stays.
   void set_scene(const modes::Scene& scene, Pace pace = Pace::stepped);
   /// The scan as it was read.
   const std::shared_ptr<const io::Volume>& scan() const noexcept { return volume_; }
   /// The same as it is felt: through the scene's filter.
   const std::shared_ptr<const io::Volume>& felt_scan() const noexcept { return felt_.volume; }
-  /// The scan through a filter that a scene is going to ask for: it then need not be computed in set_scene().
+  /// Gives the scan through a filter that a scene is about to ask for, so that set_scene() need not compute it.
   void offer(std::shared_ptr<const io::Volume> filtered) { offered_ = std::move(filtered); }
   const modes::Scene& scene() const noexcept { return scene_; }
-  /// Of the scene on the scan, for the stylus that is held or else for the simulated one; null without a scan.
+  /// The plan of the scene on the scan, for the connected stylus, or for the simulated one if none is connected. Null
+  /// without a scan.
   std::shared_ptr<const modes::Plan> plan() const noexcept { return felt_.plan; }
-  /// Of the scene: TickRecord::scene_epoch of the frames that feel it.
+  /// Of the scene: TickRecord::scene_epoch of the ticks that feel it.
   std::uint32_t epoch() const noexcept { return last_epoch_; }
   /// All that is felt.
   const PreparedScene& felt() const noexcept { return felt_; }
-  /// N/m: what is felt, for a scene may ask for more than the stylus renders stably.
+  /// N/m: the stiffness that is felt. A scene may ask for more than the stylus renders stably.
   double stiffness_n_per_m() const noexcept { return felt_.plan ? felt_.plan->stiffness_n_per_m : 0; }
+
+  /// Makes the clocks of the servos of later connect() calls, for a given period (s). For tests only.
+  using MakeClock = std::function<std::unique_ptr<ServoClock>(double period_s)>;
+  void set_clock(MakeClock make) { make_clock_ = std::move(make); }
 
   /// Whether forces are on from the first tick.
   enum class Start { released, feeling };
-  /// Opens the stylus; where it starts feeling, the force is ramped up. Throws what Stylus::open() throws, and
+  /// Opens the stylus. If it starts feeling, the force is ramped up. Throws what Stylus::open() throws, and
   /// std::runtime_error without a scan.
   void connect(std::shared_ptr<device::Stylus> stylus, Start start = Start::feeling);
-  /// The force falls to zero, then the stylus is closed and the recording ends, if there is one: its status is
-  /// returned. Blocks for a tenth of a second.
+  /// Lets the force fall to zero, closes the stylus and ends the recording, if there is one; returns its status. Blocks
+  /// for a tenth of a second.
   std::optional<RecorderStatus> disconnect() noexcept;
   bool is_connected() const noexcept { return servo_ != nullptr; }
   const device::Specification& specification() const noexcept { return specification_; }
@@ -72,18 +80,28 @@ class LiveSession {
   void feel() noexcept;     ///< the force comes up
   void release() noexcept;  ///< the force falls to zero, and stays there until feel()
   void clear_fault() noexcept;
-  /// To be called at least every half second, or the servo takes the force away.
+  /// As Session::press(), until the session ends or begins anew.
+  void press(std::uint32_t buttons) noexcept;
+  /// The orientation of the stylus, device frame. None if it does not measure any, or if none is held.
+  std::optional<glm::dquat> orientation() noexcept;
+  /// Opens the lost stylus again, without a force until feel(). The recording ends. Throws what Stylus::open() throws;
+  /// the stylus is then disconnected.
+  void reopen();
+  /// The report of the session's last fault, whose file holds the second before it. None before the first fault.
+  const std::optional<FaultReport>& last_fault() const noexcept { return last_fault_; }
+  /// As Servo::heartbeat().
   void heartbeat();
 
-  /// Frames of the session; null where none was begun yet. A new one with every connect().
-  const TickRing* frames() const noexcept { return ring_.get(); }
+  /// The ticks of the session; null if none has begun yet. Every connect() begins a new session.
+  const TickRing* ticks() const noexcept { return ring_.get(); }
   std::uint64_t missed() const noexcept { return servo_ ? servo_->missed() : 0; }
   const device::RealtimeStatus* realtime() const noexcept { return servo_ ? &servo_->realtime() : nullptr; }
 
-  /// Begins to record. A recording can be repeated to the last bit from a session's first frame on: the session begins
-  /// anew, its force ramped down and up. Throws std::runtime_error naming the file, or where no stylus is held.
+  /// Begins to record. A recording can only be repeated to the last bit from the first tick of a session; so the
+  /// session begins again, its force ramped down and up. Throws std::runtime_error that names the file, or if no stylus
+  /// is held.
   void record(const std::filesystem::path& file);
-  /// Null status where nothing was recorded.
+  /// The status of the recording that ends; none if nothing was recorded.
   std::optional<RecorderStatus> stop_recording();
   std::optional<RecorderStatus> recording() const;
 
@@ -92,6 +110,7 @@ class LiveSession {
   Prepared before() const { return {.felt = felt_, .scene = scene_}; }
   Snapshot snapshot(double change_s) const;
   SceneRecord record_of_scene(std::uint32_t epoch, double change_s) const;
+  KnownTo known_to() const;
   void publish(double change_s);
   void begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file);
   std::optional<RecorderStatus> end() noexcept;
@@ -100,13 +119,17 @@ class LiveSession {
 
   std::shared_ptr<const io::Volume> volume_;   // never filtered
   std::shared_ptr<const io::Volume> offered_;  // volume_ filtered, or null
+  ScanFrame frame_;                            // of the volume in its series
   mutable std::string scan_hash_;              // of the volume; empty until asked for: it reads all voxels
   modes::Scene scene_;
   PreparedScene felt_;
   std::uint32_t last_epoch_ = 0;
   Start start_ = Start::feeling;  // as a session that begins now does: what was asked for last
+  MakeClock make_clock_ = [](double period_s) { return std::make_unique<RealClock>(period_s); };
   std::shared_ptr<device::Stylus> stylus_;
   device::Specification specification_;
+  std::optional<FaultReport> last_fault_;
+  int faults_ = 0;  // of the session, that were kept
   // In the order in which they lean on each other.
   std::unique_ptr<TickRing> ring_;
   std::unique_ptr<Recorder> recorder_;

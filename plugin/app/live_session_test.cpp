@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -13,6 +15,7 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/app/run_session.h"
 #include "plugin/testing/session_rig.h"
+#include "plugin/testing/test_clocks.h"
 #include "plugin/testing/test_files.h"
 #include "testdata/scan.h"
 
@@ -26,6 +29,13 @@ std::shared_ptr<const io::Volume> ball(double radius_mm = 25) {
       testdata::scan(testdata::make_sphere(radius_mm), testdata::make_geometry({.size = glm::ivec3(60)})));
 }
 
+/// A session whose ticks are never late, however busy the machine is.
+struct UnhurriedSession : LiveSession {
+  UnhurriedSession() {
+    set_clock([](double period_s) { return std::make_unique<UnhurriedClock>(period_s); });
+  }
+};
+
 /// Held 3 mm below the top of the ball.
 std::shared_ptr<device::SimulatedStylus> pressing() {
   auto held = std::make_shared<device::SimulatedStylus>();
@@ -35,18 +45,18 @@ std::shared_ptr<device::SimulatedStylus> pressing() {
   return held;
 }
 
-TickRecord last_frame(const LiveSession& live) {
-  TickRecord frame;
-  const std::uint64_t written = live.frames()->written();
-  if (written > 0) live.frames()->read(written - 1, frame);
-  return frame;
+TickRecord last_tick(const LiveSession& live) {
+  TickRecord tick;
+  const std::uint64_t written = live.ticks()->written();
+  if (written > 0) live.ticks()->read(written - 1, tick);
+  return tick;
 }
 
 double sent_n(const LiveSession& live) {
-  return glm::length(vector_of(last_frame(live).sent_n));
+  return glm::length(vector_of(last_tick(live).sent_n));
 }
 
-/// Whether it comes to hold within some seconds of a servo that may be late.
+/// Whether it comes to hold within some seconds.
 bool comes(LiveSession& live, const std::function<bool()>& holds) {
   for (int n = 0; n < 2000; ++n) {
     if (holds()) return true;
@@ -57,7 +67,7 @@ bool comes(LiveSession& live, const std::function<bool()>& holds) {
 }
 
 TEST(LiveSession, NeedsAScanBeforeAStylus) {
-  LiveSession live;
+  UnhurriedSession live;
   live.set_scene(modes::load_scene("ct-skin-and-bone"));
   EXPECT_EQ(live.plan(), nullptr);
   EXPECT_THROW(live.connect(pressing()), std::runtime_error);
@@ -69,7 +79,7 @@ TEST(LiveSession, NeedsAScanBeforeAStylus) {
 }
 
 TEST(LiveSession, FeelsReleasesAndFeelsAgain) {
-  LiveSession live;
+  UnhurriedSession live;
   live.set_scan(ball());
   live.set_scene(modes::load_scene("ct-skin-and-bone"));
   live.connect(pressing());
@@ -77,11 +87,11 @@ TEST(LiveSession, FeelsReleasesAndFeelsAgain) {
   live.release();
   EXPECT_TRUE(comes(live, [&] { return sent_n(live) == 0; }));
   live.feel();
-  EXPECT_TRUE(comes(live, [&] { return state_of(last_frame(live)) == device::State::active; }));
+  EXPECT_TRUE(comes(live, [&] { return state_of(last_tick(live)) == device::State::active; }));
 }
 
 TEST(LiveSession, LetsGoInMidContact) {
-  LiveSession live;
+  UnhurriedSession live;
   live.set_scan(ball());
   live.set_scene(modes::load_scene("ct-skin-and-bone"));
   live.connect(pressing());
@@ -106,7 +116,7 @@ TEST(LiveSession, AnEditedStrengthNeedsNoNewFields) {
 }
 
 TEST(LiveSession, AnEditIsInTheLoop) {
-  LiveSession live;
+  UnhurriedSession live;
   live.set_scan(ball());
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
   live.set_scene(scene);
@@ -123,7 +133,7 @@ TEST(LiveSession, AnEditIsInTheLoop) {
 }
 
 TEST(LiveSession, GoesOverToAnotherScanAndLetsGoWithoutOne) {
-  LiveSession live;
+  UnhurriedSession live;
   live.set_scan(ball());
   live.set_scene(modes::load_scene("ct-skin-and-bone"));
   live.connect(pressing());
@@ -137,7 +147,7 @@ TEST(LiveSession, GoesOverToAnotherScanAndLetsGoWithoutOne) {
 
 TEST(LiveSession, ARecordingIsRepeatedToTheLastBit) {
   const auto file = fresh_path("live.h5");
-  LiveSession live;
+  UnhurriedSession live;
   const auto volume = ball();
   live.set_scan(volume);
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
@@ -147,25 +157,61 @@ TEST(LiveSession, ARecordingIsRepeatedToTheLastBit) {
   ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
   scene.modes[0].strength_n = modes::TransferFunction(0.2);
   live.set_scene(scene, Pace::dragged);
-  ASSERT_TRUE(comes(live, [&] { return last_frame(live).scene_epoch == 1 && last_frame(live).change_part == 1; }));
+  ASSERT_TRUE(comes(live, [&] { return last_tick(live).scene_epoch == 1 && last_tick(live).change_part == 1; }));
   live.release();
   ASSERT_TRUE(comes(live, [&] { return sent_n(live) == 0; }));
   const auto status = live.stop_recording();
   ASSERT_TRUE(status);
   EXPECT_EQ(status->lost, 0U);
   const Recording recording = read_recording(file);
-  EXPECT_GT(recording.frames.size(), 100U);
+  EXPECT_GT(recording.ticks.size(), 100U);
   const Replay again = replay(recording, [&](const SceneRecord& record) { return snapshot_of(record, volume); });
-  EXPECT_EQ(again.frames, recording.frames.size());
+  EXPECT_EQ(again.ticks, recording.ticks.size());
   EXPECT_EQ(again.different, 0U);
   std::filesystem::remove(file);
+}
+
+TEST(LiveSession, ARecordingTellsWhichFrameOfTheSeriesWasFelt) {
+  const auto file = fresh_path("ticks.h5");
+  LiveSession live;
+  const std::array volumes{ball(25), ball(24)};
+  const modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  live.set_scan(volumes[0], scene, {.number = 0, .count = 2});
+  live.connect(pressing());
+  live.record(file);
+  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
+  live.set_scan(volumes[1], scene, {.number = 1, .count = 2});
+  ASSERT_TRUE(comes(live, [&] { return last_tick(live).scene_epoch == 1 && last_tick(live).change_part == 1; }));
+  modes::Scene edited = scene;
+  edited.stiffness_n_per_m *= 0.9;
+  live.set_scene(edited);
+  ASSERT_TRUE(comes(live, [&] { return last_tick(live).scene_epoch == 2; }));
+  ASSERT_TRUE(live.stop_recording());
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.scenes.size(), 3U);
+  EXPECT_EQ(recording.scenes[0].frame, (ScanFrame{0, 2}));
+  EXPECT_EQ(recording.scenes[1].frame, (ScanFrame{1, 2}));
+  EXPECT_EQ(recording.scenes[2].frame, (ScanFrame{1, 2})) << "an edit leaves the frame as it is";
+  const Replay again = replay(recording, [&](const SceneRecord& record) {
+    return snapshot_of(record, volumes.at(static_cast<std::size_t>(record.frame->number)));
+  });
+  EXPECT_EQ(again.ticks, recording.ticks.size());
+  EXPECT_EQ(again.different, 0U);
+  // The proxy was held: of those ticks it is known how well, and of none on the way to another scan.
+  std::size_t told = 0;
+  for (std::size_t n = 0; n < recording.ticks.size(); ++n) {
+    if (!std::isfinite(recording.known_to_mm[n])) continue;
+    ++told;
+    EXPECT_EQ(recording.ticks[n].change_part, 1);
+  }
+  EXPECT_GT(told, 10U);
 }
 
 TEST(LiveSession, AFilterIsFeltAndItsRecordingRepeatedToTheLastBit) {
   const auto file = fresh_path("filtered.h5");
   const auto volume = std::make_shared<const io::Volume>(
       testdata::scan(testdata::make_sphere(25), testdata::make_geometry({.size = glm::ivec3(60)}), {.noise = 80}));
-  LiveSession live;
+  UnhurriedSession live;
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
   scene.filter = {.type = io::FilterType::gaussian, .sigma_mm = 1};
   live.set_scan(volume, scene);
@@ -183,15 +229,15 @@ TEST(LiveSession, AFilterIsFeltAndItsRecordingRepeatedToTheLastBit) {
   live.offer(ahead);
   live.set_scene(scene);
   EXPECT_EQ(live.felt_scan(), ahead);
-  ASSERT_TRUE(comes(live, [&] { return last_frame(live).scene_epoch == 1 && last_frame(live).change_part == 1; }));
+  ASSERT_TRUE(comes(live, [&] { return last_tick(live).scene_epoch == 1 && last_tick(live).change_part == 1; }));
   scene.filter = {};
   live.set_scene(scene);
   EXPECT_EQ(live.felt_scan(), volume);
-  ASSERT_TRUE(comes(live, [&] { return last_frame(live).scene_epoch == 2 && last_frame(live).change_part == 1; }));
+  ASSERT_TRUE(comes(live, [&] { return last_tick(live).scene_epoch == 2 && last_tick(live).change_part == 1; }));
   ASSERT_TRUE(live.stop_recording());
   const Recording recording = read_recording(file);
   const Replay again = replay(recording, [&](const SceneRecord& record) { return snapshot_of(record, volume); });
-  EXPECT_EQ(again.frames, recording.frames.size());
+  EXPECT_EQ(again.ticks, recording.ticks.size());
   EXPECT_EQ(again.different, 0U);
   // Of the filters themselves: without them it is another force.
   const Replay without = replay(recording, [&](SceneRecord record) {
@@ -202,6 +248,40 @@ TEST(LiveSession, AFilterIsFeltAndItsRecordingRepeatedToTheLastBit) {
   });
   EXPECT_GT(without.different, 0U);
   std::filesystem::remove(file);
+}
+
+TEST(LiveSession, AStylusThatWasLostComesBackUnarmed) {
+  LiveSession live;
+  live.set_scan(ball(), modes::load_scene("ct-skin-and-bone"));
+  const auto held = pressing();
+  live.connect(held);
+  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.1; }));
+  held->inject(device::SimulatedFault::unplugged);
+  ASSERT_TRUE(comes(live, [&] { return fault_of(last_tick(live)) == device::Fault::device_lost; }));
+  held->inject(device::SimulatedFault::none);
+  live.reopen();
+  ASSERT_TRUE(live.is_connected());
+  ASSERT_TRUE(comes(live, [&] { return live.ticks()->written() > 1000; }));
+  EXPECT_EQ(fault_of(last_tick(live)), device::Fault::none);
+  EXPECT_EQ(sent_n(live), 0) << "only the user turns the force on";
+  EXPECT_EQ(state_of(last_tick(live)), device::State::idle);
+  live.feel();
+  EXPECT_TRUE(comes(live, [&] { return state_of(last_tick(live)) == device::State::active; }));
+}
+
+TEST(LiveSession, AStylusThatIsStillGoneIsSaid) {
+  LiveSession live;
+  live.set_scan(ball(), modes::load_scene("ct-skin-and-bone"));
+  const auto held = pressing();
+  live.connect(held);
+  held->inject(device::SimulatedFault::unplugged);
+  try {
+    live.reopen();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "simulated stylus: unplugged; plug it in again");
+  }
+  EXPECT_FALSE(live.is_connected());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The device's part of a plan: what holding this stylus leaves out, why, and what that saves.
+/// How the stylus changes a plan: what is left out because of it, why, and what that saves.
 
 #include <string>
 #include <vector>

@@ -66,13 +66,13 @@ double sample_us(const io::VolumeFields& fields, FieldSet field, const glm::dvec
 }
 
 struct Cost {
-  double us = 0;  ///< of a frame
+  double us = 0;  ///< of a tick
   std::size_t bytes = 0;
 };
 
 /// A small movement about the middle, within half a millimeter: the same one for every plan.
 Cost cost_of(const modes::Scene& scene, const modes::Plan& plan, const std::shared_ptr<const io::Volume>& volume) {
-  constexpr int frames = 400, rounds = 7;
+  constexpr int ticks = 400, rounds = 7;
   const io::VolumeFields source = fields_without_worker(scene, volume, scan_fields(plan), plan.slices);
   const glm::dvec3 middle = middle_of(volume->geometry, plan);
   source.prepare(middle, 5);
@@ -83,13 +83,13 @@ Cost cost_of(const modes::Scene& scene, const modes::Plan& plan, const std::shar
   double best = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
     const double us = us_of([&] {
-      for (int i = 0; i < frames; ++i) {
-        const double angle = 6.2832 * i / frames;
+      for (int i = 0; i < ticks; ++i) {
+        const double angle = 6.2832 * i / ticks;
         const glm::dvec3 at = middle + 0.5 * glm::dvec3(std::cos(angle), std::sin(angle), std::sin(2 * angle));
         modes::step(plan, source, plan.workspace.to_device(at), touch, chain, *scratch);
       }
     });
-    best = std::min(best, us / frames);
+    best = std::min(best, us / ticks);
   }
   return {best, source.memory_bytes() + chain.memory_bytes()};
 }
@@ -163,7 +163,7 @@ std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan
       saving.us = sample_us(fields, entry.field, middle_of(volume->geometry, plan));
       saving.bytes = fields.memory_bytes();
       saving.saves = per_step(*saving.us, *saving.bytes);
-      if (entry.field == FieldSet::value) saving.saves += "; once a frame it is read all the same, to be shown";
+      if (entry.field == FieldSet::value) saving.saves += "; once a tick it is read all the same, to be shown";
     } else if (entry.slices) {
       measure_slices(*entry.slices, scene, plan, volume, saving);
     } else if (entry.mode) {
@@ -178,7 +178,7 @@ std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan
         saving.saves = per_step(*saving.us, *saving.bytes);
       }
     } else if (entry.what == "exact solver") {
-      saving.us = 0;  // the analytical solver answers every frame
+      saving.us = 0;  // the analytical solver answers every tick
       saving.bytes = solver::Chain().memory_bytes() - solver::Chain({.exact = false}).memory_bytes();
       saving.saves = size_of(*saving.bytes) + " of scratch memory; no time: it would not be called";
     } else if (entry.what == "descent solver") {

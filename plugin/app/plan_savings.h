@@ -1,7 +1,7 @@
 #pragma once
 
-/// What leaving something out of a plan saves, measured on the scan itself: a step with it and without it, and the
-/// memory that either takes.
+/// Measures on the scan what it saves to leave something out of a plan: the time of a step with it and without it, and
+/// the memory of both.
 
 #include <cstddef>
 #include <memory>

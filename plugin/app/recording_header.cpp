@@ -15,13 +15,14 @@ RecordingHeader header_for(const modes::Scene& scene, const device::Specificatio
           .rate_hz = stylus.rate};
 }
 
-SceneRecord record_of(const modes::Scene& scene, const modes::Plan& plan, const device::Specification& stylus,
+SceneRecord record_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus,
                       const std::string& scan_hash) {
   SceneRecord record{.scene = modes::to_json(without_paths(scene)),
                      .scan_hash = scan_hash,
                      .half_extent_m = stylus.workspace_half_extent,
-                     .maximum_force_n = stylus.maximum_force};
-  for (const std::size_t n : plan.structures) record.structures.push_back(scene.structures[n].name);
+                     .maximum_force_n = stylus.maximum_force,
+                     .registered = registered_of(felt)};
+  for (const std::size_t n : felt.plan->structures) record.structures.push_back(scene.structures[n].name);
   return record;
 }
 

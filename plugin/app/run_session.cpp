@@ -4,14 +4,17 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <thread>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/app/fault_report.h"
 #include "plugin/app/interruptible.h"
 #include "plugin/app/recording_header.h"
 #include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
+#include "plugin/report/held_boundary.h"
 #include "plugin/report/live_view.h"
 #include "plugin/session/servo.h"
 
@@ -68,6 +71,8 @@ void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, 
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   servo.stop();
+  session.collect();
+  if (const auto fault = keep_fault(session.fault_ticks(), run.stylus->specification().name)) tell(describe(*fault));
   result.missed = servo.missed();
 }
 
@@ -107,7 +112,7 @@ Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::
   device::Specification stylus;
   stylus.workspace_half_extent = record.half_extent_m;
   stylus.maximum_force = record.maximum_force_n;
-  Snapshot snapshot = snapshot_of(scene, prepare(scene, volume, record.half_extent_m), stylus);
+  Snapshot snapshot = snapshot_of(scene, prepare(scene, volume, record.half_extent_m, record.registered), stylus);
   snapshot.change_s = record.change_s;
   return snapshot;
 }
@@ -125,8 +130,14 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
   const device::Specification specification = run.stylus->specification();
   SessionRunResult result;
   TickRing ring;
-  Recorder recorder(ring, file, header_for(run.scene, specification, run.scan_hash, static_cast<double>(run.seed)));
-  recorder.note(record_of(run.scene, *run.felt.plan, specification, run.scan_hash));
+  RecorderOptions how;
+  // Nothing waits for the clock: then nothing is too late, either.
+  if (!run.at_clock_pace) how.most_behind = std::numeric_limits<std::uint64_t>::max();
+  Recorder recorder(ring, file, header_for(run.scene, specification, run.scan_hash, static_cast<double>(run.seed)),
+                    how);
+  SceneRecord record = record_of(run.scene, run.felt, specification, run.scan_hash);
+  record.frame = run.frame;
+  recorder.note(record, known_to_of_ticks(run.felt, run.scene));
   recorder.note(StylusRecord{.epoch = 0,
                              .name = specification.name,
                              .force_axes = specification.force_axes,

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A session from beginning to end, recorded: at the clock's pace on the servo thread, or, with a stylus that is only
-/// arithmetic, as fast as it goes.
+/// Runs a session from beginning to end and records it: at the clock's pace on the servo thread, or as fast as possible
+/// if the stylus is only simulated.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +23,7 @@ struct SessionRun {
   PreparedScene felt;  ///< the scene on the scan
   std::string scan_hash;
   std::string unit;  ///< the scan's
+  ScanFrame frame;   ///< which one of its series the scan is
   std::shared_ptr<device::Stylus> stylus;
   std::uint64_t seed = 0;
   double seconds = 0;  ///< 0: until it is interrupted
@@ -37,18 +38,18 @@ struct SessionRunResult {
   bool interrupted = false;         ///< by SIGINT or SIGTERM: ended in good order
 };
 
-/// Records to the file (`<file>.partial` until it ends). Throws what opening the stylus and the file throws.
+/// Records to the file (`<file>.partial` until the end). Throws what opening the stylus and the file throws.
 SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file);
 
-/// The scene with its coupling no stiffer than the stylus renders stably (device/stiffness.h); says so on stderr where
+/// The scene with its coupling no stiffer than the stylus renders stably (device/safety/stiffness.h). Says on stderr if
 /// that changes it.
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
 
 /// The snapshot of a scene on a scan for a stylus.
 Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus);
 
-/// The snapshot of a recording, on the scan that it was recorded on, with its structures from these files. Throws
-/// std::invalid_argument for a scene that is none, and where a structure is in none of them.
+/// The snapshot of a recorded scene, on the scan that it was recorded on, with its structures from these files. Throws
+/// std::invalid_argument if the scene is invalid, or if a structure is in none of the files.
 Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume, StructureFiles& files);
 /// The same of a scene without structures, or with those of this machine's.
 Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume);

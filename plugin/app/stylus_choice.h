@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which stylus is held: a kind, an address where several are plugged in, and what that kind needs.
+/// Which stylus to hold: its kind, its address if several are plugged in, and the settings that its kind needs.
 
 #include <cstdint>
 #include <memory>
@@ -17,14 +17,13 @@ struct StylusChoice {
   std::string settings;  ///< a JSON file of the device's settings
   std::uint64_t seed = 1;
   double rate_hz = 1000;  ///< of the simulated one
-  bool is_simulated() const { return device == "simulated"; }
 };
 
-/// Throws WrongUsage, naming those that there are, for a kind that there is not.
+/// Throws WrongUsage for an unknown kind, and names the kinds that exist.
 const device::DeviceType& type_of(const StylusChoice& choice);
 
-/// Not open yet; drivers of real ones start a guardian when they are opened. Throws WrongUsage for a kind that there is
-/// not, and what the drivers throw for their settings.
+/// Makes the stylus; it is not open yet. Drivers of real devices start a guardian when they are opened. Throws
+/// WrongUsage for an unknown kind, and what the drivers throw for their settings.
 std::shared_ptr<device::Stylus> make_stylus(const StylusChoice& choice);
 
 }  // namespace palpate::plugin

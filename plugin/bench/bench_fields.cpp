@@ -234,12 +234,14 @@ void run_all(const FieldsArguments& arguments, const std::filesystem::path& fold
 void add_bench_fields(CLI::App& bench) {
   auto arguments = std::make_shared<FieldsArguments>();
   CLI::App* command =
-      bench.add_subcommand("fields", "Gradients: errors on phantoms, run times, bricks ahead of a stylus");
-  command->add_option("SERIES", arguments->series.path, "A scan: also the jitter of its gradient's direction at rest");
+      bench.add_subcommand("fields", "Gradients: errors on phantoms, run times, and bricks ahead of a stylus");
+  command->add_option("SERIES", arguments->series.path,
+                      "A scan, to measure also how much the direction of its gradient jitters at rest");
   command->add_option("--series", arguments->series.series, "Which series, by number or UID");
-  command->add_option("-o,--output", arguments->output, "Also write CSV to this folder; new or empty");
-  command->add_flag("--filters", arguments->filters, "What each filter of a scan does to roughness and to boundaries");
-  command->add_flag("--quick", arguments->quick, "Times on an eighth of the volume");
+  command->add_option("-o,--output", arguments->output, "Also write CSV to this new or empty folder");
+  command->add_flag("--filters", arguments->filters,
+                    "Measure the effect of each filter on roughness and on boundaries");
+  command->add_flag("--quick", arguments->quick, "Measure times on an eighth of the volume");
   command->callback([arguments] {
     io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) { run_all(*arguments, folder); });
   });

@@ -232,16 +232,19 @@ void run(const LoadOptions& options) {
 }  // namespace
 
 void add_bench_load(CLI::App& bench) {
-  CLI::App* command =
-      bench.add_subcommand("load", "From a folder to a volume, against DCMTK, GDCM, ITK, vtk-dicom and dcm2niix");
+  CLI::App* command = bench.add_subcommand(
+      "load", "Time from a folder to a volume, compared with DCMTK, GDCM, ITK, vtk-dicom and dcm2niix");
   const auto options = std::make_shared<LoadOptions>();
   command->add_option("FOLDER", options->folders, "Folders that hold one series each")->required();
-  command->add_option("--rounds", options->rounds, "Runs of each, in turn")
+  command->add_option("--rounds", options->rounds, "Runs of each program, in turn")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  command->add_flag("--jpeg-lossless", options->jpeg_lossless, "Also each series in JPEG lossless (needs dcmcjpeg)");
-  command->add_flag("--once", options->once, "Load the first folder once and print its values (what is timed)");
-  command->add_flag("--first-force", options->first_force, "With --once: up to the first force instead of the values");
+  command->add_flag("--jpeg-lossless", options->jpeg_lossless,
+                    "Load each series also in JPEG lossless (needs dcmcjpeg)");
+  command->add_flag("--once", options->once,
+                    "Load the first folder once and print its values (this is the timed part)");
+  command->add_flag("--first-force", options->first_force,
+                    "With --once: stop at the first force instead of the values");
   command->callback([options] { run(*options); });
 }
 

@@ -23,11 +23,11 @@ namespace {
 void print(const SoakResult& result) {
   fmt::print("{} ticks, {} deadlines missed, {} of them unaccounted for\n", result.ticks, result.missed,
              result.unaccounted);
-  fmt::print("{} changes of scene, {} of scan, {} unplugs; {} frames with a latched fault\n", result.scenes,
-             result.scans, result.unplugs, result.faulty_frames);
-  fmt::print("largest force {:.2f} N; frames beyond a limit of force or slew {}, not finite {}\n", result.largest_n,
+  fmt::print("{} changes of scene, {} of scan, {} unplugs; {} ticks with a latched fault\n", result.scenes,
+             result.scans, result.unplugs, result.faulty_ticks);
+  fmt::print("largest force {:.2f} N; ticks beyond a limit of force or slew {}, not finite {}\n", result.largest_n,
              result.over_limit, result.not_finite);
-  fmt::print("replayed {} frames, {} differ; frames lost to the recording {}\n", result.replay.frames,
+  fmt::print("replayed {} ticks, {} differ; ticks lost to the recording {}\n", result.replay.ticks,
              result.replay.different, result.lost);
   fmt::print(
       "live heap at the end of {} cycles: differs by {} bytes once warm; resident memory grows by {:.3f} MiB/h\n",
@@ -79,12 +79,13 @@ void add_bench_soak(CLI::App& bench) {
       "soak",
       "An hour of probing: scenes swapped every second, scans every minute, the device unplugged at random;\n"
       "recorded, replayed, limits and memory watched.");
-  command->add_option("--minutes", options->minutes, "of probing")->capture_default_str();
+  command->add_option("--minutes", options->minutes, "minutes of probing")->capture_default_str();
   command->add_option("--scan", options->seconds_of_scan, "seconds of each scan")->capture_default_str();
   command->add_option("--rate", options->rate_hz, "ticks a second")->capture_default_str();
-  command->add_option("--seed", options->seed, "of the hand and of the unplugging")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the hand's tremor and of the unplugging")
+      ->capture_default_str();
   command->add_flag("--clock", options->at_clock_pace,
-                    "at the clock's pace on the servo thread, instead of as fast as the arithmetic");
+                    "in real time on the servo thread, instead of as fast as possible");
   command->callback([options] { run(*options); });
 }
 

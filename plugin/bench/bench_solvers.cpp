@@ -215,10 +215,10 @@ void run_counts(const std::vector<Entrant>& entrants, const std::filesystem::pat
 /// The paper's Table 1 and ours: mean time, and the residual of equation (7) over k in free balance.
 void run_wind_tunnel(const std::vector<Entrant>& entrants, const std::filesystem::path& folder) {
   fmt::print(
-      "\nwind tunnel, 4000 frames (the paper, in 2007: numerical 71 us and 38.0e-6 m, analytical 11 us and "
+      "\nwind tunnel, 4000 ticks (the paper, in 2007: numerical 71 us and 38.0e-6 m, analytical 11 us and "
       "10.7e-14 m)\n{:<26}{:<18}{:>10}{:>10}{:>7}{:>15}{:>15}\n",
       "scene", "solver", "declined", "mean us", "free", "mean residual", "largest (m)");
-  std::string csv = "scene,solver,declined,time_mean_us,frames_in_free_balance,residual_mean_m,residual_largest_m\n";
+  std::string csv = "scene,solver,declined,time_mean_us,ticks_in_free_balance,residual_mean_m,residual_largest_m\n";
   for (const bool surface : {false, true}) {
     const char* scene = surface ? "follow + force + surface" : "follow + force";
     for (const Entrant& entrant : entrants) {
@@ -253,11 +253,12 @@ void run_all(const SolversArguments& arguments, const std::filesystem::path& fol
 
 void add_bench_solvers(CLI::App& bench) {
   const auto arguments = std::make_shared<SolversArguments>();
-  CLI::App* command = bench.add_subcommand("solvers", "Every solver on every family of balances: error and run time.");
+  CLI::App* command =
+      bench.add_subcommand("solvers", "Error and run time of every solver on every family of balances.");
   command->add_option("--cases", arguments->cases, "balances of each family")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");
+  command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this new or empty folder");
   command->callback([arguments] {
     io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) { run_all(*arguments, folder); });
   });

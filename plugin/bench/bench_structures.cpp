@@ -182,8 +182,9 @@ modes::Scene bare() {
 std::string tabulate_ticks(const StructureArguments& arguments) {
   const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
   std::vector<io::Structure> felt;
-  for (const io::Structure& structure : io::find_structures(arguments.structures).structures) {
-    if (why_not_on(structure, *volume).empty() && felt.size() < 5) felt.push_back(structure);
+  io::StructureCatalogue found = io::find_structures(arguments.structures);
+  for (io::Structure& structure : found.structures) {
+    if (felt.size() < 5 && place_on(structure, found.registrations, *volume).why_not.empty()) felt.push_back(structure);
   }
   if (felt.empty()) {
     fmt::print("\nNo structure there lies on this scan.\n");
@@ -227,14 +228,16 @@ std::string tabulate_ticks(const StructureArguments& arguments) {
 void add_bench_structures(CLI::App& bench) {
   auto arguments = std::make_shared<StructureArguments>();
   CLI::App* command = bench.add_subcommand(
-      "structures", "How true the surfaces of labels are, how fast they are ready, and what they add to a tick.");
+      "structures",
+      "Surfaces of label maps: their errors, the time to compute them, and the time that they add to a tick.");
   add_series_option(*command, arguments->series);
   CLI::Option* const structures =
-      command->add_option("--structures", arguments->structures, "on that series: SEG, RTSTRUCT or label map")
+      command
+          ->add_option("--structures", arguments->structures, "structures of that series: SEG, RTSTRUCT or label map")
           ->check(CLI::ExistingPath);
   command->get_option("SERIES")->required(false)->needs(structures);
-  command->add_option("--ticks", arguments->ticks, "of each row")->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "also write CSV files to this folder; new or empty");
+  command->add_option("--ticks", arguments->ticks, "ticks for each row of the table")->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "also write CSV files to this new or empty folder");
   command->callback([arguments] {
     io::write_all_or_none(arguments->output, [&](const fs::path& folder) {
       const auto keep = [&](const char* name, const std::string& csv) {

@@ -24,17 +24,17 @@ const char* name_of(Wall wall) {
 }
 
 void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem::path& folder) {
-  std::string csv = "wall,speed_mm_per_s,most_sub_steps,sub_steps,worst_deg,worst_force_n,drift_mm,frame_us\n";
+  std::string csv = "wall,speed_mm_per_s,most_sub_steps,sub_steps,worst_deg,worst_force_n,drift_mm,tick_us\n";
   for (const SubdivisionRow& row : rows) {
     csv += fmt::format("{},{},{},{},{},{},{},{}\n", row.wall == Wall::convex ? "convex" : "concave", row.speed_mm_per_s,
-                       row.most_sub_steps, row.sub_steps, row.worst_deg, row.worst_force_n, row.drift_mm, row.frame_us);
+                       row.most_sub_steps, row.sub_steps, row.worst_deg, row.worst_force_n, row.drift_mm, row.tick_us);
   }
   write_text(folder / "subdivision.csv", csv);
   constexpr std::array line_colors{colors::vermilion, colors::orange, colors::green, colors::sky, colors::blue};
   std::vector<Chart> panels;
   for (const Wall wall : {Wall::convex, Wall::concave}) {
     Chart chart{.title = fmt::format("Sliding on a wall: {}", name_of(wall)),
-                .x = {.label = "time of a frame, median (us)", .minimum = 0.0},
+                .x = {.label = "time of a tick, median (us)", .minimum = 0.0},
                 .y = {.label = "worst error of the force (N)", .logarithmic = true},
                 .curves = {},
                 .marks = {}};
@@ -47,7 +47,7 @@ void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem:
                   .width = 4};
       for (const SubdivisionRow& row : rows) {
         if (row.wall == wall && row.speed_mm_per_s == speeds_mm_per_s[s]) {
-          curve.x.push_back(row.frame_us);
+          curve.x.push_back(row.tick_us);
           curve.y.push_back(row.worst_force_n);
         }
       }
@@ -60,10 +60,10 @@ void write_files(const std::vector<SubdivisionRow>& rows, const std::filesystem:
 
 void study(const std::filesystem::path& folder) {
   fmt::print(
-      "Sliding 1.5 mm deep at k = 400 N/m, a frame a millisecond, at most so many sub-steps of 0.1 mm a frame.\n"
+      "Sliding 1.5 mm deep at k = 400 N/m, a tick a millisecond, at most so many sub-steps of 0.1 mm a tick.\n"
       "Force: against k times the depth, along the normal at the probe. Errors on exact fields, times on voxels of 1 "
       "mm.\n\n"
-      "wall              speed    most  sub-steps   direction      force      drift   time of a frame\n"
+      "wall              speed    most  sub-steps   direction      force      drift   time of a tick\n"
       "                   mm/s                        worst deg    worst N         mm        median us\n");
   std::vector<SubdivisionRow> rows;
   for (const Wall wall : {Wall::convex, Wall::concave}) {
@@ -71,7 +71,7 @@ void study(const std::filesystem::path& folder) {
       for (const int most : mosts) {
         const SubdivisionRow row = study_subdivision(wall, speed, most);
         fmt::print("{:<16} {:6.0f} {:7d} {:10.2f} {:11.3f} {:10.5f} {:10.5f} {:17.2f}\n", name_of(wall), speed, most,
-                   row.sub_steps, row.worst_deg, row.worst_force_n, row.drift_mm, row.frame_us);
+                   row.sub_steps, row.worst_deg, row.worst_force_n, row.drift_mm, row.tick_us);
         rows.push_back(row);
       }
     }
@@ -84,8 +84,8 @@ void study(const std::filesystem::path& folder) {
 void add_bench_subdivision(CLI::App& bench) {
   auto output = std::make_shared<std::string>();
   CLI::App* command = bench.add_subcommand(
-      "subdivision", "What cutting a frame into sub-steps buys, in error against run time, over stylus speeds.");
-  command->add_option("-o,--output", *output, "also write CSV and a picture to this folder; new or empty");
+      "subdivision", "Sub-steps of a tick: error against run time, at several speeds of the stylus.");
+  command->add_option("-o,--output", *output, "also write CSV and a picture to this new or empty folder");
   command->callback([output] { io::write_all_or_none(*output, study); });
 }
 

@@ -91,11 +91,14 @@ void run(const SuggestArguments& arguments) {
 }  // namespace
 
 void add_bench_suggest(CLI::App& bench) {
-  CLI::App* command = bench.add_subcommand("suggest", "Finding a scan's tissues, beside one pass of the gradient");
+  CLI::App* command =
+      bench.add_subcommand("suggest", "The time to find a scan's tissues, compared with one pass of the gradient");
   const auto arguments = std::make_shared<SuggestArguments>();
   add_series_option(*command, arguments->series);
   command->get_option("SERIES")->required(false);
-  command->add_flag("--rays", arguments->rays, "what bone on 20 rays into the scan is felt with the suggestion")
+  command
+      ->add_flag("--rays", arguments->rays,
+                 "measure how much bone is felt with the proposed scene on 20 rays into the scan")
       ->needs(command->get_option("SERIES"));
   command->add_option("--rounds", arguments->rounds, "runs of each, in turn")
       ->capture_default_str()

@@ -87,8 +87,8 @@ Walk press_on(const Arguments& arguments) {
   walk.workspace = scene.workspace;
   Session session(snapshot_of(scene, felt, specification), stylus);
   for (int n = 0; n < static_cast<int>(end_s * specification.rate); ++n) {
-    const TickRecord& frame = session.tick();
-    walk.poses_m.emplace_back(frame.probe_m[0], frame.probe_m[1], frame.probe_m[2]);
+    const TickRecord& tick = session.tick();
+    walk.poses_m.emplace_back(tick.probe_m[0], tick.probe_m[1], tick.probe_m[2]);
   }
   return walk;
 }
@@ -216,19 +216,20 @@ void run(const Arguments& arguments, const std::filesystem::path& folder) {
 void add_bench_tick(CLI::App& bench) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = bench.add_subcommand(
-      "tick", "What a tick costs, stage by stage, and how it grows; --sphere: how exact it is on a known shape.");
+      "tick", "The time of a tick, stage by stage, and how it grows; with --sphere the error on a known shape.");
   add_series_option(*command, arguments->series);
   command->get_option("SERIES")->required(false);
   add_probe_path_option(*command, arguments->path);
-  command->add_flag("--sphere", arguments->sphere, "a sphere of 5 cm, 128^3 and 256^3, instead of a series");
-  command->add_flag("--place", arguments->place, "how far the felt boundary is from the true one, against time");
-  command->add_option("--ticks", arguments->ticks, "of each row")
+  command->add_flag("--sphere", arguments->sphere, "use a sphere of 5 cm, 128^3 and 256^3 voxels, instead of a series");
+  command->add_flag("--place", arguments->place,
+                    "measure how far the felt boundary is from the true one, against time");
+  command->add_option("--ticks", arguments->ticks, "ticks for each row of the table")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{100000000}))
       ->capture_default_str();
   command->add_option("--largest", arguments->largest, "edge of the largest volume made, voxels (1024: 2 GiB)")
       ->check(CLI::Range(128, 1024))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "also write a CSV file to this folder; new or empty");
+  command->add_option("-o,--output", arguments->output, "also write a CSV file to this new or empty folder");
   command->callback([arguments] {
     if (arguments->series.path.empty() && !arguments->sphere && !arguments->place) {
       throw WrongUsage(say("tick-needs-a-scan"));

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the gradient of a scan is worth: how wrong its direction and magnitude are on phantoms with known answers, and
+/// How good the gradient of a scan is: the errors of its direction and magnitude on phantoms with known answers, and
 /// how its direction trembles on a real scan.
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the filters of a scan do to what is felt: `palpate-bench fields --filters`.
+/// How the filters of a scan change what is felt: `palpate-bench fields --filters`.
 
 #include <string>
 

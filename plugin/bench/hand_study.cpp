@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
 
 #include "device/simulated/simulated_stylus.h"
+#include "io/parallel.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene_json.h"
 #include "modes/tick/haptic_step.h"
+#include "plugin/bench/arms.h"
 #include "solver/chain.h"
 #include "testdata/analytic.h"
 #include "testdata/flow.h"
@@ -29,32 +32,38 @@ constexpr const char* three_modes = R"({"version": 1, "name": "follow + force + 
   {"type": "surface", "name": "pressure", "side": "entering",
    "strength_n": {"of": "gradient_per_mm", "nodes": [[0, 0], [0.02, 1.5]]}}]})";
 
-/// What is pressed on, from where and how.
+/// A place of a wall in patient space, mm, and the direction that presses on it (unit).
+struct Spot {
+  glm::dvec3 place_mm;
+  glm::dvec3 into;
+};
+
+/// What is pressed on, and the line along which it is the same everywhere.
 struct Setting {
   const char* scene;
   std::shared_ptr<const io::FieldSource> source;
-  glm::dvec3 center_mm;  // of the workspace: the place that is pressed
-  glm::dvec3 into;       // patient: direction of pressing
-  glm::dvec3 along;      // patient: direction of sliding
+  std::function<Spot(double along_mm)> spot;  // at 0: where it is pressed, and the workspace's center
 };
 
 Setting flat_slab() {
   const std::vector<testdata::Layer> layers{{.depth = 0, .value = testdata::soft_tissue_hu}};
   return {.scene = surface_friction,
           .source = std::make_shared<testdata::AnalyticSource>(testdata::make_slab({0, 0, -1}, layers), 1.5),
-          .center_mm = {0, 0, 0},
-          .into = {0, 0, -1},
-          .along = {1, 0, 0}};
+          .spot = [](double along_mm) {
+            return Spot{{along_mm, 0, 0}, {0, 0, -1}};
+          }};
 }
 
-/// Off the axis in front of the sphere, where flow and pressure gradient are oblique to each other.
+/// In front of the sphere, where flow and pressure gradient meet at 140 degrees; and round the axis, where all is the
+/// same.
 Setting wind_tunnel() {
-  const glm::dvec3 place{-18, 0, 14};
-  return {.scene = three_modes,
-          .source = std::make_shared<testdata::FlowSource>(testdata::FlowPastSphere{}),
-          .center_mm = place,
-          .into = -glm::normalize(place),
-          .along = {0, 1, 0}};
+  const auto source = std::make_shared<testdata::FlowSource>(testdata::FlowPastSphere{});
+  return {.scene = three_modes, .source = source, .spot = [source](double along_mm) {
+            constexpr double radius_mm = 23.6;
+            const double turn = along_mm / radius_mm;
+            const glm::dvec3 place{-11, radius_mm * std::sin(turn), radius_mm * std::cos(turn)};
+            return Spot{place, glm::normalize(source->sample(place, io::FieldSet::gradient).gradient)};
+          }};
 }
 
 struct Solvers {
@@ -70,30 +79,63 @@ std::vector<Solvers> solvers() {
 
 struct Outcome {
   double rms_n = 0;
+  double kept = 0;
   double proxy_error_m = 0;
   std::size_t capped = 0;
 };
 
-Outcome run_once(const Setting& setting, bool slide, const Solvers& solvers, double stiffness, std::uint64_t seed,
-                 double hold_s) {
+/// N: half of what the plan's surface takes at the place that is pressed.
+double pressing_force_n(const modes::Plan& plan, const Setting& setting) {
+  const io::Sample sample = setting.source->sample(setting.spot(0).place_mm, plan.fields);
+  double most_n = 0;
+  for (const modes::ActiveMode& mode : plan.modes) {
+    if (mode.holds) most_n = std::max(most_n, mode.strength(sample));
+  }
+  return 0.5 * most_n;
+}
+
+constexpr double came_at_s = 0.5;
+
+/// mm along the setting's line, at a time in s: it stays in the middle, or slides 20 mm a second through it.
+double along_of(double time, bool slide, double hold_s) {
+  return slide ? 20 * (std::max(time, came_at_s) - came_at_s - 0.5 * hold_s) : 0;
+}
+
+/// From patient space to axes that turn with the wall: a force that stays the same on it is constant in them.
+glm::dmat3 axes_at(const Setting& setting, double along_mm) {
+  const Spot spot = setting.spot(along_mm);
+  const glm::dvec3 onward = setting.spot(along_mm + 0.1).place_mm - setting.spot(along_mm - 0.1).place_mm;
+  const glm::dvec3 across = glm::normalize(glm::cross(spot.into, onward));
+  return glm::transpose(glm::dmat3(spot.into, glm::cross(across, spot.into), across));
+}
+
+/// In half a second from 8 mm in front of the wall to what the hand means, `depth_m` into it; then it stays there or
+/// slides 20 mm a second.
+std::vector<device::Waypoint> path_of(const Setting& setting, const modes::Workspace& workspace, double depth_m,
+                                      bool slide, double hold_s) {
+  const auto waypoint = [&](double time, double depth) {
+    const Spot spot = setting.spot(along_of(time, slide, hold_s));
+    return device::Waypoint{
+        .time = time,
+        .position = workspace.to_device(spot.place_mm) + depth * workspace.direction_to_device(spot.into)};
+  };
+  std::vector<device::Waypoint> path{waypoint(0, -0.008)};
+  for (double time = came_at_s; time < came_at_s + hold_s + 1e-9; time += 0.001)
+    path.push_back(waypoint(time, depth_m));
+  return path;
+}
+
+Outcome run_once(const Setting& setting, bool slide, const device::SimulatedDevice& model, const Solvers& solvers,
+                 double stiffness, double hold_s) {
   modes::Scene scene = modes::scene_from_json(setting.scene, "study");
   scene.stiffness_n_per_m = stiffness;
   modes::Workspace workspace;
-  workspace.center_mm = setting.center_mm;
+  workspace.center_mm = setting.spot(0).place_mm;
   modes::Plan plan = modes::make_plan(scene, setting.source->available(), workspace);
 
-  device::SimulatedDevice model;
-  model.hand.tremor_seed = seed;
   device::SimulatedStylus stylus(model);
-  const glm::dvec3 into = workspace.direction_to_device(setting.into);
-  const glm::dvec3 along = workspace.direction_to_device(setting.along);
-  // The hand means to be 4 mm deep: with its own spring in series that is about 1 N at every stiffness.
-  const double depth = 0.004;
-  const double reach = slide ? 0.02 * hold_s : 0.0;  // 20 mm/s
-  const std::vector<device::Waypoint> path{{.time = 0, .position = -0.008 * into - 0.5 * reach * along},
-                                           {.time = 0.5, .position = depth * into - 0.5 * reach * along},
-                                           {.time = 0.5 + hold_s, .position = depth * into + 0.5 * reach * along}};
-  stylus.follow(path, device::PathInterpolation::linear);
+  const double depth_m = pressing_force_n(plan, setting) * (1 / stiffness + 1 / model.hand.stiffness);
+  stylus.follow(path_of(setting, workspace, depth_m, slide, hold_s), device::PathInterpolation::linear);
   stylus.open();
 
   solver::Chain chain(solvers.chain);
@@ -109,12 +151,11 @@ Outcome run_once(const Setting& setting, bool slide, const Solvers& solvers, dou
     const modes::StepResult result = modes::step(plan, *setting.source, reading.position, touch, chain, *scratch);
     stylus.write_force(result.force_n);
     outcome.capped += static_cast<std::size_t>(result.capped);
-    if (tick + model.rate < ticks) {
-      continue;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      force[axis].push_back(result.force_n[axis]);
-    }
+    if (tick + model.rate < ticks) continue;
+    outcome.kept += (result.hold == modes::HoldState::held) / model.rate;
+    const glm::dvec3 local =
+        axes_at(setting, along_of(tick / model.rate, slide, hold_s)) * workspace.direction_to_patient(result.force_n);
+    for (int axis = 0; axis < 3; ++axis) force[axis].push_back(local[axis]);
     const solver::Solution exact = reference.solve({.stiffness = stiffness,
                                                     .probe = reading.position,
                                                     .previous_proxy = result.proxy_m,
@@ -131,6 +172,54 @@ Outcome run_once(const Setting& setting, bool slide, const Solvers& solvers, dou
   }
   outcome.rms_n = std::sqrt(outcome.rms_n);
   return outcome;
+}
+
+/// One curve of the study: what stays the same while the stiffness rises.
+struct Held {
+  const Setting* setting;
+  bool slide;
+  SimulatedArm arm;
+  SimulatedHand hand;
+  Solvers solvers;
+};
+
+std::vector<Held> everything_held(const std::vector<Setting>& settings) {
+  std::vector<Held> all;
+  for (const Setting& setting : settings) {
+    for (const bool slide : {false, true}) {
+      for (const SimulatedArm& arm : simulated_arms()) {
+        for (const SimulatedHand& hand : simulated_hands()) {
+          for (const Solvers& chain : solvers()) all.push_back({&setting, slide, arm, hand, chain});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+HandStudyRow run_all_tremors(const Held& held, double stiffness, const HandStudyOptions& options) {
+  HandStudyRow row{.scene = modes::scene_from_json(held.setting->scene, "study").name,
+                   .motion = held.slide ? "slide" : "press",
+                   .arm = held.arm.name,
+                   .hand = held.hand.name,
+                   .solver = held.solvers.name,
+                   .stiffness_n_per_m = stiffness,
+                   .steady_below_n = 2 * stiffness * held.arm.device.position_step};
+  device::SimulatedDevice model = held.arm.device;
+  model.hand = held.hand.model;
+  std::vector<double> rms;
+  for (int tremor = 1; tremor <= options.hands; ++tremor) {
+    model.hand.tremor_seed = static_cast<std::uint64_t>(tremor);
+    const Outcome outcome = run_once(*held.setting, held.slide, model, held.solvers, stiffness, options.hold_s);
+    rms.push_back(outcome.rms_n);
+    row.kept = std::min(row.kept, outcome.kept);
+    row.proxy_error_m = std::max(row.proxy_error_m, outcome.proxy_error_m);
+    row.capped += outcome.capped;
+  }
+  std::ranges::sort(rms);
+  row.median_rms_n = rms[rms.size() / 2];
+  row.worst_rms_n = rms.back();
+  return row;
 }
 
 }  // namespace
@@ -155,39 +244,33 @@ double band_rms(const std::vector<double>& signal, double rate, double low_hz, d
   return std::sqrt(power);
 }
 
-bool is_still(const HandStudyRow& row) {
-  return row.median_rms_n < 2 * row.stiffness_n_per_m * device::SimulatedDevice{}.position_step;
+const std::vector<std::string>& hand_study_solvers() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Solvers& one : solvers()) all.emplace_back(one.name);
+    return all;
+  }();
+  return names;
+}
+
+bool is_steady(const HandStudyRow& row) {
+  return row.kept >= 0.75 && row.median_rms_n < row.steady_below_n;
 }
 
 std::vector<HandStudyRow> study_hand(const HandStudyOptions& options, const std::function<void(double)>& progress) {
-  std::vector<HandStudyRow> rows;
   const std::vector<Setting> settings{flat_slab(), wind_tunnel()};
-  const double total = static_cast<double>(settings.size() * 2 * solvers().size() * options.stiffness_n_per_m.size());
-  for (const Setting& setting : settings) {
-    for (const bool slide : {false, true}) {
-      for (const Solvers& chain : solvers()) {
-        for (const double stiffness : options.stiffness_n_per_m) {
-          HandStudyRow row{.scene = modes::scene_from_json(setting.scene, "study").name,
-                           .motion = slide ? "slide" : "press",
-                           .solver = chain.name,
-                           .stiffness_n_per_m = stiffness};
-          std::vector<double> rms;
-          for (int hand = 1; hand <= options.hands; ++hand) {
-            const Outcome outcome =
-                run_once(setting, slide, chain, stiffness, static_cast<std::uint64_t>(hand), options.hold_s);
-            rms.push_back(outcome.rms_n);
-            row.proxy_error_m = std::max(row.proxy_error_m, outcome.proxy_error_m);
-            row.capped += outcome.capped;
-          }
-          std::sort(rms.begin(), rms.end());
-          row.median_rms_n = rms[rms.size() / 2];
-          row.worst_rms_n = rms.back();
-          rows.push_back(row);
-          progress(static_cast<double>(rows.size()) / total);
-        }
-      }
+  const std::vector<Held> all = everything_held(settings);
+  std::vector<std::vector<HandStudyRow>> curves(all.size());
+  const auto study = [&](std::size_t n) {
+    for (const double stiffness : options.stiffness_n_per_m) {
+      curves[n].push_back(run_all_tremors(all[n], stiffness, options));
+      if (!is_steady(curves[n].back())) break;
     }
-  }
+  };
+  io::internal::parallel_for(
+      all.size(), study, [&](double done) { return progress(done), true; }, 0);
+  std::vector<HandStudyRow> rows;
+  for (const auto& curve : curves) rows.insert(rows.end(), curve.begin(), curve.end());
   return rows;
 }
 

@@ -29,12 +29,15 @@ struct StabilityArguments {
 
 void add_stability(CLI::App& bench) {
   auto arguments = std::make_shared<StabilityArguments>();
-  CLI::App* command = bench.add_subcommand(
-      "stability",
-      "Solvers at extremes, over frames and in the hand: errors, creep, drift, chatter, and the stiffness that holds.");
-  command->add_option("--seconds", arguments->options.seconds, "of each study over frames")->capture_default_str();
-  command->add_option("--hands", arguments->options.hands, "seeded hands")->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this folder; new or empty");
+  CLI::App* command =
+      bench.add_subcommand("stability",
+                           "Solvers with extreme values, over many ticks and in a simulated hand: errors, "
+                           "creep, drift, chatter, and the largest stiffness that is steady on each arm.");
+  command->add_option("--seconds", arguments->options.seconds, "length of each study over ticks")
+      ->capture_default_str();
+  command->add_option("--hands", arguments->options.hands, "number of seeded tremors of each hand")
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "also write CSV and pictures to this new or empty folder");
   command->callback([arguments] {
     io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) {
       run_extremes(folder);
@@ -49,7 +52,7 @@ void add_stability(CLI::App& bench) {
 
 int main(int argc, char** argv) {
   using namespace palpate::plugin;
-  CLI::App program{"Error against run time, as tables, CSV files and pictures.", "palpate-bench"};
+  CLI::App program{"Measures error against run time, as tables, CSV files and pictures.", "palpate-bench"};
   program.set_version_flag("--version", version_text());
   add_stability(program);
   add_bench_fields(program);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "io/fields/volume_fields.h"
@@ -55,61 +56,73 @@ struct Kind {
   std::vector<double> parts;  // of the full strength
 };
 
-}  // namespace
+struct Ray {
+  dvec3 from{0}, to{0};
+};
 
-void run_ray_study(const std::string& name, const std::shared_ptr<const io::Volume>& volume) {
-  const modes::Suggestion suggestion = modes::suggest(volume);
-  const PreparedScene felt = prepare(suggestion.scene, volume, dvec3(0.1));
-  const io::VolumeFields values(volume, io::FieldSet::value, 1);
-  std::vector<Kind> kinds{{"thin", [](const Passage& p) { return p.to_mm - p.from_mm < thin_mm; }, 0, 0, {}},
-                          {"faint", [](const Passage& p) { return p.peak_hu < faint_hu; }, 0, 0, {}},
-                          {"all", [](const Passage&) { return true; }, 0, 0, {}}};
-  const auto is_to_bone = [&](std::size_t mode) {
-    return std::ranges::any_of(suggestion.boundaries, [&](const modes::FoundBoundary& b) {
-      return b.mode == mode && suggestion.typical[b.high] > least_bone_hu;
-    });
-  };
-  const Box box = bounding_box(volume->geometry);
+/// From the sides of the box to its middle, along the points of a Fibonacci sphere.
+Ray ray_of(int n, const Box& box) {
   const dvec3 middle = 0.5 * (box.low + box.high);
-  std::size_t crossings = 0;
-  for (int n = 0; n < rays; ++n) {
-    // Points of a Fibonacci sphere.
-    const double height = 1 - 2 * (n + 0.5) / rays, turn = std::numbers::pi * (3 - std::sqrt(5.0)) * n;
-    const double across = std::sqrt(1 - height * height);
-    const dvec3 even(across * std::cos(turn), across * std::sin(turn), height);
-    const dvec3 direction = even * (box.high - box.low);  // a slab is entered from its sides
-    double reach = 1e9;                                   // to the box
-    for (int axis = 0; axis < 3; ++axis) {
-      const double half = 0.5 * (box.high - box.low)[axis];
-      if (direction[axis] != 0) reach = std::min(reach, half / std::abs(direction[axis]));
-    }
-    const dvec3 from = middle + 0.999 * reach * direction;
-    const auto stroke = run_stroke(*felt.plan, *felt.source, from, middle, 100);
-    crossings += contacts_of(stroke, *felt.plan, met_n).size();
-    for (const Passage& passage : passages_of(values, from, middle)) {
-      double most_n = 0;
-      bool met = false;
-      for (const StrokePoint& point : stroke) {
-        const double depth = glm::distance(point.proxy_mm, from);
-        if (depth < passage.from_mm - near_mm || depth > passage.to_mm + near_mm) continue;
-        const io::Sample sample = felt.source->sample(point.proxy_mm, felt.plan->fields);
-        double newtons = 0;  // of all boundaries to bone together: two kinds of bone share a place between them
-        for (const modes::ActiveMode& mode : felt.plan->modes) {
-          if (sample.inside && is_to_bone(mode.scene_index)) newtons += mode.strength(sample);
-        }
-        most_n = std::max(most_n, newtons);
-        met = met || (point.boundary && is_to_bone(*point.boundary) && glm::length(point.force_n) > felt_n);
-      }
-      const double part = std::min(1.0, most_n / modes::defaults::bone_strength_n);
-      for (Kind& kind : kinds) {
-        if (!kind.is(passage)) continue;
-        ++kind.there;
-        kind.met += met;
-        kind.parts.push_back(part);
-      }
-    }
+  const double height = 1 - 2 * (n + 0.5) / rays, turn = std::numbers::pi * (3 - std::sqrt(5.0)) * n;
+  const double across = std::sqrt(1 - height * height);
+  const dvec3 even(across * std::cos(turn), across * std::sin(turn), height);
+  const dvec3 direction = even * (box.high - box.low);  // a slab is entered from its sides
+  double reach = 1e9;                                   // to the box
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * (box.high - box.low)[axis];
+    if (direction[axis] != 0) reach = std::min(reach, half / std::abs(direction[axis]));
   }
-  fmt::print("{}: {} crossings on {} rays\n", name, crossings, rays);
+  return {middle + 0.999 * reach * direction, middle};
+}
+
+bool is_to_bone(const modes::Suggestion& suggestion, std::size_t mode) {
+  return std::ranges::any_of(suggestion.boundaries, [&](const modes::FoundBoundary& b) {
+    return b.mode == mode && suggestion.typical[b.high] > least_bone_hu;
+  });
+}
+
+struct Felt {
+  double part = 0;   // of the full strength, at most 1
+  bool met = false;  // a boundary to bone held the proxy
+};
+
+Felt felt_in(const Passage& passage, const std::vector<StrokePoint>& stroke, const dvec3& from,
+             const PreparedScene& scene, const modes::Suggestion& suggestion) {
+  Felt felt;
+  double most_n = 0;
+  for (const StrokePoint& point : stroke) {
+    const double depth = glm::distance(point.proxy_mm, from);
+    if (depth < passage.from_mm - near_mm || depth > passage.to_mm + near_mm) continue;
+    const io::Sample sample = scene.source->sample(point.proxy_mm, scene.plan->fields);
+    double newtons = 0;  // of all boundaries to bone together: two kinds of bone share a place between them
+    for (const modes::ActiveMode& mode : scene.plan->modes) {
+      if (sample.inside && is_to_bone(suggestion, mode.scene_index)) newtons += mode.strength(sample);
+    }
+    most_n = std::max(most_n, newtons);
+    felt.met =
+        felt.met || (point.boundary && is_to_bone(suggestion, *point.boundary) && glm::length(point.force_n) > felt_n);
+  }
+  felt.part = std::min(1.0, most_n / modes::defaults::bone_strength_n);
+  return felt;
+}
+
+void add(const Felt& felt, const Passage& passage, std::vector<Kind>& kinds) {
+  for (Kind& kind : kinds) {
+    if (!kind.is(passage)) continue;
+    ++kind.there;
+    kind.met += felt.met;
+    kind.parts.push_back(felt.part);
+  }
+}
+
+/// `crossings`: of each mode of the scene.
+void print(const std::string& name, const modes::Suggestion& suggestion, const std::vector<std::size_t>& crossings,
+           const std::vector<Kind>& kinds) {
+  fmt::print("{}: {} crossings on {} rays\n", name, std::accumulate(crossings.begin(), crossings.end(), std::size_t{0}),
+             rays);
+  for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
+    fmt::print("  {:<36} {:>4}\n", suggestion.scene.modes[boundary.mode].name, crossings[boundary.mode]);
+  }
   for (const Kind& kind : kinds) {
     if (kind.there == 0) continue;
     fmt::print(
@@ -117,6 +130,29 @@ void run_ray_study(const std::string& name, const std::shared_ptr<const io::Volu
         "percentile\n",
         kind.name, kind.met, kind.there, io::quantile(kind.parts, 0.5), io::quantile(kind.parts, 0.1));
   }
+}
+
+}  // namespace
+
+void run_ray_study(const std::string& name, const std::shared_ptr<const io::Volume>& volume) {
+  const modes::Suggestion suggestion = modes::suggest(volume);
+  const PreparedScene scene = prepare(suggestion.scene, volume, dvec3(0.1));
+  const io::VolumeFields values(volume, io::FieldSet::value, 1);
+  std::vector<Kind> kinds{{"thin", [](const Passage& p) { return p.to_mm - p.from_mm < thin_mm; }, 0, 0, {}},
+                          {"faint", [](const Passage& p) { return p.peak_hu < faint_hu; }, 0, 0, {}},
+                          {"all", [](const Passage&) { return true; }, 0, 0, {}}};
+  const Box box = bounding_box(volume->geometry);
+  std::vector<std::size_t> crossings(suggestion.scene.modes.size());
+  for (int n = 0; n < rays; ++n) {
+    const Ray ray = ray_of(n, box);
+    const auto stroke = run_stroke(*scene.plan, *scene.source, ray.from, ray.to, 100);
+    for (const Contact& contact : contacts_of(stroke, *scene.plan, met_n)) ++crossings[contact.boundary];
+    if (volume->unit != "HU") continue;
+    for (const Passage& passage : passages_of(values, ray.from, ray.to)) {
+      add(felt_in(passage, stroke, ray.from, scene, suggestion), passage, kinds);
+    }
+  }
+  print(name, suggestion, crossings, kinds);
 }
 
 }  // namespace palpate::plugin

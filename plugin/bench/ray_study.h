@@ -1,7 +1,7 @@
 #pragma once
 
-/// What of the bone on straight ways into a scan is felt with the scene that is suggested: `palpate-bench suggest
-/// SERIES --rays`.
+/// How much of the bone on straight ways into a scan is felt with the suggested scene: `palpate-bench suggest SERIES
+/// --rays`.
 
 #include <memory>
 #include <string>
@@ -11,7 +11,8 @@
 namespace palpate::plugin {
 
 /// 20 rays from outside to the scan's middle, spread evenly. A passage of bone is a stretch of at least 0.5 mm above
-/// 200 HU whose peak is above 300 HU. Prints a line for each kind of passage.
+/// 200 HU whose peak is above 300 HU. Prints how often each boundary is crossed, and of a CT a line for each kind of
+/// passage.
 void run_ray_study(const std::string& name, const std::shared_ptr<const io::Volume>& volume);
 
 }  // namespace palpate::plugin

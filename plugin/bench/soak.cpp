@@ -80,40 +80,40 @@ std::vector<device::Waypoint> probing(double seconds) {
   return path;
 }
 
-/// What the frames themselves tell.
+/// What the ticks themselves tell.
 class Judge {
  public:
   Judge(double force_limit_n, double slew_n_per_s, SoakResult& result)
       : force_limit_n_(force_limit_n), slew_n_per_s_(slew_n_per_s), result_(result) {}
   void look_at(const Recording& part) {
-    for (const TickRecord& frame : part.frames) look_at(frame);
-    for (const Gap& gap : part.gaps) result_.lost += gap.frames;
+    for (const TickRecord& tick : part.ticks) look_at(tick);
+    for (const Gap& gap : part.gaps) result_.lost += gap.ticks;
   }
 
  private:
-  void look_at(const TickRecord& frame) {
-    const glm::dvec3 sent(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2]);
+  void look_at(const TickRecord& tick) {
+    const glm::dvec3 sent(tick.sent_n[0], tick.sent_n[1], tick.sent_n[2]);
     const double force = glm::length(sent);
     ++result_.ticks;
-    deadlines_ += 1 + frame.missed;
-    // Deadlines are counted by the frame's time; the difference would be ticks that nobody accounts for.
-    const auto told = static_cast<std::uint64_t>(std::llround(frame.time_s * rate_hz)) + 1;
+    deadlines_ += 1 + tick.missed;
+    // Deadlines are counted by the tick's time; the difference would be ticks that nobody accounts for.
+    const auto told = static_cast<std::uint64_t>(std::llround(tick.time_s * rate_hz)) + 1;
     result_.unaccounted += told - deadlines_;
     deadlines_ = told;
-    result_.missed += frame.missed;
+    result_.missed += tick.missed;
     result_.not_finite += std::isfinite(force) ? 0 : 1;
     // A fall to zero when the stylus is lost is no step for a hand: the device is gone.
-    const double most_change = slew_n_per_s_ * std::max(frame.dt_s, 1e-3) + force_limit_n_ * fall_share(frame);
+    const double most_change = slew_n_per_s_ * std::max(tick.dt_s, 1e-3) + force_limit_n_ * fall_share(tick);
     const bool fell = force < 1e-12;
     result_.over_limit += force > force_limit_n_ * (1 + 1e-12) ? 1 : 0;
     result_.over_limit += !fell && glm::length(sent - last_n_) > most_change * (1 + 1e-9) ? 1 : 0;
-    result_.faulty_frames += fault_of(frame) != device::Fault::none ? 1 : 0;
+    result_.faulty_ticks += fault_of(tick) != device::Fault::none ? 1 : 0;
     result_.largest_n = std::max(result_.largest_n, force);
     last_n_ = sent;
   }
   /// The ramps' own change: the whole force within SafetyLimits::fall_time at the fastest.
-  static double fall_share(const TickRecord& frame) {
-    return std::max(frame.dt_s, 1e-3) / device::SafetyLimits{}.fall_time;
+  static double fall_share(const TickRecord& tick) {
+    return std::max(tick.dt_s, 1e-3) / device::SafetyLimits{}.fall_time;
   }
 
  public:
@@ -219,11 +219,11 @@ class Probing {
             .half_extent_m = specification_.workspace_half_extent,
             .maximum_force_n = specification_.maximum_force};
   }
-  void new_part(std::uint64_t first_frame) {
+  void new_part(std::uint64_t first_tick) {
     part_file_ = options_.folder / fmt::format("part-{:04}.h5", parts_++);
     recorder_ = std::make_unique<Recorder>(ring_, part_file_,
                                            RecordingHeader{.device = "simulated", .rate_hz = options_.rate_hz},
-                                           RecorderOptions{.first_frame = first_frame});
+                                           RecorderOptions{.first_tick = first_tick});
   }
   double draw_unplug() {
     return std::exponential_distribution<double>(1 / options_.seconds_between_unplugs)(random_) + 1;

@@ -33,12 +33,12 @@ struct SoakPoint {
 
 struct SoakResult {
   std::uint64_t ticks = 0, missed = 0;
-  std::uint64_t unaccounted = 0;  ///< deadlines that are neither a tick nor in a frame's `missed`
+  std::uint64_t unaccounted = 0;  ///< deadlines that are neither a tick nor in a tick's `missed`
   std::uint64_t scenes = 0, scans = 0, unplugs = 0;
-  std::uint64_t faulty_frames = 0;  ///< with a latched fault
-  std::uint64_t over_limit = 0;     ///< frames that sent more than the limit, or changed it faster than the slew limit
+  std::uint64_t faulty_ticks = 0;  ///< with a latched fault
+  std::uint64_t over_limit = 0;    ///< ticks that sent more than the limit, or changed it faster than the slew limit
   std::uint64_t not_finite = 0;
-  std::uint64_t lost = 0;  ///< frames that the recording did not get
+  std::uint64_t lost = 0;  ///< ticks that the recording did not get
   double largest_n = 0;
   Replay replay;
   std::vector<SoakPoint> points;

@@ -23,7 +23,7 @@ void expect_sound(const SoakResult& result) {
   EXPECT_EQ(result.not_finite, 0U);
   EXPECT_EQ(result.unaccounted, 0U);
   EXPECT_EQ(result.lost, 0U);
-  EXPECT_EQ(result.replay.frames, result.ticks);
+  EXPECT_EQ(result.replay.ticks, result.ticks);
   EXPECT_EQ(result.replay.different, 0U) << "first: " << result.replay.first_different.value_or(0);
   EXPECT_EQ(result.replay.after_gap, 0U);
   EXPECT_GT(result.largest_n, 0.5) << "something has to be felt";
@@ -39,7 +39,7 @@ TEST(Soak, AMinuteOfProbing) {
   EXPECT_GE(static_cast<double>(result.scenes), 55 * minutes);
   EXPECT_GE(static_cast<double>(result.scans), 8 * minutes);
   EXPECT_GE(result.unplugs, 1U);
-  EXPECT_GE(result.faulty_frames, 200U);
+  EXPECT_GE(result.faulty_ticks, 200U);
   EXPECT_GE(result.points.size(), 2U);
 }
 

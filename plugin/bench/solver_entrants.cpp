@@ -97,7 +97,7 @@ Entrant simplex() {
 std::vector<Entrant> solver_entrants() {
   const auto nothing = [](const Problem&, Forces) {};
   const auto scratch = std::make_shared<solver::ExactScratch>(128);
-  const auto frame_before = [scratch](const Problem& problem, Forces forces) {
+  const auto tick_before = [scratch](const Problem& problem, Forces forces) {
     constexpr double step = 5e-5;
     Balance before = problem.balance();
     before.probe += glm::normalize(Vec3(1, -2, 0.5)) * step;
@@ -114,7 +114,7 @@ std::vector<Entrant> solver_entrants() {
   entrants.push_back(
       {"analytical", nothing, [](const Balance& balance, Forces forces) { return solve_analytical(balance, forces); }});
   entrants.push_back({"exact cold", nothing, exact(solver::Start::cold), true});
-  entrants.push_back({"exact warm", frame_before, exact(solver::Start::warm), true});
+  entrants.push_back({"exact warm", tick_before, exact(solver::Start::warm), true});
   entrants.push_back(descent("descent", {}));
   entrants.push_back(descent("descent to 1 um", {.smallest_step = 1e-6}));
   entrants.push_back(descent("descent l x 0.95", {.reduction = 0.95}));
@@ -156,7 +156,7 @@ bool is_held(std::span<const solver::Primitive> primitives, const Vec3& proxy) {
 
 }  // namespace
 
-WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, int frames) {
+WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, int ticks) {
   using Clock = std::chrono::steady_clock;
   const testdata::FlowSource flow{testdata::FlowPastSphere{}};
   const Vec3 center{-0.018, 0, 0.020};
@@ -165,8 +165,8 @@ WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, 
   Problem problem{.stiffness = 400, .probe = center, .previous_proxy = center, .primitives = {}};
   double time_us = 0;
   int solved = 0;
-  for (int frame = 0; frame < frames; ++frame) {
-    const double t = 0.001 * frame;
+  for (int tick = 0; tick < ticks; ++tick) {
+    const double t = 0.001 * tick;
     problem.probe = center + reach * Vec3(std::sin(4.1 * t), std::sin(3.3 * t + 1), 0.5 * std::sin(5.3 * t + 2));
     problem.primitives = place_in_flow(flow, problem.previous_proxy, surface);
     std::vector<Vec3> forces(problem.primitives.size(), Vec3(0));

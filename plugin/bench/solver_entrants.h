@@ -20,7 +20,7 @@ struct Entrant {
   bool scales = false;  ///< worth trying on thousands of primitives
 };
 
-/// Analytical; exact, cold and warm (from the forces of a frame whose probe was 0.05 mm away, 50 mm/s at 1 kHz);
+/// Analytical; exact, cold and warm (from the forces of a tick whose probe was 0.05 mm away, 50 mm/s at 1 kHz);
 /// descent with the paper's settings and two others; Nelder and Mead's simplex (1965), the paper's named alternative,
 /// where the program was built with NLopt.
 std::vector<Entrant> solver_entrants();
@@ -29,13 +29,13 @@ std::vector<Entrant> solver_entrants();
 struct WindTunnelResult {
   std::size_t declined = 0;
   double mean_us = 0;
-  std::size_t free = 0;           ///< frames in which no constraint held the proxy
+  std::size_t free = 0;           ///< ticks in which no constraint held the proxy
   double mean_residual_m = 0;     ///< of those, equation (7) over k
   double largest_residual_m = 0;  ///< of those
 };
 
 /// The paper's test (section 5): a probe on a winding way at 50 mm/s and 1 kHz, with the follow and the force mode's
-/// primitives at the proxy of the frame before and, with `surface`, a plane along the pressure's gradient.
-WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, int frames);
+/// primitives at the proxy of the tick before and, with `surface`, a plane along the pressure's gradient.
+WindTunnelResult walk_through_wind_tunnel(const Entrant& entrant, bool surface, int ticks);
 
 }  // namespace palpate::plugin

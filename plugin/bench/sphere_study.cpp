@@ -158,7 +158,7 @@ std::string run_sphere_study() {
   fmt::print(
       "A sphere of 5 cm with a Gaussian edge of 1 mm, k = 400 N/m, slid at 50 mm/s, 2 mm deep from the felt surface\n\n"
       "{:<22} {:>12} {:>14} {:>22} {:>16} {:>10} {:>10}\n",
-      "", "felt at, mm", "direction, deg", "worst beyond v dt / R", "rest p99, N/ms", "frame, us", "p99.9, us");
+      "", "felt at, mm", "direction, deg", "worst beyond v dt / R", "rest p99, N/ms", "tick, us", "p99.9, us");
   std::string csv =
       "voxels,felt_radius_mm,direction_median_deg,direction_worst_beyond_lag_deg,rest_jump_p99_n,tick_median_us,"
       "tick_p999_us\n";

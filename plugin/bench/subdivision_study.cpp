@@ -26,7 +26,7 @@ SubdivisionRow study_subdivision(Wall wall, double speed_mm_per_s, int most_sub_
           .worst_deg = slide.worst_deg,
           .worst_force_n = slide.worst_force_n,
           .drift_mm = slide.drift_mm,
-          .frame_us = percentiles_of(slide_on(wall, scanned, scene, speed_mm_per_s).frames_us).median};
+          .tick_us = percentiles_of(slide_on(wall, scanned, scene, speed_mm_per_s).ticks_us).median};
 }
 
 }  // namespace palpate::plugin

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A probe that slides along a wall faster and faster, with fewer or more sub-steps a frame (modes/haptic_step.h). The
-/// walls have Gaussian edges, value and gradient exact: what is measured is the movement, not the voxels.
+/// A probe that slides along a wall faster and faster, with fewer or more sub-steps a tick (modes/tick/haptic_step.h).
+/// The walls have Gaussian edges, value and gradient exact: what is measured is the movement, not the voxels.
 
 #include "plugin/bench/wall_slide.h"
 
@@ -11,14 +11,14 @@ struct SubdivisionRow {
   Wall wall = Wall::convex;
   double speed_mm_per_s = 0;
   int most_sub_steps = 0;
-  double sub_steps = 0;      ///< of a frame, mean
+  double sub_steps = 0;      ///< of a tick, mean
   double worst_deg = 0;      ///< of the force from the wall's normal at the probe
   double worst_force_n = 0;  ///< of the force from k times the probe's depth along that normal
   double drift_mm = 0;       ///< of the proxy from the iso-surface at which it was held, at the end
-  double frame_us = 0;       ///< median, on the voxels of the same body
+  double tick_us = 0;        ///< median, on the voxels of the same body
 };
 
-/// Two turns of a great circle, 1 ms a frame, 1.5 mm deep, at k = 400 N/m.
+/// Two turns of a great circle, 1 ms a tick, 1.5 mm deep, at k = 400 N/m.
 SubdivisionRow study_subdivision(Wall wall, double speed_mm_per_s, int most_sub_steps);
 
 }  // namespace palpate::plugin

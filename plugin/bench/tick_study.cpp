@@ -67,12 +67,12 @@ TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::sp
   std::uint64_t primitives = 0, bricks = 0, sub_steps = 0;
   const auto tick = [&](std::size_t n) {
     const std::uint64_t begun = modes::clock_count();
-    const TickRecord& frame = session.tick();
+    const TickRecord& record = session.tick();
     us[n] = static_cast<double>(modes::clock_count() - begun) * us_per_count;
-    for (std::size_t stage = 0; stage < stage_count; ++stage) stages[stage] += frame.stage_ns[stage];
-    primitives += frame.share_count;
-    bricks += frame.from_brick;
-    sub_steps += frame.sub_steps;
+    for (std::size_t stage = 0; stage < stage_count; ++stage) stages[stage] += record.stage_ns[stage];
+    primitives += record.share_count;
+    bricks += record.from_brick;
+    sub_steps += record.sub_steps;
   };
   run_as_servo([&] {
     device::Metronome metronome(rate_hz > 0 ? 1 / rate_hz : 1e-3);

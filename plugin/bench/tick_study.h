@@ -20,27 +20,27 @@ namespace palpate::plugin {
 struct TickRow {
   std::string what;
   std::size_t ticks = 0;
-  Percentiles us;                                   ///< of a whole tick, the frame's way into the ring included
+  Percentiles us;                                   ///< of a whole tick, the tick's way into the ring included
   std::array<double, stage_count> stage_mean_ns{};  ///< the median of a stage of 20 ns says little
-  double primitives = 0;                            ///< mean of a frame
+  double primitives = 0;                            ///< mean of a tick
   double sub_steps = 0;                             ///< mean
-  double from_brick = 0;                            ///< share of frames whose gradient was ready
+  double from_brick = 0;                            ///< share of ticks whose gradient was ready
 };
 
 /// Runs the work on a thread of its own, scheduled as the servo's is where the system allows it, and waits for it.
 void run_as_servo(const std::function<void()>& work);
 
-/// For a servo that does not keep the clock's pace: to be called after every tick. Sleeps now and then, as every servo
+/// To be called after every tick by a servo that does not keep the clock's pace. Sleeps now and then, as every servo
 /// does between its ticks, so that the worker that computes fields ahead gets its turn.
 void pause_now_and_then(std::size_t tick);
 
-/// Ticks over the poses (device frame, m), there and back again and again so that none jumps; what is measured begins
-/// after a tenth of them. At a rate (Hz) they are at the clock's pace, with whatever else runs between them; 0: nearly
+/// Runs ticks over the poses (device frame, m), there and back again, so that none jumps. The first tenth is not
+/// measured. With a rate (Hz) the ticks keep the clock's pace, and other work runs between them; 0: they run nearly
 /// back to back.
 TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::span<const glm::dvec3> poses_m,
                       std::size_t ticks, double rate_hz = 0);
 
-/// While it lives, another thread keeps a core and the memory busy.
+/// While this exists, another thread keeps a core and the memory busy.
 class BusyThread {
  public:
   BusyThread();

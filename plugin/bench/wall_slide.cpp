@@ -18,7 +18,7 @@ namespace {
 using glm::dvec3;
 
 constexpr double depth_mm = 1.5;
-constexpr double frame_s = 1e-3;
+constexpr double tick_s = 1e-3;
 
 double radius_of(Wall wall) {
   return wall == Wall::convex ? 25 : 12;
@@ -47,7 +47,7 @@ Slide slide_on(Wall wall, const io::FieldSource& source, const modes::Scene& sce
   const auto move_to = [&](const dvec3& at_mm) {
     const std::uint64_t begun = modes::clock_count();
     const modes::StepResult step = modes::step(plan, source, plan.workspace.to_device(at_mm), touch, chain, *scratch);
-    result.frames_us.push_back(1e-3 * static_cast<double>(modes::clock_count() - begun) / modes::counts_per_ns());
+    result.ticks_us.push_back(1e-3 * static_cast<double>(modes::clock_count() - begun) / modes::counts_per_ns());
     sub_steps += step.sub_steps + step.halts;
     result.capped += step.capped;
   };
@@ -61,14 +61,14 @@ Slide slide_on(Wall wall, const io::FieldSource& source, const modes::Scene& sce
   const auto proxy_mm = [&] { return plan.workspace.to_patient(touch.proxy_m); };
   const double held = glm::length(proxy_mm());
   const double force_n = plan.stiffness_n_per_m * 1e-3 * std::abs(held - pressed);
-  const double angle_step = speed_mm_per_s * frame_s / pressed;
-  const auto frames = static_cast<int>(4 * std::numbers::pi / angle_step);
+  const double angle_step = speed_mm_per_s * tick_s / pressed;
+  const auto ticks = static_cast<int>(4 * std::numbers::pi / angle_step);
   const double true_force_n = plan.stiffness_n_per_m * 1e-3 * depth_mm;
   double squares = 0;
-  result.frames_us.clear();
+  result.ticks_us.clear();
   result.capped = 0;
   sub_steps = 0;
-  for (int n = 1; n <= frames; ++n) {
+  for (int n = 1; n <= ticks; ++n) {
     const dvec3 normal = std::cos(angle_step * n) * a + std::sin(angle_step * n) * b;
     move_to(pressed * normal);
     const dvec3 force = plan.workspace.direction_to_patient(touch.force_n);
@@ -78,9 +78,9 @@ Slide slide_on(Wall wall, const io::FieldSource& source, const modes::Scene& sce
     squares += glm::dot(off, off);
     result.worst_force_n = std::max(result.worst_force_n, glm::length(force - outward * force_n * normal));
   }
-  result.rms_true_n = std::sqrt(squares / std::max(1, frames));
+  result.rms_true_n = std::sqrt(squares / std::max(1, ticks));
   result.drift_mm = std::abs(glm::length(proxy_mm()) - held);
-  result.sub_steps = sub_steps / std::max(1, frames);
+  result.sub_steps = sub_steps / std::max(1, ticks);
   return result;
 }
 

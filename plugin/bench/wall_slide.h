@@ -21,16 +21,16 @@ testdata::Phantom phantom_of(Wall wall);
 modes::Scene wall_scene();
 
 struct Slide {
-  double sub_steps = 0;      ///< of a frame, mean; halts included
+  double sub_steps = 0;      ///< of a tick, mean; halts included
   double worst_deg = 0;      ///< of the force from the wall's normal at the probe
   double worst_force_n = 0;  ///< of the force from k times the depth below the held iso-surface, along that normal
   double rms_true_n = 0;     ///< of the force from k times the depth below the wall itself, along that normal
   double drift_mm = 0;       ///< of the proxy from the iso-surface at which it was held, at the end
   int capped = 0;            ///< sub-steps in which a solver gave up
-  std::vector<double> frames_us;
+  std::vector<double> ticks_us;
 };
 
-/// Two turns of a great circle, 1 ms a frame, 1.5 mm deep.
+/// Two turns of a great circle, 1 ms a tick, 1.5 mm deep.
 Slide slide_on(Wall wall, const io::FieldSource& source, const modes::Scene& scene, double speed_mm_per_s);
 
 }  // namespace palpate::plugin

@@ -49,14 +49,14 @@ void run_whole_tick(const std::filesystem::path& folder) {
   fmt::print(
       "\nthe whole tick: sliding at 50 mm/s, 1.5 mm deep, on a ball of 25 mm in voxels of 1 mm with 20 HU of noise\n"
       "{:<22}{:<12}{:>16}{:>14}{:>14}{:>16}{:>9}\n",
-      "gradient", "solver", "force off, rms N", "worst jump N", "worst deg", "median frame us", "capped");
+      "gradient", "solver", "force off, rms N", "worst jump N", "worst deg", "median tick us", "capped");
   testdata::Acquisition acquisition;
   acquisition.noise = 20;
   const auto volume = std::make_shared<const io::Volume>(
       testdata::scan(phantom_of(Wall::convex), testdata::make_geometry({}), acquisition));
-  std::string csv = "gradient,solver,rms_true_n,worst_force_n,worst_deg,frame_us,capped\n";
+  std::string csv = "gradient,solver,rms_true_n,worst_force_n,worst_deg,tick_us,capped\n";
   Chart chart{.title = "The whole tick: what is off in the force",
-              .x = {.label = "time of a frame, median (us)", .logarithmic = true},
+              .x = {.label = "time of a tick, median (us)", .logarithmic = true},
               .y = {.label = "off from the truth, rms (N)", .logarithmic = true},
               .curves = {},
               .marks = {}};
@@ -73,12 +73,12 @@ void run_whole_tick(const std::filesystem::path& folder) {
       modes::Scene scene = wall_scene();
       scene.solvers = solver_choices[s].switches;
       const Slide slide = slide_on(Wall::convex, source, scene, 50);
-      const double frame_us = percentiles_of(slide.frames_us).median;
+      const double tick_us = percentiles_of(slide.ticks_us).median;
       fmt::print("{:<22}{:<12}{:>16.4f}{:>14.4f}{:>14.3f}{:>16.2f}{:>9}\n", choice.name, solver_choices[s].name,
-                 slide.rms_true_n, slide.worst_force_n, slide.worst_deg, frame_us, slide.capped);
+                 slide.rms_true_n, slide.worst_force_n, slide.worst_deg, tick_us, slide.capped);
       csv += fmt::format("\"{}\",{},{},{},{},{},{}\n", choice.name, solver_choices[s].name, slide.rms_true_n,
-                         slide.worst_force_n, slide.worst_deg, frame_us, slide.capped);
-      chart.curves[s].x.push_back(frame_us);
+                         slide.worst_force_n, slide.worst_deg, tick_us, slide.capped);
+      chart.curves[s].x.push_back(tick_us);
       chart.curves[s].y.push_back(slide.rms_true_n);
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Error against run time of a whole frame: how the gradient is taken, at which scale, and by which solver. Says where
+/// Error against run time of a whole tick: how the gradient is taken, at which scale, and by which solver. Says where
 /// a solver's precision stops mattering to the hand.
 
 #include <filesystem>

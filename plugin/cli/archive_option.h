@@ -17,7 +17,4 @@ void add_archive_option(CLI::App& command, std::string& name);
 /// A line on stderr that is written over, where that is a terminal; an empty text takes it away.
 void show_progress(std::string_view text);
 
-/// What came from an archive, safe for a terminal: control characters become "?".
-std::string for_terminal(std::string text);
-
 }  // namespace palpate::plugin

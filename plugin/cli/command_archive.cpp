@@ -5,11 +5,14 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/archive/archive.h"
 #include "plugin/app/archive_settings.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/fetched.h"
 #include "plugin/cli/commands.h"
+#include "plugin/options/put.h"
 
 namespace palpate::plugin {
 namespace {
@@ -38,10 +41,9 @@ void add_to_settings(const ArchiveOptions& options) {
   std::erase_if(all, [&](const io::Archive& other) { return other.name == archive.name; });
   all.push_back(archive);
   write_archives(all);
-  fmt::print("{}\n", one_line(archive));
+  put("{}\n", one_line(archive));
   if (!archive.uses_get) {
-    fmt::print(
-        "The archive has to know AE title {} at this machine's address, port {}, as a place to send to. Try `palpate "
+    put("The archive has to know AE title {} at this machine's address, port {}, as a place to send to. Try `palpate "
         "archive echo {}`.\n",
         archive.calling, archive.listen_port, archive.name);
   }
@@ -51,25 +53,19 @@ void list_archives(const ArchiveOptions& options) {
   const std::vector<io::Archive> all = read_archives();
   const OnDisk there = fetched_on_disk();
   if (!options.json) {
-    for (const io::Archive& archive : all) fmt::print("{}\n", one_line(archive));
-    fmt::print("{} series fetched and not deleted yet, {} MiB, in {}\n", there.series, there.bytes >> 20U,
-               fetched_folder().string());
+    for (const io::Archive& archive : all) put("{}\n", one_line(archive));
+    put("{} series fetched and not deleted yet, {} MiB, in {}\n", there.series, there.bytes >> 20U,
+        fetched_folder().string());
     return;
   }
   nlohmann::ordered_json json{{"archives", nlohmann::ordered_json::array()}};
   for (const io::Archive& archive : all) {
-    json["archives"].push_back({{"name", archive.name},
-                                {"host", archive.host},
-                                {"port", archive.port},
-                                {"called", archive.called},
-                                {"calling", archive.calling},
-                                {"get", archive.uses_get},
-                                {"listen_address", archive.listen_address},
-                                {"listen_port", archive.listen_port},
-                                {"tls", archive.tls.used}});
+    nlohmann::ordered_json entry = connection_json(archive);
+    entry["tls"] = archive.tls.used;
+    json["archives"].push_back(std::move(entry));
   }
   json["fetched"] = {{"folder", fetched_folder().string()}, {"series", there.series}, {"bytes", there.bytes}};
-  fmt::print("{}\n", json.dump(1));
+  put_json(json, 1);
 }
 
 void echo_archive(const ArchiveOptions& options) {
@@ -78,10 +74,9 @@ void echo_archive(const ArchiveOptions& options) {
   io::echo(archive);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   if (options.json) {
-    fmt::print("{}\n",
-               nlohmann::ordered_json{{"archive", archive.name}, {"answers", true}, {"time_ms", took.count()}}.dump(1));
+    put_json(nlohmann::ordered_json{{"archive", archive.name}, {"answers", true}, {"time_ms", took.count()}}, 1);
   } else {
-    fmt::print("{} answers and knows us as {} ({:.0f} ms)\n", archive.name, archive.calling, took.count());
+    put("{} answers and knows us as {} ({:.0f} ms)\n", archive.name, archive.calling, took.count());
   }
 }
 
@@ -90,13 +85,13 @@ void remove_archive(const ArchiveOptions& options) {
   std::vector<io::Archive> all = read_archives();
   std::erase_if(all, [&](const io::Archive& other) { return other.name == archive.name; });
   write_archives(all);
-  fmt::print("{} is no longer entered\n", archive.name);
+  put("{} is no longer entered\n", archive.name);
 }
 
 void empty_archive_folder() {
   const OnDisk there = fetched_on_disk();
   empty_fetched();
-  fmt::print("{} series deleted, {} MiB\n", there.series, there.bytes >> 20U);
+  put("{} series deleted, {} MiB\n", there.series, there.bytes >> 20U);
 }
 
 void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& options) {
@@ -107,38 +102,39 @@ void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& o
   add->add_option("--port", archive.port, "its DICOM port")->required();
   add->add_option("--called", archive.called, "its AE title")->required();
   add->add_option("--calling", archive.calling, "our AE title, as it is known there")->required();
-  add->add_flag("--get", archive.uses_get, "fetch with C-GET, where the archive has it: nothing has to reach us then");
-  add->add_option("--listen", archive.listen_port, "the port to which it sends what C-MOVE asks for")
+  add->add_flag("--get", archive.uses_get,
+                "fetch with C-GET, if the archive offers it: then it needs no connection to this machine");
+  add->add_option("--listen", archive.listen_port, "the port of this machine to which the archive sends for a C-MOVE")
       ->capture_default_str();
   add->add_option("--listen-address", archive.listen_address,
-                  "and the IPv4 address of this machine; 0.0.0.0: all of them")
+                  "the IPv4 address of this machine for that port; 0.0.0.0: all of them")
       ->capture_default_str();
-  add->add_option("--wait", archive.silence_s, "give up where it says nothing for so many seconds")
-      ->capture_default_str();
-  add->add_option("--tls-ca", archive.tls.authorities, "speak TLS: the certificate (PEM) of who signed the archive's");
+  add->add_option("--wait", archive.silence_s, "give up if it is silent for so many seconds")->capture_default_str();
+  add->add_option("--tls-ca", archive.tls.authorities,
+                  "speak TLS: the certificate (PEM) of the authority that signed the archive's");
   add->add_option("--tls-certificate", archive.tls.certificate,
-                  "our own certificate (PEM), where the archive asks for it");
-  add->add_option("--tls-key", archive.tls.key, "and its private key (PEM, without a pass phrase)");
+                  "our own certificate (PEM), if the archive asks for it");
+  add->add_option("--tls-name", archive.tls.name, "the machine that the archive's certificate is for, if not --host");
+  add->add_option("--tls-key", archive.tls.key, "the private key of our certificate (PEM, without a pass phrase)");
   add->callback([options] { add_to_settings(*options); });
 }
 
 }  // namespace
 
 void add_archive(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("archive", "The archives (PACS) to find scans in, and whether they answer");
+  CLI::App* command = program.add_subcommand("archive", "Enters, lists and tests archives (PACS)");
   command->require_subcommand(1);
   const auto options = std::make_shared<ArchiveOptions>();
   add_archive_add(*command, options);
   CLI::App* list =
-      command->add_subcommand("list", "The archives that are entered, and what was fetched and not deleted");
+      command->add_subcommand("list", "Lists the entered archives, and how much fetched data is still there");
   list->add_flag("--json", options->json, "for machines");
   list->callback([options] { list_archives(*options); });
-  CLI::App* echo = command->add_subcommand("echo", "Whether an archive answers and knows us (C-ECHO)");
-  echo->add_option("NAME", options->archive.name, "which, where there are several");
+  CLI::App* echo = command->add_subcommand("echo", "Asks an archive whether it answers and knows us (C-ECHO)");
+  echo->add_option("NAME", options->archive.name, "which archive, if several are entered");
   echo->add_flag("--json", options->json, "for machines");
   echo->callback([options] { echo_archive(*options); });
-  CLI::App* remove = command->add_subcommand("remove", "Takes an archive out of the settings");
+  CLI::App* remove = command->add_subcommand("remove", "Removes an archive from the settings");
   remove->add_option("NAME", options->archive.name, "which")->required();
   remove->callback([options] { remove_archive(*options); });
   command->add_subcommand("empty", "Deletes what `palpate fetch` without -o has fetched")

@@ -8,6 +8,7 @@
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/compare_strokes.h"
 
@@ -46,9 +47,9 @@ void run(const CompareOptions& options) {
                                       {"largest_difference_n", comparison.largest_difference_n},
                                       {"largest_difference_at_mm", comparison.largest_difference_at_mm},
                                       {"mean_difference_n", comparison.mean_difference_n}};
-    fmt::print("{}\n", json.dump());
+    put_json(json);
   } else {
-    fmt::print("{}\n", in_words(comparison));
+    put("{}\n", in_words(comparison));
   }
 }
 
@@ -58,15 +59,15 @@ void add_compare(CLI::App& program) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = program.add_subcommand(
       "compare",
-      "What two recordings felt on the same stroke through a scan, place by place along it, however fast each was.");
+      "Compares the forces of two recordings of one stroke through a scan, place by place. Their speeds may differ.");
   command->add_option("FIRST", options->first, "a recording")->required()->check(CLI::ExistingFile);
   command->add_option("SECOND", options->second, "another, made on the same scan")
       ->required()
       ->check(CLI::ExistingFile);
   add_series_option(*command, options->series);
-  command->add_option("-o,--picture", options->picture, "also draw both: a PNG file");
-  command->add_option("--table", options->table, "also write a line every step of the stroke: a CSV file");
-  command->add_flag("--json", options->json, "for machines");
+  command->add_option("-o,--picture", options->picture, "also draw both, as a PNG file");
+  command->add_option("--table", options->table, "also write a CSV file with a line for each step of the stroke");
+  command->add_flag("--json", options->json, "print JSON");
   command->callback([options] { run(*options); });
 }
 

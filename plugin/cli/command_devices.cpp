@@ -10,7 +10,10 @@
 #include "device/link/realtime.h"
 #include "device/safety/guardian.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/fault_report.h"
+#include "plugin/cli/check_device.h"
 #include "plugin/cli/commands.h"
+#include "plugin/options/put.h"
 
 namespace palpate::plugin {
 namespace {
@@ -39,24 +42,34 @@ void print_json(const std::vector<device::FoundDevice>& found, const device::Rea
       if (one.kind == type->kind) list.push_back(entry(*type, one));
     }
   }
+  Json fault;
+  if (const auto last = last_fault()) {
+    fault = {{"stylus", last->stylus},
+             {"fault", last->fault},
+             {"time", last->time},
+             {"fastest_m_per_s", last->fastest_m_per_s},
+             {"strongest_n", last->strongest_n},
+             {"file", last->file.string()}};
+  }
   const Json json{
       {"devices", list},
       {"kinds", kinds},
       {"guardian", device::guardian_program()},
+      {"last_fault", fault},
       {"realtime",
        {{"scheduled", realtime.scheduled}, {"memory_locked", realtime.memory_locked}, {"advice", realtime.advice}}}};
-  std::puts(json.dump(2).c_str());
+  put_json(json, 2);
 }
 
 void print_line(const char* head, std::string_view text) {
-  if (!text.empty()) std::printf("  %s%s\n", head, std::string(text).c_str());
+  if (!text.empty()) put("  {}{}\n", head, text);
 }
 
 void print_text(const std::vector<device::FoundDevice>& found, const device::RealtimeStatus& realtime) {
   std::puts("simulated\n  always there: 3 axes sensed, 3 with force; in arithmetic only");
   for (const device::FoundDevice& one : found) {
     const DeviceType* const type = device::find_device_type(one.kind);
-    std::printf("%s  %s\n  '%s'\n", one.kind.c_str(), one.address.c_str(), one.name.c_str());
+    put("{}  {}\n  '{}'\n", one.kind, one.address, one.name);
     if (!one.accessible) std::puts("  PERMISSION DENIED");
     print_line("", one.note);
     if (type == nullptr) continue;
@@ -69,24 +82,44 @@ void print_text(const std::vector<device::FoundDevice>& found, const device::Rea
   if (found.empty()) std::puts("No other device was found: check its plug and its power supply.");
   std::puts("\nThere are drivers for:");
   for (const DeviceType* type : device::device_types()) {
-    std::printf("  %-16s %s (%s): %s\n", std::string(type->kind).c_str(), std::string(type->name).c_str(),
-                std::string(type->sold).c_str(), std::string(type->tested).c_str());
+    put("  {:<16} {} ({}): {}\n", type->kind, type->name, type->sold, type->tested);
   }
-  std::printf("\nReal time: %s\n", realtime.advice.empty() ? "allowed" : realtime.advice.c_str());
+  put("\nReal time: {}\n", realtime.advice.empty() ? std::string("allowed") : std::string(realtime.advice));
   if (device::guardian_program().empty()) {
     std::puts("palpate-guardian was not found: after a crash only a device's own watchdog takes the force away.");
   }
+  if (const auto last = last_fault()) put("{}\n", describe(*last));
   std::puts("The drivers are tested against fakes of their protocols; they were never run on hardware.");
+  std::puts("A session holds one stylus at a time. Torque stays zero, also on a stylus that senses how it is turned.");
 }
 
 }  // namespace
 
 void add_devices(CLI::App& program) {
-  CLI::App* const command =
-      program.add_subcommand("devices", "Styluses found, whether they can be opened, what they can do");
+  CLI::App* const command = program.add_subcommand(
+      "devices", "Lists the styluses that are plugged in, whether they can be opened, and what they can do");
   const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "For machines: one JSON object");
-  command->callback([json] {
+  command->add_flag("--json", *json, "Print one JSON object");
+  const auto check = std::make_shared<DeviceCheck>();
+  CLI::Option* const which = command->add_option(
+      "--check", check->stylus.device,
+      "Ask, then push each axis of this stylus (KIND or KIND@ADDRESS) with 0.2 N; say what the hand should feel,\n"
+      "and write the settings that were found");
+  command
+      ->add_option("--firmware", check->stylus.firmware, "Falcon: Novint's firmware file, if the device has none yet")
+      ->needs(which);
+  command->add_option("--device-settings", check->stylus.settings, "Its present settings: a JSON file")->needs(which);
+  command
+      ->add_option("-o,--output", check->output,
+                   "The file for its settings (default: KIND-settings.json in this folder)")
+      ->needs(which);
+  command->add_flag("--yes", check->yes, "Ask no questions: take the direction of each push from the pose")
+      ->needs(which);
+  command->callback([json, check, which] {
+    if (which->count() > 0) {
+      check_device(*check);
+      return;
+    }
     const std::vector<device::FoundDevice> found = device::find_devices();
     const device::RealtimeStatus realtime = device::become_realtime();
     *json ? print_json(found, realtime) : print_text(found, realtime);

@@ -9,11 +9,13 @@
 #include "io/archive/fetch.h"
 #include "plugin/app/archive_settings.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/fetched.h"
 #include "plugin/app/interruptible.h"
 #include "plugin/cli/archive_option.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
+#include "plugin/options/put.h"
 
 namespace palpate::plugin {
 namespace {
@@ -36,7 +38,7 @@ bool show_fetched(const io::FetchProgress& progress) {
 void print_fetched(const io::Fetched& fetched, bool json) {
   if (!json) {
     for (const io::FetchedSeries& series : fetched.series) {
-      fmt::print("{}  {} images  series {}\n", series.folder.string(), series.files, for_terminal(series.uid));
+      put("{}  {} images  series {}\n", series.folder.string(), series.files, series.uid);
     }
     return;
   }
@@ -52,7 +54,7 @@ void print_fetched(const io::Fetched& fetched, bool json) {
                                      {"bytes", fetched.bytes},
                                      {"complete", fetched.complete},
                                      {"warnings", fetched.warnings}};
-  fmt::print("{}\n", whole.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  put_json(whole, 1);
 }
 
 void run(FetchOptions options) {
@@ -80,7 +82,7 @@ void run(FetchOptions options) {
 
 void add_fetch(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("fetch", "Studies and series from an archive into a folder (C-MOVE or C-GET)");
+      program.add_subcommand("fetch", "Fetches studies and series from an archive into a folder (C-MOVE or C-GET)");
   const auto options = std::make_shared<FetchOptions>();
   add_archive_option(*command, options->archive);
   command->add_option("UID", options->uids, "studies and series, by the UIDs that `palpate find` lists")->required();

@@ -11,6 +11,7 @@
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
+#include "plugin/options/put.h"
 
 namespace palpate::plugin {
 namespace {
@@ -40,19 +41,18 @@ void print_found_json(const io::Found& found) {
                        {"series", all}});
   }
   const nlohmann::ordered_json json{{"studies", studies}, {"more", found.more}};
-  fmt::print("{}\n", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  put_json(json, 1);
 }
 
 void print_found(const io::Found& found) {
   for (const io::ArchivedStudy& study : found.studies) {
-    fmt::print("{}  {}  {}  \"{}\"\n   study {}\n", for_terminal(study.patient), for_terminal(study.patient_id),
-               for_terminal(study.date), for_terminal(study.description), for_terminal(study.uid));
+    put("{}  {}  {}  \"{}\"\n   study {}\n", study.patient, study.patient_id, study.date, study.description, study.uid);
     for (const io::ArchivedSeries& series : study.series) {
-      fmt::print("   {:>4}  {}  {} images  \"{}\"\n         series {}\n", series.number, for_terminal(series.modality),
-                 series.images, for_terminal(series.description), for_terminal(series.uid));
+      put("   {:>4}  {}  {} images  \"{}\"\n         series {}\n", series.number, series.modality, series.images,
+          series.description, series.uid);
     }
   }
-  if (found.studies.empty()) fmt::print("nothing found\n");
+  if (found.studies.empty()) put("nothing found\n");
 }
 
 void run(const FindOptions& options) {
@@ -68,7 +68,7 @@ void run(const FindOptions& options) {
 }  // namespace
 
 void add_find(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("find", "Studies and series that an archive holds (C-FIND)");
+  CLI::App* command = program.add_subcommand("find", "Lists studies and series of an archive (C-FIND)");
   const auto options = std::make_shared<FindOptions>();
   add_archive_option(*command, options->archive);
   io::ArchiveQuery& query = options->query;

@@ -29,7 +29,7 @@ const std::map<std::string, Command>& commands(const std::string& scan, const st
   static const std::map<std::string, Command> all{
       {"info", {{scan}, {"--json", "--patient"}}},
       {"sample", {{scan, "--at", "0,0,0"}, {"--series", "--frame", "--at", "--scale", "--json"}}},
-      {"suggest", {{scan}, {"--series", "--frame", "-o"}}},
+      {"suggest", {{scan}, {"--series", "--frame", "--structures", "-o"}}},
       {"plan", {{scan}, {"--scene", "--series", "--frame", "--json"}}},
       {"profile",
        {{scan, "--from", "0,-29,0", "--to", "0,-20,0"},

@@ -17,8 +17,10 @@
 #include "io/load.h"
 #include "io/series.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/scan_choice.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 
 namespace palpate::plugin {
@@ -39,10 +41,11 @@ struct Examined {
   io::Statistics values;  // of all frames, without padding; count 0 where nothing could be read
   io::Statistics with_padding;
   bool is_first_choice = false;
+  std::string name;  // for --series
 };
 
-Examined examine(io::Series series) {
-  Examined result{std::move(series), {}, {}, false};
+Examined examine(io::Series series, std::string name) {
+  Examined result{std::move(series), {}, {}, false, std::move(name)};
   int readable = 0;
   io::Series& s = result.series;
   for (int frame = 0; frame < s.frames_per_position; ++frame) {
@@ -137,7 +140,7 @@ void print_text(std::size_t number, const Examined& examined, bool patient) {
   const io::Series& s = examined.series;
   const io::Geometry& g = s.geometry;
   const auto triple = [](const glm::dvec3& v) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", v.x, v.y, v.z); };
-  std::string text = describe_series(number, s) + "\n";
+  std::string text = describe_series(number, s, examined.name) + "\n";
   if (patient) {
     text += fmt::format("   patient {}, id {}, study of {}\n", s.identity.patient_name, s.identity.patient_id,
                         s.identity.study_date);
@@ -157,7 +160,7 @@ void print_text(std::size_t number, const Examined& examined, bool patient) {
     if (!s.frame_names[f].empty()) text += fmt::format("   frame {}: {}\n", f, s.frame_names[f]);
   }
   for (const std::string& warning : s.warnings) text += "   note: " + warning + "\n";
-  std::fputs(printable(text).c_str(), stdout);
+  put("{}", text);
 }
 
 using KindCounts = std::vector<std::pair<std::string, std::size_t>>;
@@ -187,10 +190,10 @@ void print_skipped(const std::vector<io::SkippedFile>& skipped, bool each) {
     kinds += (kinds.empty() ? "" : ", ") + counted(kind, count);
     if (kind == "segmentation" || kind == "structure set") kinds += " (see palpate structures)";
   }
-  fmt::print("set apart: {}{}\n", kinds, each ? "" : "; --all names them");
+  put("set apart: {}{}\n", kinds, each ? "" : "; --all names them");
   if (!each) return;
   for (const io::SkippedFile& file : skipped) {
-    fmt::print("{}", printable(fmt::format("   {}: {}\n", file.path.string(), file.reason)));
+    put("   {}: {}\n", file.path.string(), file.reason);
   }
 }
 
@@ -228,15 +231,17 @@ void run(const InfoOptions& options) {
   const std::vector<std::filesystem::path> paths(options.paths.begin(), options.paths.end());
   const io::Catalogue catalogue = io::find_series(paths, terminal_progress("finding series"));
   std::vector<Examined> all;
-  for (io::Series& found : numbered_series(catalogue)) all.push_back(examine(std::move(found)));
+  for (std::size_t n = 0; n < scan_count(catalogue); ++n) {
+    all.push_back(examine(scan_at(catalogue, n), scan_name(catalogue, n)));
+  }
   const auto first = mark_first_choice(all, catalogue.series.size());
   if (options.json) {
     // A file's name may be in any encoding.
-    std::puts(json_of(all, catalogue).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    put_json(json_of(all, catalogue), 2);
   } else {
     for (std::size_t n = 0; n < all.size(); ++n) print_text(n + 1, all[n], options.patient);
     if (first && all.size() > 1) {
-      fmt::print("best to feel first: {} ({})\n", first->index + 1, printable(first->why));
+      put("best to feel first: {} ({})\n", first->index + 1, first->why);
     }
     print_skipped(catalogue.skipped, options.all || catalogue.series.empty());
   }
@@ -247,13 +252,16 @@ void run(const InfoOptions& options) {
 
 void add_info(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("info", "Series found, their geometry and values, what was set apart and why");
+      program.add_subcommand("info", "Lists series with their geometry and values, and the files that were set apart");
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("PATH", options->paths, "Folders and files, searched to the bottom")->required();
-  command->add_flag("--json", options->json, "JSON on stdout, patient space (LPS, mm)");
-  command->add_flag("--all", options->all, "Name each file that was set apart, and why (text only; JSON does)");
+  command
+      ->add_option("PATH", options->paths, "Folders with all that they hold, files, and packed studies (.zip, .tar.gz)")
+      ->required();
+  command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
+  command->add_flag("--all", options->all,
+                    "Name each file that was set apart, and the reason (for text; JSON always names them)");
   command->add_flag("--patient", options->patient,
-                    "Show name, id and date, to verify that it is the right patient (text only)");
+                    "Show the patient's name and id and the date, to check that it is the right patient (text only)");
   command->callback([options] { run(*options); });
 }
 

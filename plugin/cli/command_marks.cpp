@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <memory>
 
-#include "io/fields/volume_fields.h"
 #include "io/fresh_folder.h"
-#include "io/results/measurement_report.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/recording/marks.h"
-#include "plugin/report/mark_pictures.h"
+#include "plugin/recording/recorded_session.h"
+#include "plugin/report/mark_results.h"
 #include "plugin/report/marks_text.h"
 
 namespace palpate::plugin {
@@ -26,21 +26,21 @@ struct MarksOptions {
 
 void print_marks(const Marks& marks, const std::string& unit) {
   for (const FeltMark& mark : marks.points) {
-    fmt::print("{}  at {:.2f} s: {:.2f}, {:.2f}, {:.2f} mm  {}  {:.4g} {}  {:.2f} N\n", mark.name, mark.time_s,
-               mark.position_mm.x, mark.position_mm.y, mark.position_mm.z,
-               mark.boundary.empty() ? "nothing felt" : mark.boundary, mark.value, unit, mark.force_n);
+    put("{}  at {:.2f} s: {:.2f}, {:.2f}, {:.2f} mm  {}  {:.4g} {}  {:.2f} N\n", mark.name, mark.time_s,
+        mark.position_mm.x, mark.position_mm.y, mark.position_mm.z,
+        mark.boundary.empty() ? "nothing felt" : mark.boundary, mark.value, unit, mark.force_n);
   }
   for (const MarkedPath& path : marks.paths) {
-    fmt::print("{}  {:.2f} to {:.2f} s: {:.2f} mm long\n", path.name, path.begin_s, path.end_s, path.length_mm);
+    put("{}  {:.2f} to {:.2f} s: {:.2f} mm long\n", path.name, path.begin_s, path.end_s, path.length_mm);
   }
   for (const MarkedDistance& distance : marks.distances) {
-    fmt::print("{} to {}: {:.2f} mm\n", marks.points[distance.from].name, marks.points[distance.to].name, distance.mm);
+    put("{} to {}: {:.2f} mm\n", marks.points[distance.from].name, marks.points[distance.to].name, distance.mm);
   }
   for (const MarkedAngle& angle : marks.angles) {
-    fmt::print("angle at {}: {:.1f} degrees\n", marks.points[angle.at].name, angle.degrees);
+    put("angle at {}: {:.1f} degrees\n", marks.points[angle.at].name, angle.degrees);
   }
   if (marks.points.empty() && marks.paths.empty()) {
-    fmt::print("no marks: the stylus' second button was never pressed\n");
+    put("no marks: the stylus' second button was never pressed\n");
   }
 }
 
@@ -48,31 +48,14 @@ void run_marks(const MarksOptions& options) {
   const io::Volume volume = load_series(options.series);
   const Marks marks = marks_of(RecordedSession(read_recording(options.recording), volume));
   if (options.csv) {
-    fmt::print("{}", marks_as_csv(marks));
+    put("{}", marks_as_csv(marks));
   } else if (options.json) {
-    fmt::print("{}", marks_as_json(marks, volume.unit));
+    put_json_text(marks_as_json(marks, volume.unit), "");
   } else if (options.markups) {
-    fmt::print("{}", marks_as_markups(marks));
+    put_json_text(marks_as_markups(marks), "");
   } else {
     print_marks(marks, volume.unit);
   }
-}
-
-io::MeasurementReport report_of(const Marks& marks) {
-  io::MeasurementReport report{.software_version = PALPATE_VERSION};
-  for (const FeltMark& mark : marks.points) {
-    io::MarkedPoint point{.name = mark.name, .position_mm = mark.position_mm, .structure = mark.boundary};
-    if (std::isfinite(mark.value)) point.value = mark.value;
-    point.force_n = mark.force_n;
-    report.points.push_back(point);
-  }
-  for (const MarkedDistance& distance : marks.distances) {
-    const FeltMark& from = marks.points[distance.from];
-    const FeltMark& to = marks.points[distance.to];
-    report.lengths.push_back({from.name + " to " + to.name, {from.position_mm, to.position_mm}, distance.mm});
-  }
-  for (const MarkedPath& path : marks.paths) report.lengths.push_back({path.name, path.points_mm, path.length_mm});
-  return report;
 }
 
 void run_export(const MarksOptions& options) {
@@ -83,18 +66,16 @@ void run_export(const MarksOptions& options) {
     throw InputRefused(say("holds-no-marks", options.recording.string()));
   }
   io::FreshFolder folder(options.output);
-  io::write_measurement_report(series, report_of(marks), folder.path() / "measurements.dcm");
-  const std::vector<io::Picture> pictures = pictures_of(marks, volume);
-  io::write_pictures(series, PALPATE_VERSION, pictures, folder.path());
+  const std::size_t pictures = write_results(series, volume, marks, folder.path()).size() - 1;
   folder.commit();
-  fmt::print("{}: a report of {} marks, {} distances and {} paths, and {} pictures; `palpate send` sends them\n",
-             options.output.string(), marks.points.size(), marks.distances.size(), marks.paths.size(), pictures.size());
+  put("{}: a report of {} marks, {} distances and {} paths, and {} pictures; `palpate send` sends them\n",
+      options.output.string(), marks.points.size(), marks.distances.size(), marks.paths.size(), pictures);
 }
 
 CLI::App* add_marks_command(CLI::App& program, const char* name, const char* what,
                             const std::shared_ptr<MarksOptions>& options) {
   CLI::App* command = program.add_subcommand(name, what);
-  command->add_option("RECORDING", options->recording, "what `probe` or `record` wrote")
+  command->add_option("RECORDING", options->recording, "a recording that `probe` or `record` has written")
       ->required()
       ->check(CLI::ExistingFile);
   add_series_option(*command, options->series);
@@ -106,21 +87,21 @@ CLI::App* add_marks_command(CLI::App& program, const char* name, const char* wha
 void add_marks(CLI::App& program) {
   const auto options = std::make_shared<MarksOptions>();
   CLI::App* command = add_marks_command(
-      program, "marks", "What was marked with the stylus' second button: points, paths, distances, angles (LPS, mm)",
-      options);
-  CLI::App* format = command->add_option_group("format", "how to print it; default: for people");
+      program, "marks", "Lists the marks of a recording: points, paths, distances, angles (LPS, mm)", options);
+  CLI::App* format = command->add_option_group("format", "how to print the marks; default: as text");
   format->require_option(0, 1);
-  format->add_flag("--csv", options->csv, "a line for each");
-  format->add_flag("--json", options->json, "for machines");
-  format->add_flag("--mrk.json", options->markups, "3D Slicer's markups, to be saved as NAME.mrk.json");
+  format->add_flag("--csv", options->csv, "print CSV, with a line for each");
+  format->add_flag("--json", options->json, "print JSON");
+  format->add_flag("--mrk.json", options->markups, "print 3D Slicer's markups; save them as NAME.mrk.json");
   command->callback([options] { run_marks(*options); });
 }
 
 void add_export(CLI::App& program) {
   const auto options = std::make_shared<MarksOptions>();
   CLI::App* command = add_marks_command(
-      program, "export", "What was marked, as DICOM for the scan's study: an SR (TID 1500) and pictures", options);
-  command->add_option("-o,--output", options->output, "a folder that is not there yet, or is empty")->required();
+      program, "export", "Writes the marks of a recording as DICOM for the scan's study: an SR (TID 1500) and pictures",
+      options);
+  command->add_option("-o,--output", options->output, "a new or empty folder")->required();
   command->callback([options] { run_export(*options); });
 }
 

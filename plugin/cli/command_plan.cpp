@@ -13,6 +13,7 @@
 #include "plugin/app/plan_savings.h"
 #include "plugin/app/run_session.h"
 #include "plugin/cli/commands.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/options/stylus_option.h"
 #include "plugin/session/scan.h"
@@ -53,13 +54,13 @@ void print_text(const Json& json) {
     for (const auto& item : json[key]) text += (text.empty() ? "" : ", ") + item.get<std::string>();
     return text.empty() ? "none" : text;
   };
-  fmt::print("fields    {}\nmodes     {}\nsolvers   {}\ndevice    {}\n", line("fields"), line("modes"), line("solvers"),
-             json["device"].get<std::string>());
+  put("fields    {}\nmodes     {}\nsolvers   {}\ndevice    {}\n", line("fields"), line("modes"), line("solvers"),
+      json["device"].get<std::string>());
   if (json["left_out"].empty()) return;
-  fmt::print("\nleft out:\n");
+  put("\nleft out:\n");
   for (const auto& entry : json["left_out"]) {
-    fmt::print("  {}: {}; saves {}\n", entry["what"].get<std::string>(), entry["why"].get<std::string>(),
-               entry["saves"].get<std::string>());
+    put("  {}: {}; saves {}\n", entry["what"].get<std::string>(), entry["why"].get<std::string>(),
+        entry["saves"].get<std::string>());
   }
 }
 
@@ -67,8 +68,9 @@ void run(const PlanOptions& options) {
   // The scene first: a wrong one is refused before a large scan is read.
   if (!options.scene.empty()) modes::load_scene(options.scene);
   const device::Specification device = make_stylus(options.stylus)->specification();
-  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
-  const modes::Scene scene = suited_to(scene_for(options.scene, *volume), device);
+  const io::Series series = choose_series(options.series);
+  const auto volume = std::make_shared<const io::Volume>(load_series(series, options.series.frame));
+  const modes::Scene scene = suited_to(scene_for(scene_name(options.scene, series, *volume), *volume), device);
   const auto plan = plan_for(scene, *volume, device.workspace_half_extent);
 
   Json json{{"fields", modes::names_of(plan->fields)},
@@ -87,7 +89,7 @@ void run(const PlanOptions& options) {
     json["left_out"].push_back(std::move(entry));
   }
   if (options.json) {
-    fmt::print("{}\n", json.dump());
+    put_json(json);
   } else {
     print_text(json);
   }
@@ -98,12 +100,13 @@ void run(const PlanOptions& options) {
 void add_plan(CLI::App& program) {
   auto options = std::make_shared<PlanOptions>();
   CLI::App* command = program.add_subcommand(
-      "plan", "What a scene needs on a scan: fields, modes, solvers and device; what is left out, and why.");
+      "plan", "Says which fields, modes, solvers and device a scene needs on a scan, what is left out, and why.");
   add_series_option(*command, options->series);
-  command->add_option("--scene", options->scene,
-                      "a scene's file or the name of a starting scene (default: one that suits the modality)");
+  command->add_option(
+      "--scene", options->scene,
+      "a scene's file or the name of a starting scene (default: one that suits the part of the body and the modality)");
   add_device_option(*command, options->stylus);
-  command->add_flag("--json", options->json, "for machines");
+  command->add_flag("--json", options->json, "print JSON");
   command->callback([options] { run(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include "io/fresh_folder.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/options/put.h"
 #include "plugin/options/session_option.h"
 #include "plugin/report/session_pictures.h"
 #include "plugin/report/summary.h"
@@ -43,11 +44,10 @@ void run(const ProbeOptions& options) {
   folder.commit();
 
   if (options.json) {
-    fmt::print("{}\n", to_json(summary, session.scene));
+    put_json_text(to_json(summary, session.scene));
     return;
   }
-  fmt::print("{}\nWritten to {}: recording.h5, summary.txt, {}\n", words, options.output.string(),
-             fmt::join(pictures, ", "));
+  put("{}\nWritten to {}: recording.h5, summary.txt, {}\n", words, options.output.string(), fmt::join(pictures, ", "));
 }
 
 }  // namespace
@@ -56,14 +56,14 @@ void add_probe(CLI::App& program) {
   auto options = std::make_shared<ProbeOptions>();
   CLI::App* command = program.add_subcommand(
       "probe",
-      "The main job: feel a scan with a stylus, and leave its recording, a summary and pictures.\n"
+      "Feels a scan with a stylus, and writes a recording, a summary and pictures.\n"
       "Without --path a simulated hand presses on the first boundary between --from and --to, slides along it, pushes\n"
-      "through to the next ones and lifts off; it is as fast as the arithmetic, or at --clock's pace.");
+      "through to the next ones and lifts off. This is computed as fast as possible, or in real time with --clock.");
   add_session_option(*command, options->session);
-  command->add_flag("--clock", options->at_clock_pace,
-                    "the simulated stylus, too, at the clock's pace on the servo thread");
-  command->add_option("-o,--output", options->output, "folder for the results; new or empty")->capture_default_str();
-  command->add_flag("--json", options->json, "the summary for machines");
+  command->add_flag("--clock", options->at_clock_pace, "run the simulated stylus in real time, on the servo thread");
+  command->add_option("-o,--output", options->output, "folder for the results; it must be new or empty")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print the summary as JSON");
   command->callback([options] { run(*options); });
 }
 

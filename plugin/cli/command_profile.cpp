@@ -11,6 +11,7 @@
 #include "plugin/app/vector_text.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/stroke_picture.h"
 #include "plugin/report/summary.h"
@@ -35,14 +36,8 @@ nlohmann::json vector(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
-/// A boundary that was met, and how well its place is known.
-struct Met {
-  Contact contact;
-  std::optional<double> known_to_mm;
-};
-
-std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Met>& met, const modes::Plan& plan,
-                    const modes::Scene& scene) {
+std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<MetBoundary>& met,
+                    const modes::Plan& plan, const modes::Scene& scene) {
   nlohmann::json json{{"position_mm", nlohmann::json::array()}, {"proxy_mm", nlohmann::json::array()},
                       {"force_n", nlohmann::json::array()},     {"value", nlohmann::json::array()},
                       {"solver", nlohmann::json::array()},      {"error_bound_m", nlohmann::json::array()},
@@ -62,40 +57,43 @@ std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Me
     for (const StrokePoint& point : stroke) distances.push_back(point.distance_mm[n]);
   }
   json["met"] = nlohmann::json::array();
-  for (const Met& boundary : met) {
+  for (const MetBoundary& boundary : met) {
     const StrokePoint& first = stroke[boundary.contact.first];
     json["met"].push_back({{"boundary", display_name(scene, boundary.contact.boundary)},
                            {"proxy_mm", vector(first.proxy_mm)},
                            {"peak_n", boundary.contact.peak_n},
                            {"strength_n", boundary.contact.strength_n},
                            {"full_strength_n", boundary.contact.full_strength_n},
-                           {"known_to_mm", number(boundary.known_to_mm.value_or(NAN))}});
+                           {"depth_mm", boundary.depth_mm},
+                           {"known_to_mm", number(boundary.known_to_mm.value_or(NAN))},
+                           {"known_along_mm", number(boundary.known_along_mm.value_or(NAN))}});
   }
   return json.dump();
 }
 
-void print_text(const std::vector<StrokePoint>& stroke, const std::vector<Met>& met, const modes::Scene& scene) {
-  fmt::print("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
+void print_text(const std::vector<StrokePoint>& stroke, const std::vector<MetBoundary>& met,
+                const modes::Scene& scene) {
+  put("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
   const glm::dvec3 from = stroke.front().position_mm;
   const glm::dvec3 along = glm::normalize(stroke.back().position_mm - from);
-  // A line every half millimeter is what a person reads; --json has every frame.
+  // A line every half millimeter is what a person reads; --json has every tick.
   double next = 0;
   for (const StrokePoint& point : stroke) {
     const double depth = glm::dot(point.position_mm - from, along);
     if (depth + 1e-9 >= next) {
       next += 0.5;
-      fmt::print("{:9.2f} {:9.3f} {:9.2f} {:9.1f}  {:<11} {}\n", depth, glm::length(point.force_n),
-                 glm::dot(point.proxy_mm - from, along), point.value, solver::name_of(point.solver),
-                 point.boundary ? display_name(scene, *point.boundary) : "");
+      put("{:9.2f} {:9.3f} {:9.2f} {:9.1f}  {:<11} {}\n", depth, glm::length(point.force_n),
+          glm::dot(point.proxy_mm - from, along), point.value, solver::name_of(point.solver),
+          point.boundary ? display_name(scene, *point.boundary) : "");
     }
   }
-  fmt::print("\n");
-  for (const auto& [contact, known] : met) {
+  put("\n");
+  for (const MetBoundary& boundary : met) {
+    const Contact& contact = boundary.contact;
     const StrokePoint& first = stroke[contact.first];
-    fmt::print("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N{}{}\n",
-               display_name(scene, contact.boundary), glm::dot(first.proxy_mm - from, along),
-               patient_coordinates(first.proxy_mm), first.value, contact.peak_n, known_to_text(known),
-               strength_to_text(contact));
+    put("{} met at depth {:.2f} mm ({}), value {:.0f}; up to {:.2f} N{}{}\n", display_name(scene, contact.boundary),
+        boundary.depth_mm, patient_coordinates(first.proxy_mm), first.value, contact.peak_n,
+        known_to_text(boundary.known_to_mm), strength_to_text(contact));
   }
 }
 
@@ -105,27 +103,23 @@ void run(const ProfileOptions& options) {
   if (!(options.speed > 0)) {
     throw WrongUsage(say("speed-has-to-be-above-0-mm"));
   }
-  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
-  const modes::Scene scene = scene_for(options.scene, *volume);
+  const io::Series series = choose_series(options.series);
+  const auto volume = std::make_shared<const io::Volume>(load_series(series, options.series.frame));
+  const modes::Scene scene = scene_for(scene_name(options.scene, series, *volume), *volume);
   const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.1));
-  const Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, options.speed),
-                        .plan = felt.plan,
-                        .scene = scene,
-                        .unit = volume->unit,
-                        .limit_n = scene.limits.force_n};
+  warn_of_structures(felt);
+  Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, options.speed),
+                  .plan = felt.plan,
+                  .scene = scene,
+                  .unit = volume->unit,
+                  .limit_n = scene.limits.force_n};
+  profile.met = met_along(profile, felt);
   if (!options.picture.empty()) write_png(charts_of(profile), options.picture);
   if (!options.table.empty()) write_csv(profile, options.table);
-  std::vector<Contact> contacts = contacts_of(profile.stroke, *felt.plan, met_n);
-  add_strengths(contacts, profile.stroke, *felt.plan, *felt.source);
-  std::vector<Met> met;
-  for (const Contact& contact : contacts) {
-    met.push_back(
-        {contact, known_to_mm(*felt.source, volume->geometry, scene, profile.stroke[contact.first].proxy_mm)});
-  }
   if (options.json) {
-    fmt::print("{}\n", to_json(profile.stroke, met, *felt.plan, scene));
+    put_json_text(to_json(profile.stroke, profile.met, *felt.plan, scene));
   } else {
-    print_text(profile.stroke, met, scene);
+    print_text(profile.stroke, profile.met, scene);
   }
 }
 
@@ -135,17 +129,18 @@ void add_profile(CLI::App& program) {
   auto options = std::make_shared<ProfileOptions>();
   CLI::App* command =
       program.add_subcommand("profile",
-                             "The force felt along a straight stroke of the probe, as a table and a picture.\n"
-                             "Tunes a scene without a stylus.");
+                             "Computes the force along a straight stroke of the probe, as a table and a picture.\n"
+                             "With it you can tune a scene without a stylus.");
   add_series_option(*command, options->series);
   command->add_option("--from", options->from, "where the stroke begins: x,y,z in mm, patient space (LPS)")->required();
   command->add_option("--to", options->to, "where it ends")->required();
-  command->add_option("--scene", options->scene,
-                      "a scene's file or the name of a starting scene (default: one that suits the modality)");
-  command->add_option("--speed", options->speed, "of the probe, mm/s; a frame is 1 ms")->capture_default_str();
+  command->add_option(
+      "--scene", options->scene,
+      "a scene's file or the name of a starting scene (default: one that suits the part of the body and the modality)");
+  command->add_option("--speed", options->speed, "speed of the probe, mm/s; a tick is 1 ms")->capture_default_str();
   command->add_option("-o,--picture", options->picture, "also draw the stroke: a PNG file");
-  command->add_option("--table", options->table, "also write every frame as a line of a CSV file");
-  command->add_flag("--json", options->json, "every frame, for machines");
+  command->add_option("--table", options->table, "also write a CSV file with a line for every tick");
+  command->add_flag("--json", options->json, "print every tick as JSON");
   command->callback([options] { run(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/session_option.h"
 
 namespace palpate::plugin {
@@ -23,8 +24,8 @@ void run(const RecordOptions& options) {
   }
   const ReadySession session = prepare_session(options.session, make_stylus(options.session.stylus));
   const SessionRunResult result = run_session(session.run, options.output);
-  fmt::print("{} frames in {}; missed ticks {}, frames lost {}\n", result.recorder.written, options.output.string(),
-             result.missed, result.recorder.lost);
+  put("{} ticks in {}; missed ticks {}, ticks lost {}\n", result.recorder.written, options.output.string(),
+      result.missed, result.recorder.lost);
   if (result.recorder.stopped) {
     throw InputRefused(result.recorder.why);
   }
@@ -35,10 +36,9 @@ void run(const RecordOptions& options) {
 void add_record(CLI::App& program) {
   auto options = std::make_shared<RecordOptions>();
   CLI::App* command = program.add_subcommand(
-      "record",
-      "A session to a file, at the clock's pace: until Ctrl-C, --seconds, or the end of a simulated hand's path.");
+      "record", "Records a session in real time, until Ctrl-C, --seconds, or the end of a simulated hand's path.");
   add_session_option(*command, options->session);
-  command->add_option("-o,--output", options->output, "the recording: an HDF5 file that is not there yet")->required();
+  command->add_option("-o,--output", options->output, "the recording: a new HDF5 file")->required();
   command->callback([options] { run(*options); });
 }
 

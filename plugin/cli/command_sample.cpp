@@ -17,6 +17,7 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/vector_text.h"
 #include "plugin/cli/commands.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 
 namespace palpate::plugin {
@@ -62,28 +63,29 @@ void run(const SampleOptions& options) {
     }
     all.push_back(json);
     if (options.json) continue;
-    fmt::print("({:.10g}, {:.10g}, {:.10g}) mm: ", point.x, point.y, point.z);
+    put("({:.10g}, {:.10g}, {:.10g}) mm: ", point.x, point.y, point.z);
     if (!sample.inside) {
-      fmt::print("outside the scan\n");
+      put("outside the scan\n");
     } else {
-      fmt::print("{:.10g}{}{}, gradient ({:.6g}, {:.6g}, {:.6g}) per mm\n", sample.value,
-                 volume->unit.empty() ? "" : " ", volume->unit, sample.gradient.x, sample.gradient.y,
-                 sample.gradient.z);
+      put("{:.10g}{}{}, gradient ({:.6g}, {:.6g}, {:.6g}) per mm\n", sample.value, volume->unit.empty() ? "" : " ",
+          volume->unit, sample.gradient.x, sample.gradient.y, sample.gradient.z);
     }
   }
-  if (options.json) std::puts(all.dump(2).c_str());
+  if (options.json) put_json(all, 2);
 }
 
 }  // namespace
 
 void add_sample(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("sample", "Value and gradient at points in patient space");
+  CLI::App* command = program.add_subcommand("sample", "Prints value and gradient at points in patient space");
   const auto options = std::make_shared<SampleOptions>();
   add_series_option(*command, options->series);
   command->add_option("--at", options->at, "Points x,y,z in mm, patient space (LPS)")->required();
-  command->add_option("--scale", options->scale_mm, "Scale of the gradient's Gaussian, mm; by default from the voxels")
+  command
+      ->add_option("--scale", options->scale_mm,
+                   "Scale of the gradient's Gaussian, mm; the default depends on the voxels")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--json", options->json, "JSON on stdout");
+  command->add_flag("--json", options->json, "Print JSON");
   command->callback([options] { run(*options); });
 }
 

@@ -14,6 +14,7 @@
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
+#include "plugin/options/put.h"
 
 namespace palpate::plugin {
 namespace {
@@ -53,9 +54,9 @@ void run(const SendOptions& options) {
     nlohmann::ordered_json refused = nlohmann::ordered_json::array();
     for (const io::NotSent& one : sent.not_sent) refused.push_back({{"file", one.file.string()}, {"why", one.why}});
     const nlohmann::ordered_json json{{"sent", sent.files}, {"not_sent", refused}};
-    fmt::print("{}\n", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    put_json(json, 1);
   } else {
-    fmt::print("{} files sent to {}\n", sent.files, archive.name);
+    put("{} files sent to {}\n", sent.files, archive.name);
   }
   for (const io::NotSent& one : sent.not_sent) tell(at_place("palpate: " + one.file.string(), one.why));
   if (!sent.not_sent.empty()) throw InputRefused(say("files-not-sent", sent.not_sent.size(), files.size()));
@@ -64,8 +65,8 @@ void run(const SendOptions& options) {
 }  // namespace
 
 void add_send(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("send", "Files into an archive (C-STORE), as `palpate export` writes them");
+  CLI::App* command = program.add_subcommand(
+      "send", "Sends files to an archive (C-STORE), for example those that `palpate export` has written");
   const auto options = std::make_shared<SendOptions>();
   add_archive_option(*command, options->archive);
   command->add_option("FILE", options->files, "DICOM files, or folders of them")->required()->check(CLI::ExistingPath);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <limits>
@@ -18,6 +19,7 @@ namespace palpate::plugin {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(CommandSession, WhatProbeRecordsReplaysToTheLastBitAndExports) {
@@ -40,10 +42,64 @@ TEST(CommandSession, WhatProbeRecordsReplaysToTheLastBitAndExports) {
     ASSERT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ',')) << line;
     ++rows;
   }
-  EXPECT_EQ(rows, read_recording(recording).frames.size());
+  EXPECT_EQ(rows, read_recording(recording).ticks.size());
   EXPECT_EQ(header.substr(0, 13), "index,time_s,");
 
   EXPECT_EQ(palpate("replay " + recording).exit, 2) << "neither a scan nor an export";
+}
+
+/// Of every tick in which a boundary of the scan holds the proxy, and of no other.
+TEST(CommandSession, ARecordingTellsHowWellEachHeldBoundaryIsKnown) {
+  const auto out = fresh_path("known");
+  const Outcome probed = palpate("probe " + phantom().string() + forehead + "--json -o " + out.string(), false);
+  ASSERT_EQ(probed.exit, 0);
+  const auto holds = nlohmann::json::parse(probed.output)["holds"];
+  ASSERT_FALSE(holds.empty());
+  const Recording recording = read_recording(out / "recording.h5");
+  ASSERT_EQ(recording.known_to_mm.size(), recording.ticks.size());
+  std::size_t told = 0, first = recording.ticks.size();
+  for (std::size_t n = 0; n < recording.ticks.size(); ++n) {
+    if (!std::isfinite(recording.known_to_mm[n])) continue;
+    ++told;
+    first = std::min(first, n);
+    const double* const force = recording.ticks[n].force_n;
+    EXPECT_GT(std::hypot(force[0], force[1], force[2]), 0.01) << "a boundary that holds pushes";
+  }
+  EXPECT_GT(told, 300U);
+  ASSERT_LT(first, recording.ticks.size());
+  EXPECT_EQ(recording.ticks[first].time_s, holds[0]["begin_s"].get<double>());
+  EXPECT_NEAR(recording.known_to_mm[first], holds[0]["known_to_mm"].get<double>(), 1e-9);
+  const Outcome again =
+      palpate("replay " + (out / "recording.h5").string() + " " + phantom().string() + " --json", false);
+  const auto known = nlohmann::json::parse(again.output)["known_to_mm"];
+  EXPECT_GT(known["median"].get<double>(), 0.005);
+  EXPECT_GE(known["largest"].get<double>(), known["median"].get<double>());
+}
+
+/// A ball that shrinks in three phases: which of them was felt, the recording says, and replay finds it again.
+TEST(CommandSession, ARecordingNamesTheFrameThatWasFelt) {
+  const auto series = fresh_path("beating");
+  std::filesystem::create_directory(series);
+  for (int phase = 0; phase < 3; ++phase) {
+    testdata::write_series(
+        testdata::scan(testdata::make_sphere(25 - phase), testdata::make_geometry({.size = glm::ivec3(60)})),
+        series / std::to_string(phase), {.study = "beating", .trigger_time_ms = 300.0 * phase});
+  }
+  const auto out = fresh_path("felt-late"), csv = fresh_path("felt-late.csv");
+  const Outcome probed = palpate("probe " + series.string() + " --frame 2" + forehead + "-o " + out.string());
+  ASSERT_EQ(probed.exit, 0) << probed.output;
+  EXPECT_THAT(probed.output, HasSubstr("frame     2 of 0 to 2"));
+  const std::string recording = (out / "recording.h5").string();
+  ASSERT_EQ(read_recording(recording).scenes.at(0).frame, (ScanFrame{2, 3}));
+  const Outcome again = palpate("replay " + recording + " " + series.string() + " --csv " + csv.string());
+  EXPECT_EQ(again.exit, 0) << again.output;
+  EXPECT_THAT(again.output, AllOf(HasSubstr("the same to the last bit"), HasSubstr("felt: frame 2 of 0 to 2")));
+  const Outcome json = palpate("replay " + recording + " " + series.string() + " --json", false);
+  EXPECT_EQ(nlohmann::json::parse(json.output)["scan_frames"], nlohmann::json::array({2}));
+  std::ifstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line, HasSubstr(",known_to_mm,scan_frame"));
 }
 
 TEST(CommandSession, ComparesTwoRecordingsOfOneStroke) {
@@ -78,7 +134,7 @@ TEST(CommandSession, AChangedRecordingIsRefusedByReplay) {
   const Recording original = read_recording(out / "recording.h5");
   const auto exit_of = [&](const auto& change) {
     Recording recording = original;
-    change(recording.frames);
+    change(recording.ticks);
     const auto file = fresh_path("changed.h5");
     write_recording(recording, file);
     const Outcome outcome = palpate("replay " + file.string() + " " + phantom().string());
@@ -87,12 +143,12 @@ TEST(CommandSession, AChangedRecordingIsRefusedByReplay) {
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(exit_of([](auto&) {}), 0);
-  EXPECT_EQ(exit_of([](auto& frames) { frames[500].proxy_m[1] += 1e-3; }), 1);
-  EXPECT_EQ(exit_of([](auto& frames) { frames[500].proxy_m[2] = nan; }), 1);
-  EXPECT_EQ(exit_of([](auto& frames) { frames[500].sent_n[0] = nan; }), 1);
-  EXPECT_EQ(exit_of([](auto& frames) {
-              frames[500].proxy_m[0] = 1;
-              frames[600].proxy_m[0] = nan;
+  EXPECT_EQ(exit_of([](auto& ticks) { ticks[500].proxy_m[1] += 1e-3; }), 1);
+  EXPECT_EQ(exit_of([](auto& ticks) { ticks[500].proxy_m[2] = nan; }), 1);
+  EXPECT_EQ(exit_of([](auto& ticks) { ticks[500].sent_n[0] = nan; }), 1);
+  EXPECT_EQ(exit_of([](auto& ticks) {
+              ticks[500].proxy_m[0] = 1;
+              ticks[600].proxy_m[0] = nan;
             }),
             1);
 }
@@ -117,7 +173,7 @@ TEST(CommandSession, RecordKeepsTheClocksPaceAndItsRecordingReplays) {
   EXPECT_GT(seconds, 2.0);
   EXPECT_THAT(outcome.output, ::testing::AllOf(HasSubstr("missed"), HasSubstr("mm deep"), HasSubstr("us")));
   const Recording recording = read_recording(file);
-  EXPECT_NEAR(recording.frames.back().time_s, 2.0, 0.3);
+  EXPECT_NEAR(recording.ticks.back().time_s, 2.0, 0.3);
   EXPECT_EQ(palpate("replay " + file.string() + " " + phantom().string()).exit, 0);
   EXPECT_EQ(palpate("record " + phantom().string() + forehead + "--seconds 1 -o " + file.string()).exit, 1)
       << "nothing is overwritten";
@@ -146,7 +202,7 @@ TEST(CommandSession, InterruptedItEndsInGoodOrderAndKilledItLeavesAReadableFile)
     } else {
       const Recording left = read_recording(partial);
       EXPECT_FALSE(left.complete);
-      EXPECT_GT(left.frames.size(), 800U);
+      EXPECT_GT(left.ticks.size(), 800U);
       EXPECT_EQ(palpate("replay " + partial + " " + folder).exit, 0);
     }
   }

@@ -53,7 +53,7 @@ void add_solve(CLI::App& program) {
                                                            {"exact", SolverChoice::exact},
                                                            {"descent", SolverChoice::descent}};
   CLI::App* command =
-      program.add_subcommand("solve", "Force balances from JSON Lines on stdin to JSON Lines on stdout");
+      program.add_subcommand("solve", "Solves force balances: JSON Lines on stdin, answers as JSON Lines on stdout");
   const auto options = std::make_shared<SolveOptions>();
   command->add_option("--solver", options->solver, "chain (default), analytical, exact or descent")
       ->transform(CLI::CheckedTransformer(solvers))

@@ -14,7 +14,10 @@
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
+#include "plugin/session/registered_structure.h"
+#include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
 namespace {
@@ -84,7 +87,37 @@ void print_structure(const MeasuredStructure& found) {
   }
   text += "\n";
   for (const std::string& warning : warnings_of(found)) text += "         note: " + warning + "\n";
-  std::fputs(text.c_str(), stdout);
+  put("{}", text);
+}
+
+/// A registration's parts: what it moves, from where to where, or why it cannot.
+nlohmann::ordered_json registration_json(const io::Registration& registration) {
+  nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+  for (const io::Registration::Part& part : registration.parts) {
+    nlohmann::ordered_json json{{"frame_of_reference_uid", part.frame_of_reference_uid}};
+    if (part.unfit.empty()) {
+      json["moved_by"] = in_words(part.motion);
+    } else {
+      json["refused"] = part.unfit;
+    }
+    parts.push_back(json);
+  }
+  return {{"file", registration.file.string()},
+          {"hash", hash_of_file(registration.file)},
+          {"to_frame_of_reference_uid", registration.frame_of_reference_uid},
+          {"parts", parts}};
+}
+
+void print_registration(const io::Registration& registration) {
+  put("{}: registration {} to frame of reference {}\n", registration.file.string(), hash_of_file(registration.file),
+      registration.frame_of_reference_uid);
+  for (const io::Registration::Part& part : registration.parts) {
+    if (!part.unfit.empty()) {
+      put("         note: {}\n", std::string(part.unfit));
+    } else if (part.frame_of_reference_uid != registration.frame_of_reference_uid) {
+      put("         moves what lies in {} by {}\n", part.frame_of_reference_uid, in_words(part.motion));
+    }
+  }
 }
 
 void run_structures(const StructuresOptions& options) {
@@ -100,8 +133,8 @@ void run_structures(const StructuresOptions& options) {
     }
     if (file != structure.file) {
       file = structure.file;
-      fmt::print("{}: {}, frame of reference {}\n", file.string(), io::name_of(structure.kind),
-                 structure.frame_of_reference_uid.empty() ? "not said" : structure.frame_of_reference_uid);
+      put("{}: {}, frame of reference {}\n", file.string(), io::name_of(structure.kind),
+          structure.frame_of_reference_uid.empty() ? "not said" : structure.frame_of_reference_uid);
     }
     print_structure(found);
   }
@@ -110,11 +143,14 @@ void run_structures(const StructuresOptions& options) {
     for (const io::SkippedFile& one : catalogue.skipped) {
       skipped.push_back({{"path", one.path.string()}, {"reason", one.reason}});
     }
-    const nlohmann::ordered_json all{{"structures", list}, {"skipped", skipped}};
-    std::puts(all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+    nlohmann::ordered_json registrations = nlohmann::ordered_json::array();
+    for (const io::Registration& one : catalogue.registrations) registrations.push_back(registration_json(one));
+    const nlohmann::ordered_json all{{"structures", list}, {"registrations", registrations}, {"skipped", skipped}};
+    put_json(all, 2);
   } else {
-    if (!catalogue.skipped.empty()) fmt::print("set apart:\n");
-    for (const io::SkippedFile& one : catalogue.skipped) fmt::print("   {}: {}\n", one.path.string(), one.reason);
+    for (const io::Registration& one : catalogue.registrations) print_registration(one);
+    if (!catalogue.skipped.empty()) put("set apart:\n");
+    for (const io::SkippedFile& one : catalogue.skipped) put("   {}: {}\n", one.path.string(), one.reason);
   }
   if (catalogue.structures.empty()) {
     throw InputRefused(say("no-structures-in-what-was-given"));
@@ -125,10 +161,10 @@ void run_structures(const StructuresOptions& options) {
 
 void add_structures(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "structures", "What somebody has outlined: segments, ROIs and labels, their names, volumes and places");
+      "structures", "Lists outlined structures: segments, ROIs and labels with their names, volumes and places");
   const auto options = std::make_shared<StructuresOptions>();
-  command->add_option("PATH", options->paths, "Folders and files, searched to the bottom")->required();
-  command->add_flag("--json", options->json, "JSON on stdout, patient space (LPS, mm)");
+  command->add_option("PATH", options->paths, "Folders with all that they hold, and files")->required();
+  command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
   command->callback([options] { run_structures(*options); });
 }
 

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "plugin/recording/recording.h"
+#include "plugin/session/structure_files.h"
 #include "plugin/testing/command_rig.h"
+#include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {
 namespace {
@@ -130,14 +132,14 @@ TEST(CommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
   EXPECT_EQ(recording.scenes[0].structures, std::vector<std::string>{"aorta"});
   EXPECT_EQ(recording.scenes[0].scene.find('/'), std::string::npos) << "no path goes into a recording";
   double deepest = -1e9, most = 0;
-  for (const TickRecord& frame : recording.frames) {
-    const double force = glm::length(vector_of(frame.force_n));
-    deepest = std::max(deepest, frame.distance_mm[0]);
+  for (const TickRecord& tick : recording.ticks) {
+    const double force = glm::length(vector_of(tick.force_n));
+    deepest = std::max(deepest, tick.distance_mm[0]);
     most = std::max(most, force);
-    if (frame.distance_mm[0] < -3.2) {  // a step of the proxy beyond the margin
-      EXPECT_LT(force, 1e-6) << frame.index;
+    if (tick.distance_mm[0] < -3.2) {  // a step of the proxy beyond the margin
+      EXPECT_LT(force, 1e-6) << tick.index;
     }
-    EXPECT_TRUE(std::isnan(frame.distance_mm[1]));
+    EXPECT_TRUE(std::isnan(tick.distance_mm[1]));
   }
   EXPECT_GT(deepest, 0);
   EXPECT_GT(most, 1);
@@ -179,12 +181,58 @@ TEST(CommandStructures, OfASceneAreRefusedInWords) {
   const Outcome elsewhere = palpate("profile " + phantom().string() + forehead + "--scene " + scene.string());
   EXPECT_EQ(elsewhere.exit, 1);
   EXPECT_THAT(elsewhere.output,
-              HasSubstr("liver.dcm lies in another frame of reference than the scan: choose one that was "
-                        "outlined on this study"));
+              HasSubstr("structure \"liver\": liver.dcm was outlined on another patient than the scan's: choose one "
+                        "that was outlined on this study"));
   fs::copy_file(fs::path(ct) / "01.dcm", scene.parent_path() / "liver.dcm", fs::copy_options::overwrite_existing);
   const Outcome none = palpate("profile " + ct + into_liver + scene.string());
   EXPECT_EQ(none.exit, 1);
   EXPECT_THAT(none.output, HasSubstr("liver.dcm holds no structures"));
+}
+
+// The scene names what can be felt, and the text what cannot, too.
+TEST(CommandStructures, AreOfferedWithWhatIsSuggested) {
+  if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
+  const std::string suggest = "suggest " + (shared / "totalsegmentator/example_ct_dicom").string() + " --structures " +
+                              (shared / "totalsegmentator/example_seg_dicom.nii.gz").string() + " " +
+                              (shared / "dcmqi/liver.dcm").string();
+  const Outcome json = palpate(suggest, false);
+  ASSERT_EQ(json.exit, 0);
+  const Json scene = Json::parse(json.output);
+  std::ifstream file(shared / "truth.json");
+  const Json wanted = Json::parse(file).at("totalsegmentator/example_seg_dicom.nii.gz").at("segments");
+  ASSERT_EQ(scene.at("structures").size(), wanted.size());
+  for (const Json& offered : scene.at("structures")) {
+    EXPECT_TRUE(wanted.contains(std::to_string(offered.at("segment").get<int>()))) << offered;
+    EXPECT_EQ(offered.at("file"), (shared / "totalsegmentator/example_seg_dicom.nii.gz").string());
+  }
+  const fs::path out = fresh_path("suggested");
+  fs::create_directories(out);
+  const Outcome text = palpate(suggest + " -o " + (out / "scene.json").string(), false);
+  ASSERT_EQ(text.exit, 0);
+  EXPECT_THAT(text.output, HasSubstr("structures of the study\n"));
+  EXPECT_THAT(text.output, HasSubstr("label map, example_seg_dicom.nii.gz"));
+  EXPECT_THAT(text.output, HasSubstr("cannot be felt: liver.dcm lies in another frame of reference than the scan"));
+  EXPECT_THAT(text.output, HasSubstr(R"(one is felt where a mode names it: {"type":"surface","structure":")"));
+  // The scene is felt as any other: no mode reads a structure of it.
+  const Outcome plan = palpate("plan " + (shared / "totalsegmentator/example_ct_dicom").string() + " --scene " +
+                               (out / "scene.json").string());
+  EXPECT_EQ(plan.exit, 0) << plan.output;
+}
+
+TEST(CommandStructures, TellsWhatARegistrationMoves) {
+  const fs::path study = fresh_path("registered") / "study";  // registrations are looked for beside it, too
+  testing::write_contours(study / "rt.dcm", "1.2", "7", "Doe^Jane");
+  testing::write_registration(study / "reg.dcm");
+  const std::string hash = hash_of_file(study / "reg.dcm");
+  const Outcome text = palpate("structures " + study.string(), false);
+  EXPECT_EQ(text.exit, 0);
+  EXPECT_THAT(text.output, HasSubstr("reg.dcm: registration " + hash + " to frame of reference 1.1\n"));
+  EXPECT_THAT(text.output, HasSubstr("moves what lies in 1.2 by 100.0, 0.0, 0.0 mm\n"));
+  const Json json = Json::parse(palpate("structures --json " + study.string(), false).output).at("registrations");
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0].at("hash"), hash);
+  EXPECT_EQ(json[0].at("to_frame_of_reference_uid"), "1.1");
+  EXPECT_EQ(json[0].at("parts")[0].at("frame_of_reference_uid"), "1.2");
 }
 
 TEST(CommandStructures, SaysWhereThereAreNone) {

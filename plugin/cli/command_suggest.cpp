@@ -3,46 +3,95 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "io/structures/structure.h"
 #include "modes/scene/scene_json.h"
 #include "modes/scene/suggest.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/suggestion_picture.h"
 #include "plugin/report/text_file.h"
+#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 namespace {
 
 struct SuggestOptions {
   SeriesOption series;
+  std::vector<std::filesystem::path> structures;
   std::string output;
 };
 
 void print_words(const modes::Suggestion& suggestion, const std::string& unit) {
-  fmt::print("tissues\n");
+  put("tissues\n");
   for (std::size_t t = 0; t < suggestion.typical.size(); ++t) {
-    fmt::print("  {:<24} typically {:.0f}{}\n", suggestion.scene.tissues[t].name, suggestion.typical[t], unit);
+    put("  {:<24} typically {:.0f}{}\n", suggestion.scene.tissues[t].name, suggestion.typical[t], unit);
   }
-  fmt::print("boundaries\n");
+  put("boundaries\n");
   for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
-    fmt::print("  {:<36} felt at {:.0f}{}; {:.1f} % of what lies at boundaries\n",
-               suggestion.scene.modes[boundary.mode].name, boundary.middle, unit, 100 * boundary.share);
+    put("  {:<36} felt at {:.0f}{}; {:.1f} % of what lies at boundaries\n", suggestion.scene.modes[boundary.mode].name,
+        boundary.middle, unit, 100 * boundary.share);
+  }
+}
+
+/// A structure that lies with the scan: felt on it where a mode names it, or not, and why.
+struct Offer {
+  io::Structure structure;
+  std::string name;  ///< in the scene
+  Text why_not;
+};
+
+/// The structures of the study, put into the scene where they can be felt. No mode reads them yet.
+std::vector<Offer> offer_structures(const SuggestOptions& options, const io::Volume& volume, modes::Scene& scene) {
+  std::vector<std::filesystem::path> places = options.structures;
+  places.emplace_back(options.series.path);
+  std::vector<Offer> offers;
+  for (io::Structure& found : io::find_structures(places, terminal_progress("finding structures")).structures) {
+    Offer offer{.structure = std::move(found), .name = {}, .why_not = {}};
+    io::Structure& structure = offer.structure;
+    structure.file = std::filesystem::absolute(structure.file);
+    offer.why_not = place_on(structure, registrations_for(structure, volume), volume).why_not;
+    if (offer.why_not.empty()) offer.name = name_in_scene(scene, structure);
+    offers.push_back(std::move(offer));
+  }
+  return offers;
+}
+
+void print_offers(const std::vector<Offer>& offers) {
+  if (offers.empty()) return;
+  put("structures of the study\n");
+  std::string first;
+  for (const Offer& offer : offers) {
+    const std::string file = offer.structure.file.filename().string();
+    if (!offer.why_not.empty()) {
+      put("  {:<36} cannot be felt: {}\n", offer.structure.name, offer.why_not);
+      continue;
+    }
+    put("  {:<36} {}, {}\n", offer.name, io::name_of(offer.structure.kind), file);
+    if (first.empty()) first = offer.name;
+  }
+  if (!first.empty()) {
+    put("  one is felt where a mode names it: {}\n",
+        nlohmann::ordered_json{{"type", "surface"}, {"structure", first}, {"strength_n", 1}}.dump());
   }
 }
 
 void run(const SuggestOptions& options) {
   const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
-  const modes::Suggestion suggestion = modes::suggest(volume, terminal_progress("looking for tissues"));
+  modes::Suggestion suggestion = modes::suggest(volume, terminal_progress("looking for tissues"));
   if (suggestion.boundaries.empty()) {
     throw InputRefused(say("no-boundary-between-tissues-was-found", options.series.path));
   }
+  const std::vector<Offer> offers = offer_structures(options, *volume, suggestion.scene);
   const std::string text = modes::to_json(suggestion.scene);
   if (options.output.empty()) {
-    fmt::print("{}\n", text);
+    put_json_text(text);
     return;
   }
   const std::filesystem::path scene = options.output;
@@ -52,19 +101,27 @@ void run(const SuggestOptions& options) {
   write_suggestion_png(suggestion, volume, picture);
   write_text(scene, text + "\n");
   print_words(suggestion, volume->unit.empty() ? "" : " " + volume->unit);
-  fmt::print("\nwritten: {} and {}\nfeel it: palpate probe {} --scene {}\n", scene.string(), picture.string(),
-             options.series.path, scene.string());
+  print_offers(offers);
+  put("\nwritten: {} and {}\nfeel it: palpate probe {} --scene {}\n", scene.string(), picture.string(),
+      options.series.path, scene.string());
 }
 
 }  // namespace
 
 void add_suggest(CLI::App& program) {
   auto options = std::make_shared<SuggestOptions>();
-  CLI::App* command = program.add_subcommand(
-      "suggest", "Tissues, boundaries and transfer functions proposed from the data: a scene to edit and to feel.");
+  CLI::App* command =
+      program.add_subcommand("suggest",
+                             "Proposes a scene: the tissues, boundaries and transfer functions found in "
+                             "the scan, and the structures of the study.");
   add_series_option(*command, options->series);
+  command
+      ->add_option("--structures", options->structures,
+                   "more files and folders with structures (SEG, RTSTRUCT, label maps); those under SERIES are always "
+                   "searched. The scene names the structures that can be felt")
+      ->check(CLI::ExistingPath);
   command->add_option("-o,--output", options->output,
-                      "the scene's file, and beside it a picture of what was found (default: the scene to stdout)");
+                      "write the scene to this file and a picture beside it (default: print the scene)");
   command->callback([options] { run(*options); });
 }
 

@@ -114,7 +114,7 @@ TEST(Command, ProbeLeavesARecordingASummaryAndPictures) {
     EXPECT_GT(std::filesystem::file_size(out / file), 300U) << file;
   }
   const Recording recording = read_recording(out / "recording.h5");
-  EXPECT_EQ(recording.frames.size(), summary["frames"].get<std::size_t>());
+  EXPECT_EQ(recording.ticks.size(), summary["frames"].get<std::size_t>());
   EXPECT_EQ(recording.header.scan_hash.size(), 16U);
 }
 
@@ -180,7 +180,7 @@ TEST(Command, RefusesBadInputAndLeavesNothing) {
   refused(scan + "--scene " + write_scene("k.json", R"({"version":1,"name":"x","stiffness_n_per_m":0,"modes":[]})"), 1,
           "stiffness_n_per_m");
   refused(scan + "--device harpoon", 2, "harpoon");
-  refused("probe " + phantom().string() + " --from 100,100,100 --to 100,100,200", 1, "nothing be felt");
+  refused("probe " + phantom().string() + " --from 100,100,100 --to 100,100,200", 1, "nothing can be felt");
 }
 
 TEST(Command, SeveralSeriesAndNoneChosenListsThem) {
@@ -229,6 +229,23 @@ TEST(Command, NothingIsOverwritten) {
   std::ofstream(out / "recording.h5") << "precious";
   EXPECT_EQ(palpate("probe " + phantom().string() + forehead + "-o " + out.string()).exit, 1);
   EXPECT_EQ(std::filesystem::file_size(out / "recording.h5"), 8U);
+}
+
+TEST(Command, WithoutASceneTakesTheOneOfThePartOfTheBody) {
+  const auto chest = fresh_path("chest");
+  std::filesystem::copy(phantom(), chest);
+  ASSERT_EQ(run_command("dcmodify -nb -i '(0018,0015)=CHEST' " + chest.string() + "/* 2>&1").exit, 0);
+  for (const std::string& command : {std::string("plan"), "profile" + forehead}) {
+    const auto told = [&](const std::filesystem::path& scan, const std::string& scene) {
+      const Outcome outcome = palpate(command + ' ' + scan.string() + " --json" + scene, false);
+      EXPECT_EQ(outcome.exit, 0) << command;
+      const auto json = nlohmann::json::parse(outcome.output);
+      return json.value("modes", json);  // a plan tells times, too
+    };
+    EXPECT_EQ(told(chest, ""), told(chest, " --scene ct-chest")) << command;
+    EXPECT_NE(told(chest, ""), told(chest, " --scene ct-skin-and-bone")) << command;
+    EXPECT_EQ(told(phantom(), ""), told(phantom(), " --scene ct-skin-and-bone")) << command;
+  }
 }
 
 }  // namespace

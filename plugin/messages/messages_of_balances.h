@@ -26,7 +26,7 @@ inline constexpr MessageRow balances[] = {
       {"type-is-unknown", "type \"{}\" is unknown; there are force, plane, line and point"},
       {"id-is-neither-a-string-nor", "id is neither a string nor a number"},
       {"primitives-is-not-an-array", "primitives is not an array"}}},
-    {"the balance has no answer that can be vouched for",
+    {"no answer can be certified",
      "smaller numbers; fewer infinite strengths",
      {{"no-answer-with-a-finite-error-bound", "no answer with a finite error bound was found"},
       {"hard-constraints-disagree",
@@ -43,9 +43,9 @@ inline constexpr MessageRow balances[] = {
      "run it again",
      {{"standard-output-cannot-be-written", "standard output cannot be written"},
       {"standard-input-cannot-be-read", "standard input cannot be read"}}},
-    {"the balance has no answer that can be vouched for",
+    {"no answer can be certified",
      "smaller numbers; fewer infinite strengths",
-     {{"answer-is-not-finite", "the answer is not finite: the numbers given are too large to be computed with"}}},
+     {{"answer-is-not-finite", "the answer is not finite: the numbers given are too large"}}},
 };
 
 }  // namespace palpate::plugin::messages

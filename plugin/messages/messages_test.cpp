@@ -117,6 +117,7 @@ constexpr std::array not_shown{
     NotShown{"answer-is-not-finite", a_solver_at_fault},
     NotShown{"no-answer-with-a-finite-error-bound", a_solver_at_fault},
     NotShown{"hard-constraints-disagree", a_solver_at_fault},
+    NotShown{"archive-holds-more", "an archive of more than a hundred studies; the command line's is shown"},
     NotShown{"cannot-be-deleted", "it lies in a folder of the user's own, and root may all"},
     NotShown{"make-a-table", "HDF5 has no memory left"},
     NotShown{"soak-found-a-fault", "a servo at fault"},
@@ -129,6 +130,8 @@ constexpr std::array not_shown{
     NotShown{"does-not-answer", of_paraview},
     NotShown{"scan-left-the-server", of_paraview},
     NotShown{"voxels-did-not-arrive", of_paraview},
+    NotShown{"server-cannot-give-the-structures", of_paraview},
+    NotShown{"structures-did-not-arrive", of_paraview},
     NotShown{"this-machine-has-not-enough-memory", of_paraview},
     NotShown{"fetched-from-the-server-before", of_paraview},
     NotShown{"left-the-server", of_paraview},
@@ -139,6 +142,7 @@ constexpr std::array not_shown{
     NotShown{"this-series-could-not-be-read", of_paraview},
     NotShown{"this-series-has-no-values", of_paraview},
     NotShown{"it-has-no-readable-images", of_paraview},
+    NotShown{"marks-need-the-images", of_paraview},
 };
 
 TEST(Messages, EachIsShown) {

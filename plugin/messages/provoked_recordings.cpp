@@ -63,7 +63,7 @@ std::string of_little_room() {
   return recorder.finish().why;
 }
 
-/// The middle of the file overwritten: compressed frames that cannot be inflated.
+/// The middle of the file overwritten: compressed ticks that cannot be inflated.
 std::string of_damage(const fs::path& recording) {
   std::string bytes = bytes_of(recording);
   bytes.replace(bytes.size() / 2, 2000, 2000, '\x55');
@@ -90,7 +90,7 @@ std::vector<Provoked> provoke_recordings() {
   output_of(press(good, "1.2"));
   const Recording recording = read_recording(good);
   const auto full = fresh_path("full.h5");
-  const std::string unrecorded = recorded_within(8192, full, "1.2");
+  const std::string unrecorded = recorded_within(12288, full, "1.2");
   const io::Volume scan = ball();
   io::Volume another = scan;
   another.slope *= 2;
@@ -110,7 +110,7 @@ std::vector<Provoked> provoke_recordings() {
                                    })},
       {"replay-is-not-the-session", replayed(recording,
                                              [](Recording& changed) {
-                                               for (TickRecord& frame : changed.frames) frame.proxy_m[0] += 0.001;
+                                               for (TickRecord& tick : changed.ticks) tick.proxy_m[0] += 0.001;
                                              })},
       {"recording-is-empty", said_when([&] { RecordedSession({}, scan); })},
       {"recorded-on-another-scan-open", said_when([&] { RecordedSession(recording, another); })},

@@ -3,12 +3,13 @@
 #include <cstdio>
 
 #include "solver/text/message.h"
+#include "solver/text/printable.h"
 
 namespace palpate::plugin {
 
-/// Says it on stderr, in a line of its own.
+/// Says it on stderr, in a line of its own, with control characters shown.
 inline void tell(const Text& text) {
-  std::fprintf(stderr, "%s\n", text.c_str());
+  std::fprintf(stderr, "%s\n", printable(text).c_str());
 }
 
 }  // namespace palpate::plugin

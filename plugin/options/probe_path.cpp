@@ -60,11 +60,11 @@ std::vector<device::Waypoint> to_device(const std::vector<PathPoint>& path, cons
 void add_probe_path_option(CLI::App& command, ProbePathOption& option) {
   command
       .add_option("--path", option.file,
-                  "where a simulated hand goes: a CSV file of time_s,x_mm,y_mm,z_mm (LPS), and of buttons")
+                  "the path of a simulated hand: a CSV file of time_s,x_mm,y_mm,z_mm (LPS), and buttons if wished")
       ->check(CLI::ExistingFile);
   command.add_option("--from", option.from,
-                     "where its press begins: x,y,z in mm (default: the front, at 3/4 of the scan's height)");
-  command.add_option("--to", option.to, "where it is directed (default: the middle, at the same height)");
+                     "where that hand begins to press: x,y,z in mm (default: the front, at 3/4 of the scan's height)");
+  command.add_option("--to", option.to, "where it presses to (default: the middle, at the same height)");
 }
 
 double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene,

@@ -26,9 +26,9 @@ struct ProbePathOption {
 /// `option` has to live as long as the command.
 void add_probe_path_option(CLI::App& command, ProbePathOption& option);
 
-/// Makes the hand follow the path and returns its end, s. Where the scene names no center of the workspace, the path's
-/// middle becomes it, in the scene and in the plan. Throws InputRefused where the path leaves the workspace, and what
-/// reading the path or feeling its way throws.
+/// Makes the hand follow the path, and returns its end, s. If the scene names no center of the workspace, it gets the
+/// path's middle, in the scene and in the plan. Throws InputRefused if the path leaves the workspace, and what reading
+/// the path or feeling the way throws.
 double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene,
                          PreparedScene& felt, device::SimulatedStylus& stylus);
 

@@ -3,17 +3,19 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
 
 #include "plugin/app/errors.h"
 #include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
+#include "solver/text/printable.h"
 
 namespace palpate::plugin {
 
 int run_program(CLI::App& program, int argc, char** argv) {
   const auto told = [&](const std::exception& error, int exit) {
-    std::fprintf(stderr, "%s: %s\n", program.get_name().c_str(), error.what());
+    std::fprintf(stderr, "%s: %s\n", program.get_name().c_str(), printable(error.what()).c_str());
     return exit;
   };
   program.require_subcommand(1);
@@ -23,7 +25,11 @@ int run_program(CLI::App& program, int argc, char** argv) {
     program.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;
+    std::ostringstream out, err;
+    const int code = program.exit(error, out, err);  // it names what was typed
+    std::fputs(printable(out.str()).c_str(), stdout);
+    std::fputs(printable(err.str()).c_str(), stderr);
+    return code == 0 ? 0 : 2;
   } catch (const WrongUsage& error) {
     return told(error, 2);
   } catch (const std::runtime_error& error) {  // InputRefused, and what the folders throw of files, series and devices

@@ -10,30 +10,36 @@ namespace palpate::plugin {
 
 void add_session_option(CLI::App& command, SessionOption& option) {
   add_series_option(command, option.series);
-  command.add_option("--scene", option.scene,
-                     "a scene's file or the name of a starting scene (default: one that suits the modality)");
+  command.add_option(
+      "--scene", option.scene,
+      "a scene's file or the name of a starting scene (default: one that suits the part of the body and the modality)");
   add_probe_path_option(command, option.path);
   add_stylus_option(command, option.stylus);
-  command.add_option("--seconds", option.seconds,
-                     "how long (default: a simulated hand's path; with another stylus until Ctrl-C)");
-  command.add_flag("--live", option.live, "show what is felt, also where stderr is no terminal");
+  command.add_option(
+      "--seconds", option.seconds,
+      "how long (default: until the end of the simulated hand's path; with another stylus until Ctrl-C)");
+  command.add_flag("--live", option.live, "show what is felt, even if stderr is not a terminal");
 }
 
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus) {
-  const auto volume = std::make_shared<const io::Volume>(load_series(option.series));
+  const io::Series series = choose_series(option.series);
+  const auto volume = std::make_shared<const io::Volume>(load_series(series, option.series.frame));
   const device::Specification specification = stylus->specification();
-  ReadySession ready{.volume = volume,
-                     .run = {.scene = suited_to(scene_for(option.scene, *volume), specification),
-                             .felt = {},
-                             .scan_hash = hash_of(*volume),
-                             .unit = volume->unit,
-                             .stylus = stylus,
-                             .seed = option.stylus.seed,
-                             .seconds = option.seconds,
-                             .at_clock_pace = true,
-                             .live = option.live || stderr_is_terminal()}};
+  ReadySession ready{
+      .volume = volume,
+      .run = {.scene = suited_to(scene_for(scene_name(option.scene, series, *volume), *volume), specification),
+              .felt = {},
+              .scan_hash = hash_of(*volume),
+              .unit = volume->unit,
+              .frame = {.number = option.series.frame, .count = series.frames_per_position},
+              .stylus = stylus,
+              .seed = option.stylus.seed,
+              .seconds = option.seconds,
+              .at_clock_pace = true,
+              .live = option.live || stderr_is_terminal()}};
   SessionRun& run = ready.run;
   run.felt = prepare(run.scene, volume, specification.workspace_half_extent);
+  warn_of_structures(run.felt);
   if (auto* simulated = dynamic_cast<device::SimulatedStylus*>(stylus.get())) {
     ready.simulated = true;
     const double end = follow_probe_path(option.path, *volume, run.scene, run.felt, *simulated);

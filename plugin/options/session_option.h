@@ -1,6 +1,6 @@
 #pragma once
 
-/// What `palpate probe` and `palpate record` are told alike: a scan, a scene, a stylus, how long.
+/// The options that `palpate probe` and `palpate record` share: a scan, a scene, a stylus, how long.
 
 #include <memory>
 #include <string>

@@ -8,13 +8,13 @@ void add_device_option(CLI::App& command, StylusChoice& choice) {
   command
       .add_option("--device", choice.device,
                   "the stylus: " + device::device_kinds() +
-                      ";\n@ADDRESS where several are plugged in (`palpate devices` lists them)")
+                      ";\n@ADDRESS if several are plugged in (`palpate devices` lists them)")
       ->capture_default_str();
 }
 
 void add_stylus_option(CLI::App& command, StylusChoice& choice) {
   add_device_option(command, choice);
-  command.add_option("--firmware", choice.firmware, "Falcon: Novint's firmware file, where it has none yet");
+  command.add_option("--firmware", choice.firmware, "Falcon: Novint's firmware file, if the device has none yet");
   command.add_option("--device-settings", choice.settings,
                      "A JSON file of the device's settings: its largest force, and what its header names");
   command.add_option("--seed", choice.seed, "simulated: of the hand's tremor")->capture_default_str();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// HDF5's C interface with identifiers that close themselves and failures that throw.
+/// HDF5's C interface, with identifiers that close themselves and with failures that throw.
 
 #include <hdf5.h>
 
@@ -11,7 +11,7 @@
 
 namespace palpate::plugin::hdf5 {
 
-/// What could not be done: the id of its message.
+/// The id of the message that says what could not be done.
 using Step = ChosenMessage<0, messages::sessions>;
 
 class Handle {
@@ -37,7 +37,7 @@ class Handle {
   }
   operator hid_t() const { return id_; }  // NOLINT: HDF5's calls take it as it is
 
-  /// Never closed: after a failed write closing would write again.
+  /// Not closed after a failed write, because closing would write again.
   void forget() noexcept { id_ = H5I_INVALID_HID; }
 
  private:
@@ -51,8 +51,8 @@ inline void check(herr_t status, Step what) {
   }
 }
 
-/// HDF5 prints its error stack to stderr by default, for each thread anew; ours is in the exception. And it must not
-/// write to a file again, when the program ends, that it could not write to before.
+/// By default HDF5 prints its error stack to stderr, separately in each thread; our exceptions carry it instead. And if
+/// a file could not be written, HDF5 must not write to it again when the program ends.
 inline void silence() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "modes/tick/haptic_step.h"
+#include "plugin/recording/recorded_session.h"
 
 namespace palpate::plugin {
 namespace {
@@ -15,86 +17,135 @@ namespace {
 constexpr double still_mm = 2;        // a hand that presses a button moves so far
 constexpr double path_step_mm = 0.2;  // shorter steps are tremor, and would add to a path's length
 
-std::string boundary_of(const RecordedSession& session, std::size_t n) {
-  const modes::Scene& scene = session.scene(n);
+std::string boundary_of(const MarkPresses::Moment& moment) {
   double strongest = 0;
   std::string name;
-  for (const PrimitiveRecord& share : session.shares(n)) {
+  for (const PrimitiveRecord& share : moment.shares) {
     const glm::dvec3 force(share.force_n[0], share.force_n[1], share.force_n[2]);
-    const bool is_of_scene = share.mode < scene.modes.size();  // else of the scene that is being left
+    const bool is_of_scene = share.mode < moment.scene.modes.size();  // else of the scene that is being left
     if (!is_of_scene || glm::length(force) <= strongest) continue;
     strongest = glm::length(force);
-    const modes::Mode& mode = scene.modes[share.mode];
+    const modes::Mode& mode = moment.scene.modes[share.mode];
     name = mode.name.empty() ? mode.type : mode.name;
   }
   return name;
 }
 
-FeltMark mark_at(const RecordedSession& session, std::size_t n, std::size_t number) {
-  return {.name = fmt::format("FeltMark {}", number),
-          .tick = session.frame(n).index,
-          .time_s = session.time_s(n),
-          .position_mm = session.proxy_mm(n),
-          .boundary = boundary_of(session, n),
-          .value = session.frame(n).value,
-          .force_n = glm::length(session.sent_n(n))};
+void step(MarkedPath& path, const glm::dvec3& to) {
+  path.length_mm += glm::distance(path.points_mm.back(), to);
+  path.points_mm.push_back(to);
 }
 
-MarkedPath path_between(const RecordedSession& session, std::size_t first, std::size_t end, std::size_t number) {
-  MarkedPath path{.name = fmt::format("Path {}", number),
-                  .begin_s = session.time_s(first),
-                  .end_s = session.time_s(end - 1),
-                  .points_mm = {session.proxy_mm(first)}};
-  for (std::size_t n = first + 1; n < end; ++n) {
-    const glm::dvec3 at = session.proxy_mm(n);
-    const double step = glm::distance(at, path.points_mm.back());
-    if (step < path_step_mm && n + 1 < end) continue;
-    path.length_mm += step;
-    path.points_mm.push_back(at);
-  }
-  return path;
-}
-
-bool stays(const RecordedSession& session, std::size_t first, std::size_t end) {
-  const glm::dvec3 begin = session.proxy_mm(first);
-  for (std::size_t n = first; n < end; ++n) {
-    if (glm::distance(session.proxy_mm(n), begin) > still_mm) return false;
-  }
-  return true;
-}
-
-void measure(Marks& marks) {
-  const std::vector<FeltMark>& points = marks.points;
-  for (std::size_t n = 1; n < points.size(); ++n) {
-    marks.distances.push_back({n - 1, n, glm::distance(points[n - 1].position_mm, points[n].position_mm)});
-  }
-  for (std::size_t n = 1; n + 1 < points.size(); ++n) {
-    const glm::dvec3 before = points[n - 1].position_mm - points[n].position_mm;
-    const glm::dvec3 after = points[n + 1].position_mm - points[n].position_mm;
-    const double lengths = glm::length(before) * glm::length(after);
-    if (lengths == 0) continue;  // two marks at one place have no angle
-    marks.angles.push_back({n, glm::degrees(std::acos(std::clamp(glm::dot(before, after) / lengths, -1.0, 1.0)))});
+template <typename Named>
+std::string free_name(const char* kind, const std::vector<Named>& others) {
+  for (std::size_t number = 1;; ++number) {
+    std::string name = fmt::format("{} {}", kind, number);
+    if (std::ranges::none_of(others, [&](const Named& other) { return other.name == name; })) return name;
   }
 }
 
 }  // namespace
 
+std::optional<MarkMade> MarkPresses::take(const Moment& moment) {
+  if ((moment.tick.buttons & mark_button) == 0) return finish();
+  const glm::dvec3& at = moment.proxy_mm;
+  if (!std::exchange(down_, true)) {
+    mark_ = {.tick = moment.tick.index,
+             .time_s = moment.time_s,
+             .position_mm = at,
+             .boundary = boundary_of(moment),
+             .value = moment.tick.value,
+             .force_n = glm::length(glm::dvec3(moment.tick.sent_n[0], moment.tick.sent_n[1], moment.tick.sent_n[2]))};
+    path_ = {.begin_s = moment.time_s, .points_mm = {at}};
+    moved_ = false;
+  }
+  moved_ = moved_ || glm::distance(at, mark_.position_mm) > still_mm;
+  if (glm::distance(at, path_.points_mm.back()) >= path_step_mm) step(path_, at);
+  path_.end_s = moment.time_s;
+  last_mm_ = at;
+  return std::nullopt;
+}
+
+std::optional<MarkMade> MarkPresses::finish() {
+  if (!std::exchange(down_, false)) return std::nullopt;
+  if (!moved_) return std::move(mark_);
+  if (path_.points_mm.back() != last_mm_) step(path_, last_mm_);
+  return std::move(path_);
+}
+
 Marks marks_of(const RecordedSession& session) {
   Marks marks;
-  const auto is_down = [&](std::size_t n) { return (session.frame(n).buttons & mark_button) != 0; };
-  for (std::size_t n = 0; n < session.size(); ++n) {
-    if (!is_down(n)) continue;
-    std::size_t end = n;
-    while (end < session.size() && is_down(end)) ++end;
-    if (stays(session, n, end)) {
-      marks.points.push_back(mark_at(session, n, marks.points.size() + 1));
+  MarkPresses presses;
+  const auto keep = [&](std::optional<MarkMade> made) {
+    if (!made) return;
+    if (auto* const mark = std::get_if<FeltMark>(&*made)) {
+      mark->name = free_mark_name(marks);
+      marks.points.push_back(std::move(*mark));
     } else {
-      marks.paths.push_back(path_between(session, n, end, marks.paths.size() + 1));
+      auto& path = std::get<MarkedPath>(*made);
+      path.name = free_path_name(marks);
+      marks.paths.push_back(std::move(path));
     }
-    n = end;
+  };
+  for (std::size_t n = 0; n < session.size(); ++n) {
+    if ((session.tick(n).buttons & mark_button) == 0 && !presses.is_down()) continue;
+    keep(presses.take({.tick = session.tick(n),
+                       .time_s = session.time_s(n),
+                       .proxy_mm = session.proxy_mm(n),
+                       .shares = session.shares(n),
+                       .scene = session.scene(n)}));
   }
-  measure(marks);
+  keep(presses.finish());
+  for (std::size_t n = 1; n < marks.points.size(); ++n) marks.distances.push_back({.from = n - 1, .to = n});
+  for (std::size_t n = 1; n + 1 < marks.points.size(); ++n) {
+    marks.angles.push_back({.from = n - 1, .at = n, .to = n + 1});
+  }
+  measure_again(marks);
   return marks;
+}
+
+double distance_mm(const Marks& marks, std::size_t from, std::size_t to) {
+  return glm::distance(marks.points[from].position_mm, marks.points[to].position_mm);
+}
+
+std::optional<double> angle_degrees(const Marks& marks, std::size_t from, std::size_t at, std::size_t to) {
+  const glm::dvec3 before = marks.points[from].position_mm - marks.points[at].position_mm;
+  const glm::dvec3 after = marks.points[to].position_mm - marks.points[at].position_mm;
+  const double lengths = glm::length(before) * glm::length(after);
+  if (lengths == 0) return std::nullopt;
+  return glm::degrees(std::acos(std::clamp(glm::dot(before, after) / lengths, -1.0, 1.0)));
+}
+
+std::string free_mark_name(const Marks& marks) {
+  return free_name("Mark", marks.points);
+}
+
+std::string free_path_name(const Marks& marks) {
+  return free_name("Path", marks.paths);
+}
+
+void remove_mark(Marks& marks, std::size_t mark) {
+  marks.points.erase(marks.points.begin() + static_cast<std::ptrdiff_t>(mark));
+  std::erase_if(marks.distances, [&](const MarkedDistance& of) { return of.from == mark || of.to == mark; });
+  std::erase_if(marks.angles, [&](const MarkedAngle& of) { return of.from == mark || of.at == mark || of.to == mark; });
+  const auto shift = [&](std::size_t& index) {
+    if (index > mark) --index;
+  };
+  for (MarkedDistance& of : marks.distances) {
+    shift(of.from);
+    shift(of.to);
+  }
+  for (MarkedAngle& of : marks.angles) {
+    shift(of.from);
+    shift(of.at);
+    shift(of.to);
+  }
+}
+
+void measure_again(Marks& marks) {
+  for (MarkedDistance& of : marks.distances) of.mm = distance_mm(marks, of.from, of.to);
+  std::erase_if(marks.angles, [&](const MarkedAngle& of) { return !angle_degrees(marks, of.from, of.at, of.to); });
+  for (MarkedAngle& of : marks.angles) of.degrees = *angle_degrees(marks, of.from, of.at, of.to);
 }
 
 }  // namespace palpate::plugin

@@ -1,15 +1,21 @@
 #pragma once
 
-/// Marks that the hand made while feeling: where the stylus' second button was pressed. Patient space (LPS, mm).
+/// Marks made while feeling, with the stylus' second button or the panel's *Mark*. Patient space (LPS, mm).
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "plugin/recording/recorded_session.h"
+#include "modes/scene/scene.h"
+#include "plugin/session/tick_record.h"
 
 namespace palpate::plugin {
+
+class RecordedSession;
 
 /// The second button, in TickRecord::buttons.
 constexpr std::uint32_t mark_button = 2;
@@ -18,14 +24,14 @@ constexpr std::uint32_t mark_button = 2;
 struct FeltMark {
   std::string name;
   std::uint64_t tick = 0;  ///< index of the tick
-  double time_s = 0;       ///< since the recording began
+  double time_s = 0;       ///< since the session or its recording began
   glm::dvec3 position_mm{0};
   std::string boundary;  ///< the mode that pushed most, by its name or type; empty: nothing was felt
   double value = 0;      ///< of the scan; NaN outside
   double force_n = 0;    ///< N, of what the stylus was fed
 };
 
-/// The proxy's way while the button was kept down.
+/// The path of the proxy while the button was held down.
 struct MarkedPath {
   std::string name;
   double begin_s = 0, end_s = 0;
@@ -33,15 +39,15 @@ struct MarkedPath {
   double length_mm = 0;
 };
 
-/// From a mark to the next.
+/// Between two marks.
 struct MarkedDistance {
   std::size_t from = 0, to = 0;  ///< indices of marks
   double mm = 0;
 };
 
-/// At a mark, between the one before it and the next.
+/// At a mark, between two others.
 struct MarkedAngle {
-  std::size_t at = 0;
+  std::size_t from = 0, at = 0, to = 0;  ///< indices of marks
   double degrees = 0;
 };
 
@@ -52,7 +58,49 @@ struct Marks {
   std::vector<MarkedAngle> angles;
 };
 
-/// A press during which the proxy stays within 2 mm is a mark where it began; any other is a path.
+/// What a press made; it has no name yet.
+using MarkMade = std::variant<FeltMark, MarkedPath>;
+
+/// Follows the mark button from tick to tick. A press during which the proxy stays within 2 mm makes a mark at the
+/// place where the press began; any other makes a path.
+class MarkPresses {
+ public:
+  struct Moment {
+    const TickRecord& tick;
+    double time_s = 0;
+    glm::dvec3 proxy_mm{0};
+    std::span<const PrimitiveRecord> shares;
+    const modes::Scene& scene;  ///< that was felt
+  };
+  /// What a press made, if the press ended in this tick.
+  std::optional<MarkMade> take(const Moment& moment);
+  /// The same, when there are no more ticks.
+  std::optional<MarkMade> finish();
+  /// Forgets the current press: it makes nothing.
+  void drop() { down_ = false; }
+  bool is_down() const { return down_; }
+
+ private:
+  bool down_ = false, moved_ = false;
+  FeltMark mark_;
+  MarkedPath path_;
+  glm::dvec3 last_mm_{0};
+};
+
+/// What was marked in a recording, with a distance from each mark to the next, and an angle at each mark that has two
+/// neighbors.
 Marks marks_of(const RecordedSession& session);
+
+/// The length of a distance or the degrees of an angle between marks; none if two of the places are equal.
+double distance_mm(const Marks& marks, std::size_t from, std::size_t to);
+std::optional<double> angle_degrees(const Marks& marks, std::size_t from, std::size_t at, std::size_t to);
+
+/// "Mark 3", "Path 1": with the lowest number that is not used yet.
+std::string free_mark_name(const Marks& marks);
+std::string free_path_name(const Marks& marks);
+/// Removes a mark, and the distances and angles that it is part of.
+void remove_mark(Marks& marks, std::size_t mark);
+/// Measures distances and angles again, after marks were moved. Removes an angle that no longer exists.
+void measure_again(Marks& marks);
 
 }  // namespace palpate::plugin

@@ -13,22 +13,26 @@
 namespace palpate::plugin {
 namespace {
 
-/// Leaves the frames of these scenes, and their shares.
+/// Leaves the ticks of these scenes, and their shares.
 std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>& epochs) {
   std::vector<PrimitiveRecord> shares;
   std::size_t kept = 0, share = 0;
-  for (const TickRecord& frame : recording.frames) {
-    const std::size_t next = share + frame.share_count;
-    if (epochs.count(frame.scene_epoch) > 0) {
+  for (const TickRecord& tick : recording.ticks) {
+    const std::size_t next = share + tick.share_count;
+    if (epochs.count(tick.scene_epoch) > 0) {
       shares.insert(shares.end(), recording.shares.begin() + static_cast<std::ptrdiff_t>(share),
                     recording.shares.begin() + static_cast<std::ptrdiff_t>(next));
-      recording.frames[kept++] = frame;
+      if (!recording.known_to_mm.empty()) {
+        recording.known_to_mm[kept] = recording.known_to_mm[static_cast<std::size_t>(&tick - recording.ticks.data())];
+      }
+      recording.ticks[kept++] = tick;
     }
     share = next;
   }
-  const std::size_t left_out = recording.frames.size() - kept;
-  recording.frames.resize(kept);
+  const std::size_t left_out = recording.ticks.size() - kept;
+  recording.ticks.resize(kept);
   recording.shares = std::move(shares);
+  if (!recording.known_to_mm.empty()) recording.known_to_mm.resize(kept);
   return left_out;
 }
 
@@ -41,48 +45,48 @@ RecordedSession::RecordedSession(Recording recording, const io::Volume& volume) 
     if (record.scan_hash == hash) here.insert(record.epoch);
   }
   elsewhere_ = leave_out_others(recording_, here);
-  if (recording_.frames.empty()) {
+  if (recording_.ticks.empty()) {
     throw Refusal(elsewhere_ == 0 ? say("recording-is-empty")
                                   : say("recorded-on-another-scan-open", recording_.header.scan_hash, hash));
   }
   first_share_.reserve(size());
   std::size_t share = 0;
-  std::uint32_t last = recording_.frames.front().scene_epoch;
-  for (const TickRecord& frame : recording_.frames) {
+  std::uint32_t last = recording_.ticks.front().scene_epoch;
+  for (const TickRecord& tick : recording_.ticks) {
     first_share_.push_back(share);
-    share += frame.share_count;
-    if (settings_.count(frame.scene_epoch) > 0) continue;
+    share += tick.share_count;
+    if (settings_.count(tick.scene_epoch) > 0) continue;
     const SceneRecord& record = *std::find_if(recording_.scenes.begin(), recording_.scenes.end(),
-                                              [&](const auto& r) { return r.epoch == frame.scene_epoch; });
+                                              [&](const auto& r) { return r.epoch == tick.scene_epoch; });
     Setting setting;
     setting.scene = modes::scene_from_json(record.scene, "the recording's scene");
     const auto plan = plan_for(setting.scene, volume, record.half_extent_m);
     setting.workspace = plan->workspace;
     setting.structures = plan->structures;
-    // What is left while a change is on its way is what the frame before felt.
+    // What is left while a change is on its way is what the tick before felt.
     setting.before = settings_.empty() ? setting.workspace : settings_.at(last).workspace;
-    last = frame.scene_epoch;
+    last = tick.scene_epoch;
     settings_.emplace(last, std::move(setting));
   }
 }
 
 double RecordedSession::time_s(std::size_t n) const noexcept {
-  return recording_.frames[n].time_s - recording_.frames.front().time_s;
+  return recording_.ticks[n].time_s - recording_.ticks.front().time_s;
 }
 
 double RecordedSession::duration_s() const noexcept {
   return time_s(size() - 1);
 }
 
-std::size_t RecordedSession::frame_at(double seconds) const noexcept {
-  const double at = recording_.frames.front().time_s + seconds;
-  const auto later = std::upper_bound(recording_.frames.begin(), recording_.frames.end(), at,
-                                      [](double time, const TickRecord& frame) { return time < frame.time_s; });
-  return later == recording_.frames.begin() ? 0 : static_cast<std::size_t>(later - recording_.frames.begin()) - 1;
+std::size_t RecordedSession::tick_at(double seconds) const noexcept {
+  const double at = recording_.ticks.front().time_s + seconds;
+  const auto later = std::upper_bound(recording_.ticks.begin(), recording_.ticks.end(), at,
+                                      [](double time, const TickRecord& tick) { return time < tick.time_s; });
+  return later == recording_.ticks.begin() ? 0 : static_cast<std::size_t>(later - recording_.ticks.begin()) - 1;
 }
 
 std::span<const PrimitiveRecord> RecordedSession::shares(std::size_t n) const {
-  return std::span(recording_.shares).subspan(first_share_[n], recording_.frames[n].share_count);
+  return std::span(recording_.shares).subspan(first_share_[n], recording_.ticks[n].share_count);
 }
 
 const modes::Scene& RecordedSession::scene(std::size_t n) const {
@@ -91,19 +95,19 @@ const modes::Scene& RecordedSession::scene(std::size_t n) const {
 
 modes::Workspace RecordedSession::workspace(std::size_t n) const {
   const Setting& at = setting(n);
-  return modes::between(at.before, at.workspace, recording_.frames[n].change_part);
+  return modes::between(at.before, at.workspace, recording_.ticks[n].change_part);
 }
 
 glm::dvec3 RecordedSession::probe_mm(std::size_t n) const {
-  return workspace(n).to_patient(vector_of(recording_.frames[n].probe_m));
+  return workspace(n).to_patient(vector_of(recording_.ticks[n].probe_m));
 }
 
 glm::dvec3 RecordedSession::proxy_mm(std::size_t n) const {
-  return workspace(n).to_patient(vector_of(recording_.frames[n].proxy_m));
+  return workspace(n).to_patient(vector_of(recording_.ticks[n].proxy_m));
 }
 
 glm::dvec3 RecordedSession::sent_n(std::size_t n) const {
-  return workspace(n).direction_to_patient(vector_of(recording_.frames[n].sent_n));
+  return workspace(n).direction_to_patient(vector_of(recording_.ticks[n].sent_n));
 }
 
 }  // namespace palpate::plugin

@@ -18,31 +18,31 @@ namespace palpate::plugin {
 
 class RecordedSession {
  public:
-  /// Of the frames that felt this scan, as its hash tells. Throws std::runtime_error where there is none, and what a
-  /// scene that is none throws.
+  /// From the ticks that felt this scan, as its hash tells. Throws std::runtime_error if there is none, and
+  /// std::invalid_argument if a scene is invalid.
   RecordedSession(Recording recording, const io::Volume& volume);
 
-  std::size_t size() const noexcept { return recording_.frames.size(); }
-  /// s, from the first frame to the last.
+  std::size_t size() const noexcept { return recording_.ticks.size(); }
+  /// s, from the first tick to the last.
   double duration_s() const noexcept;
-  /// The last frame that is not later than this, s after the first.
-  std::size_t frame_at(double seconds) const noexcept;
-  /// s after the first frame.
+  /// The last tick at or before this time, s after the first.
+  std::size_t tick_at(double seconds) const noexcept;
+  /// s after the first tick.
   double time_s(std::size_t n) const noexcept;
 
-  const TickRecord& frame(std::size_t n) const { return recording_.frames[n]; }
+  const TickRecord& tick(std::size_t n) const { return recording_.ticks[n]; }
   std::span<const PrimitiveRecord> shares(std::size_t n) const;
   const modes::Scene& scene(std::size_t n) const;
-  /// Of the scene's structures those whose distances the frame tells, in that order.
+  /// Those of the scene's structures whose distances the tick records, in the record's order.
   const std::vector<std::size_t>& structures(std::size_t n) const { return setting(n).structures; }
-  /// Where the hand's reach was; on its way while a change of the scene was.
+  /// Where the hand's reach was. During a change of scene it moves from one place to the other.
   modes::Workspace workspace(std::size_t n) const;
-  // mm and N, patient space (LPS). The force is what the stylus was fed.
+  // mm and N, patient space (LPS). The force is the one sent to the stylus.
   glm::dvec3 probe_mm(std::size_t n) const;
   glm::dvec3 proxy_mm(std::size_t n) const;
   glm::dvec3 sent_n(std::size_t n) const;
 
-  /// Frames that are not here: they felt another scan.
+  /// Ticks that were left out because they felt another scan.
   std::size_t elsewhere() const noexcept { return elsewhere_; }
 
  private:
@@ -51,10 +51,10 @@ class RecordedSession {
     std::vector<std::size_t> structures;
     modes::Workspace workspace, before;
   };
-  const Setting& setting(std::size_t n) const { return settings_.at(recording_.frames[n].scene_epoch); }
+  const Setting& setting(std::size_t n) const { return settings_.at(recording_.ticks[n].scene_epoch); }
 
   Recording recording_;
-  std::vector<std::size_t> first_share_;  // of each frame
+  std::vector<std::size_t> first_share_;  // of each tick
   std::map<std::uint32_t, Setting> settings_;
   std::size_t elsewhere_ = 0;
 };

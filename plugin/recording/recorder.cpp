@@ -12,7 +12,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto between_batches = std::chrono::milliseconds(20);
 constexpr auto between_flushes = std::chrono::seconds(1);
-constexpr std::uint64_t most_of_batch = 4096;  // frames: bounds memory, and the time until an end is noticed
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t most_of_batch = 4096;  // ticks: bounds memory, and the time until an end is noticed
 
 }  // namespace
 
@@ -21,7 +22,7 @@ Recorder::Recorder(const TickRing& ring, std::filesystem::path file, const Recor
     : ring_(ring),
       options_(std::move(options)),
       file_(std::move(file)),
-      next_(options_.first_frame.value_or(ring.written())),
+      next_(options_.first_tick.value_or(ring.written())),
       writer_(file_, header),
       thread_([this] { run(); }) {}
 
@@ -31,9 +32,12 @@ Recorder::~Recorder() {
   }
 }
 
-void Recorder::note(const SceneRecord& scene) {
+void Recorder::note(const SceneRecord& scene, KnownTo known_to) {
   const std::lock_guard lock(mutex_);
-  events_.emplace_back([scene](RecordingWriter& writer) { writer.append(scene); });
+  events_.emplace_back([this, scene, known_to = std::move(known_to)](RecordingWriter& writer) {
+    writer.append(scene);
+    known_to_[scene.epoch] = known_to;
+  });
 }
 
 void Recorder::note(const StylusRecord& stylus) {
@@ -108,6 +112,7 @@ bool Recorder::has_room() const {
 
 /// False where there was nothing to write.
 bool Recorder::write_batch() {
+  const std::uint64_t written = ring_.written();  // first: the scenes of these ticks are among the events
   std::vector<std::function<void(RecordingWriter&)>> events;
   std::uint64_t end = 0;
   {
@@ -116,7 +121,7 @@ bool Recorder::write_batch() {
     end = end_;
   }
   const std::uint64_t begin = next();
-  const std::uint64_t until = std::min({ring_.written(), begin + most_of_batch, end});
+  const std::uint64_t until = std::min({written, begin + most_of_batch, end});
   if (events.empty() && until == begin) {
     return false;
   }
@@ -126,42 +131,53 @@ bool Recorder::write_batch() {
   for (const auto& event : events) {
     event(writer_);
   }
-  write_frames(until);
+  write_ticks(until);
   return true;
 }
 
-void Recorder::write_frames(std::uint64_t until) {
-  frames_.clear();
+void Recorder::write_ticks(std::uint64_t until) {
+  ticks_.clear();
   shares_.clear();
+  known_to_mm_.clear();
   Gap gap;
-  TickRecord frame;
+  TickRecord tick;
   std::uint64_t n = next();
-  // A lost frame of the ring has no number to tell: its place in the file does.
-  const auto lose = [&](std::uint64_t frames) {
-    if (gap.frames == 0) {
-      gap.first_frame = n;
+  // A lost tick of the ring has no number to tell: its place in the file does.
+  const auto lose = [&](std::uint64_t ticks) {
+    if (gap.ticks == 0) {
+      gap.first_tick = n;
     }
-    gap.frames += frames;
+    gap.ticks += ticks;
   };
   if (ring_.oldest() > n) {
     lose(std::min(ring_.oldest(), until) - n);
-    n += gap.frames;
+    n += gap.ticks;
   }
   for (; n < until; ++n) {
-    if (ring_.read(n, frame, &shares_)) {
-      frames_.push_back(frame);
+    const std::size_t first_share = shares_.size();
+    if (ring_.read(n, tick, &shares_)) {
+      ticks_.push_back(tick);
+      const bool is_behind = ring_.written() - n > options_.most_behind;
+      known_to_mm_.push_back(is_behind ? not_known : known_to(tick, std::span(shares_).subspan(first_share)));
     } else {
       lose(1);
     }
   }
-  writer_.append(frames_, shares_);
-  if (gap.frames > 0) {
+  writer_.append(ticks_, shares_, known_to_mm_);
+  // The scans of scenes that are over are not to be held.
+  if (!ticks_.empty()) known_to_.erase(known_to_.begin(), known_to_.lower_bound(ticks_.back().scene_epoch));
+  if (gap.ticks > 0) {
     writer_.append(gap);
   }
   next_.store(until, std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
-  status_.written += frames_.size();
-  status_.lost += gap.frames;
+  status_.written += ticks_.size();
+  status_.lost += gap.ticks;
+}
+
+double Recorder::known_to(const TickRecord& tick, std::span<const PrimitiveRecord> shares) const {
+  const auto scene = known_to_.find(tick.scene_epoch);
+  return scene == known_to_.end() || !scene->second ? not_known : scene->second(tick, shares);
 }
 
 void Recorder::stop(const Text& why) {

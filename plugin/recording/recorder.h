@@ -1,9 +1,9 @@
 #pragma once
 
-/// Records a session while it runs: a thread of its own takes the frames from the ring and writes them. The servo never
-/// waits for it. A disk that is slow costs nothing until the ring has gone round (TickRing::default_frames: 65 s at 1
-/// kHz); what is lost beyond that is counted and marked in the file. A disk that is full, or gone, ends the recording
-/// and not the session; what was flushed (once a second) stays readable.
+/// Records a session while it runs: a separate thread takes the ticks from the ring and writes them. The servo never
+/// waits for it. A slow disk costs nothing until the ring has gone round (TickRing::default_ticks: 65 s at 1 kHz);
+/// ticks lost after that are counted, and the loss is marked in the file. If the disk is full or gone, the recording
+/// ends but the session goes on; what was flushed (once a second) stays readable.
 
 #include <atomic>
 #include <condition_variable>
@@ -11,9 +11,11 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,51 +27,59 @@
 namespace palpate::plugin {
 
 struct RecorderOptions {
-  std::uintmax_t spare_bytes = 64U << 20U;   ///< room on the disk that is left to others: recording ends before that
-  std::optional<std::uint64_t> first_frame;  ///< of the ring; by default the next that it gets
-  /// Called by the recording thread before each batch is written; tests make a disk slow with it.
+  std::uintmax_t spare_bytes = 64U << 20U;  ///< of the disk, kept free for others: recording ends before that
+  std::optional<std::uint64_t> first_tick;  ///< of the ring; by default the next that it gets
+  /// Ticks that the recording thread reaches later than this are recorded without KnownTo. Otherwise, after a slow
+  /// disk, fields would be computed where the stylus was long ago.
+  std::uint64_t most_behind = 250;
+  /// Called by the recording thread before each batch is written. Tests use it to make a disk slow.
   std::function<void()> before_write;
 };
 
+/// How precisely the place of the boundary that holds the proxy is known in a tick with these shares, mm
+/// (Recording::known_to_mm); NaN if no boundary holds it. Called by the recording thread.
+using KnownTo = std::function<double(const TickRecord& tick, std::span<const PrimitiveRecord> shares)>;
+
 struct RecorderStatus {
-  std::uint64_t written = 0;  ///< frames
-  std::uint64_t lost = 0;     ///< frames
-  bool stopped = false;       ///< early: `why` says so for the user
+  std::uint64_t written = 0;  ///< ticks
+  std::uint64_t lost = 0;     ///< ticks
+  bool stopped = false;       ///< before finish(): `why` tells the user the reason
   Text why;
 };
 
 class Recorder {
  public:
-  /// Records what the ring gets from now on to the file, which is `<file>.partial` until finish(). The ring has to
-  /// outlive the recorder. Throws std::runtime_error naming the file where it cannot be made.
+  /// Records what the ring gets from now on. The file is named `<file>.partial` until finish(). The ring must outlive
+  /// the recorder. Throws std::runtime_error that names the file if it cannot be created.
   Recorder(const TickRing& ring, std::filesystem::path file, const RecordingHeader& header,
            RecorderOptions options = {});
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
-  /// As finish(), but silent.
+  /// As finish(), without reporting errors.
   ~Recorder();
 
-  // From the controlling thread: what the session was given, before it is published.
-  void note(const SceneRecord& scene);
+  // Called by the controlling thread: what it is about to publish to the session.
+  void note(const SceneRecord& scene, KnownTo known_to = {});
   void note(const StylusRecord& stylus);
 
-  /// Frames that the ring holds and the file does not yet.
+  /// Ticks that are in the ring and not yet in the file.
   std::uint64_t backlog() const noexcept;
-  /// The frame of the ring that is to be written next.
+  /// The tick of the ring that will be written next.
   std::uint64_t next() const noexcept { return next_.load(std::memory_order_relaxed); }
-  /// For a session that does not run at the clock's pace: waits until half of the ring is free.
+  /// For a session that runs faster than the clock: waits until half of the ring is free.
   void wait_for_room();
   RecorderStatus status() const;
 
-  /// Writes what is left in the ring and closes the file; frames that come meanwhile belong to the next recorder, whose
-  /// RecorderOptions::first_frame is next(). Once.
+  /// Writes what is left in the ring and closes the file. Ticks that come meanwhile belong to the next recorder, whose
+  /// RecorderOptions::first_tick is next(). Call it once.
   RecorderStatus finish();
 
  private:
   void run();
   bool write_batch();
   bool has_room() const;
-  void write_frames(std::uint64_t until);
+  void write_ticks(std::uint64_t until);
+  double known_to(const TickRecord& tick, std::span<const PrimitiveRecord> shares) const;
   void stop(const Text& why);
 
   const TickRing& ring_;
@@ -80,12 +90,14 @@ class Recorder {
   std::vector<std::function<void(RecordingWriter&)>> events_;
   RecorderStatus status_;
   bool ending_ = false;
-  std::uint64_t end_ = std::numeric_limits<std::uint64_t>::max();  ///< frames from here on are another recorder's
-  std::atomic<std::uint64_t> next_;                                // frame of the ring
+  std::uint64_t end_ = std::numeric_limits<std::uint64_t>::max();  ///< ticks from here on are another recorder's
+  std::atomic<std::uint64_t> next_;                                // tick of the ring
   // The recording thread's.
   RecordingWriter writer_;
-  std::vector<TickRecord> frames_;
+  std::vector<TickRecord> ticks_;
   std::vector<PrimitiveRecord> shares_;
+  std::vector<double> known_to_mm_;
+  std::map<std::uint32_t, KnownTo> known_to_;  // by the epoch of the scene
   std::thread thread_;
 };
 

@@ -6,8 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <memory>
 #include <thread>
 
 #include "plugin/testing/session_rig.h"
@@ -18,23 +21,23 @@ namespace {
 using namespace testing;
 
 TickRecord numbered(std::uint64_t n) {
-  TickRecord frame;
-  frame.index = n;
-  frame.time_s = 1e-3 * static_cast<double>(n);
-  frame.share_count = 1;
-  return frame;
+  TickRecord tick;
+  tick.index = n;
+  tick.time_s = 1e-3 * static_cast<double>(n);
+  tick.share_count = 1;
+  return tick;
 }
 
 void push(TickRing& ring, std::uint64_t first, std::uint64_t count) {
   for (std::uint64_t n = first; n < first + count; ++n) {
-    const PrimitiveRecord share{.frame = n};
+    const PrimitiveRecord share{.tick = n};
     ring.push(numbered(n), {&share, 1});
   }
 }
 
 const RecordingHeader header{.palpate_version = "1.2.3", .device = "simulated", .scan_hash = "0123456789abcdef"};
 
-TEST(Recorder, WritesEveryFrameInOrderWithWhatTheSessionWasGiven) {
+TEST(Recorder, WritesEveryTickInOrderWithWhatTheSessionWasGiven) {
   const auto file = fresh_path("all.h5");
   TickRing ring(1024);
   Recorder recorder(ring, file, header);
@@ -49,10 +52,10 @@ TEST(Recorder, WritesEveryFrameInOrderWithWhatTheSessionWasGiven) {
   EXPECT_EQ(status.lost, 0U);
   const Recording recording = read_recording(file);
   EXPECT_TRUE(recording.complete);
-  ASSERT_EQ(recording.frames.size(), 20000U);
+  ASSERT_EQ(recording.ticks.size(), 20000U);
   for (std::uint64_t n = 0; n < 20000; ++n) {
-    ASSERT_EQ(recording.frames[n].index, n);
-    ASSERT_EQ(recording.shares[n].frame, n);
+    ASSERT_EQ(recording.ticks[n].index, n);
+    ASSERT_EQ(recording.shares[n].tick, n);
   }
   ASSERT_EQ(recording.scenes.size(), 1U);
   EXPECT_EQ(recording.scenes[0].scene, R"({"a":"ü\n"})");
@@ -60,6 +63,57 @@ TEST(Recorder, WritesEveryFrameInOrderWithWhatTheSessionWasGiven) {
   ASSERT_EQ(recording.styluses.size(), 1U);
   EXPECT_EQ(recording.styluses[0].name, "falcon");
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".partial"));
+}
+
+/// Each tick is asked of with its own shares, of the scene that it felt; one that is over is let go of.
+TEST(Recorder, EachTickHasWhatIsKnownOfItsBoundary) {
+  const auto file = fresh_path("known.h5");
+  TickRing ring(1024);
+  Recorder recorder(ring, file, header, {.most_behind = 1024});
+  const auto first_scan = std::make_shared<int>(0), second_scan = std::make_shared<int>(0);
+  recorder.note(SceneRecord{.epoch = 0}, [first_scan](const TickRecord& tick, auto shares) {
+    return shares.size() == 1 && shares[0].tick == tick.index ? 0.5 : -1;
+  });
+  push(ring, 0, 100);
+  recorder.note(SceneRecord{.epoch = 1},
+                [second_scan](const TickRecord& tick, auto) { return static_cast<double>(tick.index); });
+  for (std::uint64_t n = 100; n < 200; ++n) {
+    TickRecord tick = numbered(n);
+    tick.scene_epoch = 1;
+    const PrimitiveRecord share{.tick = n};
+    ring.push(tick, {&share, 1});
+  }
+  for (int n = 0; n < 1000 && recorder.backlog() > 0; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(first_scan.use_count(), 1) << "no tick of it comes any more";
+  EXPECT_GT(second_scan.use_count(), 1);
+  recorder.finish();
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.known_to_mm.size(), 200U);
+  for (std::size_t n = 0; n < 100; ++n) ASSERT_EQ(recording.known_to_mm[n], 0.5) << n;
+  for (std::size_t n = 100; n < 200; ++n) ASSERT_EQ(recording.known_to_mm[n], static_cast<double>(n));
+}
+
+TEST(Recorder, WhatItReachesTooLateIsRecordedWithoutTheFieldsBeingAsked) {
+  const auto file = fresh_path("late.h5");
+  TickRing ring(1024);
+  int asked = 0;
+  std::atomic<bool> pushed{false};
+  const auto wait = [&pushed] {
+    while (!pushed) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  Recorder recorder(ring, file, header, {.most_behind = 100, .before_write = wait});
+  recorder.note(SceneRecord{.epoch = 0}, [&asked](const TickRecord&, auto) {
+    ++asked;
+    return 0.25;
+  });
+  push(ring, 0, 600);
+  pushed = true;
+  recorder.finish();
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.ticks.size(), 600U);
+  EXPECT_EQ(asked, 100);
+  EXPECT_TRUE(std::isnan(recording.known_to_mm[499]));
+  EXPECT_EQ(recording.known_to_mm[500], 0.25);
 }
 
 TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
@@ -82,19 +136,19 @@ TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
   EXPECT_EQ(status.written + status.lost, 4034U);
   EXPECT_GE(status.lost, 4034U - 1024U - 1024U - 10U);
   const Recording recording = read_recording(file);
-  EXPECT_EQ(recording.frames.size(), status.written);
+  EXPECT_EQ(recording.ticks.size(), status.written);
   ASSERT_FALSE(recording.gaps.empty());
   std::uint64_t marked = 0;
-  for (const Gap& gap : recording.gaps) marked += gap.frames;
+  for (const Gap& gap : recording.gaps) marked += gap.ticks;
   EXPECT_EQ(marked, status.lost);
   // Every number is in the file or in a gap.
   std::uint64_t next = 0;
-  for (const TickRecord& frame : recording.frames) {
-    for (const Gap& gap : recording.gaps) next += gap.first_frame == next ? gap.frames : 0;
-    ASSERT_EQ(frame.index, next);
+  for (const TickRecord& tick : recording.ticks) {
+    for (const Gap& gap : recording.gaps) next += gap.first_tick == next ? gap.ticks : 0;
+    ASSERT_EQ(tick.index, next);
     ++next;
   }
-  EXPECT_EQ(recording.frames.back().index, 4033U);
+  EXPECT_EQ(recording.ticks.back().index, 4033U);
 }
 
 TEST(Recorder, LittleRoomOnTheDiskEndsTheRecordingInGoodOrder) {
@@ -123,12 +177,12 @@ TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
     for (int i = 0; i < 1000 && !recorder.status().stopped; ++i) {
       recorder.wait_for_room();
       for (std::uint64_t k = 0; k < 1000; ++k, ++n) {
-        TickRecord frame = numbered(n);
-        frame.share_count = 0;
-        frame.value = static_cast<double>(n * 0x9E3779B97F4A7C15U);  // does not pack well
-        frame.force_n[0] = frame.value * 1.37;
-        frame.force_n[1] = frame.value / 3;
-        ring.push(frame, {});
+        TickRecord tick = numbered(n);
+        tick.share_count = 0;
+        tick.value = static_cast<double>(n * 0x9E3779B97F4A7C15U);  // does not pack well
+        tick.force_n[0] = tick.value * 1.37;
+        tick.force_n[1] = tick.value / 3;
+        ring.push(tick, {});
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -141,7 +195,7 @@ TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
   EXPECT_EQ(WEXITSTATUS(exit_status), 0);
   const Recording recording = read_recording(file.string() + ".partial");
   EXPECT_FALSE(recording.complete);
-  for (std::uint64_t n = 0; n < recording.frames.size(); ++n) ASSERT_EQ(recording.frames[n].index, n);
+  for (std::uint64_t n = 0; n < recording.ticks.size(); ++n) ASSERT_EQ(recording.ticks[n].index, n);
 }
 
 TEST(Recorder, AfterACrashWhatWasFlushedCanBeRead) {
@@ -167,10 +221,10 @@ TEST(Recorder, AfterACrashWhatWasFlushedCanBeRead) {
   waitpid(child, nullptr, 0);
   const Recording recording = read_recording(file.string() + ".partial");
   EXPECT_FALSE(recording.complete);
-  EXPECT_GT(recording.frames.size(), 5000U) << "two and a half seconds, flushed every second";
-  EXPECT_EQ(recording.frames.size(), recording.shares.size());
+  EXPECT_GT(recording.ticks.size(), 5000U) << "two and a half seconds, flushed every second";
+  EXPECT_EQ(recording.ticks.size(), recording.shares.size());
   EXPECT_EQ(recording.scenes.size(), 1U);
-  for (std::uint64_t n = 0; n < recording.frames.size(); ++n) ASSERT_EQ(recording.frames[n].index, n);
+  for (std::uint64_t n = 0; n < recording.ticks.size(); ++n) ASSERT_EQ(recording.ticks[n].index, n);
 }
 
 }  // namespace

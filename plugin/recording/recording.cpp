@@ -1,6 +1,7 @@
 #include "plugin/recording/recording.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "plugin/messages/messages.h"
@@ -43,19 +44,20 @@ Handle open(const std::filesystem::path& file, bool& complete) {
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose, "open-it-as-a-recording"};
 }
 
-/// Where the writer died between two tables, only frames with all their shares count.
-void keep_whole_frames(Recording& recording) {
+/// Where the writer died between two tables, only ticks with all their shares count.
+void keep_whole_ticks(Recording& recording) {
   std::size_t shares = 0;
-  std::size_t frames = 0;
-  for (; frames < recording.frames.size(); ++frames) {
-    const std::size_t with_it = shares + recording.frames[frames].share_count;
+  std::size_t ticks = 0;
+  for (; ticks < recording.ticks.size(); ++ticks) {
+    const std::size_t with_it = shares + recording.ticks[ticks].share_count;
     if (with_it > recording.shares.size()) {
       break;
     }
     shares = with_it;
   }
-  recording.frames.resize(frames);
+  recording.ticks.resize(ticks);
   recording.shares.resize(shares);
+  if (!recording.known_to_mm.empty()) recording.known_to_mm.resize(ticks, std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
@@ -75,7 +77,7 @@ void write_recording(const Recording& recording, const std::filesystem::path& fi
     for (const Gap& gap : recording.gaps) {
       writer.append(gap);
     }
-    writer.append(recording.frames, recording.shares);
+    writer.append(recording.ticks, recording.shares, recording.known_to_mm);
     writer.finish();
   } catch (...) {
     writer.abandon();
@@ -95,10 +97,13 @@ Recording read_recording(const std::filesystem::path& file) {
     recording.header.scan_hash = read_text(input, "scan_hash");
     recording.header.seed = std::stod(read_text(input, "seed"));
     recording.header.rate_hz = std::stod(read_text(input, "rate_hz"));
-    // Frames first: what a writer adds meanwhile is shares of later ones.
-    recording.frames = read_table<TickRecord>(input, "frames", frame_row_type());
+    // Ticks first: what a writer adds meanwhile is shares of later ones.
+    recording.ticks = read_table<TickRecord>(input, "frames", tick_row_type());
     recording.shares = read_table<PrimitiveRecord>(input, "shares", share_row_type());
-    keep_whole_frames(recording);
+    if (H5Lexists(input, "known_to_mm", H5P_DEFAULT) > 0) {
+      recording.known_to_mm = read_table<double>(input, "known_to_mm", known_to_row_type());
+    }
+    keep_whole_ticks(recording);
     const Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "read-what-is-in-it");
     const auto events = read_table<char>(input, "events", byte);
     read_events({events.data(), events.size()}, recording);
@@ -109,6 +114,24 @@ Recording read_recording(const std::filesystem::path& file) {
   } catch (const std::exception& error) {
     throw Refusal(say("cannot-read-the-recording", file.string(), error.what()));
   }
+}
+
+std::vector<RegisteredStructure> registered_of(const Recording& recording) {
+  std::vector<RegisteredStructure> registered;
+  for (const SceneRecord& scene : recording.scenes) {
+    for (const RegisteredStructure& one : scene.registered) {
+      if (std::ranges::find(registered, one) == registered.end()) registered.push_back(one);
+    }
+  }
+  return registered;
+}
+
+std::vector<ScanFrame> scan_frames_of(const Recording& recording) {
+  std::vector<ScanFrame> frames;
+  for (const SceneRecord& scene : recording.scenes) {
+    if (scene.frame && std::ranges::find(frames, *scene.frame) == frames.end()) frames.push_back(*scene.frame);
+  }
+  return frames;
 }
 
 }  // namespace palpate::plugin

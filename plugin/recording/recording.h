@@ -1,23 +1,26 @@
 #pragma once
 
-/// A session in a file: HDF5, so that NumPy, MATLAB, R and ParaView's users read it without us, tables grow as they are
-/// written, and columns that hardly change cost little; in its single-writer mode (SWMR), in which what is in the file
-/// can be read at any moment, also after a crash.
+/// A session in an HDF5 file. NumPy, MATLAB, R and ParaView's users can read it without Palpate; tables grow as they
+/// are written; columns that hardly change take little room. The file is written in HDF5's single-writer mode (SWMR),
+/// so that its content can be read at any moment, also after a crash.
 ///
 ///   /frames   one row a tick: the members of TickRecord
 ///   /shares   one row a primitive and tick: the members of PrimitiveRecord
-///   /events   lines of JSON: scenes as they came, styluses, and frames that were lost
+///   /known_to_mm   one number a tick: how precisely the place of the boundary that holds the proxy is known
+///   /events   lines of JSON: scenes, styluses, and ticks that were lost, in the order in which they came
 ///   /palpate_version, /device, /scan_hash, /seed, /rate_hz   texts
 ///
-/// No patient's name or identifier and no path goes into it; the scan is named by a hash of its voxels and geometry,
-/// the file of a structure by one of its content.
+/// The file holds no patient's name or identifier and no path. A scan is named by a hash of its voxels and geometry,
+/// and the file of a structure or registration by a hash of its content.
 
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "plugin/session/registered_structure.h"
 #include "plugin/session/tick_record.h"
 
 namespace palpate::plugin {
@@ -31,7 +34,15 @@ struct RecordingHeader {
   double rate_hz = 1000;
 };
 
-/// A scene as it was published, with all that is needed to make its Snapshot again.
+/// Which frame was felt, of a series with several images at a position.
+struct ScanFrame {
+  int number = 0;  ///< from 0
+  int count = 1;
+
+  bool operator==(const ScanFrame&) const = default;
+};
+
+/// A scene as it was published, with everything that is needed to make its Snapshot again.
 struct SceneRecord {
   std::uint32_t epoch = 0;  ///< TickRecord::scene_epoch
   std::string scene;        ///< JSON
@@ -39,8 +50,11 @@ struct SceneRecord {
   glm::dvec3 half_extent_m{0};   ///< of the stylus that the workspace was placed for
   double maximum_force_n = 1e9;  ///< of that stylus
   double change_s = 0.5;         ///< how long the change to it took
-  /// Names of those whose distances the frames tell, in the order of TickRecord::distance_mm.
+  /// Names of those whose distances the ticks tell, in the order of TickRecord::distance_mm.
   std::vector<std::string> structures = {};
+  /// Those of them that a registration put on the scan. Empty in recordings of versions before 0.2.0, too.
+  std::vector<RegisteredStructure> registered = {};
+  std::optional<ScanFrame> frame = std::nullopt;  ///< none: recorded by a version that did not tell, before 0.2.0
 };
 
 struct StylusRecord {
@@ -50,30 +64,42 @@ struct StylusRecord {
   double maximum_force_n = 1e9;
 };
 
-/// Frames that the recorder did not get: the disk was slower for longer than the ring holds.
+/// Ticks that the recorder missed: the disk was slow for longer than the ring can hold.
 struct Gap {
-  std::uint64_t first_frame = 0;
-  std::uint64_t frames = 0;
+  std::uint64_t first_tick = 0;
+  std::uint64_t ticks = 0;
 };
 
 struct Recording {
   RecordingHeader header;
-  std::vector<TickRecord> frames;
-  std::vector<PrimitiveRecord> shares;  ///< frame by frame, in the order of the primitives
+  std::vector<TickRecord> ticks;
+  std::vector<PrimitiveRecord> shares;  ///< tick by tick, in the order of the primitives
+  /// One a tick: the true boundary is within this of the proxy in 95 of 100 places, mm
+  /// (io/fields/boundary_uncertainty.h). NaN where no boundary of the scan holds the proxy, while a scene changes, and
+  /// where the recording thread was far behind. Empty: recorded by a version before 0.2.0.
+  std::vector<double> known_to_mm;
   std::vector<SceneRecord> scenes;
   std::vector<StylusRecord> styluses;
   std::vector<Gap> gaps;
-  bool complete = true;  ///< false: the file was not closed in good order; what was flushed is here
+  bool complete = true;  ///< false: the file was not closed properly; this is what was flushed
 };
 
-/// Writes beside the file and renames, so that nothing half-written is left. Throws std::runtime_error naming the file.
+/// Writes to a second file and renames it, so that no half-written file is left. Throws std::runtime_error that names
+/// the file.
 void write_recording(const Recording& recording, const std::filesystem::path& file);
 
-/// Also one that is still being written, or was when its writer died. Throws std::runtime_error naming the file and
-/// what is missing in it.
+/// Reads also a file that is still being written, or whose writer died. Throws std::runtime_error that names the file
+/// and what is missing in it.
 Recording read_recording(const std::filesystem::path& file);
 
-/// One line a frame, every member a column. Throws std::runtime_error naming the file.
+/// The frames of the series that were felt, each once, in the order in which they were first felt. Empty if the
+/// recording does not say.
+std::vector<ScanFrame> scan_frames_of(const Recording& recording);
+
+/// Which registrations put structures on the scan, each once.
+std::vector<RegisteredStructure> registered_of(const Recording& recording);
+
+/// One line a tick, every member a column. Throws std::runtime_error naming the file.
 void write_csv(const Recording& recording, const std::filesystem::path& file);
 
 }  // namespace palpate::plugin

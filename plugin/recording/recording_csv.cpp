@@ -11,6 +11,8 @@
 namespace palpate::plugin {
 namespace {
 
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
 template <std::size_t count, typename T>
 void print_all(fmt::ostream& out, const T (&values)[count]) {
   for (const T& value : values) {
@@ -18,7 +20,7 @@ void print_all(fmt::ostream& out, const T (&values)[count]) {
   }
 }
 
-/// Names of all structures of all scenes, and for each scene where each of them is in its frames.
+/// Names of all structures of all scenes, and for each scene where each of them is in its ticks.
 struct DistanceColumns {
   explicit DistanceColumns(const Recording& recording) {
     for (const SceneRecord& scene : recording.scenes) {
@@ -33,10 +35,10 @@ struct DistanceColumns {
       }
     }
   }
-  double of(const TickRecord& frame, std::size_t column) const {
-    const auto scene = place.find(frame.scene_epoch);
+  double of(const TickRecord& tick, std::size_t column) const {
+    const auto scene = place.find(tick.scene_epoch);
     const std::size_t n = scene == place.end() ? distance_count : scene->second[column];
-    return n < distance_count ? frame.distance_mm[n] : std::numeric_limits<double>::quiet_NaN();
+    return n < distance_count ? tick.distance_mm[n] : not_a_number;
   }
   std::vector<std::string> names;
   std::map<std::uint32_t, std::vector<std::size_t>> place;
@@ -63,23 +65,32 @@ void write_csv(const Recording& recording, const std::filesystem::path& file) tr
   for (const char* stage : stage_names) {
     out.print(",{}_ns", stage);
   }
+  out.print(",known_to_mm,scan_frame");
   const DistanceColumns distances(recording);
+  std::map<std::uint32_t, int> scan_frames;  // by epoch
+  for (const SceneRecord& scene : recording.scenes) {
+    if (scene.frame) scan_frames[scene.epoch] = scene.frame->number;
+  }
   for (const std::string& name : distances.names) out.print(",{}", quoted("distance_mm " + name));
   out.print("\n");
-  for (const TickRecord& frame : recording.frames) {
-    out.print("{},{},{},{},{}", frame.index, frame.time_s, frame.dt_s, frame.pose_time_s, frame.heartbeat_s);
-    print_all(out, frame.probe_m);
-    print_all(out, frame.proxy_m);
-    print_all(out, frame.force_n);
-    print_all(out, frame.sent_n);
-    out.print(",{},{},{},{}", frame.value, frame.residual_n, frame.error_bound_m, frame.change_part);
-    const std::uint32_t counts[] = {frame.scene_epoch, frame.sub_steps,  frame.halts,        frame.iterations,
-                                    frame.solver,      frame.outcome,    frame.safety,       frame.share_count,
-                                    frame.buttons,     frame.fresh,      frame.stylus_state, frame.stylus_epoch,
-                                    frame.commands,    frame.from_brick, frame.missed,       frame.late_ns};
+  for (std::size_t row = 0; row < recording.ticks.size(); ++row) {
+    const TickRecord& tick = recording.ticks[row];
+    out.print("{},{},{},{},{}", tick.index, tick.time_s, tick.dt_s, tick.pose_time_s, tick.heartbeat_s);
+    print_all(out, tick.probe_m);
+    print_all(out, tick.proxy_m);
+    print_all(out, tick.force_n);
+    print_all(out, tick.sent_n);
+    out.print(",{},{},{},{}", tick.value, tick.residual_n, tick.error_bound_m, tick.change_part);
+    const std::uint32_t counts[] = {tick.scene_epoch, tick.sub_steps,  tick.halts,        tick.iterations,
+                                    tick.solver,      tick.outcome,    tick.safety,       tick.share_count,
+                                    tick.buttons,     tick.fresh,      tick.stylus_state, tick.stylus_epoch,
+                                    tick.commands,    tick.from_brick, tick.missed,       tick.late_ns};
     print_all(out, counts);
-    print_all(out, frame.stage_ns);
-    for (std::size_t n = 0; n < distances.names.size(); ++n) out.print(",{}", distances.of(frame, n));
+    print_all(out, tick.stage_ns);
+    out.print(",{}", recording.known_to_mm.empty() ? not_a_number : recording.known_to_mm[row]);
+    const auto scan_frame = scan_frames.find(tick.scene_epoch);
+    out.print(",{}", scan_frame == scan_frames.end() ? std::string() : std::to_string(scan_frame->second));
+    for (std::size_t n = 0; n < distances.names.size(); ++n) out.print(",{}", distances.of(tick, n));
     out.print("\n");
   }
   out.close();

@@ -30,9 +30,34 @@ Handle make_row_type(std::size_t size, std::span<const Member> members) {
   return row;
 }
 
+/// With a matrix as DICOM writes it (FrameOfReferenceTransformationMatrix): row by row. JSON keeps every bit of a
+/// number.
+Json json_of(const RegisteredStructure& registered) {
+  Json matrix = Json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) matrix.push_back(registered.motion.turn[column][row]);
+    matrix.push_back(registered.motion.shift[row]);
+  }
+  for (const double last : {0.0, 0.0, 0.0, 1.0}) matrix.push_back(last);
+  return {{"structure", registered.structure}, {"file", registered.file_hash}, {"matrix", matrix}};
+}
+
+RegisteredStructure registered_structure(const Json& json) {
+  RegisteredStructure registered{.structure = json.at("structure"), .file_hash = json.at("file"), .motion = {}};
+  const Json& matrix = json.at("matrix");
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto axis = static_cast<int>(row);
+    for (std::size_t column = 0; column < 3; ++column) {
+      registered.motion.turn[static_cast<int>(column)][axis] = matrix.at(4 * row + column);
+    }
+    registered.motion.shift[axis] = matrix.at(4 * row + 3);
+  }
+  return registered;
+}
+
 }  // namespace
 
-Handle frame_row_type() {
+Handle tick_row_type() {
   const hid_t f64 = H5T_NATIVE_DOUBLE;
   const hid_t u32 = H5T_NATIVE_UINT32;
   const Member members[] = {{"index", offsetof(TickRecord, index), H5T_NATIVE_UINT64},
@@ -70,7 +95,7 @@ Handle frame_row_type() {
 }
 
 Handle share_row_type() {
-  const Member members[] = {{"frame", offsetof(PrimitiveRecord, frame), H5T_NATIVE_UINT64},
+  const Member members[] = {{"frame", offsetof(PrimitiveRecord, tick), H5T_NATIVE_UINT64},
                             {"mode", offsetof(PrimitiveRecord, mode), H5T_NATIVE_UINT32},
                             {"type", offsetof(PrimitiveRecord, type), H5T_NATIVE_UINT32},
                             {"strength_n", offsetof(PrimitiveRecord, strength_n), H5T_NATIVE_DOUBLE},
@@ -78,15 +103,21 @@ Handle share_row_type() {
   return make_row_type(sizeof(PrimitiveRecord), members);
 }
 
+Handle known_to_row_type() {
+  return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, "make-a-table"};
+}
+
 std::string to_line(const SceneRecord& scene) {
-  const Json json{{"kind", "scene"},
-                  {"epoch", scene.epoch},
-                  {"scan_hash", scene.scan_hash},
-                  {"half_extent_m", {scene.half_extent_m.x, scene.half_extent_m.y, scene.half_extent_m.z}},
-                  {"maximum_force_n", scene.maximum_force_n},
-                  {"change_s", scene.change_s},
-                  {"structures", scene.structures},
-                  {"scene", scene.scene}};
+  Json json{{"kind", "scene"},
+            {"epoch", scene.epoch},
+            {"scan_hash", scene.scan_hash},
+            {"half_extent_m", {scene.half_extent_m.x, scene.half_extent_m.y, scene.half_extent_m.z}},
+            {"maximum_force_n", scene.maximum_force_n},
+            {"change_s", scene.change_s},
+            {"structures", scene.structures},
+            {"scene", scene.scene}};
+  for (const RegisteredStructure& one : scene.registered) json["registered"].push_back(json_of(one));
+  if (scene.frame) json["frame"] = {{"number", scene.frame->number}, {"count", scene.frame->count}};
   return json.dump() + "\n";
 }
 
@@ -100,7 +131,7 @@ std::string to_line(const StylusRecord& stylus) {
 }
 
 std::string to_line(const Gap& gap) {
-  const Json json{{"kind", "gap"}, {"first_frame", gap.first_frame}, {"frames", gap.frames}};
+  const Json json{{"kind", "gap"}, {"first_frame", gap.first_tick}, {"frames", gap.ticks}};
   return json.dump() + "\n";
 }
 
@@ -119,13 +150,19 @@ void read_events(std::string_view lines, Recording& recording) {
            .maximum_force_n = json.at("maximum_force_n"),
            .change_s = json.value("change_s", SceneRecord{}.change_s),
            .structures = json.value("structures", std::vector<std::string>())});
+      for (const Json& one : json.value("registered", Json::array())) {
+        recording.scenes.back().registered.push_back(registered_structure(one));
+      }
+      if (const auto frame = json.find("frame"); frame != json.end()) {
+        recording.scenes.back().frame = {.number = frame->at("number"), .count = frame->at("count")};
+      }
     } else if (kind == "stylus") {
       recording.styluses.push_back({.epoch = json.at("epoch"),
                                     .name = json.at("name"),
                                     .force_axes = json.at("force_axes"),
                                     .maximum_force_n = json.at("maximum_force_n")});
     } else if (kind == "gap") {
-      recording.gaps.push_back({.first_frame = json.at("first_frame"), .frames = json.at("frames")});
+      recording.gaps.push_back({.first_tick = json.at("first_frame"), .ticks = json.at("frames")});
     }
   }
 }

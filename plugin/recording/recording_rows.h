@@ -1,6 +1,6 @@
 #pragma once
 
-/// The rows of a recording's tables, and its events as text: shared by who writes and who reads.
+/// The rows of a recording's tables, and its events as text: used by the writer and the reader.
 
 #include <string>
 #include <string_view>
@@ -10,15 +10,16 @@
 
 namespace palpate::plugin {
 
-hdf5::Handle frame_row_type();
+hdf5::Handle tick_row_type();
 hdf5::Handle share_row_type();
+hdf5::Handle known_to_row_type();
 
 /// One line of JSON, with its line feed.
 std::string to_line(const SceneRecord& scene);
 std::string to_line(const StylusRecord& stylus);
 std::string to_line(const Gap& gap);
-/// Adds what the lines say to the recording; a last line that is not whole is left out. Throws std::exception where a
-/// line is not what to_line() writes.
+/// Adds the events of the lines to the recording. An incomplete last line is left out. Throws std::exception if a line
+/// is not what to_line() writes.
 void read_events(std::string_view lines, Recording& recording);
 
 }  // namespace palpate::plugin

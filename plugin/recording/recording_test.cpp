@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <random>
 #include <sstream>
@@ -19,7 +21,7 @@ namespace {
 
 using testing::fresh_path;
 
-Recording random_recording(std::size_t frames) {
+Recording random_recording(std::size_t ticks) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   Recording recording;
@@ -28,20 +30,25 @@ Recording random_recording(std::size_t frames) {
                       .device = "simulated",
                       .scan_hash = "0123456789abcdef",
                       .seed = 42};
-  for (std::size_t n = 0; n < frames; ++n) {
-    TickRecord frame;
-    frame.index = n;
-    frame.time_s = 1e-3 * static_cast<double>(n);
-    frame.probe_m[1] = normal(random);
-    frame.sent_n[2] = normal(random) * 1e-300;
-    frame.value = n % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : normal(random);
-    frame.stage_ns[stage_count - 1] = static_cast<std::uint32_t>(random());
-    frame.share_count = static_cast<std::uint32_t>(n % 3);
-    for (std::uint32_t share = 0; share < frame.share_count; ++share) {
-      recording.shares.push_back({.frame = n, .mode = share, .type = 3, .strength_n = normal(random)});
+  for (std::size_t n = 0; n < ticks; ++n) {
+    TickRecord tick;
+    tick.index = n;
+    tick.time_s = 1e-3 * static_cast<double>(n);
+    tick.probe_m[1] = normal(random);
+    tick.sent_n[2] = normal(random) * 1e-300;
+    tick.value = n % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : normal(random);
+    tick.stage_ns[stage_count - 1] = static_cast<std::uint32_t>(random());
+    tick.share_count = static_cast<std::uint32_t>(n % 3);
+    for (std::uint32_t share = 0; share < tick.share_count; ++share) {
+      recording.shares.push_back({.tick = n, .mode = share, .type = 3, .strength_n = normal(random)});
     }
-    recording.frames.push_back(frame);
+    recording.ticks.push_back(tick);
+    recording.known_to_mm.push_back(n % 5 == 0 ? std::numeric_limits<double>::quiet_NaN() : std::abs(normal(random)));
   }
+  recording.scenes = {{.epoch = 0, .scene = recording.header.scene, .scan_hash = "a", .frame = ScanFrame{3, 17}},
+                      {.epoch = 1, .scene = recording.header.scene, .scan_hash = "b", .frame = ScanFrame{0, 17}},
+                      {.epoch = 2, .scene = recording.header.scene, .scan_hash = "a", .frame = ScanFrame{3, 17}},
+                      {.epoch = 3, .scene = recording.header.scene, .scan_hash = "c"}};
   return recording;
 }
 
@@ -53,15 +60,20 @@ TEST(Recording, ReadsBackToTheLastBit) {
   EXPECT_EQ(read.header.scene, written.header.scene);
   EXPECT_EQ(read.header.scan_hash, written.header.scan_hash);
   EXPECT_EQ(read.header.seed, written.header.seed);
-  ASSERT_EQ(read.frames.size(), written.frames.size());
+  ASSERT_EQ(read.ticks.size(), written.ticks.size());
   ASSERT_EQ(read.shares.size(), written.shares.size());
-  EXPECT_EQ(std::memcmp(read.frames.data(), written.frames.data(), sizeof(TickRecord) * read.frames.size()), 0);
+  EXPECT_EQ(std::memcmp(read.ticks.data(), written.ticks.data(), sizeof(TickRecord) * read.ticks.size()), 0);
   EXPECT_EQ(std::memcmp(read.shares.data(), written.shares.data(), sizeof(PrimitiveRecord) * read.shares.size()), 0);
+  ASSERT_EQ(read.known_to_mm.size(), written.known_to_mm.size());
+  EXPECT_EQ(std::memcmp(read.known_to_mm.data(), written.known_to_mm.data(), sizeof(double) * read.ticks.size()), 0);
+  ASSERT_EQ(read.scenes.size(), written.scenes.size());
+  for (std::size_t n = 0; n < read.scenes.size(); ++n) EXPECT_EQ(read.scenes[n].frame, written.scenes[n].frame) << n;
+  EXPECT_EQ(scan_frames_of(read), (std::vector<ScanFrame>{{3, 17}, {0, 17}}));
 }
 
 /// Each column holds the member that it is named after: every number here is another.
 TEST(Recording, ItsCsvHasEveryMemberUnderItsName) {
-  TickRecord frame;
+  TickRecord tick;
   std::map<std::string, std::string> expected;
   double number = 1000.5;
   const auto set = [&](const char* name, auto& member) {
@@ -74,40 +86,44 @@ TEST(Recording, ItsCsvHasEveryMemberUnderItsName) {
     set((name + "_y").c_str(), member[1]);
     set((name + "_z").c_str(), member[2]);
   };
-  set("index", frame.index);
-  set("time_s", frame.time_s);
-  set("dt_s", frame.dt_s);
-  set("pose_time_s", frame.pose_time_s);
-  set("heartbeat_s", frame.heartbeat_s);
-  set_vector("probe_m", frame.probe_m);
-  set_vector("proxy_m", frame.proxy_m);
-  set_vector("force_n", frame.force_n);
-  set_vector("sent_n", frame.sent_n);
-  set("value", frame.value);
-  set("residual_n", frame.residual_n);
-  set("error_bound_m", frame.error_bound_m);
-  set("change_part", frame.change_part);
-  set("scene_epoch", frame.scene_epoch);
-  set("sub_steps", frame.sub_steps);
-  set("halts", frame.halts);
-  set("iterations", frame.iterations);
-  set("solver", frame.solver);
-  set("outcome", frame.outcome);
-  set("safety", frame.safety);
-  set("share_count", frame.share_count);
-  set("buttons", frame.buttons);
-  set("fresh", frame.fresh);
-  set("stylus_state", frame.stylus_state);
-  set("stylus_epoch", frame.stylus_epoch);
-  set("commands", frame.commands);
-  set("from_brick", frame.from_brick);
-  set("missed", frame.missed);
-  set("late_ns", frame.late_ns);
+  set("index", tick.index);
+  set("time_s", tick.time_s);
+  set("dt_s", tick.dt_s);
+  set("pose_time_s", tick.pose_time_s);
+  set("heartbeat_s", tick.heartbeat_s);
+  set_vector("probe_m", tick.probe_m);
+  set_vector("proxy_m", tick.proxy_m);
+  set_vector("force_n", tick.force_n);
+  set_vector("sent_n", tick.sent_n);
+  set("value", tick.value);
+  set("residual_n", tick.residual_n);
+  set("error_bound_m", tick.error_bound_m);
+  set("change_part", tick.change_part);
+  set("scene_epoch", tick.scene_epoch);
+  set("sub_steps", tick.sub_steps);
+  set("halts", tick.halts);
+  set("iterations", tick.iterations);
+  set("solver", tick.solver);
+  set("outcome", tick.outcome);
+  set("safety", tick.safety);
+  set("share_count", tick.share_count);
+  set("buttons", tick.buttons);
+  set("fresh", tick.fresh);
+  set("stylus_state", tick.stylus_state);
+  set("stylus_epoch", tick.stylus_epoch);
+  set("commands", tick.commands);
+  set("from_brick", tick.from_brick);
+  set("missed", tick.missed);
+  set("late_ns", tick.late_ns);
   for (const char* stage : {"read", "map", "sample", "modes", "solve", "filter", "write", "observe"}) {
-    set((std::string(stage) + "_ns").c_str(), frame.stage_ns[expected.size() - 37]);
+    set((std::string(stage) + "_ns").c_str(), tick.stage_ns[expected.size() - 37]);
   }
   Recording recording;
-  recording.frames = {frame};
+  recording.ticks = {tick};
+  recording.known_to_mm = {0.375};
+  expected["known_to_mm"] = "0.375";
+  recording.scenes = {{.epoch = tick.scene_epoch, .frame = ScanFrame{2, 5}}};
+  expected["scan_frame"] = "2";
   const auto file = fresh_path("named.csv");
   write_csv(recording, file);
   std::ifstream lines(file);
@@ -124,7 +140,7 @@ TEST(Recording, ItsCsvHasEveryMemberUnderItsName) {
 TEST(Recording, AnEmptySessionIsARecordingToo) {
   const auto file = fresh_path("empty.h5");
   write_recording({}, file);
-  EXPECT_TRUE(read_recording(file).frames.empty());
+  EXPECT_TRUE(read_recording(file).ticks.empty());
 }
 
 TEST(Recording, LeavesNothingBehindWhereItCannotWrite) {

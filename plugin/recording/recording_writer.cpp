@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "plugin/messages/messages.h"
 #include "plugin/recording/recording_rows.h"
@@ -14,7 +16,7 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 
-constexpr hsize_t rows_of_chunk = 1024;  // 270 KB of frames: within HDF5's cache of a chunk, a second of a session
+constexpr hsize_t rows_of_chunk = 1024;  // 270 KB of ticks: within HDF5's cache of a chunk, a second of a session
 
 /// A text as a dataset, not an attribute: an attribute in the object's header may not pass 64 KiB.
 void write_text(hid_t file, const char* name, const std::string& text) {
@@ -76,14 +78,15 @@ struct RecordingWriter::File {
     write_text(file, "scan_hash", header.scan_hash);
     write_text(file, "seed", fmt::format("{}", header.seed));
     write_text(file, "rate_hz", fmt::format("{}", header.rate_hz));
-    frames = make_table(file, "frames", frame_row_type(), rows_of_chunk);
+    ticks = make_table(file, "frames", tick_row_type(), rows_of_chunk);
     shares = make_table(file, "shares", share_row_type(), 4 * rows_of_chunk);
+    known_to = make_table(file, "known_to_mm", known_to_row_type(), rows_of_chunk);
     Handle byte(H5Tcopy(H5T_NATIVE_UINT8), H5Tclose, "make-a-table");
     events = make_table(file, "events", std::move(byte), 16 * rows_of_chunk);
     check(H5Fstart_swmr_write(file), "let-the-file-be-read-while");
   }
   void forget() noexcept {
-    for (Table* table : {&frames, &shares, &events}) {
+    for (Table* table : {&ticks, &shares, &known_to, &events}) {
       table->data.forget();
       table->type.forget();
     }
@@ -91,7 +94,7 @@ struct RecordingWriter::File {
   }
 
   Handle file;
-  Table frames, shares, events;
+  Table ticks, shares, known_to, events;
 };
 
 namespace {
@@ -116,11 +119,15 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, const RecordingHead
 
 RecordingWriter::~RecordingWriter() = default;
 
-void RecordingWriter::append(std::span<const TickRecord> frames, std::span<const PrimitiveRecord> shares) {
+void RecordingWriter::append(std::span<const TickRecord> ticks, std::span<const PrimitiveRecord> shares,
+                             std::span<const double> known_to_mm) {
   naming(file_, [&] {
-    // In this order: a frame in the file has its shares there.
+    std::vector<double> known(known_to_mm.begin(), known_to_mm.end());
+    known.resize(ticks.size(), std::numeric_limits<double>::quiet_NaN());
+    // In this order: a tick in the file has its shares there.
     append_rows(open_->shares, shares.data(), shares.size());
-    append_rows(open_->frames, frames.data(), frames.size());
+    append_rows(open_->known_to, known.data(), known.size());
+    append_rows(open_->ticks, ticks.data(), ticks.size());
   });
 }
 
@@ -141,7 +148,7 @@ void RecordingWriter::append(const Gap& gap) {
 
 void RecordingWriter::flush() {
   naming(file_, [&] {
-    for (const Table* table : {&open_->events, &open_->shares, &open_->frames}) {
+    for (const Table* table : {&open_->events, &open_->shares, &open_->known_to, &open_->ticks}) {
       check(H5Dflush(table->data), "write-is-the-disk-full");
     }
   });

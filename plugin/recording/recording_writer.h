@@ -1,6 +1,6 @@
 #pragma once
 
-/// Writes a recording as it comes, so that what was flushed can be read whatever happens next.
+/// Writes a recording while it grows, so that what was flushed can be read whatever happens next.
 
 #include <filesystem>
 #include <memory>
@@ -10,24 +10,26 @@
 
 namespace palpate::plugin {
 
-/// Writes to `<file>.partial`. All of it throws std::runtime_error naming the file; after that only abandon() and the
-/// destructor may be called.
+/// Writes to `<file>.partial`. Every function throws std::runtime_error that names the file; after that only abandon()
+/// and the destructor may be called.
 class RecordingWriter {
  public:
   RecordingWriter(std::filesystem::path file, const RecordingHeader& header);
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
-  /// Closes; `<file>.partial` stays unless it was finished or removed.
+  /// Closes. `<file>.partial` stays unless finish() gave it its name or it was removed.
   ~RecordingWriter();
 
-  /// Whole frames with all their shares.
-  void append(std::span<const TickRecord> frames, std::span<const PrimitiveRecord> shares);
+  /// Appends whole ticks with all their shares, and for each tick how precisely the boundary is known
+  /// (Recording::known_to_mm). If that list is empty, it is not known in any of them.
+  void append(std::span<const TickRecord> ticks, std::span<const PrimitiveRecord> shares,
+              std::span<const double> known_to_mm = {});
   void append(const SceneRecord& scene);
   void append(const StylusRecord& stylus);
   void append(const Gap& gap);
-  /// From here on what was appended survives the process.
+  /// After this call, what was appended survives a crash of the process.
   void flush();
-  /// Closes the file in good order and gives it its name.
+  /// Closes the file properly and gives it its name.
   void finish();
   /// After a failure: leaves the file as it was when it was last flushed.
   void abandon() noexcept;

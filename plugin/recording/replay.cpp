@@ -21,16 +21,16 @@ struct Poses {
   std::vector<device::State> states;
 };
 
-Poses poses_of(std::span<const TickRecord> frames) {
+Poses poses_of(std::span<const TickRecord> ticks) {
   Poses poses;
-  poses.readings.reserve(frames.size());
-  poses.states.reserve(frames.size());
-  for (const TickRecord& frame : frames) {
-    poses.readings.push_back({.time = frame.pose_time_s,
-                              .position = vector_of(frame.probe_m),
-                              .buttons = frame.buttons,
-                              .fresh = frame.fresh != 0});
-    poses.states.push_back(static_cast<device::State>(frame.stylus_state));
+  poses.readings.reserve(ticks.size());
+  poses.states.reserve(ticks.size());
+  for (const TickRecord& tick : ticks) {
+    poses.readings.push_back({.time = tick.pose_time_s,
+                              .position = vector_of(tick.probe_m),
+                              .buttons = tick.buttons,
+                              .fresh = tick.fresh != 0});
+    poses.states.push_back(static_cast<device::State>(tick.stylus_state));
   }
   return poses;
 }
@@ -79,7 +79,7 @@ double apart(const double (&recorded)[3], const double (&repeated)[3]) {
 }
 
 void compare(const TickRecord& recorded, const TickRecord& repeated, Replay& result) {
-  ++result.frames;
+  ++result.ticks;
   if (!same_in_replay(recorded, repeated)) {
     ++result.different;
     result.first_different = result.first_different.value_or(recorded.index);
@@ -106,22 +106,22 @@ struct Replayer::Progress {
   std::vector<SceneRecord> scenes;
   std::vector<StylusRecord> styluses;
   double rate_hz = 1000;
-  std::uint64_t next = 0;  ///< index of the frame that comes next, unless some were lost
+  std::uint64_t next = 0;  ///< index of the tick that comes next, unless some were lost
   std::uint32_t scene_epoch = 0;
   std::uint32_t stylus_epoch = 0;
   std::optional<device::ReplayStylus> poses;
   std::unique_ptr<Session> session;
 };
 
-/// Asks of the session what was asked of it before the first of the coming frames.
+/// Asks of the session what was asked of it before the first of the coming ticks.
 void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
-  const TickRecord& frame = coming.front();
-  if (frame.scene_epoch != scene_epoch) {
+  const TickRecord& tick = coming.front();
+  if (tick.scene_epoch != scene_epoch) {
     // Some that were published were never taken; they have numbers, too.
-    const Snapshot taken = snapshot(frame.scene_epoch);
-    while (scene_epoch != frame.scene_epoch) scene_epoch = session->publish(taken);
+    const Snapshot taken = snapshot(tick.scene_epoch);
+    while (scene_epoch != tick.scene_epoch) scene_epoch = session->publish(taken);
   }
-  if ((frame.commands & command::change_stylus) != 0) {
+  if ((tick.commands & command::change_stylus) != 0) {
     const auto taken = std::find_if(coming.begin(), coming.end(),
                                     [&](const TickRecord& later) { return later.stylus_epoch != stylus_epoch; });
     // One that the recording ends before is as good as the one before it: nothing is read from it.
@@ -129,9 +129,9 @@ void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
     const std::uint32_t epoch = taken == coming.end() ? stylus_epoch + 1 : taken->stylus_epoch;
     while (stylus_epoch != epoch) stylus_epoch = session->change_stylus(changed);
   }
-  if ((frame.commands & command::clear_fault) != 0) session->clear_fault();
-  if ((frame.commands & command::disarm) != 0) session->disarm();
-  if ((frame.commands & command::arm) != 0) session->arm();
+  if ((tick.commands & command::clear_fault) != 0) session->clear_fault();
+  if ((tick.commands & command::disarm) != 0) session->disarm();
+  if ((tick.commands & command::arm) != 0) session->arm();
 }
 
 Replayer::Replayer(SnapshotMaker make_snapshot) : progress_(std::make_unique<Progress>()) {
@@ -150,31 +150,30 @@ void Replayer::feed(const Recording& part) {
   progress.styluses.insert(progress.styluses.end(), part.styluses.begin(), part.styluses.end());
   progress.rate_hz = part.header.rate_hz;
   std::size_t unbroken = 0;
-  while (unbroken < part.frames.size() && part.frames[unbroken].index == progress.next + unbroken) {
+  while (unbroken < part.ticks.size() && part.ticks[unbroken].index == progress.next + unbroken) {
     ++unbroken;
   }
-  const std::span<const TickRecord> frames = std::span(part.frames).first(unbroken);
+  const std::span<const TickRecord> ticks = std::span(part.ticks).first(unbroken);
   progress.next += unbroken;
-  progress.result.after_gap += part.frames.size() - unbroken;
-  if (frames.empty()) {
+  progress.result.after_gap += part.ticks.size() - unbroken;
+  if (ticks.empty()) {
     return;
   }
-  const Poses poses = poses_of(frames);
+  const Poses poses = poses_of(ticks);
   progress.poses.emplace(poses.readings, poses.states);
   progress.poses->open();
   if (!progress.session) {
     progress.session = std::make_unique<Session>(progress.snapshot(0), progress.stylus(0));
   }
-  for (std::size_t n = 0; n < frames.size(); ++n) {
-    const TickRecord& frame = frames[n];
-    progress.repeat_commands(frames.subspan(n));
-    compare(frame,
-            progress.session->tick({.time_s = frame.time_s,
-                                    .heartbeat_s = frame.heartbeat_s,
-                                    .missed = frame.missed,
-                                    .late_ns = frame.late_ns}),
-            progress.result);
-    progress.poses->write_force(vector_of(frame.sent_n));
+  for (std::size_t n = 0; n < ticks.size(); ++n) {
+    const TickRecord& tick = ticks[n];
+    progress.repeat_commands(ticks.subspan(n));
+    compare(
+        tick,
+        progress.session->tick(
+            {.time_s = tick.time_s, .heartbeat_s = tick.heartbeat_s, .missed = tick.missed, .late_ns = tick.late_ns}),
+        progress.result);
+    progress.poses->write_force(vector_of(tick.sent_n));
   }
   progress.session->collect();
   progress.poses.reset();

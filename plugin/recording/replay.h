@@ -1,7 +1,7 @@
 #pragma once
 
-/// A recorded session once more, frame by frame: the same poses, times, scenes and commands, and hence, on the same
-/// build, the same forces to the last bit.
+/// Repeats a recorded session, tick by tick: with the same poses, times, scenes and commands, and so, on the same
+/// build, with the same forces to the last bit.
 
 #include <cstdint>
 #include <functional>
@@ -13,21 +13,21 @@
 
 namespace palpate::plugin {
 
-/// Makes a recorded scene's snapshot again, from a scan with that hash. Throws where there is none, saying so.
+/// Makes a recorded scene's snapshot again, from a scan with that hash. Throws if there is no such scan.
 using SnapshotMaker = std::function<Snapshot(const SceneRecord&)>;
 
 struct Replay {
-  std::uint64_t frames = 0;                      ///< replayed
-  std::uint64_t different = 0;                   ///< that are not the same to the last bit (same_in_replay)
-  std::optional<std::uint64_t> first_different;  ///< index of the frame
+  std::uint64_t ticks = 0;                       ///< replayed
+  std::uint64_t different = 0;                   ///< ticks that differ in any bit (same_in_replay)
+  std::optional<std::uint64_t> first_different;  ///< index of the tick
   /// Largest distance between the recorded and the repeated proxy; infinity where one of them is not a number.
   double largest_proxy_m = 0;
   double largest_force_n = 0;   ///< the same of what was sent
-  double largest_bound_m = 0;   ///< largest sum of a frame's two certified bounds: what two builds may differ by
-  std::uint64_t after_gap = 0;  ///< frames that cannot be replayed, since some before them were lost
+  double largest_bound_m = 0;   ///< largest sum of a tick's two certified bounds: two builds may differ by as much
+  std::uint64_t after_gap = 0;  ///< ticks that cannot be replayed, since some before them were lost
 };
 
-/// Throws std::runtime_error where the recording has no scene or an event is missing, and what the maker throws.
+/// Throws std::runtime_error if the recording has no scene or if an event is missing, and what the maker throws.
 Replay replay(const Recording& recording, const SnapshotMaker& make_snapshot);
 
 /// The same of a recording in several files, one after the other.

@@ -64,8 +64,13 @@ std::vector<double> ticks_of(const Scale& scale, double apart) {
   const double count = std::max(2.0, std::abs(scale.to - scale.from) / apart);
   if (scale.logarithmic) {
     const double step = std::max(1.0, std::ceil((scale.high - scale.low) / count));
-    for (double decade = std::ceil(scale.low); decade <= scale.high + 1e-9; decade += step) {
-      ticks.push_back(std::pow(10.0, decade));
+    const bool has_room = count > 3 * (scale.high - scale.low);  // for 1, 2 and 5 of each decade
+    for (double decade = std::floor(scale.low); decade <= scale.high + 1e-9; decade += step) {
+      for (const double lead : {1.0, 2.0, 5.0}) {
+        const double at = decade + std::log10(lead);
+        const bool is_in = at >= scale.low - 1e-9 && at <= scale.high + 1e-9;
+        if (is_in && (lead == 1.0 || has_room)) ticks.push_back(lead * std::pow(10.0, decade));
+      }
     }
     return ticks;
   }
@@ -80,9 +85,7 @@ std::vector<double> ticks_of(const Scale& scale, double apart) {
 }
 
 std::string tick_label(const Scale& scale, double value) {
-  if (scale.logarithmic && (value < 1e-3 || value > 9999)) {
-    return fmt::format("1e{:.0f}", std::log10(value));
-  }
+  if (scale.logarithmic && (value < 1e-3 || value > 9999)) return fmt::format("{:.0e}", value);
   return fmt::format("{:.4g}", std::abs(value) < 1e-12 * (scale.high - scale.low) ? 0.0 : value);
 }
 
@@ -158,7 +161,7 @@ void draw_panel(Canvas& canvas, const Chart& chart, double top, double height, c
 
   if (style.titled) canvas.text({corner.x, corner.y - 12}, chart.title, style.text + 2);
   draw_bands(canvas, chart, x, y, style.text);
-  for (const double tick : ticks_of(x, 7 * style.text)) {
+  for (const double tick : chart.x.numbered ? ticks_of(x, 7 * style.text) : std::vector<double>()) {
     const double at = x.position(tick);
     canvas.line(std::array{Point{at, y.from}, Point{at, y.to}}, colors::light, 1);
     canvas.text({at, y.from + style.text + 4}, tick_label(x, tick), small, colors::black, Anchor::center);

@@ -17,6 +17,7 @@ struct Axis {
   bool logarithmic = false;
   std::optional<double> minimum = std::nullopt;  ///< chosen from the data where not given
   std::optional<double> maximum = std::nullopt;
+  bool numbered = true;  ///< false: of a panel whose bands are the things compared
 };
 
 struct Curve {

@@ -27,16 +27,16 @@ struct Step {
 /// Another step begins where the probe is farther than that from where the last one began.
 std::vector<Step> steps_of(const RecordedSession& session, double step_mm) {
   std::vector<Step> steps;
-  std::size_t frames = 0;
+  std::size_t ticks = 0;
   for (std::size_t n = 0; n < session.size(); ++n) {
     const glm::dvec3 place = session.probe_mm(n);
     if (steps.empty() || glm::distance(place, steps.back().place_mm) >= step_mm) {
       const double along = steps.empty() ? 0 : steps.back().along_mm + glm::distance(place, steps.back().place_mm);
       steps.push_back({place, along, 0});
-      frames = 0;
+      ticks = 0;
     }
-    ++frames;
-    steps.back().force_n += (glm::length(session.sent_n(n)) - steps.back().force_n) / static_cast<double>(frames);
+    ++ticks;
+    steps.back().force_n += (glm::length(session.sent_n(n)) - steps.back().force_n) / static_cast<double>(ticks);
   }
   return steps;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What two recordings felt on one stroke: the same way through the scan, whenever and however fast it was gone.
+/// Compares what two recordings felt on one stroke: the same way through the scan, at any time and any speed.
 
 #include <filesystem>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace palpate::plugin {
 
-/// A row a step of the first recording's way.
+/// One row for each step of the first recording's way.
 struct Comparison {
   std::vector<double> along_mm;           ///< way of the first recording's probe
   std::vector<double> first_n, second_n;  ///< force that the stylus was fed, there
@@ -22,11 +22,10 @@ struct Comparison {
   double mean_difference_n = 0;           ///< mean of its size over the way
 };
 
-/// The two ways are cut into steps of half a millimeter of the hand, which is more than it trembles, so that neither
-/// speed nor rest counts, and coupled in their order
-/// so that the sum of the squared distances of what is coupled is least (dynamic time warping: Sakoe and Chiba, IEEE
-/// Trans. ASSP 26, 1978). The force of a step is the mean over its frames; of several steps of the second that are
-/// coupled with one of the first, their mean.
+/// Both ways are cut into steps of half a millimeter of the hand. That is more than its tremor, so neither speed nor
+/// rest counts. The steps are matched in their order, so that the sum of the squared distances between matched steps is
+/// least (dynamic time warping: Sakoe and Chiba, IEEE Trans. ASSP 26, 1978). The force of a step is the mean over its
+/// ticks. If several steps of the second recording match one of the first, their mean is taken.
 Comparison compare_strokes(const RecordedSession& first, const RecordedSession& second);
 
 /// Both forces, their difference and how far the ways are apart, over the first one's way.
@@ -35,7 +34,7 @@ std::vector<Chart> charts_of(const Comparison& comparison, const std::string& fi
 /// A line a step. Throws std::runtime_error naming the file.
 void write_csv(const Comparison& comparison, const std::filesystem::path& file);
 
-/// In a sentence or two, for a person.
+/// The result in a sentence or two.
 std::string in_words(const Comparison& comparison);
 
 }  // namespace palpate::plugin

@@ -64,23 +64,23 @@ TEST(RecordedSession, IsWhereTheHandWasInThePatient) {
   const auto volume = ball(25);
   const Recording recording = record(volume, {});
   const RecordedSession session(recording, *volume);
-  ASSERT_EQ(session.size(), recording.frames.size());
+  ASSERT_EQ(session.size(), recording.ticks.size());
   EXPECT_NEAR(session.duration_s(), 3, 0.01);
   const SceneRecord& record = recording.scenes.front();
   const modes::Workspace workspace =
       plan_for(modes::scene_from_json(record.scene, "test"), *volume, record.half_extent_m)->workspace;
   std::size_t shares = 0;
   for (std::size_t n = 0; n < session.size(); ++n) {
-    const auto& probe = recording.frames[n].probe_m;
+    const auto& probe = recording.ticks[n].probe_m;
     ASSERT_EQ(session.probe_mm(n), workspace.to_patient({probe[0], probe[1], probe[2]}));
-    for (const PrimitiveRecord& share : session.shares(n)) ASSERT_EQ(share.frame, session.frame(n).index);
+    for (const PrimitiveRecord& share : session.shares(n)) ASSERT_EQ(share.tick, session.tick(n).index);
     shares += session.shares(n).size();
-    ASSERT_EQ(session.frame_at(session.time_s(n)), n);
+    ASSERT_EQ(session.tick_at(session.time_s(n)), n);
   }
   EXPECT_EQ(shares, recording.shares.size());
   EXPECT_GT(shares, 0U);
-  EXPECT_EQ(session.frame_at(-1), 0U);
-  EXPECT_EQ(session.frame_at(1e9), session.size() - 1);
+  EXPECT_EQ(session.tick_at(-1), 0U);
+  EXPECT_EQ(session.tick_at(1e9), session.size() - 1);
 }
 
 TEST(RecordedSession, IsOfTheScanThatWasFelt) {
@@ -93,12 +93,12 @@ TEST(RecordedSession, IsOfTheScanThatWasFelt) {
   other.epoch = 1;
   other.scan_hash = "0123456789abcdef";
   recording.scenes.push_back(other);
-  const std::size_t half = recording.frames.size() / 2;
-  for (std::size_t n = half; n < recording.frames.size(); ++n) recording.frames[n].scene_epoch = 1;
+  const std::size_t half = recording.ticks.size() / 2;
+  for (std::size_t n = half; n < recording.ticks.size(); ++n) recording.ticks[n].scene_epoch = 1;
   const RecordedSession session(recording, *volume);
   EXPECT_EQ(session.size(), half);
-  EXPECT_EQ(session.elsewhere(), recording.frames.size() - half);
-  recording.frames.clear();
+  EXPECT_EQ(session.elsewhere(), recording.ticks.size() - half);
+  recording.ticks.clear();
   recording.shares.clear();
   EXPECT_THAT([&] { RecordedSession(recording, *volume); }, ThrowsMessage<std::runtime_error>(HasSubstr("empty")));
 }
@@ -112,15 +112,32 @@ TEST(RecordedSession, GoesFromOneWorkspaceToTheNextAsTheSessionDid) {
   scene.workspace = {.center_mm = glm::dvec3(0, 10, 0), .fit = false};
   moved.scene = modes::to_json(scene);
   recording.scenes.push_back(moved);
-  const std::size_t half = recording.frames.size() / 2;
-  for (std::size_t n = half; n < recording.frames.size(); ++n) {
-    recording.frames[n].scene_epoch = 4;
-    recording.frames[n].change_part = n == half ? 0.25 : 1;
+  const std::size_t half = recording.ticks.size() / 2;
+  for (std::size_t n = half; n < recording.ticks.size(); ++n) {
+    recording.ticks[n].scene_epoch = 4;
+    recording.ticks[n].change_part = n == half ? 0.25 : 1;
   }
   const RecordedSession session(recording, *volume);
   const glm::dvec3 before = session.workspace(0).center_mm, after = session.workspace(half + 1).center_mm;
   EXPECT_NEAR(after.y, 10, 1e-9);
   EXPECT_NEAR(glm::distance(session.workspace(half).center_mm, glm::mix(before, after, 0.25)), 0, 1e-9);
+}
+
+/// What is sent is the coupling's pull from the probe to the proxy, in the patient as in the hand, in any direction.
+TEST(RecordedSession, ForcesPointFromTheProbeToTheProxyInThePatient) {
+  const auto volume = ball(25);
+  const RecordedSession session(record(volume, {.aside_m = 0.008}), *volume);
+  int compared = 0;
+  for (std::size_t n = 0; n < session.size(); ++n) {
+    const TickRecord& tick = session.tick(n);
+    const bool is_whole = glm::distance(vector_of(tick.sent_n), vector_of(tick.force_n)) == 0;
+    if (!is_whole || glm::length(vector_of(tick.sent_n)) < 0.1) continue;
+    const glm::dvec3 pull_mm = session.proxy_mm(n) - session.probe_mm(n);
+    const double stiffness_n_per_mm = session.scene(n).stiffness_n_per_m / session.workspace(n).mm_per_m;
+    ASSERT_LT(glm::distance(session.sent_n(n), stiffness_n_per_mm * pull_mm), 1e-9) << n;
+    ++compared;
+  }
+  EXPECT_GT(compared, 300);
 }
 
 TEST(CompareStrokes, ARecordingIsTheSameAsItself) {

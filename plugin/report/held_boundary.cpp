@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "plugin/report/summary.h"
+#include "plugin/session/strength_ahead.h"
 #include "plugin/session/stroke.h"
 
 namespace palpate::plugin {
 namespace {
 
 constexpr double felt_n = 0.05;  // below, a boundary is not said to be felt
-constexpr double way_mm = 3, step_mm = 0.1;
 
 bool is_surface(const modes::Plan& plan, std::size_t mode) {
   return std::any_of(plan.modes.begin(), plan.modes.end(),
@@ -34,6 +35,31 @@ std::optional<std::size_t> holding_surface(std::span<const PrimitiveRecord> shar
   return most;
 }
 
+std::optional<double> known_to_mm(const PreparedScene& felt, const modes::Scene& scene, std::size_t mode,
+                                  const glm::dvec3& place_mm) {
+  if (mode >= scene.modes.size() || !scene.modes[mode].structure.empty()) return std::nullopt;
+  return known_to_mm(*felt.source, felt.volume->geometry, scene, place_mm);
+}
+
+std::function<double(const TickRecord&, std::span<const PrimitiveRecord>)> known_to_of_ticks(
+    const PreparedScene& felt, const modes::Scene& scene) {
+  struct Last {
+    glm::dvec3 place_mm{std::numeric_limits<double>::infinity()};
+    std::size_t mode = 0;
+    double known_to_mm = std::numeric_limits<double>::quiet_NaN();
+  };
+  return [felt, scene, last = Last()](const TickRecord& tick, std::span<const PrimitiveRecord> shares) mutable {
+    constexpr double same_place_mm = 0.02, none = std::numeric_limits<double>::quiet_NaN();
+    const auto mode = tick.change_part < 1 ? std::nullopt : holding_surface(shares, *felt.plan);
+    if (!mode) return none;
+    const glm::dvec3 place = felt.plan->workspace.to_patient(vector_of(tick.proxy_m));
+    if (last.mode != *mode || !(glm::distance(last.place_mm, place) < same_place_mm)) {
+      last = {place, *mode, known_to_mm(felt, scene, *mode, place).value_or(none)};
+    }
+    return last.known_to_mm;
+  };
+}
+
 std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> shares, const PreparedScene& felt,
                                           const modes::Scene& scene, const glm::dvec3& proxy_mm,
                                           const glm::dvec3& probe_mm) {
@@ -46,12 +72,9 @@ std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> share
     // The proxy rests where the strength, on its rise, is just the force: what the boundary takes lies farther in.
     const double pressed_mm = glm::distance(proxy_mm, probe_mm);
     const glm::dvec3 inward = pressed_mm > 0 ? (probe_mm - proxy_mm) / pressed_mm : glm::dvec3(0);
-    for (double way = 0; way <= way_mm; way += step_mm) {
-      const io::Sample sample = felt.source->sample(proxy_mm + way * inward, felt.plan->fields);
-      if (sample.inside) held.strength_n = std::max(held.strength_n, active.strength(sample));
-    }
+    held.strength_n = strength_ahead_n(active, *felt.plan, *felt.source, proxy_mm, inward);
   }
-  held.known_to_mm = known_to_mm(*felt.source, felt.volume->geometry, scene, proxy_mm);
+  held.known_to_mm = known_to_mm(felt, scene, *mode, proxy_mm);
   return held;
 }
 

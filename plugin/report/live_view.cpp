@@ -11,6 +11,7 @@
 #include "plugin/report/summary.h"
 #include "plugin/session/session.h"
 #include "solver/solution.h"
+#include "solver/text/printable.h"
 
 namespace palpate::plugin {
 
@@ -27,17 +28,16 @@ std::string tissue_name(const modes::Scene& scene, const std::string& unit, doub
   return fmt::format("value {:.0f}", value);
 }
 
-std::string live_line(const TickRecord& frame, const std::string& tissue, double longest_tick_us,
-                      std::uint64_t missed) {
-  const double depth_mm = 1e3 * glm::length(vector_of(frame.proxy_m) - vector_of(frame.probe_m));
+std::string live_line(const TickRecord& tick, const std::string& tissue, double longest_tick_us, std::uint64_t missed) {
+  const double depth_mm = 1e3 * glm::length(vector_of(tick.proxy_m) - vector_of(tick.probe_m));
   std::string line = fmt::format(
-      "{:7.1f} s  {:5.2f} N  {:5.1f} mm deep  {:<14} {:<10} +-{:.0e} m  tick {:6.1f} us  missed {}", frame.time_s,
-      glm::length(vector_of(frame.sent_n)), depth_mm, tissue,
-      solver::name_of(static_cast<solver::SolverKind>(frame.solver)), frame.error_bound_m, longest_tick_us, missed);
-  if (fault_of(frame) != device::Fault::none) {
-    line += fmt::format("  FAULT: {}", device::name_of(fault_of(frame)));
-  } else if (state_of(frame) != device::State::active) {
-    line += fmt::format("  {}", device::name_of(state_of(frame)));
+      "{:7.1f} s  {:5.2f} N  {:5.1f} mm deep  {:<14} {:<10} +-{:.0e} m  tick {:6.1f} us  missed {}", tick.time_s,
+      glm::length(vector_of(tick.sent_n)), depth_mm, tissue,
+      solver::name_of(static_cast<solver::SolverKind>(tick.solver)), tick.error_bound_m, longest_tick_us, missed);
+  if (fault_of(tick) != device::Fault::none) {
+    line += fmt::format("  FAULT: {}", device::name_of(fault_of(tick)));
+  } else if (state_of(tick) != device::State::active) {
+    line += fmt::format("  {}", device::name_of(state_of(tick)));
   }
   return line;
 }
@@ -52,18 +52,19 @@ LiveView::~LiveView() {
 void LiveView::show() {
   const std::uint64_t written = ring_.written();
   next_ = std::max(next_, ring_.oldest());
-  TickRecord frame;
+  TickRecord tick;
   bool any = false;
   double longest_us = 0;
   for (; next_ < written; ++next_) {
-    if (ring_.read(next_, frame)) {
+    if (ring_.read(next_, tick)) {
       any = true;
-      missed_ += frame.missed;
-      longest_us = std::max(longest_us, tick_us(frame));
+      missed_ += tick.missed;
+      longest_us = std::max(longest_us, tick_us(tick));
     }
   }
   if (any) {
-    fmt::print(stderr, "\r{}\033[K", live_line(frame, tissue_name(scene_, unit_, frame.value), longest_us, missed_));
+    const std::string tissue = printable(tissue_name(scene_, unit_, tick.value));  // a scene's file names it
+    fmt::print(stderr, "\r{}\033[K", live_line(tick, tissue, longest_us, missed_));
     std::fflush(stderr);
   }
 }

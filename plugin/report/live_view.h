@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is felt right now, as one line in a terminal that is written over.
+/// What is felt right now, as one line of a terminal that is written over and over.
 
 #include <cstdint>
 #include <string>
@@ -12,16 +12,16 @@ namespace palpate::plugin {
 
 class LiveView {
  public:
-  /// `unit` is the scan's: CT's tissues are named by their HU where the scene names none. Both have to outlive the
-  /// view.
+  /// `unit` is the scan's. If the scene names no tissues, those of a CT are named by their HU. Both arguments must
+  /// outlive the view.
   LiveView(const TickRing& ring, const modes::Scene& scene, std::string unit);
   /// Clears the line.
   ~LiveView();
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
-  /// Writes the newest frame's line to stderr; ten times a second is enough. Ticks are timed, and missed ones counted,
-  /// over all frames since it was last called that the ring still holds.
+  /// Writes the newest tick's line to stderr; ten times a second is enough. The times and the missed deadlines are
+  /// taken over all ticks since the last call that are still in the ring.
   void show();
 
  private:
@@ -35,7 +35,7 @@ class LiveView {
 /// "fat", "bone": of the scene's tissues, else CT's by HU, else the value itself.
 std::string tissue_name(const modes::Scene& scene, const std::string& unit, double value);
 
-/// The line for a frame: force, depth, tissue, solver, error bound, tick, missed ticks, and what is wrong.
-std::string live_line(const TickRecord& frame, const std::string& tissue, double longest_tick_us, std::uint64_t missed);
+/// The line for a tick: force, depth, tissue, solver, error bound, tick, missed ticks, and what is wrong.
+std::string live_line(const TickRecord& tick, const std::string& tissue, double longest_tick_us, std::uint64_t missed);
 
 }  // namespace palpate::plugin

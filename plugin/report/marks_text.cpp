@@ -5,14 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "plugin/report/marks_json.h"
+
 namespace palpate::plugin {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_of(const glm::dvec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
 
 /// A cell of a CSV table, RFC 4180.
 std::string cell(const std::string& text) {
@@ -82,15 +80,7 @@ std::string marks_as_json(const Marks& marks, const std::string& unit) {
             {"distances", Json::array()},
             {"angles", Json::array()},
             {"unit", unit}};
-  for (const FeltMark& mark : marks.points) {
-    json["marks"].push_back({{"name", mark.name},
-                             {"tick", mark.tick},
-                             {"time_s", mark.time_s},
-                             {"position_mm", json_of(mark.position_mm)},
-                             {"boundary", mark.boundary},
-                             {"value", std::isfinite(mark.value) ? Json(mark.value) : Json()},
-                             {"force_n", mark.force_n}});
-  }
+  for (const FeltMark& mark : marks.points) json["marks"].push_back(json_of(mark));
   for (const MarkedPath& path : marks.paths) {
     Json points = Json::array();
     for (const glm::dvec3& point : path.points_mm) points.push_back(json_of(point));
@@ -127,7 +117,7 @@ std::string marks_as_markups(const Marks& marks) {
   }
   for (const MarkedAngle& angle : marks.angles) {
     all.push_back(markup("Angle", "Angle at " + marks.points[angle.at].name,
-                         Json::array({point_of(1, angle.at - 1), point_of(2, angle.at), point_of(3, angle.at + 1)})));
+                         Json::array({point_of(1, angle.from), point_of(2, angle.at), point_of(3, angle.to)})));
   }
   for (const MarkedPath& path : marks.paths) {
     Json curve = Json::array();

@@ -5,12 +5,12 @@
 
 namespace palpate::plugin {
 
-std::optional<NearestStructure> nearest_structure(const TickRecord& frame, const modes::Scene& scene,
+std::optional<NearestStructure> nearest_structure(const TickRecord& tick, const modes::Scene& scene,
                                                   std::span<const std::size_t> structures) {
   std::optional<NearestStructure> nearest;
   double margin_left = 0;  // of the nearest
   for (std::size_t n = 0; n < std::min(structures.size(), distance_count); ++n) {
-    const double mm = frame.distance_mm[n];
+    const double mm = tick.distance_mm[n];
     if (!std::isfinite(mm) || structures[n] >= scene.structures.size()) continue;
     const auto& margin = scene.structures[structures[n]].margin_mm;
     const double left = margin ? -mm - *margin : 0;

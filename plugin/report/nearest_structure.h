@@ -1,6 +1,6 @@
 #pragma once
 
-/// Of the structures that a scene reads, the one that matters most at a frame.
+/// Which of a scene's structures matters most at a tick.
 
 #include <optional>
 #include <span>
@@ -16,9 +16,9 @@ struct NearestStructure {
   bool within_margin = false;
 };
 
-/// The one farthest within its margin; where none has the proxy within its margin, the one whose edge is nearest.
-/// `structures`: of the scene those that the frame tells of, in that order. None where there are none.
-std::optional<NearestStructure> nearest_structure(const TickRecord& frame, const modes::Scene& scene,
+/// The structure that the proxy is farthest inside the margin of; if the proxy is in no margin, the one whose edge is
+/// nearest. `structures`: those of the scene that the tick has distances of, in the same order. None if there are none.
+std::optional<NearestStructure> nearest_structure(const TickRecord& tick, const modes::Scene& scene,
                                                   std::span<const std::size_t> structures);
 
 }  // namespace palpate::plugin

@@ -16,18 +16,18 @@ modes::Scene three_structures() {
   return scene;
 }
 
-TickRecord frame_at(double liver, double aorta, double cava) {
-  TickRecord frame;
-  for (double& mm : frame.distance_mm) mm = std::numeric_limits<double>::quiet_NaN();
-  frame.distance_mm[0] = liver;
-  frame.distance_mm[1] = aorta;
-  frame.distance_mm[2] = cava;
-  return frame;
+TickRecord tick_at(double liver, double aorta, double cava) {
+  TickRecord tick;
+  for (double& mm : tick.distance_mm) mm = std::numeric_limits<double>::quiet_NaN();
+  tick.distance_mm[0] = liver;
+  tick.distance_mm[1] = aorta;
+  tick.distance_mm[2] = cava;
+  return tick;
 }
 
 TEST(NearestStructure, IsTheNearestEdgeWhereNoMarginIsEntered) {
   const std::vector<std::size_t> all{0, 1, 2};
-  const auto nearest = nearest_structure(frame_at(2, -4, -7), three_structures(), all);
+  const auto nearest = nearest_structure(tick_at(2, -4, -7), three_structures(), all);
   ASSERT_TRUE(nearest);
   EXPECT_EQ(nearest->structure, 0U);
   EXPECT_FALSE(nearest->within_margin);
@@ -35,21 +35,21 @@ TEST(NearestStructure, IsTheNearestEdgeWhereNoMarginIsEntered) {
 
 TEST(NearestStructure, IsTheOneFarthestWithinItsMargin) {
   const std::vector<std::size_t> all{0, 1, 2};
-  auto nearest = nearest_structure(frame_at(-0.1, -2, -4.5), three_structures(), all);
+  auto nearest = nearest_structure(tick_at(-0.1, -2, -4.5), three_structures(), all);
   ASSERT_TRUE(nearest);
   EXPECT_EQ(nearest->structure, 1U);  // a millimeter within; the other half of one
   EXPECT_TRUE(nearest->within_margin);
-  nearest = nearest_structure(frame_at(-0.1, -2, 1), three_structures(), all);
+  nearest = nearest_structure(tick_at(-0.1, -2, 1), three_structures(), all);
   EXPECT_EQ(nearest->structure, 2U);  // inside it
 }
 
-TEST(NearestStructure, FollowsTheOrderOfTheFrames) {
+TEST(NearestStructure, FollowsTheOrderOfTheTicks) {
   const std::vector<std::size_t> turned{2, 0};
-  const auto nearest = nearest_structure(frame_at(-9, -1, -2), three_structures(), turned);
+  const auto nearest = nearest_structure(tick_at(-9, -1, -2), three_structures(), turned);
   ASSERT_TRUE(nearest);
   EXPECT_EQ(nearest->structure, 0U);
   EXPECT_EQ(nearest->distance_mm, -1);
-  EXPECT_FALSE(nearest_structure(frame_at(1, 1, 1), three_structures(), {}));
+  EXPECT_FALSE(nearest_structure(tick_at(1, 1, 1), three_structures(), {}));
 }
 
 TEST(NearestStructure, IsToldInWords) {

@@ -27,10 +27,10 @@ struct Tracks {
 
 Tracks tracks_of(const Recording& recording, const modes::Plan& plan) {
   Tracks tracks;
-  for (const TickRecord& frame : recording.frames) {
-    tracks.probe_mm.push_back(plan.workspace.to_patient(vector_of(frame.probe_m)));
-    tracks.proxy_mm.push_back(plan.workspace.to_patient(vector_of(frame.proxy_m)));
-    tracks.force_n.push_back(plan.workspace.direction_to_patient(vector_of(frame.sent_n)));
+  for (const TickRecord& tick : recording.ticks) {
+    tracks.probe_mm.push_back(plan.workspace.to_patient(vector_of(tick.probe_m)));
+    tracks.proxy_mm.push_back(plan.workspace.to_patient(vector_of(tick.proxy_m)));
+    tracks.force_n.push_back(plan.workspace.direction_to_patient(vector_of(tick.sent_n)));
     tracks.low = glm::min(tracks.low, tracks.probe_mm.back());
     tracks.high = glm::max(tracks.high, tracks.probe_mm.back());
   }
@@ -118,7 +118,7 @@ void write_force_depth(const Recording& recording, const Tracks& tracks, const S
     curve.x.push_back(depth_of(tracks.probe_mm[n]));
     curve.y.push_back(glm::length(tracks.force_n[n]));
     value.x.push_back(depth_of(tracks.probe_mm[n]));
-    value.y.push_back(recording.frames[n].value);
+    value.y.push_back(recording.ticks[n].value);
   }
   std::vector<Mark> marks;
   std::vector<std::size_t> named;
@@ -143,18 +143,18 @@ void write_force_time(const Recording& recording, const modes::Scene& scene, con
   std::vector<Curve> by_mode(scene.modes.size());
   Curve sent{.label = "sent to the device", .x = {}, .y = {}, .color = colors::black, .width = 1.6};
   std::size_t share = 0;
-  for (const TickRecord& frame : recording.frames) {
-    sent.x.push_back(frame.time_s);
-    sent.y.push_back(glm::length(vector_of(frame.sent_n)));
+  for (const TickRecord& tick : recording.ticks) {
+    sent.x.push_back(tick.time_s);
+    sent.y.push_back(glm::length(vector_of(tick.sent_n)));
     std::vector<glm::dvec3> force(scene.modes.size(), glm::dvec3(0));
-    for (std::uint32_t n = 0; n < frame.share_count; ++n, ++share) {
+    for (std::uint32_t n = 0; n < tick.share_count; ++n, ++share) {
       // What is left of a scene that went is not one of this one's modes.
       if (recording.shares[share].mode < force.size()) {
         force[recording.shares[share].mode] += vector_of(recording.shares[share].force_n);
       }
     }
     for (std::size_t mode = 0; mode < scene.modes.size(); ++mode) {
-      by_mode[mode].x.push_back(frame.time_s);
+      by_mode[mode].x.push_back(tick.time_s);
       by_mode[mode].y.push_back(glm::length(force[mode]));
     }
   }
@@ -175,8 +175,8 @@ void write_tick_time(const Recording& recording, const Summary& summary, const s
   for (int bin = 0; bin <= bins; ++bin) {
     counts.x.push_back(0.1 * std::pow(10.0, bin / 20.0));
   }
-  for (const TickRecord& frame : recording.frames) {
-    const double bin = std::floor(20 * std::log10(std::max(0.1, tick_us(frame)) / 0.1));
+  for (const TickRecord& tick : recording.ticks) {
+    const double bin = std::floor(20 * std::log10(std::max(0.1, tick_us(tick)) / 0.1));
     counts.y[static_cast<std::size_t>(std::min<double>(bins - 1, bin))] += 1;
   }
   // Bars need a height on a logarithmic axis; an empty bin has none.
@@ -193,7 +193,7 @@ std::vector<std::string> write_session_pictures(const Recording& recording, cons
                                                 const modes::Scene& scene, const modes::Plan& plan,
                                                 const io::FieldSource& source, const std::string& unit,
                                                 const std::filesystem::path& folder) {
-  if (recording.frames.empty()) {
+  if (recording.ticks.empty()) {
     return {};
   }
   const Tracks tracks = tracks_of(recording, plan);

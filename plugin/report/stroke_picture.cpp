@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "plugin/messages/messages.h"
+#include "plugin/report/held_boundary.h"
 #include "plugin/report/live_view.h"
 #include "plugin/report/summary.h"
 
@@ -93,7 +95,49 @@ std::vector<Band> tissues_crossed(const Profile& profile, const std::vector<doub
   return bands;
 }
 
+/// How far the true boundary may be, before and behind.
+std::vector<Band> uncertainties(const Profile& profile) {
+  constexpr double tint = 0.35;
+  std::vector<Band> bands;
+  for (const MetBoundary& met : profile.met) {
+    if (!met.known_along_mm) continue;
+    Color color = color_of(profile.scene, met.contact.boundary);
+    color.alpha = tint;
+    bands.push_back({met.depth_mm - *met.known_along_mm, met.depth_mm + *met.known_along_mm, "", color});
+  }
+  return bands;
+}
+
+const MetBoundary* met_at(const Profile& profile, std::size_t point) {
+  const auto met = std::ranges::find_if(
+      profile.met, [&](const MetBoundary& one) { return point >= one.contact.first && point <= one.contact.last; });
+  return met == profile.met.end() ? nullptr : &*met;
+}
+
 }  // namespace
+
+std::vector<MetBoundary> met_along(const Profile& profile, const PreparedScene& felt) {
+  constexpr double least_cosine = 0.1;  // 84 degrees
+  std::vector<Contact> contacts = contacts_of(profile.stroke, *profile.plan, met_n);
+  add_strengths(contacts, profile.stroke, *profile.plan, *felt.source);
+  const glm::dvec3 start = profile.stroke.front().position_mm;
+  const glm::dvec3 along = glm::normalize(profile.stroke.back().position_mm - start);
+  std::vector<MetBoundary> all;
+  for (const Contact& contact : contacts) {
+    const glm::dvec3 place = profile.stroke[contact.first].proxy_mm;
+    MetBoundary met{.contact = contact,
+                    .depth_mm = glm::dot(place - start, along),
+                    .known_to_mm = known_to_mm(felt, profile.scene, contact.boundary, place),
+                    .known_along_mm = std::nullopt};
+    if (met.known_to_mm) {
+      const glm::dvec3 gradient = felt.source->sample(place, io::FieldSet::gradient).gradient;
+      const double cosine = std::abs(glm::dot(glm::normalize(gradient), along));
+      if (cosine > least_cosine) met.known_along_mm = *met.known_to_mm / cosine;
+    }
+    all.push_back(met);
+  }
+  return all;
+}
 
 double depth_of(const Profile& profile, std::size_t point) {
   return glm::distance(profile.stroke[point].position_mm, profile.stroke.front().position_mm);
@@ -104,6 +148,11 @@ Profile thinned(const Profile& profile, std::size_t most) {
   Profile thin{
       .stroke = {}, .plan = profile.plan, .scene = profile.scene, .unit = profile.unit, .limit_n = profile.limit_n};
   for (std::size_t n = 0; n < profile.stroke.size(); n += stride) thin.stroke.push_back(profile.stroke[n]);
+  thin.met = profile.met;
+  for (MetBoundary& met : thin.met) {
+    met.contact.first /= stride;
+    met.contact.last /= stride;
+  }
   return thin;
 }
 
@@ -118,8 +167,8 @@ std::vector<Chart> charts_of(const Profile& profile) {
     ahead.y.push_back(glm::distance(point.position_mm, point.proxy_mm));
   }
   std::vector<Mark> marks;
-  for (const Contact& contact : contacts_of(profile.stroke, *profile.plan, met_n)) {
-    marks.push_back({.at = depths[contact.first], .label = display_name(profile.scene, contact.boundary)});
+  for (const MetBoundary& met : profile.met) {
+    marks.push_back({.at = met.depth_mm, .label = display_name(profile.scene, met.contact.boundary)});
   }
   const auto chart = [&](const std::string& title, const std::string& label, std::vector<Curve> curves) {
     Chart made;
@@ -136,6 +185,7 @@ std::vector<Chart> charts_of(const Profile& profile) {
       chart("Value and tissues", profile.unit.empty() ? "value" : "value (" + profile.unit + ")", {passed, held}));
   charts.back().bands = tissues_crossed(profile, depths);
   charts.push_back(chart("Distance from proxy to probe", "distance (mm)", {ahead}));
+  for (Chart& drawn : charts) std::ranges::copy(uncertainties(profile), std::back_inserter(drawn.bands));
   // Rounding alone does not fill a chart.
   constexpr double least_mm = 0.5, least_n = 0.2, room = 1.08;
   const auto reach = [&](Chart& drawn, double least) {
@@ -155,7 +205,7 @@ void write_csv(const Profile& profile, const std::filesystem::path& file) try {
   fmt::ostream out = fmt::output_file(file.string());
   out.print(
       "depth_mm,probe_x_mm,probe_y_mm,probe_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,"
-      "force_n,value_at_probe,value_at_proxy,tissue,boundary,primitive,solver,error_bound_m\n");
+      "force_n,value_at_probe,value_at_proxy,tissue,boundary,primitive,solver,error_bound_m,known_to_mm\n");
   const auto quoted = [](const std::string& text) {
     std::string out_text = "\"";
     for (const char c : text) {
@@ -170,11 +220,12 @@ void write_csv(const Profile& profile, const std::filesystem::path& file) try {
     for (const glm::dvec3& v : {point.position_mm, point.proxy_mm, point.force_n}) {
       out.print(",{},{},{}", v.x, v.y, v.z);
     }
-    out.print(",{},{},{},{},{},{},{},{}\n", glm::length(point.force_n), point.value_passed, point.value,
+    const MetBoundary* const met = met_at(profile, n);
+    out.print(",{},{},{},{},{},{},{},{},{}\n", glm::length(point.force_n), point.value_passed, point.value,
               quoted(tissue_of(profile, point.value_passed)),
               quoted(point.boundary ? display_name(profile.scene, *point.boundary) : ""),
               point.primitive ? solver::name_of(*point.primitive) : "", solver::name_of(point.solver),
-              point.error_bound_m);
+              point.error_bound_m, met ? met->known_to_mm.value_or(not_a_number) : not_a_number);
   }
   out.close();
 } catch (const std::exception& error) {

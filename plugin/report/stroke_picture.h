@@ -5,14 +5,26 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "modes/scene/plan.h"
 #include "plugin/report/chart.h"
+#include "plugin/session/scan.h"
 #include "plugin/session/stroke.h"
 
 namespace palpate::plugin {
+
+/// A boundary that was met, and how well its place is known.
+struct MetBoundary {
+  Contact contact;
+  double depth_mm = 0;                ///< of the proxy along the stroke, when it was first held
+  std::optional<double> known_to_mm;  ///< across the boundary: known_to_mm() in held_boundary.h
+  /// Along the stroke, which may cross the boundary at a slant: in 95 of 100 places the true boundary lies within
+  /// depth_mm +- this. None if that is not known, or if the stroke runs nearly along the boundary.
+  std::optional<double> known_along_mm;
+};
 
 /// A stroke and what it went through; the unit is the scan's.
 struct Profile {
@@ -20,21 +32,26 @@ struct Profile {
   std::shared_ptr<const modes::Plan> plan;
   modes::Scene scene;
   std::string unit;
-  double limit_n = 0;  ///< that the stylus is never fed more than: drawn across the forces
+  double limit_n = 0;                 ///< that the stylus is never fed more than: drawn across the forces
+  std::vector<MetBoundary> met = {};  ///< in the order of the stroke: met_along()
 };
 
-/// Every so many points, that at most about `most` are left: what a chart on a screen can show.
+/// The boundaries of the scene that the profile's stroke has met, with their strengths.
+std::vector<MetBoundary> met_along(const Profile& profile, const PreparedScene& felt);
+
+/// Every n-th point, so that about `most` are left: as many as a chart on a screen can show.
 Profile thinned(const Profile& profile, std::size_t most);
 
 /// How far the probe has come along the stroke, mm.
 double depth_of(const Profile& profile, std::size_t point);
 
-/// Force, in the color of the boundary that pushes; value on the way and at the proxy, over the tissues crossed; how
-/// far the probe is ahead of the proxy. All over the distance along the stroke, boundaries marked where they are met.
+/// Charts over the distance along the stroke: force, in the color of the boundary that pushes; value at the probe and
+/// at the proxy, over the tissues crossed; distance from the proxy to the probe. Boundaries are marked where they are
+/// met, with a band as wide as the uncertainty of their place.
 std::vector<Chart> charts_of(const Profile& profile);
 
-/// One line a frame: depth, places, force, values, tissue, and who pushes with what. Throws std::runtime_error naming
-/// the file.
+/// One line a tick: depth, places, force, values, tissue, who pushes with what, and how well that boundary is known.
+/// Throws std::runtime_error naming the file.
 void write_csv(const Profile& profile, const std::filesystem::path& file);
 
 /// "12.3 mm: 0.84 N by skin (plane), -310 HU, soft tissue"

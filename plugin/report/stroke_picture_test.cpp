@@ -70,6 +70,61 @@ TEST(StrokePicture, ShowsEveryForceOnceInTheColorOfWhoPushes) {
   }
 }
 
+/// A stroke along y at this distance from the middle of a ball of 25 mm meets it at a slant.
+std::vector<MetBoundary> met_beside_the_middle(double x_mm, Profile& profile) {
+  const auto volume = std::make_shared<const io::Volume>(testdata::scan(
+      testdata::make_sphere(25), testdata::make_geometry({.size = glm::ivec3(60)}), {.noise = 40, .seed = 3}));
+  const modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.1));
+  profile = {.stroke = run_stroke(*felt.plan, *felt.source, {x_mm, -29, 0}, {x_mm, -10, 0}, 50),
+             .plan = felt.plan,
+             .scene = scene,
+             .unit = volume->unit};
+  return met_along(profile, felt);
+}
+
+TEST(StrokePicture, HasABandAsWideAsTheBoundaryIsUncertainAlongTheStroke) {
+  Profile straight, slanted;
+  straight.met = met_beside_the_middle(0, straight);
+  slanted.met = met_beside_the_middle(15, slanted);
+  ASSERT_FALSE(straight.met.empty());
+  ASSERT_FALSE(slanted.met.empty());
+  for (const auto& [profile, cosine] : {std::pair{&straight, 1.0}, std::pair{&slanted, 0.8}}) {
+    const MetBoundary& met = profile->met.front();
+    ASSERT_TRUE(met.known_to_mm && met.known_along_mm);
+    EXPECT_NEAR(*met.known_to_mm / *met.known_along_mm, cosine, 0.03);
+    for (const Chart& chart : charts_of(thinned(*profile, 200))) {
+      const auto band = std::ranges::find_if(chart.bands, [](const Band& one) { return one.color.alpha < 1; });
+      ASSERT_NE(band, chart.bands.end()) << chart.title;
+      EXPECT_DOUBLE_EQ(band->from, met.depth_mm - *met.known_along_mm);
+      EXPECT_DOUBLE_EQ(band->to, met.depth_mm + *met.known_along_mm);
+    }
+  }
+  // The ball's surface is 4 mm along the straight stroke, 9 mm along the other.
+  EXPECT_NEAR(straight.met.front().depth_mm, 4, 1);
+  EXPECT_NEAR(slanted.met.front().depth_mm, 9, 1.5);
+}
+
+TEST(StrokePicture, ItsTableTellsHowWellTheHeldBoundaryIsKnown) {
+  Profile profile;
+  profile.met = met_beside_the_middle(0, profile);
+  const auto file = fresh_path("known.csv");
+  write_csv(profile, file);
+  std::ifstream table(file);
+  std::string line;
+  std::getline(table, line);
+  EXPECT_THAT(line, EndsWith(",known_to_mm"));
+  const Contact& contact = profile.met.front().contact;
+  for (std::size_t n = 0; std::getline(table, line); ++n) {
+    const double told = std::stod(line.substr(line.rfind(',') + 1));
+    if (n >= contact.first && n <= contact.last) {
+      ASSERT_NEAR(told, *profile.met.front().known_to_mm, 1e-12) << n;
+    } else if (n < contact.first) {
+      ASSERT_TRUE(std::isnan(told)) << line;
+    }
+  }
+}
+
 TEST(StrokePicture, TellsWhoPushesWithWhat) {
   const Profile profile = through_the_skin();
   const std::vector<Contact> contacts = contacts_of(profile.stroke, *profile.plan, met_n);
@@ -81,7 +136,7 @@ TEST(StrokePicture, TellsWhoPushesWithWhat) {
   EXPECT_THAT(point_in_words(profile, 0), AllOf(HasSubstr("0.00 N"), Not(HasSubstr(" by "))));
 }
 
-TEST(StrokePicture, ItsTableHasALineAFrame) {
+TEST(StrokePicture, ItsTableHasALineATick) {
   const Profile profile = through_the_skin();
   const auto file = fresh_path("profile.csv");
   write_csv(profile, file);

@@ -48,9 +48,9 @@ class Painter {
         felt_(prepare(suggestion.scene, volume, glm::dvec3(0.1))),
         box_(bounding_box(volume->geometry)) {
     const io::Bins& values = suggestion.edges.values;
-    low_ = suggestion.typical.empty() ? values.low : suggestion.typical.front();
+    low_ = suggestion.typical.empty() ? values.low : std::ranges::min(suggestion.typical);
     // Up to the brightest tissue, with some room for what is brighter.
-    high_ = suggestion.typical.empty() ? values.high : low_ + 1.15 * (suggestion.typical.back() - low_);
+    high_ = suggestion.typical.empty() ? values.high : low_ + 1.15 * (std::ranges::max(suggestion.typical) - low_);
   }
 
   void paint(const Slice& slice, const Point& corner, Canvas& canvas) const {

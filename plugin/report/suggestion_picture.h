@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a suggestion found, to be looked at: where each boundary will be felt, on two slices; and the pairs of values
-/// that they were found in.
+/// A picture of what a suggestion found: where each boundary will be felt, on two slices, and the pairs of values in
+/// which they were found.
 
 #include <filesystem>
 #include <memory>

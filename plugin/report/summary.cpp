@@ -13,6 +13,7 @@
 
 #include "device/safety/safety_filter.h"
 #include "io/fields/boundary_uncertainty.h"
+#include "io/quantile.h"
 #include "plugin/report/held_boundary.h"
 #include "plugin/session/session.h"
 #include "solver/solution.h"
@@ -22,67 +23,65 @@ namespace {
 
 constexpr double same_hold_s = 0.05;  // a shorter interruption does not end a hold: contact chatters at its edge
 
-void extend_approaches(std::vector<Approach>& approaches, const TickRecord& frame) {
+void extend_approaches(std::vector<Approach>& approaches, const TickRecord& tick) {
   for (std::size_t n = 0; n < approaches.size(); ++n) {
-    if (frame.distance_mm[n] > approaches[n].distance_mm) {
-      approaches[n].distance_mm = frame.distance_mm[n];
-      approaches[n].time_s = frame.time_s;
+    if (tick.distance_mm[n] > approaches[n].distance_mm) {
+      approaches[n].distance_mm = tick.distance_mm[n];
+      approaches[n].time_s = tick.time_s;
     }
   }
 }
 
-void extend_holds(std::vector<HeldStretch>& holds, std::size_t mode, const TickRecord& frame, const modes::Plan& plan) {
-  const bool goes_on = !holds.empty() && holds.back().mode == mode && frame.time_s - holds.back().end_s < same_hold_s;
+void extend_holds(std::vector<HeldStretch>& holds, std::size_t mode, const TickRecord& tick, const modes::Plan& plan) {
+  const bool goes_on = !holds.empty() && holds.back().mode == mode && tick.time_s - holds.back().end_s < same_hold_s;
   if (!goes_on) {
     holds.push_back({.mode = mode,
-                     .begin_s = frame.time_s,
-                     .end_s = frame.time_s,
-                     .contact_mm = plan.workspace.to_patient(vector_of(frame.proxy_m)),
-                     .value = frame.value});
+                     .begin_s = tick.time_s,
+                     .end_s = tick.time_s,
+                     .contact_mm = plan.workspace.to_patient(vector_of(tick.proxy_m)),
+                     .value = tick.value});
   }
-  holds.back().end_s = frame.time_s;
-  holds.back().peak_n = std::max(holds.back().peak_n, glm::length(vector_of(frame.force_n)));
+  holds.back().end_s = tick.time_s;
+  holds.back().peak_n = std::max(holds.back().peak_n, glm::length(vector_of(tick.force_n)));
 }
 
 }  // namespace
 
-double tick_us(const TickRecord& frame) {
-  return 1e-3 * std::accumulate(std::begin(frame.stage_ns), std::end(frame.stage_ns), 0.0);
+double tick_us(const TickRecord& tick) {
+  return 1e-3 * std::accumulate(std::begin(tick.stage_ns), std::end(tick.stage_ns), 0.0);
 }
 
 Percentiles percentiles_of(std::vector<double> values) {
-  if (values.empty()) {
-    return {};
-  }
+  if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
+  const auto at = [&](double share) { return io::quantile_of_sorted(values, share); };
   return {.median = at(0.5), .p99 = at(0.99), .p999 = at(0.999), .largest = values.back()};
 }
 
 Summary summarize(const Recording& recording, const modes::Plan& plan) {
   Summary summary;
-  summary.frames = recording.frames.size();
-  if (recording.frames.empty()) {
+  summary.ticks = recording.ticks.size();
+  summary.scan_frames = scan_frames_of(recording);
+  summary.registered = registered_of(recording);
+  if (recording.ticks.empty()) {
     return summary;
   }
-  summary.duration_s = recording.frames.back().time_s - recording.frames.front().time_s;
+  summary.duration_s = recording.ticks.back().time_s - recording.ticks.front().time_s;
   std::vector<double> times;
-  times.reserve(recording.frames.size());
+  times.reserve(recording.ticks.size());
   std::span<const PrimitiveRecord> shares(recording.shares);
   device::Fault fault = device::Fault::none;
   for (const std::size_t n : plan.structures) {
     summary.approaches.push_back({.structure = n, .distance_mm = -std::numeric_limits<double>::infinity()});
   }
-  for (const TickRecord& frame : recording.frames) {
-    const auto own = shares.first(frame.share_count);
-    shares = shares.subspan(frame.share_count);
+  for (const TickRecord& tick : recording.ticks) {
+    const auto own = shares.first(tick.share_count);
+    shares = shares.subspan(tick.share_count);
     if (const auto mode = holding_surface(own, plan)) {
-      extend_holds(summary.holds, *mode, frame, plan);
+      extend_holds(summary.holds, *mode, tick, plan);
     }
-    extend_approaches(summary.approaches, frame);
-    switch (static_cast<solver::Outcome>(frame.outcome)) {
+    extend_approaches(summary.approaches, tick);
+    switch (static_cast<solver::Outcome>(tick.outcome)) {
       case solver::Outcome::capped:
         ++summary.capped;
         break;
@@ -93,24 +92,24 @@ Summary summarize(const Recording& recording, const modes::Plan& plan) {
       case solver::Outcome::solved:
         break;
     }
-    const auto kind = static_cast<solver::SolverKind>(frame.solver);
+    const auto kind = static_cast<solver::SolverKind>(tick.solver);
     summary.analytical += kind == solver::SolverKind::analytical ? 1 : 0;
     summary.exact += kind == solver::SolverKind::exact ? 1 : 0;
     summary.descent += kind == solver::SolverKind::descent ? 1 : 0;
-    summary.peak_sent_n = std::max(summary.peak_sent_n, glm::length(vector_of(frame.sent_n)));
-    summary.largest_error_bound_m = std::max(summary.largest_error_bound_m, frame.error_bound_m);
-    summary.largest_residual_m = std::max(summary.largest_residual_m, frame.residual_n / plan.stiffness_n_per_m);
-    if (fault_of(frame) != fault && fault_of(frame) != device::Fault::none) {
-      summary.faults.push_back(fmt::format("at {:.3f} s: {} ({})", frame.time_s, device::name_of(fault_of(frame)),
-                                           device::advice_for(fault_of(frame))));
+    summary.peak_sent_n = std::max(summary.peak_sent_n, glm::length(vector_of(tick.sent_n)));
+    summary.largest_error_bound_m = std::max(summary.largest_error_bound_m, tick.error_bound_m);
+    summary.largest_residual_m = std::max(summary.largest_residual_m, tick.residual_n / plan.stiffness_n_per_m);
+    if (fault_of(tick) != fault && fault_of(tick) != device::Fault::none) {
+      summary.faults.push_back(fmt::format("at {:.3f} s: {} ({})", tick.time_s, device::name_of(fault_of(tick)),
+                                           device::advice_for(fault_of(tick))));
     }
-    fault = fault_of(frame);
-    summary.missed += frame.missed;
-    times.push_back(tick_us(frame));
+    fault = fault_of(tick);
+    summary.missed += tick.missed;
+    times.push_back(tick_us(tick));
   }
   summary.tick_us = percentiles_of(std::move(times));
   for (const Gap& gap : recording.gaps) {
-    summary.lost += gap.frames;
+    summary.lost += gap.ticks;
   }
   return summary;
 }
@@ -159,8 +158,12 @@ void add_uncertainty(Summary& summary, const modes::Scene& scene, const io::Fiel
 
 std::string to_text(const Summary& summary, const modes::Scene& scene, const std::string& scan,
                     const std::string& device) {
-  std::string text = fmt::format("Palpate session: {:.1f} s, {} frames\n\n", summary.duration_s, summary.frames);
-  text += fmt::format("scan      {}\nscene     {}\ndevice    {}\n\n", scan, scene.name, device);
+  std::string text = fmt::format("Palpate session: {:.1f} s, {} ticks\n\n", summary.duration_s, summary.ticks);
+  text += fmt::format("scan      {}\n", scan);
+  for (const ScanFrame& frame : summary.scan_frames) {
+    if (frame.count > 1) text += fmt::format("frame     {} of 0 to {}\n", frame.number, frame.count - 1);
+  }
+  text += fmt::format("scene     {}\ndevice    {}\n\n", scene.name, device);
   text += "What was felt\n";
   if (summary.holds.empty()) {
     text += "  nothing: no boundary pushed with more than 0.05 N\n";
@@ -178,16 +181,20 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
                           distance_in_words(approach.distance_mm, scene.structures[approach.structure].name),
                           approach.time_s);
     }
+    for (const RegisteredStructure& one : summary.registered) {
+      text += fmt::format("  {} was moved by {}: the registration {}\n", one.structure, in_words(one.motion),
+                          one.file_hash);
+    }
     text += "\n";
   }
   text += "How it was solved\n";
-  text += fmt::format("  analytical {} frames, exact {}, descent {}; work cap hit {}, refused {}\n", summary.analytical,
+  text += fmt::format("  analytical {} ticks, exact {}, descent {}; work cap hit {}, refused {}\n", summary.analytical,
                       summary.exact, summary.descent, summary.capped, summary.refused);
   text += fmt::format("  certified error of the proxy at most {:.1e} m; residual / k at most {:.1e} m\n\n",
                       summary.largest_error_bound_m, summary.largest_residual_m);
   text += fmt::format("Time of a tick   median {:.2f} us, 99 % {:.2f} us, 99.9 % {:.2f} us, largest {:.1f} us\n",
                       summary.tick_us.median, summary.tick_us.p99, summary.tick_us.p999, summary.tick_us.largest);
-  text += fmt::format("Missed ticks     {}; frames lost to the recording {}\n", summary.missed, summary.lost);
+  text += fmt::format("Missed ticks     {}; ticks lost to the recording {}\n", summary.missed, summary.lost);
   text += summary.faults.empty() ? "Safety           no fault\n" : "Safety\n";
   for (const std::string& fault : summary.faults) {
     text += "  " + fault + "\n";
@@ -212,8 +219,15 @@ std::string to_json(const Summary& summary, const modes::Scene& scene) {
     structures[scene.structures[approach.structure].name] = {{"largest_distance_mm", approach.distance_mm},
                                                              {"time_s", approach.time_s}};
   }
-  const nlohmann::json json{{"duration_s", summary.duration_s},
-                            {"frames", summary.frames},
+  for (const RegisteredStructure& one : summary.registered) {
+    structures[one.structure]["registration"] = one.file_hash;
+    structures[one.structure]["registered_by"] = in_words(one.motion);
+  }
+  nlohmann::json scan_frames = nlohmann::json::array();
+  for (const ScanFrame& frame : summary.scan_frames) scan_frames.push_back(frame.number);
+  const nlohmann::json json{{"scan_frames", scan_frames},
+                            {"duration_s", summary.duration_s},
+                            {"frames", summary.ticks},
                             {"holds", holds},
                             {"structures", structures},
                             {"peak_sent_n", summary.peak_sent_n},

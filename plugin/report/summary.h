@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a session came to, in numbers and in words.
+/// The summary of a session, in numbers and in words.
 
 #include <glm/vec3.hpp>
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace palpate::plugin {
 
-/// A stretch of frames in which one surface, above all others, held the proxy.
+/// A stretch of ticks in which one surface, above all others, held the proxy.
 struct HeldStretch {
   std::size_t mode = 0;  ///< index into the scene's modes
   double begin_s = 0;
@@ -23,8 +23,8 @@ struct HeldStretch {
   glm::dvec3 contact_mm{0};  ///< proxy when it began, patient space
   double value = 0;          ///< of the scan there
   double peak_n = 0;         ///< largest force of the coupling meanwhile
-  /// The true boundary is within this of contact_mm in 95 of 100 places (io/fields/boundary_uncertainty.h), mm; none
-  /// where it was not asked for or cannot be said.
+  /// In 95 of 100 places the true boundary is within this of contact_mm (io/fields/boundary_uncertainty.h), mm. None if
+  /// it was not asked for or cannot be computed.
   std::optional<double> known_to_mm = std::nullopt;
 };
 
@@ -41,27 +41,30 @@ struct Percentiles {
 
 struct Summary {
   double duration_s = 0;
-  std::size_t frames = 0;
+  std::size_t ticks = 0;
+  std::vector<ScanFrame> scan_frames;  ///< of the series, that were felt
   std::vector<HeldStretch> holds;
-  std::vector<Approach> approaches;  ///< one a structure that the scene reads
+  std::vector<Approach> approaches;             ///< one a structure that the scene reads
+  std::vector<RegisteredStructure> registered;  ///< those that a registration put on the scan
   double peak_sent_n = 0;
-  std::size_t analytical = 0, exact = 0, descent = 0, capped = 0, refused = 0;  ///< frames
+  std::size_t analytical = 0, exact = 0, descent = 0, capped = 0, refused = 0;  ///< ticks
   double largest_error_bound_m = 0;
   double largest_residual_m = 0;    ///< |residual| / k
   Percentiles tick_us;              ///< all stages together
   std::uint64_t missed = 0;         ///< deadlines that went by without a tick
-  std::uint64_t lost = 0;           ///< frames that are not in the recording
+  std::uint64_t lost = 0;           ///< ticks that are not in the recording
   std::vector<std::string> faults;  ///< of the safety filter, in words
 };
 
-/// The time of a frame in all its stages, microseconds.
-double tick_us(const TickRecord& frame);
+/// The time of a tick in all its stages, microseconds.
+double tick_us(const TickRecord& tick);
 
 Percentiles percentiles_of(std::vector<double> values);
 
 Summary summarize(const Recording& recording, const modes::Plan& plan);
 
-/// How well the place of a felt boundary is known there, mm; none where the source has no gradient or nothing rises.
+/// How precisely the place of a felt boundary is known there, mm. None if the source has no gradient, or if the value
+/// does not rise there.
 std::optional<double> known_to_mm(const io::FieldSource& source, const io::Geometry& geometry,
                                   const modes::Scene& scene, const glm::dvec3& place_mm);
 /// "; known to 0.2 mm", or nothing.
@@ -78,7 +81,7 @@ std::string to_json(const Summary& summary, const modes::Scene& scene);
 /// "2.1 mm from liver", "3.0 mm inside liver": `distance_mm` is positive inside.
 std::string distance_in_words(double distance_mm, const std::string& structure);
 
-/// What a person calls the mode: its name; where it has none the structure whose edge it is, or its type.
+/// The name of a mode for people: its own name; without one, the structure whose edge it is, or its type.
 std::string display_name(const modes::Scene& scene, std::size_t mode);
 /// "L 12.3 P 4.0 H 88.1 mm"
 std::string patient_coordinates(const glm::dvec3& position_mm);

@@ -45,19 +45,19 @@ modes::Plan plan_of(const modes::Scene& scene) {
   return modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, workspace);
 }
 
-/// A frame every millisecond, each with two shares: of the surface given and of friction.
+/// A tick every millisecond, each with two shares: of the surface given and of friction.
 class Made {
  public:
   TickRecord& add(std::uint32_t surface, double surface_n) {
-    TickRecord frame;
-    frame.index = recording.frames.size();
-    frame.time_s = 2 + 1e-3 * static_cast<double>(frame.index);
-    frame.share_count = 2;
-    frame.solver = static_cast<std::uint32_t>(solver::SolverKind::analytical);
-    recording.shares.push_back({.frame = frame.index, .mode = surface, .force_n = {0, surface_n, 0}});
-    recording.shares.push_back({.frame = frame.index, .mode = 1, .force_n = {7, 0, 0}});
-    recording.frames.push_back(frame);
-    return recording.frames.back();
+    TickRecord tick;
+    tick.index = recording.ticks.size();
+    tick.time_s = 2 + 1e-3 * static_cast<double>(tick.index);
+    tick.share_count = 2;
+    tick.solver = static_cast<std::uint32_t>(solver::SolverKind::analytical);
+    recording.shares.push_back({.tick = tick.index, .mode = surface, .force_n = {0, surface_n, 0}});
+    recording.shares.push_back({.tick = tick.index, .mode = 1, .force_n = {7, 0, 0}});
+    recording.ticks.push_back(tick);
+    return recording.ticks.back();
   }
   Summary summary() const { return summarize(recording, plan_of(scene_of_two())); }
   std::string text() const { return to_text(summary(), scene_of_two(), "a scan", "a stylus"); }
@@ -69,13 +69,13 @@ class Made {
 TEST(Summary, LargestsAreOfTheirOwnQuantityAndUnit) {
   Made made;
   for (int n = 0; n < 20; ++n) made.add(0, 0);
-  made.recording.frames[3].sent_n[0] = 3;  // 5 N together
-  made.recording.frames[3].sent_n[2] = -4;
-  made.recording.frames[4].force_n[1] = 9;
-  made.recording.frames[5].residual_n = 2e-9;
-  made.recording.frames[6].error_bound_m = 7e-13;
+  made.recording.ticks[3].sent_n[0] = 3;  // 5 N together
+  made.recording.ticks[3].sent_n[2] = -4;
+  made.recording.ticks[4].force_n[1] = 9;
+  made.recording.ticks[5].residual_n = 2e-9;
+  made.recording.ticks[6].error_bound_m = 7e-13;
   const Summary summary = made.summary();
-  EXPECT_EQ(summary.frames, 20U);
+  EXPECT_EQ(summary.ticks, 20U);
   EXPECT_NEAR(summary.duration_s, 0.019, 1e-12);
   EXPECT_DOUBLE_EQ(summary.peak_sent_n, 5);
   EXPECT_DOUBLE_EQ(summary.largest_residual_m, 2e-9 / stiffness);
@@ -84,7 +84,7 @@ TEST(Summary, LargestsAreOfTheirOwnQuantityAndUnit) {
       made.text(),
       AllOf(HasSubstr("largest force sent to the device: 5.00 N"),
             HasSubstr("certified error of the proxy at most 7.0e-13 m; residual / k at most 4.0e-12 m"),
-            HasSubstr("Palpate session: 0.0 s, 20 frames"), HasSubstr("scan      a scan"), HasSubstr("scene     two"),
+            HasSubstr("Palpate session: 0.0 s, 20 ticks"), HasSubstr("scan      a scan"), HasSubstr("scene     two"),
             HasSubstr("device    a stylus"), HasSubstr("nothing: no boundary pushed"), HasSubstr("no fault")));
   EXPECT_EQ(made.json()["peak_sent_n"], 5);
   EXPECT_DOUBLE_EQ(made.json()["largest_residual_m"], 2e-9 / stiffness);
@@ -93,13 +93,13 @@ TEST(Summary, LargestsAreOfTheirOwnQuantityAndUnit) {
   EXPECT_EQ(made.json()["frames"], 20);
 }
 
-TEST(Summary, MissedTicksAreNotLostFrames) {
+TEST(Summary, MissedTicksAreNotLostTicks) {
   Made made;
   for (int n = 0; n < 5; ++n) made.add(0, 0).missed = n == 2 ? 3 : n == 4 ? 8 : 0;
-  made.recording.gaps = {{.first_frame = 2, .frames = 40}, {.first_frame = 90, .frames = 2}};
+  made.recording.gaps = {{.first_tick = 2, .ticks = 40}, {.first_tick = 90, .ticks = 2}};
   EXPECT_EQ(made.summary().missed, 11U);
   EXPECT_EQ(made.summary().lost, 42U);
-  EXPECT_THAT(made.text(), HasSubstr("Missed ticks     11; frames lost to the recording 42\n"));
+  EXPECT_THAT(made.text(), HasSubstr("Missed ticks     11; ticks lost to the recording 42\n"));
   EXPECT_EQ(made.json()["missed_ticks"], 11);
   EXPECT_EQ(made.json()["lost_frames"], 42);
 }
@@ -108,9 +108,9 @@ TEST(Summary, SolversAndOutcomesAreCountedApart) {
   Made made;
   const auto add = [&](int count, solver::SolverKind kind, solver::Outcome outcome) {
     for (int n = 0; n < count; ++n) {
-      TickRecord& frame = made.add(0, 0);
-      frame.solver = static_cast<std::uint32_t>(kind);
-      frame.outcome = static_cast<std::uint32_t>(outcome);
+      TickRecord& tick = made.add(0, 0);
+      tick.solver = static_cast<std::uint32_t>(kind);
+      tick.outcome = static_cast<std::uint32_t>(outcome);
     }
   };
   add(1, solver::SolverKind::analytical, solver::Outcome::solved);
@@ -118,7 +118,7 @@ TEST(Summary, SolversAndOutcomesAreCountedApart) {
   add(4, solver::SolverKind::descent, solver::Outcome::capped);
   add(8, solver::SolverKind::none, solver::Outcome::refused);
   add(16, solver::SolverKind::none, solver::Outcome::unsuitable);
-  EXPECT_THAT(made.text(), HasSubstr("analytical 1 frames, exact 2, descent 4; work cap hit 4, refused 24\n"));
+  EXPECT_THAT(made.text(), HasSubstr("analytical 1 ticks, exact 2, descent 4; work cap hit 4, refused 24\n"));
   EXPECT_EQ(made.json()["solver_frames"],
             nlohmann::json({{"analytical", 1}, {"exact", 2}, {"descent", 4}, {"capped", 4}, {"refused", 24}}));
 }
@@ -135,8 +135,8 @@ TEST(Summary, PercentilesAreTheOrderedValues) {
 
   Made made;
   for (std::uint32_t n = 0; n <= 1000; ++n) {
-    TickRecord& frame = made.add(0, 0);
-    for (std::size_t stage = 0; stage < stage_count; ++stage) frame.stage_ns[stage] = 1000 * n;
+    TickRecord& tick = made.add(0, 0);
+    for (std::size_t stage = 0; stage < stage_count; ++stage) tick.stage_ns[stage] = 1000 * n;
   }
   EXPECT_THAT(made.text(),
               HasSubstr("Time of a tick   median 4000.00 us, 99 % 7920.00 us, 99.9 % 7992.00 us, largest 8000.0 us\n"));
@@ -144,17 +144,17 @@ TEST(Summary, PercentilesAreTheOrderedValues) {
             nlohmann::json({{"median", 4000.0}, {"p99", 7920.0}, {"p999", 7992.0}, {"largest", 8000.0}}));
 }
 
-/// A hold is of the surface that pushes most, from its first frame to its last; friction is none, however hard.
+/// A hold is of the surface that pushes most, from its first tick to its last; friction is none, however hard.
 TEST(Summary, HoldsAreOfTheSurfaceThatPushes) {
   Made made;
   for (int n = 0; n < 300; ++n) {
     // In the air; on the skin from 0.1 s to 0.149 s with a gap of 20 ms; on the bone from 0.2 s to 0.249 s.
     const bool skin = n >= 100 && n < 150 && (n < 120 || n >= 140);
     const bool bone = n >= 200 && n < 250;
-    TickRecord& frame = made.add(bone ? 2 : 0, skin || bone ? 0.3 : 0.04);
-    frame.value = n;
-    frame.proxy_m[0] = 1e-3 * n;
-    frame.force_n[1] = n == 110 ? 1.25 : n == 220 ? 2.5 : n == 180 ? 9 : 0.5;
+    TickRecord& tick = made.add(bone ? 2 : 0, skin || bone ? 0.3 : 0.04);
+    tick.value = n;
+    tick.proxy_m[0] = 1e-3 * n;
+    tick.force_n[1] = n == 110 ? 1.25 : n == 220 ? 2.5 : n == 180 ? 9 : 0.5;
   }
   const Summary summary = made.summary();
   ASSERT_EQ(summary.holds.size(), 2U);
@@ -191,6 +191,32 @@ TEST(Summary, SidesOfThePatient) {
   EXPECT_EQ(patient_coordinates({-12.34, 4, 88.06}), "R 12.3 P 4.0 H 88.1 mm");
   EXPECT_EQ(patient_coordinates({12.34, -4, 88.06}), "L 12.3 A 4.0 H 88.1 mm");
   EXPECT_EQ(patient_coordinates({12.34, 4, -88.06}), "L 12.3 P 4.0 F 88.1 mm");
+}
+
+/// The nearest that a stroke came to each structure is its largest distance, which is positive inside; each at its own
+/// time, under its own name, in the order of the ticks.
+TEST(Summary, EachStructureIsApproachedMostAtItsOwnTime) {
+  Made made;
+  for (int n = 0; n < 30; ++n) {
+    TickRecord& tick = made.add(0, 0);
+    tick.distance_mm[0] = -2.5 - std::abs(n - 12);  // nearest at 12 ms: 2.5 mm away
+    tick.distance_mm[1] = 1.5 - std::abs(n - 21);   // deepest at 21 ms: 1.5 mm inside
+    tick.distance_mm[2] = 99;                       // of no structure
+  }
+  modes::Scene scene = scene_of_two();
+  scene.structures = {{.name = "aorta"}, {.name = "not read"}, {.name = "liver"}};
+  modes::Plan plan = plan_of(scene_of_two());
+  plan.structures = {2, 0};
+  const Summary summary = summarize(made.recording, plan);
+  EXPECT_THAT(to_text(summary, scene, "", ""),
+              HasSubstr("How near it came to structures\n  2.5 mm from liver, at 2.012 s\n"
+                        "  1.5 mm inside aorta, at 2.021 s\n\n"));
+  const nlohmann::json told = nlohmann::json::parse(to_json(summary, scene))["structures"];
+  EXPECT_EQ(told.size(), 2U);
+  EXPECT_EQ(told["liver"]["largest_distance_mm"], -2.5);
+  EXPECT_NEAR(told["liver"]["time_s"], 2.012, 1e-9);
+  EXPECT_EQ(told["aorta"]["largest_distance_mm"], 1.5);
+  EXPECT_NEAR(told["aorta"]["time_s"], 2.021, 1e-9);
 }
 
 TEST(Summary, EachFaultIsToldOnceWithItsTimeAndAdvice) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A ring that one thread writes and any number read, each at its own pace; nobody waits for anybody. A reader that is
-/// overtaken is told so and never gets a torn item.
+/// A ring buffer with one writer and any number of readers, each at its own pace. Nobody waits for anybody. A reader
+/// that was overtaken is told so, and never gets a torn item.
 
 #include <array>
 #include <atomic>
@@ -23,7 +23,7 @@ class BroadcastRing {
   using Slot = std::array<std::atomic<std::uint64_t>, words>;
 
  public:
-  /// Holds the last `capacity` items, rounded up to a power of two.
+  /// Holds the last `capacity` items. The capacity is rounded up to a power of two.
   explicit BroadcastRing(std::size_t capacity)
       : capacity_(std::bit_ceil(capacity)), slots_(std::make_unique<Slot[]>(capacity_)) {}
 
@@ -40,9 +40,9 @@ class BroadcastRing {
   }
 
   std::size_t capacity() const noexcept { return capacity_; }
-  /// How many items were ever written: the next one's number.
+  /// How many items were ever written, which is also the number of the next one.
   std::uint64_t written() const noexcept { return written_.load(std::memory_order_acquire); }
-  /// The oldest item that a reader may still hope for.
+  /// The oldest item that may still be there.
   std::uint64_t oldest() const noexcept {
     const std::uint64_t n = written();
     return n > capacity_ ? n - capacity_ : 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Things handed from the thread that commands to the servo and, when they are no longer used, back: so that the servo
+/// Hands objects from the controlling thread to the servo, and back when the servo no longer uses them. So the servo
 /// never allocates, frees or waits.
 
 #include <atomic>
@@ -21,14 +21,14 @@ class Handover {
     collect();
   }
 
-  /// Giver: offers an item, in place of one that was not taken yet.
+  /// Giver: offers an item. It replaces one that was offered and not taken.
   void give(std::unique_ptr<T> item) { const std::unique_ptr<T> replaced(offered_.exchange(item.release())); }
 
   /// Taker, wait-free: the item that is offered, which the taker now owns; null where there is none.
   T* take() noexcept { return is_offered() ? offered_.exchange(nullptr, std::memory_order_acq_rel) : nullptr; }
   bool is_offered() const noexcept { return offered_.load(std::memory_order_acquire) != nullptr; }
 
-  /// Taker: hands back an item, which the giver frees. Waits for nobody but a collect() in the same instant.
+  /// Taker: hands back an item, for the giver to free. Waits at most for a collect() that runs at the same instant.
   void give_back(T* item) noexcept {
     item->next_returned = returned_.load(std::memory_order_relaxed);
     while (!returned_.compare_exchange_weak(item->next_returned, item, std::memory_order_release,
@@ -36,7 +36,7 @@ class Handover {
     }
   }
 
-  /// Giver: frees what was handed back; says whether there was anything.
+  /// Giver: frees what was handed back. Returns whether there was anything.
   bool collect() {
     T* item = returned_.exchange(nullptr, std::memory_order_acquire);
     const bool any = item != nullptr;

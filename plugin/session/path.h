@@ -1,6 +1,6 @@
 #pragma once
 
-/// A scripted path of the hand: where the simulated hand wants to be, in patient space (LPS, mm) over time (s).
+/// A scripted path of the simulated hand: where the hand wants to be, in patient space (LPS, mm), over time (s).
 
 #include <cstdint>
 #include <filesystem>
@@ -16,8 +16,9 @@ struct PathPoint {
   std::uint32_t buttons = 0;  ///< held from here to the next point, as a bit mask: 2 is the second, which marks
 };
 
-/// Reads `time_s,x_mm,y_mm,z_mm`, a header line and one point a line, times ascending from 0 or more. A header that
-/// ends with `,buttons` adds that column. Throws std::runtime_error naming the file, the line and what is wrong.
+/// Reads a table with the header `time_s,x_mm,y_mm,z_mm` and one point a line; times ascend, from 0 or more. The header
+/// may end with `,buttons`, which adds that column. Throws std::runtime_error that names the file, the line and what is
+/// wrong.
 std::vector<PathPoint> read_path_csv(const std::filesystem::path& file);
 
 }  // namespace palpate::plugin

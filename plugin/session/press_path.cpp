@@ -60,9 +60,10 @@ PressPath make_press_path(const modes::Plan& plan, const io::FieldSource& source
     }
   }
 
-  // The hand is a spring in front of the coupling's: to press with a force it aims deeper than the probe gets.
-  const double hand_mm_per_n = 1e3 / device::HandModel{}.stiffness;
-  const double coupling_mm_per_n = 1e3 / plan.stiffness_n_per_m * plan.workspace.mm_per_m / 1e3;
+  // The hand is a spring in front of the coupling's: to press with a force it aims deeper than the probe gets. Both are
+  // of the hand's meters; the script is of the patient's millimeters.
+  const double hand_mm_per_n = plan.workspace.mm_per_m / device::HandModel{}.stiffness;
+  const double coupling_mm_per_n = plan.workspace.mm_per_m / plan.stiffness_n_per_m;
   const double press = share_pressed * first.peak_n * (hand_mm_per_n + coupling_mm_per_n);
   const auto target = [&](double depth_mm, double aside_mm) {
     return path.contact_mm + depth_mm * path.inward + aside_mm * across(path.inward);

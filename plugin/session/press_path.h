@@ -1,7 +1,7 @@
 #pragma once
 
-/// The main job's script, made from the scan: come from outside, press on the first boundary, slide along it, push
-/// through to the next ones, and lift off.
+/// A script for the simulated hand, made from the scan: come from outside, press on the first boundary, slide along it,
+/// push through to the next ones, and lift off.
 
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -20,8 +20,8 @@ struct PressPath {
   std::vector<std::size_t> boundaries;  ///< the scene's modes met on the way in, in order
 };
 
-/// Feels its way once from `from_mm` to `to_mm` (a stroke), and writes the script from what it met. Throws
-/// std::runtime_error where nothing is felt on the way, saying so.
+/// Feels along the way from `from_mm` to `to_mm` once (a stroke), and writes the script from the boundaries it met.
+/// Throws std::runtime_error if nothing is felt on the way.
 PressPath make_press_path(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
                           const glm::dvec3& to_mm);
 

@@ -13,6 +13,7 @@
 #include "io/structures/structured_fields.h"
 #include "modes/scene/scene_json.h"
 #include "modes/tick/reach.h"
+#include "plugin/messages/tell.h"
 
 namespace palpate::plugin {
 
@@ -87,12 +88,27 @@ std::shared_ptr<const io::FieldSource> with_structures(std::shared_ptr<const io:
 }  // namespace
 
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-                      const glm::dvec3& device_half_extent_m) {
-  return prepare(scene, volume, device_half_extent_m, {});
+                      const glm::dvec3& device_half_extent_m, std::span<const RegisteredStructure> recorded) {
+  return prepare(scene, volume, device_half_extent_m, Prepared(), recorded);
+}
+
+std::vector<RegisteredStructure> registered_of(const PreparedScene& felt) {
+  std::vector<RegisteredStructure> registered;
+  for (const LoadedStructure& structure : felt.structures) {
+    if (structure.registered) registered.push_back(*structure.registered);
+  }
+  return registered;
+}
+
+void warn_of_structures(const PreparedScene& felt) {
+  for (const LoadedStructure& structure : felt.structures) {
+    for (const Text& warning : structure.warnings) tell(at_place("palpate: warning", warning));
+  }
 }
 
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-                      const glm::dvec3& device_half_extent_m, const Prepared& before) {
+                      const glm::dvec3& device_half_extent_m, const Prepared& before,
+                      std::span<const RegisteredStructure> recorded) {
   const std::shared_ptr<const io::Volume>& ahead = before.felt.volume;
   const bool of_scan = ahead && io::raw_of(ahead) == io::raw_of(volume);
   const bool is_ready = of_scan && io::filter_of(*ahead) == scene.filter;
@@ -103,8 +119,8 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
                          before.felt.plan->slices == felt.plan->slices &&
                          before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
                          before.scene.sampling == scene.sampling;
-  felt.structures =
-      load_structures(scene, *felt.plan, *volume, of_scan ? before.felt.structures : std::vector<LoadedStructure>());
+  felt.structures = load_structures(scene, *felt.plan, *volume,
+                                    of_scan ? before.felt.structures : std::vector<LoadedStructure>(), recorded);
   if (same_scan && same_distances(felt.structures, before.felt.structures)) {
     felt.source = before.felt.source;
     return felt;

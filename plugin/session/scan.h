@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,37 +27,43 @@ Box bounding_box(const io::Geometry& geometry);
 /// path.
 std::string describe_scan(const io::Volume& volume);
 
-/// The scene named by --scene (a file or a starting scene); the one that suits the modality, or a velocity field,
-/// where it is empty. Throws
-/// std::invalid_argument as modes::load_scene() does.
+/// The scene named by --scene (a file or a starting scene). If the name is empty: the starting scene that suits the
+/// modality, or the one for a velocity field. Throws std::invalid_argument as modes::load_scene() does.
 modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume);
 
-/// The plan of a scene on a scan, with the fields that this scan has (vectors where it is a velocity field), held with
-/// a device of that reach.
+/// The plan of a scene on a scan with the fields that this scan has (vectors if it is a velocity field), for a device
+/// with this reach.
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m);
 
 /// What a plan reads of the scan itself: all but the distances from structures.
 io::FieldSet scan_fields(const modes::Plan& plan) noexcept;
 
-/// A scene on a scan: the plan, and the fields that this plan needs and no more.
+/// A scene on a scan: the plan, and exactly the fields that this plan needs.
 struct PreparedScene {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
   std::shared_ptr<const io::Volume> volume;  ///< the scan as it is felt: through the scene's filter
   std::vector<LoadedStructure> structures;   ///< those that the plan reads, in its order
 };
+/// Structures in `recorded` are put where they were then.
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-                      const glm::dvec3& device_half_extent_m);
+                      const glm::dvec3& device_half_extent_m, std::span<const RegisteredStructure> recorded = {});
+
+/// Writes to stderr what a user should know of how the scene's structures lie on the scan.
+void warn_of_structures(const PreparedScene& felt);
 
 /// What was prepared before. `felt.volume` alone may be given too: a volume that was filtered ahead.
 struct Prepared {
   PreparedScene felt;
   modes::Scene scene;
 };
-/// The same, with the filtered volume and the fields that were prepared before where the scene still needs just these
-/// of that scan: a scene that is being edited is then there at once.
+/// The same, but takes the filtered volume and the fields from `felt` if the scene still needs exactly these of this
+/// scan. So a scene that is being edited is ready at once.
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
-                      const glm::dvec3& device_half_extent_m, const Prepared& before);
+                      const glm::dvec3& device_half_extent_m, const Prepared& before,
+                      std::span<const RegisteredStructure> recorded = {});
+/// Those of its structures that a registration put on the scan.
+std::vector<RegisteredStructure> registered_of(const PreparedScene& felt);
 
 }  // namespace palpate::plugin

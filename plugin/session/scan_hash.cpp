@@ -82,6 +82,11 @@ std::string hash_of(const io::Volume& without_voxels, std::span<const std::uint6
   return fmt::format("{:016x}", hash.digest());
 }
 
+std::string hash_of_series(const std::string& uid, const io::Volume& volume) {
+  const std::uint64_t named = XXH3_64bits(uid.data(), uid.size());
+  return hash_of(volume, {&named, 1});
+}
+
 std::string hash_of(const io::Volume& volume) {
   return hash_of(volume, hashes_of_slices(volume));
 }

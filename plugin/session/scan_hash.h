@@ -1,8 +1,8 @@
 #pragma once
 
-/// A scan's content in 16 digits: the same for the same values at the same places, however they are stored and wherever
-/// they are. It is made of its slices' hashes, so that it can be had of a scan that is never in one place: a server
-/// reads it slice by slice.
+/// A hash of a scan's content, 16 digits: equal for equal values at equal places, no matter how or where they are
+/// stored. It is computed from the hashes of the slices. So a server can compute it slice by slice, without ever
+/// holding the whole scan.
 
 #include <cstdint>
 #include <span>
@@ -16,12 +16,15 @@ namespace palpate::plugin {
 /// XXH3 of a slice's rescaled values, rounded to floats.
 std::uint64_t hash_of_slice(const io::Volume& volume, int k);
 
-/// Of all slices; of a velocity field then those of each of its components.
+/// The hashes of all slices, and for a velocity field then those of each component.
 std::vector<std::uint64_t> hashes_of_slices(const io::Volume& volume);
 
-/// 16 hexadecimal digits that tell one scan from another: of the geometry, what is padding, the directions of vectors,
-/// and `slices` as from hashes_of_slices(). No voxels are read of the volume.
+/// 16 hexadecimal digits that tell one scan from another. They depend on the geometry, the padding values, the
+/// directions of vectors, and `slices` as from hashes_of_slices(). Reads no voxels of the volume.
 std::string hash_of(const io::Volume& without_voxels, std::span<const std::uint64_t> slices);
 std::string hash_of(const io::Volume& volume);
+/// 16 hexadecimal digits that tell one series, with all of its frames, from another. They depend on its UID, which
+/// cannot be recovered from them, and on its place. Reads no voxels.
+std::string hash_of_series(const std::string& uid, const io::Volume& volume);
 
 }  // namespace palpate::plugin

@@ -4,9 +4,9 @@
 
 namespace palpate::plugin {
 
-/// The same volume with slope 1 and intercept 0: still 16 bit where every value is an integer that fits (all CT), else
-/// as floats. A viewer shows what is stored; and whatever is felt is felt of this form, in ParaView and on the command
-/// line, or the one could not repeat the other's recordings to the last bit. Takes its voxels.
+/// The same volume with slope 1 and intercept 0. It stays 16 bit if every value is an integer that fits (all CT);
+/// otherwise the voxels become floats. Everything that is felt is felt of this form, in ParaView and on the command
+/// line: otherwise one could not repeat a recording of the other to the last bit. Takes the volume's voxels.
 io::Volume scan_values(io::Volume volume);
 
 }  // namespace palpate::plugin

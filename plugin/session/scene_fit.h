@@ -10,8 +10,8 @@
 
 namespace palpate::plugin {
 
-/// Why nothing of the scene could be felt on this scan: every mode that is switched on reads a field that the scan does
-/// not have. Empty where something can be felt, or where nothing is switched on.
+/// Why nothing of the scene can be felt on this scan: every mode that is switched on reads a field that the scan does
+/// not have. Empty if something can be felt, or if no mode is switched on.
 Text why_not_felt(const modes::Scene& scene, const io::Volume& volume);
 
 }  // namespace palpate::plugin

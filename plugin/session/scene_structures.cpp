@@ -12,6 +12,7 @@
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
 #include "plugin/session/shared_distance.h"
+#include "plugin/session/structure_files.h"
 #include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
@@ -66,10 +67,33 @@ io::Structure find_structure(const modes::SceneStructure& wanted, const std::fil
   refuse(wanted, say("file-has-no-such-structure", file.filename().string(), asked, known));
 }
 
+/// What else its file says of it, `palpate structures` tells.
+void keep_what_is_to_be_checked(io::Structure& structure) {
+  if (structure.kind != io::StructureKind::label_map) structure.warnings.clear();
+  // That it names no scan: it may be another patient's.
+  for (Text& warning : structure.warnings) warning = at_place(structure.file.filename().string(), warning);
+}
+
+/// Puts it on the scan, by a registration if that is needed: the recorded one, or the study's.
+std::optional<RegisteredStructure> place(io::Structure& structure, const modes::SceneStructure& wanted,
+                                         const io::Volume& volume, std::span<const RegisteredStructure> recorded) {
+  const auto known = std::ranges::find(recorded, wanted.name, &RegisteredStructure::structure);
+  if (known != recorded.end()) {
+    if (const Text why = place_by(structure, known->motion, volume); !why.empty()) refuse(wanted, why);
+    return *known;
+  }
+  const Placed placed = place_on(structure, registrations_for(structure, volume), volume);
+  if (!placed.why_not.empty()) refuse(wanted, placed.why_not);
+  if (placed.registration.empty()) return std::nullopt;
+  return RegisteredStructure{
+      .structure = wanted.name, .file_hash = hash_of_file(placed.registration), .motion = structure.motion};
+}
+
 }  // namespace
 
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
-                                             const io::Volume& volume, const std::vector<LoadedStructure>& before) {
+                                             const io::Volume& volume, const std::vector<LoadedStructure>& before,
+                                             std::span<const RegisteredStructure> recorded) {
   std::vector<LoadedStructure> loaded;
   for (const std::size_t n : plan.structures) {
     const modes::SceneStructure& wanted = scene.structures[n];
@@ -83,10 +107,12 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       loaded.push_back(*known);
       continue;
     }
-    const io::Structure structure = find_structure(wanted, file);
-    if (const Text why = why_not_on(structure, volume); !why.empty()) refuse(wanted, why);
+    io::Structure structure = find_structure(wanted, file);
+    keep_what_is_to_be_checked(structure);
+    const std::optional<RegisteredStructure> registered = place(structure, wanted, volume, recorded);
     try {
-      loaded.push_back({file.string(), segment, shared_distance(structure, volume.geometry, reach)});
+      loaded.push_back(
+          {file.string(), segment, structure.warnings, registered, shared_distance(structure, volume.geometry, reach)});
     } catch (const io::DicomError& error) {
       refuse(wanted, error.text());
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "plugin/session/sampled_once.h"
 #include "solver/chain.h"
 
 namespace palpate::plugin {
@@ -37,12 +38,30 @@ std::uint32_t count(const auto& value) {
   return static_cast<std::uint32_t>(value);
 }
 
+/// A tick that could not be solved asks for a force that is not a number: the filter latches the fault and lets go.
+glm::dvec3 asked_force(const modes::StepResult& result) {
+  const bool solved = result.outcome == solver::Outcome::solved || result.outcome == solver::Outcome::capped;
+  return solved ? result.force_n : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Counts of the processor's clock in each stage of a tick.
+using StageCounts = std::array<std::uint64_t, stage_count>;
+
+/// What the step counted of its own stages is not counted as modes too.
+void part_modes(const modes::StepTimes& times, StageCounts& counts) {
+  counts[static_cast<std::size_t>(Stage::map)] = times.map;
+  counts[static_cast<std::size_t>(Stage::sample)] = times.sample;
+  counts[static_cast<std::size_t>(Stage::solve)] = times.solve;
+  counts[static_cast<std::size_t>(Stage::modes)] -= times.map + times.sample + times.solve;
+}
+
 }  // namespace
 
 /// A snapshot as the servo holds it, with solvers of its own so that the tick runs exactly its plan.
 struct Session::Setting {
-  explicit Setting(const Snapshot& published, std::uint32_t number)
+  Setting(const Snapshot& published, std::shared_ptr<const SampledOnce> sampled, std::uint32_t number)
       : snapshot(published),
+        source(std::move(sampled)),
         epoch(number),
         chain({.analytical = published.plan->solvers.analytical,
                .exact = published.plan->solvers.exact,
@@ -55,6 +74,8 @@ struct Session::Setting {
                                                               .capacity = modes::most_primitives})) {}
 
   Snapshot snapshot;
+  /// The snapshot's source; one and the same for settings on the same data.
+  std::shared_ptr<const SampledOnce> source;
   std::uint32_t epoch;
   solver::Chain chain;
   /// Of the change to it, in which two scenes together can need what neither does alone; null where there is none.
@@ -96,13 +117,15 @@ Session::Session(std::shared_ptr<const modes::Plan> plan, std::shared_ptr<const 
               std::shared_ptr<device::Stylus>(&stylus, [](device::Stylus*) {})) {}
 
 Session::Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring)
-    : scratch_(std::make_unique<modes::StepScratch>()),
+    : fault_log_(std::make_unique<device::FaultLog>()),
+      scratch_(std::make_unique<modes::StepScratch>()),
       ring_(ring),
       rate_hz_(stylus->specification().rate),
       ns_per_count_(1 / modes::counts_per_ns()) {
   stylus->open();
   auto held = std::make_unique<Held>(std::move(stylus), last_stylus_);
-  setting_ = std::make_unique<Setting>(first, last_setting_).release();
+  sampled_ = std::make_shared<const SampledOnce>(first.source);
+  setting_ = std::make_unique<Setting>(first, sampled_, last_setting_).release();
   held_ = held.release();
 }
 
@@ -114,7 +137,8 @@ Session::~Session() {
 }
 
 std::uint32_t Session::publish(const Snapshot& next) {
-  settings_.give(std::make_unique<Setting>(next, ++last_setting_));
+  if (sampled_->source() != next.source) sampled_ = std::make_shared<const SampledOnce>(next.source);
+  settings_.give(std::make_unique<Setting>(next, sampled_, ++last_setting_));
   collect();
   return last_setting_;
 }
@@ -142,28 +166,33 @@ std::size_t Session::solver_bytes() const noexcept {
 void Session::collect() {
   settings_.collect();
   styluses_.collect();
+  if (fault_log_->stopped()) {
+    fault_ticks_ = fault_log_->ticks();
+    ++faults_;
+    fault_log_->clear();
+  }
 }
 
 void Session::take_commands() noexcept {
-  frame_.commands = 0;
+  tick_.commands = 0;
   if (commands_.load(std::memory_order_relaxed) != 0) {
-    frame_.commands = commands_.exchange(0, std::memory_order_acquire);
+    tick_.commands = commands_.exchange(0, std::memory_order_acquire);
   }
   // Looked for after the commands: who sees that it shall arm sees the stylus that was changed before.
   if (!exchanging_ && styluses_.is_offered()) {
     exchanging_ = true;
     arm_again_ = safety_.armed;
     device::disarm(safety_);
-    frame_.commands |= command::change_stylus;
+    tick_.commands |= command::change_stylus;
   }
-  if ((frame_.commands & command::clear_fault) != 0) {
+  if ((tick_.commands & command::clear_fault) != 0) {
     device::clear_fault(safety_);
   }
-  if ((frame_.commands & command::disarm) != 0) {
+  if ((tick_.commands & command::disarm) != 0) {
     device::disarm(safety_);
     arm_again_ = false;
   }
-  if ((frame_.commands & command::arm) != 0) {
+  if ((tick_.commands & command::arm) != 0) {
     if (exchanging_) {
       arm_again_ = true;  // the next stylus
     } else {
@@ -205,11 +234,11 @@ void Session::take_setting(double time) noexcept {
 modes::StepResult Session::step(const device::Reading& reading) noexcept {
   const Snapshot& to = setting_->snapshot;
   if (leaving_ == nullptr) {
-    return modes::step(*to.plan, *to.source, reading.position, touch_, setting_->chain, *scratch_);
+    return modes::step(*to.plan, *setting_->source, reading.position, touch_, setting_->chain, *scratch_);
   }
   const Snapshot& from = leaving_->snapshot;
   const modes::SceneChange change{
-      .from = {from.plan.get(), from.source.get()}, .to = {to.plan.get(), to.source.get()}, .part = part_};
+      .from = {from.plan.get(), leaving_->source.get()}, .to = {to.plan.get(), setting_->source.get()}, .part = part_};
   const modes::StepResult result = modes::step(change, reading.position, touch_, *setting_->changing_chain, *scratch_);
   if (part_ >= 1) {
     // To be freed with the setting that it was a change from.
@@ -237,13 +266,14 @@ const TickRecord& Session::tick() noexcept {
 const TickRecord& Session::tick(const Beat& beat) noexcept {
   modes::Stopwatch watch;
   watch.start();
-  std::array<std::uint64_t, stage_count> counts{};
+  StageCounts counts{};
   const auto lap = [&](Stage stage) { watch.lap(counts[static_cast<std::size_t>(stage)]); };
 
   take_commands();
   go_over_to_stylus();
   const device::Reading reading = held_->stylus->read();
   const device::State state = held_->stylus->state();
+  orientation_.store(reading.orientation);
   lap(Stage::read);
 
   const bool engaged = safety_.armed && can_push(state);
@@ -257,15 +287,9 @@ const TickRecord& Session::tick(const Beat& beat) noexcept {
   const device::SafetyLimits limits_now = limits();
   const modes::StepResult result = step(reading);
   lap(Stage::modes);
-  const modes::StepTimes& times = scratch_->times;
-  counts[static_cast<std::size_t>(Stage::map)] = times.map;
-  counts[static_cast<std::size_t>(Stage::sample)] = times.sample;
-  counts[static_cast<std::size_t>(Stage::solve)] = times.solve;
-  counts[static_cast<std::size_t>(Stage::modes)] -= times.map + times.sample + times.solve;
+  part_modes(scratch_->times, counts);
 
-  // A frame that could not be solved asks for a force that is not a number: the filter latches the fault and lets go.
-  const bool solved = result.outcome == solver::Outcome::solved || result.outcome == solver::Outcome::capped;
-  glm::dvec3 asked = solved ? result.force_n : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+  glm::dvec3 asked = asked_force(result);
   if (held_->specification.force_axes > 0) {
     asked = device::damp_ringing({}, reading, asked, energy_);
   }
@@ -276,67 +300,70 @@ const TickRecord& Session::tick(const Beat& beat) noexcept {
                                   .force_time = beat.time_s,
                                   .heartbeat_time = beat.heartbeat_s};
   const device::SafetyResult safe = device::filter_force(limits_now, input, safety_);
+  fault_log_->record(input, safe);
   lap(Stage::filter);
 
   held_->stylus->write_force(safe.force);
   lap(Stage::write);
 
-  frame_.stylus_state = count(state);
-  frame_.safety = pack_safety(safe.state, safe.fault);
-  copy(safe.force, frame_.sent_n);
+  tick_.stylus_state = count(state);
+  tick_.safety = pack_safety(safe.state, safe.fault);
+  copy(safe.force, tick_.sent_n);
   observe(beat, reading, result);
   lap(Stage::observe);
   for (std::size_t stage = 0; stage < stage_count; ++stage) {
-    frame_.stage_ns[stage] = count(static_cast<double>(counts[stage]) * ns_per_count_);
+    tick_.stage_ns[stage] = count(static_cast<double>(counts[stage]) * ns_per_count_);
   }
   if (ring_ != nullptr) {
-    ring_->push(frame_, shares());
+    ring_->push(tick_, shares());
   }
-  return frame_;
+  return tick_;
 }
 
 void Session::observe(const Beat& beat, const device::Reading& reading, const modes::StepResult& result) noexcept {
-  frame_.index = ticks_++;
-  frame_.dt_s = beat.time_s - frame_.time_s;
-  frame_.time_s = beat.time_s;
-  frame_.pose_time_s = reading.time;
-  frame_.heartbeat_s = beat.heartbeat_s;
-  frame_.missed = beat.missed;
-  frame_.late_ns = beat.late_ns;
-  copy(reading.position, frame_.probe_m);
-  copy(result.proxy_m, frame_.proxy_m);
-  copy(result.force_n, frame_.force_n);
+  tick_.index = ticks_++;
+  tick_.dt_s = beat.time_s - tick_.time_s;
+  tick_.time_s = beat.time_s;
+  tick_.pose_time_s = reading.time;
+  tick_.heartbeat_s = beat.heartbeat_s;
+  tick_.missed = beat.missed;
+  tick_.late_ns = beat.late_ns;
+  copy(reading.position, tick_.probe_m);
+  copy(result.proxy_m, tick_.proxy_m);
+  copy(result.force_n, tick_.force_n);
   const Snapshot& now = setting_->snapshot;
   const std::size_t structures = now.plan->structures.size();
   const io::FieldSet told = structures == 0 ? io::FieldSet::value : io::FieldSet::value | io::FieldSet::distance;
-  const io::Sample here = now.source->sample(touch_.workspace.to_patient(result.proxy_m), told);
+  // With what the next tick wants of this place.
+  const io::Sample here =
+      setting_->source->sample(touch_.workspace.to_patient(result.proxy_m), told | now.plan->fields);
   for (std::size_t n = 0; n < distance_count; ++n) {
-    frame_.distance_mm[n] = n < structures ? here.distance[n].mm : std::numeric_limits<double>::quiet_NaN();
+    tick_.distance_mm[n] = n < structures ? here.distance[n].mm : std::numeric_limits<double>::quiet_NaN();
   }
-  frame_.value = here.inside ? here.value : std::numeric_limits<double>::quiet_NaN();
-  frame_.error_bound_m = result.error_bound;
-  frame_.change_part = part_;
-  frame_.scene_epoch = setting_->epoch;
-  frame_.sub_steps = count(result.sub_steps);
-  frame_.halts = count(result.halts);
-  frame_.iterations = count(result.iterations);
-  frame_.solver = count(result.solver);
-  frame_.outcome = count(result.outcome);
-  frame_.buttons = reading.buttons;
-  frame_.fresh = reading.fresh ? 1 : 0;
-  frame_.stylus_epoch = held_->epoch;
-  frame_.from_brick = result.sample.from_brick ? 1 : 0;
-  frame_.share_count = count(result.primitives.size());
+  tick_.value = here.inside ? here.value : std::numeric_limits<double>::quiet_NaN();
+  tick_.error_bound_m = result.error_bound;
+  tick_.change_part = part_;
+  tick_.scene_epoch = setting_->epoch;
+  tick_.sub_steps = count(result.sub_steps);
+  tick_.halts = count(result.halts);
+  tick_.iterations = count(result.iterations);
+  tick_.solver = count(result.solver);
+  tick_.outcome = count(result.outcome);
+  tick_.buttons = reading.buttons | pressed_.load(std::memory_order_relaxed);
+  tick_.fresh = reading.fresh ? 1 : 0;
+  tick_.stylus_epoch = held_->epoch;
+  tick_.from_brick = result.sample.from_brick ? 1 : 0;
+  tick_.share_count = count(result.primitives.size());
   glm::dvec3 balance = -result.force_n;
   for (std::size_t n = 0; n < result.primitives.size(); ++n) {
-    shares_[n] = {.frame = frame_.index,
+    shares_[n] = {.tick = tick_.index,
                   .mode = result.mode_of[n],
                   .type = count(result.primitives[n].type),
                   .strength_n = result.primitives[n].strength};
     copy(result.shares[n], shares_[n].force_n);
     balance += result.shares[n];
   }
-  frame_.residual_n = glm::length(balance);
+  tick_.residual_n = glm::length(balance);
 }
 
 }  // namespace palpate::plugin

@@ -10,10 +10,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "device/link/latest.h"
 #include "device/safety/energy.h"
+#include "device/safety/fault_log.h"
 #include "device/safety/safety_filter.h"
 #include "device/stylus.h"
 #include "io/fields/field_source.h"
@@ -24,6 +28,8 @@
 #include "plugin/session/tick_ring.h"
 
 namespace palpate::plugin {
+
+class SampledOnce;
 
 /// What is felt: a scene on a scan or on one of its frames. Immutable once it is published; shared by pointer.
 struct Snapshot {
@@ -42,32 +48,32 @@ struct Beat {
 
 class Session {
  public:
-  /// Opens the stylus and asks for it to be armed. The stylus has to outlive the session. Throws what Stylus::open()
+  /// Opens the stylus and asks for it to be armed. The stylus must outlive the session. Throws what Stylus::open()
   /// throws.
   Session(std::shared_ptr<const modes::Plan> plan, std::shared_ptr<const io::FieldSource> source,
           device::Stylus& stylus, const device::SafetyLimits& limits);
-  /// The same; the ring (may be null, has to outlive the session) gets every tick record.
+  /// The same. The ring gets every tick record; it may be null, and must outlive the session.
   Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring = nullptr);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
-  /// Zero force, stylus closed. No thread may be ticking any more.
+  /// Sends zero force and closes the stylus. No thread may be ticking any more.
   ~Session();
 
   // --- The servo. Does not allocate, free, lock, log, throw or call the system.
   const TickRecord& tick(const Beat& beat) noexcept;
-  /// The same, in even steps of the first stylus' rate, by a driver that is always there.
+  /// The same, in even steps of the first stylus' rate, with a heartbeat in every tick.
   const TickRecord& tick() noexcept;
   /// What each primitive did in the last tick's last sub-step.
-  std::span<const PrimitiveRecord> shares() const noexcept { return {shares_.data(), frame_.share_count}; }
+  std::span<const PrimitiveRecord> shares() const noexcept { return {shares_.data(), tick_.share_count}; }
   device::Fault fault() const noexcept { return safety_.fault; }
 
   // --- The controlling thread.
-  /// Changes to another scene, scan, frame or workspace. One change at a time: the next begins when the one under way
-  /// has ended; of several that wait, the last counts. Returns the TickRecord::scene_epoch of its ticks.
+  /// Changes to another scene, scan, frame or workspace. Changes run one at a time: the next begins when the current
+  /// one has ended. If several wait, only the last is made. Returns the TickRecord::scene_epoch of its ticks.
   std::uint32_t publish(const Snapshot& next);
-  /// Changes to another stylus. It is opened here; the servo takes it once the force has fallen, and ramps the force up
-  /// from zero. Throws what Stylus::open() throws, and the session then keeps its stylus. Null: none is held until the
-  /// next. Returns the TickRecord::stylus_epoch of its ticks.
+  /// Changes to another stylus. It is opened here. The servo takes it when the force has fallen to zero, and ramps the
+  /// force up again. Throws what Stylus::open() throws; the session then keeps its stylus. Null: no stylus is held
+  /// until the next call. Returns the TickRecord::stylus_epoch of its ticks.
   std::uint32_t change_stylus(std::shared_ptr<device::Stylus> stylus);
   /// Whether the servo has taken the stylus of the last change_stylus().
   bool holds_stylus(std::uint32_t epoch) const noexcept {
@@ -76,17 +82,28 @@ class Session {
   void arm() noexcept { ask(command::arm, command::disarm); }
   void disarm() noexcept { ask(command::disarm, command::arm); }
   void clear_fault() noexcept { ask(command::clear_fault, 0); }
-  /// Frees scenes, scans and styluses (these are closed) that the servo has left. publish() and change_stylus() do it,
-  /// too.
+  /// Holds buttons down from the next tick on, in addition to those of the stylus (TickRecord::buttons has both). 0:
+  /// none.
+  void press(std::uint32_t buttons) noexcept { pressed_.store(buttons, std::memory_order_relaxed); }
+  /// Input and output of the safety filter in the second before the last fault and in the tenth of a second after it,
+  /// oldest first. Empty before the first fault. collect() updates it.
+  const std::vector<device::SafetyTick>& fault_ticks() const noexcept { return fault_ticks_; }
+  /// The orientation of the stylus, device frame; the identity if it does not measure any. For display only: no torque
+  /// is ever sent.
+  const glm::dquat& orientation() noexcept { return orientation_.load(); }
+  /// How many faults collect() has found.
+  int faults() const noexcept { return faults_; }
+  /// Frees the scenes, scans and styluses that the servo no longer uses (styluses are closed), and takes over what the
+  /// servo recorded of a fault. publish() and change_stylus() call it too.
   void collect();
-  /// What its solvers hold for the tick. Not while another thread ticks.
+  /// Bytes that the solvers hold for the tick. Not to be called while another thread ticks.
   std::size_t solver_bytes() const noexcept;
 
  private:
   struct Setting;
   struct Held;
 
-  /// Of two that contradict each other before the same tick the last counts.
+  /// If two commands before the same tick contradict each other, the last one counts.
   void ask(std::uint32_t wanted, std::uint32_t instead_of) noexcept {
     commands_.fetch_and(~instead_of, std::memory_order_relaxed);
     commands_.fetch_or(wanted, std::memory_order_release);
@@ -103,9 +120,14 @@ class Session {
   Handover<Held> styluses_;
   std::atomic<std::uint32_t> commands_{command::arm};
   std::atomic<std::uint32_t> stylus_epoch_{0};
+  std::atomic<std::uint32_t> pressed_{0};
+  device::Latest<glm::dquat> orientation_{glm::dquat(1, 0, 0, 0)};
   // Of the controlling thread.
+  std::shared_ptr<const SampledOnce> sampled_;  ///< of the last snapshot published; only the servo samples it
   std::uint32_t last_setting_ = 0;
   std::uint32_t last_stylus_ = 0;
+  std::vector<device::SafetyTick> fault_ticks_;
+  int faults_ = 0;
   // The servo's.
   Setting* setting_ = nullptr;
   Setting* leaving_ = nullptr;  ///< the setting that it replaces; null: settled
@@ -116,10 +138,11 @@ class Session {
   bool arm_again_ = false;
   bool engaged_ = false;  ///< armed, and the stylus ready
   device::SafetyState safety_;
+  std::unique_ptr<device::FaultLog> fault_log_;
   device::EnergyState energy_;
   modes::Touch touch_;
   std::unique_ptr<modes::StepScratch> scratch_;
-  TickRecord frame_;
+  TickRecord tick_;
   std::array<PrimitiveRecord, modes::most_primitives> shares_{};
   TickRing* ring_;
   double rate_hz_;
@@ -127,7 +150,7 @@ class Session {
   std::uint64_t ticks_ = 0;
 };
 
-/// N/m: the scene's stiffness, but no more than the stylus renders stably.
+/// N/m: the scene's stiffness, or the most that the stylus renders stably if that is less.
 double stiffness_for(const modes::Scene& scene, const device::Specification& stylus) noexcept;
 
 /// The safety filter's limits for a scene on a device: never above what the device can do.
@@ -137,11 +160,11 @@ device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specif
 constexpr std::uint32_t pack_safety(device::State state, device::Fault fault) {
   return static_cast<std::uint32_t>(state) | static_cast<std::uint32_t>(fault) << 8U;
 }
-constexpr device::State state_of(const TickRecord& frame) {
-  return static_cast<device::State>(frame.safety & 0xFFU);
+constexpr device::State state_of(const TickRecord& tick) {
+  return static_cast<device::State>(tick.safety & 0xFFU);
 }
-constexpr device::Fault fault_of(const TickRecord& frame) {
-  return static_cast<device::Fault>(frame.safety >> 8U);
+constexpr device::Fault fault_of(const TickRecord& tick) {
+  return static_cast<device::Fault>(tick.safety >> 8U);
 }
 
 }  // namespace palpate::plugin

@@ -170,26 +170,26 @@ TEST(SessionChange, ArmingAgainForgetsWhatWasTouchedBefore) {
 
 TEST(SessionChange, ASilentCommanderRampsTheForceToZero) {
   Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
-  TickRecord frame;
+  TickRecord tick;
   for (int n = 0; n < 4600; ++n) {
     const double time = 1e-3 * n;
-    frame = session.tick({.time_s = time, .heartbeat_s = std::min(time, 2.0)});
+    tick = session.tick({.time_s = time, .heartbeat_s = std::min(time, 2.0)});
     if (n == 3900) {
-      EXPECT_GT(glm::length(vector_of(frame.sent_n)), 0.3) << "alive 1.9 s ago";
+      EXPECT_GT(glm::length(vector_of(tick.sent_n)), 0.3) << "alive 1.9 s ago";
     }
   }
-  EXPECT_EQ(fault_of(frame), device::Fault::commander_silent);
-  EXPECT_EQ(glm::length(vector_of(frame.sent_n)), 0);
+  EXPECT_EQ(fault_of(tick), device::Fault::commander_silent);
+  EXPECT_EQ(glm::length(vector_of(tick.sent_n)), 0);
 }
 
-TEST(SessionChange, TheStagesOfAFrameAddUp) {
+TEST(SessionChange, TheStagesOfATickAddUp) {
   Session session(snapshot("ct-skin-and-bone", slab()), stylus(hold()));
   std::uint64_t sums[stage_count] = {};
   for (int n = 0; n < 2000; ++n) {
-    const TickRecord& frame = session.tick();
+    const TickRecord& tick = session.tick();
     for (std::size_t stage = 0; stage < stage_count; ++stage) {
-      ASSERT_LT(frame.stage_ns[stage], 1000000000U) << stage_names[stage] << ": below zero, wrapped";
-      sums[stage] += frame.stage_ns[stage];
+      ASSERT_LT(tick.stage_ns[stage], 1000000000U) << stage_names[stage] << ": below zero, wrapped";
+      sums[stage] += tick.stage_ns[stage];
     }
   }
   for (std::size_t stage = 0; stage < stage_count; ++stage) EXPECT_GT(sums[stage], 0U) << stage_names[stage];

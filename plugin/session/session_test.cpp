@@ -37,13 +37,13 @@ const std::vector<device::Waypoint> press{
     {.time = 4, .position = {0, -0.018, 0}}, {.time = 4.5, .position = {0, -0.018, 0}},
     {.time = 5.5, .position = {0, 0.02, 0}}, {.time = 6, .position = {0, 0.02, 0}}};
 
-std::vector<TickRecord> run(device::Stylus& stylus, std::size_t ticks) {
+std::vector<TickRecord> run(device::Stylus& stylus, std::size_t count) {
   Session session(plan_of("ct-skin-and-bone"), slab(), stylus, limits_for(modes::Limits{}, stylus.specification()));
-  std::vector<TickRecord> frames;
-  for (std::size_t n = 0; n < ticks; ++n) {
-    frames.push_back(session.tick());
+  std::vector<TickRecord> ticks;
+  for (std::size_t n = 0; n < count; ++n) {
+    ticks.push_back(session.tick());
   }
-  return frames;
+  return ticks;
 }
 
 std::vector<TickRecord> press_once(std::uint64_t seed) {
@@ -59,17 +59,17 @@ bool same(const std::vector<TickRecord>& a, const std::vector<TickRecord>& b) {
 }
 
 TEST(Session, SkinThenBoneThenNothing) {
-  const std::vector<TickRecord> frames = press_once(1);
-  const auto force_at = [&](double time) { return frames[static_cast<std::size_t>(time * 1000)].sent_n[1]; };
+  const std::vector<TickRecord> ticks = press_once(1);
+  const auto force_at = [&](double time) { return ticks[static_cast<std::size_t>(time * 1000)].sent_n[1]; };
   EXPECT_EQ(force_at(0.5), 0) << "nothing is felt in the air";
   EXPECT_GT(force_at(2.4), 0.3) << "the skin pushes up";
   EXPECT_LT(force_at(2.4), 1.2);
   EXPECT_GT(force_at(4.4), 1.2) << "the bone pushes harder than the skin ever does";
   EXPECT_EQ(force_at(5.9), 0) << "lifted off";
-  for (const TickRecord& frame : frames) {
-    EXPECT_LE(glm::length(glm::dvec3(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2])), 3.0 + 1e-12);
-    EXPECT_EQ(static_cast<solver::Outcome>(frame.outcome), solver::Outcome::solved);
-    EXPECT_LT(frame.error_bound_m, 1e-12);
+  for (const TickRecord& tick : ticks) {
+    EXPECT_LE(glm::length(glm::dvec3(tick.sent_n[0], tick.sent_n[1], tick.sent_n[2])), 3.0 + 1e-12);
+    EXPECT_EQ(static_cast<solver::Outcome>(tick.outcome), solver::Outcome::solved);
+    EXPECT_LT(tick.error_bound_m, 1e-12);
   }
 }
 
@@ -108,7 +108,7 @@ TEST(Session, EveryNumberOfItsRecordIsWhatItIsCalled) {
     glm::dvec3 balance = -vector(record.force_n);
     for (const PrimitiveRecord& share : session.shares()) {
       balance += vector(share.force_n);
-      ASSERT_EQ(share.frame, n);
+      ASSERT_EQ(share.tick, n);
       ASSERT_LE(glm::length(vector(share.force_n)), share.strength_n * (1 + 1e-12));
     }
     ASSERT_NEAR(record.residual_n, glm::length(balance), 1e-15);
@@ -127,17 +127,17 @@ TEST(Session, SameSeedSameBits) {
 TEST(Session, ReplayedPosesGiveTheSameForces) {
   const std::vector<TickRecord> recorded = press_once(3);
   std::vector<device::Reading> readings;
-  for (const TickRecord& frame : recorded) {
+  for (const TickRecord& tick : recorded) {
     readings.push_back(
-        {.time = frame.time_s, .position = {frame.probe_m[0], frame.probe_m[1], frame.probe_m[2]}, .fresh = true});
+        {.time = tick.time_s, .position = {tick.probe_m[0], tick.probe_m[1], tick.probe_m[2]}, .fresh = true});
   }
   device::ReplayStylus stylus(readings, device::SimulatedStylus().specification());
   EXPECT_TRUE(same(recorded, run(stylus, recorded.size())));
 }
 
 /// Section 5 of the paper: follow and force on the flow stay analytical; with a surface on the pressure the general
-/// solver takes over where they are oblique, and the frames show which.
-TEST(Session, TheWindTunnelsFramesShowTheSolver) {
+/// solver takes over where they are oblique, and the ticks show which.
+TEST(Session, TheWindTunnelsTicksShowTheSolver) {
   const auto flow = std::make_shared<testdata::FlowSource>(testdata::FlowPastSphere{});
   const auto solvers_of = [&](const modes::Scene& scene) {
     modes::Workspace workspace;
@@ -150,10 +150,10 @@ TEST(Session, TheWindTunnelsFramesShowTheSolver) {
     Session session(plan, flow, stylus, limits_for(scene.limits, stylus.specification()));
     std::array<int, 4> count{};
     for (int n = 0; n < 4000; ++n) {
-      const TickRecord& frame = session.tick();
+      const TickRecord& tick = session.tick();
       // Solved, or the best answer at the cap on work: either way certified, to less than the device's position step.
-      EXPECT_LT(frame.error_bound_m, 0.02e-3) << n;
-      ++count[frame.solver];
+      EXPECT_LT(tick.error_bound_m, 0.02e-3) << n;
+      ++count[tick.solver];
     }
     return count;
   };
@@ -180,8 +180,8 @@ TEST(Session, APoseThatIsNotANumberLetsGo) {
   }
   EXPECT_GT(session.tick().sent_n[1], 0.3);
   stylus.inject(device::SimulatedFault::not_a_number);
-  const TickRecord& frame = session.tick();
-  EXPECT_EQ(glm::length(glm::dvec3(frame.sent_n[0], frame.sent_n[1], frame.sent_n[2])), 0);
+  const TickRecord& tick = session.tick();
+  EXPECT_EQ(glm::length(glm::dvec3(tick.sent_n[0], tick.sent_n[1], tick.sent_n[2])), 0);
   EXPECT_NE(session.fault(), device::Fault::none);
   stylus.inject(device::SimulatedFault::none);
   EXPECT_EQ(session.tick().sent_n[1], 0) << "latched: only the user clears it";

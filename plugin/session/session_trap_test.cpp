@@ -77,8 +77,8 @@ TEST(SessionTrap, NothingIsCaughtInASessionInWhichEverythingHappens) {
     if (n % 3000 == 2999) held->inject(device::SimulatedFault::not_a_number);
     {
       const device::TickTrap trap;
-      const TickRecord& frame = session.tick();
-      most = std::max(most, glm::length(vector_of(frame.sent_n)));
+      const TickRecord& tick = session.tick();
+      most = std::max(most, glm::length(vector_of(tick.sent_n)));
     }
     if (n % 20 == 0) {
       recorder.wait_for_room();
@@ -95,8 +95,8 @@ TEST(SessionTrap, NothingIsCaughtInASessionInWhichEverythingHappens) {
   EXPECT_GT(most, 0.5) << "something has to be felt";
   EXPECT_EQ(recorder.finish().lost, 0U);
   const Recording recording = read_recording(file);
-  EXPECT_GT(recording.frames.back().scene_epoch, 5U);
-  EXPECT_GT(recording.frames.back().stylus_epoch, 2U);
+  EXPECT_GT(recording.ticks.back().scene_epoch, 5U);
+  EXPECT_GT(recording.ticks.back().stylus_epoch, 2U);
   if (!all) GTEST_SKIP() << "all held but that no system call is made: this kernel cannot trap them (needs Linux 5.11)";
 }
 

@@ -13,6 +13,7 @@ struct Kept {
   std::string file;
   std::filesystem::file_time_type time;
   int number = 0;
+  io::RigidMotion motion;
   io::Geometry scan;
   std::weak_ptr<const io::DistanceField> distance;
 };
@@ -32,7 +33,10 @@ std::shared_ptr<const io::DistanceField> find(const io::Structure& structure, st
                                               const io::Geometry& scan, const Fits& fits) {
   std::erase_if(kept, [](const Kept& one) { return one.distance.expired(); });
   for (const Kept& one : kept) {
-    if (one.file != structure.file.string() || one.time != time || one.number != structure.number) continue;
+    if (one.file != structure.file.string() || one.time != time || one.number != structure.number ||
+        one.motion != structure.motion) {
+      continue;
+    }
     const auto distance = one.distance.lock();
     if (distance && same_place(one.scan, scan) && fits(*distance)) return distance;
   }
@@ -54,7 +58,7 @@ std::shared_ptr<const io::DistanceField> find_or_make(const io::Structure& struc
   auto made = io::load_distance(structure, options);
   const std::lock_guard lock(mutex);
   if (auto found = find(structure, time, scan, fits)) return found;  // another thread made it meanwhile
-  kept.push_back({structure.file.string(), time, structure.number, scan, made});
+  kept.push_back({structure.file.string(), time, structure.number, structure.motion, scan, made});
   return made;
 }
 

@@ -11,13 +11,14 @@
 
 #include "modes/tick/haptic_step.h"
 #include "plugin/messages/messages.h"
+#include "plugin/session/strength_ahead.h"
 #include "solver/chain.h"
 
 namespace palpate::plugin {
 namespace {
 
-constexpr double frames_per_s = 1000;
-constexpr double most_frames = 1e7;
+constexpr double ticks_per_s = 1000;
+constexpr double most_ticks = 1e7;
 
 /// The primitive that pushes most, if any does.
 std::optional<std::size_t> pushes_most(const modes::StepResult& result) {
@@ -53,10 +54,10 @@ std::array<double, io::most_structures> distances_at(const modes::Plan& plan, co
 std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
                                     const glm::dvec3& to_mm, double speed_mm_per_s) {
   const double length = glm::distance(from_mm, to_mm);
-  const double count = std::ceil(length / speed_mm_per_s * frames_per_s);
-  if (!(count >= 1) || count > most_frames) {
-    throw Refusal(say("stroke-has-no-frames", fmt::format("{}", length), fmt::format("{}", speed_mm_per_s),
-                      fmt::format("{}", count), fmt::format("{:.0f}", most_frames)));
+  const double count = std::ceil(length / speed_mm_per_s * ticks_per_s);
+  if (!(count >= 1) || count > most_ticks) {
+    throw Refusal(say("stroke-has-no-ticks", fmt::format("{}", length), fmt::format("{}", speed_mm_per_s),
+                      fmt::format("{}", count), fmt::format("{:.0f}", most_ticks)));
   }
   std::vector<StrokePoint> stroke;
   stroke.reserve(static_cast<std::size_t>(count) + 1);
@@ -116,13 +117,17 @@ std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const mode
 
 void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> stroke, const modes::Plan& plan,
                    const io::FieldSource& source) {
+  if (stroke.empty()) return;
+  const glm::dvec3 inward = glm::normalize(stroke.back().position_mm - stroke.front().position_mm);
   for (Contact& contact : contacts) {
     for (const modes::ActiveMode& mode : plan.modes) {
       if (mode.scene_index != contact.boundary) continue;
       contact.full_strength_n = mode.strength.most_n();
+      // A stroke may end before the boundary gives all that it can.
+      contact.strength_n = strength_ahead_n(mode, plan, source, stroke[contact.last].proxy_mm, inward);
       for (std::size_t n = contact.first; n <= contact.last; ++n) {
         const io::Sample sample = source.sample(stroke[n].proxy_mm, plan.fields);
-        if (sample.inside) contact.strength_n = std::max(contact.strength_n, mode.strength(sample));
+        contact.strength_n = std::max(contact.strength_n, strength_against_n(mode, sample, inward));
       }
     }
   }

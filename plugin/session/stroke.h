@@ -1,7 +1,7 @@
 #pragma once
 
-/// The force felt along a straight stroke, without a stylus: the probe itself moves at constant speed, a frame a
-/// millisecond.
+/// The force felt along a straight stroke, computed without a stylus: the probe itself moves at constant speed, one
+/// tick a millisecond.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -28,10 +28,10 @@ struct StrokePoint {
   solver::SolverKind solver = solver::SolverKind::none;
   double error_bound_m = 0;
   std::optional<std::size_t> boundary;             ///< the scene's mode that pushes most, if any does
-  std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with; there where a boundary is
+  std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with; set if boundary is
 };
 
-/// Throws std::runtime_error where the stroke has no length or more than 10 000 000 frames.
+/// Throws std::runtime_error where the stroke has no length or more than 10 000 000 ticks.
 std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
                                     const glm::dvec3& to_mm, double speed_mm_per_s);
 
@@ -41,16 +41,17 @@ struct Contact {
   std::size_t first = 0;     ///< point at which the proxy was first held
   std::size_t last = 0;      ///< last point before it yielded or let go
   double peak_n = 0;
-  double strength_n = 0;       ///< the most that the boundary takes along this stretch of the scan
+  double strength_n = 0;       ///< the most that the boundary takes along this stretch of the scan and on from it
   double full_strength_n = 0;  ///< the most that its transfer function gives anywhere
 };
 
-/// N: a boundary that pushes less is not worth telling of.
+/// N: a boundary that pushes less is not reported.
 constexpr double met_n = 0.05;
 
-/// The surfaces met along a stroke, in order: where a surface mode pushes with more than threshold_n.
+/// The surfaces met along a stroke, in order: wherever a surface mode pushes with more than threshold_n.
 std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const modes::Plan& plan, double threshold_n);
-/// Fills strength_n and full_strength_n from what the boundary's mode reads at the proxy.
+/// Fills strength_n and full_strength_n from what the boundary's mode reads at the proxy, and on from where it was last
+/// held (strength_ahead_n()).
 void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> stroke, const modes::Plan& plan,
                    const io::FieldSource& source);
 /// "; 0.31 of its 2.5 N: thin or faint there" where a boundary takes less than three quarters of its full strength.

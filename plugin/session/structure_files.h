@@ -1,7 +1,7 @@
 #pragma once
 
-/// Files of structures by their content. A recording names them so: no path goes into it, for one may hold a patient's
-/// name.
+/// Names files of structures by a hash of their content. Recordings use these names, because a path may contain a
+/// patient's name.
 
 #include <filesystem>
 #include <map>
@@ -12,21 +12,21 @@
 
 namespace palpate::plugin {
 
-/// 16 hexadecimal digits; all zero where the file cannot be read.
+/// 16 hexadecimal digits; all zero if the file cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
-/// The scene with the hash of its content in place of the name of each structure's file.
+/// The scene, with the hash of each structure's file in place of its name.
 modes::Scene without_paths(modes::Scene scene);
 
-/// What lies under some places.
+/// The structure files in some folders, found by their hash.
 class StructureFiles {
  public:
   StructureFiles() = default;
-  /// Files and folders; looked through when a scene asks for a structure.
+  /// Files and folders. They are searched when a scene asks for a structure.
   explicit StructureFiles(std::vector<std::filesystem::path> places) : places_(std::move(places)) {}
 
-  /// The scene that without_paths() was given, with the files as they are here. Throws std::invalid_argument naming a
-  /// structure whose file is not.
+  /// The scene that was given to without_paths(), with the files as they are named here. Throws std::invalid_argument
+  /// that names a structure whose file is missing.
   modes::Scene with_paths(modes::Scene scene);
 
  private:

@@ -1,7 +1,13 @@
 #include "plugin/session/study_structures.h"
 
+#include <fmt/format.h>
+#include <xxhash.h>
+
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <optional>
+#include <system_error>
 #include <vector>
 
 #include "modes/types/mode_type.h"
@@ -35,15 +41,97 @@ modes::Mode mode_of(const modes::Scene& scene, const std::string& type, const st
   return mode;
 }
 
+/// Whether two agree; nothing where one of them is not said.
+std::optional<bool> agree(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return std::nullopt;
+  return a == b;
+}
+
+/// A person's name (PN) as far as programs agree on how to write it: its letters, without its other writings.
+std::string plain(const std::string& name) {
+  std::string letters;
+  for (const char letter : name.substr(0, name.find('='))) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (byte >= 0x80 || std::isalnum(byte) != 0) letters += static_cast<char>(std::tolower(byte));
+  }
+  return letters;
+}
+
+// No id of a patient begins so: it is not the letters that it hashes.
+constexpr const char* hash_mark = "xxh3:";
+
+bool is_hashed(const std::string& text) {
+  return text.starts_with(hash_mark);
+}
+
+std::string hashed(const std::string& text) {
+  if (text.empty() || is_hashed(text)) return text;
+  return fmt::format("{}{:016x}", hash_mark, XXH3_64bits(text.data(), text.size()));
+}
+
+/// Why it cannot be felt on any scan, or on one of this patient. Adds what is to be known of that to its warnings.
+Text unfit_for(io::Structure& structure, const io::Volume& scan) {
+  const std::string file = structure.file.filename().string();
+  if (!structure.unfit.empty()) {
+    return at_place(fmt::format("{}: {} \"{}\"", file, io::name_of(structure.kind), structure.name), structure.unfit);
+  }
+  const auto has_same_id = is_hashed(scan.patient_id) ? agree(hashed_id(structure.patient_id), scan.patient_id)
+                                                      : agree(structure.patient_id, scan.patient_id);
+  const auto has_same_name = is_hashed(scan.patient_name)
+                                 ? agree(hashed_name(structure.patient_name), scan.patient_name)
+                                 : agree(plain(structure.patient_name), plain(scan.patient_name));
+  const bool differs = has_same_id == false || has_same_name == false;
+  if (differs && has_same_id != true && has_same_name != true) return say("structure-of-another-patient", file);
+  if (differs) structure.warnings.push_back(say("structure-of-a-patient-of-another-name", file));
+  return {};
+}
+
 }  // namespace
 
-Text why_not_on(const io::Structure& structure, const io::Volume& scan) {
-  if (!structure.unfit.empty()) return structure.unfit;
-  if (!structure.frame_of_reference_uid.empty() && !scan.frame_of_reference_uid.empty() &&
-      structure.frame_of_reference_uid != scan.frame_of_reference_uid) {
-    return say("another-frame-of-reference", structure.file.filename().string());
-  }
+std::string hashed_id(const std::string& id) {
+  return hashed(id);
+}
+
+std::string hashed_name(const std::string& name) {
+  return is_hashed(name) ? name : hashed(plain(name));
+}
+
+Text place_by(io::Structure& structure, const io::RigidMotion& motion, const io::Volume& scan) {
+  const Text why_not = unfit_for(structure, scan);
+  if (!why_not.empty()) return why_not;
+  structure.motion = motion;
+  structure.frame_of_reference_uid = scan.frame_of_reference_uid;
   return {};
+}
+
+Placed place_on(io::Structure& structure, std::span<const io::Registration> registrations, const io::Volume& scan) {
+  if (const Text why_not = unfit_for(structure, scan); !why_not.empty()) return {.why_not = why_not};
+  if (agree(structure.frame_of_reference_uid, scan.frame_of_reference_uid).value_or(true)) return {};
+  const std::string file = structure.file.filename().string();
+  const io::Joined joined =
+      io::join(registrations, structure.frame_of_reference_uid, scan.frame_of_reference_uid, structure.patient_id);
+  if (!joined.motion) {
+    return {.why_not = joined.why_not.empty() ? say("another-frame-of-reference", file) : joined.why_not};
+  }
+  structure.motion = io::after(structure.motion, *joined.motion);
+  structure.frame_of_reference_uid = scan.frame_of_reference_uid;
+  structure.warnings.push_back(say("structure-is-registered", file, joined.file.filename().string()));
+  return {.why_not = {}, .registration = joined.file};
+}
+
+std::vector<io::Registration> registrations_for(const io::Structure& structure, const io::Volume& scan) {
+  namespace fs = std::filesystem;
+  if (agree(structure.frame_of_reference_uid, scan.frame_of_reference_uid).value_or(true)) return {};
+  std::error_code ignored;
+  const fs::path folder = fs::absolute(structure.file, ignored).parent_path();
+  std::vector<fs::path> places{folder};
+  for (const auto& series : fs::directory_iterator(folder.parent_path(), ignored)) {
+    if (!series.is_directory(ignored) || series.path() == folder) continue;
+    for (const auto& one : fs::directory_iterator(series.path(), ignored)) {
+      if (one.is_regular_file(ignored)) places.push_back(one.path());
+    }
+  }
+  return io::find_structures(places).registrations;
 }
 
 bool is_same(const modes::SceneStructure& named, const io::Structure& structure) {

@@ -1,8 +1,11 @@
 #pragma once
 
-/// Structures of a study: which of those that were found can be felt on a scan, and how they come into a scene.
+/// The structures of a study: which of them can be felt on a scan, and how they are added to a scene.
 
+#include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "io/structures/structure.h"
 #include "io/volume.h"
@@ -10,21 +13,38 @@
 
 namespace palpate::plugin {
 
-/// Why it cannot be felt on this scan, and what to do; empty where it can.
-Text why_not_on(const io::Structure& structure, const io::Volume& scan);
+struct Placed {
+  Text why_not;                             ///< why it cannot be felt on this scan and what to do; empty if it can
+  std::filesystem::path registration = {};  ///< the file of the one that put it there; empty if none was needed
+};
+/// Places a structure on a scan, by one of the registrations if the two lie in different frames of reference. Adds what
+/// a user should know to the structure's warnings.
+Placed place_on(io::Structure& structure, std::span<const io::Registration> registrations, const io::Volume& scan);
 
-/// Whether that is what the scene's structure means.
+/// The same by a motion that was recorded. Returns why it cannot be felt on this scan, or an empty text if it can.
+Text place_by(io::Structure& structure, const io::RigidMotion& motion, const io::Volume& scan);
+
+/// The registrations for a structure whose frame of reference is not the scan's: those in the folder of its file, and
+/// in the folders beside that one, as a study is stored. Empty if the frames are the same.
+std::vector<io::Registration> registrations_for(const io::Structure& structure, const io::Volume& scan);
+
+/// A hash of a patient's id, or of the letters of a name; empty where it is. A scan from a server has them in place of
+/// name and id, and they are compared as such.
+std::string hashed_id(const std::string& id);
+std::string hashed_name(const std::string& name);
+
+/// Whether the scene's structure means this one.
 bool is_same(const modes::SceneStructure& named, const io::Structure& structure);
 
-/// Its name in the scene, where it is added if it is not there yet; with a number behind it where the scene has another
-/// one of that name.
+/// Its name in the scene. Adds it to the scene if it is missing, with a number behind the name if the scene has another
+/// structure of that name.
 std::string name_in_scene(modes::Scene& scene, const io::Structure& structure);
 
-/// A surface at its edge, resisted on the way in.
+/// Adds a surface at its edge, which resists on the way in.
 void add_boundary_of(modes::Scene& scene, const io::Structure& structure);
-/// A margin that is kept out of, and told of.
+/// Adds a margin that the stylus is kept out of, and that the panel warns of.
 void add_keep_out_of(modes::Scene& scene, const io::Structure& structure, double margin_mm);
-/// Lets a mode of the scene act inside it only.
+/// Lets a mode of the scene act only inside the structure.
 void add_gate_of(modes::Scene& scene, std::size_t mode, const io::Structure& structure);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,7 @@
 #pragma once
 
-/// One tick as it is shown, charted and recorded. Plain values: written by the servo, read by everybody else.
+/// The record of one tick, as it is shown, charted and recorded. Plain values: the servo writes them, all others read
+/// them.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +9,8 @@
 
 namespace palpate::plugin {
 
-/// Where a tick's time went, in this order; observe is what it takes to make the frame itself.
+/// Where a tick's time went, in this order. `observe` makes the record itself; it samples the proxy's new place for
+/// this tick and the next, so that `sample` is short.
 enum class Stage : std::uint8_t { read, map, sample, modes, solve, filter, write, observe };
 constexpr std::size_t stage_count = 8;
 /// The most structures of a scene whose distances a tick tells.
@@ -18,14 +20,14 @@ constexpr const char* stage_names[stage_count] = {"read",  "map",    "sample", "
 
 /// What one primitive did to the proxy. Device frame.
 struct PrimitiveRecord {
-  std::uint64_t frame = 0;  ///< index of the frame
-  std::uint32_t mode = 0;   ///< index into the scene's modes; plus modes::of_scene_left where that scene is being left
-  std::uint32_t type = 0;   ///< solver::PrimitiveType
-  double strength_n = 0;    ///< N
-  double force_n[3] = {};   ///< N, on the proxy
+  std::uint64_t tick = 0;  ///< index of the tick
+  std::uint32_t mode = 0;  ///< index into the scene's modes; plus modes::of_scene_left where that scene is being left
+  std::uint32_t type = 0;  ///< solver::PrimitiveType
+  double strength_n = 0;   ///< N
+  double force_n[3] = {};  ///< N, on the proxy
 };
 
-/// What was asked of the session at a frame: bits of TickRecord::commands.
+/// What was asked of the session at a tick: bits of TickRecord::commands.
 namespace command {
 constexpr std::uint32_t arm = 1, disarm = 2, clear_fault = 4, change_stylus = 8;
 }
@@ -56,21 +58,21 @@ struct TickRecord {
   std::uint32_t outcome = 0;  ///< solver::Outcome of the last sub-step
   std::uint32_t safety = 0;   ///< the safety filter's state and cause
   std::uint32_t share_count = 0;
-  std::uint32_t buttons = 0;  ///< of the stylus, as a bit mask
-  std::uint32_t fresh = 0;    ///< 1: the pose is new in this frame
+  std::uint32_t buttons = 0;  ///< of the stylus and of the panel, as a bit mask
+  std::uint32_t fresh = 0;    ///< 1: the pose is new in this tick
   std::uint32_t stylus_state = 0;
   std::uint32_t stylus_epoch = 0;  ///< counts the styluses held in this session
-  std::uint32_t commands = 0;      ///< bits of namespace command that took effect in this frame
-  // From here on: what depends on the clock or on other threads, and never decides anything.
+  std::uint32_t commands = 0;      ///< bits of namespace command that took effect in this tick
+  // The rest depends on the clock or on other threads. It never affects what is felt.
   std::uint32_t from_brick = 0;  ///< 1: the last sub-step's gradient was ready; 0: it was computed at the sample
-  std::uint32_t missed = 0;      ///< deadlines that went by without a tick since the frame before
+  std::uint32_t missed = 0;      ///< deadlines that went by without a tick since the tick before
   std::uint32_t late_ns = 0;     ///< how long after its deadline this tick began
   std::uint32_t stage_ns[stage_count] = {};
 };
 static_assert(sizeof(TickRecord) == 8 + (20 + distance_count) * 8 + (16 + stage_count) * 4,
-              "no padding: frames are compared and written as bytes");
+              "no padding: ticks are compared and written as bytes");
 
-/// Whether two frames are the same to the last bit in all that a replay repeats.
+/// Whether two ticks are the same to the last bit in all that a replay repeats.
 bool same_in_replay(const TickRecord& a, const TickRecord& b) noexcept;
 
 /// A vector of a record.

@@ -2,26 +2,26 @@
 
 namespace palpate::plugin {
 
-void TickRing::push(const TickRecord& frame, std::span<const PrimitiveRecord> shares) noexcept {
+void TickRing::push(const TickRecord& tick, std::span<const PrimitiveRecord> shares) noexcept {
   const std::uint64_t first = shares_.written();
   for (const PrimitiveRecord& share : shares) shares_.push(share);
-  frames_.push({frame, first});
+  ticks_.push({tick, first});
 }
 
-bool TickRing::read(std::uint64_t n, TickRecord& frame, std::vector<PrimitiveRecord>* shares) const {
+bool TickRing::read(std::uint64_t n, TickRecord& tick, std::vector<PrimitiveRecord>* shares) const {
   Entry entry;
-  if (!frames_.read(n, entry)) return false;
+  if (!ticks_.read(n, entry)) return false;
   if (shares != nullptr) {
     const std::size_t before = shares->size();
-    shares->resize(before + entry.frame.share_count);
-    for (std::uint32_t i = 0; i < entry.frame.share_count; ++i) {
+    shares->resize(before + entry.tick.share_count);
+    for (std::uint32_t i = 0; i < entry.tick.share_count; ++i) {
       if (!shares_.read(entry.first_share + i, (*shares)[before + i])) {
         shares->resize(before);
         return false;
       }
     }
   }
-  frame = entry.frame;
+  tick = entry.tick;
   return true;
 }
 

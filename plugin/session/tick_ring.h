@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where the servo leaves its frames, and the view, the charts and the recorder find them.
+/// The ring in which the servo leaves its tick records for the view, the charts and the recorder.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,29 +14,29 @@ namespace palpate::plugin {
 
 class TickRing {
  public:
-  /// 65 s of frames at 1 kHz, with four primitives in each: 30 MB. The recorder's backlog.
-  static constexpr std::size_t default_frames = 1U << 16U;
+  /// 65 s of ticks at 1 kHz, with four primitives in each: 30 MB. The recorder's backlog.
+  static constexpr std::size_t default_ticks = 1U << 16U;
 
-  explicit TickRing(std::size_t frames = default_frames) : frames_(frames), shares_(4 * frames) {}
+  explicit TickRing(std::size_t ticks = default_ticks) : ticks_(ticks), shares_(4 * ticks) {}
 
   /// Servo, wait-free.
-  void push(const TickRecord& frame, std::span<const PrimitiveRecord> shares) noexcept;
+  void push(const TickRecord& tick, std::span<const PrimitiveRecord> shares) noexcept;
 
-  std::size_t capacity() const noexcept { return frames_.capacity(); }
-  /// Frames ever written: the next one's number. (A session's frames are numbered in step.)
-  std::uint64_t written() const noexcept { return frames_.written(); }
-  std::uint64_t oldest() const noexcept { return frames_.oldest(); }
+  std::size_t capacity() const noexcept { return ticks_.capacity(); }
+  /// Ticks ever written: the next one's number. (A session's ticks are numbered in step.)
+  std::uint64_t written() const noexcept { return ticks_.written(); }
+  std::uint64_t oldest() const noexcept { return ticks_.oldest(); }
 
-  /// Any thread: a frame, and its shares where they are asked for, appended. False where either was overwritten:
-  /// nothing is appended then.
-  bool read(std::uint64_t n, TickRecord& frame, std::vector<PrimitiveRecord>* shares = nullptr) const;
+  /// Any thread: a tick. If `shares` are asked for, its shares are appended. False if either was overwritten; nothing
+  /// is appended then.
+  bool read(std::uint64_t n, TickRecord& tick, std::vector<PrimitiveRecord>* shares = nullptr) const;
 
  private:
   struct Entry {
-    TickRecord frame;
+    TickRecord tick;
     std::uint64_t first_share = 0;
   };
-  BroadcastRing<Entry> frames_;
+  BroadcastRing<Entry> ticks_;
   BroadcastRing<PrimitiveRecord> shares_;
 };
 

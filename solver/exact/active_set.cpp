@@ -40,101 +40,101 @@ FineVec3 unit(const FineVec3& v) {
   return times(near, correction);
 }
 
-bool lock_plane(ActiveSet& frame, std::span<const Placed> primitives, const Placed& plane) {
-  if (frame.rank == 3) {
+bool lock_plane(ActiveSet& active, std::span<const Placed> primitives, const Placed& plane) {
+  if (active.rank == 3) {
     return false;
   }
   FineVec3 normal;
-  if (frame.rank == 0) {
+  if (active.rank == 0) {
     normal = unit(fine(plane.given_direction));
-  } else if (frame.rank == 1) {
-    const Vec3& first = primitives[frame.locked[0]].given_direction;
+  } else if (active.rank == 1) {
+    const Vec3& first = primitives[active.locked[0]].given_direction;
     const FineVec3 both = cross(first, plane.given_direction);
     if (!(length_of(both.hi()) > independent)) {
       return false;
     }
-    frame.along = unit(both);
+    active.along = unit(both);
     normal = unit(cross(both, first));
   } else {
-    normal = frame.along;
+    normal = active.along;
   }
   const double size = internal::dot(normal, plane.given_direction).hi;
   if (!(std::abs(size) > independent)) {
     return false;
   }
-  frame.size[frame.count] = size;
-  frame.normal[frame.count] = normal;
-  frame.rank += 1;
+  active.size[active.count] = size;
+  active.normal[active.count] = normal;
+  active.rank += 1;
   return true;
 }
 
 }  // namespace
 
-bool lock(ActiveSet& frame, std::span<const Placed> primitives, std::uint32_t i) {
+bool lock(ActiveSet& active, std::span<const Placed> primitives, std::uint32_t i) {
   const Placed& primitive = primitives[i];
   switch (primitive.type) {
     case PrimitiveType::directed_force:
       return false;
     case PrimitiveType::plane:
-      if (!lock_plane(frame, primitives, primitive)) {
+      if (!lock_plane(active, primitives, primitive)) {
         return false;
       }
       break;
     case PrimitiveType::line:
-      if (frame.count > 0) {
+      if (active.count > 0) {
         return false;
       }
-      frame.along = unit(fine(primitive.given_direction));
-      frame.rank = 2;
+      active.along = unit(fine(primitive.given_direction));
+      active.rank = 2;
       break;
     case PrimitiveType::point:
-      if (frame.count > 0) {
+      if (active.count > 0) {
         return false;
       }
-      frame.rank = 3;
+      active.rank = 3;
       break;
   }
-  frame.locked[frame.count++] = i;
+  active.locked[active.count++] = i;
   return true;
 }
 
-ActiveSet without(const ActiveSet& frame, std::span<const Placed> primitives, int j) {
+ActiveSet without(const ActiveSet& active, std::span<const Placed> primitives, int j) {
   ActiveSet rest;
-  for (int i = 0; i < frame.count; ++i) {
+  for (int i = 0; i < active.count; ++i) {
     if (i != j) {
-      lock(rest, primitives, frame.locked[i]);
+      lock(rest, primitives, active.locked[i]);
     }
   }
   return rest;
 }
 
-void settle(const ActiveSet& frame, std::span<const Placed> primitives, FineVec3& z) {
+void settle(const ActiveSet& active, std::span<const Placed> primitives, FineVec3& z) {
   // The second pass takes away what the first one's roundings left.
   for (int pass = 0; pass < 2; ++pass) {
-    for (int j = 0; j < frame.count; ++j) {
-      const Placed& primitive = primitives[frame.locked[j]];
+    for (int j = 0; j < active.count; ++j) {
+      const Placed& primitive = primitives[active.locked[j]];
       if (primitive.type == PrimitiveType::point) {
         z = primitive.offset;
         return;
       }
       if (primitive.type == PrimitiveType::line) {
         const FineVec3 e = primitive.offset - z;
-        z = z + (e - times(frame.along, dot(e, frame.along)));
+        z = z + (e - times(active.along, dot(e, active.along)));
       } else {
         const DoubleDouble depth = internal::dot(primitive.offset - z, primitive.given_direction);
-        z = z + times(frame.normal[j], depth / DoubleDouble{frame.size[j], 0});
+        z = z + times(active.normal[j], depth / DoubleDouble{active.size[j], 0});
       }
     }
   }
 }
 
-double doubt_of(const ActiveSet& frame, std::span<const Placed> primitives, const FineVec3& z) {
+double doubt_of(const ActiveSet& active, std::span<const Placed> primitives, const FineVec3& z) {
   double doubt = 0;
-  for (int j = 0; j < frame.count; ++j) {
-    const Placed& primitive = primitives[frame.locked[j]];
+  for (int j = 0; j < active.count; ++j) {
+    const Placed& primitive = primitives[active.locked[j]];
     if (primitive.type == PrimitiveType::plane) {
       const Depth depth = depth_of(primitive, z);
-      doubt += (std::abs(depth.value) + depth.error + doubt) / std::abs(frame.size[j]);
+      doubt += (std::abs(depth.value) + depth.error + doubt) / std::abs(active.size[j]);
     } else {
       const Miss miss = miss_of(primitive, z);
       doubt += miss.length + miss.error;
@@ -143,27 +143,27 @@ double doubt_of(const ActiveSet& frame, std::span<const Placed> primitives, cons
   return doubt;
 }
 
-FineVec3 within(const ActiveSet& frame, const FineVec3& v) {
-  if (frame.rank == 0) {
+FineVec3 within(const ActiveSet& active, const FineVec3& v) {
+  if (active.rank == 0) {
     return v;
   }
-  if (frame.rank == 1) {
-    return v - times(frame.normal[0], dot(v, frame.normal[0]));
+  if (active.rank == 1) {
+    return v - times(active.normal[0], dot(v, active.normal[0]));
   }
-  if (frame.rank == 2) {
-    return times(frame.along, dot(v, frame.along));
+  if (active.rank == 2) {
+    return times(active.along, dot(v, active.along));
   }
   return fine(Vec3{0});
 }
 
-void share(const ActiveSet& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]) {
+void share(const ActiveSet& active, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]) {
   Vec3 rest = needed;
   // Backwards: the last normal is orthogonal to all the other planes, and to the line.
-  for (int j = frame.count - 1; j >= 0; --j) {
-    const Placed& primitive = primitives[frame.locked[j]];
+  for (int j = active.count - 1; j >= 0; --j) {
+    const Placed& primitive = primitives[active.locked[j]];
     if (primitive.type == PrimitiveType::plane) {
       forces[j] =
-          primitive.direction * (primitive.given_length * internal::dot(frame.normal[j], rest).hi / frame.size[j]);
+          primitive.direction * (primitive.given_length * internal::dot(active.normal[j], rest).hi / active.size[j]);
     } else if (primitive.type == PrimitiveType::line) {
       forces[j] = rest - primitive.direction * glm::dot(primitive.direction, rest);
     } else {

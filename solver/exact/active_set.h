@@ -26,21 +26,21 @@ struct ActiveSet {
 
 /// Locks primitive i too. False, and nothing done, where it is not independent of what is locked, or of a kind that
 /// does not go with it.
-bool lock(ActiveSet& frame, std::span<const Placed> primitives, std::uint32_t i);
+bool lock(ActiveSet& active, std::span<const Placed> primitives, std::uint32_t i);
 
 /// Everything locked but the j-th.
-ActiveSet without(const ActiveSet& frame, std::span<const Placed> primitives, int j);
+ActiveSet without(const ActiveSet& active, std::span<const Placed> primitives, int j);
 
 /// Moves z onto the flat.
-void settle(const ActiveSet& frame, std::span<const Placed> primitives, FineVec3& z);
+void settle(const ActiveSet& active, std::span<const Placed> primitives, FineVec3& z);
 
 /// How far the exact flat may pass z, m, after settle().
-double doubt_of(const ActiveSet& frame, std::span<const Placed> primitives, const FineVec3& z);
+double doubt_of(const ActiveSet& active, std::span<const Placed> primitives, const FineVec3& z);
 
 /// The part of v within the flat.
-FineVec3 within(const ActiveSet& frame, const FineVec3& v);
+FineVec3 within(const ActiveSet& active, const FineVec3& v);
 
 /// The force of each locked primitive (any size) that together have the part of `needed` that is across the flat.
-void share(const ActiveSet& frame, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]);
+void share(const ActiveSet& active, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]);
 
 }  // namespace palpate::solver::internal

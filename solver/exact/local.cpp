@@ -50,7 +50,7 @@ bool add_attractor(const Walk& walk, const Placed& attractor, const FineVec3& z,
 
 }  // namespace
 
-Local look(const Walk& walk, const FineVec3& z, const ActiveSet& frame) {
+Local look(const Walk& walk, const FineVec3& z, const ActiveSet& active) {
   Local local;
   local.hessian = Symmetric3::identity(walk.stiffness);
   local.gradient = z.hi() * walk.stiffness - walk.pull;
@@ -60,9 +60,9 @@ Local look(const Walk& walk, const FineVec3& z, const ActiveSet& frame) {
     if (primitive.type == PrimitiveType::directed_force) {
       continue;
     }
-    const bool off = !frame.has(i) && (primitive.type == PrimitiveType::plane
-                                           ? add_plane(walk, primitive, z, local, walk.forces[i])
-                                           : add_attractor(walk, primitive, z, local, walk.forces[i]));
+    const bool off = !active.has(i) && (primitive.type == PrimitiveType::plane
+                                            ? add_plane(walk, primitive, z, local, walk.forces[i])
+                                            : add_attractor(walk, primitive, z, local, walk.forces[i]));
     if (off) {
       local.gradient -= walk.forces[i];
     } else {
@@ -72,11 +72,11 @@ Local look(const Walk& walk, const FineVec3& z, const ActiveSet& frame) {
   return local;
 }
 
-double slope(const Walk& walk, const Local& local, const ActiveSet& frame, const FineVec3& way) {
+double slope(const Walk& walk, const Local& local, const ActiveSet& active, const FineVec3& way) {
   double sum = glm::dot(local.gradient, way.hi());
   for (const std::uint32_t i : walk.met.first(local.met)) {
     const Placed& primitive = walk.primitives[i];
-    if (frame.has(i)) {
+    if (active.has(i)) {
       continue;
     }
     sum += primitive.strength * (primitive.type == PrimitiveType::plane ? std::max(0.0, rate_of(primitive, way))
@@ -98,20 +98,20 @@ double speed_across(const Placed& attractor, const Vec3& way) {
   return length_of(attractor.type == PrimitiveType::line ? way - q * glm::dot(q, way) : way);
 }
 
-Vec3 newton_step(const ActiveSet& frame, const Local& local, double stiffness) {
+Vec3 newton_step(const ActiveSet& active, const Local& local, double stiffness) {
   const Symmetric3& hessian = local.hessian;
   const Vec3 wanted = -local.gradient;
-  if (frame.rank == 0) {
+  if (active.rank == 0) {
     return hessian.solve(wanted, stiffness);
   }
-  if (frame.rank == 2) {
-    const Vec3 along = frame.along.hi();
+  if (active.rank == 2) {
+    const Vec3 along = active.along.hi();
     return along * (glm::dot(along, wanted) / std::max(stiffness, glm::dot(along, hessian.times(along))));
   }
-  if (frame.rank == 3) {
+  if (active.rank == 3) {
     return Vec3{0};
   }
-  const Vec3 n = frame.normal[0].hi();
+  const Vec3 n = active.normal[0].hi();
   const Vec3 u = glm::normalize(glm::cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
   const Vec3 v = glm::cross(n, u);
   const Vec3 hu = hessian.times(u);

@@ -19,7 +19,7 @@ struct Walk {
   Vec3 pull{0};                        ///< the sum of the directed forces, N
   double coarseness = 0;               ///< of what counts as met, relative to the distances from the probe
   FineVec3 z;                          ///< m
-  ActiveSet frame;                     ///< what is locked
+  ActiveSet active;                    ///< what is locked
   bool arrived = false;                ///< out: at the minimum, as far as this walk can tell
   std::span<Vec3> forces;              ///< N: each primitive's force on the proxy, where it was looked at last
   std::span<ForceRegion> hold;         ///< scratch
@@ -35,11 +35,11 @@ struct Local {
 };
 
 /// At z, with these locked. Writes walk.forces (of what is not met) and walk.met.
-Local look(const Walk& walk, const FineVec3& z, const ActiveSet& frame);
+Local look(const Walk& walk, const FineVec3& z, const ActiveSet& active);
 
 /// dE/dt at the point looked at last, along a way that what is locked leaves free. What is met counts as it will be a
 /// step on. N m, of a way in m.
-double slope(const Walk& walk, const Local& local, const ActiveSet& frame, const FineVec3& way);
+double slope(const Walk& walk, const Local& local, const ActiveSet& active, const FineVec3& way);
 
 /// How fast a plane's depth grows along a way.
 double rate_of(const Placed& plane, const FineVec3& way);
@@ -48,6 +48,6 @@ double rate_of(const Placed& plane, const FineVec3& way);
 double speed_across(const Placed& attractor, const Vec3& way);
 
 /// Newton's step within the flat.
-Vec3 newton_step(const ActiveSet& frame, const Local& local, double stiffness);
+Vec3 newton_step(const ActiveSet& active, const Local& local, double stiffness);
 
 }  // namespace palpate::solver::internal

@@ -20,8 +20,8 @@ struct Placed {
   FineVec3 offset;       ///< position - probe, m, exact; not set of a directed force
   Vec3 given_direction;  ///< of length 0.5 to 3.5: the one given times a power of two; not set of a point, as what
                          ///< follows
-  Vec3 direction;        ///< of length 1, but for rounding
-  double given_length;   ///< of given_direction, but for rounding
+  Vec3 direction;        ///< of length 1, except for rounding
+  double given_length;   ///< of given_direction, except for rounding
 };
 
 Placed place(const Primitive& primitive, const Vec3& probe);

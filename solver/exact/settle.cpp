@@ -29,16 +29,16 @@ struct Holding {
 };
 
 // A point, else a line, else the plane with the largest angle to what is locked.
-bool lock_best(const Holding& holding, ActiveSet& frame) {
+bool lock_best(const Holding& holding, ActiveSet& active) {
   std::uint32_t best = 0;
   double best_size = 0;
   for (std::uint32_t i = 0; i < holding.count; ++i) {
     const PrimitiveType type = holding.placed[i].type;
     double size = 0;
     if (type == PrimitiveType::plane) {
-      ActiveSet with = frame;
+      ActiveSet with = active;
       size = lock(with, holding.all(), i) ? std::abs(with.size[with.count - 1]) : 0;
-    } else if (frame.count == 0) {
+    } else if (active.count == 0) {
       size = type == PrimitiveType::point ? 4 : 3;
     }
     if (size > best_size && size > independent) {
@@ -46,18 +46,18 @@ bool lock_best(const Holding& holding, ActiveSet& frame) {
       best = i;
     }
   }
-  return best_size > 0 && lock(frame, holding.all(), best);
+  return best_size > 0 && lock(active, holding.all(), best);
 }
 
 // Two lines of one position meet there and nowhere else.
-bool meets_another_line(const Holding& holding, const ActiveSet& frame, std::uint32_t& other) {
-  if (frame.count != 1 || frame.rank != 2) {
+bool meets_another_line(const Holding& holding, const ActiveSet& active, std::uint32_t& other) {
+  if (active.count != 1 || active.rank != 2) {
     return false;
   }
-  const Placed& line = holding.placed[frame.locked[0]];
+  const Placed& line = holding.placed[active.locked[0]];
   for (other = 0; other < holding.count; ++other) {
     const Placed& placed = holding.placed[other];
-    if (placed.type == PrimitiveType::line && other != frame.locked[0] && same(placed.offset, line.offset) &&
+    if (placed.type == PrimitiveType::line && other != active.locked[0] && same(placed.offset, line.offset) &&
         length_of(glm::cross(placed.direction, line.direction)) > independent) {
       return true;
     }
@@ -66,29 +66,29 @@ bool meets_another_line(const Holding& holding, const ActiveSet& frame, std::uin
 }
 
 Flat settle(const Holding& holding, FineVec3& z) {
-  ActiveSet frame;
+  ActiveSet active;
   Flat flat;
-  if (!lock_best(holding, frame)) {
+  if (!lock_best(holding, active)) {
     return flat;
   }
   std::uint32_t other = 0;
-  bool one_position = meets_another_line(holding, frame, other);
+  bool one_position = meets_another_line(holding, active, other);
   if (one_position) {
     flat.chosen[flat.count++] = holding.index[other];
   } else {
-    while (frame.rank < 3 && lock_best(holding, frame)) {
+    while (active.rank < 3 && lock_best(holding, active)) {
     }
   }
-  const FineVec3& first = holding.placed[frame.locked[0]].offset;
-  for (int j = 0; j < frame.count; ++j) {
-    flat.chosen[flat.count++] = holding.index[frame.locked[j]];
-    one_position = (one_position || frame.rank == 3) && same(first, holding.placed[frame.locked[j]].offset);
+  const FineVec3& first = holding.placed[active.locked[0]].offset;
+  for (int j = 0; j < active.count; ++j) {
+    flat.chosen[flat.count++] = holding.index[active.locked[j]];
+    one_position = (one_position || active.rank == 3) && same(first, holding.placed[active.locked[j]].offset);
   }
   if (one_position) {
     z = first;
   } else {
-    settle(frame, holding.all(), z);
-    flat.doubt = doubt_of(frame, holding.all(), z);
+    settle(active, holding.all(), z);
+    flat.doubt = doubt_of(active, holding.all(), z);
   }
   return flat;
 }
@@ -106,23 +106,23 @@ bool has_full_size(const Placed& primitive, const Vec3& force) {
 
 // Moves z within the flat to where the attractor's direction is that of its force: by the rounding of z, which close to
 // the attractor turns the direction by far more than that of the force.
-void align(const Placed& attractor, const Vec3& force, const ActiveSet& frame, FineVec3& z) {
+void align(const Placed& attractor, const Vec3& force, const ActiveSet& active, FineVec3& z) {
   const Miss miss = miss_of(attractor, z);
   const Vec3 step = (miss.vector - fine(force * (miss.length / length_of(force)))).hi();
-  z = z + within(frame, fine(step));
+  z = z + within(active, fine(step));
 }
 
 }  // namespace
 
-Settled settle_on(const ActiveSet& frame, std::span<const Placed> placed, double stiffness, const FineVec3& z,
+Settled settle_on(const ActiveSet& active, std::span<const Placed> placed, double stiffness, const FineVec3& z,
                   std::span<const Vec3> forces) {
   Settled settled{z, {}};
   Flat flat;
-  for (int j = 0; j < frame.count; ++j) {
-    flat.chosen[flat.count++] = frame.locked[j];
+  for (int j = 0; j < active.count; ++j) {
+    flat.chosen[flat.count++] = active.locked[j];
   }
-  settle(frame, placed, settled.z);
-  flat.doubt = doubt_of(frame, placed, settled.z);
+  settle(active, placed, settled.z);
+  flat.doubt = doubt_of(active, placed, settled.z);
   settled.bound = bound_at(PlacedPrimitives(placed), stiffness, settled.z, flat, forces);
   return settled;
 }
@@ -156,16 +156,16 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
     // Between sticking and slipping, where friction rests for as long as the probe does, the proxy is nearly but not
     // quite on one attractor, which pulls with all its strength.
     Settled free{z, {}};
-    ActiveSet frame;
-    while (frame.rank < 3 && lock_best(inside, frame)) {
+    ActiveSet active;
+    while (active.rank < 3 && lock_best(inside, active)) {
     }
     Flat rest;
-    for (int j = 0; j < frame.count; ++j) {
-      rest.chosen[rest.count++] = inside.index[frame.locked[j]];
+    for (int j = 0; j < active.count; ++j) {
+      rest.chosen[rest.count++] = inside.index[active.locked[j]];
     }
-    settle(frame, inside.all(), free.z);
-    align(primitives.at(slipping, room), forces[slipping], frame, free.z);
-    rest.doubt = doubt_of(frame, inside.all(), free.z);
+    settle(active, inside.all(), free.z);
+    align(primitives.at(slipping, room), forces[slipping], active, free.z);
+    rest.doubt = doubt_of(active, inside.all(), free.z);
     free.bound = law_at(primitives, stiffness, free.z, rest, forces);
     if (free.bound.backward_error < settled.bound.backward_error) {
       return free;

@@ -16,7 +16,7 @@ struct Settled {
 };
 
 /// At the flat that is locked.
-Settled settle_on(const ActiveSet& frame, std::span<const Placed> placed, double stiffness, const FineVec3& z,
+Settled settle_on(const ActiveSet& active, std::span<const Placed> placed, double stiffness, const FineVec3& z,
                   std::span<const Vec3> forces);
 
 /// Settles z onto what its forces say holds it there, if that is near.

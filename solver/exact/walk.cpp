@@ -39,7 +39,7 @@ class Walker {
   int run();
 
  private:
-  Local look(const FineVec3& z, const ActiveSet& frame);
+  Local look(const FineVec3& z, const ActiveSet& active);
   bool is_arrived(FineVec3& way);
   bool release(FineVec3& way);
   bool part(FineVec3& way);
@@ -47,7 +47,7 @@ class Walker {
   bool lock_plane(const FineVec3& way, Bracket& bracket, double middle);
   std::uint32_t crossed_plane(const FineVec3& way, const Bracket& bracket, double& at) const;
   bool lock_attractor(const FineVec3& way, Bracket& bracket);
-  bool lock_at(const ActiveSet& frame, const FineVec3& near);
+  bool lock_at(const ActiveSet& active, const FineVec3& near);
 
   Walk& walk_;
   int cap_;
@@ -58,22 +58,22 @@ class Walker {
   std::uint32_t released_ = none;  // lets go of the proxy at the start of the way: not to be locked along it
 };
 
-Local Walker::look(const FineVec3& z, const ActiveSet& frame) {
+Local Walker::look(const FineVec3& z, const ActiveSet& active) {
   ++looks_;
-  return internal::look(walk_, z, frame);
+  return internal::look(walk_, z, active);
 }
 
 int Walker::run() {
   walk_.arrived = false;
-  settle(walk_.frame, walk_.primitives, walk_.z);
-  here_ = look(walk_.z, walk_.frame);
+  settle(walk_.active, walk_.primitives, walk_.z);
+  here_ = look(walk_.z, walk_.active);
   while (true) {
     FineVec3 way{};
     released_ = none;
     if (is_arrived(way)) {
       last_step_ = 0;
       still_ = 0;
-      const bool crowded = here_.met > static_cast<std::size_t>(walk_.frame.count);
+      const bool crowded = here_.met > static_cast<std::size_t>(walk_.active.count);
       if (crowded ? !part(way) : !release(way)) {
         break;
       }
@@ -86,26 +86,26 @@ int Walker::run() {
   return looks_;
 }
 
-double free_part(const ActiveSet& frame, const Vec3& v) {
-  if (frame.rank == 3) {
+double free_part(const ActiveSet& active, const Vec3& v) {
+  if (active.rank == 3) {
     return 0;
   }
-  if (frame.rank == 2) {
-    return std::abs(glm::dot(frame.along.hi(), v));
+  if (active.rank == 2) {
+    return std::abs(glm::dot(active.along.hi(), v));
   }
-  const Vec3 n = frame.normal[0].hi();
-  return length_of(frame.rank == 0 ? v : v - n * glm::dot(n, v));
+  const Vec3 n = active.normal[0].hi();
+  return length_of(active.rank == 0 ? v : v - n * glm::dot(n, v));
 }
 
 // Whether this is the minimum on the flat, as far as rounding lets that be known; otherwise Newton's step to it. Where
 // more is met than is locked the step says nothing.
 bool Walker::is_arrived(FineVec3& way) {
-  const ActiveSet& frame = walk_.frame;
-  const double left = free_part(frame, here_.gradient);
-  if (here_.met > static_cast<std::size_t>(frame.count) || left <= 2 * unit_roundoff * here_.size + here_.noise) {
+  const ActiveSet& active = walk_.active;
+  const double left = free_part(active, here_.gradient);
+  if (here_.met > static_cast<std::size_t>(active.count) || left <= 2 * unit_roundoff * here_.size + here_.noise) {
     return true;
   }
-  way = within(frame, fine(newton_step(frame, here_, walk_.stiffness)));
+  way = within(active, fine(newton_step(active, here_, walk_.stiffness)));
   const double step = length_of(way.hi());
   still_ = step > 0.5 * last_step_ && left <= 0x1p-40 * here_.size ? still_ + 1 : 0;
   last_step_ = step;
@@ -114,17 +114,17 @@ bool Walker::is_arrived(FineVec3& way) {
 
 // Shares the force needed among what is locked; where one cannot exert its share it is let go, and the way found.
 bool Walker::release(FineVec3& way) {
-  ActiveSet& frame = walk_.frame;
+  ActiveSet& active = walk_.active;
   Vec3 forces[3];
-  share(frame, walk_.primitives, here_.gradient, forces);
+  share(active, walk_.primitives, here_.gradient, forces);
   double worst = 16 * unit_roundoff * here_.size;
   int worst_index = -1;
-  for (int j = 0; j < frame.count; ++j) {
-    const Placed& primitive = walk_.primitives[frame.locked[j]];
+  for (int j = 0; j < active.count; ++j) {
+    const Placed& primitive = walk_.primitives[active.locked[j]];
     const double size =
         primitive.type == PrimitiveType::plane ? glm::dot(primitive.direction, forces[j]) : length_of(forces[j]);
     const double nearest = std::clamp(size, 0.0, primitive.strength);
-    walk_.forces[frame.locked[j]] = size == nearest || size == 0 ? forces[j] : forces[j] * (nearest / size);
+    walk_.forces[active.locked[j]] = size == nearest || size == 0 ? forces[j] : forces[j] * (nearest / size);
     if (std::abs(size - nearest) > worst) {
       worst = std::abs(size - nearest);
       worst_index = j;
@@ -134,24 +134,24 @@ bool Walker::release(FineVec3& way) {
     walk_.arrived = true;
     return false;
   }
-  released_ = frame.locked[worst_index];
-  frame = without(frame, walk_.primitives, worst_index);
+  released_ = active.locked[worst_index];
+  active = without(active, walk_.primitives, worst_index);
   here_.gradient -= walk_.forces[released_];
   const Placed& primitive = walk_.primitives[released_];
   if (primitive.type == PrimitiveType::plane) {
-    way = within(frame, fine(newton_step(frame, here_, walk_.stiffness)));
+    way = within(active, fine(newton_step(active, here_, walk_.stiffness)));
     return true;
   }
   // The attractor's own curvature is infinite where it is left: the first step goes straight against its force, as far
   // as the others' curvature says.
   Vec3 direction = forces[worst_index] / -length_of(forces[worst_index]);
-  if (frame.rank == 1) {
-    const Vec3 n = frame.normal[0].hi();
+  if (active.rank == 1) {
+    const Vec3 n = active.normal[0].hi();
     direction -= primitive.direction * (glm::dot(n, direction) / glm::dot(n, primitive.direction));
   }
   const double excess = -glm::dot(here_.gradient, direction);
   const double curvature = std::max(walk_.stiffness, glm::dot(direction, here_.hessian.times(direction)));
-  way = within(frame, fine(direction * (excess / curvature)));
+  way = within(active, fine(direction * (excess / curvature)));
   return true;
 }
 
@@ -167,19 +167,19 @@ bool Walker::part(FineVec3& way) {
     return false;
   }
   constexpr double aligned = 1e-5;
-  walk_.frame = {};
+  walk_.active = {};
   Local rest = here_;
   for (const std::uint32_t i : met) {
     const Placed& primitive = walk_.primitives[i];
     const double along = std::abs(glm::dot(primitive.direction, missing));
     const bool stays = (primitive.type == PrimitiveType::plane && along <= aligned * size) ||
                        (primitive.type == PrimitiveType::line && along >= (1 - aligned) * size);
-    if (!(stays && walk_.hold[i] == ForceRegion::held && lock(walk_.frame, walk_.primitives, i))) {
+    if (!(stays && walk_.hold[i] == ForceRegion::held && lock(walk_.active, walk_.primitives, i))) {
       rest.gradient -= walk_.forces[i];
     }
   }
-  way = within(walk_.frame, fine(newton_step(walk_.frame, rest, walk_.stiffness)));
-  if (!(slope(walk_, here_, walk_.frame, way) < 0)) {
+  way = within(walk_.active, fine(newton_step(walk_.active, rest, walk_.stiffness)));
+  if (!(slope(walk_, here_, walk_.active, way) < 0)) {
     return false;
   }
   here_ = rest;
@@ -195,9 +195,9 @@ void Walker::advance(const FineVec3& way) {
   Local local;
   for (int tries = 0; tries < 60; ++tries) {
     there = walk_.z + way * t;
-    settle(walk_.frame, walk_.primitives, there);
-    local = look(there, walk_.frame);
-    const double slope_here = slope(walk_, local, walk_.frame, way);
+    settle(walk_.active, walk_.primitives, there);
+    local = look(there, walk_.active);
+    const double slope_here = slope(walk_, local, walk_.active, way);
     double at = 0;
     const bool crossing = slope_here > 0 && crossed_plane(way, {bracket.low, t}, at) != none;
     // Beyond a kink the way falls less steeply than at its start: what may rise is measured by what fell last.
@@ -222,8 +222,8 @@ void Walker::advance(const FineVec3& way) {
     if (!bracket.holds(t)) {
       t = bracket.low > 0 ? bracket.low : bracket.high;
       there = walk_.z + way * t;
-      settle(walk_.frame, walk_.primitives, there);
-      local = look(there, walk_.frame);
+      settle(walk_.active, walk_.primitives, there);
+      local = look(there, walk_.active);
       break;
     }
   }
@@ -237,7 +237,7 @@ std::uint32_t Walker::crossed_plane(const FineVec3& way, const Bracket& bracket,
   double best = 0;
   for (std::size_t i = 0; i < walk_.primitives.size(); ++i) {
     const Placed& primitive = walk_.primitives[i];
-    if (primitive.type != PrimitiveType::plane || i == released_ || walk_.frame.has(i)) {
+    if (primitive.type != PrimitiveType::plane || i == released_ || walk_.active.has(i)) {
       continue;
     }
     const double t = -depth_of(primitive, walk_.z).value / rate_of(primitive, way);
@@ -258,22 +258,22 @@ bool Walker::lock_plane(const FineVec3& way, Bracket& bracket, double middle) {
     return false;
   }
   const Placed& primitive = walk_.primitives[plane];
-  ActiveSet frame = walk_.frame;
-  const bool independent = lock(frame, walk_.primitives, plane);
+  ActiveSet active = walk_.active;
+  const bool independent = lock(active, walk_.primitives, plane);
   FineVec3 there = walk_.z + way * at;
-  settle(frame, walk_.primitives, there);
-  const Local local = look(there, frame);
+  settle(active, walk_.primitives, there);
+  const Local local = look(there, active);
   const double rate = rate_of(primitive, way);
-  const double others = slope(walk_, local, frame, way) - (independent ? 0 : primitive.strength * std::max(0.0, rate));
+  const double others = slope(walk_, local, active, way) - (independent ? 0 : primitive.strength * std::max(0.0, rate));
   const double before = others + primitive.strength * std::min(0.0, rate);
   const double after = others + primitive.strength * std::max(0.0, rate);
   if (independent && before < 0) {
     // It holds the proxy where both of its sides drive towards it, though the way itself may lead on down.
     Vec3 forces[3];
-    share(frame, walk_.primitives, local.gradient, forces);
-    const double asked = glm::dot(forces[frame.count - 1], primitive.direction);
+    share(active, walk_.primitives, local.gradient, forces);
+    const double asked = glm::dot(forces[active.count - 1], primitive.direction);
     if (after > 0 || (asked > 0 && asked < primitive.strength)) {
-      walk_.frame = frame;
+      walk_.active = active;
       walk_.z = there;
       here_ = local;
       return true;
@@ -288,7 +288,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
   for (std::uint32_t i = 0; i < walk_.primitives.size(); ++i) {
     const Placed& primitive = walk_.primitives[i];
     if (primitive.type == PrimitiveType::directed_force || primitive.type == PrimitiveType::plane || i == released_ ||
-        walk_.frame.has(i)) {
+        walk_.active.has(i)) {
       continue;
     }
     const Vec3& q = primitive.direction;
@@ -302,19 +302,19 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
       continue;
     }
     const FineVec3 there = walk_.z + way * nearest;
-    const Local local = look(there, walk_.frame);
-    const double slope_there = slope(walk_, local, walk_.frame, way);
+    const Local local = look(there, walk_.active);
+    const double slope_there = slope(walk_, local, walk_.active, way);
     if (walk_.primitives.size() <= 16 || std::abs(slope_there) <= primitive.strength * speed) {
-      ActiveSet frame;
-      if (line && walk_.frame.rank == 1) {
-        lock(frame, walk_.primitives, i);
-        if (lock(frame, walk_.primitives, walk_.frame.locked[0]) && lock_at(frame, there)) {
+      ActiveSet active;
+      if (line && walk_.active.rank == 1) {
+        lock(active, walk_.primitives, i);
+        if (lock(active, walk_.primitives, walk_.active.locked[0]) && lock_at(active, there)) {
           return true;
         }
-        frame = {};
+        active = {};
       }
-      lock(frame, walk_.primitives, i);
-      if (lock_at(frame, there)) {
+      lock(active, walk_.primitives, i);
+      if (lock_at(active, there)) {
         return true;
       }
     }
@@ -325,15 +325,15 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
   return false;
 }
 
-// Locks what is in the frame, if the energy on it is less than here: by its slope there in the direction of here.
-bool Walker::lock_at(const ActiveSet& frame, const FineVec3& near) {
+// Locks what is in the active set, if the energy on it is less than here: by its slope there in the direction of here.
+bool Walker::lock_at(const ActiveSet& active, const FineVec3& near) {
   FineVec3 there = near;
-  settle(frame, walk_.primitives, there);
-  const Local local = look(there, frame);
+  settle(active, walk_.primitives, there);
+  const Local local = look(there, active);
   if (!(slope(walk_, local, {}, walk_.z - there) > 0)) {
     return false;
   }
-  walk_.frame = frame;
+  walk_.active = active;
   walk_.z = there;
   here_ = local;
   return true;

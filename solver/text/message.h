@@ -1,7 +1,7 @@
 #pragma once
 
-/// What Palpate says to a user. Every message stands in a table, with why it comes and what to do: the messages.h of
-/// its module. A Text comes from a table alone, and a refusal is made of a Text alone: what no table holds does not
+/// What Palpate says to a user. Every message stands in a table, the messages.h of its module, with why it comes and
+/// what to do. Only a table can make a Text, and only a Text can make a refusal. A message that is in no table does not
 /// compile.
 
 #include <initializer_list>
@@ -47,7 +47,7 @@ class Saying : public Error {
 using Refusal = Saying<std::runtime_error>;          ///< of a file, a series, a device
 using InvalidInput = Saying<std::invalid_argument>;  ///< of a value that cannot be
 
-/// "place: text": where in a file or a list that is which the text tells of.
+/// "place: text", where the place is a line, a key or an entry of a list.
 inline Text at_place(std::string_view place, const Text& text, std::string_view between = ": ") {
   return Text(std::string(place).append(between).append(text));
 }
@@ -62,8 +62,8 @@ inline Text fill_message(std::string_view message, std::initializer_list<std::st
   return Text(text.append(message));
 }
 
-/// The message of an id, looked up in a module's tables when it is compiled. An id that they do not hold does not
-/// compile, nor another number of values than the message has places.
+/// The message of an id, looked up in a module's tables by the compiler. An unknown id does not compile, and neither
+/// does a wrong number of values.
 template <std::size_t places, const auto&... tables>
 class ChosenMessage {
  public:

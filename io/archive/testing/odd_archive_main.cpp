@@ -8,248 +8,20 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <thread>
-#include <vector>
+#include <utility>
 
+#include "io/archive/testing/dimse.h"
+#include "io/archive/testing/upper_layer.h"
+
+namespace palpate::io::testing {
 namespace {
-
-struct Gone : std::runtime_error {
-  Gone() : std::runtime_error("the peer is gone") {}
-};
-
-constexpr const char* ct_image = "1.2.840.10008.5.1.4.1.1.2";
-
-// --- Bytes.
-
-std::string big(std::uint32_t value, int bytes) {
-  std::string text;
-  for (int n = bytes - 1; n >= 0; --n) text += static_cast<char>(value >> (8 * n) & 0xFFU);
-  return text;
-}
-
-std::string little(std::uint32_t value, int bytes) {
-  const std::string text = big(value, bytes);
-  return {text.rbegin(), text.rend()};
-}
-
-std::uint32_t number(const std::string& text, std::size_t at, int bytes, bool is_big) {
-  std::uint32_t value = 0;
-  for (int n = 0; n < bytes; ++n) {
-    const auto byte = static_cast<unsigned char>(text.at(at + static_cast<std::size_t>(is_big ? n : bytes - 1 - n)));
-    value = value << 8U | byte;
-  }
-  return value;
-}
-
-std::string even(std::string text, char pad = '\0') {
-  if (text.size() % 2 != 0) text += pad;
-  return text;
-}
-
-void write_all(int socket, const std::string& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = send(socket, bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL);
-    if (n <= 0) throw Gone();
-    done += static_cast<std::size_t>(n);
-  }
-}
-
-std::string read_all(int socket, std::size_t count) {
-  std::string bytes(count, '\0');
-  for (std::size_t done = 0; done < count;) {
-    const ssize_t n = recv(socket, bytes.data() + done, count - done, 0);
-    if (n <= 0) throw Gone();
-    done += static_cast<std::size_t>(n);
-  }
-  return bytes;
-}
-
-// --- The upper layer.
-
-struct Pdu {
-  int type = 0;
-  std::string body;
-};
-
-Pdu read_pdu(int socket) {
-  const std::string head = read_all(socket, 6);
-  return {head[0], read_all(socket, number(head, 2, 4, true))};
-}
-
-void write_pdu(int socket, int type, const std::string& body) {
-  write_all(socket,
-            std::string(1, static_cast<char>(type)) + '\0' + big(static_cast<std::uint32_t>(body.size()), 4) + body);
-}
-
-std::string item(int type, const std::string& body) {
-  return std::string(1, static_cast<char>(type)) + '\0' + big(static_cast<std::uint32_t>(body.size()), 2) + body;
-}
-
-/// The items of a body from an offset on: type and content.
-std::vector<std::pair<int, std::string>> items(const std::string& body, std::size_t at) {
-  std::vector<std::pair<int, std::string>> result;
-  while (at + 4 <= body.size()) {
-    const std::size_t length = number(body, at + 2, 2, true);
-    result.emplace_back(static_cast<unsigned char>(body[at]), body.substr(at + 4, length));
-    at += 4 + length;
-  }
-  return result;
-}
-
-std::map<int, std::string> accept(int socket, const std::string& request, bool agrees) {
-  std::map<int, std::string> contexts;
-  std::string answer = request.substr(0, 68);
-  std::string user = item(0x51, big(16384, 4)) + item(0x52, "1.2.3.4");
-  for (const auto& [type, content] : items(request, 68)) {
-    if (type == 0x10) answer += item(0x10, content);
-    if (type == 0x50) {
-      for (const auto& [kind, part] : items(content, 0)) {
-        if (kind == 0x54) user += item(0x54, part);  // roles, as proposed
-      }
-    }
-    if (type != 0x20) continue;
-    std::string abstract, transfer;
-    for (const auto& [kind, part] : items(content, 4)) {
-      if (kind == 0x30) abstract = part;
-      if (kind == 0x40 && transfer.empty()) transfer = part;
-    }
-    contexts.emplace(static_cast<unsigned char>(content[0]), abstract);
-    const char result = agrees ? '\0' : '\3';
-    answer += item(0x21, content.substr(0, 1) + '\0' + result + '\0' + item(0x40, transfer));
-  }
-  write_pdu(socket, 2, answer + item(0x50, user));
-  return contexts;
-}
-
-std::string pdv(int context, bool command, bool last, const std::string& bytes) {
-  return big(static_cast<std::uint32_t>(bytes.size() + 2), 4) + static_cast<char>(context) +
-         static_cast<char>((command ? 1 : 0) | (last ? 2 : 0)) + bytes;
-}
-
-/// A message part (command or dataset) from its first PDU to its last.
-std::string read_part(int socket, int& context) {
-  std::string part;
-  while (true) {
-    const Pdu pdu = read_pdu(socket);
-    if (pdu.type == 5) {
-      write_pdu(socket, 6, std::string(4, '\0'));
-      throw Gone();
-    }
-    if (pdu.type != 4) throw Gone();
-    context = static_cast<unsigned char>(pdu.body.at(4));
-    part += pdu.body.substr(6);
-    if ((pdu.body.at(5) & 2) != 0) return part;
-  }
-}
-
-// --- Messages.
-
-using Elements = std::map<std::uint32_t, std::string>;
-
-std::string element(std::uint32_t tag, const std::string& value) {  // implicit VR
-  return little(tag >> 16U, 2) + little(tag & 0xFFFFU, 2) + little(static_cast<std::uint32_t>(value.size()), 4) + value;
-}
-
-Elements parse_implicit(const std::string& text) {
-  Elements result;
-  for (std::size_t at = 0; at + 8 <= text.size();) {
-    const std::uint32_t tag = number(text, at, 2, false) << 16U | number(text, at + 2, 2, false);
-    const std::size_t length = number(text, at + 4, 4, false);
-    result[tag] = text.substr(at + 8, length);
-    at += 8 + length;
-  }
-  return result;
-}
-
-/// Explicit VR with short lengths: all that a question holds.
-Elements parse_explicit(const std::string& text) {
-  Elements result;
-  for (std::size_t at = 0; at + 8 <= text.size();) {
-    const std::uint32_t tag = number(text, at, 2, false) << 16U | number(text, at + 2, 2, false);
-    const std::size_t length = number(text, at + 6, 2, false);
-    result[tag] = text.substr(at + 8, length);
-    at += 8 + length;
-  }
-  return result;
-}
-
-std::string with_length(const std::string& elements) {
-  return element(0x00000000, little(static_cast<std::uint32_t>(elements.size()), 4)) + elements;
-}
-
-void write_message(int socket, int context, const std::string& command, const std::string& dataset = {}) {
-  write_pdu(socket, 4, pdv(context, true, true, with_length(command)));
-  if (!dataset.empty()) write_pdu(socket, 4, pdv(context, false, true, dataset));
-}
-
-struct Request {
-  int context = 0, field = 0;
-  std::uint32_t id = 0;
-  std::string sop_class;
-  Elements keys;
-};
-
-std::string uid_of(const std::string& text) {
-  return text.c_str();  // without its padding
-}
-
-void respond(int socket, const Request& request, std::uint32_t status, const std::string& dataset = {},
-             int completed = 0, int failed = 0) {
-  std::string command = element(0x00000002, even(request.sop_class)) +
-                        element(0x00000100, little(static_cast<std::uint32_t>(request.field) | 0x8000U, 2)) +
-                        element(0x00000120, little(request.id, 2)) +
-                        element(0x00000800, little(dataset.empty() ? 0x0101 : 0, 2)) +
-                        element(0x00000900, little(status, 2));
-  if (request.field == 0x10 || request.field == 0x21) {
-    command += element(0x00001020, little(0, 2)) +
-               element(0x00001021, little(static_cast<std::uint32_t>(completed), 2)) +
-               element(0x00001022, little(static_cast<std::uint32_t>(failed), 2)) + element(0x00001023, little(0, 2));
-  }
-  write_message(socket, request.context, command, dataset);
-}
-
-// --- Objects, explicit VR.
-
-std::string field(std::uint32_t tag, const char* vr, const std::string& value) {
-  return little(tag >> 16U, 2) + little(tag & 0xFFFFU, 2) + vr + little(static_cast<std::uint32_t>(value.size()), 2) +
-         value;
-}
-
-std::string image(const std::string& instance, const std::string& study, const std::string& series) {
-  return field(0x00080016, "UI", even(ct_image)) + field(0x00080018, "UI", even(instance)) +
-         field(0x0020000D, "UI", even(study)) + field(0x0020000E, "UI", even(series)) + field(0x00200013, "IS", "1 ");
-}
-
-std::string store_command(const std::string& instance) {
-  return element(0x00000002, even(ct_image)) + element(0x00000100, little(1, 2)) + element(0x00000110, little(77, 2)) +
-         element(0x00000700, little(0, 2)) + element(0x00000800, little(0, 2)) + element(0x00001000, even(instance));
-}
-
-int context_of(const std::map<int, std::string>& contexts, const std::string& sop_class) {
-  for (const auto& [id, name] : contexts) {
-    if (name == sop_class) return id;
-  }
-  throw Gone();
-}
-
-/// Sends an image; its status in the answer.
-std::uint32_t store(int socket, int context, const std::string& instance, const std::string& dataset) {
-  write_message(socket, context, store_command(instance), dataset);
-  int id = 0;
-  Elements answer = parse_implicit(read_part(socket, id));
-  const std::uint32_t status = number(answer.at(0x00000900), 0, 2, false);
-  std::printf("stored %04X\n", status);
-  std::fflush(stdout);
-  return status;
-}
 
 void begin_image(int socket, int context, const std::string& study) {
   const std::string start = image("1.2.3.9", study, "1.2.3.1") + field(0x00280002, "US", little(1, 2));
@@ -297,8 +69,6 @@ void call_as_stranger(int port) {
   }
   close(socket);
 }
-
-// --- Behaviors.
 
 class Serving {
  public:
@@ -457,6 +227,7 @@ void serve_all(int listening, const std::string& behavior, int port) {
 }
 
 }  // namespace
+}  // namespace palpate::io::testing
 
 int main(int count, char** arguments) {
   const int listening = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -476,6 +247,6 @@ int main(int count, char** arguments) {
     poll(&input, 1, -1);
     std::_Exit(0);
   }).detach();
-  serve_all(listening, arguments[1], count > 2 ? std::atoi(arguments[2]) : 0);
+  palpate::io::testing::serve_all(listening, arguments[1], count > 2 ? std::atoi(arguments[2]) : 0);
   return 0;
 }

@@ -25,10 +25,11 @@ bool make_certificates(const fs::path& folder) {
       "cd '" + folder.string() +
       "' && openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 2 -subj /CN=authority "
       "-keyout authority.key -out "
-      "authority.pem && for who in archive palpate; do openssl req -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 "
-      "-nodes -subj /CN=$who -keyout "
+      "authority.pem && printf 'subjectAltName=IP:127.0.0.1,DNS:pacs.example' > archive.ext && "
+      "printf 'subjectAltName=DNS:workstation.example' > palpate.ext && for who in archive palpate; do "
+      "openssl req -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -subj /CN=$who -keyout "
       "$who.key -out $who.csr && openssl x509 -req -days 2 -in $who.csr -CA authority.pem -CAkey authority.key "
-      "-CAcreateserial -out $who.pem || exit 1; done";
+      "-CAcreateserial -extfile $who.ext -out $who.pem || exit 1; done";
   return std::system(("{ " + make + "; } >/dev/null 2>&1").c_str()) == 0;
 }
 
@@ -67,7 +68,8 @@ Orthanc::Orthanc(const fs::path& folder, const fs::path& certificates) {
     settings["DicomTlsCertificate"] = (certificates / "archive.pem").string();
     settings["DicomTlsPrivateKey"] = (certificates / "archive.key").string();
     settings["DicomTlsTrustedCertificates"] = (certificates / "authority.pem").string();
-    archive_.tls = {true, certificates / "authority.pem", certificates / "palpate.pem", certificates / "palpate.key"};
+    archive_.tls = {true, certificates / "authority.pem", certificates / "palpate.pem", certificates / "palpate.key",
+                    ""};
   }
   std::ofstream(folder / "orthanc.json") << settings.dump(1);
   const fs::path log = folder / "orthanc.log";

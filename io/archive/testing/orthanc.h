@@ -14,7 +14,8 @@ namespace palpate::io::testing {
 std::filesystem::path orthanc_program();
 
 /// Certificates of an authority of the test's own, made with openssl: authority.pem, and for `archive` and `palpate` a
-/// .pem and a .key. False where openssl is missing.
+/// .pem and a .key. The archive's is for 127.0.0.1 and pacs.example, ours for workstation.example. False where openssl
+/// is missing.
 bool make_certificates(const std::filesystem::path& folder);
 
 class Orthanc {

@@ -6,6 +6,11 @@
 
 #include <memory>
 
+namespace palpate::plugin {
+struct PanelParts;
+class Translation;
+}  // namespace palpate::plugin
+
 class PalpatePanel : public QDockWidget {
   Q_OBJECT
 
@@ -21,6 +26,8 @@ class PalpatePanel : public QDockWidget {
   void dropEvent(QDropEvent* event) override;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  void mark_by_key(const QKeyEvent& event);
+
+  std::unique_ptr<palpate::plugin::Translation> translation_;  // first: what is built asks for its words
+  std::unique_ptr<palpate::plugin::PanelParts> parts_;
 };

@@ -6,8 +6,8 @@
 
 namespace palpate::plugin {
 
-/// Runs `work`, in which VTK's parallel loops use all cores. Debian's ParaView runs them one after the other unless it
-/// is told otherwise. `work` must not throw.
+/// Runs `work` so that VTK's parallel loops in it use all cores. By default Debian's ParaView runs these loops one
+/// after the other. `work` must not throw.
 template <typename Work>
 void on_all_cores(Work&& work) {
   vtkSMPTools::LocalScope(vtkSMPTools::Config{std::string("STDThread")}, work);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// How a volume is shown: a vtkImageData in patient space (LPS, mm). An oblique scan has its orientation, one under
-/// gantry tilt its shear in the DirectionMatrix: nothing is resampled. Unevenly spaced slices have no such form and are
-/// shown as an even copy; what is touched is the volume itself.
+/// gantry tilt its shear in the DirectionMatrix: nothing is resampled. An image cannot have unevenly spaced slices:
+/// they are shown as an evenly spaced copy. The stylus feels the volume itself.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -30,7 +30,7 @@ struct DisplayGrid {
 };
 DisplayGrid display_grid(const io::Geometry& geometry);
 
-/// Whether the DirectionMatrix is the identity to what can be seen (1e-6).
+/// Whether the DirectionMatrix is the identity, to 1e-6.
 bool is_straight(const DisplayGrid& grid);
 
 /// For vtkImageData::SetDirectionMatrix: by rows, its columns the three directions.
@@ -40,15 +40,15 @@ std::array<double, 9> direction_matrix(const DisplayGrid& grid);
 struct Part {
   std::shared_ptr<const io::Volume> volume;
   std::array<int, 6> extent{};  ///< inclusive i, j, k ranges of the grid
-  bool on_grid = true;  ///< whether every voxel is a point of the grid: not where slices are uneven or were lost
+  bool on_grid = true;          ///< whether every voxel is a point of the grid; false if slices are uneven or lost
 };
 Part whole_part(const std::shared_ptr<const io::Volume>& volume, const DisplayGrid& grid);
 
 bool contains(const std::array<int, 6>& outer, const std::array<int, 6>& inner);
 
-/// Fills `image` with what of the part lies within `extent` (inclusive i, j, k ranges, as of vtkImageData) as the
-/// active point scalars `name`. Views the volume's own voxels where the grid is theirs and they lie together in memory
-/// (whole slices); copies them, resampled where the grid is another, as of slices that could not be decoded.
+/// Fills `image` with the voxels of the part within `extent` (inclusive i, j, k ranges, as of vtkImageData), as the
+/// active point scalars `name`. Whole slices on the grid are viewed without a copy. All others are copied. They are
+/// resampled if the grid is not theirs, for example because some slices could not be decoded.
 void show_volume(const Part& part, const DisplayGrid& grid, const std::array<int, 6>& extent, const std::string& name,
                  vtkImageData& image);
 

@@ -8,8 +8,8 @@ class vtkDataArray;
 
 namespace palpate::plugin {
 
-/// The volume on the even lattice of `grid` within `extent`, linear between slices; inside a gap the least value of the
-/// scan, so that a gap is seen as one. `array` is of the voxels' type and size.
+/// The volume on the even lattice of `grid` within `extent`, linear between slices. Inside a gap it has the least value
+/// of the scan, so that the gap can be seen. `array` has the voxels' type and the size of the extent.
 void copy_evenly(const io::Volume& volume, const DisplayGrid& grid, const std::array<int, 6>& extent,
                  vtkDataArray& array);
 

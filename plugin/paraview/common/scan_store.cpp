@@ -10,6 +10,7 @@
 
 #include "io/fields/filtered.h"
 #include "io/load.h"
+#include "io/whole_scan.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/paraview/common/read_part.h"
 #include "plugin/paraview/common/shared_voxels.h"
@@ -101,9 +102,10 @@ Shelf<ScanKey, io::Volume>& scans() {
 }  // namespace
 
 std::shared_ptr<const io::Catalogue> find_scans(const std::filesystem::path& path, const io::Progress& progress) {
-  const auto folder = std::filesystem::is_regular_file(path) ? std::filesystem::absolute(path).parent_path() : path;
+  const bool of_a_folder = std::filesystem::is_regular_file(path) && !io::holds_whole_scans(path);
+  const auto place = of_a_folder ? std::filesystem::absolute(path).parent_path() : path;
   return catalogues().get(
-      folder, [&] { return std::make_shared<const io::Catalogue>(io::find_series(std::array{folder}, progress)); });
+      place, [&] { return std::make_shared<const io::Catalogue>(io::find_series(std::array{place}, progress)); });
 }
 
 std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame, const io::Progress& progress) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The process's scans: all who want the voxels of a series (the reader, a filter, the panel) gets the same ones,
-/// loaded once. The store itself keeps nothing alive: a scan goes when its last user lets go.
+/// The process's scans. Everything that needs the voxels of a series (the reader, a filter, the panel) gets the same
+/// ones, loaded once. The store itself keeps nothing alive: a scan is freed when its last user releases it.
 
 #include <array>
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace palpate::plugin {
 
-/// The series in a folder; of a file's folder where `path` is a file, for one slice is no scan. Throws as
-/// io::find_series(). From any thread.
+/// The series in a folder, or in a file that holds whole scans. For any other file: the series in its folder, because
+/// one slice is not a scan. Throws as io::find_series(). From any thread.
 PALPATESERVER_EXPORT std::shared_ptr<const io::Catalogue> find_scans(const std::filesystem::path& path,
                                                                      const io::Progress& progress = {});
 
@@ -30,16 +30,16 @@ PALPATESERVER_EXPORT std::shared_ptr<const io::Volume> load_scan(const io::Serie
                                                                  const io::Filter& filter,
                                                                  const io::Progress& progress = {});
 
-/// A part of the first frame: inclusive i, j, k ranges. What a rank of a parallel server holds of a scan that may not
-/// fit one machine; needs little more memory than the part. Fewer slices where some cannot be decoded.
+/// A part of the first frame: inclusive i, j, k ranges. A rank of a parallel server holds such a part of a scan that
+/// may not fit one machine. Needs little more memory than the part. Has fewer slices if some cannot be decoded.
 std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std::array<int, 6>& extent,
                                             const io::Progress& progress = {});
 
-/// Some slices of the first frame, not kept in the store. Fewer where some cannot be decoded.
+/// Some slices of the first frame, not kept in the store. Fewer if some cannot be decoded.
 std::shared_ptr<const io::Volume> load_slices(const io::Series& series, int first, int count);
 std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice);
 
-/// The whole frame where somebody holds it; none otherwise, also while it is being loaded.
+/// The whole frame if somebody holds it; none otherwise, and none while it is being loaded.
 std::shared_ptr<const io::Volume> held_scan(const io::Series& series, int frame);
 
 /// What is held in this process at the moment.

@@ -14,7 +14,7 @@ class vtkDataArray;
 namespace palpate::plugin {
 
 /// An array that views `count` voxels from `first` on. The volume lives as long as the array, or any shallow copy of
-/// it. VTK must not write into it: it is everybody's.
+/// it. VTK must not write into it, because others read the same voxels.
 vtkSmartPointer<vtkDataArray> share_voxels(const std::shared_ptr<const io::Volume>& volume, std::size_t first,
                                            std::size_t count);
 

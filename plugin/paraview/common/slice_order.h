@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which way the scanner counts its images.
+/// The direction in which the scanner numbers its images.
 
 #include "PalpateServerModule.h"
 #include "io/series.h"

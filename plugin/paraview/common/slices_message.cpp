@@ -11,6 +11,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/session/scan_hash.h"
+#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 namespace {
@@ -66,9 +67,9 @@ io::Volume::Voxels voxels_of(const io::Volume& volume, int first, int count) {
 }
 
 /// The frame where it is held, or cannot be had in parts.
-std::shared_ptr<const io::Volume> whole_of(const io::Series& series) {
-  const auto held = held_scan(series, 0);
-  return held || series.frames_per_position == 1 ? held : load_scan(series, 0);
+std::shared_ptr<const io::Volume> whole_of(const io::Series& series, int frame) {
+  const auto held = held_scan(series, frame);
+  return held || series.frames_per_position == 1 ? held : load_scan(series, frame);
 }
 
 /// What tells of the whole scan without its voxels: of a scan in parts, what one slice says and the series' geometry.
@@ -84,7 +85,9 @@ std::string text_of_head(const io::Volume& volume) {
   json head{{"geometry", json_of(volume.geometry)},
             {"rescale", {volume.slope, volume.intercept}},
             {"unit", volume.unit},
-            {"modality", volume.modality}};
+            {"modality", volume.modality},
+            {"frame_of_reference_uid", volume.frame_of_reference_uid},
+            {"patient", {hashed_id(volume.patient_id), hashed_name(volume.patient_name)}}};
   if (volume.padding) head["padding"] = {volume.padding->first, volume.padding->second};
   return head.dump();
 }
@@ -98,6 +101,9 @@ io::Volume volume_of_head(const std::string& text) {
     volume.intercept = head.at("rescale").at(1);
     volume.unit = head.at("unit");
     volume.modality = head.at("modality");
+    volume.frame_of_reference_uid = head.at("frame_of_reference_uid");
+    volume.patient_id = head.at("patient").at(0);
+    volume.patient_name = head.at("patient").at(1);
     if (head.contains("padding")) volume.padding = {head.at("padding").at(0), head.at("padding").at(1)};
     return volume;
   } catch (const std::exception& error) {
@@ -108,7 +114,10 @@ io::Volume volume_of_head(const std::string& text) {
 SlicesAnswered answer(const io::Series& series, const SlicesAsked& asked) {
   SlicesAnswered answered;
   try {
-    const auto whole = whole_of(series);
+    if (asked.frame < 0 || asked.frame >= series.frames_per_position) {
+      throw Refusal(say("scan-has-no-such-slices"));
+    }
+    const auto whole = whole_of(series, asked.frame);
     if (asked.what == SlicesAsked::What::head) {
       answered.head = text_of_head(whole ? *whole : head_of(series));
       return answered;

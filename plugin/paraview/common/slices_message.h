@@ -1,7 +1,7 @@
 #pragma once
 
-/// Slices of a scan on their way from a server to a client: what is asked for, and what is answered. Neither names the
-/// patient, a file or a folder.
+/// The request of a client for slices of a scan, and the answer of the server. Neither names the patient, a file or a
+/// folder. Of the patient's name and id only hashes are sent, to be compared with those of a structure.
 
 #include <cstdint>
 #include <string>
@@ -14,26 +14,29 @@
 namespace palpate::plugin {
 
 struct SlicesAsked {
-  enum class What : int { head, hashes, voxels };
+  enum class What : int { head, hashes, voxels, structures, structure_pieces };
   What what = What::head;
-  int first = 0;
+  int frame = 0;  ///< of a series with several images at a position, from 0; of structures' pieces: the file
+  int first = 0;  ///< slice, or piece (structure_files_message.h)
   int count = 0;
 };
 
 struct SlicesAnswered {
   std::string error;                  ///< in words for the user; empty: none
-  std::string head;                   ///< of What::head: as from text_of_head()
-  std::vector<std::uint64_t> hashes;  ///< one a slice, with voxels too: hash_of_slice()
+  std::string head;                   ///< for What::head: text_of_head()
+  std::vector<std::uint64_t> hashes;  ///< hash_of_slice() of each slice, also with What::voxels
+  std::string structures;             ///< for What::structures: text_of()
+  std::vector<unsigned char> bytes;   ///< for What::structure_pieces
   io::Volume::Voxels voxels;          ///< in scan_values() form; slices read apart may differ in type
 };
 
-/// Of the first frame of a series. Slices are taken from the process's store where it holds the scan, and read where it
-/// does not: no more is held meanwhile than what is asked for. Series with several images at a position are loaded
-/// whole.
+/// Takes the slices from the store of the process if it holds the scan. Otherwise it reads only the slices that are
+/// asked for. Series with several images at a position are loaded whole.
 SlicesAnswered answer(const io::Series& series, const SlicesAsked& asked);
 
-/// A volume without its voxels: geometry, rescale, unit, modality, padding. Numbers come back to the last bit.
-/// volume_of_head() throws std::invalid_argument for any other text.
+/// A volume without its voxels: geometry, rescale, unit, modality, padding, frame of reference, and hashes of the
+/// patient's name and id (study_structures.h). Numbers come back to the last bit. volume_of_head() throws
+/// std::invalid_argument for any other text.
 std::string text_of_head(const io::Volume& volume);
 PALPATESERVER_EXPORT io::Volume volume_of_head(const std::string& text);
 

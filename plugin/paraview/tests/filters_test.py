@@ -16,6 +16,7 @@ SCENE = json.dumps({
                "strength_n": {"of": "gradient_per_mm", "nodes": [[20, 0], [200, 1.5]]}},
               {"type": "friction", "name": "drag", "strength_n": {"of": "value", "nodes": [[-500, 0], [40, 0.2]]}}],
 })
+BALL, BALL_RADIUS = (2.3, -3.1, 1.4), 12  # outlined
 RADIUS, HALF = 18, (-1000 + 40) / 2  # the phantom is a ball of 40 HU in air: its surface is where the mean of both is
 
 
@@ -55,6 +56,56 @@ def surfaces_are_where_the_ball_is():
         print(f"  {name}: {worst:.3f} mm at most, {mean:+.4f} mm on average")
         expect(worst < voxel / 6, f"{name}: a point of the surface is {worst:.3f} mm off, voxels of {voxel} mm")
         expect(abs(mean) < 0.02 * voxel, f"{name}: the surface is {mean:.4f} mm off on average")
+
+
+def label_ball():
+    """A ball of 12 mm as label 3 of an NRRD file, on voxels of a millimeter of its own."""
+    size, corner = 36, [c - 17.6 for c in BALL]
+    voxels = bytes(3 if math.dist((x + corner[0], y + corner[1], z + corner[2]), BALL) < BALL_RADIUS else 0
+                   for z in range(size) for y in range(size) for x in range(size))
+    path = os.path.join(SCRATCH, "ball.nrrd")
+    with open(path, "wb") as file:
+        file.write((f"NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: {size} {size} {size}\n"
+                    "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nencoding: raw\n"
+                    f"space origin: ({','.join(map(str, corner))})\n\n").encode() + voxels)
+    return path
+
+
+def a_structure_is_drawn_where_it_is_felt():
+    labels = label_ball()
+    for name in ("straight", "oblique", "tilted", "uneven"):
+        surface = fetch(simple.PalpateStructureSurface(Input=open_series(phantom(name)), FileName=labels, SegmentNumber=3))
+        points = [surface.GetPoint(n) for n in range(surface.GetNumberOfPoints())]
+        expect(len(points) > 1000, f"{name}: {len(points)} points")
+        worst = max(abs(math.dist(p, BALL) - BALL_RADIUS) for p in points)
+        print(f"  {name}: {worst:.3f} mm at most")
+        expect(worst < 0.25, f"{name}: a point is {worst:.3f} mm off")
+        leaning = max(math.dist([(p[a] - BALL[a]) / BALL_RADIUS for a in range(3)], surface.GetPointData().GetNormals().GetTuple(n))
+                      for n, p in enumerate(points))
+        expect(leaning < 0.15, f"{name}: a normal leans by {leaning:.2f}")
+
+        scene = os.path.join(SCRATCH, "structure.json")
+        with open(scene, "w") as file:
+            json.dump({"version": 1, "structures": [{"name": "ball", "file": labels, "segment": 3}],
+                       "modes": [{"type": "surface", "structure": "ball", "strength_n": 4}]}, file)
+        for axis, side in ((0, 1), (1, -1), (2, 1)):
+            ends = [[c + (axis == a) * side * far for a, c in enumerate(BALL)] for far in (BALL_RADIUS + 3, BALL_RADIUS - 3)]
+            felt = json.loads(run("palpate", "profile", phantom(name), "--scene", scene, "--json",
+                                  *(f"--{end}={','.join(map(str, p))}" for end, p in zip(("from", "to"), ends))))
+            proxy = felt["proxy_mm"][-1]
+            nearest = min(math.dist(proxy, p) for p in points)
+            # The wall's strength rises over 0.1 mm on both sides of the edge; points are 0.5 mm apart.
+            outward = (proxy[axis] - BALL[axis]) * side
+            drawn = sum(math.dist(p, BALL) for p in sorted(points, key=lambda p: math.dist(p, proxy))[:4]) / 4
+            expect(nearest < 0.5, f"{name}: the stylus is held {nearest:.2f} mm from the nearest point")
+            expect(abs(outward - drawn) < 0.12, f"{name}: held at {outward:.3f} mm, drawn at {drawn:.3f}")
+
+
+def a_structure_that_is_not_there_is_refused():
+    for wanted in ({"FileName": label_ball(), "SegmentNumber": 4}, {"FileName": "/no/such/file", "Segment": "x"}):
+        proxy = simple.PalpateStructureSurface(Input=open_series(phantom("straight")), **wanted)
+        proxy.UpdatePipeline()
+        expect(proxy.GetDataInformation().GetNumberOfPoints() == 0, f"{wanted}: something was drawn")
 
 
 def fields_are_the_cores():
@@ -137,5 +188,6 @@ def a_bad_scene_is_refused():
         expect("Felt strength" not in [a.GetName() for a in information], "a scene with an error was used")
 
 
-main([surfaces_are_in_the_right_place, surfaces_are_where_the_ball_is, fields_are_the_cores, one_mode_is_felt_alone, fields_of_any_image_are_the_images,
+main([surfaces_are_in_the_right_place, surfaces_are_where_the_ball_is, a_structure_is_drawn_where_it_is_felt,
+      a_structure_that_is_not_there_is_refused, fields_are_the_cores, one_mode_is_felt_alone, fields_of_any_image_are_the_images,
       a_part_of_a_scan_feels_as_the_whole, a_profile_is_the_command_lines, a_bad_scene_is_refused])

@@ -9,5 +9,6 @@ import sys
 from panel_program import ASKED, run
 
 PICTURES = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", "docs", "pictures"))
-if not run("guide_pictures", os.path.abspath(ASKED[0]), PALPATE_GUIDE=PICTURES):
-    sys.exit("the pictures could not be made: see above")
+for scenario in ("guide_pictures", "guide_fault"):
+    if not run(scenario, os.path.abspath(ASKED[0]), PALPATE_GUIDE=PICTURES):
+        sys.exit("the pictures could not be made: see above")

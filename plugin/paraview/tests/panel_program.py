@@ -1,8 +1,8 @@
 """ParaView with the panel and the test plug-in that drives it: what the tests that click share.
 
 Those run in plain Python 3 under xvfb-run with the folder of the built programs, the plug-ins' list, the test plug-in's
-list and a scratch folder as arguments, then the scenarios that are asked for (default: all that are tests). Pictures are
-left in the scratch folder for a person to look at.
+list and a scratch folder as arguments, then the scenarios that are asked for (default: all that are tests; --list: print
+their names). Pictures are left in the scratch folder for a person to look at.
 """
 
 import os
@@ -13,7 +13,7 @@ import xml.etree.ElementTree as ET
 
 PROGRAMS, PLUGINS, TEST_PLUGIN, SCRATCH = (os.path.abspath(name) for name in sys.argv[1:5])
 ASKED = sys.argv[5:]
-LONGEST_S = 600  # a busy machine; on a quiet one half a minute
+LONGEST_S = 280  # a busy machine; on a quiet one a quarter of a minute
 
 
 os.makedirs(SCRATCH, exist_ok=True)
@@ -48,9 +48,9 @@ def plugin_list(*files):
 
 
 def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), longest_s=LONGEST_S, said=None, first=True,
-        **more):
+        prepare=None, **more):
     """The program once, with a folder opened; whether the scenario passed. Its own lines are added to `said`. Where it is
-    not its `first` start it has the settings of the one before.
+    not its `first` start it has the settings of the one before. `prepare` is given its home.
     """
     home = scratch("panel-home")
     if first:
@@ -59,6 +59,8 @@ def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), lon
     for version in ("5.11.0", "5.13.2") if first else ():  # Debian 12's and 13's
         with open(os.path.join(home, ".config", "ParaView", f"ParaView{version}.ini"), "w") as settings:
             settings.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
+    if prepare:
+        prepare(home)
     environment = dict(os.environ, PV_PLUGIN_CONFIG_FILE=plugin_list(*plugins), HOME=home,
                        PALPATE_PANEL_TEST=scenario, PALPATE_PICTURES=SCRATCH, LIBGL_ALWAYS_SOFTWARE="1", **more)
     if folder:
@@ -79,7 +81,9 @@ def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), lon
 
 
 def main(tests, measurements=None):
-    """Those that are asked for, each a function that says whether it passed; fails where one failed."""
+    """Those that are asked for, each a function that says whether it passed; fails where one failed. --list: their names."""
+    if ASKED == ["--list"]:
+        return print(";".join(tests), end="")
     known = {**tests, **(measurements or {})}
     failed = [name for name in (ASKED or tests) if not known[name]()]
     if failed:

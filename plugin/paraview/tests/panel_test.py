@@ -9,6 +9,7 @@ import shutil
 import subprocess
 
 from panel_program import PROGRAMS, SCRATCH, ball, main, phantom, run, scratch
+from voxel_ball import write_nifti, write_nrrd
 
 
 def both():
@@ -55,8 +56,61 @@ def numbered(name, *arguments):
     return folder
 
 
+def named():
+    """A ball of somebody, with slices twice as far apart as they are thick; what its files say goes to the scenario."""
+    folder = phantom("named", "sphere", "--radius", "25", "--spacing", "0.8,0.8,2", "--size", "96,96,40")
+    files = [os.path.join(folder, file) for file in sorted(os.listdir(folder))]
+    tags = {"0010,0010": "DOE^JANE ANN", "0010,0020": "4711", "0008,0020": "20190312", "0008,103e": "Neck thin",
+            "0020,0011": "7", "0018,0050": "1"}
+    modified = [word for tag, value in tags.items() for word in ("-m", f"({tag})={value}")]
+    subprocess.run(["dcmodify", "-nb", *modified, *files], check=True)
+    heights = {}
+    for file in files:
+        dump = subprocess.run(["dcmdump", "+P", "0020,0013", "+P", "0020,0032", file], check=True, capture_output=True,
+                              text=True).stdout
+        values = [line.split("[")[1].split("]")[0].strip() for line in dump.splitlines() if "[" in line]
+        heights[int(values[0])] = float(values[1].split("\\")[2])
+    os.environ["PALPATE_HEIGHTS"] = " ".join(str(heights[n]) for n in sorted(heights))  # of image 1, 2, ...
+    return folder
+
+
+def on_a_table():
+    """A ball, and behind it a table of 4 mm: drawn into the pixels, the last bytes of an uncompressed file."""
+    folder = phantom("table", "sphere", "--radius", "25", "--spacing", "1,1,1", "--size", "120,120,60")
+    for file in os.listdir(folder):
+        path = os.path.join(folder, file)
+        dump = subprocess.run(["dcmdump", "+P", "0028,1052", "+P", "0028,1053", path], check=True, capture_output=True,
+                              text=True).stdout
+        intercept, slope = (float(line.split("[")[1].split("]")[0]) for line in dump.splitlines() if "[" in line)
+        with open(path, "rb") as scan:
+            content = bytearray(scan.read())
+        table = int((150 - intercept) / slope).to_bytes(2, "little", signed=True)
+        pixels = len(content) - 2 * 120 * 120
+        for row in range(100, 104):
+            begin = pixels + 2 * 120 * row
+            content[begin:begin + 240] = table * 120
+        with open(path, "wb") as scan:
+            scan.write(content)
+    return folder
+
+
+def chest():
+    folder = phantom("chest", "sphere", "--radius", "25")
+    for file in os.listdir(folder):
+        subprocess.run(["dcmodify", "-nb", "-i", "0018,0015=CHEST", os.path.join(folder, file)], check=True)
+    return folder
+
+
+def six():
+    """Six series in a folder."""
+    folder = phantom("six", "sphere", "--radius", "25")
+    for n in range(5):
+        shutil.move(phantom(f"more-{n}", "sphere", "--radius", str(10 + n)), os.path.join(folder, f"more-{n}"))
+    return folder
+
+
 def outlined():
-    """A scan and the segmentation of its liver in one folder; and beside it one of another study."""
+    """A scan and the segmentation of its liver in one folder; and beside it one of another patient."""
     shared = os.path.join(os.environ.get("PALPATE_SHARED_DATA", ""), "structures")
     if not os.path.isdir(shared):
         return None
@@ -84,13 +138,29 @@ FOLDERS = {
     "a_series_is_picked": mixed,
     "a_bad_folder": bad,
     "structures_are_seen_and_felt": outlined,
+    "marks_belong_to_a_scan": both,
+    "slices_are_read_and_measured": named,
+    "the_table_is_cut_away": on_a_table,
+    "a_scene_shows_what_it_does": lambda: phantom("wedge", "wedge"),
+    "series_are_listed_in_full": six,
+    "scenes_are_offered_by_the_part": chest,
 }
 SCENARIOS = [
     "the_layout_is_clinical",
+    "the_panel_speaks_german",
     "one_tab_is_used_again",
     "ones_way_is_found",
+    "slices_are_read_and_measured",
+    "the_table_is_cut_away",
+    "surfaces_are_seen_where_they_are_felt",
+    "a_scene_shows_what_it_does",
+    "small_things_are_right",
+    "series_are_listed_in_full",
+    "scenes_are_offered_by_the_part",
+    "words_for_developers_stand_under_technical",
     "a_chosen_look_stays",
     "boundaries_are_drawn_where_they_are_felt",
+    "boundaries_are_seen_on_every_slice",
     "four_clicks",
     "letting_go",
     "escape_releases",
@@ -107,6 +177,7 @@ SCENARIOS = [
     "keys_step_in_the_views",
     "a_dragged_node_is_felt",
     "profile_follows_an_edit",
+    "a_curve_shows_its_force",
     "recordings_are_replayed_and_compared",
     "no_scan_shown_no_force",
     "a_reset_session_has_no_force",
@@ -122,6 +193,16 @@ SCENARIOS = [
     "slices_follow_the_pointer",
     "slices_are_scrolled_upside_down",
     "structures_are_seen_and_felt",
+    "marks_are_where_the_stylus_was",
+    "marks_are_measured_and_changed",
+    "marks_belong_to_a_scan",
+    "marks_are_saved",
+    "styluses_come_and_go",
+    "a_lost_stylus_comes_back",
+    "other_files_are_opened_and_felt",
+    "buttons_of_the_stylus",
+    "a_short_press_counts",
+    "the_guardian_takes_the_force",
     "closed_in_mid_contact",
 ]
 
@@ -143,9 +224,31 @@ def layout():
     return run("the_layout_is_clinical", folder) and run("advanced_is_remembered", folder, first=False)
 
 
+def other_files():
+    return run("other_files_are_opened_and_felt", PALPATE_NIFTI=write_nifti(scratch("ball.nii.gz")),
+               PALPATE_NRRD=write_nrrd(scratch("ball.nrrd")))
+
+
+def german():
+    def english(home):
+        with open(os.path.join(home, ".config", "ParaView", "ParaView.conf"), "w") as settings:
+            settings.write("[palpate]\nlanguage=en\n")
+
+    there = dict(LC_ALL="de_DE.UTF-8", LANGUAGE="")
+    return (run("the_panel_speaks_german", ball(), **there) and
+            run("the_setting_says_english", ball(), prepare=english, **there))
+
+
+def marks_last():
+    return run("marks_are_saved", ball()) and run("marks_are_restored", arguments=["--state=" + scratch("marks.pvsm")])
+
+
 # Only by name: a measurement.
 BY_NAME = ["main_thread"]
 TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
 TESTS["the_layout_is_clinical"] = layout
+TESTS["the_panel_speaks_german"] = german
+TESTS["marks_are_saved"] = marks_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
+TESTS["other_files_are_opened_and_felt"] = other_files
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

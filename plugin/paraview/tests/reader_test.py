@@ -1,14 +1,16 @@
 """The reader against the core: geometry, values, series, frames."""
 
 import bisect
+import json
 import math
 import os
 import random
 import shutil
 
 from palpate_test import (SCRATCH, Probe, core_info, core_samples, expect, expect_all_near, expect_near, fetch, main,
-                          open_series, phantom)
+                          open_series, phantom, run)
 from paraview import simple
+from voxel_ball import SIZE, value_at, write_nifti, write_nrrd
 
 EVEN = ("straight", "oblique", "tilted")
 
@@ -67,9 +69,13 @@ def a_series_is_chosen():
     uids = list(reader.GetPropertyValue("SeriesUids"))
     wanted = core_info(phantom("straight"))["uid"]
     expect(len(uids) == 2 and wanted in uids, f"series found: {uids}")
-    expect(fetch(reader).GetDimensions() == (60, 80, 40), "without a choice it is the largest series")
-    reader.SeriesUID = wanted
-    expect(fetch(reader).GetDimensions() == (60, 70, 40), "the series chosen by its UID")
+    listed = json.loads(run("palpate", "info", folder, "--json"))["series"]
+    first = [series for series in listed if series["first_choice"]]
+    expect(len(first) == 1, "one of them is the best to feel first")
+    expect(list(fetch(reader).GetDimensions()) == first[0]["dimensions"], "without a choice it is the best to feel first")
+    for series in listed:
+        reader.SeriesUID = series["uid"]
+        expect(list(fetch(reader).GetDimensions()) == series["dimensions"], "the series chosen by its UID")
     one_file = os.path.join(folder, "straight", sorted(os.listdir(os.path.join(folder, "straight")))[3])
     expect(fetch(open_series(one_file)).GetDimensions() == (60, 70, 40), "the whole series of a file")
 
@@ -124,6 +130,27 @@ def the_window_of_the_series_is_told():
         expect(reader.GetPropertyValue("Modality") == "CT", f"{name}: modality")
 
 
+def other_files_are_read():
+    """A ball in an oblique lattice, as NIfTI and NRRD: each voxel has the value of its place."""
+    for write, name in ((write_nifti, "ball.nii.gz"), (write_nrrd, "ball.nrrd")):
+        image = fetch(open_series(write(os.path.join(SCRATCH, name))))
+        expect(list(image.GetDimensions()) == [SIZE] * 3, f"{name}: dimensions {image.GetDimensions()}")
+        scalars, inside = image.GetPointData().GetScalars(), 0
+        for n in (random.randrange(image.GetNumberOfPoints()) for _ in range(400)):
+            place = image.GetPoint(n)
+            inside += value_at(place) > 0
+            expect_near(scalars.GetValue(n), value_at(place), 1, f"{name}: value at {place}")
+        expect(inside > 20, f"{name}: {inside} places in the ball")
+
+
+def paraview_keeps_its_own_readers():
+    """What ParaView opens by itself it goes on to open so; what it cannot is the plug-in's."""
+    for name, wanted in (("ball.nii.gz", "PalpateDicomReader"), ("ball.nrrd", "NrrdReader")):
+        reader = simple.OpenDataFile(os.path.join(SCRATCH, name))
+        expect(reader is not None and reader.SMProxy.GetXMLName() == wanted,
+               f"{name} is opened by {reader and reader.SMProxy.GetXMLName()}")
+
+
 main([geometry_is_the_cores, voxels_are_the_cores, uneven_slices_are_shown_where_they_are, a_series_is_chosen,
       what_cannot_be_read_is_refused, single_values_are_the_cores, the_spread_of_values_is_that_of_the_voxels,
-      the_window_of_the_series_is_told])
+      the_window_of_the_series_is_told, other_files_are_read, paraview_keeps_its_own_readers])

@@ -18,6 +18,7 @@ from panel_program import ASKED, PLUGINS, PROGRAMS, SCRATCH
 # Scenario, ranks, and what is on this machine by the name of the server's folder.
 RUNS = [("remote_probe", 1, "same"), ("remote_probe", 2, "same"), ("remote_fetched", 2, "none"),
         ("remote_different", 1, "other"), ("remote_killed", 1, "same"), ("remote_killed", 2, "same"),
+        ("remote_noted", 1, "none"), ("remote_frames", 1, "none"), ("remote_structures", 1, "none"),
         ("remote_without_series", 1, "same"), ("remote_without_plugin", 1, "same")]
 ENDED_BY_PARAVIEW = 255  # its _exit(-1) where the server is lost
 
@@ -60,8 +61,38 @@ def other_voxels(folder, copy):
         file.write(bytes([byte[0] ^ 1]))
 
 
+def beating():
+    """Three phases of a ball that shrinks: a series of three frames."""
+    folder = os.path.join(SCRATCH, "remote-beating")
+    shutil.rmtree(folder, ignore_errors=True)
+    for phase in range(3):
+        subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "phantom", "sphere", "--radius", str(25 - phase),
+                        "-o", os.path.join(folder, str(phase))], check=True, stdout=subprocess.DEVNULL)
+        for file in sorted(os.listdir(os.path.join(folder, str(phase)))):
+            subprocess.run(["dcmodify", "-nb", "-i", f"(0018,1060)={300 * phase}", "-m", "(0020,000e)=1.2.3.4", "-m",
+                            "(0020,000d)=1.2.3", "-m", "(0020,0052)=1.2.3.5", os.path.join(folder, str(phase), file)], check=True)
+    return folder
+
+
+def outlined():
+    """A scan and the segmentation of its liver in one folder; none where the shared structures are not here."""
+    shared = os.path.join(os.environ.get("PALPATE_SHARED_DATA", ""), "structures")
+    if not os.path.isdir(shared):
+        return None
+    folder = os.path.join(SCRATCH, "remote-outlined")
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(os.path.join(shared, "dcmqi/ct-3slice"), folder)
+    shutil.copy(os.path.join(shared, "dcmqi/liver.dcm"), folder)
+    os.environ["PALPATE_FOREIGN"] = os.path.join(shared, "dcmqi/24x38x3/seg/label.seg")
+    return folder
+
+
 def run(scenario, ranks, here):
-    scan = panel_program.ball()
+    scans = {"remote_frames": beating, "remote_structures": outlined}
+    scan = scans.get(scenario, panel_program.ball)()
+    if not scan:
+        print(f"{scenario}: skipped: needs a shared folder that is not beside this checkout")
+        return True
     there = os.path.join(SCRATCH, "remote-there")
     local = os.path.join(SCRATCH, "remote-here")
     for folder in there, local:
@@ -70,6 +101,8 @@ def run(scenario, ranks, here):
     shutil.copytree(scan, os.path.join(there, "scan"))
     if here == "other":
         other_voxels(scan, os.path.join(local, "scan"))
+    if scenario == "remote_noted":  # a slice is missing
+        os.remove(os.path.join(there, "scan", sorted(os.listdir(os.path.join(there, "scan")))[20]))
     remote = os.path.join(there, "scan") if here == "same" else "/proc/self/cwd/scan"
     plugin = os.path.join(os.path.dirname(PLUGINS), "Palpate", "Palpate.so")
     plugins = f'<Plugin name="Palpate" filename="{plugin}" auto_load="1"/>'
@@ -108,13 +141,15 @@ def run(scenario, ranks, here):
     if not any("passed" in line for line in said) or result.returncode != expected:
         print(f"{scenario}, {ranks} ranks: FAILED: the program ended with {result.returncode}:\n{result.stdout[-2000:]}")
         return False
-    return "without" in scenario or repeats(recording, os.path.join(there, "scan"))
+    if "without" in scenario or scenario == "remote_noted":
+        return True
+    return repeats(recording, os.path.join(there, "scan"), "felt: frame 0, 2 of 0 to 2" if "frames" in scenario else "")
 
 
-def repeats(recording, scan):
+def repeats(recording, scan, felt):
     """Whether the recording was closed in good order, and is the same again of the server's own files."""
     done = subprocess.run([os.path.join(PROGRAMS, "palpate"), "replay", recording, scan], capture_output=True, text=True)
-    good = done.returncode == 0 and "to the last bit" in done.stdout and "good order" not in done.stderr
+    good = done.returncode == 0 and "to the last bit" in done.stdout and felt in done.stdout and "good order" not in done.stderr
     print(f"  {done.stdout.strip() if good else 'FAILED: ' + done.stdout + done.stderr}", flush=True)
     return good
 

@@ -160,10 +160,13 @@ TEST(ServerMessages, SlicesThatCannotBeHadAreRefused) {
   slices->Asked() = {.what = SlicesAsked::What::hashes, .first = 14, .count = 9};
   slices->CopyFromObject(reader);
   expect_row("the scan has no such slices", slices->Answered().error);
+  slices->Asked() = {.what = SlicesAsked::What::structure_pieces, .frame = 0, .count = 1};
+  slices->CopyFromObject(reader);
+  expect_row("the server has no such file of structures any more", slices->Answered().error);
   vtkClientServerStream stream;
   stream << vtkClientServerStream::Reply << 3 << vtkClientServerStream::End;
   slices->CopyFromStream(&stream);
-  expect_row("the server answers in another version's way: it needs the Palpate of this program",
+  expect_row("the server runs another version of Palpate: it needs the version of this program",
              slices->Answered().error);
 }
 

@@ -12,6 +12,9 @@
 #include <QStyle>
 #include <QToolButton>
 
+#include <utility>
+
+#include "plugin/paraview/client/panel/release_button.h"
 #include "plugin/paraview/client/scan/recent_folders.h"
 
 namespace palpate::plugin {
@@ -34,6 +37,27 @@ QIcon layout_icon(const QPalette& colors, int across) {
   return QIcon(picture);
 }
 
+/// What a ruler or an angle draws.
+QIcon measure_icon(const QPalette& colors, Measure measure) {
+  constexpr int side = 64, edge = 8, thick = 6, mark = 5;
+  QPixmap picture(side, side);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor ink = colors.color(QPalette::ButtonText);
+  painter.setPen(QPen(ink, thick));
+  painter.setBrush(ink);
+  const QPoint left(edge, side - edge), right(side - edge, edge), across(side - edge, side - edge);
+  painter.drawLine(left, right);
+  if (measure == Measure::angle) {
+    painter.drawLine(left, across);
+  } else {
+    painter.drawEllipse(left, mark, mark);
+    painter.drawEllipse(right, mark, mark);
+  }
+  return QIcon(picture);
+}
+
 }  // namespace
 
 ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* parent)
@@ -41,6 +65,36 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
   setObjectName(QStringLiteral("palpateToolbar"));
   setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   setIconSize({22, 22});
+  add_open();
+  addSeparator();
+  addWidget(new QLabel(tr("Window "), this));
+  addWidget(&window);
+  addWidget(make_volume_menu());
+  addWidget(&look);
+  addSeparator();
+  add_layouts();
+  addSeparator();
+  add_measures();
+  addSeparator();
+  add_connection();
+  addSeparator();
+  QAction* const picture = add("palpatePicture", tr("Picture…"), tr("Saves what the views show as a PNG file"));
+  connect(picture, &QAction::triggered, this, &ClinicalToolbar::picture_wanted);
+  // After Release, which a narrow window is to keep.
+  marks_ = add("palpateToolbarMarks", tr("Marks"), tr("What was marked: the list, and what lies between"));
+  connect(marks_, &QAction::triggered, this, &ClinicalToolbar::marks_wanted);
+  marks_->setVisible(false);
+  auto* const gap = new QWidget(this);
+  gap->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  addWidget(gap);
+  advanced_ = add("palpateAdvanced", tr("Advanced"), tr("ParaView's own toolbars, pipeline and properties"));
+  advanced_->setCheckable(true);
+  connect(advanced_, &QAction::triggered, this, &ClinicalToolbar::advanced_wanted);
+  show_connection(false, false);
+}
+
+/// Opens a folder, or one of those that were opened before.
+void ClinicalToolbar::add_open() {
   QAction* const open = add("palpateToolbarOpen", tr("Open…"), tr("A folder of DICOM files, searched to the bottom"));
   open->setIcon(style()->standardIcon(QStyle::SP_DirOpenIcon));
   connect(open, &QAction::triggered, this, &ClinicalToolbar::open_wanted);
@@ -55,12 +109,10 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
   });
   open->setMenu(recent);
   qobject_cast<QToolButton*>(widgetForAction(open))->setPopupMode(QToolButton::MenuButtonPopup);
-  addSeparator();
-  addWidget(new QLabel(tr("Window "), this));
-  addWidget(&window);
-  addWidget(new QLabel(tr("  Volume "), this));
-  addWidget(&look);
-  addSeparator();
+}
+
+/// Four views or one.
+void ClinicalToolbar::add_layouts() {
   four_ = add("palpateFourUp", tr("Four-up"), tr("Axial, sagittal, coronal and volume beside each other"));
   one_ = add("palpateOneUp", tr("One-up"), tr("The marked view alone. A double click in a view does the same."));
   four_->setIcon(layout_icon(palette(), 2));
@@ -73,30 +125,62 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
   four_->setChecked(true);
   connect(four_, &QAction::triggered, this, [this] { emit enlarged_wanted(false); });
   connect(one_, &QAction::triggered, this, [this] { emit enlarged_wanted(true); });
-  addSeparator();
+}
+
+void ClinicalToolbar::add_measures() {
+  ruler_ = add("palpateRuler", tr("Ruler"),
+               tr("Drag in a slice to measure a length (key L). The delete key takes the last one away."));
+  angle_ = add("palpateAngle", tr("Angle"),
+               tr("Drag along one leg in a slice, then click at the end of the other (key A)."));
+  for (const auto& [action, what] : {std::pair{ruler_, Measure::ruler}, {angle_, Measure::angle}}) {
+    action->setCheckable(true);
+    action->setIcon(measure_icon(palette(), what));
+    qobject_cast<QToolButton*>(widgetForAction(action))->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    connect(action, &QAction::triggered, this,
+            [this, what = what](bool on) { emit measure_wanted(on ? what : Measure::none); });
+  }
+}
+
+/// Connect and Release.
+void ClinicalToolbar::add_connection() {
   connect_ = add("palpateToolbarConnect", tr("Connect"), {});
   connect(connect_, &QAction::triggered, this, &ClinicalToolbar::connect_wanted);
-  release_ = new QPushButton(tr("Release  (Esc)"), this);
-  release_->setObjectName(QStringLiteral("palpateToolbarRelease"));
+  release_ = make_release_button(*this, "palpateToolbarRelease", tr("Release  (Esc)"));
   release_->setToolTip(tr("Takes the force away"));
   release_->setMinimumSize(130, 32);
   release_->setFocusPolicy(Qt::NoFocus);  // the arrow keys are the views'
-  release_->setStyleSheet(
-      QStringLiteral("QPushButton { background: #b00020; color: white; font-weight: bold; border-radius: 4px }"
-                     "QPushButton:pressed { background: #7a0016 }"
-                     "QPushButton:disabled { background: palette(mid); color: palette(dark) }"));
   connect(release_, &QPushButton::clicked, this, &ClinicalToolbar::release_wanted);
   addWidget(release_);
-  addSeparator();
-  QAction* const picture = add("palpatePicture", tr("Picture…"), tr("Saves what the views show as a PNG file"));
-  connect(picture, &QAction::triggered, this, &ClinicalToolbar::picture_wanted);
-  auto* const gap = new QWidget(this);
-  gap->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  addWidget(gap);
-  advanced_ = add("palpateAdvanced", tr("Advanced"), tr("ParaView's own toolbars, pipeline and properties"));
-  advanced_->setCheckable(true);
-  connect(advanced_, &QAction::triggered, this, &ClinicalToolbar::advanced_wanted);
-  show_connection(false, false);
+}
+
+/// What else can be done with the volume, behind its name.
+QToolButton* ClinicalToolbar::make_volume_menu() {
+  auto* const button = new QToolButton(this);
+  button->setObjectName(QStringLiteral("palpateVolumeMenu"));
+  button->setText(tr("Volume"));
+  button->setToolTip(tr("What is cut away from the volume"));
+  button->setPopupMode(QToolButton::InstantPopup);
+  auto* const menu = new QMenu(button);
+  cut_ = menu->addAction(tr("Without table and headrest"));
+  cut_->setObjectName(QStringLiteral("palpateCutTable"));
+  crop_ = menu->addAction(tr("Crop box"));
+  crop_->setObjectName(QStringLiteral("palpateCropBox"));
+  crop_->setToolTip(tr("Drag its handles in the volume view"));
+  for (QAction* const action : {cut_, crop_}) {
+    action->setCheckable(true);
+    action->setEnabled(false);
+  }
+  connect(cut_, &QAction::triggered, this, &ClinicalToolbar::cut_wanted);
+  connect(crop_, &QAction::triggered, this, &ClinicalToolbar::crop_wanted);
+  button->setMenu(menu);
+  return button;
+}
+
+void ClinicalToolbar::show_volume_cuts(bool can_cut, bool can_crop) {
+  if (can_cut != cut_->isEnabled()) cut_->setChecked(can_cut);
+  cut_->setEnabled(can_cut);
+  if (!can_crop) crop_->setChecked(false);
+  crop_->setEnabled(can_crop);
 }
 
 QAction* ClinicalToolbar::add(const char* name, const QString& text, const QString& tip) {
@@ -116,6 +200,16 @@ void ClinicalToolbar::show_connection(bool connected, bool can_connect) {
 
 void ClinicalToolbar::show_enlarged(bool enlarged) {
   (enlarged ? one_ : four_)->setChecked(true);
+}
+
+void ClinicalToolbar::show_measure(Measure measure) {
+  ruler_->setChecked(measure == Measure::ruler);
+  angle_->setChecked(measure == Measure::angle);
+}
+
+void ClinicalToolbar::show_marks(const QString& words) {
+  marks_->setText(tr("Marks (%1)").arg(words));
+  marks_->setVisible(!words.isEmpty());
 }
 
 void ClinicalToolbar::show_advanced(bool advanced) {

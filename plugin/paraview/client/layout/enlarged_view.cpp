@@ -2,7 +2,6 @@
 
 #include <pqRenderView.h>
 #include <pqUndoStack.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSMRenderViewProxy.h>
@@ -35,15 +34,10 @@ void set_enlarged(pqRenderView& view, bool enlarged) {
 }
 
 DoubleClickEnlarges::DoubleClickEnlarges(pqRenderView& view, std::function<void(bool)> changed)
-    : view_(view), changed_(std::move(changed)) {
-  vtkRenderWindowInteractor* const interactor = view.getRenderViewProxy()->GetInteractor();
-  if (!interactor) return;
-  interactor_ = interactor;
-  command_->SetClientData(this);
-  command_->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void*) { static_cast<DoubleClickEnlarges*>(self)->change(); });
-  observer_ = interactor->AddObserver(vtkCommand::LeftButtonDoubleClickEvent, command_);
-}
+    : view_(view),
+      changed_(std::move(changed)),
+      double_click_(view.getRenderViewProxy()->GetInteractor(), vtkCommand::LeftButtonDoubleClickEvent,
+                    [this] { change(); }) {}
 
 void DoubleClickEnlarges::change() {
   // Not while the view handles the click: it is taken out of its place.
@@ -51,10 +45,6 @@ void DoubleClickEnlarges::change() {
     set_enlarged(*view, !is_enlarged(*view));
     changed(is_enlarged(*view));
   });
-}
-
-DoubleClickEnlarges::~DoubleClickEnlarges() {
-  if (interactor_) interactor_->RemoveObserver(observer_);
 }
 
 }  // namespace palpate::plugin

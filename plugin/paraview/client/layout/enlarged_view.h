@@ -2,14 +2,11 @@
 
 /// One view alone in the place of all views of its tab, and back again.
 
-#include <vtkNew.h>
-#include <vtkWeakPointer.h>
-
 #include <functional>
 
+#include "plugin/paraview/client/views/event_watch.h"
+
 class pqRenderView;
-class vtkCallbackCommand;
-class vtkObject;
 class vtkSMViewLayoutProxy;
 
 namespace palpate::plugin {
@@ -27,16 +24,13 @@ class DoubleClickEnlarges {
   DoubleClickEnlarges(pqRenderView& view, std::function<void(bool)> changed);
   DoubleClickEnlarges(const DoubleClickEnlarges&) = delete;
   DoubleClickEnlarges& operator=(const DoubleClickEnlarges&) = delete;
-  ~DoubleClickEnlarges();
 
  private:
   void change();
 
   pqRenderView& view_;
   std::function<void(bool)> changed_;
-  vtkWeakPointer<vtkObject> interactor_;
-  vtkNew<vtkCallbackCommand> command_;
-  unsigned long observer_ = 0;
+  EventWatch double_click_;
 };
 
 }  // namespace palpate::plugin

@@ -17,14 +17,13 @@ class HostLayout : public QObject {
   Q_OBJECT
 
  public:
-  /// Of `window` everything is ParaView's but that toolbar and that panel. Waits until the window is shown and ParaView
-  /// has put it in order; a session that has something else in its pipeline already is left as it is.
+  /// Everything in `window` except that toolbar and that panel counts as ParaView's. Waits until the window is shown
+  /// and ParaView has arranged it. If the pipeline already holds something else, the layout is left as it is.
   HostLayout(QMainWindow& window, QToolBar& toolbar, QDockWidget& panel, QObject* parent);
 
-  bool is_advanced() const { return advanced_; }
   /// Remembered from one start of the program to the next.
   void set_advanced(bool advanced);
-  /// After views or tabs have come: they look as the layout asks for.
+  /// To be called when views or tabs were added: makes them look as the layout requires.
   void refresh_tabs();
 
  signals:

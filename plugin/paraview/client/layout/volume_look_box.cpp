@@ -5,7 +5,7 @@ namespace palpate::plugin {
 VolumeLookBox::VolumeLookBox(QWidget* parent) : QComboBox(parent) {
   setObjectName(QStringLiteral("palpateVolumeLook"));
   setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  constexpr int characters = 14;
+  constexpr int characters = 9;
   setMinimumContentsLength(characters);
   setToolTip(tr("How the volume is shown. Felt boundaries: each that is switched on, in its own color."));
   setPlaceholderText(tr("As it was saved"));

@@ -1,13 +1,23 @@
 #include "plugin/paraview/client/panel/curve_editor.h"
 
+#include <QVTKOpenGLNativeWidget.h>
+#include <QVTKOpenGLStereoWidget.h>
 #include <pqCoreUtilities.h>
 #include <pqTransferFunctionWidget.h>
 #include <vtkCallbackCommand.h>
+#include <vtkChart.h>
 #include <vtkCommand.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPVDiscretizableColorTransferFunction.h>
 #include <vtkPiecewiseFunction.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
 #include <vtkTable.h>
 
 #include <QColor>
@@ -22,13 +32,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "plugin/paraview/client/panel/chart_mark.h"
+#include "plugin/paraview/client/views/event_watch.h"
 
 namespace palpate::plugin {
 namespace {
 
 constexpr int at_rest_ms = 300;
+constexpr float before_chart = 10;
 
 }  // namespace
+
+/// Drags with Shift held down, before the chart sees them.
+class CurveEditor::Block {
+ public:
+  Block(CurveEditor& owner, vtkRenderWindowInteractor& interactor, vtkChart& chart)
+      : owner_(owner),
+        interactor_(&interactor),
+        chart_(&chart),
+        events_(&interactor,
+                {vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent},
+                before_chart, [this](unsigned long event) { return handle(event); }) {}
+
+ private:
+  bool handle(unsigned long event) {
+    const int x = interactor_->GetEventPosition()[0];
+    if (event == vtkCommand::LeftButtonPressEvent) {
+      dragging_ = interactor_->GetShiftKey() != 0;
+      from_ = x;
+      if (dragging_) owner_.shifted_from_.clear();
+      return dragging_;
+    }
+    if (event == vtkCommand::LeftButtonReleaseEvent) return std::exchange(dragging_, false);
+    if (!dragging_) return false;
+    const double width = chart_->GetPoint2()[0] - chart_->GetPoint1()[0];
+    const io::Bins& bins = owner_.counts_.bins;
+    if (width > 0) owner_.shift_to((x - from_) / width * (bins.high - bins.low));
+    return true;
+  }
+
+  CurveEditor& owner_;
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
+  vtkSmartPointer<vtkChart> chart_;
+  bool dragging_ = false;
+  int from_ = 0;
+  EventWatch events_;
+};
 
 struct CurveEditor::Functions {
   vtkNew<vtkPiecewiseFunction> curve;  // 0 to 1, as the widget has it
@@ -53,7 +104,9 @@ CurveEditor::CurveEditor(const QString& name, const QString& across, const QStri
   widget_ = new pqTransferFunctionWidget(this);
   widget_->setObjectName(name + QStringLiteral("Chart"));
   widget_->setMinimumHeight(110);
-  widget_->setToolTip(tr("Drag a node; click for a new one; Delete takes the chosen one away; arrow keys move it."));
+  widget_->setToolTip(
+      tr("Drag a node; click for a new one; Delete takes the chosen one away; arrow keys move it. With Shift held down "
+         "the whole curve is dragged. The line: what is under the pointer in a slice."));
   widget_->initialize(functions_->colors, false, functions_->curve, true);
   widget_->installEventFilter(this);
   for (QWidget* const part : widget_->findChildren<QWidget*>()) part->installEventFilter(this);
@@ -62,6 +115,7 @@ CurveEditor::CurveEditor(const QString& name, const QString& across, const QStri
   axes_ = new QLabel(this);
   axes_->setObjectName(name + QStringLiteral("Axes"));
   axes_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  axes_->setWordWrap(true);
   column->addWidget(axes_);
   auto* const row = new QHBoxLayout;
   row->addWidget(new QLabel(tr("Node"), this));
@@ -115,7 +169,7 @@ void CurveEditor::set_frame(const Counts& counts, const QString& across, double 
 }
 
 void CurveEditor::show_axes() {
-  axes_->setText(QStringLiteral("→ %1, %2 … %3      ↑ %4, 0 … %5")
+  axes_->setText(QStringLiteral("→ %1,\u00a0%2\u00a0…\u00a0%3   ↑ %4,\u00a00\u00a0…\u00a0%5")
                      .arg(across_)
                      .arg(counts_.bins.low, 0, 'f', 0)
                      .arg(counts_.bins.high, 0, 'f', 0)
@@ -126,6 +180,8 @@ void CurveEditor::show_axes() {
 
 void CurveEditor::set_curve(const modes::TransferFunction& curve, const QColor& color) {
   setting_ = true;
+  find_chart();
+  color_ = color;
   interpolation_ = curve.interpolation();
   vtkPiecewiseFunction& shown = *functions_->curve;
   const double low = counts_.bins.low, high = counts_.bins.high;
@@ -158,6 +214,56 @@ modes::TransferFunction CurveEditor::curve() const {
   if (nodes.size() > 2 && nodes[0].value == nodes[1].value) nodes.erase(nodes.begin());
   if (nodes.size() > 2 && nodes[nodes.size() - 1].value == nodes[nodes.size() - 2].value) nodes.pop_back();
   return modes::TransferFunction(std::move(nodes), interpolation_);
+}
+
+/// The chart within ParaView's widget: it is made with it, and its place is known to it alone.
+void CurveEditor::find_chart() {
+  if (mark_) return;
+  auto* const native = widget_->findChild<QVTKOpenGLNativeWidget*>();  // which of them depends on ParaView's release
+  auto* const stereo = widget_->findChild<QVTKOpenGLStereoWidget*>();
+  vtkRenderWindow* const window = native ? native->renderWindow() : stereo ? stereo->renderWindow() : nullptr;
+  if (!window || !window->GetInteractor()) return;
+  vtkRendererCollection& layers = *window->GetRenderers();
+  for (int layer = 0; layer < layers.GetNumberOfItems(); ++layer) {
+    vtkPropCollection& props = *vtkRenderer::SafeDownCast(layers.GetItemAsObject(layer))->GetViewProps();
+    for (int n = 0; n < props.GetNumberOfItems(); ++n) {
+      auto* const actor = vtkContextActor::SafeDownCast(props.GetItemAsObject(n));
+      vtkContextScene* const scene = actor ? actor->GetScene() : nullptr;
+      for (unsigned item = 0; scene && item < scene->GetNumberOfItems(); ++item) {
+        auto* const chart = vtkChart::SafeDownCast(scene->GetItem(item));
+        if (!chart) continue;
+        mark_ = vtkSmartPointer<ChartMark>::New();
+        mark_->set_chart(chart);
+        scene->AddItem(mark_);
+        block_ = std::make_unique<Block>(*this, *window->GetInteractor(), *chart);
+        return;
+      }
+    }
+  }
+}
+
+void CurveEditor::set_mark(std::optional<double> at) {
+  find_chart();
+  const double range = counts_.bins.high - counts_.bins.low;
+  if (!mark_ || !(range > 0)) return;
+  const double part = at ? (*at - counts_.bins.low) / range : -1;
+  if (mark_->set_part(part)) widget_->render();
+}
+
+/// All nodes by that much from where they were when the drag began, as far as the histogram reaches.
+void CurveEditor::shift_to(double by) {
+  if (shifted_from_.empty()) {
+    const modes::TransferFunction whole = curve();
+    shifted_from_.assign(whole.nodes().begin(), whole.nodes().end());
+  }
+  std::vector<modes::Node> nodes = shifted_from_;
+  const double gap = 1e-3 * (counts_.bins.high - counts_.bins.low);
+  const double least = counts_.bins.low + gap - nodes.front().at, most = counts_.bins.high - gap - nodes.back().at;
+  if (least > most) return;  // it is as wide as the histogram
+  for (modes::Node& node : nodes) node.at += std::clamp(by, least, most);
+  set_curve(modes::TransferFunction(std::move(nodes), interpolation_), color_);
+  emit dragged();
+  rest_->start();
 }
 
 void CurveEditor::curve_modified() {

@@ -3,9 +3,13 @@
 /// A transfer function as a curve over a scan's histogram, with its axes in words, a number for the node that is
 /// chosen, and steps by keyboard.
 
+#include <vtkSmartPointer.h>
+
+#include <QColor>
 #include <QWidget>
 
-#include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "modes/scene/transfer_function.h"
@@ -17,6 +21,8 @@ class QTimer;
 class pqTransferFunctionWidget;
 
 namespace palpate::plugin {
+
+class ChartMark;
 
 class CurveEditor : public QWidget {
   Q_OBJECT
@@ -31,6 +37,8 @@ class CurveEditor : public QWidget {
   /// Another curve from outside: does not tell of it.
   void set_curve(const modes::TransferFunction& curve, const QColor& color);
   modes::TransferFunction curve() const;
+  /// A line at what is under the pointer in a slice; none: no line.
+  void set_mark(std::optional<double> at);
 
  signals:
   void dragged();   ///< the curve has moved, and may go on
@@ -41,12 +49,18 @@ class CurveEditor : public QWidget {
 
  private:
   struct Functions;
+  class Block;
   void curve_modified();
   void show_node();
   void set_node(double at, double value);
   void show_axes();
 
+  void find_chart();
+  void shift_to(double by);
+
   std::unique_ptr<Functions> functions_;
+  std::unique_ptr<Block> block_;  // the whole curve, while it is dragged
+  vtkSmartPointer<ChartMark> mark_;
   pqTransferFunctionWidget* widget_;
   QLabel* axes_;
   QDoubleSpinBox* at_;
@@ -55,6 +69,8 @@ class CurveEditor : public QWidget {
   Counts counts_;
   QString across_, up_;
   double top_ = 1;
+  std::vector<modes::Node> shifted_from_;
+  QColor color_;
   modes::Interpolation interpolation_ = modes::Interpolation::linear;
   bool setting_ = false;
 };

@@ -1,13 +1,17 @@
 #include "plugin/paraview/client/panel/curves_section.h"
 
+#include <QApplication>
 #include <QColor>
 #include <QComboBox>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
 
 #include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/panel/tool_button.h"
@@ -31,7 +35,8 @@ const std::vector<Preset>& presets() {
 
 }  // namespace
 
-CurvesSection::CurvesSection(SceneModel& model, QWidget* parent) : QWidget(parent), model_(model) {
+CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, StrokeRunner& strokes, QWidget* parent)
+    : QWidget(parent), model_(model) {
   setObjectName(QStringLiteral("palpateCurves"));
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -41,11 +46,14 @@ CurvesSection::CurvesSection(SceneModel& model, QWidget* parent) : QWidget(paren
   modes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(modes_, QOverload<int>::of(&QComboBox::activated), this, [this] { show_mode(); });
   row->addWidget(modes_, 1);
-  add_tool_button(*row, *this, "palpateUndo", QStringLiteral("↶"), tr("Undo"), [this] { model_.undo(); });
+  add_tool_button(*row, *this, "palpateUndo", QStringLiteral("↶"),
+                  tr("Undo. The scene as it was before the last edit: hold B."), [this] { model_.undo(); });
   add_tool_button(*row, *this, "palpateRedo", QStringLiteral("↷"), tr("Redo"), [this] { model_.redo(); });
   column->addLayout(row);
   strength_ = new CurveEditor(QStringLiteral("palpateStrengthCurve"), tr("gradient"), tr("strength, N"), this);
   column->addWidget(strength_);
+  profile_ = new CurveProfile(touching, model, strokes, this);
+  column->addWidget(profile_);
   gate_ = new CurveEditor(QStringLiteral("palpateGateCurve"), tr("value"), tr("factor"), this);
   column->addWidget(gate_);
   presets_ = new QComboBox(this);
@@ -63,6 +71,7 @@ CurvesSection::CurvesSection(SceneModel& model, QWidget* parent) : QWidget(paren
       editing_ = false;
     });
     connect(editor, &CurveEditor::finished, this, [this] {
+      if (QGuiApplication::mouseButtons() == Qt::NoButton) profile_->rest();
       if (mode() < model_.scene().modes.size()) {
         model_.finish_drag(tr("Curve of %1").arg(name_of(model_.scene(), mode())));
       }
@@ -78,6 +87,44 @@ CurvesSection::CurvesSection(SceneModel& model, QWidget* parent) : QWidget(paren
     if (!editing_) list_modes();
   });
   list_modes();
+  QCoreApplication::instance()->installEventFilter(this);
+}
+
+void CurvesSection::mark(const std::optional<io::Sample>& pointed) {
+  if (!isVisible() || !study_) return;
+  const bool of_gradient = mode() < model_.scene().modes.size() &&
+                           model_.scene().modes[mode()].strength_of == modes::Datum::gradient_magnitude;
+  std::optional<double> value, strength;
+  if (pointed) {
+    value = pointed->value;
+    strength = of_gradient ? glm::length(pointed->gradient) : pointed->value;
+  }
+  strength_->set_mark(strength);
+  gate_->set_mark(value);
+}
+
+bool CurvesSection::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::MouseButtonPress) profile_->rest();  // a drag may pause: it begins with a press
+  const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
+  const bool left = event->type() == QEvent::ApplicationDeactivate;
+  if (!pressed && !left && event->type() != QEvent::KeyRelease) return QWidget::eventFilter(watched, event);
+  if (!left) {
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    QWidget* const writes = QApplication::focusWidget();
+    const bool text = writes && (writes->inherits("QLineEdit") || writes->inherits("QAbstractSpinBox") ||
+                                 writes->inherits("QTextEdit"));
+    if (key.key() != Qt::Key_B || key.modifiers() != Qt::NoModifier || text || QApplication::activeModalWidget()) {
+      return QWidget::eventFilter(watched, event);
+    }
+    if (key.isAutoRepeat()) return true;
+  }
+  if (pressed && !before_ && model_.can_undo()) {
+    before_ = true;
+    model_.undo();
+  } else if (!pressed && std::exchange(before_, false)) {
+    model_.redo();
+  }
+  return !left;  // ParaView would select blocks
 }
 
 void CurvesSection::set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit) {

@@ -5,8 +5,11 @@
 #include <QWidget>
 
 #include <memory>
+#include <optional>
 
+#include "io/fields/field_source.h"
 #include "plugin/paraview/client/panel/curve_editor.h"
+#include "plugin/paraview/client/panel/curve_profile.h"
 #include "plugin/paraview/client/panel/scene_model.h"
 #include "plugin/paraview/client/scan/scan_study.h"
 
@@ -18,9 +21,16 @@ class CurvesSection : public QWidget {
   Q_OBJECT
 
  public:
-  explicit CurvesSection(SceneModel& model, QWidget* parent = nullptr);
+  CurvesSection(SceneModel& model, SessionController& touching, StrokeRunner& strokes, QWidget* parent = nullptr);
 
   void set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit);
+  /// What is under the pointer in a slice, marked in the histograms; none: nothing is.
+  void mark(const std::optional<io::Sample>& pointed);
+  CurveProfile& profile() { return *profile_; }
+
+ protected:
+  /// The key B shows and feels the scene without the last edit while it is held.
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   const Counts& counts_of(modes::Datum datum) const;
@@ -37,7 +47,9 @@ class CurvesSection : public QWidget {
   QComboBox* presets_;
   CurveEditor* strength_;
   CurveEditor* gate_;
+  CurveProfile* profile_;
   bool editing_ = false;
+  bool before_ = false;  // the last edit is taken back while a key is held
 };
 
 }  // namespace palpate::plugin

@@ -12,7 +12,6 @@ Fold::Fold(const QString& title, const QString& name, QWidget* content, bool ope
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
   header_->setObjectName(name + QStringLiteral("Fold"));
-  header_->setText(title);
   header_->setCheckable(true);
   header_->setChecked(open);
   header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -28,6 +27,7 @@ Fold::Fold(const QString& title, const QString& name, QWidget* content, bool ope
     header_->setArrowType(unfolded ? Qt::DownArrow : Qt::RightArrow);
     content->setVisible(unfolded);
   });
+  show_title();
 }
 
 void Fold::set_open(bool open) {
@@ -35,8 +35,22 @@ void Fold::set_open(bool open) {
 }
 
 void Fold::set_note(const QString& note) {
-  header_->setText(note.isEmpty() ? title_ : QStringLiteral("%1: %2").arg(title_, note));
+  note_ = note;
   header_->setToolTip(note);
+  show_title();
+}
+
+void Fold::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  show_title();
+}
+
+void Fold::show_title() {
+  constexpr int arrow_and_margins = 30;
+  const QString title = note_.isEmpty() ? title_ : QStringLiteral("%1: %2").arg(title_, note_);
+  // A QToolButton would cut out the middle, where the size of the scan is.
+  const QString shown = header_->fontMetrics().elidedText(title, Qt::ElideRight, width() - arrow_and_margins);
+  if (header_->text() != shown) header_->setText(shown);
 }
 
 }  // namespace palpate::plugin

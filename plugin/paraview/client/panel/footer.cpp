@@ -7,12 +7,16 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QSettings>
 #include <QStandardPaths>
+#include <QToolButton>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/panel/force_strip.h"
+#include "plugin/paraview/client/panel/release_button.h"
 #include "plugin/paraview/client/stylus/session_state.h"
 #include "plugin/report/summary.h"
 #include "solver/solution.h"
@@ -45,80 +49,126 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
   auto* const grid = new QGridLayout(this);
   grid->setContentsMargins(6, 4, 6, 6);
   grid->setVerticalSpacing(2);
-  tissue_ = make_value(this, "palpateTissue", tr("Value of the scan and tissue at the proxy"));
-  force_ = make_value(this, "palpateForce", tr("Force that the stylus is fed"));
-  depth_ =
-      make_value(this, "palpateDepth", tr("How far the stylus is past the boundary that holds it, in the patient"));
-  solver_ = make_value(this, "palpateSolver",
-                       tr("Which solver balanced the forces, and how far from the exact balance the proxy can be"));
-  tick_ = make_value(this, "palpateTick", tr("Median time of a tick of the servo, and deadlines that it missed"));
+  grid->setColumnStretch(0, 2);
+  grid->setColumnStretch(1, 3);
+  add_values(*grid);
+  add_technical(*grid);
+  grid->addLayout(make_state(), 6, 0, 1, 3);
+  grid->addLayout(make_buttons(), 7, 0, 1, 3);
+  connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
+  connect(&touching, &SessionController::connection_changed, this, [this] { show_connection(); });
+  show_connection();
+}
+
+/// What is felt now, and in which scan.
+void Footer::add_values(QGridLayout& grid) {
+  force_ = make_value(this, "palpateForce", tr("Force on the stylus"));
   QFont large = force_->font();
   large.setPointSizeF(large.pointSizeF() * 1.4);
   large.setBold(true);
   force_->setFont(large);
+  grid.addWidget(force_, 0, 0);
+  tissue_ = make_value(this, "palpateTissue", tr("Value of the scan and tissue at the proxy"));
+  grid.addWidget(tissue_, 0, 1, 1, 2);
+  depth_ =
+      make_value(this, "palpateDepth", tr("How far the stylus is past the boundary that holds it, in the patient"));
+  grid.addWidget(depth_, 1, 0, 1, 3);  // the longest: a boundary's name, and how well its place is known
+  strip_ = new ForceStrip(this);
+  grid.addWidget(strip_, 2, 0, 1, 3);
   felt_ = make_value(this, "palpateFelt", tr("Scan, frame and scene that the stylus feels"));
   felt_->setWordWrap(true);
   felt_->setText(tr("No scan is open."));
-  grid->addWidget(felt_, 7, 0, 1, 3);
-  grid->addWidget(force_, 0, 0);
-  grid->addWidget(depth_, 0, 1, 1, 2);
-  grid->addWidget(tissue_, 1, 0, 1, 3);
+  grid.addWidget(felt_, 8, 0, 1, 3);
   distance_ = make_value(this, "palpateDistance",
                          tr("From the proxy to the structure that is nearest, of those that the scene reads; in color "
                             "within its margin"));
   distance_->hide();
-  grid->addWidget(distance_, 8, 0, 1, 3);
-  strip_ = new ForceStrip(this);
-  grid->addWidget(strip_, 2, 0, 1, 3);
-  grid->addWidget(solver_, 3, 0, 1, 3);
-  grid->addWidget(tick_, 4, 0, 1, 2);
+  grid.addWidget(distance_, 9, 0, 1, 3);
+}
+
+/// The solver and the tick, which are shown when they are asked for, and the button that records.
+void Footer::add_technical(QGridLayout& grid) {
+  solver_ = make_value(this, "palpateSolver",
+                       tr("Which solver balanced the forces, and how far from the exact balance the proxy can be"));
+  tick_ = make_value(this, "palpateTick", tr("Median time of a tick of the servo, and deadlines that it missed"));
+  grid.addWidget(solver_, 3, 0, 1, 3);
+  grid.addWidget(tick_, 4, 0, 1, 3);
+  technical_ = new QToolButton(this);
+  technical_->setObjectName(QStringLiteral("palpateTechnical"));
+  technical_->setText(tr("Technical"));
+  technical_->setToolTip(tr("For developers: solver, servo, the stylus' own limits, and what the scene does without"));
+  technical_->setCheckable(true);
+  technical_->setAutoRaise(true);
+  connect(technical_, &QToolButton::toggled, this, [this](bool on) {
+    QSettings().setValue(QStringLiteral("palpate/technical"), on);
+    show_technical(on);
+    emit technical_changed(on);
+  });
+  technical_->setChecked(QSettings().value(QStringLiteral("palpate/technical"), false).toBool());
+  show_technical(technical_->isChecked());
+  grid.addWidget(technical_, 5, 0);
   record_ = new QPushButton(tr("Record…"), this);
   record_->setObjectName(QStringLiteral("palpateRecord"));
-  record_->setToolTip(
-      tr("Keeps every tick in a file that can be repeated to the last bit. No patient's name goes into it."));
+  record_->setToolTip(tr("Keeps all that is felt in a file, to be looked at again. No patient's name goes into it."));
   connect(record_, &QPushButton::clicked, this, [this] { toggle_recording(); });
-  grid->addWidget(record_, 4, 2);
-  release_ = new QPushButton(tr("Release  (Esc)"), this);
-  release_->setObjectName(QStringLiteral("palpateRelease"));
-  release_->setMinimumHeight(38);
-  release_->setStyleSheet(
-      QStringLiteral("QPushButton { background: #b00020; color: white; font-weight: bold; border-radius: 4px }"
-                     "QPushButton:pressed { background: #7a0016 }"
-                     "QPushButton:disabled { background: palette(mid); color: palette(dark) }"));
-  connect(release_, &QPushButton::clicked, this, [this] { touching_.release(); });
-  release_->setMinimumWidth(120);
+  grid.addWidget(record_, 5, 2);
+}
+
+/// A lamp, and the state in words.
+QLayout* Footer::make_state() {
   auto* const row = new QHBoxLayout;
   lamp_ = new QLabel(this);
   lamp_->setObjectName(QStringLiteral("palpateLamp"));
   lamp_->setFixedSize(12, 12);
   row->addWidget(lamp_);
-  state_ = new QLabel(this);
-  state_->setObjectName(QStringLiteral("palpateState"));
-  state_->setWordWrap(true);
-  state_->setTextFormat(Qt::PlainText);
+  state_ = make_message_label(*this, "palpateState");
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   row->addWidget(state_, 1);
-  grid->addLayout(row, 5, 0, 1, 3);
-  auto* const buttons = new QHBoxLayout;
+  return row;
+}
+
+/// Feel, Mark and Release.
+QLayout* Footer::make_buttons() {
+  auto* const row = new QHBoxLayout;
+  // Made first: the tab key comes to it first.
+  release_ = make_release_button(*this, "palpateRelease", tr("Release  (Esc)"));
+  release_->setMinimumSize(120, 38);
+  connect(release_, &QPushButton::clicked, this, [this] { touching_.release(); });
   feel_ = new QPushButton(tr("Feel"), this);
   feel_->setObjectName(QStringLiteral("palpateFeel"));
   feel_->setMinimumHeight(38);
   connect(feel_, &QPushButton::clicked, this,
           [this] { state_line_of(touching_.last()).fault_latched ? touching_.clear_fault() : touching_.feel(); });
-  buttons->addWidget(feel_, 1);
-  buttons->addWidget(release_, 1);
-  grid->addLayout(buttons, 6, 0, 1, 3);
-  grid->setColumnStretch(0, 2);
-  grid->setColumnStretch(1, 3);
-  connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
-  connect(&touching, &SessionController::connection_changed, this, [this] { show_connection(); });
-  show_connection();
+  row->addWidget(feel_, 1);
+  mark_ = new QPushButton(tr("Mark  (M)"), this);
+  mark_->setObjectName(QStringLiteral("palpateMark"));
+  mark_->setMinimumHeight(38);
+  mark_->setToolTip(
+      tr("A mark where the stylus touches; kept down while the stylus moves, a path. The stylus' second button and the "
+         "key M in a view do the same."));
+  mark_->setFocusPolicy(Qt::NoFocus);  // the keys are the views'
+  connect(mark_, &QPushButton::pressed, this, [this] { touching_.press_mark(); });
+  connect(mark_, &QPushButton::released, this, [this] { touching_.let_go_mark(); });
+  row->addWidget(mark_, 1);
+  row->addWidget(release_, 1);
+  return row;
+}
+
+/// For developers, and for a clinician who is asked about it.
+void Footer::show_technical(bool shown) {
+  solver_->setVisible(shown);
+  tick_->setVisible(shown);
+}
+
+bool Footer::is_technical() const {
+  return technical_->isChecked();
 }
 
 void Footer::show_connection() {
   const bool connected = touching_.live().is_connected();
   release_->setEnabled(connected);
   record_->setEnabled(connected);
+  mark_->setEnabled(connected);
   record_->setText(touching_.live().recording() ? tr("Stop recording") : tr("Record…"));
 }
 
@@ -143,11 +193,13 @@ void Footer::set_felt(const QString& words) {
 
 void Footer::show_state(const SessionStatus& look) {
   const StateLine line = state_line_of(look);
-  feel_->setText(line.fault_latched ? tr("Clear fault") : tr("Feel"));
+  feel_->setText(line.fault_latched ? (line.lost ? tr("Open the stylus again") : tr("Clear fault")) : tr("Feel"));
   feel_->setEnabled(line.fault_latched || line.state == SessionState::ready);
+  const QString kept = line.fault_latched ? touching_.last_fault() : QString();
+  const QString tip = kept.isEmpty() ? line.words : line.words + QLatin1Char('\n') + kept;
+  if (state_->toolTip() != tip) state_->setToolTip(tip);
   if (state_->text() == line.words) return;
   state_->setText(line.words);
-  state_->setToolTip(line.words);
   // Colors that the color-blind can tell apart, too; and the state is always there in words.
   const char* color = "#808080";
   if (line.state == SessionState::ready) color = "#56b4e9";
@@ -182,7 +234,7 @@ void Footer::show_look(const SessionStatus& look) {
     tick_->setText(QStringLiteral("–"));
     return;
   }
-  const TickRecord& frame = look.frame;
+  const TickRecord& tick = look.tick;
   strip_->set_limit(model_.scene().limits.force_n);
   strip_->add(look.peak_n);
   force_->setText(tr("%1 N").arg(look.force_n, 0, 'f', 2));
@@ -194,12 +246,12 @@ void Footer::show_look(const SessionStatus& look) {
   depth_->setToolTip(depth_->text());
   const QString tissue = QString::fromStdString(look.tissue);
   const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
-  tissue_->setText(std::isfinite(frame.value) ? value_text(frame.value, QString::fromStdString(unit), tissue)
-                                              : tr("outside the scan"));
-  const double error_mm = 1e3 * frame.error_bound_m;
+  tissue_->setText(std::isfinite(tick.value) ? value_text(tick.value, QString::fromStdString(unit), tissue)
+                                             : tr("outside the scan"));
+  const double error_mm = 1e3 * tick.error_bound_m;
   constexpr double small_mm = 1e-9;
   solver_->setText(tr("%1 solver, error below %2 mm")
-                       .arg(QString::fromLatin1(solver::name_of(static_cast<solver::SolverKind>(frame.solver))))
+                       .arg(QString::fromLatin1(solver::name_of(static_cast<solver::SolverKind>(tick.solver))))
                        .arg(error_mm < small_mm ? small_mm : error_mm, 0, 'g', 2));
   tick_->setText(look.replayed ? tr("recorded: tick %1 µs").arg(look.tick_us, 0, 'f', 1)
                                : tr("tick %1 µs, %2 missed").arg(look.tick_us, 0, 'f', 1).arg(look.missed));

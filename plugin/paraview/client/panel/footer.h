@@ -6,8 +6,11 @@
 
 #include "plugin/paraview/client/panel/session_controller.h"
 
+class QGridLayout;
 class QLabel;
+class QLayout;
 class QPushButton;
+class QToolButton;
 
 namespace palpate::plugin {
 
@@ -21,26 +24,38 @@ class Footer : public QWidget {
 
   /// What is felt, in words: scan, frame, scene.
   void set_felt(const QString& words);
+  /// What developers ask for is shown.
+  bool is_technical() const;
+
+ signals:
+  void technical_changed(bool shown);
 
  private:
+  void add_values(QGridLayout& grid);
+  void add_technical(QGridLayout& grid);
+  QLayout* make_state();
+  QLayout* make_buttons();
   void show_look(const SessionStatus& look);
   void show_state(const SessionStatus& look);
   void show_distance(const SessionStatus& look);
+  void show_technical(bool shown);
   void show_connection();
   void toggle_recording();
 
   SessionController& touching_;
   const SceneModel& model_;
-  QLabel* tissue_;
-  QLabel* force_;
-  QLabel* depth_;
+  QLabel* tissue_ = nullptr;
+  QLabel* force_ = nullptr;
+  QLabel* depth_ = nullptr;
   QLabel* distance_ = nullptr;
-  QLabel* solver_;
-  QLabel* tick_;
-  ForceStrip* strip_;
-  QPushButton* record_;
-  QPushButton* release_;
+  QLabel* solver_ = nullptr;
+  QLabel* tick_ = nullptr;
+  QToolButton* technical_ = nullptr;
+  ForceStrip* strip_ = nullptr;
+  QPushButton* record_ = nullptr;
+  QPushButton* release_ = nullptr;
   QPushButton* feel_ = nullptr;
+  QPushButton* mark_ = nullptr;
   QLabel* lamp_ = nullptr;
   QLabel* state_ = nullptr;
   QLabel* felt_ = nullptr;

@@ -13,10 +13,16 @@ constexpr std::size_t kept = 300;  // ten seconds
 
 }  // namespace
 
+double ForceStrip::top_of(double largest_n, double limit_n) {
+  constexpr double above_limit = 1.1, small = 1.0 / 3;  // small forces are seen, too
+  return largest_n > small * limit_n ? above_limit * limit_n : small * limit_n;
+}
+
 ForceStrip::ForceStrip(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("palpateStrip"));
   setMinimumHeight(48);
-  setToolTip(QCoreApplication::translate("ForceStrip", "Force of the last ten seconds, N."));
+  setToolTip(QCoreApplication::translate(
+      "ForceStrip", "Force of the last ten seconds. Dashed: the limit, once a third of it is felt."));
 }
 
 void ForceStrip::add(double force_n) {
@@ -30,10 +36,12 @@ void ForceStrip::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), palette().base());
   const double largest = forces_.empty() ? 0 : *std::max_element(forces_.begin(), forces_.end());
-  const double top_n = largest > limit_n_ / 3 ? limit_n_ : limit_n_ / 3;  // small forces are seen, too
+  const double top_n = top_of(largest, limit_n_);
   const auto y_of = [&](double force_n) { return height() - 1 - force_n / top_n * (height() - 4); };
-  painter.setPen(QPen(palette().color(QPalette::Mid), 1, Qt::DotLine));
-  painter.drawLine(QPointF(0, y_of(top_n / 2)), QPointF(width(), y_of(top_n / 2)));
+  if (top_n > limit_n_) {
+    painter.setPen(QPen(palette().color(QPalette::Dark), 1, Qt::DashLine));
+    painter.drawLine(QPointF(0, y_of(limit_n_)), QPointF(width(), y_of(limit_n_)));
+  }
   QPainterPath line;
   for (std::size_t n = 0; n < forces_.size(); ++n) {
     const QPointF at(width() - static_cast<double>(forces_.size() - n) / kept * width(), y_of(forces_[n]));
@@ -51,7 +59,8 @@ void ForceStrip::paintEvent(QPaintEvent*) {
   small.setPointSizeF(small.pointSizeF() * 0.8);
   painter.setFont(small);
   painter.drawText(rect().adjusted(3, 1, -3, -1), Qt::AlignLeft | Qt::AlignTop,
-                   QStringLiteral("%1 N").arg(top_n, 0, 'g', 2));
+                   top_n > limit_n_ ? QCoreApplication::translate("ForceStrip", "limit %1 N").arg(limit_n_, 0, 'g', 2)
+                                    : QStringLiteral("%1 N").arg(top_n, 0, 'g', 2));
   painter.drawText(rect().adjusted(3, 1, -3, -1), Qt::AlignLeft | Qt::AlignBottom,
                    QCoreApplication::translate("ForceStrip", "10 s"));
 }

@@ -14,6 +14,8 @@ class ForceStrip : public QWidget {
 
   /// N: the largest force since the last call.
   void add(double force_n);
+  /// The force at the strip's upper edge, N.
+  static double top_of(double largest_n, double limit_n);
   /// N: a line that the force cannot pass.
   void set_limit(double limit_n) { limit_n_ = limit_n; }
   QSize sizeHint() const override { return {200, 56}; }

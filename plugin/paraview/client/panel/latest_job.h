@@ -1,6 +1,7 @@
 #pragma once
 
-/// Work in the background of which only the newest matters: while one runs, of those that are asked for the last waits.
+/// Background work of which only the newest request matters. While one job runs, only the last of the requests that
+/// come meanwhile waits.
 
 #include <QMetaObject>
 #include <QObject>
@@ -19,13 +20,13 @@ template <typename Result>
 class LatestJob {
  public:
   using Work = std::function<Result()>;
-  /// On the thread that made this; null with the error where the work threw.
+  /// Called on the thread that made this. Null, with the error, if the work threw.
   using Done = std::function<void(std::shared_ptr<const Result>, const QString& error)>;
 
   explicit LatestJob(Done done) : done_(std::move(done)) { pool_.setMaxThreadCount(1); }
   LatestJob(const LatestJob&) = delete;
   LatestJob& operator=(const LatestJob&) = delete;
-  /// Waits for the work that runs; nothing is called any more.
+  /// Waits for the running work. Nothing is called after that.
   ~LatestJob() { pool_.waitForDone(); }
 
   void ask(Work work) {
@@ -35,7 +36,7 @@ class LatestJob {
       start(std::move(work));
     }
   }
-  /// What was asked for is not wanted any more.
+  /// Drops what was asked for.
   void drop() {
     next_.reset();
     ++generation_;

@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "modes/types/mode_type.h"
+#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
 
@@ -82,10 +83,7 @@ ModesSection::ModesSection(SceneModel& model, SessionController& touching, QWidg
   auto* const parameters = new QWidget(this);
   build_parameters(*parameters);
   column->addWidget(parameters);
-  plan_ = new QLabel(this);
-  plan_->setObjectName(QStringLiteral("palpatePlan"));
-  plan_->setWordWrap(true);
-  plan_->setTextFormat(Qt::PlainText);
+  plan_ = make_message_label(*this, "palpatePlan");
   plan_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   column->addWidget(plan_);
   connect(&model, &SceneModel::changed, this, [this](Pace) { list_modes(); });
@@ -233,6 +231,10 @@ void ModesSection::show_mode() {
   }
 }
 
+void ModesSection::show_technical(bool shown) {
+  plan_->setVisible(shown);
+}
+
 void ModesSection::refresh() {
   const auto plan = touching_.live().plan();
   if (!plan) {
@@ -247,7 +249,7 @@ void ModesSection::refresh() {
   }
   plan_->setText(lines.isEmpty()
                      ? tr("Everything is needed; nothing was left out.")
-                     : tr("Left out, for nothing here needs it:\n• %1").arg(lines.join(QStringLiteral("\n• "))));
+                     : tr("Left out, because nothing here needs it:\n• %1").arg(lines.join(QStringLiteral("\n• "))));
 }
 
 }  // namespace palpate::plugin

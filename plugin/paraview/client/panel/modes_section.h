@@ -22,6 +22,8 @@ class ModesSection : public QWidget {
 
   /// The plan is shown anew.
   void refresh();
+  /// What the plan leaves out is for developers.
+  void show_technical(bool shown);
 
  private:
   void build_parameters(QWidget& parent);

@@ -13,8 +13,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "device/simulated/simulated_stylus.h"
 #include "plugin/app/vector_text.h"
+#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/panel/chart_picture.h"
 #include "plugin/paraview/client/panel/tool_button.h"
 #include "plugin/report/summary.h"
@@ -30,9 +30,10 @@ QString text_of(const glm::dvec3& place) {
 
 }  // namespace
 
-ProfileSection::ProfileSection(SessionController& touching, SceneModel& model, QWidget* parent)
+ProfileSection::ProfileSection(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent)
     : QWidget(parent),
       touching_(touching),
+      strokes_(strokes),
       path_(QColor(230, 80, 210)),
       job_([this](auto made, const QString& error) { show_profile(std::move(made), error); }) {
   setObjectName(QStringLiteral("palpateProfile"));
@@ -79,14 +80,18 @@ QWidget* ProfileSection::build_points() {
   speed_ = new QDoubleSpinBox(box);
   speed_->setObjectName(QStringLiteral("palpateProfileSpeed"));
   speed_->setRange(5, 500);
-  speed_->setValue(50);
+  speed_->setValue(stroke_.speed_mm_per_s);
   speed_->setDecimals(0);
   speed_->setSuffix(tr(" mm/s"));
   speed_->setKeyboardTracking(false);
   speed_->setToolTip(tr("How fast the stylus goes along the stroke"));
-  connect(speed_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this] { run(); });
+  connect(speed_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this](double speed) {
+    stroke_.speed_mm_per_s = speed;
+    change();
+  });
   grid->addWidget(speed_, 0, 2, 1, 2);
-  const auto add = [&](int row, const char* name, const QString& label, std::optional<glm::dvec3> Stroke::*point) {
+  const auto add = [&](int row, const char* name, const QString& label,
+                       std::optional<glm::dvec3> WantedStroke::*point) {
     auto* const field = new QLineEdit(box);
     field->setObjectName(QString::fromLatin1(name));
     field->setPlaceholderText(tr("x, y, z"));
@@ -102,16 +107,16 @@ QWidget* ProfileSection::build_points() {
     grid->addLayout(cell, row, 3);
     return field;
   };
-  from_ = add(1, "palpateProfileFrom", tr("From"), &Stroke::from);
-  to_ = add(2, "palpateProfileTo", tr("To"), &Stroke::to);
+  from_ = add(1, "palpateProfileFrom", tr("From"), &WantedStroke::from);
+  to_ = add(2, "palpateProfileTo", tr("To"), &WantedStroke::to);
   grid->setColumnStretch(1, 1);
   return box;
 }
 
 void ProfileSection::set_views(const std::vector<ClinicalView>& views) {
   pick_->setChecked(false);
-  stroke_ = {};
-  prepared_ = {};  // a scan that is closed is not to be held
+  stroke_ = {.from = {}, .to = {}, .speed_mm_per_s = stroke_.speed_mm_per_s};
+  strokes_.forget();
   path_.set_views(views);
   show_points();
 }
@@ -120,7 +125,7 @@ void ProfileSection::pick(Pick what, const glm::dvec3& place) {
   constexpr double same_mm = 1;  // a click, not a drag
   switch (what) {
     case Pick::pressed:
-      if (!stroke_.from || stroke_.to) stroke_ = {.from = place, .to = {}};
+      if (!stroke_.from || stroke_.to) stroke_ = {.from = place, .to = {}, .speed_mm_per_s = stroke_.speed_mm_per_s};
       break;
     case Pick::moved:
       if (glm::distance(*stroke_.from, place) > same_mm) stroke_.to = place;
@@ -136,12 +141,12 @@ void ProfileSection::pick(Pick what, const glm::dvec3& place) {
   show_points(what != Pick::let_go);
 }
 
-void ProfileSection::set_point(std::optional<glm::dvec3> Stroke::*point, const glm::dvec3& place) {
+void ProfileSection::set_point(std::optional<glm::dvec3> WantedStroke::*point, const glm::dvec3& place) {
   stroke_.*point = place;
   show_points();
 }
 
-void ProfileSection::read_point(std::optional<glm::dvec3> Stroke::*point, const QLineEdit& field) {
+void ProfileSection::read_point(std::optional<glm::dvec3> WantedStroke::*point, const QLineEdit& field) {
   try {
     if (const glm::dvec3 place = parse_vector(field.text().remove(' ').toStdString(), "the point");
         !(stroke_.*point) || text_of(*(stroke_.*point)) != text_of(place)) {
@@ -156,6 +161,11 @@ void ProfileSection::show_points(bool passing) {
   from_->setText(stroke_.from ? text_of(*stroke_.from) : QString());
   to_->setText(stroke_.to ? text_of(*stroke_.to) : QString());
   path_.show(stroke_.is_whole() ? std::vector{*stroke_.from, *stroke_.to} : std::vector<glm::dvec3>{}, passing);
+  change();
+}
+
+void ProfileSection::change() {
+  emit stroke_changed(stroke_);
   run();
 }
 
@@ -164,41 +174,29 @@ void ProfileSection::showEvent(QShowEvent*) {
 }
 
 void ProfileSection::run() {
-  const LiveSession& live = touching_.live();
-  if (!stroke_.is_whole() || !live.plan()) {
+  if (!stroke_.is_whole()) {
     show_nothing({});
     return;
   }
   if (!isVisible()) return;  // folded away: nobody sees it
-  const double frames = 1e3 * glm::distance(*stroke_.from, *stroke_.to) / speed_->value();
-  constexpr double most_frames = 200000;
-  if (frames > most_frames) {
+  const double ticks = 1e3 * glm::distance(*stroke_.from, *stroke_.to) / stroke_.speed_mm_per_s;
+  constexpr double most_ticks = 200000;
+  if (ticks > most_ticks) {
     show_nothing(
         tr("The stroke would take %1 s: choose nearer points or a higher speed, so that it takes at most %2 s.")
-            .arg(frames / 1e3, 0, 'f', 0)
-            .arg(most_frames / 1e3, 0, 'f', 0));
+            .arg(ticks / 1e3, 0, 'f', 0)
+            .arg(most_ticks / 1e3, 0, 'f', 0));
     return;
   }
-  const device::Specification stylus =
-      live.is_connected() ? live.specification() : device::SimulatedStylus().specification();
   try {
-    if (prepared_.felt.volume != live.felt_scan()) prepared_ = {.felt = {.volume = live.felt_scan()}};
-    prepared_ = {.felt = prepare(live.scene(), live.scan(), stylus.workspace_half_extent, prepared_),
-                 .scene = live.scene()};
+    if (const auto profile = strokes_.run(stroke_)) {
+      job_.ask([profile] { return make(profile()); });
+    } else {
+      show_nothing({});
+    }
   } catch (const std::exception& error) {
     show_nothing(QString::fromUtf8(error.what()));
-    return;
   }
-  // The plan is the one that is felt: as stiff as the stylus stands, placed as it is held.
-  job_.ask([plan = live.plan(), source = prepared_.felt.source, scene = live.scene(), unit = live.scan()->unit,
-            limit_n = limits_for(live.scene().limits, stylus).force, from = *stroke_.from, to = *stroke_.to,
-            speed = speed_->value()] {
-    return make({.stroke = run_stroke(*plan, *source, from, to, speed),
-                 .plan = plan,
-                 .scene = scene,
-                 .unit = unit,
-                 .limit_n = limit_n});
-  });
 }
 
 ProfileSection::Made ProfileSection::make(Profile profile) {
@@ -207,11 +205,12 @@ ProfileSection::Made ProfileSection::make(Profile profile) {
   made.charts = charts_of(thinned(profile, most_points));
   made.charts.pop_back();  // how far the probe is ahead of the proxy follows from the force
   QStringList met;
-  for (const Contact& contact : contacts_of(profile.stroke, *profile.plan, met_n)) {
-    met << tr("%1 at %2 mm, up to %3 N")
-               .arg(QString::fromStdString(display_name(profile.scene, contact.boundary)))
-               .arg(depth_of(profile, contact.first), 0, 'f', 1)
-               .arg(contact.peak_n, 0, 'f', 2);
+  for (const MetBoundary& boundary : profile.met) {
+    const QString words = tr("%1 at %2 mm, up to %3 N")
+                              .arg(QString::fromStdString(display_name(profile.scene, boundary.contact.boundary)))
+                              .arg(boundary.depth_mm, 0, 'f', 1)
+                              .arg(boundary.contact.peak_n, 0, 'f', 2);
+    met << (boundary.known_to_mm ? tr("%1, known to ±%2 mm").arg(words).arg(*boundary.known_to_mm, 0, 'g', 2) : words);
   }
   made.met = met.isEmpty() ? tr("No boundary is met.") : met.join(QStringLiteral("\n"));
   made.profile = std::move(profile);
@@ -253,8 +252,7 @@ void ProfileSection::point_at(double depth_mm) {
 }
 
 void ProfileSection::tell(const QString& text, bool problem) {
-  readout_->setText(text);
-  readout_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
+  set_message(*readout_, text, problem);
 }
 
 }  // namespace palpate::plugin

@@ -6,12 +6,12 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "plugin/paraview/client/panel/latest_job.h"
 #include "plugin/paraview/client/panel/save_buttons.h"
 #include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/panel/stroke_runner.h"
 #include "plugin/paraview/client/views/path_views.h"
 #include "plugin/paraview/client/views/slice_view.h"
 #include "plugin/report/stroke_picture.h"
@@ -28,7 +28,7 @@ class ProfileSection : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ProfileSection(SessionController& touching, SceneModel& model, QWidget* parent = nullptr);
+  ProfileSection(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
   ~ProfileSection() override;
 
   /// The views of a scan that has just been shown; empty: none, and the points are forgotten.
@@ -37,6 +37,8 @@ class ProfileSection : public QWidget {
  signals:
   /// Places are to be picked in the slices from now on, or no more.
   void picking(bool on);
+  /// The points, or the speed.
+  void stroke_changed(const palpate::plugin::WantedStroke& stroke);
 
  public slots:
   void pick(palpate::plugin::Pick what, const glm::dvec3& place);
@@ -45,11 +47,6 @@ class ProfileSection : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  struct Stroke {
-    std::optional<glm::dvec3> from, to;
-    bool is_whole() const { return from && to && *from != *to; }
-  };
-
   /// A profile, and what of it is shown.
   struct Made {
     Profile profile;
@@ -59,9 +56,10 @@ class ProfileSection : public QWidget {
   static Made make(Profile profile);
 
   QWidget* build_points();
-  void set_point(std::optional<glm::dvec3> Stroke::*point, const glm::dvec3& place);
-  void read_point(std::optional<glm::dvec3> Stroke::*point, const QLineEdit& field);
+  void set_point(std::optional<glm::dvec3> WantedStroke::*point, const glm::dvec3& place);
+  void read_point(std::optional<glm::dvec3> WantedStroke::*point, const QLineEdit& field);
   void show_points(bool passing = false);
+  void change();
   void run();
   void show_profile(std::shared_ptr<const Made> made, const QString& error);
   void show_nothing(const QString& why);
@@ -69,6 +67,7 @@ class ProfileSection : public QWidget {
   void tell(const QString& text, bool problem);
 
   SessionController& touching_;
+  StrokeRunner& strokes_;
   QPushButton* pick_ = nullptr;
   QLineEdit* from_ = nullptr;
   QLineEdit* to_ = nullptr;
@@ -76,10 +75,9 @@ class ProfileSection : public QWidget {
   ChartPicture* chart_ = nullptr;
   QLabel* readout_ = nullptr;
   SaveButtons save_;
-  Stroke stroke_;
+  WantedStroke stroke_;
   PathViews path_;
   std::shared_ptr<const Made> made_;
-  Prepared prepared_;  // fields of its own: the servo's stay where the stylus is
   LatestJob<Made> job_;
 };
 

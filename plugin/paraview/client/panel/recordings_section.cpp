@@ -9,6 +9,7 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QStandardPaths>
+#include <QStyle>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -20,6 +21,7 @@
 #include <utility>
 
 #include "plugin/messages/messages.h"
+#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/panel/chart_picture.h"
 #include "plugin/paraview/client/panel/save_buttons.h"
 #include "plugin/paraview/client/panel/tool_button.h"
@@ -32,7 +34,7 @@ constexpr int chart_pixels = 130;
 constexpr std::array speeds{0.1, 0.25, 0.5, 1.0, 2.0, 5.0};
 constexpr std::size_t most_points_drawn = 2000;
 
-/// Every so many frames: what a line or a chart can show.
+/// Every so many ticks: what a line or a chart can show.
 std::size_t stride_of(const RecordedSession& session) {
   return std::max<std::size_t>(1, session.size() / most_points_drawn);
 }
@@ -99,10 +101,7 @@ RecordingsSection::RecordingsSection(SessionController& touching, QWidget* paren
   column->addLayout(row);
   column->addWidget(player_ = build_player());
   column->addWidget(comparison_ = build_comparison());
-  message_ = new QLabel(this);
-  message_->setObjectName(QStringLiteral("palpateRecordingMessage"));
-  message_->setWordWrap(true);
-  message_->setTextFormat(Qt::PlainText);
+  message_ = make_message_label(*this, "palpateRecordingMessage");
   column->addWidget(message_);
   touching.show_instead([this] {
     const auto& scan = touching_.live().scan();
@@ -130,8 +129,8 @@ QWidget* RecordingsSection::build_player() {
   connect(force_, &ChartPicture::picked, this, [this](double seconds) { seek(seconds); });
   column->addWidget(force_);
   auto* const row = new QHBoxLayout;
-  play_ =
-      add_tool_button(*row, *box, "palpatePlay", QStringLiteral("▶"), tr("Play or pause"), [this] { play_or_pause(); });
+  // Icons: not every font has a sign for a pause.
+  play_ = add_tool_button(*row, *box, "palpatePlay", QString(), tr("Play or pause"), [this] { play_or_pause(); });
   slider_ = new QSlider(Qt::Horizontal, box);
   slider_->setObjectName(QStringLiteral("palpateScrub"));
   connect(slider_, &QSlider::valueChanged, this, [this](int ms) { seek(ms / 1e3); });
@@ -145,13 +144,18 @@ QWidget* RecordingsSection::build_player() {
           [this](int index) { playback_.set_speed(speeds.at(static_cast<std::size_t>(index))); });
   row->addWidget(speed_);
   column->addLayout(row);
+  held_ = new QLabel(tr("Disconnect the stylus to play: the views show what is felt."), box);
+  held_->setObjectName(QStringLiteral("palpatePlayWhyNot"));
+  held_->setWordWrap(true);
+  held_->hide();
+  column->addWidget(held_);
   auto* const last = new QHBoxLayout;
   time_ = new QLabel(box);
   time_->setObjectName(QStringLiteral("palpateReplayTime"));
   last->addWidget(time_, 1);
   compare_ = new QPushButton(tr("Compare with…"), box);
   compare_->setObjectName(QStringLiteral("palpateCompare"));
-  compare_->setToolTip(tr("Another recording of the same stroke: forces place by place, however fast each was"));
+  compare_->setToolTip(tr("Compares with another recording of the same stroke, place by place, at any speed"));
   connect(compare_, &QPushButton::clicked, this, [this] {
     if (const QString file = ask_for_recording(this); !file.isEmpty()) read(file, true);
   });
@@ -235,7 +239,8 @@ void RecordingsSection::set_first(Opened opened) {
     slider_->setRange(0, static_cast<int>(std::lround(1e3 * first_.session->duration_s())));
   }
   tell(there && first_.session->elsewhere() > 0
-           ? tr("%1 frames are left out: they felt another scan.").arg(first_.session->elsewhere())
+           ? tr("%1 s are left out: they felt another scan.")
+                 .arg(1e-3 * static_cast<double>(first_.session->elsewhere()), 0, 'f', 1)
            : QString());
   show_force();
   set_second({});
@@ -270,7 +275,8 @@ void RecordingsSection::show_player() {
   if (!first_.session) return;
   const bool held = touching_.live().is_connected();
   play_->setEnabled(!held);
-  play_->setText(playback_.is_playing() ? QStringLiteral("⏸") : QStringLiteral("▶"));
+  play_->setIcon(style()->standardIcon(playback_.is_playing() ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
+  held_->setVisible(held);
   play_->setToolTip(held ? tr("Disconnect the stylus: the views show what is felt") : tr("Play or pause"));
   slider_->setEnabled(!held);
   const QSignalBlocker quiet(slider_);
@@ -304,9 +310,7 @@ void RecordingsSection::show_paths() {
 }
 
 void RecordingsSection::tell(const QString& text, bool problem) {
-  message_->setText(text);
-  message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
-  message_->setVisible(!text.isEmpty());
+  show_message(*message_, text, problem);
 }
 
 }  // namespace palpate::plugin

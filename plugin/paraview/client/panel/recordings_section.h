@@ -66,6 +66,7 @@ class RecordingsSection : public QWidget {
   QToolButton* play_ = nullptr;
   QSlider* slider_ = nullptr;
   QComboBox* speed_ = nullptr;
+  QLabel* held_ = nullptr;  // why it cannot be played
   QLabel* time_ = nullptr;
   ChartPicture* force_ = nullptr;
   QPushButton* compare_ = nullptr;

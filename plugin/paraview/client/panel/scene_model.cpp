@@ -11,21 +11,14 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMTrace.h>
-#include <vtkSMUndoStack.h>
-#include <vtkSMUndoStackBuilder.h>
 
 #include <exception>
 #include <utility>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/paraview/client/panel/kept_property.h"
 
 namespace palpate::plugin {
-namespace {
-
-constexpr int undo_steps = 100;  // ParaView keeps ten: fewer than one turns at a boundary in a minute
-
-}  // namespace
-
 pqPipelineSource* SceneModel::source() const {
   return source_;
 }
@@ -63,15 +56,24 @@ void SceneModel::adopt(pqPipelineSource& source) {
   source_ = &source;
   pqCoreUtilities::connect(source.getProxy(), vtkCommand::PropertyModifiedEvent, this, SLOT(follow_source()));
   follow_source();
+  emit sourced(source);
 }
 
 /// What changed the source need not have been the panel: undo, a trace, the property panel, a state file.
 void SceneModel::follow_source() {
   if (keeping_ || !source_) return;
   const std::string text = vtkSMPropertyHelper(source_->getProxy(), "Scene").GetAsString();
-  if (text == text_ || text.empty()) return;
+  if (text != text_ && !text.empty()) take_text(text, true);
+}
+
+void SceneModel::take_text(const std::string& text, bool when_ready) {
   try {
     const modes::Scene scene = text.front() == '{' ? modes::scene_from_json(text, "scene") : modes::load_scene(text);
+    const auto ready = [this, text] {
+      const bool is_wanted = source_ && text == vtkSMPropertyHelper(source_->getProxy(), "Scene").GetAsString();
+      if (is_wanted) take_text(text, false);
+    };
+    if (when_ready && make_ready_ && make_ready_(scene, ready)) return;
     if (take(scene, Pace::stepped)) {
       text_ = text;
       return;
@@ -82,16 +84,11 @@ void SceneModel::follow_source() {
   put_back();
 }
 
-/// The pipeline has a scene that was refused: it gets the one that is felt.
 void SceneModel::put_back() {
+  if (!source_) return;
   text_ = modes::to_json(scene_);
   keeping_ = true;
-  {
-    SCOPED_UNDO_EXCLUDE();
-    vtkSMPropertyHelper(source_->getProxy(), "Scene").Set(text_.c_str());
-    source_->getProxy()->UpdateVTKObjects();
-  }
-  source_->setModifiedState(pqProxy::UNMODIFIED);
+  put_text(*source_, "Scene", text_);
   keeping_ = false;
 }
 
@@ -112,18 +109,7 @@ void SceneModel::keep(const QString& what) {
   if (!source_ || text == text_) return;
   text_ = std::move(text);
   keeping_ = true;
-  {
-    pqUndoStack* const undo = what.isEmpty() ? nullptr : pqApplicationCore::instance()->getUndoStack();
-    if (undo) {
-      undo->GetUndoStackBuilder()->GetUndoStack()->SetStackDepth(undo_steps);
-      undo->beginUndoSet(what);
-    }
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", source_->getProxy());
-    vtkSMPropertyHelper(source_->getProxy(), "Scene").Set(text_.c_str());
-    source_->getProxy()->UpdateVTKObjects();
-    if (undo) undo->endUndoSet();
-  }
-  source_->setModifiedState(pqProxy::UNMODIFIED);  // there is nothing left for an Apply button to do
+  keep_text(*source_, "Scene", text_, what);
   keeping_ = false;
 }
 
@@ -141,6 +127,11 @@ void SceneModel::drag(const Change& change) {
 
 void SceneModel::finish_drag(const QString& what) {
   keep(what);
+}
+
+bool SceneModel::can_undo() const {
+  auto* const stack = pqApplicationCore::instance()->getUndoStack();
+  return stack && stack->canUndo();
 }
 
 void SceneModel::undo() {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/quantile.h"
 #include "modes/scene/scene.h"
 #include "plugin/app/stylus_choice.h"
 #include "plugin/messages/messages.h"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int heart_ms = 100;
 constexpr int look_ms = 33;
-constexpr std::uint32_t clutch_button = 1, release_button = 2;
+constexpr std::uint32_t clutch_button = 1, release_button = 4;  // between them mark_button
 
 void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
   if (const Text why = why_not_felt(scene, volume); !why.empty()) throw InvalidInput(why);
@@ -29,6 +30,7 @@ void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
 }  // namespace
 
 SessionController::SessionController(SceneModel& model, QObject* parent) : QObject(parent), model_(model) {
+  setObjectName(QStringLiteral("palpateSession"));
   model.set_commit([this](const modes::Scene& scene, Pace pace) { commit(scene, pace); });
   connect(&heart_, &QTimer::timeout, this, [this] { live_.heartbeat(); });
   connect(&looks_, &QTimer::timeout, this, [this] { look(); });
@@ -43,6 +45,7 @@ SessionController::~SessionController() {
 }
 
 void SessionController::set_no_scan(const QString& why) {
+  forget_marks();
   why_no_scan_ = why;
   feels_ = false;
   live_.set_scan(nullptr);
@@ -52,13 +55,14 @@ void SessionController::set_no_scan(const QString& why) {
   emit connection_changed();
 }
 
-void SessionController::set_scan(std::shared_ptr<const io::Volume> volume) {
+void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame) {
   why_no_scan_.clear();
   expects_scan_ = false;
+  forget_marks();  // they would be of two scans
   QString problem;
   try {
     if (volume) refuse_misfit(model_.scene(), *volume);
-    live_.set_scan(std::move(volume), model_.scene());
+    live_.set_scan(std::move(volume), model_.scene(), frame);
   } catch (const std::exception& error) {
     feels_ = false;
     live_.set_scan(nullptr);
@@ -98,12 +102,14 @@ void SessionController::connect_stylus(const StylusChoice& choice) {
     look_ = {};  // of a recording, perhaps
     hand_mm_.reset();
     buttons_ = 0;
-    next_frame_ = 0;
+    forget_marks();
+    next_tick_ = 0;
     if (live_.plan()) {
       before_ = now_ = live_.plan()->workspace;
       if (simulated_ && start_) move_hand(start_(stylus->specification()));  // before the first tick
     }
     live_.connect(stylus, LiveSession::Start::released);
+    homing_ = QString::fromUtf8(type_of(choice).homing.data(), static_cast<int>(type_of(choice).homing.size()));
     before_ = now_ = live_.plan()->workspace;
   } catch (const std::exception& error) {
     simulated_.reset();
@@ -114,6 +120,7 @@ void SessionController::connect_stylus(const StylusChoice& choice) {
 }
 
 void SessionController::disconnect_stylus() {
+  forget_marks();
   const auto recorded_now = live_.disconnect();
   simulated_.reset();
   clutched_ = feels_ = false;
@@ -151,16 +158,38 @@ void SessionController::keep_off(const QString& why) {
 
 void SessionController::clear_fault() {
   release();
-  live_.clear_fault();
+  // A device in fault stays so until it is opened again; another fault is only forgotten.
+  const auto state = static_cast<device::State>(look_.tick.stylus_state);
+  const bool lost = live_.is_connected() && (state == device::State::fault || state == device::State::disconnected);
+  if (!lost) {
+    live_.clear_fault();
+    return;
+  }
+  QString problem;
+  try {
+    live_.reopen();
+    next_tick_ = 0;
+  } catch (const std::exception& error) {
+    simulated_.reset();
+    problem = QString::fromUtf8(error.what());
+  }
+  look();
+  emit connection_changed();
+  emit told(problem, true);
+}
+
+QString SessionController::last_fault() const {
+  return live_.last_fault() ? words(describe(*live_.last_fault())) : QString();
 }
 
 void SessionController::record(const std::string& file) {
   QString problem;
   try {
+    forget_marks();
     if (simulated_) move_hand(look_.probe_mm);  // where the new session finds it
     live_.record(file);
     recording_to_ = QString::fromStdString(file);
-    next_frame_ = 0;
+    next_tick_ = 0;
   } catch (const std::exception& error) {
     problem = QString::fromUtf8(error.what());
   }
@@ -184,13 +213,62 @@ void SessionController::stop_recording() {
 void SessionController::tell_recorded(const std::optional<RecorderStatus>& status) {
   if (!status) return;
   emit told(status->stopped ? QString::fromStdString(status->why)
-                            : words(say("recorded-frames-lost", status->written, status->lost)),
+                            : words(say("recorded-ticks-lost", status->written, status->lost)),
             status->stopped);
   if (!status->stopped) emit recorded(recording_to_);
 }
 
+void SessionController::press_mark() {
+  if (!live_.is_connected() || clutched_) return;
+  letting_mark_go_ = false;
+  live_.press(mark_button);
+}
+
+void SessionController::let_go_mark() {
+  letting_mark_go_ = true;
+}
+
+FeltMark SessionController::mark_here() const {
+  TickRecord pressed = look_.tick;
+  pressed.buttons = mark_button;
+  MarkPresses once;
+  once.take({.tick = pressed,
+             .time_s = pressed.time_s,
+             .proxy_mm = look_.proxy_mm,
+             .shares = look_.shares,
+             .scene = live_.scene()});
+  return std::get<FeltMark>(*once.finish());
+}
+
+/// What is being pressed makes nothing.
+void SessionController::forget_marks() {
+  live_.press(0);
+  presses_.drop();
+  letting_mark_go_ = false;
+}
+
+/// A press is in the ticks, as the stylus' own is: what is marked here is what a recording holds.
+void SessionController::follow_marks() {
+  const TickRecord& tick = look_.tick;
+  if (clutched_) {
+    presses_.drop();  // hand and patient are parted
+    return;
+  }
+  const bool is_pressed = (tick.buttons & mark_button) != 0;
+  if (!is_pressed && !presses_.is_down()) return;
+  if (is_pressed && std::exchange(letting_mark_go_, false)) live_.press(0);
+  const modes::Workspace reach = modes::between(before_, now_, tick.change_part);
+  const auto made = presses_.take({.tick = tick,
+                                   .time_s = tick.time_s,
+                                   .proxy_mm = reach.to_patient(vector_of(tick.proxy_m)),
+                                   .shares = look_.shares,
+                                   .scene = live_.scene()});
+  if (made) emit marked(*made);
+}
+
 void SessionController::clutch() {
   if (!live_.is_connected() || clutched_) return;
+  forget_marks();
   clutched_ = true;
   clutched_at_mm_ = look_.probe_mm;
   feels_after_clutch_ = std::exchange(feels_, false);
@@ -199,7 +277,7 @@ void SessionController::clutch() {
 
 void SessionController::unclutch(const glm::dmat3& rotation) {
   if (!std::exchange(clutched_, false)) return;
-  const glm::dvec3 hand_m = vector_of(look_.frame.probe_m);
+  const glm::dvec3 hand_m = vector_of(look_.tick.probe_m);
   const modes::Workspace held{.center_mm = {}, .rotation = rotation, .mm_per_m = now_.mm_per_m};
   const glm::dvec3 center = clutched_at_mm_ - held.to_patient(hand_m);
   model_.edit(tr("Clutch"), [&](modes::Scene& scene) {
@@ -228,22 +306,20 @@ void SessionController::let_go() {
 void SessionController::give_way() {
   constexpr double nothing_n = 0.02, beyond = 0.5;
   if (!letting_go_ || !simulated_) return;
-  const glm::dvec3 proxy_m = vector_of(look_.frame.proxy_m);
-  simulated_->move_target(proxy_m + beyond * (proxy_m - vector_of(look_.frame.probe_m)));
+  const glm::dvec3 proxy_m = vector_of(look_.tick.proxy_m);
+  simulated_->move_target(proxy_m + beyond * (proxy_m - vector_of(look_.tick.probe_m)));
   if (look_.force_n < nothing_n) letting_go_ = false;
 }
 
-void SessionController::obey_buttons(std::uint32_t buttons) {
-  const std::uint32_t pressed = buttons & ~buttons_;
-  const std::uint32_t let = buttons_ & ~buttons;
-  buttons_ = buttons;
-  if ((pressed & release_button) != 0) release();
+void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let) {
+  // Where one key is both (the Falcon's in the middle) it is the first.
+  if ((pressed & release_button) != 0 && (pressed & clutch_button) == 0) release();
   if ((pressed & clutch_button) != 0) clutch();
   if ((let & clutch_button) != 0) emit clutch_button_let_go();
 }
 
 void SessionController::look() {
-  const TickRing* const ring = live_.frames();
+  const TickRing* const ring = live_.ticks();
   look_.connected = live_.is_connected();
   look_.clutched = clutched_;
   look_.kept_off = kept_off_;
@@ -254,37 +330,43 @@ void SessionController::look() {
     return;
   }
   std::vector<double> ticks;
+  std::uint32_t pressed = 0, let = 0;  // in any tick: a short press counts though this thread was busy
   const std::uint64_t written = ring->written();
-  next_frame_ = std::max(next_frame_, ring->oldest());
-  for (; next_frame_ < written; ++next_frame_) {
+  next_tick_ = std::max(next_tick_, ring->oldest());
+  for (; next_tick_ < written; ++next_tick_) {
     look_.shares.clear();
-    if (!ring->read(next_frame_, look_.frame, &look_.shares)) continue;
+    if (!ring->read(next_tick_, look_.tick, &look_.shares)) continue;
     look_.fresh = true;
-    look_.peak_n = std::max(look_.peak_n, glm::length(vector_of(look_.frame.sent_n)));
-    ticks.push_back(tick_us(look_.frame));
+    look_.peak_n = std::max(look_.peak_n, glm::length(vector_of(look_.tick.sent_n)));
+    ticks.push_back(tick_us(look_.tick));
+    pressed |= look_.tick.buttons & ~buttons_;
+    let |= buttons_ & ~look_.tick.buttons;
+    buttons_ = look_.tick.buttons;
+    follow_marks();
   }
-  if (!ticks.empty()) {
-    const auto middle = ticks.begin() + static_cast<std::ptrdiff_t>(ticks.size() / 2);
-    std::nth_element(ticks.begin(), middle, ticks.end());
-    look_.tick_us = *middle;
-  }
-  const TickRecord& frame = look_.frame;
-  if (fault_of(frame) != device::Fault::none) feels_ = false;
+  if (!ticks.empty()) look_.tick_us = io::quantile(std::move(ticks), 0.5);
+  const TickRecord& tick = look_.tick;
+  if (fault_of(tick) != device::Fault::none) feels_ = false;
   look_.feels = feels_;
-  look_.workspace = modes::between(before_, now_, frame.change_part);
-  look_.probe_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(frame.probe_m));
-  look_.proxy_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(frame.proxy_m));
-  look_.force_n = glm::length(vector_of(frame.sent_n));
+  look_.workspace = modes::between(before_, now_, tick.change_part);
+  look_.probe_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(tick.probe_m));
+  look_.proxy_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(tick.proxy_m));
+  look_.force_n = glm::length(vector_of(tick.sent_n));
   look_.missed = live_.missed();
-  look_.tissue = tissue_name(model_.scene(), live_.scan() ? live_.scan()->unit : std::string(), frame.value);
-  // A frame of before the last edit may tell of others.
+  look_.homing = homing_;
+  look_.orientation.reset();
+  if (const auto turned = live_.orientation()) {
+    look_.orientation = glm::normalize(glm::quat_cast(look_.workspace.rotation) * *turned);
+  }
+  look_.tissue = tissue_name(model_.scene(), live_.scan() ? live_.scan()->unit : std::string(), tick.value);
+  // A tick of before the last edit may tell of others.
   look_.nearest.reset();
-  if (const auto plan = live_.plan(); plan && frame.scene_epoch == live_.epoch()) {
-    look_.nearest = nearest_structure(frame, model_.scene(), plan->structures);
+  if (const auto plan = live_.plan(); plan && tick.scene_epoch == live_.epoch()) {
+    look_.nearest = nearest_structure(tick, model_.scene(), plan->structures);
   }
   const auto held = held_boundary(look_.shares, live_.felt(), live_.scene(), look_.proxy_mm, look_.probe_mm);
   look_.held = held ? in_words(*held, live_.scene()) : "";
-  obey_buttons(frame.buttons);
+  obey_buttons(pressed, let);
   give_way();
   emit looked(look_);
 }

@@ -2,31 +2,20 @@
 
 #include <vtkPolyData.h>
 
-#include <QColorDialog>
 #include <QDoubleSpinBox>
-#include <QDragEnterEvent>
-#include <QFileDialog>
-#include <QHBoxLayout>
-#include <QHeaderView>
-#include <QLabel>
-#include <QMenu>
-#include <QMimeData>
 #include <QPixmap>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QToolButton>
 #include <QTreeWidget>
-#include <QUrl>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <exception>
 #include <utility>
 
 #include "device/simulated/simulated_stylus.h"
-#include "plugin/paraview/client/panel/mode_words.h"
-#include "plugin/paraview/client/panel/tool_button.h"
-#include "plugin/paraview/client/views/structure_shapes.h"
+#include "plugin/paraview/client/message_label.h"
+#include "plugin/paraview/common/structure_shapes.h"
 #include "plugin/session/shared_distance.h"
 #include "plugin/session/study_structures.h"
 
@@ -34,7 +23,6 @@ namespace palpate::plugin {
 namespace {
 
 constexpr std::size_t shown_at_once = 5;  // so many are shown without being asked for
-constexpr double first_margin_mm = 3, first_opacity = 0.4;
 // Told apart by the color-blind, too: after Okabe and Ito.
 constexpr const char* colors[] = {"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7"};
 
@@ -79,130 +67,6 @@ StructuresSection::StructuresSection(SceneModel& model, SessionController& touch
 
 StructuresSection::~StructuresSection() = default;
 
-void StructuresSection::build() {
-  auto* const column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(3);
-  list_ = new QTreeWidget(this);
-  list_->setObjectName(QStringLiteral("palpateStructureList"));
-  list_->setHeaderHidden(true);
-  list_->setRootIsDecorated(false);
-  list_->setUniformRowHeights(true);
-  list_->setColumnCount(2);
-  list_->header()->setStretchLastSection(false);
-  list_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-  list_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
-  list_->setFixedHeight(120);
-  list_->setToolTip(tr("A tick shows it in the views. A double click chooses its color."));
-  connect(list_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) {
-    if (listing_) return;
-    entries_[static_cast<std::size_t>(list_->indexOfTopLevelItem(item))].shown = item->checkState(0) == Qt::Checked;
-    draw();
-    make_next();
-  });
-  connect(list_, &QTreeWidget::currentItemChanged, this, [this] { list(); });
-  connect(list_, &QTreeWidget::itemDoubleClicked, this,
-          [this](QTreeWidgetItem* item) { choose_color(static_cast<std::size_t>(list_->indexOfTopLevelItem(item))); });
-  column->addWidget(list_);
-  column->addWidget(build_uses());
-  auto* const row = new QHBoxLayout;
-  add_tool_button(*row, *this, "palpateAddStructures", tr("Add structures…"),
-                  tr("DICOM SEG or RTSTRUCT. Those in the scan's folder are found with it."), [this] { ask_files(); });
-  row->addStretch(1);
-  row->addWidget(new QLabel(tr("Opacity"), this));
-  opacity_ = new QSlider(Qt::Horizontal, this);
-  opacity_->setObjectName(QStringLiteral("palpateStructureOpacity"));
-  opacity_->setRange(0, 100);
-  opacity_->setValue(static_cast<int>(100 * first_opacity));
-  opacity_->setMaximumWidth(80);
-  opacity_->setToolTip(tr("Of the surfaces in the volume view"));
-  connect(opacity_, &QSlider::valueChanged, this, [this] { draw(); });
-  row->addWidget(opacity_);
-  column->addLayout(row);
-  message_ = new QLabel(this);
-  message_->setObjectName(QStringLiteral("palpateStructureMessage"));
-  message_->setWordWrap(true);
-  message_->setTextFormat(Qt::PlainText);
-  column->addWidget(message_);
-}
-
-/// What one press makes of the structure that is marked.
-QWidget* StructuresSection::build_uses() {
-  auto* const box = new QWidget(this);
-  auto* const row = new QHBoxLayout(box);
-  row->setContentsMargins(0, 0, 0, 0);
-  const auto name_of_chosen = [this] { return text(chosen()->structure.name); };
-  uses_.push_back(add_tool_button(*row, *this, "palpateStructureBoundary", tr("Boundary"),
-                                  tr("Its edge is felt, as the wall of an organ"), [this, name_of_chosen] {
-                                    use(tr("Boundary of %1").arg(name_of_chosen()),
-                                        [structure = chosen()->structure](modes::Scene& scene) {
-                                          add_boundary_of(scene, structure);
-                                        });
-                                  }));
-  uses_.push_back(
-      add_tool_button(*row, *this, "palpateStructureKeepOut", tr("Keep out"),
-                      tr("Over a margin before its edge the stylus is pushed back"), [this, name_of_chosen] {
-                        use(tr("Keep out of %1").arg(name_of_chosen()),
-                            [structure = chosen()->structure, margin = margin_->value()](modes::Scene& scene) {
-                              add_keep_out_of(scene, structure, margin);
-                            });
-                      }));
-  margin_ = new QDoubleSpinBox(box);
-  margin_->setObjectName(QStringLiteral("palpateStructureMargin"));
-  margin_->setRange(0.5, 15);
-  margin_->setSingleStep(0.5);
-  margin_->setDecimals(1);
-  margin_->setValue(first_margin_mm);
-  margin_->setSuffix(tr(" mm"));
-  margin_->setToolTip(tr("The margin that a keep-out gets: nearer than that is warned of"));
-  row->addWidget(margin_);
-  auto* const gate = add_tool_button(*row, *this, "palpateStructureGate", tr("Only inside"),
-                                     tr("A mode of the scene is felt inside it only"), [] {});
-  gate->setPopupMode(QToolButton::InstantPopup);
-  auto* const menu = new QMenu(gate);
-  connect(menu, &QMenu::aboutToShow, this, [this, menu] { fill_gates(*menu); });
-  gate->setMenu(menu);
-  uses_.push_back(gate);
-  row->addStretch(1);
-  return box;
-}
-
-void StructuresSection::fill_gates(QMenu& menu) {
-  menu.clear();
-  const modes::Scene& scene = model_.scene();
-  for (std::size_t n = 0; n < scene.modes.size(); ++n) {
-    connect(menu.addAction(name_of(scene, n)), &QAction::triggered, this, [this, n] {
-      if (!chosen()) return;
-      use(tr("%1 only inside %2").arg(name_of(model_.scene(), n), text(chosen()->structure.name)),
-          [n, structure = chosen()->structure](modes::Scene& changed) {
-            if (n < changed.modes.size()) add_gate_of(changed, n, structure);
-          });
-    });
-  }
-}
-
-void StructuresSection::ask_files() {
-  const QStringList files =
-      QFileDialog::getOpenFileNames(this, tr("Add structures"), {}, tr("Structures (*.dcm *);;All files (*)"));
-  std::vector<std::filesystem::path> places;
-  for (const QString& file : files) places.emplace_back(file.toStdString());
-  asked_ = !places.empty();
-  look_into(places);
-}
-
-void StructuresSection::dragEnterEvent(QDragEnterEvent* event) {
-  if (scan_ && event->mimeData()->hasUrls()) event->acceptProposedAction();
-}
-
-void StructuresSection::dropEvent(QDropEvent* event) {
-  std::vector<std::filesystem::path> places;
-  for (const QUrl& url : event->mimeData()->urls()) {
-    if (url.isLocalFile()) places.emplace_back(url.toLocalFile().toStdString());
-  }
-  asked_ = !places.empty();
-  look_into(places);
-}
-
 void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder) {
   finding_.drop();
   making_.drop();
@@ -213,6 +77,8 @@ void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const s
   waiting_.clear();
   held_.clear();
   asked_ = false;
+  served_ = false;
+  problem_.clear();
   tell({}, false);
   list();
   draw();
@@ -222,24 +88,51 @@ void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const s
   follow_scene();
 }
 
+void StructuresSection::add(const std::vector<std::filesystem::path>& files, const QString& problem) {
+  problem_ = problem;
+  served_ = true;
+  if (!problem.isEmpty()) tell(problem, true);
+  look_into(files);
+}
+
 void StructuresSection::look_into(const std::vector<std::filesystem::path>& places) {
   if (!scan_) return;
   for (const std::filesystem::path& place : places) {
     if (looked_into_.insert(place).second) waiting_.push_back(place);
   }
   if (waiting_.empty()) return;
-  finding_.ask([places = waiting_] { return io::find_structures(places); });
+  finding_.ask([places = waiting_, scan = scan_] {
+    io::StructureCatalogue found = io::find_structures(places);
+    // Those that a scene will find, and no others: what is listed here is what can be felt.
+    found.registrations.clear();
+    std::set<std::filesystem::path> looked;
+    for (const io::Structure& structure : found.structures) {
+      if (!looked.insert(structure.file).second) continue;
+      for (io::Registration& one : registrations_for(structure, *scan)) found.registrations.push_back(std::move(one));
+    }
+    return found;
+  });
 }
 
 void StructuresSection::take(const io::StructureCatalogue& found) {
   waiting_.clear();
+  QStringList notes;
+  if (const QString problem = std::exchange(problem_, {}); !problem.isEmpty()) notes << problem;
+  if (std::exchange(served_, false)) {
+    for (const io::SkippedFile& one : found.skipped) notes << text(one.reason);
+  }
   const bool few = found.structures.size() + entries_.size() <= shown_at_once;
   for (const io::Structure& structure : found.structures) {
     const bool known = std::ranges::any_of(entries_, [&](const Entry& entry) {
       return entry.structure.file == structure.file && entry.structure.number == structure.number;
     });
     if (known) continue;
-    Entry entry{.structure = structure, .why_not = why_not_on(structure, *scan_)};
+    Entry entry{.structure = structure};
+    entry.why_not = place_on(entry.structure, found.registrations, *scan_).why_not;
+    for (std::size_t n = structure.warnings.size(); n < entry.structure.warnings.size(); ++n) {
+      const QString note = text(entry.structure.warnings[n]);
+      if (!notes.contains(note)) notes << note;
+    }
     entry.color = structure.color.empty() ? colors[entries_.size() % std::size(colors)] : structure.color;
     entry.structure.color = entry.color;
     entry.shown = entry.why_not.empty() && few;
@@ -251,7 +144,7 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
              : text(found.skipped.front().path.filename().string() + ": " + found.skipped.front().reason),
          true);
   } else {
-    tell({}, false);
+    tell(notes.join(QLatin1Char('\n')), !notes.isEmpty());
   }
   follow_scene();
 }
@@ -310,6 +203,7 @@ void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) cons
   QString tip = text(entry.structure.file.filename().string());
   if (!entry.structure.code.empty()) tip += QLatin1Char('\n') + text(entry.structure.code);
   if (!fits) tip += QLatin1Char('\n') + text(entry.why_not);
+  for (const Text& warning : entry.structure.warnings) tip += QLatin1Char('\n') + text(warning);
   item.setToolTip(0, tip);
 }
 
@@ -366,23 +260,6 @@ void StructuresSection::draw() {
   drawn_.set_structures(std::move(shown), opacity_->value() / 100.0);
 }
 
-void StructuresSection::choose_color(std::size_t n) {
-  if (n >= entries_.size()) return;
-  const io::Structure structure = entries_[n].structure;
-  const QColor chosen_color = QColorDialog::getColor(QColor(text(entries_[n].color)), this, text(structure.name),
-                                                     QColorDialog::DontUseNativeDialog);
-  if (!chosen_color.isValid() || n >= entries_.size()) return;
-  entries_[n].color = entries_[n].structure.color = chosen_color.name().toStdString();
-  const auto in_scene = [&](const modes::SceneStructure& named) { return is_same(named, structure); };
-  if (std::ranges::any_of(model_.scene().structures, in_scene)) {
-    model_.edit(tr("Color %1").arg(text(structure.name)), [&](modes::Scene& scene) {
-      std::ranges::find_if(scene.structures, in_scene)->color = entries_[n].color;
-    });
-  }
-  list();
-  draw();
-}
-
 /// Reads what the edited scene will need in the background first: neither panel nor servo waits for it.
 void StructuresSection::use(const QString& what, const Edit& edit) {
   if (!scan_ || !chosen()) return;
@@ -410,9 +287,7 @@ QString StructuresSection::in_words() const {
 }
 
 void StructuresSection::tell(const QString& message, bool problem) {
-  message_->setText(message);
-  message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
-  message_->setVisible(!message.isEmpty());
+  show_message(*message_, message, problem);
 }
 
 }  // namespace palpate::plugin

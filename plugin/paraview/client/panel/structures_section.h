@@ -1,6 +1,6 @@
 #pragma once
 
-/// The panel's section of structures: what was outlined on the scan, to be seen and, by one press, to be felt.
+/// The panel's section of structures: lists what was outlined on the scan, and draws it or makes it felt by one press.
 
 #include <QWidget>
 
@@ -36,6 +36,8 @@ class StructuresSection : public QWidget {
 
   /// Looks for structures on a scan that has just been shown, in the folder that it is from; null: there is no scan.
   void set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder);
+  /// Looks into these files, too; `problem` is said where it is not empty.
+  void add(const std::vector<std::filesystem::path>& files, const QString& problem);
   /// The views of that scan; empty: none.
   void set_views(const std::vector<ClinicalView>& views) { drawn_.set_views(views); }
   /// Draws what is on the slice that a view shows now.
@@ -100,6 +102,8 @@ class StructuresSection : public QWidget {
   std::set<std::filesystem::path> looked_into_;
   std::vector<std::filesystem::path> waiting_;  // files and folders to be looked into
   bool asked_ = false;                          // for what is being looked into, by the user
+  bool served_ = false;                         // by a server
+  QString problem_;                             // of what is being looked into: some of it is not here
   bool listing_ = false;
   std::vector<LoadedStructure> held_;  // what the scene read: undoing finds it again
   StructureViews drawn_;

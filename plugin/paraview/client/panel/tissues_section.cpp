@@ -1,36 +1,31 @@
 #include "plugin/paraview/client/panel/tissues_section.h"
 
-#include <QCheckBox>
-#include <QColorDialog>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QSaveFile>
 #include <QSignalBlocker>
-#include <QToolButton>
 
 #include <algorithm>
 #include <exception>
 #include <vector>
 
 #include "modes/scene/scene_json.h"
+#include "modes/scene/starting_scene.h"
 #include "modes/types/mode_type.h"
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/panel/column_scroll.h"
+#include "plugin/paraview/client/file_name.h"
+#include "plugin/paraview/client/panel/force_difference.h"
 #include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/panel/tool_button.h"
 #include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {
 namespace {
-
-constexpr double strongest_n = 20;
 
 /// How the hand reaches the scan and is protected is the user's, whichever scene is felt.
 modes::Scene with_hand_of(modes::Scene scene, const modes::Scene& now) {
@@ -45,22 +40,12 @@ std::string text_of(const modes::Scene& scene) {
   return modes::to_json(with_hand_of(scene, {}));
 }
 
+/// What the rows depend on.
+std::string kind_of(const modes::Mode& mode) {
+  return mode.type + '\n' + mode.from + '\n' + mode.to;
+}
+
 }  // namespace
-
-double strength_of(const modes::Mode& mode) {
-  return mode.strength_n.maximum();
-}
-
-void scale_strength(modes::Mode& mode, double newtons) {
-  const double now = mode.strength_n.maximum();
-  if (now <= 0) {
-    mode.strength_n = modes::TransferFunction(newtons);
-    return;
-  }
-  std::vector<modes::Node> nodes(mode.strength_n.nodes().begin(), mode.strength_n.nodes().end());
-  for (modes::Node& node : nodes) node.value *= newtons / now;
-  mode.strength_n = modes::TransferFunction(std::move(nodes), mode.strength_n.interpolation());
-}
 
 TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(parent), model_(model) {
   setObjectName(QStringLiteral("palpateTissues"));
@@ -71,12 +56,13 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   scenes_ = new QComboBox(this);
   scenes_->setObjectName(QStringLiteral("palpateScenes"));
   scenes_->setToolTip(tr("A scene says what is felt. The first was found in this scan."));
-  scenes_->addItem(QString());
   choices_.push_back({tr("Found in this scan"), {}, {}});
   for (const std::string& name : modes::starting_scenes()) {
     const modes::Scene scene = modes::load_scene(name);
     add_choice(QString::fromStdString(scene.name), scene);
+    choices_.back().name = name;
   }
+  list_choices();
   show_origin();
   connect(scenes_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) { choose_scene(index); });
   scenes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -87,8 +73,8 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
                   [this] { save_file(); });
   column->addLayout(top);
   rows_ = new QWidget(this);
-  scroll_ = new ColumnScroll(QStringLiteral("palpateBoundaries"), rows_, this);
-  column->addWidget(scroll_);
+  rows_->setObjectName(QStringLiteral("palpateBoundaries"));
+  column->addWidget(rows_);  // in the panel's own scrolled column: no second one within it
   message_ = new QLabel(this);
   message_->setObjectName(QStringLiteral("palpateSceneMessage"));
   message_->setWordWrap(true);
@@ -115,10 +101,37 @@ void TissuesSection::set_proposed(const modes::Scene& scene) {
   follow_origin();
 }
 
-void TissuesSection::forget_scan() {
+void TissuesSection::forget_scan(const ScanHandle& shown) {
   choices_.front() = {tr("Found in this scan"), {}, {}};
+  const auto offered = modes::offered_scenes(shown.scene, shown.volume->modality, shown.volume->vectors != nullptr);
+  const auto suiting = std::ranges::count_if(offered, &std::string::empty, &modes::OfferedScene::made_for);
+  std::map<QString, double> places;  // of a choice: files that were opened come before what does not suit the scan
+  for (Choice& choice : choices_) {
+    const auto as = std::ranges::find(offered, choice.name, &modes::OfferedScene::name);
+    const bool starting = as != offered.end();
+    choice.made_for = starting ? QString::fromStdString(as->made_for) : QString();
+    places[choice.label] = starting ? static_cast<double>(as - offered.begin()) : static_cast<double>(suiting) - 0.5;
+  }
+  std::stable_sort(choices_.begin() + 1, choices_.end(), [&](const Choice& one, const Choice& other) {
+    return places.at(one.label) < places.at(other.label);
+  });
+  choice_ = 0;
   edited_from_.clear();
+  list_choices();
   follow_origin();
+}
+
+/// The box has an item for each, in their order.
+void TissuesSection::list_choices() {
+  const QSignalBlocker quiet(scenes_);
+  scenes_->clear();
+  for (const Choice& choice : choices_) {
+    scenes_->addItem(choice.label);
+    if (choice.made_for.isEmpty()) continue;
+    const int item = scenes_->count() - 1;
+    scenes_->setItemData(item, tr("Made for %1, and this scan is none.").arg(choice.made_for), Qt::ToolTipRole);
+    scenes_->setItemData(item, palette().color(QPalette::Disabled, QPalette::Text), Qt::ForegroundRole);
+  }
 }
 
 void TissuesSection::set_restored() {
@@ -137,7 +150,8 @@ int TissuesSection::add_choice(const QString& label, const modes::Scene& scene) 
     choices_.push_back({label, scene, text_of(scene)});
     scenes_->addItem(label);
   } else {
-    *same = {label, scene, text_of(scene)};
+    same->scene = scene;
+    same->text = text_of(scene);
   }
   return item;
 }
@@ -196,12 +210,9 @@ void TissuesSection::open_file() {
 }
 
 void TissuesSection::save_file() {
-  QFileDialog dialog(this, tr("Save scene"), {}, tr("Scenes (*.json)"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QStringLiteral("json"));
-  dialog.selectFile(QStringLiteral("scene.json"));
-  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return;
-  const QString name = dialog.selectedFiles().first();
+  const QString name = ask_file_to_write(this, tr("Save scene"), tr("Scenes (*.json)"), QStringLiteral("json"),
+                                         QStringLiteral("scene.json"));
+  if (name.isEmpty()) return;
   QSaveFile file(name);
   const std::string text = modes::to_json(model_.scene());
   const auto size = static_cast<qint64>(text.size());
@@ -211,79 +222,34 @@ void TissuesSection::save_file() {
 }
 
 void TissuesSection::build_rows() {
+  boundaries_.clear();
   delete grid_;
   qDeleteAll(rows_->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
   grid_ = new QGridLayout(rows_);
   grid_->setContentsMargins(0, 0, 0, 0);
   grid_->setHorizontalSpacing(4);
   grid_->setVerticalSpacing(1);
-  grid_->setColumnStretch(2, 1);
+  grid_->setColumnStretch(BoundaryRow::name_column, 1);
   const modes::Scene& scene = model_.scene();
-  shown_.clear();
   shown_types_.clear();
-  for (const modes::Mode& mode : scene.modes) shown_types_.push_back(mode.type);
+  for (const modes::Mode& mode : scene.modes) shown_types_.push_back(kind_of(mode));
   // Where it has no boundaries, as in a flow, whatever else it has.
   const auto is_boundary = [](const modes::Mode& mode) {
     return mode.type == "surface" || modes::contains(modes::find_mode_type(mode.type)->keys, modes::Key::margin);
   };
   const bool any_surface = std::ranges::any_of(scene.modes, is_boundary);
+  std::vector<bool> has_row(scene.modes.size(), false);
   for (std::size_t n = 0; n < scene.modes.size(); ++n) {
-    if (any_surface && !is_boundary(scene.modes[n])) continue;
-    const int row = static_cast<int>(shown_.size());
-    shown_.push_back(n);
-    const QString number = QString::number(row);
-    auto* const on = new QCheckBox(rows_);
-    on->setObjectName(QStringLiteral("palpateOn") + number);
-    on->setToolTip(tr("Whether it is felt"));
-    connect(on, &QCheckBox::clicked, this, [this, n](bool checked) {
-      model_.edit(checked ? tr("Switch on %1").arg(name_of(model_.scene(), n))
-                          : tr("Switch off %1").arg(name_of(model_.scene(), n)),
-                  [&](modes::Scene& s) { s.modes[n].enabled = checked; });
-    });
-    grid_->addWidget(on, row, 0);
-    auto* const color = new QToolButton(rows_);
-    color->setObjectName(QStringLiteral("palpateColor") + number);
-    color->setFixedSize(18, 18);
-    color->setToolTip(tr("Its color, here and in the views"));
-    connect(color, &QToolButton::clicked, this, [this, n] {
-      const QColor chosen = QColorDialog::getColor(color_of(model_.scene().modes[n]), this, name_of(model_.scene(), n),
-                                                   QColorDialog::DontUseNativeDialog);
-      if (!chosen.isValid()) return;
-      model_.edit(tr("Color %1").arg(name_of(model_.scene(), n)),
-                  [&](modes::Scene& s) { s.modes[n].color = chosen.name().toStdString(); });
-    });
-    grid_->addWidget(color, row, 1);
-    auto* const name = new QLineEdit(rows_);
-    name->setObjectName(QStringLiteral("palpateName") + number);
-    name->setFrame(false);
-    connect(name, &QLineEdit::editingFinished, this, [this, n, name] {
-      if (name->text() == name_of(model_.scene(), n)) return;
-      model_.edit(tr("Rename %1").arg(name_of(model_.scene(), n)),
-                  [&](modes::Scene& s) { s.modes[n].name = name->text().toStdString(); });
-    });
-    grid_->addWidget(name, row, 2);
-    auto* const strength = new QDoubleSpinBox(rows_);
-    strength->setObjectName(QStringLiteral("palpateStrength") + number);
-    strength->setRange(0, strongest_n);
-    strength->setDecimals(2);
-    strength->setSingleStep(0.1);
-    strength->setSuffix(tr(" N"));
-    strength->setKeyboardTracking(false);
-    strength->setToolTip(tr("How hard it resists before it yields"));
-    connect(strength, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this, n](double newtons) {
-      model_.edit(tr("Strength of %1").arg(name_of(model_.scene(), n)),
-                  [&](modes::Scene& s) { scale_strength(s.modes[n], newtons); });
-    });
-    grid_->addWidget(strength, row, 3);
+    if (has_row[n] || (any_surface && !is_boundary(scene.modes[n]))) continue;
+    if (const auto back = way_back_of(scene, n)) has_row[*back] = true;
+    boundaries_.push_back(
+        std::make_unique<BoundaryRow>(model_, n, static_cast<int>(boundaries_.size()), *rows_, *grid_));
   }
-  if (shown_.empty()) {
+  if (boundaries_.empty()) {
     auto* const none = new QLabel(tr("No boundaries yet: open a scan."), rows_);
     none->setEnabled(false);
-    grid_->addWidget(none, 0, 0, 1, 4);
+    grid_->addWidget(none, 0, 0, 1, BoundaryRow::columns);
   }
-  constexpr int most_rows = 5;
-  const int row_height = shown_.empty() ? 24 : grid_->itemAtPosition(0, 3)->widget()->sizeHint().height() + 1;
-  scroll_->setFixedHeight(row_height * std::clamp(static_cast<int>(shown_.size()), 1, most_rows) + 2);
   show_values();
 }
 
@@ -291,7 +257,7 @@ void TissuesSection::show_values() {
   const modes::Scene& scene = model_.scene();
   const bool same = shown_types_.size() == scene.modes.size() &&
                     std::equal(shown_types_.begin(), shown_types_.end(), scene.modes.begin(),
-                               [](const std::string& type, const modes::Mode& mode) { return type == mode.type; });
+                               [](const std::string& type, const modes::Mode& mode) { return type == kind_of(mode); });
   if (!same) {
     // Not now: a row may be what brought the change.
     shown_types_.clear();
@@ -299,21 +265,23 @@ void TissuesSection::show_values() {
         this, [this] { build_rows(); }, Qt::QueuedConnection);
     return;
   }
-  for (std::size_t row = 0; row < shown_.size(); ++row) {
-    const modes::Mode& mode = scene.modes[shown_[row]];
-    const QString number = QString::number(row);
-    rows_->findChild<QCheckBox*>(QStringLiteral("palpateOn") + number)->setChecked(mode.enabled);
-    rows_->findChild<QToolButton*>(QStringLiteral("palpateColor") + number)
-        ->setStyleSheet(QStringLiteral("background: %1; border: 1px solid palette(dark)").arg(color_of(mode).name()));
-    auto* const name = rows_->findChild<QLineEdit*>(QStringLiteral("palpateName") + number);
-    if (!name->hasFocus() || name->text().isEmpty()) {
-      name->setText(name_of(scene, shown_[row]));
-      name->setCursorPosition(0);
+  for (const auto& boundary : boundaries_) boundary->show_values();
+  show_alike();
+}
+
+/// Where two that are felt are too much of the same strength to be told apart.
+void TissuesSection::show_alike() {
+  const modes::Scene& scene = model_.scene();
+  for (const auto& one : boundaries_) {
+    QStringList like;
+    for (const auto& other : boundaries_) {
+      const bool both = other != one && one->is_felt() && other->is_felt();
+      const double strength_n = strength_of(scene.modes[other->mode()]);
+      if (both && feels_alike(strength_of(scene.modes[one->mode()]), strength_n)) {
+        like << name_of(scene, other->mode());
+      }
     }
-    name->setToolTip(name_of(scene, shown_[row]));
-    auto* const strength = rows_->findChild<QDoubleSpinBox*>(QStringLiteral("palpateStrength") + number);
-    const QSignalBlocker quiet(strength);
-    strength->setValue(strength_of(mode));
+    one->set_alike(like);
   }
 }
 

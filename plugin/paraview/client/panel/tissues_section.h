@@ -5,16 +5,18 @@
 #include <QWidget>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "plugin/paraview/client/panel/boundary_row.h"
 #include "plugin/paraview/client/panel/scene_model.h"
+#include "plugin/paraview/client/scan/scan_handle.h"
 
 class QComboBox;
 class QGridLayout;
 class QLabel;
-class QScrollArea;
 
 namespace palpate::plugin {
 
@@ -26,16 +28,19 @@ class TissuesSection : public QWidget {
 
   /// The scene that was proposed for the scan: first of the scenes to choose from.
   void set_proposed(const modes::Scene& scene);
-  /// Another scan is shown: nothing was found in it yet.
-  void forget_scan();
+  /// Another scan is shown: nothing was found in it yet. The starting scene that suits it comes first of the others,
+  /// and those that are made for other scans last.
+  void forget_scan(const ScanHandle& shown);
   /// The scene that the model has came with a state file.
   void set_restored();
   /// What the scene is: where it came from, and whether it was edited since.
   QString scene_in_words() const;
 
  private:
+  void list_choices();
   void build_rows();
   void show_values();
+  void show_alike();
   void choose_scene(int index);
   void choose(int item, const QString& what);
   int add_choice(const QString& label, const modes::Scene& scene);
@@ -49,7 +54,9 @@ class TissuesSection : public QWidget {
   struct Choice {
     QString label;
     modes::Scene scene;
-    std::string text;  ///< of what is felt in it; empty: there is none yet
+    std::string text;       ///< of what is felt in it; empty: there is none yet
+    std::string name = {};  ///< of a starting scene
+    QString made_for = {};  ///< what it suits, where that is another kind of scan
   };
   std::vector<Choice> choices_;
   std::map<std::string, int> edited_from_;  // text of an edited scene -> the choice that it was made of
@@ -58,16 +65,10 @@ class TissuesSection : public QWidget {
   bool edited_ = false;
   QComboBox* scenes_;
   QLabel* message_;
-  QScrollArea* scroll_;
   QWidget* rows_;
   QGridLayout* grid_ = nullptr;
-  std::vector<std::size_t> shown_;  // modes of the rows
+  std::vector<std::unique_ptr<BoundaryRow>> boundaries_;
   std::vector<std::string> shown_types_;
 };
-
-/// A strength as one number: the largest, N.
-double strength_of(const modes::Mode& mode);
-/// The same curve, as strong as that.
-void scale_strength(modes::Mode& mode, double newtons);
 
 }  // namespace palpate::plugin

@@ -10,13 +10,12 @@
 #include <QPushButton>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 
+#include "plugin/app/scan_choice.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/words.h"
-#include "plugin/paraview/common/scan_choice.h"
 
 // What of the panel's first section has to do with another program: a server, or a state file's reader.
 
@@ -53,27 +52,58 @@ void ScanSection::open_on_server() {
   }
 }
 
+/// The frame that is shown.
 void ScanSection::fetch() {
   copy_->show();
   set_busy(true);
   std::vector<std::string> places{path_};
   places.insert(places.end(), copies_.begin(), copies_.end());
+  const int frames = server_frames();
+  const int frame = frame_at(frames, source_->getServer()->getTimeKeeper()->getTime());
   server_scan_.get(
-      *source_, places,
+      *source_, frame, places,
       [this](const QString& what, double done) {
         progress_->setFormat(what + QStringLiteral(" %p%"));
         progress_->setValue(static_cast<int>(100 * done));
       },
-      [this](const ServerScan::Found& found) {
+      [this, frame](const ServerScan::Found& found) {
         set_busy(false);
         const QString notes = message_->text();
         tell(notes.isEmpty() ? found.said : notes + QLatin1Char('\n') + found.said, !found.volume);
         copy_->setVisible(!found.volume);
         if (found.volume) {
-          take({.path = path_, .name = {}, .catalogue = {}, .volume = found.volume});
+          take({.path = path_, .name = {}, .catalogue = {}, .volume = found.volume, .frame = frame});
         } else {
           emit out_of_reach(found.said);
         }
+      });
+}
+
+int ScanSection::server_frames() const {
+  const vtkSMPropertyHelper times(source_->getProxy(), "TimestepValues");
+  return std::max(1, static_cast<int>(times.GetNumberOfElements()));
+}
+
+/// What is felt stays the frame before until the other one is here: why_not_felt() keeps the force off meanwhile.
+void ScanSection::fetch_frame(int frame) {
+  if (server_scan_.is_busy() && frame == fetching_) return;
+  fetching_ = frame;
+  set_busy(true);
+  std::vector<std::string> places{path_};
+  places.insert(places.end(), copies_.begin(), copies_.end());
+  server_scan_.get(
+      *source_, frame, places,
+      [this](const QString& what, double done) {
+        progress_->setFormat(what + QStringLiteral(" %p%"));
+        progress_->setValue(static_cast<int>(100 * done));
+      },
+      [this, frame](const ServerScan::Found& found) {
+        set_busy(false);
+        if (!found.volume) {
+          tell(found.said, true);
+          return;
+        }
+        show_frame_of(found.volume, frame);
       });
 }
 
@@ -125,7 +155,7 @@ void ScanSection::adopt(pqPipelineSource& reader) {
         }
         const int frames = scan_at(*catalogue, series).frames_per_position;
         const double time = source_ ? source_->getServer()->getTimeKeeper()->getTime() : 0;
-        const int frame = static_cast<int>(std::clamp(std::round(time), 0.0, frames - 1.0));
+        const int frame = frame_at(frames, time);
         loader_.load(
             scan_at(*catalogue, series), frame, felt_filter(), [](double) {},
             [this, catalogue, path, name, series, frame](const auto& volume, const std::string& why) {

@@ -4,7 +4,7 @@
 #include <vtkNew.h>
 #include <vtkPVSession.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMSessionClient.h>
+#include <vtkSMSession.h>
 #include <vtkSMSourceProxy.h>
 
 #include <QElapsedTimer>
@@ -17,18 +17,13 @@
 #include <variant>
 
 #include "plugin/messages/messages.h"
+#include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {
 namespace {
-
-/// Whether the server can be asked now: ParaView handles events, and so our timers, in the middle of its own requests.
-bool is_free(pqServer& server) {
-  auto* const session = vtkSMSessionClient::SafeDownCast(server.session());
-  return session && session->IsNotBusy() && !server.isProgressPending();
-}
 
 /// Puts slices on top; where their types differ, all become floats, as of the whole scan.
 void append(io::Volume::Voxels& to, const io::Volume::Voxels& more, std::size_t whole) {
@@ -54,9 +49,11 @@ std::size_t slice_size(const io::Volume& volume) {
 
 }  // namespace
 
-void ServerScan::get(pqPipelineSource& reader, std::vector<std::string> places, Progress progress, Done done) {
+void ServerScan::get(pqPipelineSource& reader, int frame, std::vector<std::string> places, Progress progress,
+                     Done done) {
   cancel();
   reader_ = &reader;
+  frame_ = frame;
   places_ = std::move(places);
   progress_ = std::move(progress);
   done_ = std::move(done);
@@ -68,6 +65,7 @@ void ServerScan::get(pqPipelineSource& reader, std::vector<std::string> places, 
 void ServerScan::cancel() {
   ++run_;
   loader_.cancel();
+  done_ = {};
   voxels_ = {};
   start();
 }
@@ -101,6 +99,7 @@ void ServerScan::finish(const std::shared_ptr<const io::Volume>& volume, const Q
 
 bool ServerScan::ask(SlicesAsked asked, SlicesAnswered& answered) {
   vtkNew<PalpateScanSlices> slices;
+  asked.frame = frame_;
   slices->Asked() = asked;
   vtkSMProxy& proxy = *reader_->getProxy();
   const unsigned run = run_;
@@ -195,7 +194,7 @@ void ServerScan::compare_copies() {
     return;
   }
   loader_.load_copy(
-      copies_, hash, [this](double done) { progress_(tr("Comparing the copy here"), done); },
+      copies_, frame_, hash, [this](double done) { progress_(tr("Comparing the copy here"), done); },
       [this](const auto& volume, const std::string&) {
         if (volume) {
           finish(volume, words(say("felt-from-the-copy-on-this-machine")));

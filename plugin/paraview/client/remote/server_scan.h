@@ -1,10 +1,11 @@
 #pragma once
 
-/// The voxels of a scan that a server reads, for the stylus, which is on this machine: a copy here where there is the
-/// same, by hash; else fetched from the server, once a session.
+/// Brings the voxels of a scan that a server reads to this machine, where the stylus is: from a copy on this machine
+/// that has the same hash, or else from the server, once in a session.
 
 #include <pqPipelineSource.h>
 
+#include <QCoreApplication>
 #include <QObject>
 #include <QPointer>
 
@@ -21,9 +22,11 @@
 
 namespace palpate::plugin {
 
-/// One scan at a time; a new one gives the last up. All on the UI thread, in steps of about a tenth of a second;
-/// meanwhile events are handled. No callback comes after cancel() or destruction.
+/// One scan at a time: a new request ends the last. All of it runs on the UI thread, in steps of about a tenth of a
+/// second, between which events are handled. No callback comes after cancel() or destruction.
 class ServerScan : public QObject {
+  Q_DECLARE_TR_FUNCTIONS(ServerScan)
+
  public:
   struct Found {
     std::shared_ptr<const io::Volume> volume;  ///< null: none could be had
@@ -32,10 +35,11 @@ class ServerScan : public QObject {
   using Progress = std::function<void(const QString& what, double done)>;
   using Done = std::function<void(const Found& found)>;
 
-  /// `reader`: a PalpateDicomReader that is up to date. Looks for a copy of its series in these folders and files of
-  /// this machine, in this order; those that are not there are passed over.
-  void get(pqPipelineSource& reader, std::vector<std::string> places, Progress progress, Done done);
+  /// `reader`: a PalpateDicomReader that is up to date; `frame`: of its series, from 0. Looks for a copy in these
+  /// folders and files of this machine, in this order; missing ones are skipped.
+  void get(pqPipelineSource& reader, int frame, std::vector<std::string> places, Progress progress, Done done);
   void cancel();
+  bool is_busy() const { return done_ != nullptr; }
   /// Forgets what was fetched: the server has gone.
   void forget() { fetched_.clear(); }
 
@@ -56,6 +60,7 @@ class ServerScan : public QObject {
   void fetch();
 
   QPointer<pqPipelineSource> reader_;
+  int frame_ = 0;
   std::vector<std::string> places_;
   Progress progress_;
   Done done_;

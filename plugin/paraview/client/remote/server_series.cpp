@@ -3,6 +3,7 @@
 #include <pqActiveObjects.h>
 #include <pqServer.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMSessionClient.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 
@@ -33,6 +34,7 @@ std::unique_ptr<ServerSeries> find_on_server(pqServer& server, const std::string
     throw Refusal(say("server-has-no-palpate-plug"));
   }
   vtkSMSourceProxy& finder = *found->finder;
+  vtkSMPropertyHelper(&finder, "ShowMessages", true).Set(0);  // of a series that nobody has chosen
   vtkSMPropertyHelper(&finder, "FileName").Set(path.c_str());
   finder.UpdateVTKObjects();
   finder.UpdatePipelineInformation();
@@ -46,6 +48,11 @@ std::unique_ptr<ServerSeries> find_on_server(pqServer& server, const std::string
     throw Refusal(say("server-finds-no-image-series-there"));
   }
   return found;
+}
+
+bool is_free(pqServer& server) {
+  auto* const session = vtkSMSessionClient::SafeDownCast(server.session());
+  return session && session->IsNotBusy() && !server.isProgressPending();
 }
 
 std::vector<std::string> messages_of(vtkSMSourceProxy& reader) {

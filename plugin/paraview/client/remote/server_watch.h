@@ -21,12 +21,12 @@ class ServerWatch : public QObject {
   explicit ServerWatch(QObject* parent = nullptr);
   ~ServerWatch() override;
 
-  /// ParaView itself notices at its next request, or after a minute. While a stylus is held it is to be at once: the
-  /// server is then spoken to twice a second.
+  /// ParaView itself notices only at its next request, or after a minute. While a stylus is held that is too late, so
+  /// the server is asked twice a second.
   void be_attentive(bool on);
 
  signals:
-  /// The connection broke. Comes before ParaView acts on it: it asks whether to save the state, and ends.
+  /// The connection broke. Emitted before ParaView reacts: ParaView asks whether to save the state, and ends.
   void lost();
   /// ParaView is about to leave a server in good order: everything that is on it goes.
   void leaving();

@@ -18,6 +18,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "modes/scene/scene_json.h"
 #include "plugin/paraview/client/panel/scene_model.h"
@@ -76,6 +77,7 @@ FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanSection
   connect(&model, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::stepped) refresh();
   });
+  model.set_make_ready([this](const modes::Scene& scene, const auto& ready) { return make_ready(scene, ready); });
   scan.set_filter([this] { return model_.scene().filter; });
   refresh();
 }
@@ -88,8 +90,10 @@ void FilterRow::refresh() {
 /// The row says what the scene has.
 void FilterRow::follow() {
   setEnabled(touching_.live().scan() && !touching_.live().scan()->vectors);
-  if (loader_.is_busy()) return;  // it says what was asked for
-  const io::Filter& filter = model_.scene().filter;
+  if (!loader_.is_busy()) show(model_.scene().filter);  // else it says what was asked for
+}
+
+void FilterRow::show(const io::Filter& filter) {
   const QSignalBlocker quiet(type_), silent(amount_);
   type_->setCurrentIndex(type_->findData(static_cast<int>(filter.type)));
   offer_amount();
@@ -144,26 +148,46 @@ io::Filter FilterRow::wanted() const {
 
 void FilterRow::ask() {
   const io::Filter filter = wanted();
-  const auto scan = touching_.live().scan();
   loader_.cancel();
   progress_->hide();
-  if (!scan || filter == model_.scene().filter) {
+  if (std::exchange(brought_back_, false)) model_.put_back();
+  if (!touching_.live().scan() || filter == model_.scene().filter) {
     follow();
     return;
   }
-  const auto take = [this, filter](const std::shared_ptr<const io::Volume>& volume, const std::string& error) {
+  compute(filter, [this, filter] { model_.edit(tr("filter"), [&](modes::Scene& scene) { scene.filter = filter; }); });
+}
+
+/// Undo, and whatever else changes the scene's text in the pipeline.
+bool FilterRow::make_ready(const modes::Scene& scene, const std::function<void()>& ready) {
+  loader_.cancel();
+  progress_->hide();
+  brought_back_ = false;
+  const bool is_quick = scene.filter.type == io::FilterType::none || scene.filter == model_.scene().filter;
+  if (is_quick || !touching_.live().scan() || touching_.expects_scan()) return false;
+  brought_back_ = true;
+  compute(scene.filter, ready);
+  show(scene.filter);
+  return true;
+}
+
+void FilterRow::compute(const io::Filter& filter, const std::function<void()>& done) {
+  const auto scan = touching_.live().scan();
+  const auto take = [this, done](const std::shared_ptr<const io::Volume>& volume, const std::string& error) {
     progress_->hide();
     if (volume) {
+      brought_back_ = false;
       touching_.offer(volume);
-      model_.edit(tr("filter"), [&](modes::Scene& scene) { scene.filter = filter; });
+      done();
     } else if (!error.empty()) {
+      if (std::exchange(brought_back_, false)) model_.put_back();
       emit model_.refused(QString::fromStdString(error));
     }
     refresh();
   };
   progress_->setValue(0);
   progress_->show();
-  const auto tell = [this](double done) { progress_->setValue(static_cast<int>(100 * done)); };
+  const auto tell = [this](double part) { progress_->setValue(static_cast<int>(100 * part)); };
   // A series of this machine through the store, where the reader finds the same voxels.
   if (const io::Series* const series = scan_.series_shown()) {
     loader_.load(*series, scan_.handle().frame, filter, tell, take);

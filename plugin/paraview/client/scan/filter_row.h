@@ -4,7 +4,10 @@
 
 #include <QWidget>
 
+#include <functional>
+
 #include "io/filter.h"
+#include "modes/scene/scene.h"
 #include "plugin/paraview/client/scan/scan_loader.h"
 
 class QCheckBox;
@@ -19,8 +22,8 @@ class SceneModel;
 class ScanSection;
 class SessionController;
 
-/// The scene has the filter; this row asks for another one. The voxels are filtered in the background, and the scene is
-/// edited once they are there.
+/// The row of the filter: the scene holds the filter, and this row asks for another one. The voxels are filtered in the
+/// background; the scene is edited when they are ready. The same happens when undo brings a scene back.
 class FilterRow : public QWidget {
   Q_OBJECT
 
@@ -34,7 +37,10 @@ class FilterRow : public QWidget {
 
  private:
   void ask();
+  bool make_ready(const modes::Scene& scene, const std::function<void()>& ready);
+  void compute(const io::Filter& filter, const std::function<void()>& done);
   void follow();
+  void show(const io::Filter& filter);
   void offer_amount();
   io::Filter wanted() const;
   void show_in_views();
@@ -46,7 +52,8 @@ class FilterRow : public QWidget {
   QDoubleSpinBox* amount_;
   QCheckBox* shown_;
   QProgressBar* progress_;
-  ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
+  bool brought_back_ = false;  // what is computed is for a scene that the pipeline has already
+  ScanLoader loader_;          // last: its thread is to end before all that its callbacks use
 };
 
 }  // namespace palpate::plugin

@@ -16,6 +16,7 @@ namespace palpate::plugin {
 struct ScanHandle {
   QString series;                            ///< in words: modality, description, size. Names no patient
   std::shared_ptr<const io::Volume> volume;  ///< of that frame; null: there is none to be felt
+  std::string scene;                         ///< the starting scene that suits it
   int frame = 0;                             ///< from 0
   int frames = 1;
   std::vector<std::string> frame_names;  ///< "b = 1000 s/mm2", one a frame, or fewer where unknown

@@ -8,8 +8,8 @@
 
 #include "io/errors.h"
 #include "io/fields/filtered.h"
+#include "plugin/app/scan_choice.h"
 #include "plugin/paraview/client/scan/thumbnail.h"
-#include "plugin/paraview/common/scan_choice.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/session/scan_hash.h"
 
@@ -103,12 +103,15 @@ void ScanLoader::find_copies(std::vector<std::string> places, const std::string&
       std::move(progress), std::move(found));
 }
 
-void ScanLoader::load_copy(std::vector<ScanCopy> copies, const std::string& hash, Progress progress, Loaded loaded) {
+void ScanLoader::load_copy(std::vector<ScanCopy> copies, int frame, const std::string& hash, Progress progress,
+                           Loaded loaded) {
   start<std::shared_ptr<const io::Volume>>(
-      [copies = std::move(copies), hash](const io::Progress& tell) -> std::shared_ptr<const io::Volume> {
+      [copies = std::move(copies), frame, hash](const io::Progress& tell) -> std::shared_ptr<const io::Volume> {
         for (const ScanCopy& copy : copies) {
+          const io::Series& series = scan_at(*copy.catalogue, copy.series);
+          if (frame >= series.frames_per_position) continue;
           try {
-            auto volume = load_scan(scan_at(*copy.catalogue, copy.series), 0, tell);
+            auto volume = load_scan(series, frame, tell);
             if (hash_of(*volume) == hash) return volume;
           } catch (const io::DicomError&) {  // the next may be whole
           }
@@ -127,18 +130,18 @@ void ScanLoader::study(std::shared_ptr<const io::Volume> volume, Progress progre
 }
 
 void ScanLoader::draw_thumbnails(std::shared_ptr<const io::Catalogue> catalogue,
-                                 std::function<void(const std::vector<QImage>&)> drawn) {
-  start<std::vector<QImage>>(
-      [catalogue = std::move(catalogue)](const io::Progress& tell) {
-        std::vector<QImage> images;
-        for (const io::Series& series : catalogue->series) {
+                                 std::function<void(std::size_t, const QImage&)> drawn) {
+  start<bool>(
+      [this, catalogue = std::move(catalogue), drawn = std::move(drawn)](const io::Progress& tell) {
+        for (std::size_t n = 0; n < catalogue->series.size(); ++n) {
           if (!tell(0)) throw io::Cancelled();
-          images.push_back(series.usable ? thumbnail_of(series) : QImage());
+          const QImage image = thumbnail_of(catalogue->series[n]);
+          QMetaObject::invokeMethod(
+              &receiver_, [drawn, n, image] { drawn(n, image); }, Qt::QueuedConnection);
         }
-        return images;
+        return true;
       },
-      [](double) {},
-      [drawn = std::move(drawn)](const std::vector<QImage>& images, const std::string&) { drawn(images); });
+      [](double) {}, [](bool, const std::string&) {});
 }
 
 }  // namespace palpate::plugin

@@ -46,12 +46,13 @@ class ScanLoader {
   /// Series of that name (as scan_name()) and size in these folders and files; what is not there is passed over.
   void find_copies(std::vector<std::string> places, const std::string& name, const glm::ivec3& size, Progress progress,
                    std::function<void(const std::vector<ScanCopy>&, const std::string& error)> found);
-  /// The first of them whose hash is that one; none, without an error, where none is.
-  void load_copy(std::vector<ScanCopy> copies, const std::string& hash, Progress progress, Loaded loaded);
+  /// The first of them whose frame has that hash; none, without an error, where none has.
+  void load_copy(std::vector<ScanCopy> copies, int frame, const std::string& hash, Progress progress, Loaded loaded);
   void study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied);
-  /// One for each series, in their order; empty ones where there is nothing to be shown.
+  /// One for each series, in their order, as they are drawn; empty ones where there is nothing to be shown. One or two
+  /// may still come when the job was cancelled.
   void draw_thumbnails(std::shared_ptr<const io::Catalogue> catalogue,
-                       std::function<void(const std::vector<QImage>&)> drawn);
+                       std::function<void(std::size_t series, const QImage&)> drawn);
   void cancel();
   bool is_busy() const { return busy_; }
 

@@ -127,7 +127,8 @@ std::size_t suited_look(const Values& values) {
     constexpr double air = -950, light = -600, tissue = -300;
     const double as_light_as_lungs = part_below(shares, light) - part_below(shares, air);
     const double in_the_body = 1 - part_below(shares, air);
-    if (as_light_as_lungs > 0.1 * in_the_body && as_light_as_lungs > 0.02) return is_lung;
+    const bool seems_light = as_light_as_lungs > 0.1 * in_the_body && as_light_as_lungs > 0.02;
+    if (values.light_part ? *values.light_part > 0.1 : seems_light) return is_lung;
     return part_below(shares, tissue) > 0 ? is_skin : is_bone;
   }
   if (shares.size() < 100) return is_mr;

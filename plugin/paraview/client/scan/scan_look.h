@@ -23,16 +23,18 @@ struct NamedWindow {
 
 /// What is known of a scan's values.
 struct Values {
-  std::string modality;        ///< DICOM's: "CT", "MR", ...
-  bool hounsfield = false;     ///< whether their unit is HU
-  double low = 0;              ///< least
-  double high = 1;             ///< greatest
-  std::optional<Window> own;   ///< what the series asks for
-  std::vector<double> shares;  ///< below the n-th are n percent of the voxels; ascending; may be empty
+  std::string modality;                   ///< DICOM's: "CT", "MR", ...
+  bool hounsfield = false;                ///< whether their unit is HU
+  double low = 0;                         ///< least
+  double high = 1;                        ///< greatest
+  std::optional<Window> own;              ///< what the series asks for
+  std::vector<double> shares;             ///< below the n-th are n percent of the voxels; ascending; may be empty
+  std::optional<double> light_part = {};  ///< of the body, what is as light as lungs, 0 to 1; unknown for all but HU
 };
 
-/// What is offered for the slices, what is shown first first: the series' own window; then for HU brain, soft tissue,
-/// lung and bone; for all else the middle 98 percent of the values, and all of them. Never empty.
+/// The windows that are offered for the slices. The first is the one shown first: the series' own window. Then follow,
+/// for HU, brain, soft tissue, lung and bone; for all other units the middle 98 percent of the values, and all of them.
+/// Never empty.
 std::vector<NamedWindow> windows_for(const Values& values);
 
 /// As vtkColorTransferFunction (value, red, green, blue) and vtkPiecewiseFunction (value, opacity, 0.5, 0) take them.
@@ -43,12 +45,14 @@ struct VolumeLook {
   bool shaded = true;  ///< as by a lamp at the eye
 };
 
-/// What is offered for the volume. HU: CT skin, bone, lung, vessels. Others: MR, which is what is brighter than the
-/// background (Otsu's threshold, from the values' spread), and MR vessels, a few percent that are brightest.
+/// The looks that are offered for the volume. For HU: CT skin, bone, lung, vessels. For others: MR, which shows what is
+/// brighter than the background (Otsu's threshold, from the distribution of the values), and MR vessels, which shows
+/// the few percent that are brightest.
 std::vector<VolumeLook> volume_looks_for(const Values& values);
 
-/// Which of them suits the scan. HU: skin; bone where there is no air round the patient; lung where a tenth of the body
-/// or more is as light as it is. Others: vessels where what is brighter than the background is a few percent.
+/// Which of them suits the scan. For HU: skin; bone if there is no air around the patient; lung if a tenth of the body
+/// or more is as light as lungs (counted inside the body, without foam under it, if that is known). For others: vessels
+/// if only a few percent are brighter than the background.
 std::size_t suited_look(const Values& values);
 
 /// The value that splits the spread best into two classes (Otsu, "A threshold selection method from gray-level

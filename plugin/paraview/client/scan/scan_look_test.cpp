@@ -103,6 +103,14 @@ TEST(VolumeLook, OfAChestShowsTheLungs) {
   EXPECT_EQ(opacity_at(look, 40), 0) << "the chest's wall hides the lungs";
 }
 
+TEST(VolumeLook, OfAHeadOnFoamIsItsSkin) {
+  Values head = ct(made_of({{40, -1000}, {20, -820}, {35, 40}, {5, 500}}));
+  head.light_part = 0.01;
+  EXPECT_EQ(suited(head).name, std::string("CT skin"));
+  head.light_part = 0.3;
+  EXPECT_EQ(suited(head).name, std::string("CT lung"));
+}
+
 TEST(VolumeLook, WithoutAirIsBoneAlone) {
   const VolumeLook look = suited(ct(made_of({{70, 40}, {30, 700}})));
   EXPECT_EQ(look.name, std::string("CT bone"));

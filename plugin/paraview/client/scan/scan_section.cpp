@@ -2,7 +2,6 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
-#include <pqFileDialog.h>
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
 #include <pqServer.h>
@@ -11,31 +10,27 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 
-#include <QCheckBox>
 #include <QComboBox>
-#include <QDragEnterEvent>
-#include <QFileDialog>
-#include <QHBoxLayout>
-#include <QIcon>
-#include <QImage>
-#include <QLabel>
 #include <QListWidget>
-#include <QMimeData>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QTabBar>
 #include <QTimer>
-#include <QUrl>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 
+#include "modes/scene/starting_scene.h"
+#include "plugin/app/scan_choice.h"
 #include "plugin/messages/messages.h"
+#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/scan/animation_time.h"
+#include "plugin/paraview/client/scan/archive_tab.h"
 #include "plugin/paraview/client/scan/recent_folders.h"
+#include "plugin/paraview/client/scan/scan_identity.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/display_image.h"
-#include "plugin/paraview/common/scan_choice.h"
 #include "plugin/session/scan.h"
 
 namespace palpate::plugin {
@@ -56,112 +51,9 @@ ScanSection::ScanSection(QWidget* parent) : QWidget(parent) {
 
 ScanSection::~ScanSection() = default;
 
-void ScanSection::build() {
-  auto* const column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-
-  open_ = new QPushButton(tr("Open DICOM folder…"), this);
-  open_->setObjectName(QStringLiteral("palpateOpen"));
-  open_->setToolTip(tr("A folder of DICOM files, searched to the bottom. A folder may also be dropped here."));
-  connect(open_, &QPushButton::clicked, this, [this] { ask_folder(); });
-  column->addWidget(open_);
-
-  series_ = new QListWidget(this);
-  series_->setObjectName(QStringLiteral("palpateSeries"));
-  series_->setWordWrap(true);
-  series_->setFixedHeight(130);
-  series_->setIconSize({40, 40});
-  connect(series_, &QListWidget::itemActivated, this,
-          [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
-  connect(series_, &QListWidget::itemClicked, this,
-          [this](QListWidgetItem* item) { load(item->data(Qt::UserRole).toULongLong()); });
-  column->addWidget(series_);
-
-  auto* const work = new QHBoxLayout;
-  progress_ = new QProgressBar(this);
-  progress_->setObjectName(QStringLiteral("palpateProgress"));
-  cancel_ = new QPushButton(tr("Cancel"), this);
-  cancel_->setObjectName(QStringLiteral("palpateCancel"));
-  connect(cancel_, &QPushButton::clicked, this, [this] {
-    loader_.cancel();
-    server_scan_.cancel();
-    set_busy(false);
-    tell(words(say("cancelled")));
-    if (remote_server() && source_) {
-      emit out_of_reach(words(say("scan-is-on-the-server")));
-    }
-  });
-  work->addWidget(progress_, 1);
-  work->addWidget(cancel_);
-  column->addLayout(work);
-  copy_ = new QPushButton(tr("A copy on this machine…"), this);
-  copy_->setObjectName(QStringLiteral("palpateCopy"));
-  copy_->setToolTip(tr("A folder of this machine that holds the same scan: it is then not fetched from the server."));
-  copy_->hide();
-  connect(copy_, &QPushButton::clicked, this, [this] { ask_copy(); });
-  column->addWidget(copy_);
-
-  window_ = new QComboBox(this);
-  window_->setObjectName(QStringLiteral("palpateWindow"));
-  window_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  window_->setMinimumContentsLength(18);
-  window_->setToolTip(tr("Also: drag in a slice, to the right for a wider window, up for a brighter one."));
-  connect(window_, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) { apply_window(choice); });
-  views_.set_window_changed([this] { show_window(); });
-
-  auto* const ras = new QCheckBox(tr("Places under the pointer in RAS"), this);
-  ras->setObjectName(QStringLiteral("palpateRas"));
-  ras->setToolTip(
-      tr("Instead of L/R, P/A, H/F as DICOM and radiology count: right, anterior and superior are positive."));
-  connect(ras, &QCheckBox::toggled, this,
-          [this](bool on) { views_.set_coordinates(on ? Coordinates::ras : Coordinates::letters); });
-  column->addWidget(ras);
-
-  notes_ = new QWidget(this);
-  auto* const notes = new QVBoxLayout(notes_);
-  notes->setContentsMargins(0, 0, 0, 0);
-  notes->addWidget(frames_ = build_frames());
-  message_ = new QLabel(notes_);
-  message_->setObjectName(QStringLiteral("palpateMessage"));
-  message_->setWordWrap(true);
-  message_->setTextFormat(Qt::PlainText);
-  notes->addWidget(message_);
-}
-
-void ScanSection::set_busy(bool busy, const QString& what) {
-  progress_->setVisible(busy);
-  progress_->setFormat(what + QStringLiteral(" %p%"));
-  progress_->setValue(0);
-  cancel_->setVisible(busy);
-  window_->setEnabled(!busy && source_ != nullptr);
-}
-
 void ScanSection::tell(const QString& message, bool problem) {
-  message_->setText(message);
-  message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
-  message_->setVisible(!message.isEmpty());
-}
-
-void ScanSection::ask_folder() {
-  const QString title = tr("Open DICOM folder");
-  if (pqServer* const server = remote_server()) {
-    pqFileDialog dialog(server, this, title + tr(" of the server"));
-    dialog.setFileMode(pqFileDialog::Directory);
-    if (dialog.exec() == QDialog::Accepted && !dialog.getSelectedFiles().isEmpty()) {
-      open(dialog.getSelectedFiles().first().toStdString());
-    }
-    return;
-  }
-  const QString folder = QFileDialog::getExistingDirectory(this, title, last_place());
-  if (!folder.isEmpty()) open(folder.toStdString());
-}
-
-void ScanSection::dragEnterEvent(QDragEnterEvent* event) {
-  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
-}
-
-void ScanSection::dropEvent(QDropEvent* event) {
-  open(event->mimeData()->urls().first().toLocalFile().toStdString());
+  show_message(*message_, message, problem);
+  emit said(message, problem);
 }
 
 void ScanSection::open(const std::string& path) {
@@ -169,15 +61,17 @@ void ScanSection::open(const std::string& path) {
   catalogue_.reset();
   on_server_.reset();
   series_->clear();
+  fit_series();
   loader_.cancel();
   server_scan_.cancel();
   copy_->hide();
+  emit finding();
   tell({});
   if (remote_server()) {
     open_on_server();
     return;
   }
-  remember_folder(text(path));
+  if (!archive_->has_fetched(path)) remember_folder(text(path));  // that one goes with the program
   set_busy(true, tr("Finding series"));
   loader_.find(
       path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
@@ -191,31 +85,22 @@ void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std
     return;
   }
   catalogue_ = std::move(catalogue);
-  for (const std::size_t n : choices(*catalogue_, path_)) {
-    const io::Series& series = scan_at(*catalogue_, n);
-    auto* const item = new QListWidgetItem(text(scan_label(series)), series_);
-    item->setData(Qt::UserRole, static_cast<qulonglong>(n));
-    // Shown to verify the patient, never stored: only where the pointer rests.
-    item->setToolTip(tr("%1\nID %2, study of %3")
-                         .arg(text(series.identity.patient_name), text(series.identity.patient_id),
-                              text(series.identity.study_date)));
-    if (!series.usable) item->setForeground(palette().brush(QPalette::Disabled, QPalette::Text));
-  }
-  thumbnails_.draw_thumbnails(catalogue_, [this](const std::vector<QImage>& images) {
-    for (int row = 0; row < series_->count(); ++row) {
-      const auto n = static_cast<std::size_t>(series_->item(row)->data(Qt::UserRole).toULongLong());
-      if (n < images.size() && !images[n].isNull()) series_->item(row)->setIcon(QIcon(QPixmap::fromImage(images[n])));
-    }
-  });
-  const auto usable = std::ranges::count_if(catalogue_->series, [](const io::Series& s) { return s.usable; });
+  leave_other_patient();
+  list_rows();
+  draw_thumbnails();
   if (catalogue_->series.empty()) {
     tell(words(say("no-image-series-in-this-folder", catalogue_->skipped.size())), true);
-  } else if (usable == 1 && catalogue_->velocity_fields.empty()) {
-    series_->setCurrentRow(0);
-    load(choices(*catalogue_, path_).front());
+  } else if (const auto only = only_scan(*catalogue_)) {
+    load(*only);
   } else {
+    tabs_->setCurrentIndex(0);
+    emit listed(catalogue_);
     tell(words(say("series-choose-one", scan_count(*catalogue_))));
   }
+}
+
+void ScanSection::show_archive() {
+  tabs_->setCurrentIndex(1);
 }
 
 void ScanSection::load(std::size_t series) {
@@ -268,6 +153,7 @@ void ScanSection::show_now(const Loaded& loaded) {
       throw Refusal(say("server-has-no-palpate-plug"));
     }
     vtkSMProxy& proxy = *source_->getProxy();
+    vtkSMPropertyHelper(&proxy, "ShowMessages", true).Set(0);  // they stand in this section
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", &proxy);  // else a trace has a reader of nothing
       vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
@@ -293,6 +179,8 @@ void ScanSection::show_now(const Loaded& loaded) {
 void ScanSection::take(const Loaded& loaded) {
   catalogue_shown_ = loaded.catalogue;
   series_shown_ = loaded.series;
+  const io::Series* const of = loaded.catalogue ? &scan_at(*loaded.catalogue, loaded.series) : nullptr;
+  views_.set_scan_texts(of ? identity_text(*of) : QString(), of ? of->details.thickness_mm : 0);
   if (!loaded.volume) {
     felt_source_.clear();
     return;
@@ -302,12 +190,12 @@ void ScanSection::take(const Loaded& loaded) {
   if (loaded.catalogue) {
     const io::Series& series = scan_at(*loaded.catalogue, loaded.series);
     handle_.series = text(scan_label(series));
+    if (!loaded.volume->vectors) handle_.scene = modes::starting_scene(series);
     handle_.frames = series.frames_per_position;
     handle_.frame_names = series.frame_names;
   } else {
     handle_.series = text(describe_scan(*loaded.volume));
-    handle_.frames =
-        std::max(1, static_cast<int>(vtkSMPropertyHelper(source_->getProxy(), "TimestepValues").GetNumberOfElements()));
+    handle_.frames = server_frames();
   }
   pqActiveObjects::instance().setActiveSource(source_);  // what ParaView's own panels are about
   watch_time();
@@ -322,6 +210,7 @@ void ScanSection::list_windows() {
                          .arg(tr(named.name))
                          .arg(named.window.level, 0, 'g', 4)
                          .arg(named.window.width, 0, 'g', 4));
+    window_->setItemData(window_->count() - 1, tr("Key %1").arg(window_->count()), Qt::ToolTipRole);
   }
   show_window();
 }

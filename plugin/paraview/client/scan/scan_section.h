@@ -4,6 +4,7 @@
 
 #include <pqPipelineSource.h>
 
+#include <QImage>
 #include <QPointer>
 #include <QStringList>
 #include <QWidget>
@@ -26,8 +27,12 @@ class QListWidget;
 class QProgressBar;
 class QPushButton;
 class QSlider;
+class QTabBar;
+class QVBoxLayout;
 
 namespace palpate::plugin {
+
+class ArchiveTab;
 
 class ScanSection : public QWidget {
   Q_OBJECT
@@ -36,35 +41,49 @@ class ScanSection : public QWidget {
   explicit ScanSection(QWidget* parent = nullptr);
   ~ScanSection() override;
 
-  /// Finds the series of a folder or file, as the active server knows it; where one alone is a volume, shows it.
+  /// Finds the series of a folder or file, as the active server names it. Shows it if exactly one of them is a volume.
   void open(const std::string& path);
-  /// The server has gone, and what it read.
+  /// Shows one of the series that were found, by its number in the catalogue.
+  void load(std::size_t series);
+  /// Brings the archives in front of the folder.
+  void show_archive();
+  /// The server has gone, with everything that it read.
   void server_gone();
   /// Takes over a reader that stands in the pipeline and its views as they are: a state file has restored them.
   void adopt(pqPipelineSource& reader);
   /// Asks for a folder and opens it.
   void ask_folder();
+  /// Asks for a file that holds whole scans and opens it.
+  void ask_file();
   /// The box of gray windows, to be placed where it is always in sight.
   QComboBox& window_box() { return *window_; }
-  /// What is to be known of the scan, and its frames: in sight also where the section is folded.
+  /// Notes on the scan, and its frames: visible also when the section is folded.
   QWidget& notes() { return *notes_; }
   ClinicalViews& views() { return views_; }
   pqPipelineSource* source() const { return source_; }
-  /// What is shown and can be felt; without a volume where there is nothing.
+  /// The scan that is shown and can be felt; without a volume if there is none.
   const ScanHandle& handle() const { return handle_; }
-  /// Whom to ask for the filter that is felt, so that a frame comes through it at once.
+  /// `filter` returns the filter that is felt, so that a new frame is filtered from the start.
   void set_filter(std::function<io::Filter()> filter) { filter_ = std::move(filter); }
-  /// The series that is shown, or null where a server alone has it.
+  /// The series that is shown; null if only a server has it.
   const io::Series* series_shown() const;
-  /// Why what the views show is not what the stylus would feel, and what to do; empty where it is.
+  /// Why the views show something other than what the stylus would feel, and what to do; empty if they agree.
   QString why_not_felt() const;
-  /// Scans that are seen in some view beside the one that is felt: their names in the pipeline.
+  /// The names, in the pipeline, of scans that are visible in a view beside the one that is felt.
   QStringList others_shown() const;
 
  signals:
+  /// Series are looked for anew.
+  void finding();
+  /// There are several to choose from.
+  void listed(const std::shared_ptr<const palpate::io::Catalogue>& catalogue);
+  void thumbnail_drawn(std::size_t series, const QImage& picture);
+  /// A note or an error message; empty: nothing.
+  void said(const QString& message, bool problem);
   /// The views of the scan that is shown are about to go.
   void closing();
-  /// A server's scan is in the views, or on its way there, and cannot be felt: yet, or, where it is said why, at all.
+  /// A server's scan is in the views, or about to be. It cannot be felt yet (`why` is empty), or not at all (`why` says
+  /// the reason).
   void out_of_reach(const QString& why);
   /// Another scan is in the views, and can be felt.
   void scan_shown(const palpate::plugin::ScanHandle& handle);
@@ -77,8 +96,15 @@ class ScanSection : public QWidget {
 
  private:
   void build();
+  void build_tabs();
+  void build_series();
+  void build_progress(QVBoxLayout& column);
+  void build_window();
   void list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error);
-  void load(std::size_t series);
+  void list_rows();
+  void draw_thumbnails();
+  void leave_other_patient();
+  void close_scan();
   struct Loaded {
     std::string path;
     std::string name;  ///< of the series: scan_name()
@@ -95,19 +121,27 @@ class ScanSection : public QWidget {
   void follow_time();
   void watch_time();
   void show_frame();
+  void show_frame_of(const std::shared_ptr<const io::Volume>& volume, int frame);
   int frame_of_time() const;
   io::Filter felt_filter() const;
   void open_on_server();
   void fetch();
+  void fetch_frame(int frame);
+  int server_frames() const;
   void ask_copy();
   void adopt_from_server();
   void list_windows();
   void say_what_to_know(const Loaded& loaded);
   void apply_window(int choice);
   void show_window();
+  void fit_series();
+  void resizeEvent(QResizeEvent* event) override;
   void set_busy(bool busy, const QString& what = {});
   void tell(const QString& message, bool problem = false);
 
+  QTabBar* tabs_ = nullptr;
+  ArchiveTab* archive_ = nullptr;
+  QWidget* folder_ = nullptr;
   QPushButton* open_ = nullptr;
   QListWidget* series_ = nullptr;
   QProgressBar* progress_ = nullptr;
@@ -124,6 +158,7 @@ class ScanSection : public QWidget {
   std::shared_ptr<const io::Catalogue> catalogue_;
   std::unique_ptr<ServerSeries> on_server_;  // what the active server found; null: it is this program
   std::vector<std::string> copies_;          // folders of this machine that were named
+  int fetching_ = 0;                         // frame that is on its way from the server
   bool showing_ = false;
   QPointer<pqPipelineSource> source_;
   QPointer<pqPipelineSource> felt_source_;  // what the handle is of

@@ -16,16 +16,15 @@
 #include <QToolButton>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
+#include "plugin/app/scan_choice.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/panel/tool_button.h"
 #include "plugin/paraview/client/scan/animation_time.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/words.h"
-#include "plugin/paraview/common/scan_choice.h"
 
 // Which frame of the scan is meant, and whether what is shown is what is felt.
 
@@ -77,12 +76,12 @@ void ScanSection::show_frame() {
   frame_->setRange(0, handle_.frames - 1);
   frame_->setValue(frame_of_time());
   frame_text_->setText(handle_.frame_in_words());
+  views_.set_frame_text(handle_.frame_in_words());
 }
 
 int ScanSection::frame_of_time() const {
   if (!source_) return handle_.frame;
-  const double time = source_->getServer()->getTimeKeeper()->getTime();
-  return static_cast<int>(std::clamp(std::round(time), 0.0, handle_.frames - 1.0));
+  return frame_at(handle_.frames, source_->getServer()->getTimeKeeper()->getTime());
 }
 
 /// The voxels first, in the background; then ParaView's time, which all views follow.
@@ -122,6 +121,7 @@ void ScanSection::follow_time() {
   if (!source_ || source_ != felt_source_ || handle_.frames <= 1) return;
   const int frame = frame_of_time();
   show_frame();
+  if (!catalogue_shown_ && frame != handle_.frame) fetch_frame(frame);
   if (frame == handle_.frame || !catalogue_shown_) return;
   frame_loader_.load(
       scan_at(*catalogue_shown_, series_shown_), frame, felt_filter(), [](double) {},
@@ -131,17 +131,21 @@ void ScanSection::follow_time() {
           if (!error.empty()) tell(QString::fromStdString(error), true);
           return;
         }
-        handle_.frame = frame;
-        handle_.volume = volume;
-        show_frame();
-        views_.refresh_values();
-        emit frame_shown(handle_);
+        show_frame_of(volume, frame);
       });
+}
+
+void ScanSection::show_frame_of(const std::shared_ptr<const io::Volume>& volume, int frame) {
+  handle_.frame = frame;
+  handle_.volume = volume;
+  show_frame();
+  views_.refresh_values();
+  emit frame_shown(handle_);
 }
 
 QString ScanSection::why_not_felt() const {
   if (!source_) return words(say("scan-left-the-pipeline"));
-  if (source_ != felt_source_) return words(say("scan-is-still-being-read"));
+  if (source_ != felt_source_ || server_scan_.is_busy()) return words(say("scan-is-still-being-read"));
   if (!is_seen(*source_)) {
     return words(say("no-view-shows-the-scan"));
   }

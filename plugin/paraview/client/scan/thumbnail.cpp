@@ -11,8 +11,6 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr int pixels = 40;
-
 Window window_of(const io::Series& series, std::vector<double> values) {
   if (series.window) return {series.window->level, series.window->width};
   std::sort(values.begin(), values.end());
@@ -27,15 +25,19 @@ QImage thumbnail_of(const io::Series& series) {
     const int middle = series.geometry.dimensions.z / 2;
     const io::Volume slice = io::load(series, {.slices = io::LoadOptions::Range{.first = middle, .count = 1}});
     const glm::ivec3 size = slice.geometry.dimensions;
+    const double wide = size.x * slice.geometry.spacing_i, high = size.y * slice.geometry.spacing_j;
+    const double scale = thumbnail_pixels / std::max(wide, high);
+    const int columns = std::max(1, static_cast<int>(std::lround(wide * scale)));
+    const int rows = std::max(1, static_cast<int>(std::lround(high * scale)));
     std::vector<double> values;
-    for (int y = 0; y < pixels; ++y) {
-      for (int x = 0; x < pixels; ++x) values.push_back(slice.value_at(x * size.x / pixels, y * size.y / pixels, 0));
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) values.push_back(slice.value_at(x * size.x / columns, y * size.y / rows, 0));
     }
     const Window window = window_of(series, values);
-    QImage image(pixels, pixels, QImage::Format_Grayscale8);
-    for (int y = 0; y < pixels; ++y) {
-      for (int x = 0; x < pixels; ++x) {
-        const double part = (values[static_cast<std::size_t>(y * pixels + x)] - window.level) / window.width + 0.5;
+    QImage image(columns, rows, QImage::Format_Grayscale8);
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        const double part = (values[static_cast<std::size_t>(y * columns + x)] - window.level) / window.width + 0.5;
         image.scanLine(y)[x] = static_cast<uchar>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
       }
     }

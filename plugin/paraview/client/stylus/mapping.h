@@ -1,6 +1,6 @@
 #pragma once
 
-/// How the scan lies in the hand: settings of a scene's workspace from what is on the screen. Patient space, mm.
+/// How hand and scan are mapped: workspace settings of a scene, from what is on the screen. Patient space, mm.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -23,7 +23,7 @@ glm::dmat3 rotation_of(const Eye& eye);
 
 /// The whole scan in reach.
 modes::WorkspaceSettings fit_scan(const modes::WorkspaceSettings& now);
-/// What the view shows in reach, turned as the view is: its height is the device's.
+/// Puts what the view shows into the device's reach, turned as the view is: the view's height becomes the device's.
 modes::WorkspaceSettings fit_view(const Eye& eye, const glm::dvec3& half_extent_m);
 /// A millimeter of the patient for each of the hand, about what is in the middle now.
 modes::WorkspaceSettings one_to_one(const modes::Workspace& now);

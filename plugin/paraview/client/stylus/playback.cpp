@@ -46,19 +46,19 @@ SessionStatus Playback::look(const std::string& unit) {
   SessionStatus look;
   if (!session_ || !seen_) return look;
   advance();
-  const std::size_t n = session_->frame_at(at_s_);
+  const std::size_t n = session_->tick_at(at_s_);
   const auto shares = session_->shares(n);
   look.fresh = look.replayed = true;
-  look.frame = session_->frame(n);
+  look.tick = session_->tick(n);
   look.shares.assign(shares.begin(), shares.end());
   look.workspace = session_->workspace(n);
   look.probe_mm = session_->probe_mm(n);
   look.proxy_mm = session_->proxy_mm(n);
   look.scene = std::shared_ptr<const modes::Scene>(session_, &session_->scene(n));
-  look.nearest = nearest_structure(look.frame, *look.scene, session_->structures(n));
-  look.tissue = tissue_name(*look.scene, unit, look.frame.value);
+  look.nearest = nearest_structure(look.tick, *look.scene, session_->structures(n));
+  look.tissue = tissue_name(*look.scene, unit, look.tick.value);
   look.force_n = look.peak_n = glm::length(session_->sent_n(n));
-  look.tick_us = tick_us(look.frame);
+  look.tick_us = tick_us(look.tick);
   return look;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A recording that runs again before the eye: at its pace, faster, slower, or wherever it is put. Nothing is felt.
+/// Plays a recording in the views: at its own pace, faster, slower, or from any place. Nothing is felt.
 
 #include <QElapsedTimer>
 
@@ -13,11 +13,11 @@ namespace palpate::plugin {
 
 class Playback {
  public:
-  /// Null: none. At its beginning, at rest, and not to be seen before it is played or put somewhere.
+  /// The recording to play; null: none. It waits at its beginning, and is not visible before it is played or moved.
   void set_session(std::shared_ptr<const RecordedSession> session);
   const std::shared_ptr<const RecordedSession>& session() const { return session_; }
 
-  /// From the beginning again where it has come to its end.
+  /// Plays; from the beginning again if it has come to its end.
   void play();
   void pause() { playing_ = false; }
   bool is_playing() const { return playing_; }

@@ -19,6 +19,7 @@ struct StateLine {
   SessionState state = SessionState::off;
   QString words;               ///< begins with the state's name
   bool fault_latched = false;  ///< which the user's hand has to clear
+  bool lost = false;           ///< the stylus has to be opened again
 };
 
 StateLine state_line_of(const SessionStatus& look);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Stylus, proxy, the spring between them, the primitives that act and the force, in one view: over all else, faint
-/// where the patient hides them. Only their matrices move.
+/// Draws in one view the stylus, the proxy, the spring between them, the primitives that act and the force: above
+/// everything else, and faint where the patient hides them. Only their matrices change.
 
 #include <vtkSmartPointer.h>
 
@@ -35,11 +35,17 @@ class StylusGlyphs {
 
  private:
   struct Part;
+  struct Drawing;
   std::unique_ptr<Part> add(int shape);
+  void show_stylus(const SessionStatus& look, const Drawing& how);
+  void show_spring(const SessionStatus& look, const Drawing& how);
+  void show_force(const SessionStatus& look, const Drawing& how);
+  void show_shares(const SessionStatus& look, const modes::Scene& scene, const Drawing& how);
 
   std::unique_ptr<OverlayLayer> layer_;
   vtkSmartPointer<vtkBillboardTextActor3D> caption_;
-  std::unique_ptr<Part> stylus_, proxy_, spring_, force_, tip_;
+  std::unique_ptr<Part> stylus_, proxy_, spring_, force_, tip_, handle_, fin_;
+  std::unique_ptr<Part> dark_stylus_, dark_proxy_, dark_spring_;  // their rims
   std::vector<std::unique_ptr<Part>> planes_, rods_, balls_;
 };
 

@@ -1,9 +1,7 @@
 #include "plugin/paraview/client/stylus/stylus_hand.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkPVRenderView.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -14,7 +12,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 #include <utility>
-#include <vector>
+
+#include "plugin/paraview/client/views/event_watch.h"
 
 namespace palpate::plugin {
 namespace {
@@ -27,24 +26,13 @@ constexpr float before_all = 20;
 
 struct StylusHand::State {
   State(SessionController& touching_now, vtkPVRenderView& view_now)
-      : touching(touching_now), view(view_now), interactor(view_now.GetInteractor()) {
-    command->SetClientData(this);
-    command->SetCallback([](vtkObject*, unsigned long event, void* self, void*) {
-      State& state = *static_cast<State*>(self);
-      state.command->SetAbortFlag(state.handle(event) ? 1 : 0);
-    });
-    if (!interactor) return;
-    for (const auto event :
-         {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
-          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::KeyPressEvent}) {
-      observers.push_back(interactor->AddObserver(event, command, before_all));
-    }
-  }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() {
-    for (const unsigned long observer : observers) interactor->RemoveObserver(observer);
-  }
+      : touching(touching_now),
+        view(view_now),
+        interactor(view_now.GetInteractor()),
+        events(interactor,
+               {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
+                vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::KeyPressEvent},
+               before_all, [this](unsigned long event) { return handle(event); }) {}
 
   glm::dvec3 display_of(const glm::dvec3& place) const {
     vtkRenderer& renderer = *view.GetRenderer();
@@ -141,20 +129,15 @@ struct StylusHand::State {
   SessionController& touching;
   vtkPVRenderView& view;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor;
-  vtkNew<vtkCallbackCommand> command;
-  std::vector<unsigned long> observers;
   bool dragging = false;
   double grip[2] = {};
   glm::dvec3 plane_through{0}, target{1e9};
+  EventWatch events;
 };
 
 StylusHand::StylusHand(SessionController& touching, vtkPVRenderView& view)
     : state_(std::make_unique<State>(touching, view)) {}
 
 StylusHand::~StylusHand() = default;
-
-bool StylusHand::is_dragging() const {
-  return state_->dragging;
-}
 
 }  // namespace palpate::plugin

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The simulated stylus in one view: drag its handle and the hand goes there, in the view's plane through the proxy;
-/// the wheel goes along the view, arrow keys and Page Up and Down step. What is not on the handle stays the view's.
+/// Moves the simulated stylus in one view. Dragging its handle moves the hand in the view's plane through the proxy.
+/// The wheel moves it along the view; arrow keys and Page Up and Down move it by steps. Events that are not on the
+/// handle are left to the view.
 
 #include <memory>
 
@@ -17,8 +18,6 @@ class StylusHand {
   StylusHand(const StylusHand&) = delete;
   StylusHand& operator=(const StylusHand&) = delete;
   ~StylusHand();
-
-  bool is_dragging() const;
 
  private:
   struct State;

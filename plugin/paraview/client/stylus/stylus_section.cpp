@@ -13,11 +13,24 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
-#include "device/found_devices.h"
+#include "device/device_type.h"
+#include "device/safety/guardian.h"
+
+#include "plugin/paraview/client/message_label.h"
 
 namespace palpate::plugin {
+namespace {
+
+QString in_qt(std::string_view text) {
+  return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
+}
+
+}  // namespace
+
 StylusSection::StylusSection(SessionController& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent)
     : QWidget(parent), touching_(touching), model_(model), eye_(std::move(eye)) {
   setObjectName(QStringLiteral("palpateStylus"));
@@ -27,17 +40,11 @@ StylusSection::StylusSection(SessionController& touching, SceneModel& model, std
   build_connection(*this);
   build_limits();
   build_workspace();
-  message_ = new QLabel(this);
-  message_->setObjectName(QStringLiteral("palpateStylusMessage"));
-  message_->setWordWrap(true);
-  message_->setTextFormat(Qt::PlainText);
+  message_ = make_message_label(*this, "palpateStylusMessage");
   message_->hide();
   column->addWidget(message_);
-  connect(&touching, &SessionController::told, this, [this](const QString& text, bool problem) {
-    message_->setText(text);
-    message_->setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
-    message_->setVisible(!text.isEmpty());
-  });
+  connect(&touching, &SessionController::told, this,
+          [this](const QString& text, bool problem) { show_message(*message_, text, problem); });
   connect(&touching, &SessionController::clutch_button_let_go, this, [this] { clutch(false); });
   connect(&touching, &SessionController::connection_changed, this, [this] {
     message_->hide();  // it was about what was before
@@ -46,7 +53,9 @@ StylusSection::StylusSection(SessionController& touching, SceneModel& model, std
   });
   connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { show_scene(); });
-  find_devices();
+  connect(&watch_, &DeviceWatch::found, this, [this](const auto& found) { show_devices(found); });
+  show_devices({});
+  watch_.look();
   show_connection();
 }
 
@@ -63,7 +72,7 @@ void StylusSection::build_connection(QWidget& parent) {
   look->setObjectName(QStringLiteral("palpateFindDevices"));
   look->setText(QStringLiteral("⟳"));
   look->setToolTip(tr("Look for styluses again"));
-  connect(look, &QToolButton::clicked, this, [this] { find_devices(); });
+  connect(look, &QToolButton::clicked, this, [this] { watch_.look(); });
   row->addWidget(look);
   connect_ = new QPushButton(tr("Connect"), &parent);
   connect_->setObjectName(QStringLiteral("palpateConnect"));
@@ -180,24 +189,37 @@ void StylusSection::go_to_stylus() {
   emit stylus_wanted();
 }
 
-void StylusSection::find_devices() {
+void StylusSection::show_devices(const std::vector<device::FoundDevice>& found) {
+  // Whatever comes and goes, the choice stays: what is held may be what was unplugged.
+  const QVariant chosen = device_->currentData();
+  const QString chosen_text = device_->currentText();
+  const QSignalBlocker quiet(device_);
   device_->clear();
   device_->addItem(tr("Simulated (mouse and keyboard)"), QStringLiteral("simulated"));
-  for (const device::FoundDevice& found : device::find_devices()) {
-    const QString kind = QString::fromStdString(found.kind);
-    const QString address = QString::fromStdString(found.address);
-    device_->addItem(QString::fromStdString(found.name) + (found.accessible ? QString() : tr(" (no permission)")),
+  for (const device::FoundDevice& one : found) {
+    const QString kind = QString::fromStdString(one.kind);
+    const QString address = QString::fromStdString(one.address);
+    device_->addItem(QString::fromStdString(one.name) + (one.accessible ? QString() : tr(" (no permission)")),
                      address.isEmpty() ? kind : kind + QLatin1Char('@') + address);
-    device_->setItemData(device_->count() - 1, QString::fromStdString(found.note), Qt::ToolTipRole);
+    const device::DeviceType* const type = device::find_device_type(one.kind);
+    const QString tested = type == nullptr ? QString() : in_qt(type->tested);
+    device_->setItemData(device_->count() - 1,
+                         (tested + QLatin1Char('\n') + QString::fromStdString(one.note)).trimmed(), Qt::ToolTipRole);
   }
-  show_choice();
+  int at = chosen.isValid() ? device_->findData(chosen) : 0;
+  if (at < 0 && touching_.live().is_connected()) {
+    device_->addItem(chosen_text, chosen);
+    at = device_->count() - 1;
+  }
+  device_->setCurrentIndex(std::max(at, 0));
+  if (device_->currentData() != chosen) show_choice();
 }
 
 void StylusSection::show_choice() {
   const QString kind = device_->currentData().toString().section(QLatin1Char('@'), 0, 0);
-  file_->setVisible(kind == QLatin1String("falcon") || kind == QLatin1String("wooden_haptics"));
-  file_->setPlaceholderText(kind == QLatin1String("falcon") ? tr("Novint's firmware file, if it was switched off")
-                                                            : tr("The arm's geometry: a JSON file"));
+  const device::DeviceType* const type = device::find_device_type(kind.toStdString());
+  file_->setVisible(type != nullptr && type->file != device::DeviceFile::none);
+  file_->setPlaceholderText(type == nullptr ? QString() : in_qt(type->file_hint));
   file_->setText(QSettings().value(QStringLiteral("palpate/file/") + kind).toString());
 }
 
@@ -209,10 +231,15 @@ void StylusSection::connect_or_not() {
   const QString device = device_->currentData().toString();
   const QString kind = device.section(QLatin1Char('@'), 0, 0);
   if (file_->isVisible()) QSettings().setValue(QStringLiteral("palpate/file/") + kind, file_->text());
-  const std::string file = file_->text().toStdString();
+  const device::DeviceType* const type = device::find_device_type(kind.toStdString());
+  const bool takes_file = type != nullptr && type->file != device::DeviceFile::none;
+  const std::string file = takes_file ? file_->text().trimmed().toStdString() : std::string();
+  // A Falcon has two files: its settings can name the firmware.
+  const bool is_firmware = takes_file && type->file == device::DeviceFile::firmware &&
+                           !file_->text().trimmed().endsWith(QLatin1String(".json"), Qt::CaseInsensitive);
   touching_.connect_stylus({.device = device.toStdString(),
-                            .firmware = kind == QLatin1String("falcon") ? file : std::string(),
-                            .settings = kind == QLatin1String("wooden_haptics") ? file : std::string()});
+                            .firmware = is_firmware ? file : std::string(),
+                            .settings = is_firmware ? std::string() : file});
   if (static bool said = false;
       touching_.live().is_connected() && message_->text().isEmpty() && !std::exchange(said, true)) {
     message_->setText(
@@ -233,18 +260,56 @@ void StylusSection::show_connection() {
   file_->setEnabled(!held);
   clutch_->setEnabled(held);
   leafing_ = false;  // whoever takes the stylus wants to see it
-  if (held) {
-    const device::Specification& stylus = live.specification();
-    own_->setText(stylus.force_axes > 0 ? tr("its own: %1 N/m, %2 N (%3 N for long)")
-                                              .arg(stylus.stiffness_limit, 0, 'f', 0)
-                                              .arg(stylus.maximum_force, 0, 'f', 1)
-                                              .arg(stylus.continuous_force, 0, 'f', 1)
-                                        : tr("it gives no force"));
-  } else {
-    own_->setText({});
-  }
+  show_own();
   show_scene();
   emit connection_shown(held, connect_->isEnabled());
+}
+
+const device::DeviceType* StylusSection::chosen_type() const {
+  return device::find_device_type(device_->currentData().toString().section(QLatin1Char('@'), 0, 0).toStdString());
+}
+
+void StylusSection::show_technical(bool shown) {
+  technical_ = shown;
+  show_own();
+}
+
+/// Its limits are for developers; what concerns safety is always said.
+void StylusSection::show_own() {
+  const LiveSession& live = touching_.live();
+  QStringList lines;
+  if (live.is_connected()) {
+    const device::Specification& stylus = live.specification();
+    if (stylus.force_axes == 0) {
+      lines << tr("it gives no force");
+    } else {
+      if (technical_) {
+        lines << tr("its own: %1 N/m, %2 N (%3 N for long)")
+                     .arg(stylus.stiffness_limit, 0, 'f', 0)
+                     .arg(stylus.maximum_force, 0, 'f', 1)
+                     .arg(stylus.continuous_force, 0, 'f', 1);
+      }
+      if (stylus.orientation_axes > 0) lines << tr("torque stays zero");
+    }
+    lines << tested() << unguarded();
+    lines.removeAll(QString());
+  }
+  own_->setText(lines.join(QLatin1Char('\n')));
+}
+
+/// How the driver of a real device was tested stays on the screen while it is connected.
+QString StylusSection::tested() const {
+  const device::DeviceType* const type = chosen_type();
+  return type != nullptr && type->find != nullptr ? in_qt(type->tested) : QString();
+}
+
+/// A session without a guardian says so for as long as it lasts.
+QString StylusSection::unguarded() const {
+  const device::DeviceType* const type = chosen_type();
+  if (type == nullptr || type->send_zeros == nullptr || !device::guardian_program().empty()) return {};
+  return tr("No guardian was found: if the program ends or hangs, only the device takes its force away (%1). Install "
+            "palpate-guardian.")
+      .arg(in_qt(type->watchdog));
 }
 
 void StylusSection::show_scene() {

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/stylus/device_watch.h"
 #include "plugin/paraview/client/stylus/mapping.h"
 
 class QCheckBox;
@@ -16,6 +17,10 @@ class QLabel;
 class QLineEdit;
 class QPushButton;
 class QToolButton;
+
+namespace palpate::device {
+struct DeviceType;
+}
 
 namespace palpate::plugin {
 
@@ -32,6 +37,8 @@ class StylusSection : public QWidget {
   void pause_following();
   /// Takes the stylus that is chosen, or lets it go.
   void connect_or_not();
+  /// The stylus' own limits are for developers.
+  void show_technical(bool shown);
 
  signals:
   /// The slices through the stylus are to be shown.
@@ -43,9 +50,13 @@ class StylusSection : public QWidget {
   void build_connection(QWidget& parent);
   void build_limits();
   void build_workspace();
-  void find_devices();
+  void show_devices(const std::vector<device::FoundDevice>& found);
   void show_choice();
   void show_connection();
+  const device::DeviceType* chosen_type() const;
+  void show_own();
+  QString tested() const;
+  QString unguarded() const;
   void show_scene();
   void show_look(const SessionStatus& look);
   void remap(const QString& what, const modes::WorkspaceSettings& settings);
@@ -55,6 +66,7 @@ class StylusSection : public QWidget {
   SessionController& touching_;
   SceneModel& model_;
   std::function<Eye()> eye_;
+  DeviceWatch watch_;
   QComboBox* device_ = nullptr;
   QLineEdit* file_ = nullptr;
   QPushButton* connect_ = nullptr;
@@ -69,6 +81,7 @@ class StylusSection : public QWidget {
   QToolButton* go_ = nullptr;
   QLabel* message_ = nullptr;
   bool leafing_ = false;
+  bool technical_ = false;
 };
 
 }  // namespace palpate::plugin

@@ -26,6 +26,7 @@ constexpr qint64 shortest_ms = 30;
 constexpr qint64 rest_of = 2;       // times as long as a view took to draw it is left alone
 constexpr qint64 settled_ms = 400;  // after that long at rest the volume is drawn in full
 constexpr double moved_pixels = 0.5;
+constexpr double turned_part = 1e-4;  // 1 - cos of half the angle: 1.6 degrees
 
 vtkPVRenderView* client_view(pqRenderView& view) {
   return vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
@@ -66,7 +67,12 @@ struct StylusViews::OneView {
     return look.is_seen() != drawn.is_seen() || look.clutched != drawn.clutched ||
            moved(look.probe_mm, drawn.probe_mm) || moved(look.proxy_mm, drawn.proxy_mm) ||
            std::lround(off_plane_mm(look)) != drawn_off_mm || std::abs(look.force_n - drawn.force_n) > 0.02 ||
-           look.shares.size() != drawn.shares.size();
+           look.shares.size() != drawn.shares.size() || has_turned(look);
+  }
+
+  bool has_turned(const SessionStatus& look) const {
+    if (look.orientation.has_value() != drawn.orientation.has_value()) return true;
+    return look.orientation && 1 - std::abs(glm::dot(*look.orientation, *drawn.orientation)) > turned_part;
   }
 
   /// Of the slice that is shown: how far the stylus is off it. 0: on it, or no slice.

@@ -29,9 +29,9 @@ class StylusViews {
 
   /// The views of a scan that has just been shown; empty: none.
   void set_views(const std::vector<ClinicalView>& views);
-  /// What the volume's rendering hides.
+  /// The opacity of the volume rendering, which tells what it hides.
   void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
-  /// Draws those views anew in which something has moved, none so often that the program would stand still.
+  /// Draws the views again in which something has moved, but never so often that the program would stand still.
   void show(const SessionStatus& look);
   /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
   /// again.

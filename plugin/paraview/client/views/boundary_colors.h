@@ -11,8 +11,8 @@ class vtkSMProxy;
 
 namespace palpate::plugin {
 
-/// The value at which a boundary begins to be felt: where its gate over value opens half. Not a number where it has no
-/// such gate.
+/// The value at which a boundary begins to be felt: where its gate over the value is half open. NaN if it has no such
+/// gate.
 double felt_value(const modes::Mode& mode);
 
 /// Colors and opacity of the volume's representation for those boundaries of the scene that are switched on; leaves

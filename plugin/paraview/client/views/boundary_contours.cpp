@@ -21,6 +21,7 @@
 #include "plugin/paraview/client/panel/latest_job.h"
 #include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/views/felt_contours.h"
+#include "plugin/paraview/client/views/felt_surfaces.h"
 #include "plugin/paraview/client/views/overlay_layer.h"
 #include "plugin/session/scan.h"
 
@@ -106,10 +107,11 @@ void BoundaryContours::One::draw(const Drawn& drawn) {
   if (view) view->render();
 }
 
-BoundaryContours::BoundaryContours() = default;
+BoundaryContours::BoundaryContours() : surfaces_(std::make_unique<FeltSurfaces>()) {}
 BoundaryContours::~BoundaryContours() = default;
 
 void BoundaryContours::set_views(const std::vector<ClinicalView>& views) {
+  surfaces_->set_views(views);
   views_.clear();
   for (const ClinicalView& view : views) {
     if (view.slice) views_.push_back(std::make_unique<One>(view));
@@ -136,12 +138,24 @@ void BoundaryContours::set_felt(const std::shared_ptr<const io::Volume>& volume,
                           scene.gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)), options);
   }
   felt_ = std::move(felt);
+  surfaces_->set_felt(volume, scene, plan, felt_->source);
   for (const auto& one : views_) draw(*one);
 }
 
 void BoundaryContours::set_visible(bool visible) {
   visible_ = visible;
   for (const auto& one : views_) draw(*one);
+}
+
+void BoundaryContours::set_surfaces(bool visible) {
+  surfaces_->set_visible(visible);
+}
+
+std::optional<io::Sample> BoundaryContours::sample(const glm::dvec3& place) const {
+  if (!felt_ || !felt_->source) return std::nullopt;
+  const io::Sample found =
+      felt_->source->sample(place, felt_->source->available() & (io::FieldSet::value | io::FieldSet::gradient));
+  return found.inside ? std::optional(found) : std::nullopt;
 }
 
 void BoundaryContours::show(SliceView& slice) {

@@ -1,8 +1,10 @@
 #pragma once
 
-/// The boundaries that are felt, as lines in their own colors on the slices that are shown.
+/// The boundaries that are felt, in their own colors: as lines on the slices that are shown, and as surfaces in the
+/// volume view where that is wanted.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "io/fields/volume_fields.h"
@@ -13,6 +15,8 @@
 
 namespace palpate::plugin {
 
+class FeltSurfaces;
+
 class BoundaryContours {
  public:
   BoundaryContours();
@@ -22,11 +26,15 @@ class BoundaryContours {
 
   /// The views of a scan that has just been shown; empty: none.
   void set_views(const std::vector<ClinicalView>& views);
-  /// What is drawn: what that plan of the scene makes of the volume. Made in the background; the lines that are there
-  /// stay meanwhile. Without a volume or a plan nothing is drawn.
+  /// Sets what is drawn: the boundaries that this plan of the scene has in the volume. They are computed in the
+  /// background; the old lines stay meanwhile. Without a volume or a plan nothing is drawn.
   void set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
                 const std::shared_ptr<const modes::Plan>& plan);
   void set_visible(bool visible);
+  /// Surfaces instead of the scan in the volume view.
+  void set_surfaces(bool visible);
+  /// The fields that are felt at a place in the patient, mm: value and gradient. None outside the scan.
+  std::optional<io::Sample> sample(const glm::dvec3& place) const;
   /// Draws the lines of the slice that a view shows now.
   void show(SliceView& slice);
 
@@ -36,6 +44,7 @@ class BoundaryContours {
   void draw(One& one);
 
   std::vector<std::unique_ptr<One>> views_;
+  std::unique_ptr<FeltSurfaces> surfaces_;
   std::shared_ptr<const Felt> felt_;
   bool visible_ = true;
 };

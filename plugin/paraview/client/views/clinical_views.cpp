@@ -29,8 +29,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/paraview/client/views/patient_volume.h"
 #include "plugin/paraview/client/views/scalar_coloring.h"
 
 namespace palpate::plugin {
@@ -120,9 +122,15 @@ ClinicalViews::~ClinicalViews() = default;
 void ClinicalViews::close() {
   slices_.clear();
   marker_.reset();
+  patient_.reset();
+  if (patient_changed_) patient_changed_();
   windows_.clear();
   looks_.clear();
   window_->value_at = {};
+  set_measure(Measure::none);
+  window_->identity.clear();
+  window_->frame.clear();
+  window_->thickness_mm = 0;
   auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
   for (auto& open : views_) {
     open.mark.reset();
@@ -150,7 +158,7 @@ std::unique_ptr<DoubleClickEnlarges> ClinicalViews::enlarging(pqRenderView& view
 std::vector<ClinicalView> ClinicalViews::views() const {
   std::vector<ClinicalView> open;
   for (const OpenView& one : views_) {
-    if (one.view) open.push_back({one.kind, one.view, one.slice});
+    if (one.view) open.push_back({one.kind, one.view, one.slice, one.kind == ViewKind::volume ? patient_ : nullptr});
   }
   return open;
 }
@@ -170,8 +178,33 @@ void ClinicalViews::show_point(const glm::dvec3& place) {
 void ClinicalViews::set_window(const Window& window) {
   window_->window = window;
   if (window_->gray_map) plugin::set_window(*window_->gray_map, window);
+  if (window_->changed) window_->changed();
+}
+
+void ClinicalViews::set_measure(Measure measure) {
+  if (std::exchange(window_->measure, measure) != measure && measure_changed_) measure_changed_(measure);
+}
+
+void ClinicalViews::set_scan_texts(const QString& identity, double thickness_mm) {
+  window_->identity = identity;
+  window_->thickness_mm = thickness_mm;
   refresh();
-  if (window_changed_) window_changed_();
+}
+
+void ClinicalViews::set_frame_text(const QString& frame) {
+  if (frame == window_->frame) return;
+  window_->frame = frame;
+  refresh();
+}
+
+/// As the box of windows has it.
+void ClinicalViews::name_window() {
+  const Window& now = window_->window;
+  const auto same = std::ranges::find_if(
+      windows_, [&](const NamedWindow& of) { return of.window.level == now.level && of.window.width == now.width; });
+  window_->window_name = same == windows_.end()
+                             ? QCoreApplication::translate("ClinicalViews", "custom")
+                             : QCoreApplication::translate("palpate::plugin::ScanSection", same->name);
 }
 
 /// Empty: the tab of the scan before, a fresh session's with its one empty view, or a new one where views of the user's
@@ -191,21 +224,39 @@ vtkSMViewLayoutProxy& ClinicalViews::take_layout(pqServer& server) {
   return *layout;
 }
 
+namespace {
+
+/// A trace shows the scan in a view of ParaView's own. The clinical views are the panel's, and the panel is not there
+/// when a trace is replayed.
+void trace_shown(pqPipelineSource& source) {
+  SM_SCOPED_TRACE(TraceText)
+      .arg(("scanView = GetActiveViewOrCreate('RenderView')\n"
+            "scanDisplay = Show(FindSource('" +
+            source.getSMName().toStdString() +
+            "'), scanView)\n"
+            "scanDisplay.SetRepresentationType('Slice')\n"
+            "scanView.ResetCamera()")
+               .c_str())
+      .arg("comment", "the scan in a view");
+}
+
+/// From the front and a little from the patient's left and above; the head up.
+void look_from_the_front(const pqRenderView& view, const glm::dvec3& center) {
+  const glm::dvec3 eye = center + glm::dvec3(500, -900, 300);
+  const glm::dvec3 head(0, 0, 1);
+  vtkSMProxy& camera = *view.getProxy();
+  vtkSMPropertyHelper(&camera, "CameraPosition").Set(&eye.x, 3);
+  vtkSMPropertyHelper(&camera, "CameraFocalPoint").Set(&center.x, 3);
+  vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
+  camera.UpdateVTKObjects();
+  view.getRenderViewProxy()->ResetCamera(true);
+}
+
+}  // namespace
+
 void ClinicalViews::show(pqPipelineSource& source) {
   close();
-  // A trace shows the scan in a view of ParaView's own: these ones are the panel's, and it is not there when a trace is
-  // replayed.
-  {
-    SM_SCOPED_TRACE(TraceText)
-        .arg(("scanView = GetActiveViewOrCreate('RenderView')\n"
-              "scanDisplay = Show(FindSource('" +
-              source.getSMName().toStdString() +
-              "'), scanView)\n"
-              "scanDisplay.SetRepresentationType('Slice')\n"
-              "scanView.ResetCamera()")
-                 .c_str())
-        .arg("comment", "the scan in a view");
-  }
+  trace_shown(source);
   SM_SCOPED_TRACE(BlockTraceItems);
   pqServer& server = *source.getServer();
   auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
@@ -219,6 +270,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
   prepare(image, lattice);
   window_->window = windows_.front().window;
   plugin::set_window(*window_->gray_map, window_->window);
+  name_window();
   for (const auto& [plane, kind, cell] : places) {
     pqRenderView& view = *make_view(server, kind);
     layout->AssignView(cell, view.getViewProxy());
@@ -237,17 +289,8 @@ void ClinicalViews::show(pqPipelineSource& source) {
   vtkSMProxy& volume = show_as("Volume", image, volume_view, lattice.array.c_str());
   first_look_ = suited_look(lattice.values);
   set_volume_look(volume, looks_.at(*first_look_));
-  // From the front and a little from the patient's left and above; the head up.
-  const glm::dvec3 eye = lattice.center() + glm::dvec3(500, -900, 300);
-  const glm::dvec3 head(0, 0, 1);
-  vtkSMProxy& camera = *volume_view.getProxy();
-  vtkSMPropertyHelper(&camera, "CameraPosition").Set(&eye.x, 3);
-  const glm::dvec3 center = lattice.center();
-  vtkSMPropertyHelper(&camera, "CameraFocalPoint").Set(&center.x, 3);
-  vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
-  camera.UpdateVTKObjects();
-  volume_view.getRenderViewProxy()->ResetCamera(true);
-  add_volume(volume_view);
+  look_from_the_front(volume_view, lattice.center());
+  add_volume(volume_view, source);
   // Not before all are there: the next would have this one's first name again.
   for (const auto& open : views_) open.view->rename(name_of(open.kind));
   refresh();
@@ -272,8 +315,14 @@ void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice
     if (chosen < windows_.size()) set_window(windows_[chosen].window);
   };
   window_->changed = [this] {
+    name_window();
     refresh();
     if (window_changed_) window_changed_();
+  };
+  window_->measure_wanted = [this](Measure measure) { set_measure(measure); };
+  window_->texts_toggled = [this] {
+    window_->texts_shown = !window_->texts_shown;
+    refresh();
   };
 }
 
@@ -282,6 +331,8 @@ void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind
   const Sight sight = sight_of(plane, lattice.directions);
   const glm::dvec3 right = glm::cross(sight.along, sight.up);
   const int slices = lattice.dimensions[sight.index_axis];
+  const int right_axis = (sight.index_axis + 1) % 3, up_axis = (sight.index_axis + 2) % 3;
+  constexpr int scanners_axis = 2;
   const glm::dvec3& to_next = lattice.directions[static_cast<std::size_t>(sight.index_axis)];
   slices_.emplace_back(new SliceView(view, shown,
                                      {.plane = plane,
@@ -289,6 +340,8 @@ void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind
                                       .slices = slices,
                                       .slice = slice,
                                       .numbers = numbers_of(lattice, plane, sight),
+                                      .as_scanned = sight.index_axis == scanners_axis,
+                                      .pixel_mm = std::min(lattice.spacing[right_axis], lattice.spacing[up_axis]),
                                       .first_mm = glm::dot(lattice.origin, sight.along),
                                       .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
                                       .center_mm = lattice.center(),
@@ -299,11 +352,19 @@ void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind
   views_.push_back({kind, &view, slices_.back(), enlarging(view), std::make_unique<ViewMark>(view)});
 }
 
-void ClinicalViews::add_volume(pqRenderView& volume_view) {
+void ClinicalViews::add_volume(pqRenderView& volume_view, pqPipelineSource& source) {
+  const auto changed = [this] {
+    if (patient_changed_) patient_changed_();
+  };
+  patient_ = std::make_shared<PatientVolume>(volume_view, source, window_->unit == QLatin1String("HU"), changed);
+  changed();
   marker_ = std::make_unique<OrientationMarker>(
       *vtkPVRenderView::SafeDownCast(volume_view.getRenderViewProxy()->GetClientSideView()));
   // The view may also be closed by hand, and its renderer with it.
-  QObject::connect(&volume_view, &QObject::destroyed, &lifetime_, [this] { marker_.reset(); });
+  QObject::connect(&volume_view, &QObject::destroyed, &lifetime_, [this] {
+    marker_.reset();
+    patient_.reset();
+  });
   views_.push_back(
       {ViewKind::volume, &volume_view, nullptr, enlarging(volume_view), std::make_unique<ViewMark>(volume_view)});
   pqActiveObjects::instance().setActiveView(&volume_view);
@@ -314,16 +375,18 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
   const ImageLattice lattice = lattice_of(image);
   slices_.clear();
   marker_.reset();
+  patient_.reset();
   views_.clear();
   prepare(image, lattice);
   window_->window = window_of(*window_->gray_map);
+  name_window();
   // By what they show: their names are in the language of the program that saved them.
   for (pqView* const one : source.getViews()) {
     auto* const view = qobject_cast<pqRenderView*>(one);
     pqDataRepresentation* const shown = view ? source.getRepresentation(view) : nullptr;
     if (!shown) continue;
     const std::string type = vtkSMPropertyHelper(shown->getProxy(), "Representation").GetAsString();
-    if (type == "Volume" && !marker_) add_volume(*view);
+    if (type == "Volume" && !marker_) add_volume(*view, source);
     if (type != "Slice") continue;
     const int mode = vtkSMPropertyHelper(shown->getProxy(), "SliceMode").GetAsInt();
     const auto* const place = std::ranges::find_if(

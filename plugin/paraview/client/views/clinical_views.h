@@ -24,11 +24,14 @@ class vtkSMViewLayoutProxy;
 
 namespace palpate::plugin {
 
+class PatientVolume;
+
 enum class ViewKind { axial, sagittal, coronal, volume };
 struct ClinicalView {
   ViewKind kind = ViewKind::volume;
   pqRenderView* view = nullptr;
-  SliceView* slice = nullptr;  ///< null: the volume's. Goes with the view
+  SliceView* slice = nullptr;                 ///< null: the volume's. Goes with the view
+  std::weak_ptr<PatientVolume> patient = {};  ///< the volume's, where the views have made it
 };
 
 class ClinicalViews {
@@ -40,22 +43,35 @@ class ClinicalViews {
 
   /// Shows an image in a layout of its own, the first slices in the middle. The source has to be up to date.
   void show(pqPipelineSource& source);
-  /// Takes over the clinical views of an image as they stand: a state file has restored them.
+  /// Takes over existing clinical views of an image, which a state file has restored.
   void adopt(pqPipelineSource& source);
-  /// Views of the layout shown last are taken away again.
+  /// Removes the views of the layout that was shown last.
   void close();
   void set_window(const Window& window);
   const Window& window() const { return window_->window; }
-  /// What is offered for the scan shown, the one that it is first shown with first; empty where none is.
+  /// The windows offered for the scan that is shown, the first one first; empty if no scan is shown.
   const std::vector<NamedWindow>& windows() const { return windows_; }
-  /// What is offered for the volume, and which of them it was first shown with; empty where a state file has restored
-  /// it.
+  /// The looks offered for the volume, and which of them it was first shown with. Empty if a state file has restored
+  /// the volume.
   const std::vector<VolumeLook>& looks() const { return looks_; }
   std::optional<std::size_t> first_look() const { return first_look_; }
   /// How places under the pointer are written from now on.
   void set_coordinates(Coordinates coordinates) { window_->coordinates = coordinates; }
-  /// Gets the left button in the slices from now on; empty: it sets the window again.
+  /// Handles the left button in the slices from now on; empty: the button sets the window again.
   void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { window_->pick = std::move(pick); }
+
+  /// What the next drag in a slice measures.
+  void set_measure(Measure measure);
+  /// Called when another measure is chosen, or none, also after something was measured.
+  void set_measure_changed(std::function<void(Measure)> changed) { measure_changed_ = std::move(changed); }
+  /// What the corners of the slices tell of the scan; set after show().
+  void set_scan_texts(const QString& identity, double thickness_mm);
+  void set_frame_text(const QString& frame);
+
+  /// What is cut away from the volume; null before a scan is shown.
+  PatientVolume* patient() const { return patient_.get(); }
+  /// Called when what can be cut away changes.
+  void set_patient_changed(std::function<void()> changed) { patient_changed_ = std::move(changed); }
 
   /// Those that are open, the slices first.
   std::vector<ClinicalView> views() const;
@@ -63,6 +79,10 @@ class ClinicalViews {
   void show_point(const glm::dvec3& place);
   /// Called when the user leafs through slices.
   void set_leafed(std::function<void()> leafed) { window_->leafed = std::move(leafed); }
+  /// Called with the place under the pointer in a slice when that has moved; with none when it has left.
+  void set_pointed(std::function<void(const std::optional<glm::dvec3>&)> pointed) {
+    window_->pointed = std::move(pointed);
+  }
   /// Called when the window is another one, whoever has changed it.
   void set_window_changed(std::function<void()> changed) { window_changed_ = std::move(changed); }
   /// Called when a double click has enlarged a view, or brought it back; and when all stand beside each other anew.
@@ -77,18 +97,22 @@ class ClinicalViews {
   void prepare(vtkSMSourceProxy& image, const ImageLattice& lattice);
   void add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view, vtkSMProxy& shown,
                  int slice, bool restored);
-  void add_volume(pqRenderView& volume_view);
+  void add_volume(pqRenderView& volume_view, pqPipelineSource& source);
   void refresh();
+  void name_window();
   std::unique_ptr<DoubleClickEnlarges> enlarging(pqRenderView& view);
 
   std::shared_ptr<SharedWindow> window_ = std::make_shared<SharedWindow>();
   std::function<void()> window_changed_;
   std::function<void(bool)> enlarged_changed_;
+  std::function<void(Measure)> measure_changed_;
+  std::function<void()> patient_changed_;
   std::vector<NamedWindow> windows_;
   std::vector<VolumeLook> looks_;
   std::optional<std::size_t> first_look_;
   std::vector<QPointer<SliceView>> slices_;
   std::unique_ptr<OrientationMarker> marker_;  ///< of the volume's view; before that goes
+  std::shared_ptr<PatientVolume> patient_;     ///< the same
   struct OpenView {
     ViewKind kind;
     QPointer<pqRenderView> view;

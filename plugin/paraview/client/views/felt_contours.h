@@ -25,13 +25,13 @@ struct FeltContour {
   std::vector<std::array<glm::dvec3, 2>> pieces;  ///< ends, patient space, mm
 };
 
-/// The values at which a surface begins to be felt by whoever comes from the side that it resists: where the product of
-/// its gates over value reaches half of its largest factor.
+/// The values at which a surface begins to be felt from the side that it resists: where the product of its gates over
+/// value reaches half of its largest factor.
 std::vector<double> met_values(const modes::Mode& mode, modes::Side side);
 
-/// Of every surface of the plan that has a gate over value. A piece is left out where the surface has no strength,
-/// since the gradient is too small there or the tissues are others; strength that depends on more than the source gives
-/// is taken to be there. On any thread; takes a tenth of a second or so.
+/// The lines of every surface of the plan that has a gate over value. A piece is left out if the surface has no
+/// strength there, because the gradient is too small or the tissues are others. If the strength depends on fields that
+/// the source does not have, it is taken to be there. On any thread; takes about a tenth of a second.
 std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::Plan& plan,
                                        const io::FieldSource& source, const SlicePoints& points);
 

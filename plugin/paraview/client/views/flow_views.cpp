@@ -1,23 +1,15 @@
 #include "plugin/paraview/client/views/flow_views.h"
 
-#include <pqRenderView.h>
-#include <vtkActor.h>
 #include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPVRenderView.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
-#include <vtkSMRenderViewProxy.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "io/fields/volume_fields.h"
-#include "plugin/paraview/client/views/overlay_layer.h"
+#include "plugin/paraview/client/views/overlay_lines.h"
 
 namespace palpate::plugin {
 namespace {
@@ -27,29 +19,10 @@ constexpr double least_part = 0.03;  // of the fastest: slower is not drawn
 
 }  // namespace
 
-struct FlowViews::One {
-  explicit One(const ClinicalView& of)
-      : slice(of.slice),
-        view(of.view),
-        layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())) {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(lines);
-    actor->SetMapper(mapper);
-    actor->PickableOff();
-    actor->VisibilityOff();
-    actor->GetProperty()->SetLighting(false);
-    actor->GetProperty()->SetColor(0.35, 0.8, 1);
-    actor->GetProperty()->SetLineWidth(1.5);
-    layer.renderer().AddActor(actor);
-  }
+struct FlowViews::One : OverlayLines {
+  explicit One(const ClinicalView& of) : OverlayLines(of, {0.35, 0.8, 1}) { actor->GetProperty()->SetLineWidth(1.5); }
 
   void draw(const io::FieldSource& field, double fastest);
-
-  QPointer<SliceView> slice;
-  QPointer<pqRenderView> view;
-  OverlayLayer layer;
-  vtkNew<vtkPolyData> lines;
-  vtkNew<vtkActor> actor;
 };
 
 void FlowViews::One::draw(const io::FieldSource& field, double fastest) {

@@ -47,7 +47,9 @@ ImageLattice lattice_of(vtkSMSourceProxy& source) {
   values.high = scalars->GetComponentRange(0)[1];
   const auto window = vtkSMPropertyHelper(&source, "Window").GetDoubleArray();
   if (window.size() == 2 && window[1] > 0) values.own = Window{window[0], window[1]};
-  values.shares = ValueProbe(source).shares();
+  ValueProbe probe(source);
+  values.shares = probe.shares();
+  if (values.hounsfield) values.light_part = probe.light_part();
   return lattice;
 }
 
@@ -76,6 +78,15 @@ std::vector<double> ValueProbe::shares() {
   proxy_->UpdatePropertyInformation(shares);
   const auto found = vtkSMPropertyHelper(shares).GetDoubleArray();
   return found;
+}
+
+std::optional<double> ValueProbe::light_part() {
+  if (!proxy_) return std::nullopt;
+  vtkSMProperty* const part = proxy_->GetProperty("LightPart");
+  if (!part) return std::nullopt;  // an older server
+  proxy_->UpdatePropertyInformation(part);
+  const double found = vtkSMPropertyHelper(part).GetAsDouble();
+  return std::isfinite(found) ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace palpate::plugin

@@ -1,7 +1,6 @@
 #include "plugin/paraview/client/views/orientation_marker.h"
 
 #include <vtkActor2D.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
@@ -27,7 +26,10 @@ constexpr double arm = 26, letter_at = 36, corner = 46;  // pixels
 
 }  // namespace
 
-OrientationMarker::OrientationMarker(vtkPVRenderView& view) : renderer_(view.GetNonCompositedRenderer()), view_(view) {
+OrientationMarker::OrientationMarker(vtkPVRenderView& view)
+    : renderer_(view.GetNonCompositedRenderer()),
+      view_(view),
+      before_render_(renderer_, vtkCommand::StartEvent, [this] { turn(); }) {
   ends_->SetNumberOfPoints(directions.size());
   vtkNew<vtkCellArray> lines;
   for (vtkIdType axis = 0; axis < 3; ++axis) lines->InsertNextCell({2 * axis, 2 * axis + 1});
@@ -52,14 +54,9 @@ OrientationMarker::OrientationMarker(vtkPVRenderView& view) : renderer_(view.Get
     style.SetVerticalJustificationToCentered();
     renderer_->AddActor(letters_[n]);
   }
-  before_render_->SetClientData(this);
-  before_render_->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void*) { static_cast<OrientationMarker*>(self)->turn(); });
-  observer_ = renderer_->AddObserver(vtkCommand::StartEvent, before_render_);
 }
 
 OrientationMarker::~OrientationMarker() {
-  renderer_->RemoveObserver(observer_);
   renderer_->RemoveActor(arms_);
   for (const auto& letter : letters_) renderer_->RemoveActor(letter);
 }

@@ -1,15 +1,16 @@
 #pragma once
 
 /// Which way the patient lies in a view of the volume: a cross with R, L, A, P, H and F at its ends. ParaView's own
-/// says X, Y and Z, and cannot be told otherwise.
+/// marker says X, Y and Z, and these letters cannot be changed.
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
 #include <array>
 
+#include "plugin/paraview/client/views/event_watch.h"
+
 class vtkActor2D;
-class vtkCallbackCommand;
 class vtkPVRenderView;
 class vtkPoints;
 class vtkRenderer;
@@ -33,8 +34,7 @@ class OrientationMarker {
   std::array<vtkNew<vtkTextActor>, 6> letters_;
   vtkNew<vtkPoints> ends_;
   vtkNew<vtkActor2D> arms_;
-  vtkNew<vtkCallbackCommand> before_render_;
-  unsigned long observer_ = 0;
+  EventWatch before_render_;
 };
 
 }  // namespace palpate::plugin

@@ -2,10 +2,10 @@
 
 /// A layer of a view's own above all else in it, with depths of its own: neither a slice nor a surface covers it.
 
-#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
-class vtkCallbackCommand;
+#include "plugin/paraview/client/views/event_watch.h"
+
 class vtkCamera;
 class vtkPVRenderView;
 class vtkRenderWindow;
@@ -28,8 +28,7 @@ class OverlayLayer {
   vtkSmartPointer<vtkRenderWindow> window_;
   vtkSmartPointer<vtkCamera> camera_;
   vtkSmartPointer<vtkRenderer> renderer_;
-  vtkSmartPointer<vtkCallbackCommand> follow_;
-  unsigned long observer_ = 0;
+  EventWatch before_render_;
 };
 
 }  // namespace palpate::plugin

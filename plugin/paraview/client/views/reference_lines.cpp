@@ -1,45 +1,18 @@
 #include "plugin/paraview/client/views/reference_lines.h"
 
-#include <pqRenderView.h>
-#include <vtkActor.h>
 #include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPVRenderView.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
-#include <vtkSMRenderViewProxy.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "plugin/paraview/client/views/overlay_layer.h"
+#include "plugin/paraview/client/views/overlay_lines.h"
 
 namespace palpate::plugin {
 
-struct ReferenceLines::One {
-  explicit One(const ClinicalView& of)
-      : slice(of.slice),
-        view(of.view),
-        layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())) {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(lines);
-    actor->SetMapper(mapper);
-    actor->PickableOff();
-    actor->VisibilityOff();
-    actor->GetProperty()->SetLighting(false);
-    actor->GetProperty()->SetColor(0.34, 0.71, 0.91);
-    actor->GetProperty()->SetOpacity(0.7);
-    layer.renderer().AddActor(actor);
-  }
-
-  QPointer<SliceView> slice;
-  QPointer<pqRenderView> view;
-  OverlayLayer layer;
-  vtkNew<vtkPolyData> lines;
-  vtkNew<vtkActor> actor;
+struct ReferenceLines::One : OverlayLines {
+  explicit One(const ClinicalView& of) : OverlayLines(of, {0.34, 0.71, 0.91}) { actor->GetProperty()->SetOpacity(0.7); }
 };
 
 ReferenceLines::ReferenceLines() = default;

@@ -16,13 +16,13 @@ struct OpacityNode {
   double opacity = 0;  ///< 0 to 1, for each mm
 };
 
-/// How much of the light from a place does not come to the eye, 0 to 1: patient space, mm. The last millimeters before
-/// the place do not count, for it lies on the surface that it feels.
+/// How much of the light from a place does not reach the eye, 0 to 1: patient space, mm. The last millimeters before
+/// the place do not count, because it lies on the surface that it feels.
 double hidden_part(const io::FieldSource& source, std::span<const OpacityNode> opacity, const glm::dvec3& eye,
                    const glm::dvec3& place);
 
-/// What is seen on the way from one place to another: where half of the light is taken, to half a millimeter; none
-/// where less is. Patient space, mm.
+/// The place that is seen on the way from one place to another: where half of the light is taken, to half a millimeter.
+/// None if less than half is taken. Patient space, mm.
 std::optional<glm::dvec3> first_seen(const io::FieldSource& source, std::span<const OpacityNode> opacity,
                                      const glm::dvec3& from, const glm::dvec3& to);
 

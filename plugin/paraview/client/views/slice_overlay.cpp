@@ -1,6 +1,5 @@
 #include "plugin/paraview/client/views/slice_overlay.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkPVRenderView.h>
@@ -10,6 +9,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "plugin/paraview/client/views/anatomy.h"
 
@@ -20,13 +20,16 @@ struct Place {
   double x, y;  // parts of the view
   int horizontal, vertical;
 };
-constexpr std::array<Place, 6> places{{{0.985, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
+constexpr double beside_bar = 0.972;
+constexpr std::array<Place, 8> places{{{beside_bar, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
                                        {0.015, 0.5, VTK_TEXT_LEFT, VTK_TEXT_CENTERED},
                                        {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
                                        {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
                                        {0.015, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP},
-                                       {0.015, 0.87, VTK_TEXT_LEFT, VTK_TEXT_TOP}}};
-constexpr std::size_t letters = 4, corner = 4, pointer = 5;
+                                       {0.015, 0.83, VTK_TEXT_LEFT, VTK_TEXT_TOP},
+                                       {beside_bar, 0.985, VTK_TEXT_RIGHT, VTK_TEXT_TOP},
+                                       {beside_bar, 0.015, VTK_TEXT_RIGHT, VTK_TEXT_BOTTOM}}};
+constexpr std::size_t letters = 4, corner = 4, pointer = 5, identity = 6, place = 7;
 
 }  // namespace
 
@@ -36,11 +39,15 @@ bool is_clear_of_texts(double x, double y) {
   if (!inside(x, edge) || !inside(y, edge)) return false;
   const bool under_side_letter = !inside(x, letter) && std::abs(y - 0.5) < half_letter;
   const bool under_upper_letter = !inside(y, letter) && std::abs(x - 0.5) < half_letter;
-  const bool under_corner = x < corner_width && y > 1 - corner_height;
+  const bool under_corner = y > 1 - corner_height || (x > 1 - corner_width && y < corner_height);
   return !under_side_letter && !under_upper_letter && !under_corner;
 }
 
-SliceOverlay::SliceOverlay(vtkPVRenderView& view) : renderer_(view.GetNonCompositedRenderer()), view_(view) {
+SliceOverlay::SliceOverlay(vtkPVRenderView& view, std::function<void(int)> before_drawing)
+    : renderer_(view.GetNonCompositedRenderer()),
+      view_(view),
+      before_drawing_(std::move(before_drawing)),
+      before_render_(renderer_, vtkCommand::StartEvent, [this] { update_letters(); }) {
   for (std::size_t n = 0; n < texts_.size(); ++n) {
     vtkTextActor& text = *texts_[n];
     text.GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
@@ -56,19 +63,30 @@ SliceOverlay::SliceOverlay(vtkPVRenderView& view) : renderer_(view.GetNonComposi
     style.SetVerticalJustification(places[n].vertical);
     renderer_->AddActor(texts_[n]);
   }
-  before_render_->SetClientData(this);
-  before_render_->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void*) { static_cast<SliceOverlay*>(self)->update_letters(); });
-  observer_ = renderer_->AddObserver(vtkCommand::StartEvent, before_render_);
 }
 
 SliceOverlay::~SliceOverlay() {
-  renderer_->RemoveObserver(observer_);
   for (const auto& text : texts_) renderer_->RemoveActor(text);
 }
 
 void SliceOverlay::set_corner(const QString& text) {
   texts_[corner]->SetInput(text.toUtf8().constData());
+}
+
+void SliceOverlay::set_identity(const QString& text) {
+  texts_[identity]->SetInput(text.toUtf8().constData());
+}
+
+void SliceOverlay::set_place(const QString& text) {
+  texts_[place]->SetInput(text.toUtf8().constData());
+}
+
+void SliceOverlay::set_texts_visible(bool visible) {
+  for (std::size_t n = letters; n < texts_.size(); ++n) texts_[n]->SetVisibility(visible ? 1 : 0);
+}
+
+void SliceOverlay::set_identity_visible(bool visible) {
+  texts_[identity]->SetVisibility(visible ? 1 : 0);
 }
 
 bool SliceOverlay::set_pointer(const QString& text) {
@@ -87,6 +105,7 @@ void SliceOverlay::update_letters() {
   const glm::dvec3 upright = glm::cross(right, along);  // the camera's own up need not be perpendicular
   const std::array<glm::dvec3, letters> edges{right, -right, upright, -upright};
   for (std::size_t n = 0; n < edges.size(); ++n) texts_[n]->SetInput(letters_of(edges[n]).c_str());
+  if (before_drawing_) before_drawing_(renderer_->GetSize()[1]);
 }
 
 }  // namespace palpate::plugin

@@ -8,27 +8,36 @@
 #include <QString>
 
 #include <array>
+#include <functional>
 
-class vtkCallbackCommand;
+#include "plugin/paraview/client/views/event_watch.h"
+
 class vtkPVRenderView;
 class vtkRenderer;
 class vtkTextActor;
 
 namespace palpate::plugin {
 
-/// Letters at the four edges, which follow the camera; what is shown in the upper left corner, what is
-/// under the pointer below it.
 /// Whether a place of a view (0 to 1, from the left and from below) is away from its edges and from all texts.
 bool is_clear_of_texts(double x, double y);
 
+/// Letters at the four edges, which follow the camera. Upper left: what is shown, and below it what is under the
+/// pointer. Upper right: who and when. Lower right: where the slice lies and how it is magnified.
 class SliceOverlay {
  public:
-  explicit SliceOverlay(vtkPVRenderView& view);
+  /// `before_drawing` is called before each picture, with the picture's height in pixels.
+  SliceOverlay(vtkPVRenderView& view, std::function<void(int height)> before_drawing);
   SliceOverlay(const SliceOverlay&) = delete;
   SliceOverlay& operator=(const SliceOverlay&) = delete;
   ~SliceOverlay();
 
   void set_corner(const QString& text);
+  void set_identity(const QString& text);
+  void set_place(const QString& text);
+  /// All but the letters, which tell left from right.
+  void set_texts_visible(bool visible);
+  /// Who was scanned: not in pictures that are saved.
+  void set_identity_visible(bool visible);
   /// Whether it is another text than before.
   bool set_pointer(const QString& text);
 
@@ -37,10 +46,10 @@ class SliceOverlay {
 
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkPVRenderView& view_;
-  std::array<vtkNew<vtkTextActor>, 6> texts_;  // right, left, top, bottom; corner, pointer
+  std::function<void(int)> before_drawing_;
+  std::array<vtkNew<vtkTextActor>, 8> texts_;  // right, left, top, bottom; corner, pointer, identity, place
   QString pointer_;
-  vtkNew<vtkCallbackCommand> before_render_;
-  unsigned long observer_ = 0;
+  EventWatch before_render_;
 };
 
 }  // namespace palpate::plugin

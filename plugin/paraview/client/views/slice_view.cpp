@@ -1,10 +1,7 @@
 #include "plugin/paraview/client/views/slice_view.h"
 
 #include <pqRenderView.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
-#include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkPVRenderView.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
@@ -19,7 +16,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "plugin/paraview/client/views/slice_measures.h"
+#include "plugin/paraview/client/views/slice_mouse.h"
 #include "plugin/paraview/client/views/slice_overlay.h"
+#include "plugin/paraview/client/views/slice_scroll_bar.h"
 
 namespace palpate::plugin {
 namespace {
@@ -53,121 +53,16 @@ vtkPVRenderView* client_view(const pqRenderView& view) {
 
 }  // namespace
 
-/// Takes what it uses before ParaView's own interaction sees it, and leaves the rest (zoom, pan) alone.
-class SliceView::Mouse {
- public:
-  Mouse(SliceView& owner, vtkRenderWindowInteractor& interactor) : owner_(owner), interactor_(&interactor) {
-    command_->SetClientData(this);
-    command_->SetCallback(
-        [](vtkObject*, unsigned long event, void* self, void*) { static_cast<Mouse*>(self)->handle(event); });
-    constexpr float before_paraview = 10;
-    for (const auto event :
-         {vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, vtkCommand::MouseMoveEvent,
-          vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent, vtkCommand::LeaveEvent,
-          vtkCommand::KeyPressEvent, vtkCommand::CharEvent}) {
-      observers_.push_back(interactor_->AddObserver(event, command_, before_paraview));
-    }
-  }
-  Mouse(const Mouse&) = delete;
-  Mouse& operator=(const Mouse&) = delete;
-  ~Mouse() {
-    for (const unsigned long observer : observers_) interactor_->RemoveObserver(observer);
-  }
-
- private:
-  void handle(unsigned long event) {
-    const int* const at = interactor_->GetEventPosition();
-    command_->SetAbortFlag(0);
-    switch (event) {
-      case vtkCommand::LeftButtonPressEvent:
-        if (interactor_->GetControlKey() || interactor_->GetShiftKey()) return;
-        if (pick(Pick::pressed)) {
-          picking_ = true;
-          break;
-        }
-        dragging_ = true;
-        from_ = {at[0], at[1]};
-        start_ = owner_.window_->window;
-        break;
-      case vtkCommand::LeftButtonReleaseEvent:
-        if (std::exchange(picking_, false)) {
-          pick(Pick::let_go);
-          break;
-        }
-        if (!std::exchange(dragging_, false)) return;
-        break;
-      case vtkCommand::MouseMoveEvent:
-        if (!dragging_) {
-          if (picking_) pick(Pick::moved);
-          owner_.pointer_ = {at[0], at[1]};
-          owner_.refresh_pointer();
-          if (interactor_->GetShiftKey() && !picking_ && owner_.window_->pointed_with_shift) {
-            owner_.window_->pointed_with_shift(owner_.place_under(at[0], at[1]));
-          }
-          return;
-        }
-        drag_to(at[0], at[1]);
-        break;
-      case vtkCommand::LeaveEvent:
-        owner_.pointer_.reset();
-        if (owner_.overlay_->set_pointer({})) owner_.view_.render();
-        return;
-      case vtkCommand::KeyPressEvent:
-      case vtkCommand::CharEvent: {  // which would make the view one for two eyes
-        const char key = interactor_->GetKeyCode();
-        if (key < '1' || key > '9' || !owner_.window_->digit_pressed) return;
-        if (event == vtkCommand::KeyPressEvent) owner_.window_->digit_pressed(key - '0');
-        break;
-      }
-      case vtkCommand::MouseWheelForwardEvent:
-        owner_.leaf(1);
-        break;
-      case vtkCommand::MouseWheelBackwardEvent:
-        owner_.leaf(-1);
-        break;
-      default:
-        return;
-    }
-    command_->SetAbortFlag(1);
-  }
-
-  /// Whether places are being picked.
-  bool pick(Pick what) {
-    if (!owner_.window_->pick) return false;
-    const int* const at = interactor_->GetEventPosition();
-    const auto pick = owner_.window_->pick;  // picking may end in the call
-    pick(what, owner_.place_under(at[0], at[1]));
-    return true;
-  }
-
-  // To the right wider, up brighter; a drag over the view's width doubles the window or halves it.
-  void drag_to(int x, int y) {
-    if (!owner_.window_->gray_map) return;
-    const int* const size = interactor_->GetSize();
-    const double right = static_cast<double>(x - from_[0]) / std::max(size[0], 1);
-    const double up = static_cast<double>(y - from_[1]) / std::max(size[1], 1);
-    Window& window = owner_.window_->window;
-    window.width = std::max(start_.width * std::exp2(2 * right), 1e-3);
-    window.level = start_.level - up * start_.width;
-    set_window(*owner_.window_->gray_map, window);
-    if (owner_.window_->changed) owner_.window_->changed();
-  }
-
-  SliceView& owner_;
-  vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
-  vtkNew<vtkCallbackCommand> command_;
-  std::vector<unsigned long> observers_;
-  bool dragging_ = false, picking_ = false;
-  std::array<int, 2> from_{};
-  Window start_;
-};
-
 SliceView::SliceView(pqRenderView& view, vtkSMProxy& representation, const SliceSetup& setup,
                      std::shared_ptr<SharedWindow> window)
     : QObject(&view), view_(view), representation_(&representation), setup_(setup), window_(std::move(window)) {
   vtkPVRenderView& client = *client_view(view);
-  overlay_ = std::make_unique<SliceOverlay>(client);
-  if (client.GetInteractor()) mouse_ = std::make_unique<Mouse>(*this, *client.GetInteractor());
+  overlay_ = std::make_unique<SliceOverlay>(client, [this](int height) { tell_place(height); });
+  bar_ = std::make_unique<SliceScrollBar>(client);
+  if (client.GetInteractor()) {
+    mouse_ = std::make_unique<SliceMouse>(*this, *client.GetInteractor());
+    measures_ = std::make_unique<SliceMeasures>(*this, view_, window_);
+  }
   if (!setup_.keeps_camera) place_camera();
   show_slice(setup_.slice);
 }
@@ -195,6 +90,8 @@ void SliceView::show_slice(int slice) {
   vtkSMPropertyHelper(representation_, "Slice").Set(setup_.slice);
   representation_->UpdateVTKObjects();
   refresh_text();
+  bar_->set(runs_upwards() ? setup_.slice : setup_.slices - 1 - setup_.slice, setup_.slices);
+  if (measures_) measures_->show_slice();
   if (pointer_) tell_of((*pointer_)[0], (*pointer_)[1]);
   if (window_->slice_shown) window_->slice_shown(*this);
   view_.render();
@@ -202,9 +99,20 @@ void SliceView::show_slice(int slice) {
 
 void SliceView::leaf(int steps) {
   if (window_->leafed) window_->leafed();
-  // Towards head, front and left, whichever way the voxels run.
-  const double up = glm::dot(setup_.sight.along, upwards(setup_.plane)) * setup_.pitch_mm;
-  show_slice(setup_.slice + (up > 0 ? steps : -steps));
+  show_slice(setup_.slice + (runs_upwards() ? steps : -steps));
+}
+
+void SliceView::scroll_to(double part) {
+  const int up = static_cast<int>(std::lround(part * (setup_.slices - 1)));
+  const int slice = runs_upwards() ? up : setup_.slices - 1 - up;
+  if (slice == setup_.slice) return;
+  if (window_->leafed) window_->leafed();
+  show_slice(slice);
+}
+
+/// Towards head, front and left.
+bool SliceView::runs_upwards() const {
+  return glm::dot(setup_.sight.along, upwards(setup_.plane)) * setup_.pitch_mm > 0;
 }
 
 void SliceView::show_point(const glm::dvec3& place) {
@@ -229,7 +137,10 @@ bool SliceView::tell_of(int x, int y) {
   const glm::dvec3 place = place_under(x, y);
   QString text = QString::fromStdString(place_text(place, window_->coordinates));
   if (const auto value = window_->value_at ? window_->value_at(place) : std::nullopt) {
-    text += QStringLiteral("   %1 %2").arg(*value, 0, 'g', 6).arg(window_->unit);
+    const bool whole = window_->unit == QLatin1String("HU");
+    text += QStringLiteral("   %1 %2")
+                .arg(whole ? std::round(*value) + 0.0 : *value, 0, whole ? 'f' : 'g', whole ? 0 : 4)
+                .arg(window_->unit);
   }
   return overlay_->set_pointer(text.trimmed());
 }
@@ -263,11 +174,37 @@ bool SliceView::shows(const glm::dvec3& place) const {
 }
 
 void SliceView::refresh_text() {
-  overlay_->set_corner(QStringLiteral("%1  %2 / %3\nW %4  L %5")
+  overlay_->set_texts_visible(window_->texts_shown);
+  overlay_->set_corner(QStringLiteral("%1  %2 / %3\nW %4  L %5\n%6")
                            .arg(name_of(setup_.plane))
                            .arg(number_of(setup_.numbers, setup_.slice, setup_.slices))
                            .arg(setup_.slices)
-                           .arg(window_number(window_->window.width), window_number(window_->window.level)));
+                           .arg(window_number(window_->window.width), window_number(window_->window.level))
+                           .arg(window_->window_name)
+                           .trimmed());
+  overlay_->set_identity(window_->identity);
+}
+
+void SliceView::set_for_picture(bool for_picture) {
+  overlay_->set_identity_visible(!for_picture && window_->texts_shown);
+  bar_->set_visible(!for_picture);
+}
+
+/// Where the slice lies, how thick it is, and how many pixels of the screen a pixel of it takes.
+void SliceView::tell_place(int height_pixels) {
+  const glm::dvec3 up = upwards(setup_.plane);
+  const double at = glm::dot(place_at({0, 0}), up);
+  const glm::dvec3 axis = at < 0 ? -up : up;
+  QStringList lines{QStringLiteral("%1 %2 mm").arg(letters_of(axis).c_str()).arg(std::abs(at), 0, 'f', 1)};
+  lines << (setup_.as_scanned && window_->thickness_mm > 0
+                ? translated("%1 mm thick").arg(window_->thickness_mm, 0, 'g', 3)
+                : translated("every %1 mm").arg(std::abs(setup_.pitch_mm), 0, 'g', 3));
+  const double scale_mm = client_view(view_)->GetActiveCamera()->GetParallelScale();
+  if (scale_mm > 0) {
+    lines << translated("zoom %1 %").arg(100 * setup_.pixel_mm * height_pixels / (2 * scale_mm), 0, 'f', 0);
+  }
+  if (!window_->frame.isEmpty()) lines << window_->frame;
+  overlay_->set_place(lines.join(QLatin1Char('\n')));
 }
 
 }  // namespace palpate::plugin

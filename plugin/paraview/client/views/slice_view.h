@@ -1,7 +1,7 @@
 #pragma once
 
-/// One slice on the screen: letters at its edges, what it shows in a corner, and what is under the
-/// pointer in another, and a radiologist's mouse: left drag for the window, the wheel for the slice.
+/// One slice on the screen: letters at its edges, and in its corners what it shows, of whom and where, and what is
+/// under the pointer.
 
 #include <QObject>
 #include <QPointer>
@@ -25,8 +25,14 @@ class vtkSMProxy;
 
 namespace palpate::plugin {
 
+class SliceMeasures;
+class SliceMouse;
 class SliceOverlay;
+class SliceScrollBar;
 class SliceView;
+
+/// What the next drag in a slice draws.
+enum class Measure { none, ruler, angle };
 
 /// What the left button does while places are being picked.
 enum class Pick { pressed, moved, let_go };
@@ -44,8 +50,21 @@ struct SharedWindow {
   std::function<void(const glm::dvec3& place)> pointed_with_shift;
   /// Called for the keys 1 to 9.
   std::function<void(int)> digit_pressed;
+  /// Called with the place under the pointer when that has moved; with none when it has left.
+  std::function<void(const std::optional<glm::dvec3>&)> pointed;
   /// Gets the left button instead of the window while it is set.
   std::function<void(Pick, const glm::dvec3& place)> pick;
+  Measure measure = Measure::none;
+  /// Called when something else, or nothing, is to be measured.
+  std::function<void(Measure)> measure_wanted;
+  /// Called for the key I.
+  std::function<void()> texts_toggled;
+  bool texts_shown = true;
+  /// Who was scanned, which series and when, in lines; on the screen alone.
+  QString identity;
+  QString frame;            ///< "frame 3 of 17"; empty where there is one
+  QString window_name;      ///< of the window
+  double thickness_mm = 0;  ///< of the slices as they were scanned; 0: unknown
   /// Called when the user goes to another slice.
   std::function<void()> leafed;
   std::function<void(SliceView&)> slice_shown;
@@ -57,6 +76,8 @@ struct SliceSetup {
   int slices = 1;
   int slice = 0;
   SliceNumbers numbers;
+  bool as_scanned = false;  ///< the scanner's own slices, not ones across them
+  double pixel_mm = 1;      ///< the smaller side of a voxel in the slice
   double first_mm = 0;      ///< of the first slice along `sight.along`, in patient space
   double pitch_mm = 1;      ///< from slice to slice along `sight.along`; negative where they run towards the eye
   glm::dvec3 center_mm{0};  ///< of the volume
@@ -76,6 +97,8 @@ class SliceView : public QObject {
   /// The slice nearest to a place in the patient, mm; drawn anew only where it is another one.
   void show_point(const glm::dvec3& place);
   void refresh_text();
+  /// Who was scanned and the scroll bar do not go into pictures that are saved.
+  void set_for_picture(bool for_picture);
   /// Tells anew what is under the pointer, if it is in the view.
   void refresh_pointer();
   /// How far a place lies from the slice that is shown, mm along wheel_direction().
@@ -90,13 +113,20 @@ class SliceView : public QObject {
   glm::dvec2 half_size_mm() const { return {setup_.half_width_mm, setup_.half_height_mm}; }
   /// A place on the slice that is shown, mm from the middle of the scan to the right and up.
   glm::dvec3 place_at(const glm::dvec2& off_middle_mm) const;
+  /// The place on the slice that is shown under a pixel, from the left and from below.
+  glm::dvec3 place_under(int x, int y) const;
+  /// Which slice is shown, from 0.
+  int slice() const { return setup_.slice; }
 
  private:
-  class Mouse;
+  friend class SliceMouse;
   void place_camera();
-  glm::dvec3 place_under(int x, int y) const;
   /// A step of the wheel: towards the patient's head, front or left for +1.
   void leaf(int steps);
+  /// As far up as that, 0 to 1.
+  void scroll_to(double part);
+  bool runs_upwards() const;
+  void tell_place(int height_pixels);
   bool tell_of(int x, int y);
 
   pqRenderView& view_;
@@ -105,7 +135,9 @@ class SliceView : public QObject {
   std::shared_ptr<SharedWindow> window_;
   std::unique_ptr<SliceOverlay> overlay_;
   std::optional<std::array<int, 2>> pointer_;  // while it is in the view
-  std::unique_ptr<Mouse> mouse_;
+  std::unique_ptr<SliceScrollBar> bar_;
+  std::unique_ptr<SliceMouse> mouse_;
+  std::unique_ptr<SliceMeasures> measures_;
 };
 
 }  // namespace palpate::plugin

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "plugin/paraview/client/views/overlay_layer.h"
-#include "plugin/paraview/client/views/structure_shapes.h"
+#include "plugin/paraview/common/structure_shapes.h"
 
 namespace palpate::plugin {
 namespace {

@@ -1,6 +1,5 @@
 #include "plugin/paraview/client/views/volume_pick.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkPVRenderView.h>
 #include <vtkRenderWindowInteractor.h>
@@ -9,25 +8,19 @@
 #include <utility>
 
 namespace palpate::plugin {
+namespace {
+
+constexpr float before_paraview = 10;
+
+}  // namespace
 
 VolumePick::VolumePick(vtkPVRenderView& view, Ray ray)
-    : view_(view), ray_(std::move(ray)), interactor_(view.GetInteractor()) {
-  command_->SetClientData(this);
-  command_->SetCallback([](vtkObject*, unsigned long event, void* self, void*) {
-    auto& pick = *static_cast<VolumePick*>(self);
-    pick.command_->SetAbortFlag(pick.handle(event) ? 1 : 0);
-  });
-  if (!interactor_) return;
-  constexpr float before_paraview = 10;
-  for (const auto event :
-       {vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent}) {
-    observers_.push_back(interactor_->AddObserver(event, command_, before_paraview));
-  }
-}
-
-VolumePick::~VolumePick() {
-  for (const unsigned long observer : observers_) interactor_->RemoveObserver(observer);
-}
+    : view_(view),
+      ray_(std::move(ray)),
+      interactor_(view.GetInteractor()),
+      events_(interactor_,
+              {vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent},
+              before_paraview, [this](unsigned long event) { return handle(event); }) {}
 
 bool VolumePick::handle(unsigned long event) {
   const glm::dvec3 near = place_at(0), far = place_at(1);

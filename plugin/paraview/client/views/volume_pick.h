@@ -2,16 +2,14 @@
 
 /// The left button in a 3D view, as a ray through the patient.
 
-#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
 #include <functional>
 #include <glm/vec3.hpp>
-#include <vector>
 
+#include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/client/views/slice_view.h"
 
-class vtkCallbackCommand;
 class vtkPVRenderView;
 class vtkRenderWindowInteractor;
 
@@ -19,14 +17,13 @@ namespace palpate::plugin {
 
 class VolumePick {
  public:
-  /// Gets the ends of what the view shows under the pointer, near and far, mm. Whether it takes the button: the view
-  /// is then not turned.
+  /// Gets the two ends, near and far (mm), of what the view shows under the pointer. Returns whether it takes the
+  /// button; the view is then not turned.
   using Ray = std::function<bool(Pick, const glm::dvec3& near, const glm::dvec3& far)>;
 
   VolumePick(vtkPVRenderView& view, Ray ray);
   VolumePick(const VolumePick&) = delete;
   VolumePick& operator=(const VolumePick&) = delete;
-  ~VolumePick();
 
  private:
   bool handle(unsigned long event);
@@ -35,9 +32,8 @@ class VolumePick {
   vtkPVRenderView& view_;
   Ray ray_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
-  vtkNew<vtkCallbackCommand> command_;
-  std::vector<unsigned long> observers_;
   bool picking_ = false;
+  EventWatch events_;
 };
 
 }  // namespace palpate::plugin

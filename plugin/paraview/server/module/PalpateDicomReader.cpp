@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -27,9 +26,11 @@
 
 #include "io/errors.h"
 #include "io/filter.h"
+#include "io/whole_scan.h"
 #include "modes/scene/scene_json.h"
+#include "plugin/app/scan_choice.h"
+#include "plugin/paraview/common/body_mask.h"
 #include "plugin/paraview/common/display_image.h"
-#include "plugin/paraview/common/scan_choice.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/paraview/common/slice_order.h"
 #include "plugin/paraview/server/module/value_shares.h"
@@ -45,6 +46,7 @@ struct PalpateDicomReader::Scan {
   std::shared_ptr<const io::Volume> volume;       // of that frame, or of the slices that this rank shows
   std::optional<std::array<int, 6>> part_extent;  // of the volume on the grid
   vtkSmartPointer<vtkDoubleArray> shares;
+  std::optional<double> light_part;
   std::shared_ptr<const io::Volume> probed;  // the slice that was probed last, where the volume does not have it
   int probed_slice = -1;
 
@@ -178,6 +180,20 @@ vtkDoubleArray* PalpateDicomReader::GetValueShares() {
   return scan_->shares;
 }
 
+double PalpateDicomReader::GetLightPart() {
+  if (scan_ && scan_->light_part) return *scan_->light_part;
+  const auto volume = scan_ ? plugin::held_scan(scan_->series(), 0) : nullptr;
+  if (!volume || volume->unit != "HU") return std::numeric_limits<double>::quiet_NaN();
+  const auto value_at = [&](int i, int j, int k) { return volume->value_at(i, j, k); };
+  const io::Geometry& geometry = volume->geometry;
+  constexpr double coarse_mm = 3;
+  const plugin::BodyMask body = plugin::body_mask(value_at, geometry.dimensions,
+                                                  {geometry.spacing_i, geometry.spacing_j, geometry.slice_spacing()},
+                                                  plugin::Rim::none, coarse_mm);
+  scan_->light_part = plugin::light_part(body, value_at);
+  return *scan_->light_part;
+}
+
 double PalpateDicomReader::ValueAt(double x, double y, double z) {
   if (!scan_) return std::numeric_limits<double>::quiet_NaN();
   const glm::dvec3 place(x, y, z);
@@ -210,7 +226,7 @@ int PalpateDicomReader::GetSharedArrays() {
 }
 
 int PalpateDicomReader::CanReadFile(const char* name) {
-  if (std::filesystem::is_directory(name)) return 1;
+  if (std::filesystem::is_directory(name) || io::holds_whole_scans(name)) return 1;
   std::ifstream file(name, std::ios::binary);
   std::array<char, 132> head{};  // a preamble of 128 bytes, then "DICM"
   return file.read(head.data(), head.size()) && std::string_view(head.data() + 128, 4) == "DICM" ? 1 : 0;
@@ -219,7 +235,7 @@ int PalpateDicomReader::CanReadFile(const char* name) {
 void PalpateDicomReader::tell(const std::string& message) {
   messages_->InsertNextValue(message);
   // Where the panel loaded the scan, it has told so itself, and a window of messages would cover the slices.
-  if (scan_ && scan_->loaded_elsewhere) return;
+  if (!show_messages_ || (scan_ && scan_->loaded_elsewhere)) return;
   // Not vtkWarningMacro: it wraps a sentence for a radiologist in source lines and addresses.
   vtkOutputWindow::GetInstance()->DisplayWarningText(("Palpate: " + message + "\n").c_str());
 }
@@ -307,8 +323,8 @@ int PalpateDicomReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
     const io::Series& series = scan_->series();
     int frame = 0;
     if (info.Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())) {
-      const double time = info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-      frame = static_cast<int>(std::clamp(std::round(time), 0.0, series.frames_per_position - 1.0));
+      frame =
+          plugin::frame_at(series.frames_per_position, info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
     }
     std::array<int, 6> extent{};
     info.Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());

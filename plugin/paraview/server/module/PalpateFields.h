@@ -1,10 +1,10 @@
 #pragma once
 
-/// What the stylus reads of a scan, at every voxel: the gradient and its magnitude, as the core computes them, and the
-/// felt strength: how hard a scene's boundaries resist there before they yield.
+/// The fields that the stylus samples, at every voxel: the gradient and its magnitude, and the felt strength. The felt
+/// strength is the force with which the boundaries of a scene resist there before they yield.
 ///
-/// Of a scan from Palpate's reader the fields are those of the whole scan, whatever part of it the image is and however
-/// many ranks share it; of any other image, those of the image.
+/// For a scan from Palpate's reader the fields are those of the whole scan, even if the image is only a part of it or
+/// several ranks share it. For any other image they are those of the image.
 
 #include <vtkImageAlgorithm.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The force felt along a straight stroke through a scan, as a table for ParaView's chart: a row a millisecond of the
-/// stroke, as `palpate profile` computes it. On a parallel server the first rank has the table.
+/// The force along a straight stroke through a scan, as a table for ParaView's chart. It has a row for each millisecond
+/// of the stroke, with the numbers of `palpate profile`. On a parallel server the first rank has the table.
 
 #include <vtkTableAlgorithm.h>
 

@@ -6,12 +6,14 @@
 #include <vtkObjectFactory.h>
 
 #include <cstdint>
+#include <exception>
 #include <string>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "plugin/paraview/common/slices_message.h"
+#include "plugin/paraview/common/structure_files_message.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
 
 using namespace palpate::plugin;
@@ -53,7 +55,17 @@ void PalpateScanSlices::CopyFromObject(vtkObject* object) {
   auto* const reader = PalpateDicomReader::SafeDownCast(object);
   const palpate::io::Series* const series = reader ? reader->FoundSeries() : nullptr;
   *answered_ = {};
-  if (series) {
+  if (series && asked_->what >= SlicesAsked::What::structures) {
+    try {
+      if (asked_->what == SlicesAsked::What::structures) {
+        answered_->structures = text_of(find_served_files(reader->GetFileName()));
+      } else {
+        answered_->bytes = read_served_file(reader->GetFileName(), asked_->frame, asked_->first, asked_->count);
+      }
+    } catch (const std::exception& error) {
+      answered_->error = error.what();
+    }
+  } else if (series) {
     *answered_ = answer(*series, *asked_);
   } else {
     answered_->error = palpate::plugin::say("server-has-not-opened-the-scan");
@@ -61,12 +73,12 @@ void PalpateScanSlices::CopyFromObject(vtkObject* object) {
 }
 
 void PalpateScanSlices::CopyParametersToStream(vtkMultiProcessStream& stream) {
-  stream << static_cast<int>(asked_->what) << asked_->first << asked_->count;
+  stream << static_cast<int>(asked_->what) << asked_->frame << asked_->first << asked_->count;
 }
 
 void PalpateScanSlices::CopyParametersFromStream(vtkMultiProcessStream& stream) {
   int what = 0;
-  stream >> what >> asked_->first >> asked_->count;
+  stream >> what >> asked_->frame >> asked_->first >> asked_->count;
   asked_->what = static_cast<SlicesAsked::What>(what);
 }
 
@@ -76,6 +88,8 @@ void PalpateScanSlices::CopyToStream(vtkClientServerStream* stream) {
   put(*stream, answered_->hashes);
   *stream << static_cast<int>(answered_->voxels.index());
   std::visit([&](const auto& voxels) { put(*stream, voxels); }, answered_->voxels);
+  *stream << answered_->structures.c_str();
+  put(*stream, answered_->bytes);
   *stream << vtkClientServerStream::End;
 }
 
@@ -83,7 +97,7 @@ void PalpateScanSlices::CopyFromStream(const vtkClientServerStream* stream) {
   *answered_ = {};
   int type = 0;
   if (!stream->GetArgument(0, 0, &answered_->error) || !stream->GetArgument(0, 1, &answered_->head) ||
-      !stream->GetArgument(0, 3, &type)) {
+      !stream->GetArgument(0, 3, &type) || !stream->GetArgument(0, 5, &answered_->structures)) {
     answered_->error = palpate::plugin::say("server-answers-in-another-version-way");
     return;
   }
@@ -92,4 +106,5 @@ void PalpateScanSlices::CopyFromStream(const vtkClientServerStream* stream) {
   if (type == 0) voxels(std::int16_t{});
   if (type == 1) voxels(std::uint16_t{});
   if (type == 2) voxels(float{});
+  answered_->bytes = get<unsigned char>(*stream, 6);
 }

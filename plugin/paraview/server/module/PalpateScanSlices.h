@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a client asks a server's PalpateDicomReader of its voxels, and the answer: gathered from the first rank alone,
-/// a few slices at a time.
+/// Carries the requests of a client for voxels to the PalpateDicomReader of a server, and the answers back. Only the
+/// first rank answers, a few slices at a time.
 
 #include <vtkPVInformation.h>
 

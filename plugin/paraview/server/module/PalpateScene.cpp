@@ -24,7 +24,7 @@ PalpateScene::PalpateScene() {
 
 void PalpateScene::PrintSelf(ostream& os, vtkIndent indent) {
   Superclass::PrintSelf(os, indent);
-  os << indent << "Scene: " << scene_ << "\n";
+  os << indent << "Scene: " << scene_ << "\n" << indent << "Marks: " << marks_ << "\n";
 }
 
 void PalpateScene::SetScene(const char* scene) {

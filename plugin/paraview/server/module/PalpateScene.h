@@ -16,6 +16,8 @@ class PALPATESERVER_EXPORT PalpateScene : public vtkTableAlgorithm {
 
   /// JSON, the name of a starting scene, or a file; empty: no modes.
   void SetScene(const char* scene);
+  /// The marks of all scans, as kept_text() in plugin/report/kept_marks.h writes them. They do not change the output.
+  void SetMarks(const char* marks) { marks_ = marks ? marks : ""; }
 
   PalpateScene(const PalpateScene&) = delete;
   PalpateScene& operator=(const PalpateScene&) = delete;
@@ -25,5 +27,5 @@ class PALPATESERVER_EXPORT PalpateScene : public vtkTableAlgorithm {
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
  private:
-  std::string scene_;
+  std::string scene_, marks_;
 };

@@ -20,3 +20,7 @@ vtkDoubleArray* PalpateValueProbe::GetShares() {
   vtkDoubleArray* const shares = reader_ ? reader_->GetValueShares() : nullptr;
   return shares ? shares : none_.Get();
 }
+
+double PalpateValueProbe::GetLightPart() {
+  return reader_ ? reader_->GetLightPart() : std::numeric_limits<double>::quiet_NaN();
+}

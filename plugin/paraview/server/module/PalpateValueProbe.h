@@ -1,7 +1,7 @@
 #pragma once
 
-/// A client's questions for values of a scan, which is on the server. Not part of the pipeline: asking changes
-/// nothing, and is in no state file.
+/// Lets a client ask for single values of a scan on the server. It is not part of the pipeline and in no state file,
+/// and asking changes nothing.
 
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -25,6 +25,8 @@ class PALPATESERVER_EXPORT PalpateValueProbe : public vtkObject {
   double GetValue();
   /// As PalpateDicomReader::GetValueShares(), empty where that is null.
   vtkDoubleArray* GetShares();
+  /// As PalpateDicomReader::GetLightPart().
+  double GetLightPart();
 
   PalpateValueProbe(const PalpateValueProbe&) = delete;
   PalpateValueProbe& operator=(const PalpateValueProbe&) = delete;

@@ -29,9 +29,9 @@ struct FieldChoice {
   std::string mode;        ///< name of the mode that is felt; empty: all surfaces
 };
 
-/// The chosen fields of the volume at the image's points; zero outside the volume, in gaps and in padding. Exactly the
-/// voxels' own where the points are voxels, sampled otherwise. On all cores. Throws std::invalid_argument for a mode
-/// that the scene does not have, io::Cancelled.
+/// The chosen fields of the volume at the points of the image; zero outside the volume, in gaps and in padding. At a
+/// point that is a voxel they are those of the voxel. Elsewhere they are sampled. Uses all cores. Throws
+/// std::invalid_argument for a mode that the scene does not have, and io::Cancelled.
 std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
                                                       const std::shared_ptr<const io::Volume>& volume,
                                                       const FieldChoice& choice, const io::Progress& progress);

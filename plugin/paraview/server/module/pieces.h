@@ -1,6 +1,7 @@
 #pragma once
 
-/// What a rank of a parallel server has of an image: its own part, and its neighbors' voxels around that (ghosts).
+/// The piece of an image that a rank of a parallel server has: its own part, and voxels of its neighbors around that
+/// part (ghosts).
 
 #include <array>
 
@@ -9,11 +10,11 @@ class vtkInformation;
 
 namespace palpate::plugin {
 
-/// How many ranks share what is asked for, and the ghost levels asked for.
+/// How many ranks share the requested image, and the requested ghost levels.
 int pieces_of(vtkInformation& output);
 int ghosts_of(vtkInformation& output);
 
-/// Asks for `more` ghost levels than are asked of the output.
+/// Requests `more` ghost levels from the input than are requested from the output.
 void ask_for_ghosts(vtkInformation& input, vtkInformation& output, int more);
 
 /// The part of the image's extent that is the rank's own, grown by `ghosts` within the image.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// From an image in the pipeline back to a scan that can be felt.
+/// Finds the scan that an image in the pipeline shows.
 
 #include <array>
 #include <memory>
@@ -13,9 +13,9 @@ class vtkImageData;
 
 namespace palpate::plugin {
 
-/// The volume that the image's active point scalars show, where a Palpate reader made them, also where the image is a
-/// part or an even copy of it; else a volume of its own from any image with one scalar component. Throws
-/// std::invalid_argument for an image that has none.
+/// The volume that the active point scalars of the image show, if a Palpate reader made them. The image may be a part
+/// or an even copy of the volume. For any other image with one scalar component: a new volume with its values. Throws
+/// std::invalid_argument for an image without one.
 std::shared_ptr<const io::Volume> scan_of(vtkImageData& image);
 
 /// Whether the image's points are voxels of the volume, and which is the first of them.
@@ -28,10 +28,10 @@ VoxelBlock block_of(vtkImageData& image, const io::Volume& volume);
 /// A scene given as JSON, as the name of a starting scene or as a file; without modes where it is empty. Throws
 /// std::invalid_argument as modes::scene_from_json() and modes::load_scene() do.
 modes::Scene scene_of(const std::string& text);
-/// The same; the one that suits the modality where it is empty.
+/// The same. Empty: the starting scene that suits the modality.
 modes::Scene scene_of(const std::string& text, const io::Volume& volume);
 
-/// The gradient's scale (mm) that a scene asks for; 0 where it leaves it to the scan, or is no scene.
+/// The scale of the gradient (mm) that a scene asks for; 0 if it asks for none, or if the text is not a scene.
 double gradient_scale_of(const std::string& text);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Single values of a scan, and how they are spread.
+/// Single values of a scan, and the distribution of its values.
 
 #include <glm/vec3.hpp>
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace palpate::plugin {
 
-/// 101 values, ascending: below the n-th are n percent of the voxels, padding left out. From a few slices spread evenly
-/// over the first frame, taken from the store where it holds the scan and read where not: the same values on every
-/// server, in a tenth of a second. Throws as io::load().
+/// 101 values, ascending: n percent of the voxels, without padding, lie below the n-th. Estimated in a tenth of a
+/// second from a few slices that are spread evenly over the first frame, so the values are the same on every server.
+/// Slices come from the store if it holds the scan, and are read otherwise. Throws as io::load().
 std::vector<double> value_shares(const io::Series& series);
 
 /// The voxel nearest to a place (patient space, mm), and its value; none outside and in a gap, no value in padding.

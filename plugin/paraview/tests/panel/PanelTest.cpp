@@ -55,6 +55,6 @@ void PanelTest::on_startup() {
     std::fflush(stdout);
     QTimer::singleShot(0, QCoreApplication::instance(), [result] { QCoreApplication::exit(result); });
   });
-  constexpr int poll_ms = 1000;
+  constexpr int poll_ms = 100;
   waiting->start(poll_ms);
 }

@@ -16,7 +16,9 @@
 #include <vtkSMRenderViewProxy.h>
 
 #include <QCheckBox>
+#include <QColor>
 #include <QFile>
+#include <QImage>
 #include <QLineEdit>
 #include <QStringList>
 
@@ -159,10 +161,49 @@ void boundaries_are_drawn_where_they_are_felt() {
       "lines can be put away", [] { return drawn_in("Sagittal").empty(); }, 10);
 }
 
+/// Pixels of a view's picture that have about that color.
+int pixels_in(const char* name, const std::array<int, 3>& color) {
+  const QImage seen = view(name).grab().toImage();
+  int count = 0;
+  for (int y = 0; y < seen.height(); ++y) {
+    for (int x = 0; x < seen.width(); ++x) {
+      const QColor at = seen.pixelColor(x, y);
+      const int apart =
+          std::abs(at.red() - color[0]) + std::abs(at.green() - color[1]) + std::abs(at.blue() - color[2]);
+      count += apart < 60 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+/// Wherever a slice and its camera are, its lines are in the picture.
+void boundaries_are_seen_on_every_slice() {
+  scan_is_shown();
+  const auto expect_seen = [](const std::string& when) {
+    for (const char* const name : {"Axial", "Sagittal", "Coronal"}) {
+      wait_for(
+          "lines are seen in " + std::string(name) + when,
+          [&] {
+            const auto lines = drawn_in(name);
+            return lines.size() > 100 && pixels_in(name, lines.front().color) > 100;
+          },
+          20);
+    }
+  };
+  expect_seen("");
+  connect_stylus();
+  expect_seen(" where the stylus is");
+  for (const int steps : {2, -4, 3}) {
+    for (const char* const name : {"Axial", "Sagittal", "Coronal"}) turn_wheel(name, steps);
+    expect_seen(" after " + std::to_string(steps) + " slices");
+  }
+}
+
 }  // namespace
 
 const Scenarios& contour_scenarios() {
   static const Scenarios scenarios{
-      {"boundaries_are_drawn_where_they_are_felt", boundaries_are_drawn_where_they_are_felt}};
+      {"boundaries_are_drawn_where_they_are_felt", boundaries_are_drawn_where_they_are_felt},
+      {"boundaries_are_seen_on_every_slice", boundaries_are_seen_on_every_slice}};
   return scenarios;
 }

@@ -108,7 +108,7 @@ void the_layout_is_clinical() {
   expect(find<QPushButton>("palpateToolbarRelease").height() >= 30, "Release is big");
   expect(!find<QPushButton>("palpateToolbarRelease").isEnabled(), "there is nothing to release");
   for (const char* const name :
-       {"palpateOn0", "palpateStrength0", "palpateOn4", "palpateStrength4", "palpateConnect", "palpateFooter",
+       {"palpateOn0", "palpateStrength0", "palpateOn2", "palpateStrength2", "palpateConnect", "palpateFooter",
         "palpateRelease", "palpateToolbarOpenButton", "palpateWindow", "palpateFourUpButton", "palpateOneUpButton",
         "palpateToolbarConnectButton", "palpateToolbarRelease", "palpateAdvancedButton"}) {
     expect_all_in_sight(name);

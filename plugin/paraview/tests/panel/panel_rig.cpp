@@ -5,11 +5,14 @@
 #include <pqCoreUtilities.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <vtkBillboardTextActor3D.h>
 #include <vtkCommand.h>
 #include <vtkPVRenderView.h>
 #include <vtkPropCollection.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
 #include <vtkSMRenderViewProxy.h>
 #include <vtkTextActor.h>
 
@@ -159,14 +162,15 @@ pqRenderView& render_view(const char* name) {
   throw std::runtime_error(std::string("there is no view ") + name);
 }
 
-/// Of the texts over a slice: four letters, the corner, the pointer.
+/// Of the texts over a slice: four letters, the corner, the pointer, who was scanned, the place.
 QString overlay_text(const char* name, int which) {
   auto* const client = vtkPVRenderView::SafeDownCast(render_view(name).getRenderViewProxy()->GetClientSideView());
   vtkPropCollection& props = *client->GetNonCompositedRenderer()->GetViewProps();
   int at = 0;
   for (int n = 0; n < props.GetNumberOfItems(); ++n) {
     auto* const text = vtkTextActor::SafeDownCast(props.GetItemAsObject(n));
-    if (text && at++ == which) return text->GetInput() ? QString::fromUtf8(text->GetInput()) : QString();
+    if (text && at++ == which)
+      return text->GetInput() && text->GetVisibility() ? QString::fromUtf8(text->GetInput()) : QString();
   }
   throw std::runtime_error(std::string("there are no texts over ") + name);
 }
@@ -179,6 +183,27 @@ QString corner_text(const char* view) {
 
 QString pointer_text(const char* view) {
   return overlay_text(view, 5);
+}
+
+QString identity_text(const char* view) {
+  return overlay_text(view, 6);
+}
+
+QString place_text(const char* view) {
+  return overlay_text(view, 7);
+}
+
+QStringList measured_in(const char* view) {
+  QStringList texts;
+  vtkRendererCollection& layers = *render_view(view).getRenderViewProxy()->GetRenderWindow()->GetRenderers();
+  for (int layer = 0; layer < layers.GetNumberOfItems(); ++layer) {
+    vtkPropCollection& props = *vtkRenderer::SafeDownCast(layers.GetItemAsObject(layer))->GetViewProps();
+    for (int n = 0; n < props.GetNumberOfItems(); ++n) {
+      auto* const text = vtkBillboardTextActor3D::SafeDownCast(props.GetItemAsObject(n));
+      if (text && text->GetVisibility() && text->GetInput()) texts << QString::fromUtf8(text->GetInput());
+    }
+  }
+  return texts;
 }
 
 void turn_wheel(const char* name, int steps) {
@@ -254,12 +279,25 @@ void double_click(QWidget& view, const QPoint& at) {
            QStringLiteral("60"), QStringLiteral("1")});
 }
 
-void press_key_in(QWidget& view, const char* key) {
+namespace {
+
+/// By the display: the pointer is in the view, and has clicked beside everything.
+void key_in(QWidget& view, const char* how, const char* key) {
   static QWidget* last = nullptr;
   if (std::exchange(last, &view) != &view) {
     constexpr QPoint corner(12, 12);
     move_pointer(view, corner);
     xdotool({QStringLiteral("click"), QStringLiteral("1")});
   }
-  xdotool({QStringLiteral("key"), QString::fromLatin1(key)});
+  xdotool({QString::fromLatin1(how), QString::fromLatin1(key)});
+}
+
+}  // namespace
+
+void press_key_in(QWidget& view, const char* key) {
+  key_in(view, "key", key);
+}
+
+void hold_key_in(QWidget& view, const char* key, bool down) {
+  key_in(view, down ? "keydown" : "keyup", key);
 }

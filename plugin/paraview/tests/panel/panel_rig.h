@@ -5,6 +5,7 @@
 
 #include <QPoint>
 #include <QString>
+#include <QStringList>
 #include <QWidget>
 
 #include <functional>
@@ -46,6 +47,8 @@ void name_file(const char* button, const QString& file);
 void save_as(const char* button, const QString& file);
 /// In a view, by X11's name of the key: the pointer is there, and has clicked beside everything.
 void press_key_in(QWidget& view, const char* key);
+/// Keeps a key down there, or lets it go.
+void hold_key_in(QWidget& view, const char* key, bool down);
 
 /// The widget of a clinical view: "Axial", "Sagittal", "Coronal", "Volume".
 QWidget& view(const char* name);
@@ -54,6 +57,11 @@ QPoint proxy_in(QWidget& view);
 /// What stands in the corner of a slice view, and what is told of the place under its pointer.
 QString corner_text(const char* view);
 QString pointer_text(const char* view);
+/// Who was scanned, as it stands in its upper right corner; where the slice lies, in its lower right. Empty: hidden.
+QString identity_text(const char* view);
+QString place_text(const char* view);
+/// What was measured in it, as it is seen: "23.4 mm".
+QStringList measured_in(const char* view);
 /// The pointer in the middle of a view, and its wheel turned: up for more than 0.
 void turn_wheel(const char* view, int steps);
 /// The pointer moved with Shift held down to a place in parts of the view, from the left and from below.

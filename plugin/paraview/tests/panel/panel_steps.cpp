@@ -13,6 +13,7 @@
 #include <QCoreApplication>
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QListWidget>
 #include <QMimeData>
 #include <QPushButton>
 #include <QUrl>
@@ -21,13 +22,55 @@
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
 
-std::string scene_text() {
+namespace {
+
+std::string text_beside_the_scene(const char* property) {
   for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
     if (source->getProxy()->GetXMLName() == std::string("PalpateScene")) {
-      return vtkSMPropertyHelper(source->getProxy(), "Scene").GetAsString();
+      return vtkSMPropertyHelper(source->getProxy(), property).GetAsString();
     }
   }
   return {};
+}
+
+/// The first scan of the pipeline; nullptr where there is none.
+pqPipelineSource* found_reader() {
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+    if (source->getProxy()->GetXMLName() == std::string("PalpateDicomReader")) return source;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+pqPipelineSource& reader() {
+  if (pqPipelineSource* const found = found_reader()) return *found;
+  throw std::runtime_error("there is no scan in the pipeline");
+}
+
+unsigned reader_in_pipeline() {
+  pqPipelineSource* const found = found_reader();
+  return found ? found->getProxy()->GetGlobalID() : 0;
+}
+
+void choose_series(int row) {
+  const unsigned before = reader_in_pipeline();
+  auto& series = find<QListWidget>("palpateSeries");
+  wait_for("the series are listed", [&] { return series.count() > row; });
+  scroll_to(series);
+  series.scrollToItem(series.item(row));
+  click(*series.viewport(), series.visualItemRect(series.item(row)).center());
+  wait_for("another scan is in the pipeline",
+           [&] { return reader_in_pipeline() != 0 && reader_in_pipeline() != before; });
+  scan_is_shown();
+}
+
+std::string scene_text() {
+  return text_beside_the_scene("Scene");
+}
+
+std::string marks_text() {
+  return text_beside_the_scene("Marks");
 }
 
 void scan_is_shown() {
@@ -71,27 +114,14 @@ vtkRenderWindowInteractor& interactor(const char* name) {
 
 void press() {
   QWidget& sagittal = view("Sagittal");
-  constexpr int tries = 3;
-  for (int n = 0; n < tries; ++n) {
-    QPoint from = proxy_in(sagittal);
-    if (n > 0) {  // a busy machine's servo had taken the force away, and the hand went through: to the front again
-      drag(sagittal, from, QPoint(20, from.y()), true);
-      wait_ms(2000);
-      turn_forces_on();
-      from = proxy_in(sagittal);
-    }
-    drag(sagittal, from, from + QPoint(4, 0), false);  // the front is on the left
-    for (int pixels = 8; pixels < 120 && number("palpateForce") < 0.3; pixels += 4) {
-      move_pointer(sagittal, from + QPoint(pixels, 0));
-    }
-    for (int waits = 0; waits < 50 && number("palpateForce") <= 0.2; ++waits) wait_ms(100);
-    if (number("palpateForce") > 0.2) {
-      wait_ms(500);
-      return;
-    }
-    let_go();
+  const QPoint from = proxy_in(sagittal);
+  drag(sagittal, from, from + QPoint(4, 0), false);  // the front is on the left
+  for (int pixels = 8; pixels < 120 && number("palpateForce") < 0.3; pixels += 4) {
+    move_pointer(sagittal, from + QPoint(pixels, 0));
   }
-  throw std::runtime_error("a force is felt: not in " + std::to_string(tries) + " presses");
+  wait_for(
+      "a force is felt", [] { return number("palpateForce") > 0.2; }, 5);
+  wait_ms(500);
 }
 
 void press_once() {
@@ -101,25 +131,15 @@ void press_once() {
     hand.InvokeEvent(event);
     wait_ms(40);
   };
-  constexpr int tries = 5;
-  for (int n = 0; n < tries; ++n) {
-    turn_forces_on();
-    QPoint at = proxy_in(view("Sagittal"));
-    send(vtkCommand::LeftButtonPressEvent, at);
-    if (n > 0) {  // it went through when the force was taken away
-      at.setX(20);
-      send(vtkCommand::MouseMoveEvent, at);
-      wait_ms(2000);
-    }
-    for (int pixels = 0; pixels < 160 && number("palpateForce") < 0.3; pixels += 2) {
-      send(vtkCommand::MouseMoveEvent, at + QPoint(pixels, 0));
-    }
-    const bool felt = number("palpateForce") > 0.2;
-    wait_ms(300);
-    send(vtkCommand::LeftButtonReleaseEvent, at);
-    if (felt) return;
+  turn_forces_on();
+  const QPoint at = proxy_in(view("Sagittal"));
+  send(vtkCommand::LeftButtonPressEvent, at);
+  for (int pixels = 0; pixels < 160 && number("palpateForce") < 0.3; pixels += 2) {
+    send(vtkCommand::MouseMoveEvent, at + QPoint(pixels, 0));
   }
-  throw std::runtime_error("nothing is felt, however often one presses");
+  expect(number("palpateForce") > 0.2, "a force is felt");
+  wait_ms(300);
+  send(vtkCommand::LeftButtonReleaseEvent, at);
 }
 
 void feel() {

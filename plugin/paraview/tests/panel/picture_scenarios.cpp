@@ -50,7 +50,7 @@ void fold(const char* section, bool open) {
 void save_section(const char* name, const char* section) {
   for (const char* const other :
        {"palpateScanSection", "palpateTissuesSection", "palpateStylusSection", "palpateCurvesSection",
-        "palpateModesSection", "palpateProfileSection", "palpateRecordingsSection"}) {
+        "palpateMarksSection", "palpateModesSection", "palpateProfileSection", "palpateRecordingsSection"}) {
     if (widget(other)) fold(other, other == std::string(section));
   }
   save_widget(name, section);
@@ -95,21 +95,24 @@ void guide_pictures() {
   wait_for("a boundary is met", [] { return label("palpateProfileReadout").contains("up to"); });
   save_section("profile", "palpateProfileSection");
   save_section("stylus", "palpateStylusSection");
-  QThread::sleep(3);  // as if the program hung: the servo takes the force away
-  wait_for("the fault is told", [] { return find<QPushButton>("palpateFeel").text() == "Clear fault"; });
-  save_widget("fault", "palpateFooter");
-  turn_forces_on();
-  press_key(Qt::Key_Escape);
-  wait_for("it is released", [] { return label("palpateState").startsWith("Ready"); });
   click("palpateConnect");
   auto& slider = find<QSlider>("palpateScrub");
   slider.setValue(slider.maximum() * 9 / 10);
   save_section("recordings", "palpateRecordingsSection");
 }
 
+void guide_fault() {
+  scan_is_shown();
+  connect_stylus();
+  QThread::sleep(3);  // as if the program hung: the servo takes the force away
+  wait_for("the fault is told", [] { return find<QPushButton>("palpateFeel").text() == "Clear fault"; });
+  arrange(QGuiApplication::primaryScreen()->size(), 460);
+  save_widget("fault", "palpateFooter");
+}
+
 }  // namespace
 
 const Scenarios& picture_scenarios() {
-  static const Scenarios scenarios{{"guide_pictures", guide_pictures}};
+  static const Scenarios scenarios{{"guide_pictures", guide_pictures}, {"guide_fault", guide_fault}};
   return scenarios;
 }

@@ -7,6 +7,7 @@
 #include <QRegularExpression>
 
 #include <cmath>
+#include <utility>
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
@@ -96,9 +97,90 @@ void profile_follows_an_edit() {
   expect(label("palpateProfileReadout").contains("not a point"), "what is no point is refused in words");
 }
 
+/// The largest forces told below the curve: now, and before the drag (0 where it is not told).
+std::pair<double, double> told_below_the_curve() {
+  const QStringList parts = label("palpateCurveProfileWords").split(QStringLiteral(" Before: "));
+  const auto most = [](const QString& text) {
+    const auto match = QRegularExpression(QStringLiteral("up to ([0-9.]+) N")).match(text);
+    return match.hasMatch() ? match.captured(1).toDouble() : 0.0;
+  };
+  return {most(parts.front()), parts.size() > 1 ? most(parts.back()) : 0.0};
+}
+
+void a_curve_shows_its_force() {
+  scan_is_shown();
+  click("palpateCurvesSectionFold");
+  wait_ms(500);
+  QWidget& chart = find<QWidget>("palpateCurveProfileChart");
+  scroll_to(chart);
+  expect(label("palpateCurveProfileWords").contains("Rest with the pointer"), "it is said how a line is chosen");
+
+  // On the edge of the ball, as it is seen.
+  QWidget& axial = view("Axial");
+  const int radius = [&] {
+    const QImage seen = axial.grab().toImage();
+    int x = seen.width() / 2;
+    const int inside = seen.pixelColor(x, seen.height() / 2).value();
+    while (x > 0 && std::abs(seen.pixelColor(x, seen.height() / 2).value() - inside) < 60) --x;
+    return static_cast<int>((seen.width() / 2 - x) / seen.devicePixelRatio());
+  }();
+  move_pointer(axial, axial.rect().center() - QPoint(radius, 0));
+  wait_for(
+      "the force across what is pointed at", [] { return told_below_the_curve().first > 0; }, 10);
+  expect(label("palpateCurveProfileWords").startsWith("Across the place pointed at"), "it is said where");
+  const double before = told_below_the_curve().first;
+
+  QWidget& curve = find<QWidget>("palpateStrengthCurveChart");
+  const QPoint node(curve.width() * 3 / 10, curve.height() / 2);  // a gradient that the ball's surface has
+  drag(curve, node, node, true);                                  // where there is none a click makes one
+  wait_for(
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
+  wait_ms(1000);
+  const double at_rest = told_below_the_curve().first;
+  drag(curve, node, node - QPoint(0, curve.height() / 4), false);
+  wait_for(
+      "while the node is dragged, both forces are told",
+      [&] {
+        const auto [now, was] = told_below_the_curve();
+        return now > 1.1 * at_rest && std::abs(was - at_rest) < 0.011;
+      },
+      10);
+  const QImage drawn = chart.grab().toImage();
+  int gray = 0;
+  for (int x = drawn.width() / 4; x < drawn.width(); ++x) {
+    for (int y = 4; y < drawn.height() / 2; ++y)
+      gray += drawn.pixelColor(x, y).saturation() < 20 && drawn.pixelColor(x, y).value() < 180;
+  }
+  expect(gray > 10, "what was felt before is drawn, too");
+  save_screen("curve-profile");
+  let_go();
+  expect(before > 0, "a force was told before");
+
+  auto& strength = find<QDoubleSpinBox>("palpateStrength0");
+  const double told = told_below_the_curve().first;
+  strength.setValue(strength.value() / 2);
+  wait_for(
+      "a step is followed, too",
+      [&] {
+        const auto [now, was] = told_below_the_curve();
+        return now > 0 && now < 0.7 * told && was == 0;
+      },
+      10);
+
+  click("palpateProfileSectionFold");
+  click("palpateProfilePick");
+  QWidget& sagittal = view("Sagittal");
+  const QPoint middle = sagittal.rect().center();
+  drag(sagittal, QPoint(sagittal.width() / 8, middle.y()), middle, true);
+  wait_for(
+      "the chosen stroke is taken instead",
+      [] { return label("palpateCurveProfileWords").startsWith("Along the chosen stroke"); }, 10);
+}
+
 }  // namespace
 
 const Scenarios& profile_scenarios() {
-  static const Scenarios all{{"profile_follows_an_edit", profile_follows_an_edit}};
+  static const Scenarios all{{"profile_follows_an_edit", profile_follows_an_edit},
+                             {"a_curve_shows_its_force", a_curve_shows_its_force}};
   return all;
 }

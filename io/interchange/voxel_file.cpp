@@ -1,0 +1,127 @@
+#include "io/interchange/voxel_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "io/dicom/decode.h"
+#include "io/errors.h"
+#include "io/messages.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double most_voxels = 2147483648.0, most_of_a_slice = 67108864.0;
+
+// The geometry's axes: the file's own order, unless its first two are sheared against each other and others are not.
+std::optional<std::array<int, 3>> axes_of(const std::array<Vec3, 3>& along) {
+  constexpr double square = 1e-3;
+  const auto at_right_angles = [&](std::size_t a, std::size_t b) {
+    return std::abs(glm::dot(along[a], along[b])) <= square * glm::length(along[a]) * glm::length(along[b]);
+  };
+  for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{0, 2, 1}, std::array{1, 2, 0}}) {
+    if (at_right_angles(static_cast<std::size_t>(i), static_cast<std::size_t>(j))) return std::array{i, j, k};
+  }
+  return std::nullopt;
+}
+
+// All of it spans a volume, and not a plane.
+bool spans_a_volume(const VoxelMap& map) {
+  constexpr double least = 1e-6;  // of a box of the same edges
+  const auto& [i, j, k] = map.along;
+  const double box = glm::length(i) * glm::length(j) * glm::length(k);
+  return std::isfinite(box + glm::length(map.first)) && box > 0 &&
+         std::abs(glm::dot(glm::cross(i, j), k)) > least * box;
+}
+
+}  // namespace
+
+std::size_t bytes_of(VoxelFile::Number number) noexcept {
+  using Number = VoxelFile::Number;
+  switch (number) {
+    case Number::u8:
+    case Number::i8:
+      return 1;
+    case Number::u16:
+    case Number::i16:
+      return 2;
+    case Number::u32:
+    case Number::i32:
+    case Number::f32:
+      return 4;
+    case Number::u64:
+    case Number::i64:
+    case Number::f64:
+      break;
+  }
+  return 8;
+}
+
+bool has_ending(const fs::path& name, const std::string& ending) {
+  std::string text = name.filename().string();
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text.ends_with(ending);
+}
+
+fs::path beside(const fs::path& header, const std::string& name) {
+  const bool plain = !name.empty() && name != "LIST" && name.find('%') == std::string::npos &&
+                     fs::path(name).filename() == name && name != "." && name != "..";
+  fs::path file = header.parent_path() / name;
+  std::error_code ignored;
+  if (!plain || !fs::is_regular_file(file, ignored)) throw DicomError(say("voxels-in-other-files"));
+  return file;
+}
+
+void check_size(const VoxelFile& file) {
+  const auto voxels = static_cast<std::uint64_t>(file.numbers_of_slice()) * static_cast<std::uint64_t>(file.size.z) *
+                      static_cast<std::uint64_t>(file.volumes);
+  const std::uint64_t needed = voxels * bytes_of(file.number);
+  std::error_code ignored;
+  const std::uint64_t present = fs::file_size(file.voxels_at, ignored);
+  if (file.packing != VoxelFile::Packing::none) {
+    internal::check_inflation(needed, present);
+  } else if (present < needed + static_cast<std::uint64_t>(file.first)) {
+    throw DicomError(say("voxels-end-early"));
+  }
+}
+
+void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file) {
+  const auto axes = axes_of(map.along);
+  if (size.x < 1 || size.y < 1 || size.z < 1 || !spans_a_volume(map) || !axes) {
+    throw DicomError(say("voxels-on-no-lattice"));
+  }
+  if (static_cast<double>(size.x) * size.y > most_of_a_slice ||
+      static_cast<double>(size.x) * size.y * size.z > most_voxels) {
+    throw DicomError(say("voxels-on-too-fine-a-lattice", size.x, size.y, size.z));
+  }
+  file.size = size;
+  file.axes = *axes;
+  const auto along = [&](std::size_t axis) { return map.along[static_cast<std::size_t>((*axes)[axis])]; };
+  const Vec3 along_i = along(0), along_j = along(1), along_k = along(2);
+  Geometry& geometry = file.geometry;
+  geometry.dimensions = {size[(*axes)[0]], size[(*axes)[1]], size[(*axes)[2]]};
+  geometry.spacing_i = glm::length(along_i);
+  geometry.spacing_j = glm::length(along_j);
+  geometry.direction_i = along_i / geometry.spacing_i;
+  geometry.direction_j = along_j / geometry.spacing_j;
+  file.reversed = glm::dot(glm::cross(along_i, along_j), along_k) < 0;
+  geometry.step = file.reversed ? -along_k : along_k;
+  const int slices = geometry.dimensions.z;
+  const Vec3 lowest = file.reversed ? map.first + (slices - 1.0) * along_k : map.first;
+  geometry.slice_positions.clear();
+  for (int n = 0; n < slices; ++n) geometry.slice_positions.push_back(lowest + static_cast<double>(n) * geometry.step);
+  geometry.uniform = true;
+}
+
+std::optional<VoxelFile> open_voxel_file(const fs::path& path, const fs::path& named) {
+  auto file = open_nifti(path, named);
+  if (!file) file = open_nrrd(path);
+  if (!file) file = open_meta_image(path, named);
+  return file;
+}
+
+}  // namespace palpate::io

@@ -1,0 +1,88 @@
+#pragma once
+
+/// A lattice of values in a file that is no DICOM: NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage
+/// (.mha, .mhd). It may be a scan or a map of labels.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "io/geometry.h"
+#include "io/series.h"
+
+namespace palpate::io {
+
+/// What a label is called, where the file says it. Those of a file with layers are numbered by label_number().
+struct LabelName {
+  std::string name;
+  std::string color;  ///< "#rrggbb", or empty
+};
+
+struct VoxelFile {
+  enum class Number : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
+  enum class Packing : std::uint8_t {
+    none,
+    whole,     ///< gzipped, its header as well
+    behind_it  ///< its header is not, what follows it is (gzip or zlib)
+  };
+
+  std::filesystem::path path;       ///< where its bytes are
+  std::filesystem::path voxels_at;  ///< where those of its voxels are: the same file, or one beside it
+  Geometry geometry;
+  Number number = Number::u8;
+  bool swapped = false;             ///< its bytes are in the other order than this machine's
+  double slope = 1, offset = 0;     ///< value = slope * stored + offset
+  Packing packing = Packing::none;  ///< of the file at voxels_at
+  std::int64_t first = 0;  ///< where voxels begin: a byte of that file, or of what it holds where it is packed whole
+  int volumes = 1;         ///< one behind the other, as large as each other: frames
+  int layers = 1;          ///< label maps that lie over one another: so many numbers a voxel, side by side
+  glm::ivec3 size{0};      ///< voxels along the file's axes, the fastest one first
+  std::array<int, 3> axes{0, 1, 2};      ///< of the file, which are the geometry's i, j, k
+  bool reversed = false;                 ///< the file's first slice (along axes[2]) is the geometry's last
+  std::optional<Series::Window> window;  ///< how it would be shown
+  bool said_to_be_labels = false;
+  std::map<int, LabelName> names;
+
+  std::size_t slice_size() const { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y); }
+  /// Numbers of a slice: more than its voxels where there are layers.
+  std::size_t numbers_of_slice() const { return slice_size() * static_cast<std::size_t>(layers); }
+};
+
+/// What tells a label from those of other layers: of the first one it is the label's value.
+constexpr int label_number(int layer, int value) noexcept {
+  return layer * 65536 + value;
+}
+
+/// Bytes of a number.
+std::size_t bytes_of(VoxelFile::Number number) noexcept;
+
+/// Null where it is no such file by its name and first bytes. `named` is its name as its user knows it, where that is
+/// not `path`. Throws DicomError, with a reason that does not name the file, for one that cannot be read.
+std::optional<VoxelFile> open_voxel_file(const std::filesystem::path& path, const std::filesystem::path& named);
+std::optional<VoxelFile> open_nifti(const std::filesystem::path& path, const std::filesystem::path& named);
+std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path);
+std::optional<VoxelFile> open_meta_image(const std::filesystem::path& path, const std::filesystem::path& named);
+
+/// An affine map from voxels along the file's axes to LPS, mm.
+struct VoxelMap {
+  std::array<Vec3, 3> along{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};  ///< from one voxel to the next
+  Vec3 first{0};                                                           ///< center of the first voxel
+};
+
+/// Gives the file its geometry: two axes at right angles are i and j, so that slices may be sheared against each other
+/// and nothing else may; slices ascend along i x j. Throws DicomError where no two are, or sizes or numbers are none.
+void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file);
+
+/// Whether a name ends so, in letters of any case.
+bool has_ending(const std::filesystem::path& name, const std::string& ending);
+/// The file of voxels that a header names, which has to lie beside it. Throws DicomError where it does not.
+std::filesystem::path beside(const std::filesystem::path& header, const std::string& name);
+/// Throws DicomError where the file is too short for its voxels, or what it holds would come to too much.
+void check_size(const VoxelFile& file);
+
+}  // namespace palpate::io

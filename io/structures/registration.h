@@ -1,0 +1,46 @@
+#pragma once
+
+/// How frames of reference lie in each other, as somebody has registered them: DICOM REG (Spatial Registration).
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/structures/rigid_motion.h"
+#include "solver/text/message.h"
+
+class DcmDataset;
+
+namespace palpate::io {
+
+struct Registration {
+  std::filesystem::path file;
+  std::string frame_of_reference_uid;  ///< what it is registered to
+  std::string patient_id;              ///< to be compared; never written or shown
+  struct Part {
+    std::string frame_of_reference_uid;  ///< what is registered
+    RigidMotion motion;                  ///< from that frame to the one above
+    Text unfit;                          ///< why it cannot be applied; empty where it can
+  };
+  std::vector<Part> parts;
+};
+
+/// Of a Spatial Registration (PS3.3 C.20.2) or a deformable one (C.20.3), which is listed and not applied. Nothing
+/// where the dataset is neither.
+std::optional<Registration> registration_in(DcmDataset& dataset, const std::filesystem::path& path);
+
+/// From one frame of reference to another: rigid, or why not. Neither where no registration has both.
+struct Joined {
+  std::optional<RigidMotion> motion;
+  std::filesystem::path file;  ///< which registration says it
+  Text why_not;
+};
+
+/// Several registrations may join them if they agree. Those of a patient whose id is another one than `patient_id` do
+/// not count.
+Joined join(std::span<const Registration> registrations, const std::string& from, const std::string& to,
+            const std::string& patient_id);
+
+}  // namespace palpate::io

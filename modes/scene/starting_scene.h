@@ -1,0 +1,25 @@
+#pragma once
+
+/// Which starting scene suits a series.
+
+#include <string>
+#include <vector>
+
+#include "io/series.h"
+
+namespace palpate::modes {
+
+/// The name of a starting scene, for load_scene(): by modality and, in CT, by the part of the body: chest, abdomen,
+/// spine or head, from BodyPartExamined, else from the first word of SeriesDescription that names one. Where nothing
+/// does it is the scene of the modality.
+std::string starting_scene(const io::Series& series);
+
+/// A starting scene as it is offered for a scan.
+struct OfferedScene {
+  std::string name;
+  std::string made_for;  ///< empty: for such scans; else for what instead, in words
+};
+/// All starting scenes: `first`, then the others for scans of this modality, then those that are made for others.
+std::vector<OfferedScene> offered_scenes(const std::string& first, const std::string& modality, bool has_vectors);
+
+}  // namespace palpate::modes

@@ -1,0 +1,67 @@
+#include "modes/scene/starting_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "modes/scene/scene_json.h"
+
+namespace palpate::modes {
+namespace {
+
+std::string offered(const std::string& modality, const std::string& body_part, const std::string& description) {
+  io::Series series;
+  series.modality = modality;
+  series.details.body_part = body_part;
+  series.description = description;
+  const std::string name = starting_scene(series);
+  EXPECT_FALSE(load_scene(name).modes.empty());
+  return name;
+}
+
+TEST(StartingScene, goes_by_the_part_of_the_body) {
+  EXPECT_EQ(offered("CT", "CHEST", ""), "ct-chest");
+  EXPECT_EQ(offered("CT", "ABDOMENPELVIS", ""), "ct-abdomen");
+  EXPECT_EQ(offered("CT", "LSPINE", ""), "ct-spine");
+  EXPECT_EQ(offered("CT", "HEAD", ""), "ct-skin-and-bone");
+  EXPECT_EQ(offered("MR", "BRAIN", ""), "mr-brain");
+}
+
+TEST(StartingScene, goes_by_the_description_where_the_part_says_nothing) {
+  EXPECT_EQ(offered("CT", "PARTIALBODY", "3mm_Thorax/lung kernel"), "ct-chest");
+  EXPECT_EQ(offered("CT", "", "LWS 1.0 B60s"), "ct-spine");
+  EXPECT_EQ(offered("CT", "", "ABDOMEN THORAX"), "ct-abdomen") << "the first of two";
+  EXPECT_EQ(offered("CT", "HEAD", "abdomen"), "ct-skin-and-bone") << "BodyPartExamined goes first";
+}
+
+/// "ct-chest ct-bone | mr-brain": those that suit, and the others.
+std::string list_of(const std::string& first, const std::string& modality, bool has_vectors) {
+  std::string list;
+  bool others = false;
+  for (const OfferedScene& scene : offered_scenes(first, modality, has_vectors)) {
+    if (!scene.made_for.empty() && !others) list += "| ";
+    others = others || !scene.made_for.empty();
+    EXPECT_EQ(scene.made_for.empty(), !others) << "those that suit come first";
+    list += scene.name + ' ';
+  }
+  return list;
+}
+
+TEST(StartingScene, comes_first_of_those_that_are_offered) {
+  EXPECT_EQ(list_of("ct-chest", "CT", false),
+            "ct-chest ct-skin-and-bone ct-bone ct-abdomen ct-spine ct-vessels | mr-brain flow ");
+  EXPECT_EQ(list_of("mr-brain", "MR", true),
+            "mr-brain flow | ct-skin-and-bone ct-bone ct-chest ct-abdomen ct-spine ct-vessels ");
+  EXPECT_EQ(list_of("mr-brain", "OT", false),
+            "mr-brain | ct-skin-and-bone ct-bone ct-chest ct-abdomen ct-spine ct-vessels flow ");
+  EXPECT_EQ(offered_scenes("ct-chest", "CT", false).back().made_for, "a velocity field");
+}
+
+TEST(StartingScene, is_the_modalitys_where_nothing_is_known) {
+  EXPECT_EQ(offered("CT", "", ""), "ct-skin-and-bone");
+  EXPECT_EQ(offered("CT", "WHOLEBODY", "CT Body 3.0"), "ct-skin-and-bone");
+  EXPECT_EQ(offered("CT", "", "overhead"), "ct-skin-and-bone") << "within a word nothing is meant";
+  EXPECT_EQ(offered("MR", "CHEST", "thorax"), "mr-brain");
+  EXPECT_EQ(offered("OT", "", ""), "mr-brain");
+}
+
+}  // namespace
+}  // namespace palpate::modes

@@ -1,0 +1,107 @@
+// What a file's name or its text holds reaches no terminal as a command to it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "io/testing/test_image.h"
+#include "plugin/testing/command_rig.h"
+#include "solver/text/printable.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::fresh_path;
+using testing::Outcome;
+using testing::palpate;
+
+const std::string red = "\x1b[31m";
+const std::string csi = "\xC2\x9B\x33\x31m";
+const std::string bell = "\a";
+const std::string erase = "\x7f";
+
+/// The output, which has to hold no control character but the end of a line.
+std::string checked(const std::string& arguments) {
+  const std::string output = palpate(arguments).output;
+  for (std::size_t n = 0; n < output.size(); ++n) {
+    const auto byte = static_cast<unsigned char>(output[n]);
+    const bool is_c1 = byte == 0xC2 && n + 1 < output.size() && static_cast<unsigned char>(output[n + 1]) < 0xA0;
+    EXPECT_FALSE((byte < 0x20 && byte != '\n') || byte == 0x7F || is_c1) << arguments << ": byte " << n << " of\n"
+                                                                         << printable(output);
+  }
+  return output;
+}
+
+/// A scan whose description and whose folder's name would change a terminal's colors, and a file beside it.
+fs::path hostile_folder() {
+  const fs::path folder = fresh_path("out\x1b[31mput");
+  fs::create_directories(folder);
+  io::internal::write_stack(folder, 5, [](int k, io::internal::TestImage& image) {
+    image.columns = image.rows = 16;
+    image.value = [k](int i, int j) { return (i > 5 && i < 11 && j > 5 && j < 11 ? 1000 : 0) + k; };
+    image.edit = [](DcmDataset& d) {
+      io::internal::put(d, DCM_SeriesDescription, fmt::format("{}red{}", red, bell));
+      io::internal::put(d, DCM_PatientName, red + "name" + erase);
+      io::internal::put(d, DCM_ConvolutionKernel, "B30" + red);
+    };
+  });
+  std::ofstream(folder / (red + csi + bell + erase + ".txt")) << "no image";
+  return folder;
+}
+
+std::string shell_word(const fs::path& path) {
+  return fmt::format("'{}'", path.string());
+}
+
+TEST(Output, ControlCharactersAreShownByEveryCommand) {
+  const std::string folder = shell_word(hostile_folder());
+  const std::string info = checked("info --all --patient " + folder);
+  EXPECT_NE(info.find("\\x1b[31mred\\x07"), std::string::npos) << info;
+  EXPECT_NE(info.find("\\x1b[31m\\x9b31m\\x07\\x7f.txt: not a DICOM file"), std::string::npos) << info;
+  checked("structures " + folder);
+  checked("sample " + folder + " --at 1,1,1");
+  checked("suggest " + folder);
+  checked("plan " + folder + " --scene " + shell_word("no" + red + "scene.json"));
+  checked("profile " + folder + " --from 0,0,4 --to 4,4,4");
+  checked("profile " + folder + " --series " + shell_word(red) + " --from 0,0,4 --to 4,4,4");
+  checked("replay " + shell_word("/absent/" + red + ".h5") + " " + folder);
+  checked(shell_word(red));
+  checked("info " + shell_word("--" + red));
+  checked("info " + shell_word("/absent/" + csi + red));
+  checked("find --archive " + shell_word(red));
+}
+
+// JSON has its own way to write them, and stays JSON.
+TEST(Output, ControlCharactersInJsonAreWrittenAsJsonWritesThem) {
+  const fs::path folder = hostile_folder();
+  const std::string output = checked("info --json " + shell_word(folder));
+  const auto json = nlohmann::json::parse(output);
+  EXPECT_EQ(json.at("series").at(0).at("description"), fmt::format("{}red{}", red, bell));
+  EXPECT_EQ(fs::path(json.at("skipped").at(0).at("path").get<std::string>()).filename().string(),
+            red + csi + bell + erase + ".txt");
+}
+
+// Each command prints by put() and tell(), which do it.
+TEST(Output, NoCommandPrintsPastIt) {
+  const fs::path folder = fs::path(PALPATE_SOURCES) / "plugin/cli";
+  const std::regex past(R"((fmt::print\((?!stderr)|std::printf|std::cout|std::fputs|std::puts\((?!")))");
+  std::size_t looked_at = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".cpp" || name.ends_with("_test.cpp")) continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      EXPECT_FALSE(std::regex_search(line, past)) << name << ": " << line;
+    }
+    ++looked_at;
+  }
+  EXPECT_GT(looked_at, 15U);
+}
+
+}  // namespace
+}  // namespace palpate::plugin

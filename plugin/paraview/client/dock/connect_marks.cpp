@@ -1,0 +1,84 @@
+#include <pqPipelineSource.h>
+#include <pqUndoStack.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <exception>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "plugin/app/archive_settings.h"
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/layout/clinical_toolbar.h"
+#include "plugin/paraview/client/panel/fold.h"
+#include "plugin/paraview/client/panel/marks_section.h"
+#include "plugin/paraview/client/panel/marks_sender.h"
+#include "plugin/paraview/client/panel/send_dialog.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/words.h"
+#include "plugin/session/scan_hash.h"
+
+// What is marked belongs to the scan that is shown.
+
+namespace palpate::plugin {
+
+void PanelParts::connect_marks() {
+  QObject::connect(&touching, &SessionController::marked, &marks, &MarksModel::add);
+  QObject::connect(&marks, &MarksModel::changed, &dock, [this] { drawn_marks.refresh(); });
+  QObject::connect(&marks, &MarksModel::added, &dock, [this] { marks_fold->set_open(true); });
+  QObject::connect(marks_list, &MarksSection::listed, &dock, [this] {
+    const QString words = marks_list->in_words();
+    marks_fold->set_note(words);
+    toolbar->show_marks(words);
+  });
+  QObject::connect(marks_list, &MarksSection::send_wanted, &dock, [this] { send_marks(); });
+  QObject::connect(toolbar, &ClinicalToolbar::marks_wanted, &dock, [this] { marks_fold->set_open(true); });
+  QObject::connect(marks_list, &MarksSection::chosen, &dock,
+                   [this](const std::vector<std::size_t>& chosen) { drawn_marks.set_chosen(chosen); });
+  QObject::connect(marks_list, &MarksSection::place_wanted, &dock, [this](const glm::dvec3& place) {
+    SCOPED_UNDO_EXCLUDE();
+    scan->views().show_point(place);
+  });
+}
+
+/// Shows what would be sent, and sends it where that is wanted.
+void PanelParts::send_marks() {
+  const io::Series* const series = scan->series_shown();
+  if (!series || !scan->handle().volume) {
+    marks_list->tell(words(say("marks-need-the-images")), true);
+    return;
+  }
+  std::vector<io::Archive> archives;
+  try {
+    archives = read_archives();
+  } catch (const std::exception& error) {
+    marks_list->tell(QString::fromUtf8(error.what()), true);
+    return;
+  }
+  if (archives.empty()) {
+    marks_list->tell(words(say("no-archive-here-yet")), true);
+    scan_fold->set_open(true);
+    scan->show_archive();
+    return;
+  }
+  // Copies: another scan may be opened while the dialog is.
+  const io::Series of = *series;
+  const std::shared_ptr<const io::Volume> volume = scan->handle().volume;
+  const Marks shown = marks.marks();
+  SendDialog dialog(of, shown, std::move(archives), &dock);
+  if (dialog.exec() == QDialog::Accepted) marks_list->sender().send(dialog.archive(), of, volume, shown);
+}
+
+void PanelParts::show_marks(const ScanHandle& handle) {
+  const char* const uid = vtkSMPropertyHelper(scan->source()->getProxy(), "SeriesUid").GetAsString();
+  marks.set_scan(hash_of_series(uid ? uid : "", *handle.volume));
+}
+
+void PanelParts::leave_marks() {
+  marks.set_scan({});
+  drawn_marks.set_views({});
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,187 @@
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxyLocator.h>
+#include <vtkSMSourceProxy.h>
+
+#include <QProgressBar>
+
+#include <utility>
+
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/layout/host_layout.h"
+#include "plugin/paraview/client/layout/volume_look_box.h"
+#include "plugin/paraview/client/panel/curves_section.h"
+#include "plugin/paraview/client/panel/fold.h"
+#include "plugin/paraview/client/panel/profile_section.h"
+#include "plugin/paraview/client/panel/recordings_section.h"
+#include "plugin/paraview/client/panel/structures_section.h"
+#include "plugin/paraview/client/panel/tissues_section.h"
+#include "plugin/paraview/client/remote/server_series.h"
+#include "plugin/paraview/client/scan/filter_row.h"
+#include "plugin/paraview/client/scan/first_folder.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/stylus/mapping.h"
+#include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/paraview/client/words.h"
+#include "plugin/session/scan.h"
+
+// A scan comes, its frame changes, it goes.
+
+namespace palpate::plugin {
+
+void PanelParts::connect_scan() {
+  QObject::connect(scan, &ScanSection::closing, &dock, [this] {
+    touching.release();  // before another scan takes its place
+    leave_views();
+  });
+  QObject::connect(scan, &ScanSection::out_of_reach, &dock, [this](const QString& why) { touching.set_no_scan(why); });
+  QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const ScanHandle& handle) { show_scan(handle); });
+  QObject::connect(scan, &ScanSection::frame_shown, &dock, [this](const ScanHandle& handle) { show_frame(handle); });
+  QObject::connect(&servers, &ServerWatch::leaving, &dock, [this] { leave_server(); });
+  QObject::connect(&servers, &ServerWatch::lost, &dock, [this] { leave(words(say("server-is-lost"))); });
+  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
+  open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
+}
+
+void PanelParts::show_scan(const ScanHandle& handle) {
+  pqServer* const server = pqActiveObjects::instance().activeServer();
+  if (!server) return;
+  proposing = true;
+  const bool restored = std::exchange(restoring, false) && model.source();
+  touching.release();
+  if (!restored) {
+    modes::Scene scene = scene_for(handle.scene, *handle.volume);
+    scene.workspace.fit = true;
+    touching.expect_scan();  // the scene is for this scan, not for the last one
+    model.open(*server, scene);
+  }
+  touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
+  model.forget_steps();
+  tissues->forget_scan(handle);
+  if (restored) tissues->set_restored();
+  const std::vector<ClinicalView> shown = scan->views().views();
+  contours.set_views(shown);
+  crosshair.set_views(shown);
+  structures->set_views(shown);
+  profile->set_views(shown);
+  curves->profile().forget();
+  recordings->set_views(shown);
+  show_marks(handle);
+  drawn_marks.set_views(shown);
+  views.set_views(shown);  // last: the stylus is drawn over the paths
+  look_box->set_looks(scan->views().looks(), scan->views().first_look());
+  read_opacity();
+  const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
+  low = lattice.values.low;
+  high = lattice.values.high;
+  flow.set_views(shown);
+  flow.set_volume(handle.volume);
+  filter->refresh();
+  draw_contours();
+  touching.begin_outside();
+  proposing = false;
+  edited = restored;
+  show_structures(handle);
+  note_scan(handle);
+  scan_fold->set_open(false);
+  layout->refresh_tabs();
+  study(handle.volume);
+}
+
+void PanelParts::show_frame(const ScanHandle& handle) {
+  touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
+  flow.set_volume(handle.volume);
+  draw_contours();
+  note_scan(handle);
+}
+
+void PanelParts::note_scan(const ScanHandle& handle) {
+  const QString scan_words = QString::fromStdString(describe_scan(*handle.volume));
+  scan_fold->set_note(handle.frames > 1 ? QStringLiteral("%1, %2").arg(scan_words, handle.frame_in_words())
+                                        : scan_words);
+}
+
+void PanelParts::study(const std::shared_ptr<const io::Volume>& volume) {
+  studied = volume;
+  studying->setValue(0);
+  studying->show();
+  studies.study(
+      volume, [this](double done) { studying->setValue(static_cast<int>(100 * done)); },
+      [this, unit = QString::fromStdString(volume->unit)](const auto& study, const std::string& error) {
+        studying->hide();
+        if (!study) {
+          if (!error.empty()) emit model.refused(QString::fromStdString(error));
+          return;
+        }
+        modes::Scene proposed = study->suggested;
+        proposed.workspace = model.scene().workspace;
+        tissues->set_proposed(proposed);
+        curves->set_study(study, unit);
+        // What is felt or was edited already is not taken away from under the hand.
+        if (edited || touching.live().is_connected()) return;
+        proposing = true;
+        model.propose(proposed);
+        proposing = false;
+      });
+}
+
+/// What a state file has restored is taken over: scan, scene and views.
+void PanelParts::adopt_state() {
+  touching.release();
+  const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  pqPipelineSource* reader = nullptr;
+  pqPipelineSource* scene = nullptr;
+  for (pqPipelineSource* const source : sources) {
+    const std::string kind = source->getProxy()->GetXMLName();
+    if (kind == "PalpateDicomReader") reader = source;
+    if (kind == "PalpateScene") scene = source;
+  }
+  const bool another = reader && reader != scan->source();
+  if (another) touching.expect_scan();
+  if (scene) model.adopt(*scene);
+  if (!another) return;
+  restoring = true;
+  scan->adopt(*reader);
+}
+
+/// In good order: another server, none, or a new session.
+void PanelParts::leave_server() {
+  if (remote_server()) {
+    const bool records = touching.live().recording().has_value();
+    leave(records ? words(say("left-the-server-recording")) : words(say("left-the-server")));
+    return;
+  }
+  touching.keep_off(words(say("paraview-session-ended")));
+  scan->server_gone();
+  leave_views();
+}
+
+/// All that a server has goes, and what is held of it is let go: first the force, and the recording with it.
+void PanelParts::leave(const QString& why) {
+  if (std::exchange(leaving, true)) return;  // what follows may ask the lost server, which tells that it is lost
+  const bool held = touching.live().is_connected();
+  touching.set_no_scan({});
+  if (held) emit touching.told(why, true);  // before the views, which may find that their server does not answer
+  scan->server_gone();
+  leave_views();
+  leaving = false;
+}
+
+void PanelParts::leave_views() {
+  contours.set_views({});
+  crosshair.set_views({});
+  flow.set_views({});
+  leave_structures();
+  leave_marks();
+  views.set_views({});
+  profile->set_views({});
+  curves->profile().forget();
+  recordings->set_views({});
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,84 @@
+#include <pqDataRepresentation.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqUndoStack.h>
+#include <vtkSMProxy.h>
+
+#include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/layout/volume_look_box.h"
+#include "plugin/paraview/client/panel/curves_section.h"
+#include "plugin/paraview/client/panel/profile_section.h"
+#include "plugin/paraview/client/panel/structures_section.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/views/boundary_colors.h"
+
+// A scene is edited: the views follow.
+
+namespace palpate::plugin {
+
+void PanelParts::connect_scene() {
+  QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
+    if (!proposing) edited = true;
+    if (pace == Pace::stepped) color_views();
+    if (const auto felt = touching.live().felt_scan(); felt && felt != studied.lock()) study(felt);
+    draw_contours();
+  });
+  QObject::connect(profile, &ProfileSection::picking, &dock, [this](bool on) {
+    touching.keep_mouse_off(on);
+    if (on) read_opacity();  // it may have been edited in ParaView since
+    const auto pick = on ? [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); }
+                         : std::function<void(Pick, const glm::dvec3&)>{};
+    scan->views().set_pick(pick);
+    views.set_pick(pick);
+  });
+  QObject::connect(profile, &ProfileSection::stroke_changed, &dock,
+                   [this](const WantedStroke& stroke) { curves->profile().choose(stroke); });
+  scan->views().set_pointed([this](const std::optional<glm::dvec3>& place) {
+    const std::optional<io::Sample> pointed = place ? contours.sample(*place) : std::nullopt;
+    curves->mark(pointed);
+    if (pointed) curves->profile().point_at(*place, pointed->gradient);
+  });
+  scan->views().set_slice_shown([this](SliceView& slice) {
+    flow.show(slice);
+    contours.show(slice);
+    crosshair.refresh();
+    structures->show(slice);
+    drawn_marks.show(slice);
+  });
+}
+
+void PanelParts::draw_contours() {
+  contours.set_felt(touching.live().felt_scan(), model.scene(), touching.live().plan());
+}
+
+/// Where the volume is shown by what is felt, and not as somebody has chosen.
+void PanelParts::color_views() {
+  if (!look_box->is_felt()) return;
+  change_volume([this](vtkSMProxy& volume) { color_volume(volume, model.scene(), low, high); });
+}
+
+void PanelParts::change_volume(const std::function<void(vtkSMProxy&)>& change) {
+  SCOPED_UNDO_EXCLUDE();  // follows from the scene, or from a box that says what it is
+  if (!scan->source()) return;
+  for (const ClinicalView& one : scan->views().views()) {
+    if (one.kind != ViewKind::volume) continue;
+    pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
+    if (!shown) continue;
+    change(*shown->getProxy());
+    one.view->render();
+  }
+  read_opacity();
+}
+
+/// What is seen of the volume, as it is shown now.
+void PanelParts::read_opacity() {
+  if (!scan->source()) return;
+  for (const ClinicalView& one : scan->views().views()) {
+    if (one.kind != ViewKind::volume) continue;
+    if (pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view)) {
+      views.set_opacity(opacity_of(*shown->getProxy()));
+    }
+  }
+}
+
+}  // namespace palpate::plugin

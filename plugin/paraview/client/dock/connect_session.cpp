@@ -1,0 +1,109 @@
+#include <pqUndoStack.h>
+
+#include <QCoreApplication>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <utility>
+
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/panel/curves_section.h"
+#include "plugin/paraview/client/panel/fold.h"
+#include "plugin/paraview/client/panel/footer.h"
+#include "plugin/paraview/client/panel/modes_section.h"
+#include "plugin/paraview/client/panel/recordings_section.h"
+#include "plugin/paraview/client/panel/tissues_section.h"
+#include "plugin/paraview/client/scan/filter_row.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/stylus/start_place.h"
+#include "plugin/paraview/client/stylus/stylus_section.h"
+#include "plugin/paraview/client/words.h"
+
+// A stylus is connected, is held, is gone.
+
+namespace palpate::plugin {
+
+void PanelParts::connect_session() {
+  QObject::connect(stylus, &StylusSection::stylus_wanted, &dock, [this] {
+    SCOPED_UNDO_EXCLUDE();
+    if (touching.last().is_seen()) scan->views().show_point(touching.last().proxy_mm);
+  });
+  scan->views().set_leafed([this] { stylus->pause_following(); });
+  touching.set_start([this](const device::Specification& device) { return start_of(device); });
+  QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
+    recordings_fold->set_open(true);
+    recordings->open(file);
+  });
+  QObject::connect(&touching, &SessionController::looked, &dock, [this](const SessionStatus& seen) { look(seen); });
+  QObject::connect(&touching, &SessionController::connection_changed, &dock, [this] {
+    modes->refresh();
+    servers.be_attentive(touching.live().is_connected());
+  });
+  const auto show_technical = [this](bool shown) {
+    modes->show_technical(shown);
+    stylus->show_technical(shown);
+  };
+  QObject::connect(footer, &Footer::technical_changed, &dock, show_technical);
+  show_technical(footer->is_technical());
+  // The threads end before ParaView goes, and before a server takes the views away.
+  QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
+    studies.cancel();
+    QObject::disconnect(&touching, &SessionController::recorded, recordings, nullptr);  // nobody looks at it any more
+    touching.disconnect_stylus();
+  });
+}
+
+void PanelParts::look(const SessionStatus& seen) {
+  if (leaving) return;    // what is drawn now would ask a server that may be lost, and ParaView ends the program then
+  SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
+  // A recording that stands still does not keep the slices from being leafed through.
+  const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
+  if (seen.connected) touching.keep_off(scan->why_not_felt());
+  name_felt();
+  if (seen.is_seen() && moved && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
+  if (seen.connected && !seen.held.empty()) {
+    curves->profile().touch_at(seen.proxy_mm, seen.probe_mm - seen.proxy_mm);
+  }
+  views.show(seen);
+}
+
+/// Scan, frame and scene: what the stylus has, whatever is looked at.
+void PanelParts::name_felt() {
+  const ScanHandle& handle = scan->handle();
+  if (!handle.volume) {
+    footer->set_felt(tr("No scan is open."));
+    return;
+  }
+  const QStringList others = scan->others_shown();
+  const QString through = filter->in_words();
+  const QString felt =
+      tr("Felt: %1. Scene: %2.")
+          .arg(through.isEmpty() ? handle.in_words() : handle.in_words() + QStringLiteral(", ") + through,
+               tissues->scene_in_words());
+  footer->set_felt(others.isEmpty() ? felt
+                                    : felt + QLatin1Char(' ') +
+                                          tr("Also shown, not felt: %1.").arg(others.join(QStringLiteral(", "))));
+}
+
+/// In sight, in reach and outside of anything felt.
+glm::dvec3 PanelParts::start_of(const device::Specification& of) {
+  const LiveSession& live = touching.live();
+  const auto plan = live.plan();
+  const auto& volume = live.felt_scan();
+  const auto in_reach = [&](const glm::dvec3& place) {
+    constexpr double margin = 0.95;
+    const glm::dvec3 at = glm::abs(plan->workspace.to_device(place));
+    return glm::all(glm::lessThan(at, margin * of.workspace_half_extent));
+  };
+  const StartPlace start = find_start_place(
+      volume, *plan, live.scene().gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)), in_reach,
+      [this](const glm::dvec3& place) { return views.shows(place); });
+  if (!start.outside) {
+    QMetaObject::invokeMethod(
+        &dock, [this] { emit touching.told(words(say("no-place-outside-the-patient")), true); }, Qt::QueuedConnection);
+  }
+  return start.place_mm;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,52 @@
+#include <pqCoreUtilities.h>
+
+#include <QMainWindow>
+
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/layout/empty_center.h"
+#include "plugin/paraview/client/layout/host_layout.h"
+#include "plugin/paraview/client/layout/start_page.h"
+#include "plugin/paraview/client/panel/fold.h"
+#include "plugin/paraview/client/scan/sample_scan.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/words.h"
+
+// What stands in the center where no scan is open, and how one gets from there to a scan.
+
+namespace palpate::plugin {
+
+void PanelParts::connect_start() {
+  auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  auto* const page = new StartPage(window);
+  auto* const center = new EmptyCenter(*window, *page, &dock);
+  QObject::connect(layout, &HostLayout::advanced_changed, center, &EmptyCenter::set_advanced);
+  QObject::connect(page, &StartPage::open_wanted, scan, &ScanSection::ask_folder);
+  QObject::connect(page, &StartPage::folder_wanted, scan,
+                   [this](const QString& folder) { scan->open(folder.toStdString()); });
+  QObject::connect(page, &StartPage::series_wanted, scan, &ScanSection::load);
+  QObject::connect(page, &StartPage::archive_wanted, scan, [this] {
+    scan_fold->set_open(true);
+    scan->show_archive();
+  });
+  QObject::connect(scan, &ScanSection::finding, page, [page] { page->set_catalogue(nullptr); });
+  QObject::connect(scan, &ScanSection::listed, page, &StartPage::set_catalogue);
+  QObject::connect(scan, &ScanSection::listed, &dock, [this] {
+    scan_fold->set_open(true);
+    if (!scan->source()) scan_fold->set_note({});
+  });
+  QObject::connect(scan, &ScanSection::thumbnail_drawn, page, &StartPage::set_picture);
+  QObject::connect(scan, &ScanSection::said, page, &StartPage::tell);
+
+  auto* const sample = new SampleScan(&dock);
+  page->set_sample(sample->offer());
+  QObject::connect(page, &StartPage::sample_wanted, sample, [page, sample] {
+    page->tell(words(say("sample-is-written")));
+    sample->make();
+  });
+  QObject::connect(sample, &SampleScan::ready, scan,
+                   [this](const QString& folder) { scan->open(folder.toStdString()); });
+  QObject::connect(sample, &SampleScan::failed, page, [page](const QString& why) { page->tell(why, true); });
+}
+
+}  // namespace palpate::plugin

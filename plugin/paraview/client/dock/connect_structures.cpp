@@ -1,0 +1,37 @@
+#include <pqPipelineSource.h>
+#include <pqServer.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/panel/fold.h"
+#include "plugin/paraview/client/panel/structures_section.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+
+// Structure sets belong to the scan that is shown.
+
+namespace palpate::plugin {
+
+void PanelParts::connect_structures() {
+  QObject::connect(structures, &StructuresSection::listed, &dock,
+                   [this] { structures_fold->set_note(structures->in_words()); });
+}
+
+void PanelParts::show_structures(const ScanHandle& handle) {
+  pqPipelineSource& reader = *scan->source();
+  if (!reader.getServer()->isRemote()) {
+    structures->set_scan(handle.volume, vtkSMPropertyHelper(reader.getProxy(), "FileName").GetAsString());
+    return;
+  }
+  // The server's own: a folder of this machine that has the same name may hold others.
+  structures->set_scan(handle.volume, {});
+  served.get(reader, [this](const auto& files, const QString& said) { structures->add(files, said); });
+}
+
+void PanelParts::leave_structures() {
+  served.cancel();
+  structures->set_scan(nullptr, {});
+  structures->set_views({});
+}
+
+}  // namespace palpate::plugin

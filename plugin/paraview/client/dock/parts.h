@@ -1,0 +1,143 @@
+#pragma once
+
+/// The panel's parts, and how each answers to the others. A file for each of them beside this one: a new connection
+/// belongs to the file of what it starts from.
+
+#include <QCoreApplication>
+#include <QDockWidget>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "plugin/paraview/client/panel/marks_model.h"
+#include "plugin/paraview/client/panel/scene_model.h"
+#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/panel/stroke_runner.h"
+#include "plugin/paraview/client/remote/server_structures.h"
+#include "plugin/paraview/client/remote/server_watch.h"
+#include "plugin/paraview/client/scan/scan_handle.h"
+#include "plugin/paraview/client/scan/scan_loader.h"
+#include "plugin/paraview/client/stylus/stylus_views.h"
+#include "plugin/paraview/client/views/boundary_contours.h"
+#include "plugin/paraview/client/views/flow_views.h"
+#include "plugin/paraview/client/views/mark_views.h"
+#include "plugin/paraview/client/views/reference_lines.h"
+
+class QProgressBar;
+class vtkSMProxy;
+
+namespace palpate::plugin {
+
+class ClinicalToolbar;
+class CurvesSection;
+class FilterRow;
+class Fold;
+class Footer;
+class HostLayout;
+class MarksSection;
+class ModesSection;
+class ProfileSection;
+class RecordingsSection;
+class ScanSection;
+class StructuresSection;
+class StylusSection;
+class TissuesSection;
+class VolumeLookBox;
+
+/// Members in the order in which they lean on each other.
+struct PanelParts {
+  Q_DECLARE_TR_FUNCTIONS(PanelParts)
+
+ public:
+  explicit PanelParts(QDockWidget& panel)
+      : dock(panel),
+        marks(model),
+        touching(model, &panel),
+        strokes(touching),
+        drawn_marks([this]() -> const Marks& { return marks.marks(); }),
+        views(touching, model) {}
+
+  void build();
+  // build_column.cpp
+  void build_column();
+  QWidget* build_tissues();
+  // build_toolbar.cpp
+  void build_toolbar();
+  void ask_picture();
+  void enlarge(bool enlarged);
+  // connect_scan.cpp
+  void connect_scan();
+  void show_scan(const ScanHandle& handle);
+  void show_frame(const ScanHandle& handle);
+  void note_scan(const ScanHandle& handle);
+  void study(const std::shared_ptr<const io::Volume>& volume);
+  void adopt_state();
+  void leave(const QString& why);
+  void leave_server();
+  void leave_views();
+  // connect_start.cpp
+  void connect_start();
+  // connect_structures.cpp
+  void connect_structures();
+  void show_structures(const ScanHandle& handle);
+  void leave_structures();
+  // connect_marks.cpp
+  void connect_marks();
+  void show_marks(const ScanHandle& handle);
+  void leave_marks();
+  void send_marks();
+  // connect_scene.cpp
+  void connect_scene();
+  void draw_contours();
+  void color_views();
+  void change_volume(const std::function<void(vtkSMProxy&)>& change);
+  void read_opacity();
+  // connect_session.cpp
+  void connect_session();
+  void look(const SessionStatus& seen);
+  void name_felt();
+  glm::dvec3 start_of(const device::Specification& stylus);
+
+  QDockWidget& dock;
+  SceneModel model;
+  MarksModel marks;
+  SessionController touching;
+  StrokeRunner strokes;
+  FlowViews flow;
+  BoundaryContours contours;
+  ReferenceLines crosshair;
+  MarkViews drawn_marks;
+  StylusViews views;
+  ServerWatch servers;
+  ServerStructures served;
+  Fold* scan_fold = nullptr;
+  Fold* recordings_fold = nullptr;
+  Footer* footer = nullptr;
+  ScanSection* scan = nullptr;
+  FilterRow* filter = nullptr;
+  TissuesSection* tissues = nullptr;
+  Fold* structures_fold = nullptr;
+  StructuresSection* structures = nullptr;
+  StylusSection* stylus = nullptr;
+  Fold* marks_fold = nullptr;
+  MarksSection* marks_list = nullptr;
+  CurvesSection* curves = nullptr;
+  ModesSection* modes = nullptr;
+  ProfileSection* profile = nullptr;
+  RecordingsSection* recordings = nullptr;
+  QProgressBar* studying = nullptr;
+  ClinicalToolbar* toolbar = nullptr;
+  HostLayout* layout = nullptr;
+  VolumeLookBox* look_box = nullptr;
+  bool restoring = false;                   // the scan to come is a state file's
+  bool leaving = false;                     // a server
+  bool edited = false;                      // since the scan was shown
+  bool proposing = false;                   // what is being edited is the panel's own doing
+  double low = 0, high = 1;                 // of what the scan holds
+  std::weak_ptr<const io::Volume> studied;  // for its tissues
+  std::uint64_t followed = 0;               // last tick of a recording that the slices followed
+  ScanLoader studies;                       // last: its thread is to end before all that its callbacks use
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,1675 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de_DE" sourcelanguage="en">
+<context>
+    <name>ArchiveTab</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Behalten</translation>
+    </message>
+</context>
+<context>
+    <name>BoundaryRow</name>
+    <message>
+        <source>Whether it is felt</source>
+        <translation>Ob sie gefühlt wird</translation>
+    </message>
+    <message>
+        <source>Switch on %1</source>
+        <translation>%1 einschalten</translation>
+    </message>
+    <message>
+        <source>Switch off %1</source>
+        <translation>%1 ausschalten</translation>
+    </message>
+    <message>
+        <source>Its color, here and in the views</source>
+        <translation>Ihre Farbe, hier und in den Ansichten</translation>
+    </message>
+    <message>
+        <source>Color %1</source>
+        <translation>Farbe von %1</translation>
+    </message>
+    <message>
+        <source>Rename %1</source>
+        <translation>%1 umbenennen</translation>
+    </message>
+    <message>
+        <source>in</source>
+        <translation>hinein</translation>
+    </message>
+    <message>
+        <source>out</source>
+        <translation>hinaus</translation>
+    </message>
+    <message>
+        <source>both</source>
+        <translation>beides</translation>
+    </message>
+    <message>
+        <source>Which way through it is resisted: in to the denser tissue, out of it, or both</source>
+        <translation>Welche Richtung Widerstand findet: hinein in das dichtere Gewebe, hinaus, oder beides</translation>
+    </message>
+    <message>
+        <source>Direction of %1</source>
+        <translation>Richtung von %1</translation>
+    </message>
+    <message>
+        <source> N</source>
+        <translation> N</translation>
+    </message>
+    <message>
+        <source>How hard it resists before it yields</source>
+        <translation>Wie stark sie widersteht, bevor sie nachgibt</translation>
+    </message>
+    <message>
+        <source>Strength of %1</source>
+        <translation>Stärke von %1</translation>
+    </message>
+    <message>
+        <source>A hand cannot tell it from %1: it feels differences of a tenth or more.</source>
+        <translation>Eine Hand kann sie nicht von %1 unterscheiden: Sie fühlt Unterschiede ab einem Zehntel.</translation>
+    </message>
+</context>
+<context>
+    <name>ClinicalToolbar</name>
+    <message>
+        <source>Palpate</source>
+        <translation>Palpate</translation>
+    </message>
+    <message>
+        <source>Open…</source>
+        <translation>Öffnen…</translation>
+    </message>
+    <message>
+        <source>A folder of DICOM files, searched to the bottom</source>
+        <translation>Ein Ordner mit DICOM-Dateien, mit allen Unterordnern</translation>
+    </message>
+    <message>
+        <source>No folder was opened yet</source>
+        <translation>Noch wurde kein Ordner geöffnet</translation>
+    </message>
+    <message>
+        <source>Window </source>
+        <translation>Fenster </translation>
+    </message>
+    <message>
+        <source>Four-up</source>
+        <translation>Vier Ansichten</translation>
+    </message>
+    <message>
+        <source>Axial, sagittal, coronal and volume beside each other</source>
+        <translation>Axial, sagittal, koronal und Volumen nebeneinander</translation>
+    </message>
+    <message>
+        <source>One-up</source>
+        <translation>Eine Ansicht</translation>
+    </message>
+    <message>
+        <source>The marked view alone. A double click in a view does the same.</source>
+        <translation>Nur die markierte Ansicht. Ein Doppelklick in eine Ansicht tut dasselbe.</translation>
+    </message>
+    <message>
+        <source>Ruler</source>
+        <translation>Lineal</translation>
+    </message>
+    <message>
+        <source>Drag in a slice to measure a length (key L). The delete key takes the last one away.</source>
+        <translation>In einer Schicht ziehen, um eine Länge zu messen (Taste L). Die Taste Entf nimmt die letzte weg.</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>Drag along one leg in a slice, then click at the end of the other (key A).</source>
+        <translation>In einer Schicht am einen Schenkel ziehen, dann auf das Ende des anderen klicken (Taste A).</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>Verbinden</translation>
+    </message>
+    <message>
+        <source>Release  (Esc)</source>
+        <translation>Loslassen  (Esc)</translation>
+    </message>
+    <message>
+        <source>Takes the force away</source>
+        <translation>Nimmt die Kraft weg</translation>
+    </message>
+    <message>
+        <source>Picture…</source>
+        <translation>Bild…</translation>
+    </message>
+    <message>
+        <source>Saves what the views show as a PNG file</source>
+        <translation>Speichert, was die Ansichten zeigen, als PNG-Datei</translation>
+    </message>
+    <message>
+        <source>Marks</source>
+        <translation>Marken</translation>
+    </message>
+    <message>
+        <source>What was marked: the list, and what lies between</source>
+        <translation>Was markiert wurde: die Liste, und was dazwischen liegt</translation>
+    </message>
+    <message>
+        <source>Advanced</source>
+        <translation>Erweitert</translation>
+    </message>
+    <message>
+        <source>ParaView&apos;s own toolbars, pipeline and properties</source>
+        <translation>ParaViews eigene Werkzeugleisten, Pipeline und Eigenschaften</translation>
+    </message>
+    <message>
+        <source>Volume</source>
+        <translation>Volumen</translation>
+    </message>
+    <message>
+        <source>What is cut away from the volume</source>
+        <translation>Was vom Volumen weggeschnitten wird</translation>
+    </message>
+    <message>
+        <source>Without table and headrest</source>
+        <translation>Ohne Tisch und Kopfstütze</translation>
+    </message>
+    <message>
+        <source>Crop box</source>
+        <translation>Ausschnitt</translation>
+    </message>
+    <message>
+        <source>Drag its handles in the volume view</source>
+        <translation>Die Griffe in der Volumenansicht ziehen</translation>
+    </message>
+    <message>
+        <source>Disconnect</source>
+        <translation>Trennen</translation>
+    </message>
+    <message>
+        <source>Lets the stylus go</source>
+        <translation>Gibt den Stift frei</translation>
+    </message>
+    <message>
+        <source>Takes the stylus that the panel names</source>
+        <translation>Nimmt den Stift, den das Feld nennt</translation>
+    </message>
+    <message>
+        <source>Marks (%1)</source>
+        <translation>Marken (%1)</translation>
+    </message>
+</context>
+<context>
+    <name>ClinicalViews</name>
+    <message>
+        <source>custom</source>
+        <translation>eigenes</translation>
+    </message>
+    <message>
+        <source>Axial</source>
+        <translation>Axial</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>Koronal</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>Sagittal</translation>
+    </message>
+    <message>
+        <source>Volume</source>
+        <translation>Volumen</translation>
+    </message>
+</context>
+<context>
+    <name>CurveEditor</name>
+    <message>
+        <source>Drag a node; click for a new one; Delete takes the chosen one away; arrow keys move it. With Shift held down the whole curve is dragged. The line: what is under the pointer in a slice.</source>
+        <translation>Einen Knoten ziehen; ein Klick macht einen neuen; Entf nimmt den gewählten weg; Pfeiltasten bewegen ihn. Mit gedrückter Umschalttaste wird die ganze Kurve gezogen. Die Linie: was in einer Schicht unter dem Zeiger liegt.</translation>
+    </message>
+    <message>
+        <source>Node</source>
+        <translation>Knoten</translation>
+    </message>
+</context>
+<context>
+    <name>CurveProfile</name>
+    <message>
+        <source>The force along a line, as it would be felt now; dashed: before the curve was dragged. Rest with the pointer on a boundary in a slice, touch one, or pick two points in Force profile.</source>
+        <translation>Die Kraft längs einer Linie, wie sie jetzt zu fühlen wäre; gestrichelt: bevor die Kurve gezogen wurde. Mit dem Zeiger in einer Schicht auf einer Grenze ruhen, eine berühren, oder im Kraftprofil zwei Punkte wählen.</translation>
+    </message>
+    <message>
+        <source>Rest with the pointer on a boundary in a slice: the force across it is drawn here.</source>
+        <translation>Mit dem Zeiger in einer Schicht auf einer Grenze ruhen: Die Kraft quer dazu wird hier gezeichnet.</translation>
+    </message>
+    <message>
+        <source>%1 up to %2 N</source>
+        <translation>%1 bis %2 N</translation>
+    </message>
+    <message>
+        <source>no boundary is met</source>
+        <translation>keine Grenze wird getroffen</translation>
+    </message>
+    <message>
+        <source>Along the chosen stroke</source>
+        <translation>Längs des gewählten Strichs</translation>
+    </message>
+    <message>
+        <source>Across the place last touched</source>
+        <translation>Quer zur zuletzt berührten Stelle</translation>
+    </message>
+    <message>
+        <source>Across the place pointed at</source>
+        <translation>Quer zur gezeigten Stelle</translation>
+    </message>
+    <message>
+        <source>%1: %2.</source>
+        <translation>%1: %2.</translation>
+    </message>
+    <message>
+        <source>%1 Before: %2.</source>
+        <translation>%1 Vorher: %2.</translation>
+    </message>
+</context>
+<context>
+    <name>CurvesSection</name>
+    <message>
+        <source>Undo. The scene as it was before the last edit: hold B.</source>
+        <translation>Rückgängig. Die Szene vor der letzten Änderung: B gedrückt halten.</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>Wiederholen</translation>
+    </message>
+    <message>
+        <source>gradient</source>
+        <translation>Gradient</translation>
+    </message>
+    <message>
+        <source>strength, N</source>
+        <translation>Stärke, N</translation>
+    </message>
+    <message>
+        <source>value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>factor</source>
+        <translation>Faktor</translation>
+    </message>
+    <message>
+        <source>Shape of the strength…</source>
+        <translation>Form der Stärke…</translation>
+    </message>
+    <message>
+        <source>Curve of %1</source>
+        <translation>Kurve von %1</translation>
+    </message>
+    <message>
+        <source>gradient per mm</source>
+        <translation>Gradient pro mm</translation>
+    </message>
+    <message>
+        <source>%1 per mm</source>
+        <translation>%1 pro mm</translation>
+    </message>
+    <message>
+        <source>Shape: %1</source>
+        <translation>Form: %1</translation>
+    </message>
+    <message>
+        <source>Soft edge: comes in gradually</source>
+        <translation>Weicher Rand: kommt allmählich</translation>
+    </message>
+    <message>
+        <source>Firm edge: there at once</source>
+        <translation>Fester Rand: sofort da</translation>
+    </message>
+    <message>
+        <source>Steep edges only</source>
+        <translation>Nur steile Ränder</translation>
+    </message>
+    <message>
+        <source>Everywhere the same</source>
+        <translation>Überall gleich</translation>
+    </message>
+</context>
+<context>
+    <name>FileName</name>
+    <message>
+        <source>%1 is there already. Replace it?</source>
+        <translation>%1 gibt es schon. Ersetzen?</translation>
+    </message>
+</context>
+<context>
+    <name>FilterRow</name>
+    <message>
+        <source>Filter</source>
+        <translation>Filter</translation>
+    </message>
+    <message>
+        <source>Against noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local means keep edges where they are; a Gaussian rounds them.</source>
+        <translation>Gegen Rauschen, das als Rauheit zu fühlen ist. Der Stift fühlt die gefilterten Werte. Bilateral und Non-local means lassen Kanten, wo sie sind; ein Gauß-Filter rundet sie.</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>Keiner</translation>
+    </message>
+    <message>
+        <source>Gaussian</source>
+        <translation>Gauß</translation>
+    </message>
+    <message>
+        <source>Median</source>
+        <translation>Median</translation>
+    </message>
+    <message>
+        <source>Bilateral</source>
+        <translation>Bilateral</translation>
+    </message>
+    <message>
+        <source>Non-local means</source>
+        <translation>Non-local means</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Zeigen</translation>
+    </message>
+    <message>
+        <source>On: the views show the filtered values, as they are felt. Off: as they were scanned.</source>
+        <translation>An: Die Ansichten zeigen die gefilterten Werte, wie sie gefühlt werden. Aus: wie sie aufgenommen wurden.</translation>
+    </message>
+    <message>
+        <source>Filtering %p%</source>
+        <translation>Filtern %p%</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source> voxels</source>
+        <translation> Voxel</translation>
+    </message>
+    <message>
+        <source>filter</source>
+        <translation>Filter</translation>
+    </message>
+    <message>
+        <source>%1 (shown without it)</source>
+        <translation>%1 (ohne ihn gezeigt)</translation>
+    </message>
+</context>
+<context>
+    <name>Footer</name>
+    <message>
+        <source>Value of the scan and tissue at the proxy</source>
+        <translation>Wert der Aufnahme und Gewebe an der Spitze</translation>
+    </message>
+    <message>
+        <source>Force on the stylus</source>
+        <translation>Kraft auf den Stift</translation>
+    </message>
+    <message>
+        <source>How far the stylus is past the boundary that holds it, in the patient</source>
+        <translation>Wie weit der Stift hinter der Grenze ist, die ihn hält, im Patienten</translation>
+    </message>
+    <message>
+        <source>Scan, frame and scene that the stylus feels</source>
+        <translation>Aufnahme, Phase und Szene, die der Stift fühlt</translation>
+    </message>
+    <message>
+        <source>No scan is open.</source>
+        <translation>Keine Aufnahme ist geöffnet.</translation>
+    </message>
+    <message>
+        <source>Technical</source>
+        <translation>Technisches</translation>
+    </message>
+    <message>
+        <source>For developers: solver, servo, the stylus&apos; own limits, and what the scene does without</source>
+        <translation>Für Entwickler: Löser, Regler, die Grenzen des Stifts, und worauf die Szene verzichtet</translation>
+    </message>
+    <message>
+        <source>Record…</source>
+        <translation>Aufzeichnen…</translation>
+    </message>
+    <message>
+        <source>Keeps all that is felt in a file, to be looked at again. No patient&apos;s name goes into it.</source>
+        <translation>Hält alles Gefühlte in einer Datei fest, um es wieder anzusehen. Kein Patientenname kommt hinein.</translation>
+    </message>
+    <message>
+        <source>Release  (Esc)</source>
+        <translation>Loslassen  (Esc)</translation>
+    </message>
+    <message>
+        <source>Feel</source>
+        <translation>Fühlen</translation>
+    </message>
+    <message>
+        <source>Mark  (M)</source>
+        <translation>Marke  (M)</translation>
+    </message>
+    <message>
+        <source>A mark where the stylus touches; kept down while the stylus moves, a path. The stylus&apos; second button and the key M in a view do the same.</source>
+        <translation>Eine Marke, wo der Stift berührt; gedrückt gehalten, während er sich bewegt, ein Pfad. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
+    </message>
+    <message>
+        <source>Stop recording</source>
+        <translation>Aufzeichnung beenden</translation>
+    </message>
+    <message>
+        <source>Record to</source>
+        <translation>Aufzeichnen nach</translation>
+    </message>
+    <message>
+        <source>Recordings (*.h5)</source>
+        <translation>Aufzeichnungen (*.h5)</translation>
+    </message>
+    <message>
+        <source>Open the stylus again</source>
+        <translation>Den Stift neu öffnen</translation>
+    </message>
+    <message>
+        <source>Clear fault</source>
+        <translation>Störung quittieren</translation>
+    </message>
+    <message>
+        <source>⚠ %1: within its margin</source>
+        <translation>⚠ %1: im Abstand</translation>
+    </message>
+    <message>
+        <source>no stylus</source>
+        <translation>kein Stift</translation>
+    </message>
+    <message>
+        <source>%1 N</source>
+        <translation>%1 N</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>nothing held</source>
+        <translation>nichts hält</translation>
+    </message>
+    <message>
+        <source>%1 behind the proxy</source>
+        <translation>%1 hinter der Spitze</translation>
+    </message>
+    <message>
+        <source>%1 past %2</source>
+        <translation>%1 hinter %2</translation>
+    </message>
+    <message>
+        <source>outside the scan</source>
+        <translation>außerhalb der Aufnahme</translation>
+    </message>
+</context>
+<context>
+    <name>ForceStrip</name>
+    <message>
+        <source>Force of the last ten seconds. Dashed: the limit, once a third of it is felt.</source>
+        <translation>Kraft der letzten zehn Sekunden. Gestrichelt: die Grenze, sobald ein Drittel von ihr gefühlt wird.</translation>
+    </message>
+    <message>
+        <source>limit %1 N</source>
+        <translation>Grenze %1 N</translation>
+    </message>
+    <message>
+        <source>10 s</source>
+        <translation>10 s</translation>
+    </message>
+</context>
+<context>
+    <name>HelpMenu</name>
+    <message>
+        <source>Help</source>
+        <translation>Hilfe</translation>
+    </message>
+    <message>
+        <source>Palpate guide</source>
+        <translation>Palpate-Anleitung (englisch)</translation>
+    </message>
+    <message>
+        <source>About Palpate</source>
+        <translation>Über Palpate</translation>
+    </message>
+    <message>
+        <source>&lt;h3&gt;Palpate %1&lt;/h3&gt;&lt;p&gt;Feel a CT or MR scan with a haptic stylus.&lt;/p&gt;&lt;p&gt;&lt;b&gt;Research software, not a medical device.&lt;/b&gt;&lt;/p&gt;&lt;p&gt;Apache License 2.0. Runs in %2; the libraries that it uses and their licenses are listed in its package.&lt;/p&gt;</source>
+        <translation>&lt;h3&gt;Palpate %1&lt;/h3&gt;&lt;p&gt;Eine CT- oder MR-Aufnahme mit einem haptischen Stift fühlen.&lt;/p&gt;&lt;p&gt;&lt;b&gt;Forschungssoftware, kein Medizinprodukt.&lt;/b&gt;&lt;/p&gt;&lt;p&gt;Apache License 2.0. Läuft in %2; die benutzten Bibliotheken und ihre Lizenzen stehen in dessen Paket.&lt;/p&gt;</translation>
+    </message>
+</context>
+<context>
+    <name>MarksModel</name>
+    <message>
+        <source>Mark</source>
+        <translation>Marke</translation>
+    </message>
+    <message>
+        <source>Mark a path</source>
+        <translation>Pfad markieren</translation>
+    </message>
+</context>
+<context>
+    <name>MarksSection</name>
+    <message>
+        <source>Choose two marks for their distance, three for the angle at the second. A double click goes to a mark; F2 renames it.</source>
+        <translation>Zwei Marken für ihren Abstand wählen, drei für den Winkel an der zweiten. Ein Doppelklick geht zu einer Marke; F2 benennt sie um.</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Behalten</translation>
+    </message>
+    <message>
+        <source>The distance or angle stays in the list and in the views</source>
+        <translation>Abstand oder Winkel bleibt in der Liste und in den Ansichten</translation>
+    </message>
+    <message>
+        <source>Move here</source>
+        <translation>Hierher</translation>
+    </message>
+    <message>
+        <source>The mark goes to where the stylus touches now</source>
+        <translation>Die Marke geht dorthin, wo der Stift jetzt berührt</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Löschen</translation>
+    </message>
+    <message>
+        <source>What is chosen in the list</source>
+        <translation>Was in der Liste gewählt ist</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
+    </message>
+    <message>
+        <source>The last step, of marks or of the scene</source>
+        <translation>Der letzte Schritt, von Marken oder der Szene</translation>
+    </message>
+    <message>
+        <source>Send…</source>
+        <translation>Senden…</translation>
+    </message>
+    <message>
+        <source>Shows first what would go into an archive, and for whom</source>
+        <translation>Zeigt erst, was in ein Archiv ginge, und für wen</translation>
+    </message>
+    <message>
+        <source>nothing felt</source>
+        <translation>nichts gefühlt</translation>
+    </message>
+    <message>
+        <source>%1 N</source>
+        <translation>%1 N</translation>
+    </message>
+    <message>
+        <source>%1 along the surface</source>
+        <translation>%1 auf der Oberfläche</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 bis %2</translation>
+    </message>
+    <message>
+        <source>Angle at %1</source>
+        <translation>Winkel bei %1</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>Between %1 and %2</source>
+        <translation>Zwischen %1 und %2</translation>
+    </message>
+    <message>
+        <source>%1 from %2 to %3</source>
+        <translation>%1 von %2 bis %3</translation>
+    </message>
+    <message>
+        <source>%1° at %2</source>
+        <translation>%1° bei %2</translation>
+    </message>
+    <message>
+        <source>Rename to %1</source>
+        <translation>Umbenennen in %1</translation>
+    </message>
+    <message>
+        <source>Keep a distance</source>
+        <translation>Abstand behalten</translation>
+    </message>
+    <message>
+        <source>Keep an angle</source>
+        <translation>Winkel behalten</translation>
+    </message>
+    <message>
+        <source>Move %1</source>
+        <translation>%1 bewegen</translation>
+    </message>
+    <message>
+        <source>Delete marks</source>
+        <translation>Marken löschen</translation>
+    </message>
+    <message>
+        <source>1 path</source>
+        <translation>1 Pfad</translation>
+    </message>
+    <message>
+        <source>%1 paths</source>
+        <translation>%1 Pfade</translation>
+    </message>
+</context>
+<context>
+    <name>MarksSender</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+</context>
+<context>
+    <name>ModesSection</name>
+    <message>
+        <source>Switch on %1</source>
+        <translation>%1 einschalten</translation>
+    </message>
+    <message>
+        <source>Switch off %1</source>
+        <translation>%1 ausschalten</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source> N</source>
+        <translation> N</translation>
+    </message>
+    <message>
+        <source>Strength</source>
+        <translation>Stärke</translation>
+    </message>
+    <message>
+        <source>Resists</source>
+        <translation>Widersteht</translation>
+    </message>
+    <message>
+        <source>entering (towards higher values)</source>
+        <translation>beim Eintreten (zu höheren Werten)</translation>
+    </message>
+    <message>
+        <source>leaving (towards lower values)</source>
+        <translation>beim Austreten (zu tieferen Werten)</translation>
+    </message>
+    <message>
+        <source>both</source>
+        <translation>beides</translation>
+    </message>
+    <message>
+        <source>Side</source>
+        <translation>Seite</translation>
+    </message>
+    <message>
+        <source>Tissues</source>
+        <translation>Gewebe</translation>
+    </message>
+    <message>
+        <source>From</source>
+        <translation>Von</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>Bis</translation>
+    </message>
+    <message>
+        <source>Direction</source>
+        <translation>Richtung</translation>
+    </message>
+    <message>
+        <source>the vector field</source>
+        <translation>des Vektorfelds</translation>
+    </message>
+    <message>
+        <source>the gradient</source>
+        <translation>des Gradienten</translation>
+    </message>
+    <message>
+        <source>Shape</source>
+        <translation>Form</translation>
+    </message>
+    <message>
+        <source>point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
+        <source>line</source>
+        <translation>Linie</translation>
+    </message>
+    <message>
+        <source>plane</source>
+        <translation>Ebene</translation>
+    </message>
+    <message>
+        <source>Put it where the proxy is</source>
+        <translation>An die Spitze setzen</translation>
+    </message>
+    <message>
+        <source>Place</source>
+        <translation>Ort</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 von %2</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>%1 hinzufügen</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>%1 entfernen</translation>
+    </message>
+    <message>
+        <source>(any)</source>
+        <translation>(alle)</translation>
+    </message>
+</context>
+<context>
+    <name>PalpatePanel</name>
+    <message>
+        <source>Palpate</source>
+        <translation>Palpate</translation>
+    </message>
+</context>
+<context>
+    <name>PanelParts</name>
+    <message>
+        <source>Scan</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>Tissues</source>
+        <translation>Gewebe</translation>
+    </message>
+    <message>
+        <source>Structures</source>
+        <translation>Strukturen</translation>
+    </message>
+    <message>
+        <source>Stylus</source>
+        <translation>Stift</translation>
+    </message>
+    <message>
+        <source>Marks</source>
+        <translation>Marken</translation>
+    </message>
+    <message>
+        <source>Transfer function</source>
+        <translation>Transferfunktion</translation>
+    </message>
+    <message>
+        <source>Modes</source>
+        <translation>Modi</translation>
+    </message>
+    <message>
+        <source>Force profile</source>
+        <translation>Kraftprofil</translation>
+    </message>
+    <message>
+        <source>Recordings</source>
+        <translation>Aufzeichnungen</translation>
+    </message>
+    <message>
+        <source>Palpate %1. Research software, not a medical device.</source>
+        <translation>Palpate %1. Forschungssoftware, kein Medizinprodukt.</translation>
+    </message>
+    <message>
+        <source>Looking for tissues %p%</source>
+        <translation>Gewebe werden gesucht %p%</translation>
+    </message>
+    <message>
+        <source>Boundaries on the slices</source>
+        <translation>Grenzen auf den Schichten</translation>
+    </message>
+    <message>
+        <source>A line where each boundary is met, in its color. It follows what you tune.</source>
+        <translation>Eine Linie, wo jede Grenze getroffen wird, in ihrer Farbe. Sie folgt dem Einstellen.</translation>
+    </message>
+    <message>
+        <source>Crosshair</source>
+        <translation>Fadenkreuz</translation>
+    </message>
+    <message>
+        <source>Where the other two slices lie. With Shift held down they follow the pointer.</source>
+        <translation>Wo die beiden anderen Schichten liegen. Mit gedrückter Umschalttaste folgen sie dem Zeiger.</translation>
+    </message>
+    <message>
+        <source>Save a picture of the views</source>
+        <translation>Ein Bild der Ansichten speichern</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Bilder (*.png)</translation>
+    </message>
+    <message>
+        <source>No scan is open.</source>
+        <translation>Keine Aufnahme ist geöffnet.</translation>
+    </message>
+    <message>
+        <source>Felt: %1. Scene: %2.</source>
+        <translation>Gefühlt: %1. Szene: %2.</translation>
+    </message>
+    <message>
+        <source>Also shown, not felt: %1.</source>
+        <translation>Auch gezeigt, nicht gefühlt: %1.</translation>
+    </message>
+</context>
+<context>
+    <name>ProfileSection</name>
+    <message>
+        <source>Pick two points</source>
+        <translation>Zwei Punkte wählen</translation>
+    </message>
+    <message>
+        <source>In the slices or on what the 3D view shows: drag from one to the other, or click on both.</source>
+        <translation>In den Schichten oder auf dem, was die 3D-Ansicht zeigt: vom einen zum anderen ziehen, oder auf beide klicken.</translation>
+    </message>
+    <message>
+        <source> mm/s</source>
+        <translation> mm/s</translation>
+    </message>
+    <message>
+        <source>How fast the stylus goes along the stroke</source>
+        <translation>Wie schnell der Stift dem Strich folgt</translation>
+    </message>
+    <message>
+        <source>x, y, z</source>
+        <translation>x, y, z</translation>
+    </message>
+    <message>
+        <source>mm in the patient: to the left, to the back, to the head</source>
+        <translation>mm im Patienten: nach links, nach hinten, zum Kopf</translation>
+    </message>
+    <message>
+        <source>Stylus</source>
+        <translation>Stift</translation>
+    </message>
+    <message>
+        <source>Where the stylus is now</source>
+        <translation>Wo der Stift jetzt ist</translation>
+    </message>
+    <message>
+        <source>From</source>
+        <translation>Von</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>Bis</translation>
+    </message>
+    <message>
+        <source>%1 at %2 mm, up to %3 N</source>
+        <translation>%1 bei %2 mm, bis %3 N</translation>
+    </message>
+    <message>
+        <source>%1, known to ±%2 mm</source>
+        <translation>%1, bekannt auf ±%2 mm</translation>
+    </message>
+    <message>
+        <source>No boundary is met.</source>
+        <translation>Keine Grenze wird getroffen.</translation>
+    </message>
+    <message>
+        <source>Force against depth along a stroke through the scan, as it would be felt now</source>
+        <translation>Kraft über der Tiefe längs eines Strichs durch die Aufnahme, wie sie jetzt zu fühlen wäre</translation>
+    </message>
+</context>
+<context>
+    <name>RecordingsSection</name>
+    <message>
+        <source>Open recording</source>
+        <translation>Aufzeichnung öffnen</translation>
+    </message>
+    <message>
+        <source>Recordings (*.h5)</source>
+        <translation>Aufzeichnungen (*.h5)</translation>
+    </message>
+    <message>
+        <source>Open recording…</source>
+        <translation>Aufzeichnung öffnen…</translation>
+    </message>
+    <message>
+        <source>Play or pause</source>
+        <translation>Abspielen oder anhalten</translation>
+    </message>
+    <message>
+        <source>Times as fast as it was</source>
+        <translation>Wievielmal so schnell</translation>
+    </message>
+    <message>
+        <source>Disconnect the stylus to play: the views show what is felt.</source>
+        <translation>Zum Abspielen den Stift trennen: Die Ansichten zeigen, was gefühlt wird.</translation>
+    </message>
+    <message>
+        <source>Compare with…</source>
+        <translation>Vergleichen mit…</translation>
+    </message>
+    <message>
+        <source>Close the recordings</source>
+        <translation>Die Aufzeichnungen schließen</translation>
+    </message>
+    <message>
+        <source>%1 s are left out: they felt another scan.</source>
+        <translation>%1 s sind ausgelassen: Sie fühlten eine andere Aufnahme.</translation>
+    </message>
+    <message>
+        <source>%1 of %2 s</source>
+        <translation>%1 von %2 s</translation>
+    </message>
+</context>
+<context>
+    <name>SampleScan</name>
+    <message>
+        <source>Try the sample head</source>
+        <translation>Den Beispielkopf versuchen</translation>
+    </message>
+    <message>
+        <source>Try a phantom</source>
+        <translation>Ein Phantom versuchen</translation>
+    </message>
+</context>
+<context>
+    <name>SaveButtons</name>
+    <message>
+        <source>Save table…</source>
+        <translation>Tabelle speichern…</translation>
+    </message>
+    <message>
+        <source>Save picture…</source>
+        <translation>Bild speichern…</translation>
+    </message>
+    <message>
+        <source>Save table</source>
+        <translation>Tabelle speichern</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>Bild speichern</translation>
+    </message>
+    <message>
+        <source>Tables (*.csv)</source>
+        <translation>Tabellen (*.csv)</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Bilder (*.png)</translation>
+    </message>
+</context>
+<context>
+    <name>ScanHandle</name>
+    <message>
+        <source>frame</source>
+        <translation>Phase</translation>
+    </message>
+    <message>
+        <source>%1 %2 of %3</source>
+        <translation>%1 %2 von %3</translation>
+    </message>
+    <message>
+        <source>%1, %2 of %3</source>
+        <translation>%1, %2 von %3</translation>
+    </message>
+</context>
+<context>
+    <name>ScanIdentity</name>
+    <message>
+        <source>ID %1</source>
+        <translation>ID %1</translation>
+    </message>
+</context>
+<context>
+    <name>ScanSection</name>
+    <message>
+        <source>Finding series</source>
+        <translation>Serien werden gesucht</translation>
+    </message>
+    <message>
+        <source>Loading</source>
+        <translation>Laden</translation>
+    </message>
+    <message>
+        <source>Key %1</source>
+        <translation>Taste %1</translation>
+    </message>
+    <message>
+        <source>Custom (%1 / %2)</source>
+        <translation>Eigenes (%1 / %2)</translation>
+    </message>
+    <message>
+        <source>First frame</source>
+        <translation>Erste Phase</translation>
+    </message>
+    <message>
+        <source>One frame back</source>
+        <translation>Eine Phase zurück</translation>
+    </message>
+    <message>
+        <source>One frame on</source>
+        <translation>Eine Phase weiter</translation>
+    </message>
+    <message>
+        <source>Last frame</source>
+        <translation>Letzte Phase</translation>
+    </message>
+    <message>
+        <source>★ Best to feel first: %1</source>
+        <translation>★ Zuerst zu fühlen: %1</translation>
+    </message>
+    <message>
+        <source>Open DICOM folder…</source>
+        <translation>DICOM-Ordner öffnen…</translation>
+    </message>
+    <message>
+        <source>A folder of DICOM files, searched to the bottom. A folder may also be dropped here.</source>
+        <translation>Ein Ordner mit DICOM-Dateien, mit allen Unterordnern. Er kann auch hier abgelegt werden.</translation>
+    </message>
+    <message>
+        <source>File…</source>
+        <translation>Datei…</translation>
+    </message>
+    <message>
+        <source>A scan in NIfTI, NRRD or MetaImage, or a zipped study. It may also be dropped here.</source>
+        <translation>Eine Aufnahme in NIfTI, NRRD oder MetaImage, oder eine gezippte Studie. Sie kann auch hier abgelegt werden.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Keys 1 to 9. Also: drag in a slice, to the right for a wider window, up for a brighter one.</source>
+        <translation>Tasten 1 bis 9. Auch: in einer Schicht ziehen, nach rechts für ein breiteres Fenster, nach oben für ein helleres.</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>Archive</source>
+        <translation>Archiv</translation>
+    </message>
+    <message>
+        <source>Open DICOM folder</source>
+        <translation>DICOM-Ordner öffnen</translation>
+    </message>
+    <message>
+        <source>Open a file</source>
+        <translation>Datei öffnen</translation>
+    </message>
+    <message>
+        <source>Scans</source>
+        <translation>Aufnahmen</translation>
+    </message>
+    <message>
+        <source>All files</source>
+        <translation>Alle Dateien</translation>
+    </message>
+    <message>
+        <source>As the scanner set it</source>
+        <translation>Wie vom Gerät gesetzt</translation>
+    </message>
+    <message>
+        <source>Soft tissue</source>
+        <translation>Weichteile</translation>
+    </message>
+    <message>
+        <source>Brain</source>
+        <translation>Gehirn</translation>
+    </message>
+    <message>
+        <source>Lung</source>
+        <translation>Lunge</translation>
+    </message>
+    <message>
+        <source>Bone</source>
+        <translation>Knochen</translation>
+    </message>
+    <message>
+        <source>Mediastinum</source>
+        <translation>Mediastinum</translation>
+    </message>
+    <message>
+        <source>Abdomen</source>
+        <translation>Abdomen</translation>
+    </message>
+    <message>
+        <source>Angio</source>
+        <translation>Angio</translation>
+    </message>
+    <message>
+        <source>Stroke</source>
+        <translation>Schlaganfall</translation>
+    </message>
+    <message>
+        <source>Middle 98 %</source>
+        <translation>Mittlere 98 %</translation>
+    </message>
+    <message>
+        <source>All values</source>
+        <translation>Alle Werte</translation>
+    </message>
+</context>
+<context>
+    <name>SendDialog</name>
+    <message>
+        <source>To</source>
+        <translation>Bis</translation>
+    </message>
+</context>
+<context>
+    <name>SeriesCard</name>
+    <message>
+        <source>Opens this series</source>
+        <translation>Öffnet diese Serie</translation>
+    </message>
+    <message>
+        <source>★ Best to feel first: %1</source>
+        <translation>★ Zuerst zu fühlen: %1</translation>
+    </message>
+    <message>
+        <source>Cannot be felt: %1</source>
+        <translation>Kann nicht gefühlt werden: %1</translation>
+    </message>
+</context>
+<context>
+    <name>SeriesWords</name>
+    <message>
+        <source>%1 mm thick</source>
+        <translation>%1 mm dick</translation>
+    </message>
+    <message>
+        <source>every %1 mm</source>
+        <translation>alle %1 mm</translation>
+    </message>
+    <message>
+        <source>without a description</source>
+        <translation>ohne Beschreibung</translation>
+    </message>
+    <message>
+        <source>%1 slices</source>
+        <translation>%1 Schichten</translation>
+    </message>
+    <message>
+        <source>%1 frames</source>
+        <translation>%1 Phasen</translation>
+    </message>
+    <message>
+        <source>not a volume</source>
+        <translation>kein Volumen</translation>
+    </message>
+</context>
+<context>
+    <name>SessionController</name>
+    <message>
+        <source>Clutch</source>
+        <translation>Auskuppeln</translation>
+    </message>
+</context>
+<context>
+    <name>SessionState</name>
+    <message>
+        <source>Off: no stylus is connected</source>
+        <translation>Aus: kein Stift ist verbunden</translation>
+    </message>
+    <message>
+        <source>Stopped: %1</source>
+        <translation>Angehalten: %1</translation>
+    </message>
+    <message>
+        <source>Ready: clutched, move your hand or the view freely</source>
+        <translation>Bereit: ausgekuppelt, Hand und Ansicht frei bewegen</translation>
+    </message>
+    <message>
+        <source>Ready: the stylus is starting</source>
+        <translation>Bereit: der Stift startet</translation>
+    </message>
+    <message>
+        <source>Ready: homing, move the stylus as its maker says</source>
+        <translation>Bereit: Nullfahrt, den Stift wie vom Hersteller beschrieben bewegen</translation>
+    </message>
+    <message>
+        <source>Ready: to home it, %1</source>
+        <translation>Bereit: zur Nullfahrt %1</translation>
+    </message>
+    <message>
+        <source>Stopped: the stylus does not answer. Check its plug and power, then connect it again</source>
+        <translation>Angehalten: Der Stift antwortet nicht. Stecker und Strom prüfen, dann neu verbinden</translation>
+    </message>
+    <message>
+        <source>Feeling: forces are on</source>
+        <translation>Fühlt: Kräfte sind an</translation>
+    </message>
+    <message>
+        <source>Feeling: forces are coming up</source>
+        <translation>Fühlt: Kräfte kommen</translation>
+    </message>
+    <message>
+        <source>Ready: no force. Feel turns it on</source>
+        <translation>Bereit: keine Kraft. Fühlen schaltet sie ein</translation>
+    </message>
+    <message>
+        <source>Ready: the force is going down</source>
+        <translation>Bereit: die Kraft geht zurück</translation>
+    </message>
+</context>
+<context>
+    <name>SliceView</name>
+    <message>
+        <source>Axial</source>
+        <translation>Axial</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>Koronal</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>Sagittal</translation>
+    </message>
+    <message>
+        <source>%1 mm thick</source>
+        <translation>%1 mm dick</translation>
+    </message>
+    <message>
+        <source>every %1 mm</source>
+        <translation>alle %1 mm</translation>
+    </message>
+    <message>
+        <source>zoom %1 %</source>
+        <translation>Zoom %1 %</translation>
+    </message>
+</context>
+<context>
+    <name>StartPage</name>
+    <message>
+        <source>Drop a DICOM folder here</source>
+        <translation>Einen DICOM-Ordner hier ablegen</translation>
+    </message>
+    <message>
+        <source>or a scan in NIfTI, NRRD or MetaImage, or a zipped study</source>
+        <translation>oder eine Aufnahme in NIfTI, NRRD oder MetaImage, oder eine gezippte Studie</translation>
+    </message>
+    <message>
+        <source>Open a DICOM folder…</source>
+        <translation>Einen DICOM-Ordner öffnen…</translation>
+    </message>
+    <message>
+        <source>Search an archive</source>
+        <translation>Ein Archiv durchsuchen</translation>
+    </message>
+    <message>
+        <source>Opened last</source>
+        <translation>Zuletzt geöffnet</translation>
+    </message>
+    <message>
+        <source>A patient without a name</source>
+        <translation>Ein Patient ohne Namen</translation>
+    </message>
+    <message>
+        <source>   ID %1</source>
+        <translation>   ID %1</translation>
+    </message>
+    <message>
+        <source>Study without a date</source>
+        <translation>Studie ohne Datum</translation>
+    </message>
+    <message>
+        <source>Study of %1</source>
+        <translation>Studie vom %1</translation>
+    </message>
+</context>
+<context>
+    <name>StructuresSection</name>
+    <message>
+        <source>No structures there: no DICOM SEG or RTSTRUCT.</source>
+        <translation>Keine Strukturen da: weder DICOM SEG noch RTSTRUCT.</translation>
+    </message>
+    <message>
+        <source>Reading…</source>
+        <translation>Lesen…</translation>
+    </message>
+    <message>
+        <source>Add structures…</source>
+        <translation>Strukturen hinzufügen…</translation>
+    </message>
+    <message>
+        <source>DICOM SEG or RTSTRUCT. Those in the scan&apos;s folder are found with it.</source>
+        <translation>DICOM SEG oder RTSTRUCT. Die im Ordner der Aufnahme werden mit ihr gefunden.</translation>
+    </message>
+    <message>
+        <source>Opacity</source>
+        <translation>Deckkraft</translation>
+    </message>
+    <message>
+        <source>Of the surfaces in the volume view</source>
+        <translation>Der Flächen in der Volumenansicht</translation>
+    </message>
+    <message>
+        <source>Boundary</source>
+        <translation>Grenze</translation>
+    </message>
+    <message>
+        <source>Its edge is felt, as the wall of an organ</source>
+        <translation>Ihr Rand wird gefühlt, wie die Wand eines Organs</translation>
+    </message>
+    <message>
+        <source>Boundary of %1</source>
+        <translation>Grenze von %1</translation>
+    </message>
+    <message>
+        <source>Keep out</source>
+        <translation>Fernhalten</translation>
+    </message>
+    <message>
+        <source>Over a margin before its edge the stylus is pushed back</source>
+        <translation>In einem Abstand vor ihrem Rand wird der Stift zurückgedrückt</translation>
+    </message>
+    <message>
+        <source>Keep out of %1</source>
+        <translation>Fernhalten von %1</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>Only inside</source>
+        <translation>Nur innen</translation>
+    </message>
+    <message>
+        <source>A mode of the scene is felt inside it only</source>
+        <translation>Ein Modus der Szene wird nur in ihr gefühlt</translation>
+    </message>
+    <message>
+        <source>%1 only inside %2</source>
+        <translation>%1 nur in %2</translation>
+    </message>
+    <message>
+        <source>Add structures</source>
+        <translation>Strukturen hinzufügen</translation>
+    </message>
+    <message>
+        <source>Color %1</source>
+        <translation>Farbe von %1</translation>
+    </message>
+</context>
+<context>
+    <name>StylusSection</name>
+    <message>
+        <source>Look for styluses again</source>
+        <translation>Neu nach Stiften suchen</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>Verbinden</translation>
+    </message>
+    <message>
+        <source>Stiffness</source>
+        <translation>Steifigkeit</translation>
+    </message>
+    <message>
+        <source> N/m</source>
+        <translation> N/m</translation>
+    </message>
+    <message>
+        <source>Force limit</source>
+        <translation>Kraftgrenze</translation>
+    </message>
+    <message>
+        <source> N</source>
+        <translation> N</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>Reichweite</translation>
+    </message>
+    <message>
+        <source>Scan</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>The whole scan is in the stylus&apos; reach.</source>
+        <translation>Die ganze Aufnahme ist in Reichweite des Stifts.</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>What the 3D view shows is in reach, turned as the view is.</source>
+        <translation>Was die 3D-Ansicht zeigt, ist in Reichweite, gedreht wie die Ansicht.</translation>
+    </message>
+    <message>
+        <source>1:1</source>
+        <translation>1:1</translation>
+    </message>
+    <message>
+        <source>A millimeter of the patient for each of the hand.</source>
+        <translation>Ein Millimeter im Patienten für jeden der Hand.</translation>
+    </message>
+    <message>
+        <source>Clutch</source>
+        <translation>Auskuppeln</translation>
+    </message>
+    <message>
+        <source>While it is down, hand and patient are parted: move the hand to a better place, or turn the view. The stylus&apos; first button does the same.</source>
+        <translation>Solange gedrückt, sind Hand und Patient getrennt: die Hand besser hinlegen oder die Ansicht drehen. Die erste Taste des Stifts tut dasselbe.</translation>
+    </message>
+    <message>
+        <source>Clutch turns it with the view</source>
+        <translation>Auskuppeln dreht ihn mit der Ansicht</translation>
+    </message>
+    <message>
+        <source>After clutching, to the right in the hand is to the right in the 3D view.</source>
+        <translation>Nach dem Auskuppeln ist rechts in der Hand rechts in der 3D-Ansicht.</translation>
+    </message>
+    <message>
+        <source>Slices follow</source>
+        <translation>Schichten folgen</translation>
+    </message>
+    <message>
+        <source>The slices through the proxy are shown as it moves.</source>
+        <translation>Die Schichten durch die Spitze werden gezeigt, während sie sich bewegt.</translation>
+    </message>
+    <message>
+        <source>Go to stylus</source>
+        <translation>Zum Stift</translation>
+    </message>
+    <message>
+        <source>Shows the slices through the stylus. They follow it again after you have leafed through them.</source>
+        <translation>Zeigt die Schichten durch den Stift. Nach dem Blättern folgen sie ihm wieder.</translation>
+    </message>
+    <message>
+        <source>Simulated (mouse and keyboard)</source>
+        <translation>Simuliert (Maus und Tastatur)</translation>
+    </message>
+    <message>
+        <source> (no permission)</source>
+        <translation> (keine Berechtigung)</translation>
+    </message>
+    <message>
+        <source>Research software, not a medical device: it must not guide a diagnosis or a treatment. Esc takes the force away at any time.</source>
+        <translation>Forschungssoftware, kein Medizinprodukt: Sie darf keine Diagnose oder Behandlung leiten. Esc nimmt die Kraft jederzeit weg.</translation>
+    </message>
+    <message>
+        <source>Disconnect</source>
+        <translation>Trennen</translation>
+    </message>
+    <message>
+        <source>Open a scan first.</source>
+        <translation>Erst eine Aufnahme öffnen.</translation>
+    </message>
+    <message>
+        <source>it gives no force</source>
+        <translation>er gibt keine Kraft</translation>
+    </message>
+    <message>
+        <source>its own: %1 N/m, %2 N (%3 N for long)</source>
+        <translation>eigene: %1 N/m, %2 N (%3 N auf Dauer)</translation>
+    </message>
+    <message>
+        <source>torque stays zero</source>
+        <translation>das Drehmoment bleibt null</translation>
+    </message>
+    <message>
+        <source>No guardian was found: if the program ends or hangs, only the device takes its force away (%1). Install palpate-guardian.</source>
+        <translation>Kein Wächter gefunden: Wenn das Programm endet oder hängt, nimmt nur das Gerät seine Kraft weg (%1). palpate-guardian installieren.</translation>
+    </message>
+    <message>
+        <source>%1 mm of patient per mm of hand</source>
+        <translation>%1 mm Patient pro mm Hand</translation>
+    </message>
+    <message>
+        <source>no scan yet</source>
+        <translation>noch keine Aufnahme</translation>
+    </message>
+    <message>
+        <source>Reach: %1</source>
+        <translation>Reichweite: %1</translation>
+    </message>
+</context>
+<context>
+    <name>StylusViews</name>
+    <message>
+        <source>%1 mm above</source>
+        <translation>%1 mm darüber</translation>
+    </message>
+    <message>
+        <source>%1 mm below</source>
+        <translation>%1 mm darunter</translation>
+    </message>
+    <message>
+        <source>%1 mm in front</source>
+        <translation>%1 mm davor</translation>
+    </message>
+    <message>
+        <source>%1 mm behind</source>
+        <translation>%1 mm dahinter</translation>
+    </message>
+    <message>
+        <source>%1 mm to the left</source>
+        <translation>%1 mm links</translation>
+    </message>
+    <message>
+        <source>%1 mm to the right</source>
+        <translation>%1 mm rechts</translation>
+    </message>
+</context>
+<context>
+    <name>TissuesSection</name>
+    <message>
+        <source>A scene says what is felt. The first was found in this scan.</source>
+        <translation>Eine Szene sagt, was gefühlt wird. Die erste wurde in dieser Aufnahme gefunden.</translation>
+    </message>
+    <message>
+        <source>Found in this scan</source>
+        <translation>In dieser Aufnahme gefunden</translation>
+    </message>
+    <message>
+        <source>Open…</source>
+        <translation>Öffnen…</translation>
+    </message>
+    <message>
+        <source>A scene&apos;s file</source>
+        <translation>Die Datei einer Szene</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
+    </message>
+    <message>
+        <source>Keeps this scene in a file</source>
+        <translation>Speichert diese Szene in eine Datei</translation>
+    </message>
+    <message>
+        <source>Made for %1, and this scan is none.</source>
+        <translation>Für %1 gemacht, und diese Aufnahme ist keine.</translation>
+    </message>
+    <message>
+        <source>Restored with the state</source>
+        <translation>Mit dem Zustand wiederhergestellt</translation>
+    </message>
+    <message>
+        <source>%1, edited</source>
+        <translation>%1, geändert</translation>
+    </message>
+    <message>
+        <source>Choose scene</source>
+        <translation>Szene wählen</translation>
+    </message>
+    <message>
+        <source>Open scene</source>
+        <translation>Szene öffnen</translation>
+    </message>
+    <message>
+        <source>Scenes (*.json)</source>
+        <translation>Szenen (*.json)</translation>
+    </message>
+    <message>
+        <source>Save scene</source>
+        <translation>Szene speichern</translation>
+    </message>
+    <message>
+        <source>No boundaries yet: open a scan.</source>
+        <translation>Noch keine Grenzen: eine Aufnahme öffnen.</translation>
+    </message>
+</context>
+<context>
+    <name>VolumeLookBox</name>
+    <message>
+        <source>How the volume is shown. Felt boundaries: each that is switched on, in its own color.</source>
+        <translation>Wie das Volumen gezeigt wird. Gefühlte Grenzen: jede eingeschaltete in ihrer Farbe.</translation>
+    </message>
+    <message>
+        <source>As it was saved</source>
+        <translation>Wie gespeichert</translation>
+    </message>
+    <message>
+        <source>Felt boundaries</source>
+        <translation>Gefühlte Grenzen</translation>
+    </message>
+    <message>
+        <source>CT skin</source>
+        <translation>CT Haut</translation>
+    </message>
+    <message>
+        <source>CT bone</source>
+        <translation>CT Knochen</translation>
+    </message>
+    <message>
+        <source>CT lung</source>
+        <translation>CT Lunge</translation>
+    </message>
+    <message>
+        <source>CT vessels</source>
+        <translation>CT Gefäße</translation>
+    </message>
+    <message>
+        <source>MR</source>
+        <translation>MR</translation>
+    </message>
+    <message>
+        <source>MR vessels</source>
+        <translation>MR Gefäße</translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,19 @@
+#pragma once
+
+/// The panel's texts in the user's language.
+
+#include <QTranslator>
+
+namespace palpate::plugin {
+
+/// While it lives, texts that were translated are shown in the language of the setting palpate/language ("de", "en"),
+/// or else of the system. A text that was not translated stays English, as messages do (plugin/docs/messages.md).
+class Translation : public QTranslator {
+ public:
+  Translation();
+  ~Translation() override;
+
+  QString translate(const char* context, const char* text, const char* about, int count) const override;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <QLabel>
+#include <QString>
+
+namespace palpate::plugin {
+
+/// A label for what a section has to say, in as many lines as that takes.
+inline QLabel* make_message_label(QWidget& parent, const char* name) {
+  auto* const label = new QLabel(&parent);
+  label->setObjectName(QString::fromLatin1(name));
+  label->setWordWrap(true);
+  label->setTextFormat(Qt::PlainText);
+  return label;
+}
+
+/// A problem is said in bold red.
+inline void set_message(QLabel& label, const QString& text, bool problem) {
+  label.setText(text);
+  label.setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
+}
+
+/// The same; without a text the label takes no room.
+inline void show_message(QLabel& label, const QString& text, bool problem) {
+  set_message(label, text, problem);
+  label.setVisible(!text.isEmpty());
+}
+
+}  // namespace palpate::plugin

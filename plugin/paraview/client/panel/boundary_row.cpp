@@ -1,0 +1,174 @@
+#include "plugin/paraview/client/panel/boundary_row.h"
+
+#include <QCheckBox>
+#include <QColorDialog>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+#include <QToolButton>
+
+#include <utility>
+#include <vector>
+
+#include "modes/scene/boundary_names.h"
+#include "plugin/paraview/client/panel/mode_words.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double strongest_n = 20;
+
+}  // namespace
+
+double strength_of(const modes::Mode& mode) {
+  return mode.strength_n.maximum();
+}
+
+void scale_strength(modes::Mode& mode, double newtons) {
+  const double now = mode.strength_n.maximum();
+  if (now <= 0) {
+    mode.strength_n = modes::TransferFunction(newtons);
+    return;
+  }
+  std::vector<modes::Node> nodes(mode.strength_n.nodes().begin(), mode.strength_n.nodes().end());
+  for (modes::Node& node : nodes) node.value *= newtons / now;
+  mode.strength_n = modes::TransferFunction(std::move(nodes), mode.strength_n.interpolation());
+}
+
+std::optional<std::size_t> way_back_of(const modes::Scene& scene, std::size_t mode) {
+  const modes::Mode& there = scene.modes[mode];
+  if (there.type != "surface" || there.from.empty()) return std::nullopt;
+  for (std::size_t n = mode + 1; n < scene.modes.size(); ++n) {
+    const modes::Mode& back = scene.modes[n];
+    if (back.type == "surface" && back.from == there.to && back.to == there.from) return n;
+  }
+  return std::nullopt;
+}
+
+BoundaryRow::BoundaryRow(SceneModel& model, std::size_t mode, int row, QWidget& parent, QGridLayout& grid)
+    : model_(model), mode_(mode), back_(way_back_of(model.scene(), mode)) {
+  add_switch(parent, grid, row);
+  add_name(parent, grid, row);
+  if (back_) add_direction(parent, grid, row);
+  add_strength(parent, grid, row);
+}
+
+/// The way back is the same boundary.
+void BoundaryRow::edit(const QString& what, const std::function<void(modes::Mode&)>& change) {
+  model_.edit(what, [&](modes::Scene& scene) {
+    change(scene.modes[mode_]);
+    if (back_) change(scene.modes[*back_]);
+  });
+}
+
+void BoundaryRow::set_felt(const QString& what, bool felt) {
+  const int direction = direction_ ? direction_->currentIndex() : in;
+  model_.edit(what, [&](modes::Scene& scene) {
+    scene.modes[mode_].enabled = felt && direction != out;
+    if (back_) scene.modes[*back_].enabled = felt && direction != in;
+  });
+}
+
+bool BoundaryRow::is_felt() const {
+  return of_scene().enabled || (back_ && model_.scene().modes[*back_].enabled);
+}
+
+void BoundaryRow::add_switch(QWidget& parent, QGridLayout& grid, int row) {
+  const QString number = QString::number(row);
+  on_ = new QCheckBox(&parent);
+  on_->setObjectName(QStringLiteral("palpateOn") + number);
+  on_->setToolTip(tr("Whether it is felt"));
+  connect(on_, &QCheckBox::clicked, this, [this](bool checked) {
+    const QString name = name_of(model_.scene(), mode_);
+    set_felt(checked ? tr("Switch on %1").arg(name) : tr("Switch off %1").arg(name), checked);
+  });
+  grid.addWidget(on_, row, 0);
+  color_ = new QToolButton(&parent);
+  color_->setObjectName(QStringLiteral("palpateColor") + number);
+  color_->setFixedSize(18, 18);
+  color_->setToolTip(tr("Its color, here and in the views"));
+  connect(color_, &QToolButton::clicked, this, [this] {
+    const QString name = name_of(model_.scene(), mode_);
+    const QColor chosen = QColorDialog::getColor(color_of(of_scene()), color_, name, QColorDialog::DontUseNativeDialog);
+    if (!chosen.isValid()) return;
+    edit(tr("Color %1").arg(name), [&](modes::Mode& mode) { mode.color = chosen.name().toStdString(); });
+  });
+  grid.addWidget(color_, row, 1);
+}
+
+void BoundaryRow::add_name(QWidget& parent, QGridLayout& grid, int row) {
+  name_ = new QLineEdit(&parent);
+  name_->setObjectName(QStringLiteral("palpateName") + QString::number(row));
+  name_->setFrame(false);
+  connect(name_, &QLineEdit::editingFinished, this, [this] {
+    const QString was = name_of(model_.scene(), mode_);
+    if (name_->text() == was) return;
+    const std::string name = name_->text().toStdString();
+    model_.edit(tr("Rename %1").arg(was), [&](modes::Scene& scene) {
+      scene.modes[mode_].name = name;
+      if (back_ && !name.empty()) scene.modes[*back_].name = modes::way_back_name(name);
+    });
+  });
+  grid.addWidget(name_, row, name_column);
+}
+
+void BoundaryRow::add_direction(QWidget& parent, QGridLayout& grid, int row) {
+  direction_ = new QComboBox(&parent);
+  direction_->setObjectName(QStringLiteral("palpateDirection") + QString::number(row));
+  direction_->addItems({tr("in"), tr("out"), tr("both")});
+  direction_->setToolTip(tr("Which way through it is resisted: in to the denser tissue, out of it, or both"));
+  connect(direction_, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { set_felt(tr("Direction of %1").arg(name_of(model_.scene(), mode_)), true); });
+  grid.addWidget(direction_, row, name_column + 1);
+}
+
+void BoundaryRow::add_strength(QWidget& parent, QGridLayout& grid, int row) {
+  const QString number = QString::number(row);
+  strength_ = new QDoubleSpinBox(&parent);
+  strength_->setObjectName(QStringLiteral("palpateStrength") + number);
+  strength_->setRange(0, strongest_n);
+  strength_->setDecimals(2);
+  strength_->setSingleStep(0.1);
+  strength_->setSuffix(tr(" N"));
+  strength_->setKeyboardTracking(false);
+  strength_->setToolTip(tr("How hard it resists before it yields"));
+  connect(strength_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this](double newtons) {
+    edit(tr("Strength of %1").arg(name_of(model_.scene(), mode_)),
+         [&](modes::Mode& mode) { scale_strength(mode, newtons); });
+  });
+  grid.addWidget(strength_, row, name_column + 2);
+  alike_ = new QLabel(QStringLiteral("≈"), &parent);
+  alike_->setObjectName(QStringLiteral("palpateAlike") + number);
+  alike_->setStyleSheet(QStringLiteral("color: #d55e00; font-weight: bold"));
+  alike_->hide();
+  grid.addWidget(alike_, row, name_column + 3);
+}
+
+void BoundaryRow::show_values() {
+  const modes::Mode& mode = of_scene();
+  const QString name = name_of(model_.scene(), mode_);
+  on_->setChecked(is_felt());
+  color_->setStyleSheet(QStringLiteral("background: %1; border: 1px solid palette(dark)").arg(color_of(mode).name()));
+  if (!name_->hasFocus() || name_->text().isEmpty()) {
+    name_->setText(name);
+    name_->setCursorPosition(0);
+  }
+  name_->setToolTip(name);
+  if (direction_ && is_felt()) {
+    const bool back = model_.scene().modes[*back_].enabled;
+    direction_->setCurrentIndex(mode.enabled && back ? both : back ? out : in);
+  }
+  const QSignalBlocker quiet(strength_);
+  strength_->setValue(strength_of(mode));
+}
+
+void BoundaryRow::set_alike(const QStringList& others) {
+  alike_->setVisible(!others.isEmpty());
+  alike_->setToolTip(tr("A hand cannot tell it from %1: it feels differences of a tenth or more.")
+                         .arg(others.join(QStringLiteral(", "))));
+}
+
+}  // namespace palpate::plugin

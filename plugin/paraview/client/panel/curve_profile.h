@@ -1,0 +1,72 @@
+#pragma once
+
+/// What a transfer function does, below it: the force along a stroke, now and as it was before the curve was dragged.
+
+#include <QTimer>
+#include <QWidget>
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+
+#include "plugin/paraview/client/panel/latest_job.h"
+#include "plugin/paraview/client/panel/stroke_runner.h"
+
+class QLabel;
+
+namespace palpate::plugin {
+
+class ChartPicture;
+
+class CurveProfile : public QWidget {
+  Q_OBJECT
+
+ public:
+  CurveProfile(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
+  ~CurveProfile() override;
+
+  /// The stroke that the user has chosen. While it is not whole, the line across the place last met is taken.
+  void choose(const WantedStroke& stroke);
+  /// The pointer is there in a slice; `gradient` of the scan's value. Taken once the pointer has rested: it passes over
+  /// much on its way to the curve.
+  void point_at(const glm::dvec3& place, const glm::dvec3& gradient);
+  /// The stylus is held there; `inward`: from the proxy to the probe. Taken once it has rested, too.
+  void touch_at(const glm::dvec3& place, const glm::dvec3& inward);
+  /// Another scan: no place of the last one counts.
+  void forget();
+  /// The curve has come to rest: the next drag is compared with what is felt now.
+  void rest();
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  /// Where a line crosses the scan.
+  struct Across {
+    glm::dvec3 place{0}, inward{0};
+    bool touched = false;
+  };
+  struct Made {
+    Chart chart;
+    double length_mm = 0;
+    QString met;
+  };
+  static Made make(const Profile& profile);
+
+  void propose(const Across& across);
+  WantedStroke stroke() const;
+  void run();
+  void show_made();
+
+  StrokeRunner& strokes_;
+  QLabel* words_;
+  ChartPicture* chart_;
+  WantedStroke chosen_;
+  std::optional<Across> across_, proposed_;
+  QTimer rest_;
+  bool dragging_ = false;
+  std::shared_ptr<const Made> made_, before_;
+  LatestJob<Made> job_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,78 @@
+#pragma once
+
+/// The panel's section of marks: lists what was marked, measures between what is chosen, renames, moves and deletes.
+
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+#include "plugin/paraview/client/panel/marks_model.h"
+#include "plugin/paraview/client/panel/session_controller.h"
+
+class QLabel;
+class QPushButton;
+class QToolButton;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace palpate::plugin {
+
+class MarksSender;
+
+class MarksSection : public QWidget {
+  Q_OBJECT
+
+ public:
+  MarksSection(MarksModel& model, SessionController& touching, QWidget* parent = nullptr);
+
+  /// How many marks and measures there are; empty where there are none.
+  QString in_words() const;
+  void tell(const QString& message, bool problem = false);
+  MarksSender& sender() { return *sender_; }
+
+ signals:
+  void listed();
+  /// The marks that are chosen, in the order in which they were.
+  void chosen(const std::vector<std::size_t>& marks);
+  /// The user asks to see a mark: the slices go there.
+  void place_wanted(const glm::dvec3& place_mm);
+  void send_wanted();
+
+ private:
+  enum class Kind { mark, path, distance, angle };
+  struct Row {
+    Kind kind = Kind::mark;
+    std::size_t index = 0;
+  };
+
+  void build();
+  void list();
+  void fill(QTreeWidgetItem& item, const Row& row);
+  std::vector<Row> rows() const;
+  void follow_choice();
+  void show_measure();
+  void show_uses();
+  void rename(const QTreeWidgetItem& item);
+  void keep_measure();
+  void move_here();
+  void remove();
+  Row row_of(const QTreeWidgetItem& item) const;
+  QString unit() const;
+
+  MarksModel& model_;
+  SessionController& touching_;
+  QTreeWidget* list_ = nullptr;
+  QLabel* measured_ = nullptr;
+  QLabel* message_ = nullptr;
+  QToolButton* keep_ = nullptr;
+  QToolButton* move_ = nullptr;
+  QToolButton* remove_ = nullptr;
+  QToolButton* undo_ = nullptr;
+  QPushButton* send_ = nullptr;
+  MarksSender* sender_ = nullptr;
+  std::vector<std::size_t> chosen_;  // marks, in the order in which they were chosen
+  bool listing_ = false;
+};
+
+}  // namespace palpate::plugin

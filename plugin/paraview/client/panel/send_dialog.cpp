@@ -1,0 +1,71 @@
+#include "plugin/paraview/client/panel/send_dialog.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QStringList>
+
+#include <utility>
+
+#include "plugin/paraview/client/scan/patient_words.h"
+
+namespace palpate::plugin {
+namespace {
+
+QString joined(QStringList parts) {
+  parts.removeAll(QString());
+  return parts.join(QStringLiteral("  ·  "));
+}
+
+}  // namespace
+
+SendDialog::SendDialog(const io::Series& series, const Marks& marks, std::vector<io::Archive> archives, QWidget* parent)
+    : QDialog(parent), entered_(std::move(archives)), archives_(new QComboBox(this)) {
+  setObjectName(QStringLiteral("palpateSendDialog"));
+  setWindowTitle(tr("Send marks"));
+  auto* const form = new QFormLayout(this);
+  const auto line = [&](const char* name, const QString& what, const QString& text) {
+    auto* const field = new QLabel(text, this);
+    field->setObjectName(QString::fromLatin1(name));
+    field->setTextFormat(Qt::PlainText);
+    field->setWordWrap(true);
+    form->addRow(what, field);
+  };
+  line("palpateSendPatient", tr("Patient"),
+       joined({patient_in_words(series.identity.patient_name), QString::fromStdString(series.identity.patient_id)}));
+  line("palpateSendStudy", tr("Study"),
+       joined({date_in_words(series.identity.study_date), QString::fromStdString(series.modality),
+               QString::fromStdString(series.description)}));
+  line("palpateSendWhat", tr("What"),
+       tr("A report (SR) of %1 marks, %2 distances and %3 paths, and %4 pictures of the marks")
+           .arg(marks.points.size())
+           .arg(marks.distances.size())
+           .arg(marks.paths.size())
+           .arg(marks.points.size()));
+  archives_->setObjectName(QStringLiteral("palpateSendArchive"));
+  for (const io::Archive& one : entered_) {
+    archives_->addItem(QStringLiteral("%1 (%2:%3)")
+                           .arg(QString::fromStdString(one.name), QString::fromStdString(one.host))
+                           .arg(one.port));
+  }
+  form->addRow(tr("To"), archives_);
+  line("palpateSendNote", QString(),
+       tr("They go into this study as measured by research software, not a medical device; the report says so. The "
+          "pictures show the scan, and no name."));
+  auto* const buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+  QPushButton* const send = buttons->addButton(tr("Send"), QDialogButtonBox::AcceptRole);
+  send->setObjectName(QStringLiteral("palpateSendOk"));
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  form->addRow(buttons);
+  constexpr int wide = 420;
+  setMinimumWidth(wide);
+}
+
+const io::Archive& SendDialog::archive() const {
+  return entered_[static_cast<std::size_t>(archives_->currentIndex())];
+}
+
+}  // namespace palpate::plugin

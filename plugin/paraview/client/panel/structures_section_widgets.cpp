@@ -1,0 +1,165 @@
+#include <QColorDialog>
+#include <QDoubleSpinBox>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMimeData>
+#include <QSlider>
+#include <QToolButton>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+#include "plugin/paraview/client/message_label.h"
+#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/panel/row_list.h"
+#include "plugin/paraview/client/panel/structures_section.h"
+#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/session/study_structures.h"
+
+// What stands in the section, from top to bottom, and what its buttons, menus and dialogs ask for.
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double first_margin_mm = 3, first_opacity = 0.4;
+
+QString text(const std::string& utf8) {
+  return QString::fromStdString(utf8);
+}
+
+}  // namespace
+
+void StructuresSection::build() {
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(3);
+  list_ = make_row_list(*this, "palpateStructureList", 0, 120);
+  list_->setToolTip(tr("A tick shows it in the views. A double click chooses its color."));
+  connect(list_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) {
+    if (listing_) return;
+    entries_[static_cast<std::size_t>(list_->indexOfTopLevelItem(item))].shown = item->checkState(0) == Qt::Checked;
+    draw();
+    make_next();
+  });
+  connect(list_, &QTreeWidget::currentItemChanged, this, [this] { list(); });
+  connect(list_, &QTreeWidget::itemDoubleClicked, this,
+          [this](QTreeWidgetItem* item) { choose_color(static_cast<std::size_t>(list_->indexOfTopLevelItem(item))); });
+  column->addWidget(list_);
+  column->addWidget(build_uses());
+  auto* const row = new QHBoxLayout;
+  add_tool_button(*row, *this, "palpateAddStructures", tr("Add structures…"),
+                  tr("DICOM SEG or RTSTRUCT. Those in the scan's folder are found with it."), [this] { ask_files(); });
+  row->addStretch(1);
+  row->addWidget(new QLabel(tr("Opacity"), this));
+  opacity_ = new QSlider(Qt::Horizontal, this);
+  opacity_->setObjectName(QStringLiteral("palpateStructureOpacity"));
+  opacity_->setRange(0, 100);
+  opacity_->setValue(static_cast<int>(100 * first_opacity));
+  opacity_->setMaximumWidth(80);
+  opacity_->setToolTip(tr("Of the surfaces in the volume view"));
+  connect(opacity_, &QSlider::valueChanged, this, [this] { draw(); });
+  row->addWidget(opacity_);
+  column->addLayout(row);
+  message_ = make_message_label(*this, "palpateStructureMessage");
+  column->addWidget(message_);
+}
+
+/// What one press makes of the structure that is marked.
+QWidget* StructuresSection::build_uses() {
+  auto* const box = new QWidget(this);
+  auto* const row = new QHBoxLayout(box);
+  row->setContentsMargins(0, 0, 0, 0);
+  const auto name_of_chosen = [this] { return text(chosen()->structure.name); };
+  uses_.push_back(add_tool_button(*row, *this, "palpateStructureBoundary", tr("Boundary"),
+                                  tr("Its edge is felt, as the wall of an organ"), [this, name_of_chosen] {
+                                    use(tr("Boundary of %1").arg(name_of_chosen()),
+                                        [structure = chosen()->structure](modes::Scene& scene) {
+                                          add_boundary_of(scene, structure);
+                                        });
+                                  }));
+  uses_.push_back(
+      add_tool_button(*row, *this, "palpateStructureKeepOut", tr("Keep out"),
+                      tr("Over a margin before its edge the stylus is pushed back"), [this, name_of_chosen] {
+                        use(tr("Keep out of %1").arg(name_of_chosen()),
+                            [structure = chosen()->structure, margin = margin_->value()](modes::Scene& scene) {
+                              add_keep_out_of(scene, structure, margin);
+                            });
+                      }));
+  margin_ = new QDoubleSpinBox(box);
+  margin_->setObjectName(QStringLiteral("palpateStructureMargin"));
+  margin_->setRange(0.5, 15);
+  margin_->setSingleStep(0.5);
+  margin_->setDecimals(1);
+  margin_->setValue(first_margin_mm);
+  margin_->setSuffix(tr(" mm"));
+  margin_->setToolTip(tr("The margin that a keep-out gets: nearer than that is warned of"));
+  row->addWidget(margin_);
+  auto* const gate = add_tool_button(*row, *this, "palpateStructureGate", tr("Only inside"),
+                                     tr("A mode of the scene is felt inside it only"), [] {});
+  gate->setPopupMode(QToolButton::InstantPopup);
+  auto* const menu = new QMenu(gate);
+  connect(menu, &QMenu::aboutToShow, this, [this, menu] { fill_gates(*menu); });
+  gate->setMenu(menu);
+  uses_.push_back(gate);
+  row->addStretch(1);
+  return box;
+}
+
+void StructuresSection::fill_gates(QMenu& menu) {
+  menu.clear();
+  const modes::Scene& scene = model_.scene();
+  for (std::size_t n = 0; n < scene.modes.size(); ++n) {
+    connect(menu.addAction(name_of(scene, n)), &QAction::triggered, this, [this, n] {
+      if (!chosen()) return;
+      use(tr("%1 only inside %2").arg(name_of(model_.scene(), n), text(chosen()->structure.name)),
+          [n, structure = chosen()->structure](modes::Scene& changed) {
+            if (n < changed.modes.size()) add_gate_of(changed, n, structure);
+          });
+    });
+  }
+}
+
+void StructuresSection::ask_files() {
+  const QStringList files =
+      QFileDialog::getOpenFileNames(this, tr("Add structures"), {}, tr("Structures (*.dcm *);;All files (*)"));
+  std::vector<std::filesystem::path> places;
+  for (const QString& file : files) places.emplace_back(file.toStdString());
+  asked_ = !places.empty();
+  look_into(places);
+}
+
+void StructuresSection::dragEnterEvent(QDragEnterEvent* event) {
+  if (scan_ && event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void StructuresSection::dropEvent(QDropEvent* event) {
+  std::vector<std::filesystem::path> places;
+  for (const QUrl& url : event->mimeData()->urls()) {
+    if (url.isLocalFile()) places.emplace_back(url.toLocalFile().toStdString());
+  }
+  asked_ = !places.empty();
+  look_into(places);
+}
+
+void StructuresSection::choose_color(std::size_t n) {
+  if (n >= entries_.size()) return;
+  const io::Structure structure = entries_[n].structure;
+  const QColor chosen_color = QColorDialog::getColor(QColor(text(entries_[n].color)), this, text(structure.name),
+                                                     QColorDialog::DontUseNativeDialog);
+  if (!chosen_color.isValid() || n >= entries_.size()) return;
+  entries_[n].color = entries_[n].structure.color = chosen_color.name().toStdString();
+  const auto in_scene = [&](const modes::SceneStructure& named) { return is_same(named, structure); };
+  if (std::ranges::any_of(model_.scene().structures, in_scene)) {
+    model_.edit(tr("Color %1").arg(text(structure.name)), [&](modes::Scene& scene) {
+      std::ranges::find_if(scene.structures, in_scene)->color = entries_[n].color;
+    });
+  }
+  list();
+  draw();
+}
+
+}  // namespace palpate::plugin

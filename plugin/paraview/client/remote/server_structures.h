@@ -1,0 +1,53 @@
+#pragma once
+
+/// Brings the files of structures that lie beside a scan on a server to this machine, where they are felt. They are
+/// kept in a folder that only the user may read, until the scan goes.
+
+#include <pqPipelineSource.h>
+
+#include <QObject>
+#include <QPointer>
+#include <QTemporaryDir>
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "plugin/paraview/common/slices_message.h"
+#include "plugin/paraview/common/structure_files_message.h"
+
+namespace palpate::plugin {
+
+/// One scan at a time: a new request ends the last. All of it runs on the UI thread, in small steps between which
+/// events are handled. No callback comes after cancel() or destruction.
+class ServerStructures : public QObject {
+ public:
+  /// `said`: why some are not here; empty where all are.
+  using Done = std::function<void(const std::vector<std::filesystem::path>& files, const QString& said)>;
+
+  /// `reader`: a PalpateDicomReader that is up to date.
+  void get(pqPipelineSource& reader, Done done);
+  /// Also takes away what was fetched.
+  void cancel();
+
+ private:
+  void next(void (ServerStructures::*step)());
+  void ask_files();
+  void ask_pieces();
+  bool ask(const SlicesAsked& asked, SlicesAnswered& answered);
+  std::filesystem::path here(const ServedFile& file) const;
+  void finish(const QString& said);
+
+  QPointer<pqPipelineSource> reader_;
+  Done done_;
+  unsigned run_ = 0;  // counts up: a step of an earlier run is not taken
+  std::unique_ptr<QTemporaryDir> folder_;
+  std::vector<ServedFile> files_;
+  std::vector<std::filesystem::path> here_;
+  std::size_t file_ = 0;
+  int piece_ = 0;
+};
+
+}  // namespace palpate::plugin

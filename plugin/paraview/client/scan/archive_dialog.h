@@ -1,0 +1,59 @@
+#pragma once
+
+/// Entering an archive: where it is, what it and this program are called there.
+
+#include <QDialog>
+
+#include "io/archive/archive.h"
+#include "plugin/paraview/client/scan/background.h"
+
+class QCheckBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QSpinBox;
+
+namespace palpate::plugin {
+
+/// How long an archive took to answer an echo, ms. Throws as io::echo().
+double echo_ms(const io::Archive& archive);
+
+class ArchiveDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  /// Asks in a background that outlives the dialog, so that an archive that does not answer does not delay closing.
+  ArchiveDialog(Background<double>& echoing, QWidget* parent);
+  ~ArchiveDialog() override;
+
+  /// Of the archive that was entered.
+  QString name() const;
+
+ public slots:
+  /// Writes the archive to the settings. If that fails, the dialog stays open and says why.
+  void accept() override;
+
+ private:
+  void build_tls(QFormLayout& form);
+  void show_tls();
+  io::Tls tls() const;
+  io::Archive archive() const;
+  void echo();
+  void tell(const QString& message, bool problem);
+
+  QLineEdit* name_;
+  QLineEdit* host_;
+  QSpinBox* port_;
+  QLineEdit* called_;
+  QLineEdit* calling_;
+  QCheckBox* uses_get_;
+  QSpinBox* listen_;
+  QLineEdit* authorities_ = nullptr;
+  QLineEdit* certificate_ = nullptr;
+  QLineEdit* key_ = nullptr;
+  QLineEdit* tls_name_ = nullptr;
+  QLabel* message_;
+  Background<double>& echoing_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,106 @@
+#pragma once
+
+/// The archives (PACS) beside the folder: search as one types, studies and their series, fetched in the background.
+
+#include <QHash>
+#include <QIcon>
+#include <QTimer>
+#include <QWidget>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/archive/fetch.h"
+#include "io/archive/find.h"
+#include "plugin/app/fetched.h"
+#include "plugin/paraview/client/scan/background.h"
+
+class QCheckBox;
+class QComboBox;
+class QImage;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QPushButton;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace palpate::plugin {
+
+class ArchiveTab : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ArchiveTab(QWidget* parent = nullptr);
+  ~ArchiveTab() override;
+
+  /// `in_use` returns the folders and files that are open, of this run or not. They are not deleted while they are
+  /// open.
+  void set_in_use(std::function<std::vector<std::filesystem::path>()> in_use) { in_use_ = std::move(in_use); }
+  /// Whether a folder was fetched in this run, and goes with it.
+  bool has_fetched(const std::string& folder) const { return run_.holds(folder); }
+  /// The picture of a series that was opened, for its line here.
+  void set_picture(const QString& series_uid, const QImage& picture);
+
+ signals:
+  /// A study or series lies in a folder, and can be opened.
+  void fetched(const QString& folder);
+
+ protected:
+  /// Archives may have been entered elsewhere meanwhile.
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void build_archives();
+  void build_search();
+  void build_fetch();
+  void list_archives(const QString& chosen);
+  std::optional<io::Archive> archive() const;
+  void enter_archive();
+  void echo();
+  void search(bool begun_date);
+  void list(const io::Found& found);
+  void ask_series();
+  void list_series(const QString& study, const std::vector<io::ArchivedSeries>& series);
+  void fetch();
+  void show_progress(const io::FetchProgress& progress);
+  void take(const io::Fetched& fetched, const std::filesystem::path& folder);
+  void empty();
+  void count_on_disk();
+  void set_fetching(bool fetching);
+  void close();
+  void tell(const QString& message, bool problem = false);
+
+  QComboBox* archives_ = nullptr;
+  QPushButton* echo_ = nullptr;
+  QLineEdit* patient_ = nullptr;
+  QLineEdit* id_ = nullptr;
+  QLineEdit* date_ = nullptr;
+  QComboBox* modality_ = nullptr;
+  QLineEdit* description_ = nullptr;
+  QTreeWidget* found_ = nullptr;
+  QPushButton* fetch_ = nullptr;
+  QProgressBar* progress_ = nullptr;
+  QPushButton* cancel_ = nullptr;
+  QCheckBox* keep_ = nullptr;
+  QLabel* on_disk_ = nullptr;
+  QPushButton* empty_ = nullptr;
+  QLabel* message_ = nullptr;
+
+  std::function<std::vector<std::filesystem::path>()> in_use_;
+  std::vector<io::Archive> entered_;
+  QHash<QString, QIcon> pictures_;  // by series UID
+  std::vector<QString> unlisted_;   // studies whose series are to be asked for
+  QTimer typing_;
+  FetchedRun run_;
+  Background<double> echoing_;  // ms
+  Background<io::Found> finding_;
+  Background<std::vector<io::ArchivedSeries>> listing_;
+  Background<OnDisk> counting_;
+  Background<io::Fetched> fetching_;  // last: its files lie in the run
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,170 @@
+#include "plugin/paraview/client/views/patient_volume.h"
+
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <vtkAlgorithm.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPVRenderView.h>
+#include <vtkPointData.h>
+#include <vtkRenderer.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSmartVolumeMapper.h>
+#include <vtkVolume.h>
+#include <vtkVolumeCollection.h>
+
+#include <utility>
+
+#include "plugin/paraview/client/panel/latest_job.h"
+#include "plugin/paraview/client/views/crop_box.h"
+#include "plugin/paraview/common/body_mask.h"
+
+namespace palpate::plugin {
+namespace {
+
+vtkPVRenderView& client_view(const pqRenderView& view) {
+  return *vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
+}
+
+/// A copy of a CT of which nothing but the body is left; null where there is nothing else.
+vtkSmartPointer<vtkImageData> body_of(vtkImageData& image) {
+  vtkDataArray& values = *image.GetPointData()->GetScalars();
+  const int* const size = image.GetDimensions();
+  const auto at = [size](int i, int j, int k) { return (static_cast<vtkIdType>(k) * size[1] + j) * size[0] + i; };
+  const BodyMask body =
+      body_mask([&](int i, int j, int k) { return values.GetComponent(at(i, j, k), 0); }, {size[0], size[1], size[2]},
+                {image.GetSpacing()[0], image.GetSpacing()[1], image.GetSpacing()[2]}, Rim::one_voxel);
+  if (!body.left_something) return nullptr;
+  const auto cut = vtkSmartPointer<vtkImageData>::New();
+  cut->CopyStructure(&image);
+  const auto kept = vtkSmartPointer<vtkDataArray>::Take(values.NewInstance());
+  kept->DeepCopy(&values);
+  const double air = values.GetRange(0)[0];
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i) {
+        if (!body.holds(i, j, k)) kept->SetComponent(at(i, j, k), 0, air);
+      }
+    }
+  }
+  cut->GetPointData()->SetScalars(kept);
+  return cut;
+}
+
+}  // namespace
+
+struct PatientVolume::Cut {
+  LatestJob<vtkSmartPointer<vtkImageData>> job;
+};
+
+PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed)
+    : view_(&view), scan_(&scan), hounsfield_(hounsfield), changed_(std::move(changed)) {
+  const auto done = [this](const auto& found, const QString&) {
+    if (!found || !*found) return;
+    cut_image_ = *found;
+    refresh();
+    if (changed_) changed_();
+  };
+  job_ = std::unique_ptr<Cut>(new Cut{LatestJob<vtkSmartPointer<vtkImageData>>(done)});
+  take_image();
+  // Its values may be filtered, or read anew.
+  QObject::connect(&scan, QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), &lifetime_,
+                   [this] { take_image(); });
+}
+
+void PatientVolume::take_image() {
+  auto* const reader = scan_ ? vtkAlgorithm::SafeDownCast(scan_->getProxy()->GetClientSideObject()) : nullptr;
+  auto* const image = reader ? vtkImageData::SafeDownCast(reader->GetOutputDataObject(0)) : nullptr;
+  vtkSMProperty* const times = scan_ ? scan_->getProxy()->GetProperty("TimestepValues") : nullptr;
+  const bool one_frame = !times || vtkSMPropertyHelper(times).GetNumberOfElements() <= 1;
+  vtkDataArray* const values = image ? image->GetPointData()->GetScalars() : nullptr;
+  if (!values || !one_frame || (whole_image_ && whole_image_->GetPointData()->GetScalars() == values)) return;
+  whole_image_ = vtkSmartPointer<vtkImageData>::New();
+  whole_image_->ShallowCopy(image);
+  cut_image_ = nullptr;
+  job_->job.drop();
+  refresh();
+  if (hounsfield_) job_->job.ask([image = whole_image_] { return body_of(*image); });
+}
+
+PatientVolume::~PatientVolume() {
+  job_.reset();
+  box_.reset();
+  if (!view_) return;
+  vtkRenderer& renderer = *client_view(*view_).GetRenderer();
+  if (own_) renderer.RemoveVolume(own_);
+  if (taken_out_) renderer.AddVolume(taken_out_);
+}
+
+void PatientVolume::set_cut(bool cut) {
+  cut_ = cut;
+  refresh();
+}
+
+void PatientVolume::set_cropped(bool cropped) {
+  cropped_ = cropped && can_crop();
+  refresh();
+}
+
+void PatientVolume::set_hidden(bool hidden) {
+  if (std::exchange(hidden_, hidden) != hidden) refresh();
+}
+
+/// The one that the representation has put into the view.
+vtkVolume* PatientVolume::of_paraview() const {
+  if (taken_out_) return taken_out_;
+  vtkVolumeCollection& volumes = *client_view(*view_).GetRenderer()->GetVolumes();
+  for (int n = 0; n < volumes.GetNumberOfItems(); ++n) {
+    auto* const volume = vtkVolume::SafeDownCast(volumes.GetItemAsObject(n));
+    if (volume != own_) return volume;
+  }
+  return nullptr;
+}
+
+/// Of the view: the representation makes it visible before every picture.
+void PatientVolume::take_out(vtkVolume& theirs, bool out) {
+  if (out == (taken_out_ != nullptr)) return;
+  vtkRenderer& renderer = *client_view(*view_).GetRenderer();
+  if (out) {
+    taken_out_ = &theirs;
+    renderer.RemoveVolume(&theirs);
+  } else {
+    renderer.AddVolume(&theirs);
+    taken_out_ = nullptr;
+  }
+}
+
+void PatientVolume::refresh() {
+  if (!view_) return;
+  vtkVolume* const theirs = of_paraview();
+  if (!theirs) return;
+  const bool cut = cut_ && cut_image_;
+  const bool ours = !hidden_ && (cut || cropped_);
+  if (ours && !own_) {
+    own_ = vtkSmartPointer<vtkVolume>::New();
+    own_->PickableOff();
+    own_->SetMapper(vtkNew<vtkSmartVolumeMapper>());
+    own_->SetProperty(theirs->GetProperty());  // what is chosen for the one is seen of the other
+    client_view(*view_).GetRenderer()->AddVolume(own_);
+  }
+  if (cropped_ && !box_) box_ = std::make_unique<CropBox>(*view_, whole_image_->GetBounds());
+  if (box_) box_->set_visible(cropped_);
+  if (own_) {
+    auto* const mapper = vtkSmartVolumeMapper::SafeDownCast(own_->GetMapper());
+    if (ours) mapper->SetInputData(cut ? cut_image_ : whole_image_);
+    if (cropped_) {
+      mapper->SetClippingPlanes(box_->planes());
+    } else {
+      mapper->RemoveAllClippingPlanes();
+    }
+    own_->SetVisibility(ours ? 1 : 0);
+  }
+  take_out(*theirs, ours || hidden_);
+  view_->render();
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,63 @@
+#pragma once
+
+/// The scan in the volume view as a patient: without table and headrest, and cropped by a box with handles. ParaView's
+/// own representation stays in the pipeline with its colors and opacity; while something is cut away, a copy of it is
+/// drawn in its place. Only for scans in this process: a server's scan is drawn as ParaView draws it.
+
+#include <vtkSmartPointer.h>
+
+#include <QObject>
+#include <QPointer>
+
+#include <functional>
+#include <memory>
+
+class pqPipelineSource;
+class pqRenderView;
+class vtkImageData;
+class vtkVolume;
+
+namespace palpate::plugin {
+
+class CropBox;
+
+class PatientVolume {
+ public:
+  /// Looks for the body in the background, where the scan is one of HU and of one frame. `changed` is called when
+  /// can_cut() has become known.
+  PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed);
+  PatientVolume(const PatientVolume&) = delete;
+  PatientVolume& operator=(const PatientVolume&) = delete;
+  ~PatientVolume();
+
+  /// Whether there is anything outside the body that can be cut away.
+  bool can_cut() const { return cut_image_ != nullptr; }
+  /// Without table and headrest, where they have been found; so it begins.
+  void set_cut(bool cut);
+  /// Whether the scan is in this process, and can be cropped.
+  bool can_crop() const { return whole_image_ != nullptr; }
+  void set_cropped(bool cropped);
+  /// True: the scan is not drawn, because something else is shown in its place.
+  void set_hidden(bool hidden);
+
+ private:
+  struct Cut;
+  void take_image();
+  void refresh();
+  void take_out(vtkVolume& theirs, bool out);
+  vtkVolume* of_paraview() const;
+
+  QPointer<pqRenderView> view_;
+  QPointer<pqPipelineSource> scan_;
+  bool hounsfield_;
+  std::function<void()> changed_;
+  vtkSmartPointer<vtkImageData> whole_image_, cut_image_;
+  vtkSmartPointer<vtkVolume> own_;
+  vtkSmartPointer<vtkVolume> taken_out_;  // ParaView's, while it is not drawn
+  std::unique_ptr<CropBox> box_;
+  bool cut_ = true, cropped_ = false, hidden_ = false;
+  QObject lifetime_;          // its end ends what is connected to the scan
+  std::unique_ptr<Cut> job_;  // last: it ends before what it sets
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,103 @@
+#include "plugin/paraview/common/structure_files_message.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "io/structures/structure.h"
+#include "plugin/messages/messages.h"
+#include "plugin/session/structure_files.h"
+#include "plugin/session/study_structures.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::mutex mutex;
+std::map<std::string, std::vector<fs::path>> found;  // by the path that was asked for
+
+std::set<fs::path> structure_files_in(const std::string& path) {
+  const fs::path folder = fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path();
+  const io::StructureCatalogue catalogue = io::find_structures(std::array{folder});
+  std::set<fs::path> files;
+  io::Volume elsewhere;  // in a frame of its own: every registration beside a structure counts
+  elsewhere.frame_of_reference_uid = "-";
+  for (const io::Structure& structure : catalogue.structures) {
+    if (!files.insert(structure.file).second) continue;
+    for (const io::Registration& one : registrations_for(structure, elsewhere)) files.insert(one.file);
+  }
+  for (const io::Registration& one : catalogue.registrations) files.insert(one.file);
+  return files;
+}
+
+/// Letters and dots alone: nothing of a name.
+std::string suffix_of(const fs::path& file) {
+  const std::string name = file.filename().string();
+  for (const char* suffix : {".seg.nrrd", ".nii.gz", ".nrrd", ".nii", ".mha", ".mhd"}) {
+    if (name.ends_with(suffix)) return suffix;
+  }
+  return ".dcm";
+}
+
+}  // namespace
+
+std::vector<ServedFile> find_served_files(const std::string& path) {
+  const std::set<fs::path> files = structure_files_in(path);
+  std::vector<ServedFile> served;
+  for (const fs::path& file : files) {
+    served.push_back({.hash = hash_of_file(file), .suffix = suffix_of(file), .bytes = fs::file_size(file)});
+  }
+  const std::lock_guard lock(mutex);
+  found[path].assign(files.begin(), files.end());
+  return served;
+}
+
+std::vector<unsigned char> read_served_file(const std::string& path, int file, int first_piece, int pieces) {
+  fs::path name;
+  {
+    const std::lock_guard lock(mutex);
+    const std::vector<fs::path>& files = found[path];
+    if (file < 0 || file >= static_cast<int>(files.size()) || first_piece < 0 || pieces < 1 || pieces > 64) {
+      throw Refusal(say("server-has-no-such-structures"));
+    }
+    name = files[static_cast<std::size_t>(file)];
+  }
+  std::ifstream input(name, std::ios::binary);
+  input.seekg(static_cast<std::streamoff>(first_piece) * static_cast<std::streamoff>(bytes_of_piece));
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(pieces) * bytes_of_piece);
+  input.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (input.bad() || input.gcount() <= 0) throw Refusal(say("server-has-no-such-structures"));
+  bytes.resize(static_cast<std::size_t>(input.gcount()));
+  return bytes;
+}
+
+std::string text_of(const std::vector<ServedFile>& files) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ServedFile& file : files) {
+    list.push_back({{"hash", file.hash}, {"suffix", file.suffix}, {"bytes", file.bytes}});
+  }
+  return list.dump();
+}
+
+std::vector<ServedFile> served_files_of(const std::string& text) {
+  std::vector<ServedFile> files;
+  for (const nlohmann::json& one : nlohmann::json::parse(text)) {
+    files.push_back({.hash = one.at("hash"), .suffix = one.at("suffix"), .bytes = one.at("bytes")});
+    // They become a file's name here.
+    const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.'; };
+    if (!std::ranges::all_of(files.back().hash + files.back().suffix, plain)) {
+      throw Refusal(say("server-has-no-such-structures"));
+    }
+  }
+  return files;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,271 @@
+// From an archive to a felt boundary: search, fetch, feel; what lies on disk; an archive that is entered, and one that
+// never ends. archive_test.py starts the archives.
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QDir>
+#include <QFileInfo>
+#include <QImage>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTabBar>
+#include <QTimer>
+#include <QTreeWidget>
+#include <QtTest/QTest>
+
+#include <exception>
+#include <string>
+
+#include "plugin/paraview/tests/panel/busy_watch.h"
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
+
+namespace {
+
+QTreeWidget& found() {
+  return find<QTreeWidget>("palpateFound");
+}
+
+void open_archive_tab() {
+  auto& tabs = find<QTabBar>("palpateScanTabs");
+  click(tabs, tabs.tabRect(1).center());
+}
+
+bool is_told(const char* sentence) {
+  return label("palpateArchiveMessage") == sentence;
+}
+
+/// Types into the patient's name, which has the keyboard: no press is needed.
+void type(const QString& text) {
+  auto& field = find<QLineEdit>("palpateFindPatient");
+  expect(field.window()->focusWidget() == &field, "the patient's name has the keyboard");
+  QTest::keyClicks(&field, text);
+}
+
+void choose(QTreeWidgetItem& item) {
+  found().scrollToItem(&item);
+  click(*found().viewport(), found().visualItemRect(&item).center());
+}
+
+/// The first study's first series, once it is listed.
+QTreeWidgetItem& first_series() {
+  wait_for("series are listed", [] {
+    QTreeWidgetItem* const study = found().topLevelItem(0);
+    return study && study->isExpanded() && study->childCount() > 0 && study->child(0)->text(0).contains("images");
+  });
+  return *found().topLevelItem(0)->child(0);
+}
+
+QString fetched_folder() {
+  return qEnvironmentVariable("HOME") + "/.cache/palpate/fetched";
+}
+
+/// From an empty ParaView, with one press after the other counted.
+void felt_from_the_archive() {
+  open_archive_tab();
+  wait_for("the archive's studies are listed", [] { return found().topLevelItemCount() == 2; });
+  expect(found().topLevelItem(0)->text(0).startsWith("Mustermann, Max  ·  P2  ·  2026-01-02"), "the latest is first");
+  save_screen("archive-found");
+  type("Muster^E");
+  wait_for("what is typed is looked for", [] { return found().topLevelItemCount() == 1; });
+  expect(found().topLevelItem(0)->text(0) == "Muster, Erika  ·  P1  ·  2026-01-01  ·  ball",
+         "the study is named: " + found().topLevelItem(0)->text(0).toStdString());
+  QTreeWidgetItem& series = first_series();
+  expect(series.text(0).endsWith("64 images"), "its images are counted: " + series.text(0).toStdString());
+  expect(!find<QPushButton>("palpateFetch").isEnabled(), "nothing is chosen yet");
+  choose(series);
+  save_screen("archive-chosen");
+  click("palpateFetch");
+  scan_is_shown();
+  expect(!QFileInfo(fetched_folder()).permission(QFile::ReadGroup | QFile::ExeGroup) &&
+             !QFileInfo(fetched_folder()).permission(QFile::ReadOther | QFile::ExeOther),
+         "no other user can read what was fetched");
+  connect_stylus();
+  press();
+  expect(clicks() <= 6, "it took at most six presses, not " + std::to_string(clicks()));
+  save_screen("archive-felt");
+  let_go();
+  click("palpateScanSectionFold");
+  wait_for("it is said what lies on disk", [] {
+    return label("palpateOnDisk").startsWith("On disk: 1 series, ") &&
+           is_told("Fetched: 64 images, 0 MiB. They are deleted when the program ends, unless Keep is ticked.");
+  });
+  wait_for("its line has its picture", [&] { return !series.icon(0).isNull(); });
+  const QImage picture = series.icon(0).pixmap(48, 48).toImage();
+  expect(qGray(picture.pixel(24, 24)) > qGray(picture.pixel(3, 3)) + 50, "the ball is in its picture's middle");
+  click("palpateEmpty");
+  wait_ms(1000);
+  wait_for("the scan that is open stays", [] { return label("palpateOnDisk").startsWith("On disk: 1 series, "); });
+  save_screen("archive-on-disk");
+
+  auto& date = find<QLineEdit>("palpateFindDate");
+  date.setText("yesterday");
+  QTest::keyClick(&date, Qt::Key_Return);
+  wait_for("a date is asked for in the archive's words",
+           [] { return is_told("--date has to be YYYYMMDD, YYYYMMDD-YYYYMMDD, YYYYMMDD- or -YYYYMMDD"); });
+  date.clear();
+  QTest::keyClicks(&date, "2025");
+  wait_for("a year is a span", [] { return is_told("The archive holds nothing of that kind."); });
+  expect(found().topLevelItemCount() == 0, "and nothing is listed");
+}
+
+void what_is_fetched_is_kept() {
+  open_archive_tab();
+  choose(first_series());
+  click("palpateKeep");
+  click("palpateFetch");
+  scan_is_shown();
+}
+
+/// In a program of its own, after the one before.
+void what_was_kept_is_emptied() {
+  open_archive_tab();
+  wait_for("what was kept is counted", [] { return label("palpateOnDisk").startsWith("On disk: 1 series, "); });
+  expect(!find<QCheckBox>("palpateKeep").isChecked(), "it is kept only where one asks for it");
+  click("palpateEmpty");
+  wait_for("it is gone", [] { return label("palpateOnDisk") == "On disk: 0 series, 0.0 MiB"; });
+}
+
+/// What a user does in a dialog, while it is open.
+void in_dialog(const std::function<void(QDialog&)>& act) {
+  std::exception_ptr failed;
+  QTimer::singleShot(500, [&] {
+    auto* const dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    if (!dialog) return;
+    try {
+      act(*dialog);
+    } catch (...) {
+      failed = std::current_exception();
+      dialog->reject();
+    }
+  });
+  click("palpateArchiveAdd");
+  if (failed) std::rethrow_exception(failed);
+}
+
+bool dialog_says(const char* sentence) {
+  return label("palpateArchiveDialogMessage") == sentence;
+}
+
+bool has_answered(const char* message) {
+  const QString said = label(message);
+  return said.startsWith("clinic answers and knows us as PALPATE (") && said.endsWith(" ms).");
+}
+
+void an_archive_is_entered() {
+  open_archive_tab();
+  wait_for("it is said that there is none",
+           [] { return is_told("No archive is entered yet: press Add and ask who runs yours for the five entries."); });
+  bool entered = false;
+  in_dialog([&](QDialog& dialog) {
+    click("palpateArchiveOk");
+    expect(dialog_says("An archive needs a name."), "a name is asked for");
+    find<QLineEdit>("palpateArchiveName").setText("clinic");
+    click("palpateArchiveEcho");
+    wait_for("what is missing is said",
+             [] { return dialog_says("archive clinic: --host has to be a machine's name or address"); });
+    find<QLineEdit>("palpateArchiveHost").setText("127.0.0.1");
+    find<QSpinBox>("palpateArchivePort").setValue(qEnvironmentVariableIntValue("PALPATE_ARCHIVE_PORT"));
+    find<QLineEdit>("palpateArchiveCalled").setText("ORTHANC");
+    find<QLineEdit>("palpateArchiveCalling").setText("STRANGER");
+    click("palpateArchiveEcho");
+    wait_for("it does not know us",
+             [] { return label("palpateArchiveDialogMessage").contains("does not know us as STRANGER"); });
+    find<QLineEdit>("palpateArchiveCalling").setText("PALPATE");
+    find<QSpinBox>("palpateArchiveListen").setValue(qEnvironmentVariableIntValue("PALPATE_LISTEN_PORT"));
+    click("palpateArchiveEcho");
+    expect(dialog_says("clinic is asked…"), "it is said that it is asked");
+    wait_for("it answers", [] { return has_answered("palpateArchiveDialogMessage"); });
+    save_screen("archive-dialog");
+    click("palpateArchiveOk");
+    entered = !dialog.isVisible();
+  });
+  expect(entered, "it is entered");
+  expect(find<QComboBox>("palpateArchives").currentText() == "clinic", "it is chosen");
+  wait_for("it is searched", [] { return found().topLevelItemCount() == 2; });
+  click("palpateEcho");
+  wait_for("it answers", [] { return has_answered("palpateArchiveMessage"); });
+  choose(first_series());
+  click("palpateFetch");
+  scan_is_shown();
+}
+
+/// Of an archive that speaks TLS alone and asks for our certificate.
+void an_archive_is_entered_with_tls() {
+  const QString certificates = qEnvironmentVariable("PALPATE_CERTIFICATES") + "/";
+  open_archive_tab();
+  bool entered = false;
+  in_dialog([&](QDialog& dialog) {
+    find<QLineEdit>("palpateArchiveName").setText("clinic");
+    find<QLineEdit>("palpateArchiveHost").setText("127.0.0.1");
+    find<QSpinBox>("palpateArchivePort").setValue(qEnvironmentVariableIntValue("PALPATE_ARCHIVE_PORT"));
+    find<QLineEdit>("palpateArchiveCalled").setText("ORTHANC");
+    find<QLineEdit>("palpateArchiveCalling").setText("PALPATE");
+    find<QCheckBox>("palpateArchiveGet").setChecked(true);
+    const auto asked = [](const char* what, const char* answer) {
+      click("palpateArchiveEcho");
+      wait_for(what, [&] { return label("palpateArchiveDialogMessage").contains(answer); });
+    };
+    asked("without TLS nothing is said to it", "without TLS");
+    find<QLineEdit>("palpateArchiveTlsCa").setText(certificates + "authority.pem");
+    find<QLineEdit>("palpateArchiveTlsCertificate").setText(certificates + "palpate.pem");
+    find<QLineEdit>("palpateArchiveTlsKey").setText(certificates + "archive.key");
+    asked("a key of another certificate is refused", "does not belong to");
+    find<QLineEdit>("palpateArchiveTlsKey").setText(certificates + "palpate.key");
+    find<QLineEdit>("palpateArchiveTlsName").setText("other.example");
+    asked("its certificate is for another machine", "is not for other.example");
+    find<QLineEdit>("palpateArchiveTlsName").clear();
+    click("palpateArchiveEcho");
+    wait_for("it answers", [] { return has_answered("palpateArchiveDialogMessage"); });
+    save_screen("archive-dialog-tls");
+    click("palpateArchiveOk");
+    entered = !dialog.isVisible();
+  });
+  expect(entered, "it is entered");
+  choose(first_series());
+  click("palpateFetch");
+  scan_is_shown();
+}
+
+/// Of an archive that sends without end. The user waits for nothing, whatever the archive does.
+void a_fetch_is_cancelled() {
+  open_archive_tab();
+  first_series();
+  choose(*found().topLevelItem(0));  // the study: its series has no UID
+  click("palpateFetch");
+  auto& progress = find<QProgressBar>("palpateFetching");
+  wait_for("it is fetched", [&] { return progress.isVisible(); });
+  wait_ms(2000);
+  save_screen("archive-fetching");
+  {
+    const BusyWatch watch;
+    click("palpateFetchCancel");
+    wait_ms(200);
+    const auto stretches = watch.without_rendering();
+    expect(stretches.empty() || stretches.front() < 100, "nothing waits for the archive");
+  }
+  expect(is_told("Cancelled."), "it is said");
+  expect(!progress.isVisible() && find<QPushButton>("palpateFetch").isEnabled(), "it can be fetched again");
+  wait_for(
+      "nothing is left of it",
+      [] { return QDir(fetched_folder() + "/run-001").entryList(QDir::NoDotAndDotDot | QDir::AllEntries).isEmpty(); },
+      10);
+}
+
+}  // namespace
+
+const Scenarios& archive_scenarios() {
+  static const Scenarios scenarios{
+      {"felt_from_the_archive", felt_from_the_archive},
+      {"what_is_fetched_is_kept", what_is_fetched_is_kept},
+      {"what_was_kept_is_emptied", what_was_kept_is_emptied},
+      {"an_archive_is_entered", an_archive_is_entered},
+      {"a_fetch_is_cancelled", a_fetch_is_cancelled},
+      {"an_archive_is_entered_with_tls", an_archive_is_entered_with_tls},
+  };
+  return scenarios;
+}

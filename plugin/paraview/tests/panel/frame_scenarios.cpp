@@ -1,0 +1,257 @@
+// Frames, filters and flow: the views and the stylus have the same values.
+
+#include <pqActiveObjects.h>
+#include <pqAnimationManager.h>
+#include <pqAnimationScene.h>
+#include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqPVApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServer.h>
+#include <pqServerManagerModel.h>
+#include <pqTimeKeeper.h>
+#include <pqUndoStack.h>
+#include <vtkAlgorithm.h>
+#include <vtkImageData.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSlider>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
+
+namespace {
+
+/// The row of the list whose text has these words.
+int row_with(const QString& words) {
+  auto& series = find<QListWidget>("palpateSeries");
+  wait_for("the series are listed", [&] { return series.count() > 1; });
+  for (int row = 0; row < series.count(); ++row) {
+    if (series.item(row)->text().contains(words)) return row;
+  }
+  throw std::runtime_error("no series is listed with " + words.toStdString());
+}
+
+/// The free stream of the phantom goes up and down by half of itself in five times of a cycle.
+double stream_at(int time) {
+  constexpr double pulsation = 0.5, pi = 3.14159265358979;
+  return 1 + pulsation * std::sin(2 * pi * time / 5);
+}
+
+bool is_near(double a, double b, double part) {
+  return std::abs(a - b) <= part * std::abs(b);
+}
+
+/// Whoever drives the time, views and stylus have the same frame: slider, ParaView's own buttons, ParaView's time.
+void frames_are_felt_as_shown() {
+  choose_series(row_with("velocity of"));
+  expect(find<QSlider>("palpateFrame").maximum() == 4, "there are five frames to slide over");
+  click("palpateConnect");
+  wait_ms(1500);
+  // To a place in the stream, off the sphere: by the mouse, without a force.
+  QWidget& sagittal = view("Sagittal");
+  const QPoint from = proxy_in(sagittal);
+  drag(sagittal, from, QPoint(sagittal.width() / 3, sagittal.height() / 3), true);
+  wait_ms(2500);
+  const double felt_first = number("palpateTissue");
+  expect(felt_first > 0, "the stylus is in the stream: " + label("palpateTissue").toStdString());
+  turn_wheel("Axial", 0);  // the pointer in the middle of it
+  const auto expect_frame = [&](int frame, const std::string& by) {
+    wait_for(
+        by + " leads to frame " + std::to_string(frame + 1),
+        [&] {
+          return label("palpateFrameText").endsWith(QStringLiteral("%1 of 5").arg(frame + 1)) &&
+                 label("palpateFelt").contains(QStringLiteral("%1 of 5.").arg(frame + 1)) &&
+                 place_text("Axial").endsWith(QStringLiteral("%1 of 5").arg(frame + 1)) &&
+                 find<QSlider>("palpateFrame").value() == frame;
+        },
+        20);
+    wait_for(
+        by + ": what is felt is the frame's: " + label("palpateTissue").toStdString(),
+        [&] { return is_near(number("palpateTissue") / felt_first, stream_at(frame) / stream_at(0), 0.04); }, 10);
+  };
+  const auto pqtime = [] { return pqActiveObjects::instance().activeServer()->getTimeKeeper()->getTime(); };
+  find<QSlider>("palpateFrame").setValue(1);
+  expect_frame(1, "the slider");
+  expect(pqtime() == 1, "ParaView's time is the same");
+  save_screen("frame-2");
+  const auto trigger = [](const char* action) {
+    auto* const found = pqCoreUtilities::mainWidget()->findChild<QAction*>(QString::fromLatin1(action));
+    expect(found != nullptr, std::string("ParaView has ") + action);
+    found->trigger();
+  };
+  trigger("actionVCRLastFrame");
+  expect_frame(4, "ParaView's Last");
+  trigger("actionVCRPreviousFrame");
+  expect_frame(3, "ParaView's Back");
+  trigger("actionVCRFirstFrame");
+  expect_frame(0, "ParaView's First");
+  click("palpateFrameLast");
+  expect_frame(4, "the panel's Last");
+  expect(pqtime() == 4, "ParaView's time is the last");
+  pqPVApplicationCore::instance()->animationManager()->getActiveScene()->setAnimationTime(2);
+  expect_frame(2, "ParaView's time");
+  // While it is felt the force goes over in a ramp, and the stylus stays.
+  turn_forces_on();
+  find<QSlider>("palpateFrame").setValue(1);
+  expect_frame(1, "the slider");
+  expect(label("palpateState").startsWith("Feeling") || label("palpateState").startsWith("Stopped: The"),
+         "another frame takes no force away");
+  // Another series begins at its first frame.
+  find<QPushButton>("palpateRelease").click();
+  choose_series(row_with("magnitude"));
+  expect(pqtime() == 0 && find<QSlider>("palpateFrame").value() == 0, "another series: the time starts anew");
+}
+
+/// Standard deviation of the shown values in a corner of the scan, where the phantom is air.
+double shown_noise() {
+  auto* const image = vtkImageData::SafeDownCast(
+      vtkAlgorithm::SafeDownCast(reader().getProxy()->GetClientSideObject())->GetOutputDataObject(0));
+  expect(image != nullptr, "the reader has an image");
+  double sum = 0, squares = 0, count = 0;
+  for (int k = 4; k < 12; ++k) {
+    for (int j = 4; j < 12; ++j) {
+      for (int i = 4; i < 12; ++i) {
+        const double value = image->GetScalarComponentAsDouble(i, j, k, 0);
+        sum += value;
+        squares += value * value;
+        ++count;
+      }
+    }
+  }
+  return std::sqrt(squares / count - (sum / count) * (sum / count));
+}
+
+/// The row, the scene, what is shown and what is felt have the same filter; undo takes it away from all of them.
+void a_filter_is_felt_and_shown() {
+  scan_is_shown();
+  click("palpateConnect");
+  wait_ms(1500);
+  const double raw_noise = shown_noise();
+  const double raw_felt = number("palpateTissue");
+  expect(raw_noise > 60 && raw_noise < 100, "the noise is the phantom's: " + std::to_string(raw_noise));
+  auto& type = find<QComboBox>("palpateFilter");
+  if (!type.isVisible()) click("palpateScanSectionFold");
+  scroll_to(type);
+  type.setCurrentIndex(type.findText("Gaussian"));
+  emit type.activated(type.currentIndex());
+  wait_for(
+      "the filter is felt", [] { return label("palpateFelt").contains("Gaussian filter of 1 mm"); }, 20);
+  expect(scene_text().find("\"filter\"") != std::string::npos, "the scene has the filter");
+  // White noise through a Gaussian of one voxel: 1 / (2 sqrt(pi)) of the variance along each axis.
+  const double left = std::pow(1 / (2 * std::sqrt(3.14159265358979)), 1.5);
+  expect(is_near(shown_noise() / raw_noise, left, 0.25), "the shown noise is less: " + std::to_string(shown_noise()));
+  wait_ms(500);
+  const double felt = number("palpateTissue");
+  save_screen("filter-gaussian");
+  expect(felt != raw_felt && std::abs(felt + 1000) < 4 * left * raw_noise, "the felt value is air's without noise");
+  // Felt and not shown: it is said, and what is felt stays.
+  click("palpateFilterShown");
+  wait_for(
+      "it is said", [] { return label("palpateFelt").contains("Gaussian filter of 1 mm (shown without it)"); }, 20);
+  expect(shown_noise() == raw_noise, "the raw values are shown");
+  expect(number("palpateTissue") == felt, "what is felt stays");
+  click("palpateFilterShown");
+  wait_for(
+      "the filtered values are shown", [&] { return shown_noise() < raw_noise / 2; }, 20);
+  turn_forces_on();
+  find<QDoubleSpinBox>("palpateFilterAmount").setValue(2);
+  wait_for(
+      "another width is felt", [] { return label("palpateFelt").contains("Gaussian filter of 2 mm"); }, 20);
+  expect(forces_are_on(), "another filter takes no force away");
+  // Undo returns at once, as the first choice does; what it brings back is computed meanwhile.
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  expect(find<QProgressBar>("palpateFiltering").isVisible(), "undo computes in the background");
+  expect(type.isVisible() && find<QDoubleSpinBox>("palpateFilterAmount").value() == 1, "the row says what comes");
+  wait_for(
+      "the first width is felt again", [] { return label("palpateFelt").contains("Gaussian filter of 1 mm"); }, 20);
+  expect(!find<QProgressBar>("palpateFiltering").isVisible(), "it is there");
+  expect(forces_are_on(), "undo takes no force away");
+  // Two steps, the second while the first is on its way.
+  pqApplicationCore::instance()->getUndoStack()->redo();
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  wait_for(
+      "undo takes the filter away", [] { return !label("palpateFelt").contains("filter"); }, 20);
+  expect(scene_text().find("\"filter\"") == std::string::npos, "the scene has no filter");
+  expect(type.currentText() == "None", "the row says so");
+  wait_for(
+      "the raw values are shown", [&] { return shown_noise() == raw_noise; }, 20);
+  wait_ms(500);
+  // With its force on the stylus may have moved a little, and the noise with it.
+  expect(std::abs(number("palpateTissue") - raw_felt) < raw_noise / 2, "the raw values are felt");
+}
+
+void a_flow_is_shown_and_felt() {
+  choose_series(row_with("velocity of"));
+  expect(scene_text().find("\"follow\"") != std::string::npos, "the scene is of flow");
+  expect(find<QCheckBox>("palpateOn0").isChecked(), "its modes can be switched");
+  save_screen("flow");
+  connect_stylus();
+  expect(number("palpateForce") < 0.05, "nothing is felt where it begins");
+  QWidget& sagittal = view("Sagittal");
+  const QPoint from = proxy_in(sagittal);
+  drag(sagittal, from, QPoint(sagittal.width() / 3, sagittal.height() / 3), false);
+  wait_for(
+      "the flow pushes", [] { return number("palpateForce") > 0.05; }, 20);
+  save_screen("flow-felt");
+  let_go();
+}
+
+/// Refused before anything is connected, in words, and the scene that can be felt stays.
+void a_scene_without_its_field_is_refused() {
+  scan_is_shown();
+  const std::string before = scene_text();
+  auto& scenes = find<QComboBox>("palpateScenes");
+  const QString named = scenes.currentText();
+  const int flow = scenes.findText("Flow");
+  expect(flow > 0, "Flow is offered");
+  scenes.setCurrentIndex(flow);
+  emit scenes.activated(flow);
+  wait_for(
+      "it is refused in words",
+      [] {
+        return label("palpateSceneMessage") ==
+               "the scene \"Flow\" cannot be felt on this scan, which has no vector field: open a velocity field "
+               "(phase "
+               "contrast), or choose another scene";
+      },
+      5);
+  expect(scene_text() == before, "the scene in the pipeline is the one that can be felt");
+  expect(scenes.currentText() == named, "and the box says so");
+  save_screen("scene-refused");
+  // Also where somebody else puts it into the pipeline.
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+    if (source->getProxy()->GetXMLName() != std::string("PalpateScene")) continue;
+    vtkSMPropertyHelper(source->getProxy(), "Scene").Set("flow");
+    source->getProxy()->UpdateVTKObjects();
+  }
+  wait_ms(500);
+  expect(scene_text() == before, "what is refused does not stay in the pipeline");
+  connect_stylus();
+  press();
+}
+
+}  // namespace
+
+const Scenarios& frame_scenarios() {
+  static const Scenarios all{
+      {"a_filter_is_felt_and_shown", a_filter_is_felt_and_shown},
+      {"frames_are_felt_as_shown", frames_are_felt_as_shown},
+      {"a_flow_is_shown_and_felt", a_flow_is_shown_and_felt},
+      {"a_scene_without_its_field_is_refused", a_scene_without_its_field_is_refused},
+  };
+  return all;
+}

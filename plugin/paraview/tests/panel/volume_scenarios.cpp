@@ -1,0 +1,211 @@
+// The volume view: without the table, cropped by a box, and the boundaries as surfaces where they are felt.
+
+#include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqRenderView.h>
+#include <pqServerManagerModel.h>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkPVRenderView.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkVolume.h>
+#include <vtkVolumeCollection.h>
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QComboBox>
+#include <QImage>
+#include <QPoint>
+#include <QRect>
+#include <QWidget>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/paraview/tests/panel/panel_steps.h"
+
+namespace {
+
+vtkRenderer& renderer() {
+  for (auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    if (one->getSMName() != QLatin1String("Volume")) continue;
+    return *vtkPVRenderView::SafeDownCast(one->getRenderViewProxy()->GetClientSideView())->GetRenderer();
+  }
+  throw std::runtime_error("there is no volume view");
+}
+
+QAction& action(const char* name) {
+  auto* const found = pqCoreUtilities::mainWidget()->findChild<QAction*>(QLatin1String(name));
+  expect(found != nullptr, std::string("there is an action ") + name);
+  return *found;
+}
+
+/// Where the volume is seen, without the view's edges, where its texts, marks and frame are.
+QRect seen_in(const QImage& picture) {
+  QRect seen;
+  const int edge = picture.height() / 8;
+  for (int y = edge; y < picture.height() - edge; ++y) {
+    for (int x = edge; x < picture.width() - edge; ++x) {
+      if (picture.pixelColor(x, y).value() > 60) seen |= QRect(x, y, 1, 1);
+    }
+  }
+  return seen;
+}
+
+QRect seen() {
+  return seen_in(view("Volume").grab().toImage());
+}
+
+bool is_round(const QRect& of) {
+  return of.width() > 20 && std::abs(of.width() - of.height()) < 0.12 * of.width();
+}
+
+/// Pixels of the skin's color in the volume view, from one row to another.
+int of_skin(int top, int bottom) {
+  const QImage picture = view("Volume").grab().toImage();
+  int count = 0;
+  for (int y = top; y < bottom; ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const QColor color = picture.pixelColor(x, y);
+      count += color.red() > 60 && color.red() > 1.2 * color.blue() && color.green() > 0.6 * color.red() ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+/// In the middle of the handle's blue that is highest.
+QPoint highest_handle() {
+  const QImage picture = view("Volume").grab().toImage();
+  const int edge = 10;
+  for (int y = edge; y < picture.height() - edge; ++y) {
+    for (int x = edge; x < picture.width() - edge; ++x) {
+      const QColor color = picture.pixelColor(x, y);
+      const bool blue = color.blue() > 90 && color.blue() > 1.15 * color.green() && color.green() > 1.5 * color.red();
+      if (blue) return {x, y + 4};
+    }
+  }
+  throw std::runtime_error("there is no handle");
+}
+
+/// A ball on a table.
+void the_table_is_cut_away() {
+  scan_is_shown();
+  QAction& cut = action("palpateCutTable");
+  wait_for("the table is found", [&] { return cut.isEnabled(); });
+  expect(cut.isChecked(), "it is cut away at first");
+  wait_for(
+      "the ball alone is seen", [] { return is_round(seen()); }, 20);
+  const QRect ball = seen();
+  save_screen("without-table");
+  cut.trigger();
+  wait_for(
+      "the table is seen", [&] { return seen().width() > 1.3 * ball.width(); }, 20);
+  save_screen("with-table");
+  cut.trigger();
+  wait_for(
+      "and the ball alone again", [] { return is_round(seen()); }, 20);
+
+  action("palpateCropBox").trigger();
+  wait_ms(1500);
+  save_screen("crop-box");
+  const QPoint handle = highest_handle();
+  const int whole_top = of_skin(ball.top(), ball.center().y()), whole_low = of_skin(ball.center().y(), ball.bottom());
+  drag(view("Volume"), handle, handle + QPoint(0, ball.height() * 2 / 5), true);
+  wait_ms(1000);
+  save_screen("cropped");
+  const int top = of_skin(ball.top(), ball.center().y()), low = of_skin(ball.center().y(), ball.bottom());
+  expect(top < whole_top * 7 / 10 && low > whole_low * 9 / 10,
+         "what is above the box is cut away: " + std::to_string(top) + " of " + std::to_string(whole_top) +
+             ", and what is in it stays: " + std::to_string(low) + " of " + std::to_string(whole_low));
+  action("palpateCropBox").trigger();
+  wait_for(
+      "without the box all of it is there", [] { return is_round(seen()); }, 20);
+}
+
+struct Surface {
+  double least_mm = 1e9, most_mm = 0;  // from the origin
+  double opacity = 0;
+  QColor color;
+};
+
+Surface surface_seen() {
+  Surface seen;
+  vtkActorCollection& actors = *renderer().GetActors();
+  for (int n = 0; n < actors.GetNumberOfItems(); ++n) {
+    auto* const actor = vtkActor::SafeDownCast(actors.GetItemAsObject(n));
+    auto* const mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
+    vtkPolyData* const shape = mapper ? mapper->GetInput() : nullptr;
+    if (!shape || shape->GetNumberOfPolys() < 500 || !actor->GetVisibility()) continue;
+    for (vtkIdType point = 0; point < shape->GetNumberOfPoints(); ++point) {
+      double at[3];
+      shape->GetPoint(point, at);
+      const double radius = std::hypot(at[0], at[1], at[2]);
+      seen.least_mm = std::min(seen.least_mm, radius);
+      seen.most_mm = std::max(seen.most_mm, radius);
+    }
+    seen.opacity = actor->GetProperty()->GetOpacity();
+    const double* const color = actor->GetProperty()->GetColor();
+    seen.color = QColor::fromRgbF(color[0], color[1], color[2]);
+  }
+  return seen;
+}
+
+bool scan_is_drawn() {
+  vtkVolumeCollection& volumes = *renderer().GetVolumes();
+  for (int n = 0; n < volumes.GetNumberOfItems(); ++n) {
+    if (vtkVolume::SafeDownCast(volumes.GetItemAsObject(n))->GetVisibility()) return true;
+  }
+  return false;
+}
+
+/// A ball of 25 mm about the origin.
+void surfaces_are_seen_where_they_are_felt() {
+  scan_is_shown();
+  expect(scan_is_drawn(), "the scan is drawn at first");
+  auto& looks = find<QComboBox>("palpateVolumeLook");
+  const auto choose = [&](int look) {
+    looks.setCurrentIndex(look);
+    emit looks.activated(look);
+  };
+  choose(looks.count() - 1);
+  expect(looks.currentText() == "Felt boundaries", "it is the last of the looks");
+  wait_for(
+      "the surface is there", [] { return surface_seen().most_mm > 0; }, 20);
+  const Surface felt = surface_seen();
+  // A quarter of a voxel: the value is met between the voxels.
+  expect(std::abs(felt.least_mm - 25) < 0.5 && std::abs(felt.most_mm - 25) < 0.5,
+         "it is the ball's: " + std::to_string(felt.least_mm) + " to " + std::to_string(felt.most_mm) + " mm");
+  expect(felt.color == QColor(0xe6, 0x9f, 0x00), "in the boundary's color: " + felt.color.name().toStdString());
+  expect(felt.opacity > 0.5 && felt.opacity < 1, "seen through a little");
+  expect(!scan_is_drawn(), "nothing hides it");
+  wait_ms(500);
+  const QImage picture = view("Volume").grab().toImage();
+  const QColor middle = picture.pixelColor(seen_in(picture).center());
+  expect(std::abs(middle.hue() - 41) < 12, "it is orange in the picture: " + middle.name().toStdString());
+  save_screen("felt-surfaces");
+  find<QAbstractButton>("palpateOn0").click();
+  wait_for(
+      "what is switched off is not drawn", [] { return surface_seen().most_mm == 0; }, 10);
+  find<QAbstractButton>("palpateOn0").click();
+  wait_for(
+      "and comes back", [] { return surface_seen().most_mm > 0; }, 10);
+  choose(0);
+  wait_for(
+      "another look shows the scan", [] { return scan_is_drawn() && surface_seen().most_mm == 0; }, 10);
+}
+
+}  // namespace
+
+const Scenarios& volume_scenarios() {
+  static const Scenarios scenarios{{"the_table_is_cut_away", the_table_is_cut_away},
+                                   {"surfaces_are_seen_where_they_are_felt", surfaces_are_seen_where_they_are_felt}};
+  return scenarios;
+}

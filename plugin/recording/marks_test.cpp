@@ -1,0 +1,136 @@
+// Presses of the mark button against ways whose places and lengths are known by construction.
+
+#include "plugin/recording/marks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace palpate::plugin {
+namespace {
+
+modes::Scene skin_and_bone() {
+  modes::Scene scene;
+  scene.modes.push_back({.type = "surface", .name = "skin"});
+  scene.modes.push_back({.type = "surface"});
+  return scene;
+}
+
+struct Hand {
+  const modes::Scene scene = skin_and_bone();
+  MarkPresses presses;
+  std::uint64_t tick = 0;
+
+  std::optional<MarkMade> at(const glm::dvec3& place, bool down, const std::vector<PrimitiveRecord>& shares = {}) {
+    TickRecord record;
+    record.index = tick;
+    record.time_s = 1e-3 * static_cast<double>(tick++);
+    record.value = 41;
+    record.sent_n[1] = -0.5;
+    record.buttons = down ? mark_button : 1;  // the first button marks nothing
+    return presses.take({.tick = record, .time_s = record.time_s, .proxy_mm = place, .shares = shares, .scene = scene});
+  }
+};
+
+Marks three_marks() {
+  Marks marks;
+  for (const glm::dvec3& at : {glm::dvec3(0, 0, 0), glm::dvec3(3, 4, 0), glm::dvec3(3, 4, 12)}) {
+    marks.points.push_back({.name = free_mark_name(marks), .position_mm = at});
+  }
+  return marks;
+}
+
+TEST(MarkPresses, AShortPressIsAMarkWhereItBegan) {
+  Hand hand;
+  PrimitiveRecord weak, strong;
+  weak.mode = 1;
+  weak.force_n[0] = 0.1;
+  strong.mode = 0;
+  strong.force_n[2] = -0.4;
+  EXPECT_FALSE(hand.at({9, 9, 9}, false));
+  EXPECT_FALSE(hand.at({1, 2, 3}, true, {weak, strong}));
+  EXPECT_FALSE(hand.at({1, 2, 4.9}, true));  // a hand that presses a button moves a little
+  const auto made = hand.at({50, 50, 50}, false);
+  ASSERT_TRUE(made && std::holds_alternative<FeltMark>(*made));
+  const auto& mark = std::get<FeltMark>(*made);
+  EXPECT_EQ(mark.position_mm, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(mark.tick, 1U);
+  EXPECT_EQ(mark.time_s, 1e-3);
+  EXPECT_EQ(mark.boundary, "skin");
+  EXPECT_EQ(mark.value, 41);
+  EXPECT_EQ(mark.force_n, 0.5);
+  EXPECT_FALSE(hand.at({1, 2, 3}, false)) << "and it is made once";
+}
+
+TEST(MarkPresses, KeptDownWhileItMovesItIsAPathAsLongAsItsWay) {
+  Hand hand;
+  std::optional<MarkMade> made;
+  constexpr int steps = 3000;
+  constexpr double radius_mm = 30;
+  const auto place = [](int n) {
+    const double turned = std::numbers::pi * n / steps;
+    return radius_mm * glm::dvec3(std::cos(turned), std::sin(turned), 0);
+  };
+  for (int n = 0; n <= steps; ++n) EXPECT_FALSE(hand.at(place(n), true));
+  made = hand.at({0, 0, 0}, false);
+  ASSERT_TRUE(made && std::holds_alternative<MarkedPath>(*made));
+  const auto& path = std::get<MarkedPath>(*made);
+  EXPECT_NEAR(path.length_mm, std::numbers::pi * radius_mm, 0.01);
+  EXPECT_EQ(path.points_mm.front(), place(0));
+  EXPECT_EQ(path.points_mm.back(), place(steps));
+  EXPECT_NEAR(path.end_s - path.begin_s, 3, 1e-9);
+}
+
+TEST(MarkPresses, TremorAddsNothingToAPath) {
+  Hand hand;
+  for (int n = 0; n <= 100; ++n) hand.at({0.1 * n, n % 2 == 0 ? 0.0 : 0.05, 0}, true);
+  const auto made = hand.presses.finish();
+  ASSERT_TRUE(made && std::holds_alternative<MarkedPath>(*made));
+  EXPECT_NEAR(std::get<MarkedPath>(*made).length_mm, 10, 0.1);
+}
+
+TEST(MarkPresses, WhatIsDroppedMakesNothing) {
+  Hand hand;
+  hand.at({1, 2, 3}, true);
+  hand.presses.drop();
+  EXPECT_FALSE(hand.at({1, 2, 3}, false));
+}
+
+TEST(Marks, AreMeasuredByTheirPlaces) {
+  Marks marks = three_marks();
+  EXPECT_EQ(marks.points[2].name, "Mark 3");
+  EXPECT_DOUBLE_EQ(distance_mm(marks, 0, 1), 5);
+  EXPECT_DOUBLE_EQ(distance_mm(marks, 0, 2), 13);
+  EXPECT_NEAR(*angle_degrees(marks, 0, 1, 2), 90, 1e-9);
+  EXPECT_NEAR(*angle_degrees(marks, 1, 0, 2), std::atan2(12, 5) * 180 / std::numbers::pi, 1e-9);
+  marks.distances = {{.from = 0, .to = 2}};
+  marks.angles = {{.from = 0, .at = 1, .to = 2}};
+  marks.points[2].position_mm = {3, 4, 0};  // where the second is
+  measure_again(marks);
+  EXPECT_DOUBLE_EQ(marks.distances[0].mm, 5);
+  EXPECT_TRUE(marks.angles.empty()) << "two marks at one place have no angle";
+}
+
+TEST(Marks, WhatLiesBetweenThemGoesWithThem) {
+  Marks marks = three_marks();
+  marks.distances = {{.from = 0, .to = 1}, {.from = 1, .to = 2}, {.from = 0, .to = 2}};
+  marks.angles = {{.from = 0, .at = 1, .to = 2}};
+  remove_mark(marks, 1);
+  measure_again(marks);
+  ASSERT_EQ(marks.points.size(), 2U);
+  EXPECT_EQ(marks.points[1].name, "Mark 3");
+  ASSERT_EQ(marks.distances.size(), 1U);
+  EXPECT_EQ(marks.distances[0].to, 1U) << "the third is the second now";
+  EXPECT_DOUBLE_EQ(marks.distances[0].mm, 13);
+  EXPECT_TRUE(marks.angles.empty());
+  EXPECT_EQ(free_mark_name(marks), "Mark 2") << "the name is free again";
+}
+
+}  // namespace
+}  // namespace palpate::plugin

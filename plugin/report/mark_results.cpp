@@ -1,0 +1,38 @@
+#include "plugin/report/mark_results.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plugin/report/mark_pictures.h"
+
+namespace palpate::plugin {
+
+io::MeasurementReport report_of(const Marks& marks) {
+  io::MeasurementReport report{.software_version = PALPATE_VERSION};
+  for (const FeltMark& mark : marks.points) {
+    io::MarkedPoint point{.name = mark.name, .position_mm = mark.position_mm, .structure = mark.boundary};
+    if (std::isfinite(mark.value)) point.value = mark.value;
+    point.force_n = mark.force_n;
+    report.points.push_back(point);
+  }
+  for (const MarkedDistance& distance : marks.distances) {
+    const FeltMark& from = marks.points[distance.from];
+    const FeltMark& to = marks.points[distance.to];
+    report.lengths.push_back({from.name + " to " + to.name, {from.position_mm, to.position_mm}, distance.mm});
+  }
+  for (const MarkedPath& path : marks.paths) report.lengths.push_back({path.name, path.points_mm, path.length_mm});
+  return report;
+}
+
+std::vector<std::filesystem::path> write_results(const io::Series& series,
+                                                 const std::shared_ptr<const io::Volume>& volume, const Marks& marks,
+                                                 const std::filesystem::path& folder) {
+  io::write_measurement_report(series, report_of(marks), folder / "measurements.dcm");
+  io::write_pictures(series, PALPATE_VERSION, pictures_of(marks, volume), folder);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());  // "measurements", then "picture"
+  return files;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,25 @@
+#pragma once
+
+/// Results from marks that go back into the scan's study.
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "io/results/measurement_report.h"
+#include "io/series.h"
+#include "io/volume.h"
+#include "plugin/recording/marks.h"
+
+namespace palpate::plugin {
+
+/// The marks, distances and paths for a report. Angles are left out: TID 1500 has no length for them.
+io::MeasurementReport report_of(const Marks& marks);
+
+/// Writes the report, and a picture of each mark, into an existing folder. Returns the files, the report first. Throws
+/// what io::write_measurement_report() throws.
+std::vector<std::filesystem::path> write_results(const io::Series& series,
+                                                 const std::shared_ptr<const io::Volume>& volume, const Marks& marks,
+                                                 const std::filesystem::path& folder);
+
+}  // namespace palpate::plugin

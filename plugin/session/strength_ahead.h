@@ -1,0 +1,22 @@
+#pragma once
+
+/// What a surface takes from where the proxy is, before it lets the proxy through.
+
+#include <glm/vec3.hpp>
+
+#include "io/fields/field_source.h"
+#include "modes/scene/plan.h"
+
+namespace palpate::plugin {
+
+/// N: what the mode, a surface, takes of a push along `inward` (unit, patient space) at a sample; 0 where it pushes
+/// that way itself, as on the far side of a plate.
+double strength_against_n(const modes::ActiveMode& mode, const io::Sample& sample, const glm::dvec3& inward);
+
+/// N: the most that the mode, a surface, takes on the next 3 mm from a place (patient space, mm) along `inward` (unit).
+/// Not counted is what lies behind a break-through: places that a probe, pushed slowly, comes to only by a jump of the
+/// proxy that takes half of the force. 31 samples: not for the tick.
+double strength_ahead_n(const modes::ActiveMode& mode, const modes::Plan& plan, const io::FieldSource& source,
+                        const glm::dvec3& place_mm, const glm::dvec3& inward);
+
+}  // namespace palpate::plugin

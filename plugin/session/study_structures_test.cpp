@@ -1,0 +1,111 @@
+// Structures on a scan: of which patient, in which frame of reference, and what a registration in their study does.
+#include "plugin/session/study_structures.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "plugin/messages/messages.h"
+#include "plugin/session/scan.h"
+#include "plugin/testing/registered_study.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using io::internal::TestFolder;
+using testing::scene_of;
+using testing::write_contours;
+using testing::write_registration;
+
+/// What is said of it, and a distance 2 mm from its edge where the registration puts it.
+std::string felt(const fs::path& file) {
+  const auto volume = testing::registered_scan();
+  const modes::Scene scene = scene_of(file);
+  try {
+    const PreparedScene prepared = prepare(scene, volume, glm::dvec3(0.1));
+    EXPECT_EQ(prepared.structures.size(), 1U);
+    EXPECT_NEAR(prepared.structures.at(0).distance->sample({92, 0, 9}).mm, 2, 0.15);
+    EXPECT_NEAR(prepared.structures.at(0).distance->sample({88, 0, 9}).mm, -2, 0.15);
+    std::string all;
+    for (const Text& warning : prepared.structures[0].warnings) all += warning;
+    return all;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+TEST(StudyStructures, AreJoinedByARegistrationOfTheirStudy) {
+  const TestFolder study;
+  write_contours(study.path() / "1" / "rt.dcm", "1.2", "7", "Doe^Jane");
+  EXPECT_EQ(felt(study.path() / "1" / "rt.dcm"),
+            "structure \"cube\": rt.dcm lies in another frame of reference than the scan: choose one that was outlined "
+            "on this study");
+  constexpr const char* registered =
+      "rt.dcm lies in another frame of reference; the registration reg.dcm puts it on the scan";
+  write_registration(study.path() / "2" / "reg.dcm");
+  EXPECT_EQ(felt(study.path() / "1" / "rt.dcm"), registered) << "in another series' folder";
+  fs::rename(study.path() / "2" / "reg.dcm", study.path() / "1" / "reg.dcm");
+  EXPECT_EQ(felt(study.path() / "1" / "rt.dcm"), registered) << "in its own folder";
+}
+
+/// What is said of a structure of that patient that lies where it should.
+std::string said_of(const std::string& id, const std::string& name, const io::Volume& scan) {
+  const TestFolder folder;
+  write_contours(folder / "rt.dcm", "1.1", id, name);
+  io::Structure structure = io::find_structures(std::array{folder.path()}).structures.at(0);
+  const Text why_not = place_on(structure, {}, scan).why_not;
+  if (!why_not.empty()) return why_not;
+  return structure.warnings.empty() ? "" : std::string(structure.warnings.front());
+}
+
+/// The same on the scan, and on one that a server has sent: of whose patient it tells hashes.
+std::string said_of(const std::string& id, const std::string& name) {
+  const auto scan = testing::registered_scan();
+  io::Volume sent = *scan;
+  sent.patient_id = hashed_id(scan->patient_id);
+  sent.patient_name = hashed_name(scan->patient_name);
+  const std::string said = said_of(id, name, *scan);
+  EXPECT_EQ(said_of(id, name, sent), said);
+  return said;
+}
+
+TEST(StudyStructures, OfAnotherPatientAreRefused) {
+  constexpr const char* another =
+      "rt.dcm was outlined on another patient than the scan's: choose one that was outlined on this study";
+  EXPECT_EQ(said_of("8", "Roe^Richard"), another);
+  EXPECT_EQ(said_of("8", ""), another);
+  EXPECT_EQ(said_of("", "Roe^Richard"), another);
+  const TestFolder folder;
+  write_contours(folder / "rt.dcm", "1.1", "8", "Roe^Richard");
+  EXPECT_EQ(felt(folder / "rt.dcm"), std::string("structure \"cube\": ") + another);
+}
+
+TEST(StudyStructures, ThatCannotBeFeltAreRefusedByFileAndName) {
+  io::Structure structure;
+  structure.file = "study/rt.dcm";
+  structure.kind = io::StructureKind::contours;
+  structure.name = "Aorta";
+  structure.unfit = say("file-holds-no-structures", "a", "b");  // any reason
+  EXPECT_EQ(place_on(structure, {}, *testing::registered_scan()).why_not,
+            "rt.dcm: RTSTRUCT \"Aorta\": a holds no structuresb");
+}
+
+TEST(StudyStructures, OfAPatientOfAnotherNameOrIdAreWarnedOf) {
+  constexpr const char* perhaps =
+      "rt.dcm calls the scan's patient by another name or id: check in the views that it lies in the right place";
+  EXPECT_EQ(said_of("8", "Doe^Jane"), perhaps);
+  EXPECT_EQ(said_of("7", "Roe^Jane"), perhaps);
+}
+
+TEST(StudyStructures, OfThePatientAreFeltInSilence) {
+  EXPECT_EQ(said_of("7", "Doe^Jane"), "");
+  EXPECT_EQ(said_of("7", "DOE^JANE^^^"), "");
+  EXPECT_EQ(said_of("7", "Doe^Jane=Do^Jan"), "");
+  EXPECT_EQ(said_of("", ""), "") << "nothing is said of who it is";
+}
+
+}  // namespace
+}  // namespace palpate::plugin
