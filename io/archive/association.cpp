@@ -201,8 +201,10 @@ T_ASC_PresentationContextID Association::context_for(const std::string& sop_clas
 
 void Association::send(Command& command, DcmDataset* dataset) {
   watch_->heard();
+  // A dataset may take longer than the silence that is allowed: each piece that went counts.
+  const DIMSE_ProgressCallback went = [](void* watch, unsigned long) { static_cast<Watch*>(watch)->heard(); };
   const OFCondition sent = DIMSE_sendMessageUsingMemoryData(association_, command.context, &command.message, nullptr,
-                                                            dataset, nullptr, nullptr);
+                                                            dataset, went, watch_.get());
   if (sent.bad()) fail(sent);
   watch_->heard();
 }

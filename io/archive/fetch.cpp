@@ -105,8 +105,9 @@ Ended move(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& t
   association.send(ask, &keys);
   std::uint64_t seen = 0;
   const KeepGoing keep_going = [&] {
-    if (inbox.bytes() != seen) association.watch().heard();  // it is silent here while it sends there
-    seen = inbox.bytes();
+    // It is silent here while it sends there.
+    if (inbox.received_bytes() != seen) association.watch().heard();
+    seen = inbox.received_bytes();
     server.rethrow();
     return teller();
   };

@@ -105,6 +105,7 @@ std::uint16_t Inbox::store(T_ASC_Association& association, Watch& watch, int sil
   int error = 0;
   std::uint64_t size = 0;
   broken = stream_dataset(association, silence_s, watch, [&](const void* data, std::size_t n) {
+    received_bytes_.fetch_add(n, std::memory_order_relaxed);
     errno = 0;
     cancelled = keep_going && !keep_going();
     too_much = bytes() + size + n > limits_.bytes;

@@ -35,6 +35,8 @@ class Inbox {
 
   std::size_t files() const noexcept { return files_.load(std::memory_order_relaxed); }
   std::uint64_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
+  /// Of all datasets, also of the one that is on its way and of those that are not kept.
+  std::uint64_t received_bytes() const noexcept { return received_bytes_.load(std::memory_order_relaxed); }
   /// Objects of another study or series, which were not kept.
   std::size_t unasked() const noexcept { return unasked_.load(std::memory_order_relaxed); }
 
@@ -63,7 +65,7 @@ class Inbox {
   std::set<std::string> instances_;
   std::size_t number_ = 0;
   std::atomic<std::size_t> files_{0}, unasked_{0};
-  std::atomic<std::uint64_t> bytes_{0};
+  std::atomic<std::uint64_t> bytes_{0}, received_bytes_{0};
 };
 
 }  // namespace palpate::io

@@ -12,74 +12,17 @@
 #include "io/archive/fetch.h"
 #include "io/archive/find.h"
 #include "io/archive/send.h"
-#include "io/archive/testing/process.h"
+#include "io/archive/testing/odd_archive.h"
 #include "io/archive/testing/says.h"
 #include "io/errors.h"
-#include "io/fresh_folder.h"
 
 namespace palpate::io {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using testing::OddArchive;
 using testing::says;
-
-class OddArchive {
- public:
-  explicit OddArchive(const std::string& behavior)
-      : archive_(settings()),
-        process_({ODD_ARCHIVE, behavior, std::to_string(archive_.listen_port)}),
-        folder_(temporary_folder()) {
-    archive_.port = std::stoi("0" + process_.read_line());
-  }
-  Archive& archive() { return archive_; }
-  testing::Process& process() { return process_; }
-  fs::path folder() const { return blocked_ ? fs::path("/dev/null/fetched") : folder_.path() / "fetched"; }
-  /// From now on the folder cannot be made.
-  void no_folder() { blocked_ = true; }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder_.path()), {}));
-  }
-
-  /// What a fetch is refused with; nothing may be left of it.
-  std::string refused_fetch(const FetchLimits& limits = {}) {
-    std::string said = "no refusal";
-    try {
-      fetch(archive_, {"1.2.3"}, folder(), limits);
-    } catch (const ArchiveError& error) {
-      said = error.what();
-    }
-    EXPECT_EQ(entries(), 0U) << "something was left in the folder";
-    EXPECT_FALSE(testing::is_listening(archive_.listen_port));
-    return said;
-  }
-  std::string refused_echo() {
-    try {
-      echo(archive_);
-    } catch (const ArchiveError& error) {
-      return error.what();
-    }
-    return "no refusal";
-  }
-
- private:
-  static Archive settings() {
-    Archive archive;
-    archive.name = "odd";
-    archive.host = "127.0.0.1";
-    archive.called = "ODD";
-    archive.calling = "PALPATE";
-    archive.uses_get = true;
-    archive.listen_address = "127.0.0.1";
-    archive.listen_port = testing::free_port();
-    archive.silence_s = 2;
-    return archive;
-  }
-  Archive archive_;
-  testing::Process process_;
-  FreshFolder folder_;
-  bool blocked_ = false;
-};
 
 TEST(OddArchive, ThatBehavesIsFetchedFrom) {
   OddArchive odd("good");

@@ -48,25 +48,50 @@ void drip(int socket, int context, const std::string& study) {
   }
 }
 
-/// What the store service that we connect to says to someone whom it does not know: 3 rejects.
-void call_as_stranger(int port) {
+/// Connects to the store service on a port of this machine, under an AE title, and asks for an association. -1: nobody
+/// listens there.
+int call(int port, std::string calling) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-    const std::string context = std::string("\1\0\0\0", 4) + item(0x30, ct_image) + item(0x40, "1.2.840.10008.1.2.1");
-    std::string called = "PALPATE", calling = "STRANGER";
-    called.resize(16, ' ');
-    calling.resize(16, ' ');
-    write_pdu(socket, 1,
-              std::string("\0\1\0\0", 4) + called + calling + std::string(32, '\0') +
-                  item(0x10, "1.2.840.10008.3.1.1.1") + item(0x20, context) +
-                  item(0x50, item(0x51, big(16384, 4)) + item(0x52, "1.2.3.4")));
-    std::printf("stranger %d\n", read_pdu(socket).type);
-    std::fflush(stdout);
+  if (connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    close(socket);
+    return -1;
   }
+  const std::string context = std::string("\1\0\0\0", 4) + item(0x30, ct_image) + item(0x40, "1.2.840.10008.1.2.1");
+  std::string called = "PALPATE";
+  called.resize(16, ' ');
+  calling.resize(16, ' ');
+  write_pdu(socket, 1,
+            std::string("\0\1\0\0", 4) + called + calling + std::string(32, '\0') +
+                item(0x10, "1.2.840.10008.3.1.1.1") + item(0x20, context) +
+                item(0x50, item(0x51, big(16384, 4)) + item(0x52, "1.2.3.4")));
+  return socket;
+}
+
+/// What the store service says to someone whom it does not know: 3 rejects.
+void call_as_stranger(int port) {
+  const int socket = call(port, "STRANGER");
+  if (socket < 0) return;
+  std::printf("stranger %d\n", read_pdu(socket).type);
+  std::fflush(stdout);
+  close(socket);
+}
+
+/// One image to the store service, a piece every 0.1 s for 5 s.
+void send_slowly(int port, const std::string& study) {
+  const int socket = call(port, "ODD");
+  if (socket < 0) return;
+  read_pdu(socket);
+  begin_image(socket, 1, study);
+  for (int n = 0; n < 50; ++n) {
+    write_pdu(socket, 4, pdv(1, false, n == 49, std::string(1000, 'x')));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  int context = 0;
+  read_part(socket, context);  // the answer
   close(socket);
 }
 
@@ -99,7 +124,9 @@ class Serving {
     if (command.contains(0x00000110)) request.id = number(command.at(0x00000110), 0, 2, false);
     if (command.contains(0x00000002)) request.sop_class = uid_of(command.at(0x00000002));
     if (number(command.at(0x00000800), 0, 2, false) != 0x0101) {
-      const std::string dataset = read_part(socket_, request.context);
+      // 2048 pieces, as a file of 32 MiB has, take 5 s.
+      const std::chrono::microseconds pause(behavior_ == "reads-slowly" ? 2500 : 0);
+      const std::string dataset = read_part(socket_, request.context, pause);
       if (request.field != 1) request.keys = parse_explicit(dataset);
     }
     return request;
@@ -202,6 +229,10 @@ class Serving {
   void move(const Request& request) {
     if (behavior_ == "unknown-destination") return respond(socket_, request, 0xA801);
     if (behavior_ == "stranger") call_as_stranger(port_);
+    if (behavior_ == "sends-slowly") {
+      send_slowly(port_, uid_of(request.keys.at(0x0020000D)));
+      return respond(socket_, request, 0, {}, 1);
+    }
     respond(socket_, request, 0, {}, 2);
   }
 
@@ -235,6 +266,8 @@ int main(int count, char** arguments) {
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof address;
+  const int small = 65536;  // bytes that wait to be read: a slow reader is felt by the sender
+  setsockopt(listening, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
   if (count < 2 || bind(listening, reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
       listen(listening, 8) != 0 || getsockname(listening, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
     return 1;

@@ -2,6 +2,8 @@
 
 #include <sys/socket.h>
 
+#include <thread>
+
 namespace palpate::io::testing {
 
 std::string big(std::uint32_t value, int bytes) {
@@ -101,9 +103,10 @@ std::string pdv(int context, bool command, bool last, const std::string& bytes) 
          static_cast<char>((command ? 1 : 0) | (last ? 2 : 0)) + bytes;
 }
 
-std::string read_part(int socket, int& context) {
+std::string read_part(int socket, int& context, std::chrono::microseconds pause) {
   std::string part;
   while (true) {
+    if (pause.count() > 0) std::this_thread::sleep_for(pause);
     const Pdu pdu = read_pdu(socket);
     if (pdu.type == 5) {
       write_pdu(socket, 6, std::string(4, '\0'));

@@ -2,6 +2,7 @@
 
 /// DICOM's upper layer (PS3.8), byte by byte, for an archive that does what no library would.
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -41,7 +42,7 @@ std::vector<std::pair<int, std::string>> items(const std::string& body, std::siz
 std::map<int, std::string> accept(int socket, const std::string& request, bool agrees);
 /// A piece of a message.
 std::string pdv(int context, bool command, bool last, const std::string& bytes);
-/// A message part (command or dataset) from its first PDU to its last.
-std::string read_part(int socket, int& context);
+/// A message part (command or dataset) from its first PDU to its last, with a pause before each.
+std::string read_part(int socket, int& context, std::chrono::microseconds pause = {});
 
 }  // namespace palpate::io::testing

@@ -1,0 +1,47 @@
+// Archives on a slow line. An object may take longer than the silence that is allowed, as long as pieces of it go on.
+
+#include <dcmtk/config/osconfig.h>
+// DCMTK's configuration comes first.
+#include <dcmtk/dcmdata/dctk.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "io/archive/fetch.h"
+#include "io/archive/send.h"
+#include "io/archive/testing/odd_archive.h"
+#include "io/fresh_folder.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::OddArchive;
+
+constexpr int silence_s = 3;  // both objects take 5 s
+
+TEST(SlowArchive, SendsAnImageThatTakesLongerThanTheSilence) {
+  OddArchive odd("sends-slowly");
+  odd.archive().uses_get = false;
+  odd.archive().silence_s = silence_s;
+  EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder()).files, 1U);
+}
+
+TEST(SlowArchive, TakesAFileThatTakesLongerThanTheSilence) {
+  const FreshFolder folder = temporary_folder();
+  const fs::path file = folder.path() / "large.dcm";
+  DcmFileFormat format;
+  DcmDataset& dataset = *format.getDataset();
+  dataset.putAndInsertString(DCM_SOPClassUID, UID_CTImageStorage);
+  dataset.putAndInsertString(DCM_SOPInstanceUID, "1.2.3.4");
+  const std::vector<Uint16> pixels(16U << 20U);
+  dataset.putAndInsertUint16Array(DCM_PixelData, pixels.data(), pixels.size());
+  ASSERT_TRUE(format.saveFile(file.c_str(), EXS_LittleEndianExplicit).good());
+  OddArchive odd("reads-slowly");
+  odd.archive().silence_s = silence_s;
+  EXPECT_EQ(send(odd.archive(), {file}).files, 1U);
+}
+
+}  // namespace
+}  // namespace palpate::io
