@@ -14,7 +14,7 @@
 namespace palpate::io {
 namespace fs = std::filesystem;
 
-FreshFolder::FreshFolder(fs::path final_path) : final_(std::move(final_path)) {
+FreshFolder::FreshFolder(fs::path final_path, Readable readable) : final_(std::move(final_path)) {
   if (!final_.has_filename()) {
     final_ = final_.parent_path();  // "out/" means "out"
   }
@@ -29,9 +29,10 @@ FreshFolder::FreshFolder(fs::path final_path) : final_(std::move(final_path)) {
         say("cannot-make-a-folder", parent.string(), std::error_code(errno, std::generic_category()).message()));
   }
   working_ = pattern;
+  if (readable == Readable::by_owner) return;  // as mkdtemp makes it
   fs::permissions(working_,
                   fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec,
-                  fs::perm_options::add);  // mkdtemp keeps them to the user
+                  fs::perm_options::add);
 }
 
 FreshFolder::~FreshFolder() {
@@ -47,7 +48,8 @@ void FreshFolder::commit() {
 }
 
 FreshFolder temporary_folder() {
-  return FreshFolder(fs::temp_directory_path() / ("palpate-" + std::to_string(getpid())));
+  return FreshFolder(fs::temp_directory_path() / ("palpate-" + std::to_string(getpid())),
+                     FreshFolder::Readable::by_owner);
 }
 
 void write_all_or_none(const fs::path& final_path, const std::function<void(const fs::path&)>& write) {

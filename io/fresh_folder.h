@@ -9,8 +9,9 @@ namespace palpate::io {
 
 class FreshFolder {
  public:
+  enum class Readable { by_all, by_owner };
   /// Throws std::runtime_error where `final_path` exists and is not an empty folder, or cannot be made.
-  explicit FreshFolder(std::filesystem::path final_path);
+  explicit FreshFolder(std::filesystem::path final_path, Readable readable = Readable::by_all);
   FreshFolder(const FreshFolder&) = delete;
   FreshFolder& operator=(const FreshFolder&) = delete;
   /// Removes what was written unless it was committed.
@@ -26,7 +27,8 @@ class FreshFolder {
   std::filesystem::path working_;
 };
 
-/// A temporary folder that is removed with the object. It is never committed.
+/// A temporary folder that is removed with the object. It is never committed. Only its owner can read it: it may hold
+/// files that name a patient.
 FreshFolder temporary_folder();
 
 /// Lets `write` fill a fresh folder, and commits the folder when `write` returns. With an empty `final_path` nothing is
