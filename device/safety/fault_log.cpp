@@ -5,7 +5,7 @@
 namespace palpate::device {
 
 void FaultLog::record(const SafetyInput& input, const SafetyResult& result) noexcept {
-  if (stopped_.load(std::memory_order_relaxed)) return;
+  if (stopped()) return;
   ring_[count_ % capacity] = {input, result};
   ++count_;
   const bool faulty = result.fault != Fault::none;

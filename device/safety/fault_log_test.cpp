@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace palpate::device {
 namespace {
@@ -81,6 +83,28 @@ TEST(FaultLog, AFaultThatIsClearedAtOnceIsKeptAllTheSame) {
   one.record(1, Fault::none);
   ASSERT_TRUE(one.log.stopped());
   EXPECT_EQ(one.log.ticks().size(), 521U);
+}
+
+// With the thread sanitizer it also tells whether the two threads share the ring without a race.
+TEST(FaultLog, IsReadAndClearedByAnotherThread) {
+  Recorded one;
+  std::atomic<bool> done{false};
+  std::thread servo([&] {
+    while (!done.load(std::memory_order_relaxed)) {
+      one.record(5, Fault::none);
+      one.record(20, Fault::force_stale);
+    }
+  });
+  for (int n = 0; n < 50; ++n) {
+    while (!one.log.stopped()) std::this_thread::yield();
+    const auto ticks = one.log.ticks();
+    EXPECT_GE(ticks.size(), 21U);
+    EXPECT_EQ(ticks.back().result.fault, Fault::none) << "the fault was cleared";
+    for (std::size_t i = 1; i < ticks.size(); ++i) EXPECT_GT(ticks[i].input.time, ticks[i - 1].input.time);
+    one.log.clear();
+  }
+  done = true;
+  servo.join();
 }
 
 }  // namespace
