@@ -26,6 +26,12 @@ modes::Scene suited(modes::Scene scene, const device::Specification& stylus) {
   return scene;
 }
 
+bool ended_in_fault(const TickRing& ring) {
+  TickRecord tick;
+  const std::uint64_t written = ring.written();
+  return written > 0 && ring.read(written - 1, tick) && fault_of(tick) != device::Fault::none;
+}
+
 }  // namespace
 
 LiveSession::~LiveSession() {
@@ -171,6 +177,7 @@ void LiveSession::press(std::uint32_t buttons) noexcept {
 }
 
 void LiveSession::clear_fault() noexcept {
+  start_ = Start::released;
   if (session_) session_->clear_fault();
 }
 
@@ -202,7 +209,7 @@ void LiveSession::record(const std::filesystem::path& file) {
   std::shared_ptr<device::Stylus> stylus = stylus_;
   const Start before = start_;
   disconnect();
-  start_ = before;
+  start_ = ended_in_fault(*ring_) ? Start::released : before;
   try {
     begin(stylus, file);
   } catch (...) {

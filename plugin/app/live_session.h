@@ -79,6 +79,8 @@ class LiveSession {
 
   void feel() noexcept;     ///< the force comes up
   void release() noexcept;  ///< the force falls to zero, and stays there until feel()
+  /// What feel(), release() or connect() asked for last. A cleared fault counts as release().
+  Start start() const noexcept { return start_; }
   void clear_fault() noexcept;
   /// As Session::press(), until the session ends or begins anew.
   void press(std::uint32_t buttons) noexcept;
@@ -98,8 +100,8 @@ class LiveSession {
   const device::RealtimeStatus* realtime() const noexcept { return servo_ ? &servo_->realtime() : nullptr; }
 
   /// Begins to record. A recording can only be repeated to the last bit from the first tick of a session; so the
-  /// session begins again, its force ramped down and up. Throws std::runtime_error that names the file, or if no stylus
-  /// is held.
+  /// session begins again, its force ramped down and up. After a fault it begins without a force, until feel(). Throws
+  /// std::runtime_error that names the file, or if no stylus is held.
   void record(const std::filesystem::path& file);
   /// The status of the recording that ends; none if nothing was recorded.
   std::optional<RecorderStatus> stop_recording();

@@ -269,6 +269,29 @@ TEST(LiveSession, AStylusThatWasLostComesBackUnarmed) {
   EXPECT_TRUE(comes(live, [&] { return state_of(last_tick(live)) == device::State::active; }));
 }
 
+TEST(LiveSession, ARecordingThatBeginsAfterAFaultHasNoForce) {
+  const auto file = fresh_path("after-a-fault.h5");
+  UnhurriedSession live;
+  live.set_scan(ball(), modes::load_scene("ct-skin-and-bone"));
+  const auto held = pressing();
+  live.connect(held);
+  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.1; }));
+  held->inject(device::SimulatedFault::unplugged);
+  ASSERT_TRUE(comes(live, [&] { return fault_of(last_tick(live)) == device::Fault::device_lost; }));
+  held->inject(device::SimulatedFault::none);
+  live.record(file);
+  EXPECT_EQ(live.start(), LiveSession::Start::released);
+  ASSERT_TRUE(comes(live, [&] { return live.ticks()->written() > 1000; }));
+  EXPECT_EQ(sent_n(live), 0) << "only the user turns the force on";
+  EXPECT_EQ(state_of(last_tick(live)), device::State::idle);
+  live.feel();
+  EXPECT_TRUE(comes(live, [&] { return state_of(last_tick(live)) == device::State::active; }));
+  live.clear_fault();
+  EXPECT_EQ(live.start(), LiveSession::Start::released) << "nor does a session that begins after the fault is cleared";
+  live.disconnect();
+  std::filesystem::remove(file);
+}
+
 TEST(LiveSession, AStylusThatIsStillGoneIsSaid) {
   LiveSession live;
   live.set_scan(ball(), modes::load_scene("ct-skin-and-bone"));
