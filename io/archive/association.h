@@ -70,6 +70,20 @@ class Association {
   bool broken_ = false;
 };
 
+/// Asks a question of the study-root model `model` (a SOP class): sends the keys in its context. `field` is the kind of
+/// command, and `request` the part of `command` for it, where the rest has been filled in. Throws ArchiveError.
+template <typename Request>
+void send_request(Association& association, const char* model, T_DIMSE_Command field, Command& command,
+                  Request& request, DcmDataset& keys) {
+  command.context = association.context_for(model);
+  command.message.CommandField = field;
+  request.MessageID = association.next_message_id();
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, model, sizeof request.AffectedSOPClassUID);
+  association.send(command, &keys);
+}
+
 /// Uncompressed encodings, the best first.
 const std::vector<std::string>& uncompressed_syntaxes();
 /// Compressed encodings that can be read.

@@ -93,16 +93,10 @@ Ended move(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& t
   StoreServer server(archive, inbox);
   Association association(archive, {{model, uncompressed_syntaxes()}});
   Command ask;
-  ask.context = association.context_for(model);
-  ask.message.CommandField = DIMSE_C_MOVE_RQ;
   T_DIMSE_C_MoveRQ& request = ask.message.msg.CMoveRQ;
-  request.MessageID = association.next_message_id();
-  request.Priority = DIMSE_PRIORITY_MEDIUM;
-  request.DataSetType = DIMSE_DATASET_PRESENT;
-  OFStandard::strlcpy(request.AffectedSOPClassUID, model, sizeof request.AffectedSOPClassUID);
   OFStandard::strlcpy(request.MoveDestination, archive.calling.c_str(), sizeof request.MoveDestination);
   DcmDataset keys = keys_of(wanted);
-  association.send(ask, &keys);
+  send_request(association, model, DIMSE_C_MOVE_RQ, ask, request, keys);
   std::uint64_t seen = 0;
   const KeepGoing keep_going = [&] {
     // It is silent here while it sends there.
@@ -156,15 +150,8 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
   constexpr const char* model = UID_GETStudyRootQueryRetrieveInformationModel;
   Association association(archive, proposals_for_get());
   Command ask;
-  ask.context = association.context_for(model);
-  ask.message.CommandField = DIMSE_C_GET_RQ;
-  T_DIMSE_C_GetRQ& request = ask.message.msg.CGetRQ;
-  request.MessageID = association.next_message_id();
-  request.Priority = DIMSE_PRIORITY_MEDIUM;
-  request.DataSetType = DIMSE_DATASET_PRESENT;
-  OFStandard::strlcpy(request.AffectedSOPClassUID, model, sizeof request.AffectedSOPClassUID);
   DcmDataset keys = keys_of(wanted);
-  association.send(ask, &keys);
+  send_request(association, model, DIMSE_C_GET_RQ, ask, ask.message.msg.CGetRQ, keys);
   const KeepGoing keep_going = [&] { return teller(); };
   try {
     while (true) {

@@ -59,14 +59,7 @@ struct Answers {
 /// One question, and all that is answered to it, up to `most`.
 Answers ask(Association& association, DcmDataset& keys, std::size_t most, const KeepGoing& keep_going) {
   Command question;
-  question.context = association.context_for(model);
-  question.message.CommandField = DIMSE_C_FIND_RQ;
-  T_DIMSE_C_FindRQ& request = question.message.msg.CFindRQ;
-  request.MessageID = association.next_message_id();
-  request.Priority = DIMSE_PRIORITY_MEDIUM;
-  request.DataSetType = DIMSE_DATASET_PRESENT;
-  OFStandard::strlcpy(request.AffectedSOPClassUID, model, sizeof request.AffectedSOPClassUID);
-  association.send(question, &keys);
+  send_request(association, model, DIMSE_C_FIND_RQ, question, question.message.msg.CFindRQ, keys);
   Answers answers;
   while (true) {
     const Command command = association.receive(keep_going);

@@ -9,8 +9,7 @@
 #include "io/interchange/voxel_bytes.h"
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
-#include "io/structures/beyond_slices.h"
-#include "io/structures/mask_measures.h"
+#include "io/structures/mask_source.h"
 #include "io/structures/structure_file.h"
 
 namespace palpate::io {
@@ -22,27 +21,12 @@ struct Box {
   glm::ivec3 low{std::numeric_limits<int>::max()}, high{-1};
 };
 
-class LabelMapSource final : public StructureSource {
+class LabelMapSource final : public MaskSource {
  public:
   LabelMapSource(VoxelFile image, std::map<int, Box> boxes) : image_(std::move(image)), boxes_(std::move(boxes)) {}
 
-  StructureMeasures measure(int number, const RigidMotion& motion) const override {
-    return measures_of(moved_mask(number, motion));
-  }
-  std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override {
-    Mask mask = moved_mask(number, options.motion);
-    measures_of(mask);  // refuses one that is empty
-    add_empty_slices(options, mask);
-    return distance_of(mask, options);
-  }
-
  private:
-  Mask moved_mask(int number, const RigidMotion& motion) const {
-    Mask mask = mask_of(number);
-    move(motion, mask.geometry);
-    return mask;
-  }
-  Mask mask_of(int number) const {
+  Mask mask_of(int number) const override {
     Mask mask;
     mask.geometry = image_.geometry;
     const auto box = boxes_.find(number);

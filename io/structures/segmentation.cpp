@@ -16,9 +16,8 @@
 #include "io/dicom/stacking.h"
 #include "io/errors.h"
 #include "io/messages.h"
-#include "io/structures/beyond_slices.h"
 #include "io/structures/color.h"
-#include "io/structures/mask_measures.h"
+#include "io/structures/mask_source.h"
 #include "io/structures/segment_frames.h"
 #include "io/structures/structure_file.h"
 
@@ -137,7 +136,7 @@ std::vector<Vec3> filled(const std::vector<Vec3>& positions, const Vec3& normal,
   return all;
 }
 
-class SegmentationSource final : public StructureSource {
+class SegmentationSource final : public MaskSource {
  public:
   SegmentationSource(SegmentationPixels pixels, SegmentationType type, double most,
                      const std::vector<PlacedFrame>& frames)
@@ -182,23 +181,7 @@ class SegmentationSource final : public StructureSource {
     geometry_.gaps.clear();
   }
 
-  StructureMeasures measure(int number, const RigidMotion& motion) const override {
-    return measures_of(moved_mask(number, motion));
-  }
-  std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override {
-    Mask mask = moved_mask(number, options.motion);
-    measures_of(mask);  // refuses one that is empty
-    add_empty_slices(options, mask);
-    return distance_of(mask, options);
-  }
-
  private:
-  Mask moved_mask(int number, const RigidMotion& motion) const {
-    Mask mask = mask_of(number);
-    move(motion, mask.geometry);
-    return mask;
-  }
-
   struct Cut {
     int slice = 0;
     glm::ivec2 low{0}, size{0};
@@ -245,7 +228,7 @@ class SegmentationSource final : public StructureSource {
     return cut;
   }
 
-  Mask mask_of(int number) const {
+  Mask mask_of(int number) const override {
     std::vector<std::uint16_t> values(static_cast<std::size_t>(geometry_.dimensions.x) *
                                       static_cast<std::size_t>(geometry_.dimensions.y));
     std::vector<Cut> cuts;

@@ -1,0 +1,23 @@
+#pragma once
+
+/// A file that holds structures as masks: segments of a DICOM SEG, labels of a label map.
+
+#include <memory>
+
+#include "io/structures/mask.h"
+#include "io/structures/structure.h"
+
+namespace palpate::io {
+
+class MaskSource : public StructureSource {
+ public:
+  StructureMeasures measure(int number, const RigidMotion& motion) const override;
+  std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override;
+
+ private:
+  /// The mask of a structure where its file has it; empty if no voxel is inside.
+  virtual Mask mask_of(int number) const = 0;
+  Mask moved_mask(int number, const RigidMotion& motion) const;
+};
+
+}  // namespace palpate::io
