@@ -13,7 +13,7 @@ namespace palpate::device {
 struct FoundDevice {
   std::string kind;         ///< DeviceType::kind
   std::string name;         ///< as it calls itself
-  std::string address;      ///< what its settings' `address` takes: "bus:device" or a hidraw path
+  std::string address;      ///< for its settings' `address`: "bus:device", a hidraw path, a serial number or an id
   bool accessible = false;  ///< whether this user may open it
   std::string note;         ///< what to type if permission is denied, or that it may be another device
 };

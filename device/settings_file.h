@@ -33,7 +33,7 @@ class SettingsReader {
     }
     left_.erase(found);
   }
-  /// Nothing may be left.
+  /// Throws std::runtime_error naming a key that was not taken.
   void finish() const {
     if (!left_.empty()) throw Refusal(say("not-a-setting", left_.begin().key()));
   }

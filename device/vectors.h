@@ -11,7 +11,7 @@ inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The same direction, no longer than `longest` (>= 0), to the last bit.
+/// The vector, shortened to the length `longest` (>= 0) if it is longer. Rounding never makes it longer than that.
 inline Vec3 clamp_length(const Vec3& v, double longest) {
   // Scaled first: the square of a huge component overflows, and inf / inf would turn it into a NaN.
   const double largest = std::fmax(std::fmax(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z));

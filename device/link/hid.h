@@ -9,7 +9,7 @@
 
 namespace palpate::device {
 
-/// Of a kind: WoodenHaptics arms or SpaceMouse pucks. Never throws: no HID is no devices.
+/// The devices of a kind: WoodenHaptics arms or SpaceMouse pucks. Never throws; empty where HID does not work.
 std::vector<FoundDevice> find_hid_devices(const std::string& wanted);
 
 /// Opens the device of a kind at a hidraw path, or the only one. Throws std::runtime_error naming it and what to do.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// One pose that cannot be is a garbled packet, or a hand at the edge of the reach: the last one is held and nothing is
-/// pushed. Only where that lasts is it a fault.
+/// Decides when impossible poses are a fault. A single one is a garbled packet, or a hand at the edge of the reach: the
+/// driver then keeps the last pose and gives no force. It is a fault only if that lasts.
 
 #include <algorithm>
 
@@ -14,14 +14,14 @@ class PoseDoubt {
   /// `recovery`: s of doubt that a second of good poses takes away.
   explicit PoseDoubt(double recovery) : recovery_(recovery) {}
 
-  /// Of a pose that cannot be, at a time in s; whether the doubt has lasted for longer than the patience.
+  /// To be called for an impossible pose, at a time in s. Returns whether the doubt has lasted longer than `patience`.
   bool lasts(double now) noexcept {
     if (time_ > 0) doubt_ += std::max(0.0, now - time_);
     doubtful_ = true;
     time_ = now;
     return doubt_ > patience;
   }
-  /// Of one that can be.
+  /// To be called for a possible pose, at a time in s.
   void ends(double now) noexcept {
     doubt_ = std::max(0.0, doubt_ - recovery_ * (now - time_));
     doubtful_ = false;

@@ -44,7 +44,7 @@ class Protocol {
 
   /// Brings the device into its working state. Throws std::runtime_error naming it and what to do.
   virtual void connect(Link& link) = 0;
-  /// The link is about to go; `lost`: the device went before.
+  /// Called before the link is closed. `lost`: the device is gone already.
   virtual void disconnected(bool /*lost*/) noexcept {}
   /// A packet that arrived.
   virtual void receive(std::span<const std::uint8_t> packet, double now) noexcept = 0;

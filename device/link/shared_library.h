@@ -38,7 +38,7 @@ class SharedLibrary {
   void* handle_ = nullptr;
 };
 
-/// Where the library named lies: in the environment variable, else among the usual places.
+/// The files to try: the one that the environment variable `variable` names, or else the usual ones.
 std::vector<std::string> library_candidates(const char* variable, std::vector<std::string> usual);
 
 }  // namespace palpate::device

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a motor bears for long: the square of its current (or of a force) may stay above the continuous one only for a
-/// time, as the heat in its windings does (I^2 t).
+/// Limits a motor's current, or a force, by the heat in its windings (I^2 t): it may stay above its continuous value
+/// only for a time.
 
 namespace palpate::device {
 
@@ -14,9 +14,9 @@ struct SustainedLimit {
 /// The heat of one motor above what leaves it by itself.
 class SustainedLoad {
  public:
-  /// The largest size allowed now. Approaches the continuous one smoothly as the heat comes to its limit.
+  /// The largest current or force allowed now. Falls smoothly to the continuous one as the heat nears its limit.
   double allowed(const SustainedLimit& limit) const noexcept;
-  /// This size was given for `elapsed` s.
+  /// Adds the heat of a current or force of this size that lasted `elapsed` s.
   void add(const SustainedLimit& limit, double size, double elapsed) noexcept;
 
  private:

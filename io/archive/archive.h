@@ -1,7 +1,7 @@
 #pragma once
 
-/// An archive (PACS) that speaks DICOM over the network: where it is, what it and this program are called, and what is
-/// asked of it. DICOM PS3.4 Annex C (query and retrieve, study root), Annex B (storage), Annex A (verification).
+/// The settings of an archive (PACS) that is reached with DICOM over the network, and its verification. The standard:
+/// DICOM PS3.4 Annex C (query and retrieve, study root), Annex B (storage), Annex A (verification).
 
 #include <cstdint>
 #include <filesystem>
@@ -13,8 +13,8 @@
 
 namespace palpate::io {
 
-/// What an archive, or the way to it, refused. The message names the archive as the user does and says what to set
-/// where. It never holds a patient's name or identifier.
+/// An archive refused something, or could not be reached. The message names the archive as the user does and says what
+/// to set where. It never holds a patient's name or identifier.
 class ArchiveError : public Refusal {
  public:
   using Refusal::Refusal;
@@ -47,13 +47,13 @@ struct Archive {
   bool operator==(const Archive&) const = default;
 };
 
-/// Throws ArchiveError naming the setting that no archive can have.
+/// Throws ArchiveError naming a setting that is not valid.
 void check(const Archive& archive);
 
 /// C-ECHO: whether the archive answers and knows us. Throws ArchiveError saying why not.
 void echo(const Archive& archive);
 
-/// Asked now and then, on the thread that asked for the work; false ends it with io::Cancelled.
+/// Called now and then, on the thread that called the function. If it returns false, the function throws io::Cancelled.
 using KeepGoing = std::function<bool()>;
 
 }  // namespace palpate::io

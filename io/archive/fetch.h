@@ -25,7 +25,7 @@ struct FetchProgress {
   int expected = -1;  ///< images, as the archive counts them; -1: it does not say
 };
 
-/// Told what has come, at least once a second, on the thread that asked; false cancels.
+/// Called with what has come, at least once a second, on the thread that called fetch(). False cancels.
 using FetchWatcher = std::function<bool(const FetchProgress&)>;
 
 struct FetchedSeries {

@@ -50,7 +50,7 @@ struct Wanted {
   int images = -1;         ///< as the archive counts them; -1: it does not say
 };
 
-/// What a UID names there. Throws ArchiveError where the archive holds neither a study nor a series of that UID.
+/// The study or the series of a UID. Throws ArchiveError where the archive holds neither.
 Wanted find_uid(const Archive& archive, const std::string& uid, const KeepGoing& keep_going = {});
 
 }  // namespace palpate::io

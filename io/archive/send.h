@@ -22,7 +22,7 @@ struct Sent {
 };
 
 /// Sends the files as they are, in the encoding they have. Throws ArchiveError where there is no association or it
-/// breaks, Cancelled where `progress` (files done, of all) says so between two files.
+/// breaks, Cancelled where `progress` returns false. It is called before each file, with the number of files done.
 Sent send(const Archive& archive, const std::vector<std::filesystem::path>& files,
           const std::function<bool(std::size_t done)>& progress = {});
 

@@ -25,9 +25,9 @@ struct Transport {
   bool names_other = false;  ///< the peer's certificate is for another machine than the archive's
 };
 
-/// Of the side that asks (NET_REQUESTOR) or is asked (NET_ACCEPTOR). The certificate of a machine that we ask has to be
-/// for that machine (RFC 6125); one that asks us is known by its authority and its AE title alone. Throws ArchiveError
-/// naming the certificate or key that cannot be used.
+/// For the side that asks (NET_REQUESTOR) or is asked (NET_ACCEPTOR). If we ask, the peer's certificate has to be for
+/// its machine (RFC 6125); if a peer asks us, only its certificate's authority is checked, and its AE title later.
+/// Throws ArchiveError naming the certificate or key that cannot be used.
 std::unique_ptr<Transport> make_transport(const Archive& archive, T_ASC_NetworkRole role);
 
 /// Shuts a socket down where nothing was heard on it for a while. Without it a peer that sends a byte now and then

@@ -23,17 +23,17 @@ class VoxelBytes {
 /// Throws DicomError where the file cannot be opened.
 std::unique_ptr<VoxelBytes> voxel_bytes(const VoxelFile& file);
 
-/// Slice by slice along the file's third axis: `n` is its number in the file, `raw` its numbers in this machine's
-/// order. Those of `volume` (from 0), from `begin` up to `end`. Ends early where `slice` gives false. Throws DicomError
-/// where the file ends before its voxels do.
+/// Calls `slice` for the slices `begin` to `end` - 1 of a volume (counted from 0). They lie along the file's third
+/// axis. `n` is the slice's number in the file; `raw` are its numbers, in this machine's byte order. Ends early where
+/// `slice` returns false. Throws DicomError where the file ends before its voxels do.
 void read_raw_slices(const VoxelFile& file, int volume, int begin, int end,
                      const std::function<bool(int n, std::span<const std::uint8_t> raw)>& slice);
 
-/// All slices of the first volume as values, those of a voxel's layers side by side. `k` is the geometry's slice: only
-/// for files whose axes are the geometry's.
+/// All slices of the first volume as values; the layers of a voxel lie side by side. `k` is the slice in the geometry.
+/// Only for files whose axes are in the geometry's order.
 void read_slices(const VoxelFile& file, const std::function<bool(int k, std::span<const double> values)>& slice);
 
-/// The number that stands at `from`, in this machine's order.
+/// The number at `from`, in this machine's byte order.
 double number_at(VoxelFile::Number number, const std::uint8_t* from) noexcept;
 
 }  // namespace palpate::io

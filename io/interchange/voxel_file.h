@@ -38,11 +38,11 @@ struct VoxelFile {
   bool swapped = false;             ///< its bytes are in the other order than this machine's
   double slope = 1, offset = 0;     ///< value = slope * stored + offset
   Packing packing = Packing::none;  ///< of the file at voxels_at
-  std::int64_t first = 0;  ///< where voxels begin: a byte of that file, or of what it holds where it is packed whole
-  int volumes = 1;         ///< one behind the other, as large as each other: frames
-  int layers = 1;          ///< label maps that lie over one another: so many numbers a voxel, side by side
+  std::int64_t first = 0;  ///< the byte at which the voxels begin; of the unpacked file where it is packed whole
+  int volumes = 1;         ///< frames: volumes of the same size, one behind the other
+  int layers = 1;          ///< label maps on one lattice: a voxel has a number for each, side by side
   glm::ivec3 size{0};      ///< voxels along the file's axes, the fastest one first
-  std::array<int, 3> axes{0, 1, 2};      ///< of the file, which are the geometry's i, j, k
+  std::array<int, 3> axes{0, 1, 2};      ///< the file's axes that are the geometry's i, j and k
   bool reversed = false;                 ///< the file's first slice (along axes[2]) is the geometry's last
   std::optional<Series::Window> window;  ///< how it would be shown
   bool said_to_be_labels = false;
@@ -53,7 +53,7 @@ struct VoxelFile {
   std::size_t numbers_of_slice() const { return slice_size() * static_cast<std::size_t>(layers); }
 };
 
-/// What tells a label from those of other layers: of the first one it is the label's value.
+/// A number that no label of another layer has. In the first layer it is the label's value.
 constexpr int label_number(int layer, int value) noexcept {
   return layer * 65536 + value;
 }
@@ -61,8 +61,8 @@ constexpr int label_number(int layer, int value) noexcept {
 /// Bytes of a number.
 std::size_t bytes_of(VoxelFile::Number number) noexcept;
 
-/// Null where it is no such file by its name and first bytes. `named` is its name as its user knows it, where that is
-/// not `path`. Throws DicomError, with a reason that does not name the file, for one that cannot be read.
+/// Null if its name or its first bytes are not those of such a file. `named` is its name as its user knows it, where
+/// that is not `path`. Throws DicomError, with a reason that does not name the file, if it cannot be read.
 std::optional<VoxelFile> open_voxel_file(const std::filesystem::path& path, const std::filesystem::path& named);
 std::optional<VoxelFile> open_nifti(const std::filesystem::path& path, const std::filesystem::path& named);
 std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path);
@@ -74,15 +74,15 @@ struct VoxelMap {
   Vec3 first{0};                                                           ///< center of the first voxel
 };
 
-/// Gives the file its geometry: two axes at right angles are i and j, so that slices may be sheared against each other
-/// and nothing else may; slices ascend along i x j. Throws DicomError where no two are, or sizes or numbers are none.
+/// Gives the file its geometry. Two axes at right angles become i and j. The third may be oblique: then the slices are
+/// sheared. They ascend along i x j. Throws DicomError if no two axes are at right angles, or a size is impossible.
 void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file);
 
-/// Whether a name ends so, in letters of any case.
+/// Whether a file name has this ending, in upper or lower case.
 bool has_ending(const std::filesystem::path& name, const std::string& ending);
 /// The file of voxels that a header names, which has to lie beside it. Throws DicomError where it does not.
 std::filesystem::path beside(const std::filesystem::path& header, const std::string& name);
-/// Throws DicomError where the file is too short for its voxels, or what it holds would come to too much.
+/// Throws DicomError where the file is too short for its voxels, or is packed and would be unpacked to too much.
 void check_size(const VoxelFile& file);
 
 }  // namespace palpate::io

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Bounds and numbers on the lattice of every second node, and back.
+/// Takes bounds and numbers to the lattice of every second node, and numbers back.
 
 #include <vector>
 
@@ -13,11 +13,11 @@ struct Coarser {
   std::vector<float> f;
 };
 
-/// The lattice of every second node, without bounds where there was no brick: there `f` goes on as it was beside it.
-/// `most_mm`: what no distance there exceeds.
+/// The lattice of every second node. Where there was no brick, `f` is that of the nearest node, and the bounds are
+/// -most_mm and most_mm: no distance is larger.
 Coarser coarser(const DistanceBounds& fine, const std::vector<float>& f, float most_mm);
 
-/// The numbers of a coarser lattice, cubic between its nodes; as they were where it does not reach.
+/// Interpolates the numbers of a coarser lattice (cubic). `into` keeps its numbers where the coarser lattice has none.
 void refine(const NodeBricks& coarse, const std::vector<float>& numbers, const NodeBricks& fine,
             std::vector<float>& into);
 

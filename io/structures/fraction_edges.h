@@ -4,9 +4,9 @@
 
 namespace palpate::io {
 
-/// How far a voxel's center is from the edge, mm, positive inside, as the fractions of it and of the voxels around it
-/// tell; NaN where they do not (no fraction, or no edge beside it). The index is of the whole lattice; beyond the
-/// lattice it goes on as it is at its edge.
+/// The distance of a voxel's center from the edge, mm, positive inside, by the fractions of this voxel and of those
+/// around it. NaN where they do not tell it (no fraction, or no edge beside it). The index is of the whole lattice;
+/// voxels beyond the lattice count as those at its edge.
 float edge_distance(const Mask& mask, int i, int j, int k);
 
 /// The same of one box of `size` mm that a plane with this normal (inward, of any length) cuts so that `share` of the

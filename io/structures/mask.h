@@ -21,7 +21,7 @@ struct Mask {
   glm::ivec3 low{0};                    ///< first voxel of the box
   glm::ivec3 size{0};                   ///< voxels of the box
   std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: how much of a voxel is inside, 0 to full
-  /// What `occupancy` tells besides in and out. Where the edge is within a voxel is read of it, and the field keeps it.
+  /// What values of `occupancy` between 0 and full mean. They give the place of the edge within a voxel.
   enum class Fractions : std::uint8_t {
     none,
     probability,  ///< how likely it is inside: the edge is where half is reached between voxels

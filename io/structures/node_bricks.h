@@ -50,14 +50,14 @@ struct NodeBricks {
                     static_cast<std::size_t>(n.x) +
                 static_cast<std::size_t>(x)];
   }
-  /// Of the nodes' numbers, one array for each slot.
+  /// The index of a node in the array of its brick's numbers.
   static constexpr std::size_t at(int i, int j, int k) noexcept {
     constexpr auto wide = static_cast<std::size_t>(edge);
     return (static_cast<std::size_t>(k) * wide + static_cast<std::size_t>(j)) * wide + static_cast<std::size_t>(i);
   }
 };
 
-/// So many numbers, whose count the compiler knows: rows are short, and calls would cost more than they copy.
+/// Copies `count` numbers, or writes `missing` where `from` is null. A call would cost more than so short a copy.
 template <int count, typename Number>
 inline void put_row(const Number* from, const Number& missing, Number* into) noexcept {
   if (from == nullptr) {

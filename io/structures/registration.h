@@ -27,11 +27,11 @@ struct Registration {
   std::vector<Part> parts;
 };
 
-/// Of a Spatial Registration (PS3.3 C.20.2) or a deformable one (C.20.3), which is listed and not applied. Nothing
-/// where the dataset is neither.
+/// Reads a Spatial Registration (PS3.3 C.20.2), or a deformable one (C.20.3), which is listed and not applied. Nothing
+/// if the dataset is neither.
 std::optional<Registration> registration_in(DcmDataset& dataset, const std::filesystem::path& path);
 
-/// From one frame of reference to another: rigid, or why not. Neither where no registration has both.
+/// The motion from one frame of reference to another, or why there is none. Both empty if no registration has both.
 struct Joined {
   std::optional<RigidMotion> motion;
   std::filesystem::path file;  ///< which registration says it
