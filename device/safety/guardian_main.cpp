@@ -42,15 +42,16 @@ const GuardianBeat* session_beat() {
 class Watch {
  public:
   explicit Watch(const GuardianBeat* beat) : beat_(beat) {}
-  /// Every look_every_ms; true once for each time that the session stops.
+  /// Every look_every_ms; true whenever the session has stood still for looks_until_stopped more looks.
   bool stopped() {
     if (beat_ == nullptr) return false;
     const auto count = beat_->count.load(std::memory_order_relaxed);
     const bool still = count == count_ && beat_->pushing.load(std::memory_order_relaxed) != 0;
     count_ = count;
     looks_ = still ? looks_ + 1 : 0;
-    return looks_ == looks_until_stopped;
+    return looks_ > 0 && looks_ % looks_until_stopped == 0;
   }
+  bool stopped_just_now() const { return looks_ == looks_until_stopped; }
 
  private:
   const GuardianBeat* beat_;
@@ -58,18 +59,35 @@ class Watch {
   int looks_ = 0;
 };
 
+/// Takes the force from a session that stands still: once, or until the device can be reached.
+class Taker {
+ public:
+  Taker(const char* kind, const char* address) : kind_(kind), address_(address) {}
+  void take_from(const Watch& watch) {
+    if (watch.stopped_just_now()) zeroed_ = told_ = false;
+    if (zeroed_) return;
+    const double begun = palpate::device::monotonic_time();
+    zeroed_ = palpate::device::send_zero_force(kind_, address_, 0.5, true);
+    if (zeroed_ || !told_) tell(true, kind_, zeroed_, begun);
+    told_ = true;
+  }
+
+ private:
+  const char* kind_;
+  const char* address_;
+  bool zeroed_ = false, told_ = false;
+};
+
 /// 'q', 'w', or 0 for the end of the pipe.
 char wait_for_word(const char* kind, const char* address) {
   Watch watch(session_beat());
+  Taker taker(kind, address);
   for (;;) {
     pollfd input{STDIN_FILENO, POLLIN, 0};
     const int ready = poll(&input, 1, look_every_ms);
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) {
-      if (!watch.stopped()) continue;
-      const double begun = palpate::device::monotonic_time();
-      const bool zeroed = palpate::device::send_zero_force(kind, address, 0.5, true);
-      tell(true, kind, zeroed, begun);
+      if (watch.stopped()) taker.take_from(watch);
       continue;
     }
     char word = 0;

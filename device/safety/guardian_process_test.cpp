@@ -127,6 +127,19 @@ TEST_F(GuardianOfProcess, TakesTheForceFromATouchWhoseSessionIsStopped) {
   EXPECT_TRUE(comes([&] { return hd->force[1] == 0; }));
 }
 
+TEST_F(GuardianOfProcess, TriesUntilATouchOfAStoppedSessionCanBeReached) {
+  setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
+  start("touch", "sigstop");
+  ASSERT_TRUE(comes([&] { return hd->force[1] == 1; })) << said();
+  hd->present = 0;
+  ASSERT_TRUE(comes([&] { return said().find("COULD NOT BE REACHED") != std::string::npos; })) << said();
+  EXPECT_EQ(hd->force[1], 1);
+  hd->error = 0;
+  hd->present = 1;
+  EXPECT_TRUE(comes([&] { return hd->force[1] == 0; }));
+  EXPECT_TRUE(comes([&] { return said().find("zero force was sent") != std::string::npos; })) << said();
+}
+
 TEST_F(GuardianOfProcess, WithoutAGuardianATouchKeepsItsForce) {
   setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
   setenv("PALPATE_GUARDIAN", "", 1);

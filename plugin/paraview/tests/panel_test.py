@@ -1,6 +1,6 @@
 """ParaView with the panel, on a virtual display, driven by the test plug-in: each scenario in a program of its own.
 
-Arguments as in panel_program.py; main_thread, which is a measurement, can be asked for. PALPATE_FOLDER: another scan.
+Arguments as in panel_program.py; main_thread and first_image, which are measurements, can be asked for. PALPATE_FOLDER: another scan.
 """
 
 import json
@@ -243,12 +243,13 @@ def marks_last():
     return run("marks_are_saved", ball()) and run("marks_are_restored", arguments=["--state=" + scratch("marks.pvsm")])
 
 
-# Only by name: a measurement.
-BY_NAME = ["main_thread"]
+# Only by name: measurements.
+BY_NAME = ["main_thread", "first_image"]
 TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
 TESTS["the_layout_is_clinical"] = layout
 TESTS["the_panel_speaks_german"] = german
 TESTS["marks_are_saved"] = marks_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
+TESTS["first_image"] = lambda: run("first_image", PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
 TESTS["other_files_are_opened_and_felt"] = other_files
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

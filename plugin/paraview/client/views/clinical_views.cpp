@@ -8,32 +8,22 @@
 #include <pqRenderView.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
-#include <vtkNew.h>
-#include <vtkPVArrayInformation.h>
-#include <vtkPVDataInformation.h>
-#include <vtkPVDataSetAttributesInformation.h>
 #include <vtkPVRenderView.h>
-#include <vtkSMPVRepresentationProxy.h>
-#include <vtkSMParaViewPipelineControllerWithRendering.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 #include <vtkSMViewLayoutProxy.h>
-#include <vtkSmartPointer.h>
-#include <vtkStructuredData.h>
 
 #include <QCoreApplication>
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/paraview/client/views/new_views.h"
 #include "plugin/paraview/client/views/patient_volume.h"
-#include "plugin/paraview/client/views/scalar_coloring.h"
+#include "plugin/paraview/client/views/slice_setup.h"
 
 namespace palpate::plugin {
 namespace {
@@ -51,61 +41,6 @@ QString name_of(ViewKind kind) {
       break;
   }
   return translated("Volume");
-}
-
-pqRenderView* make_view(pqServer& server, ViewKind kind) {
-  const bool flat = kind != ViewKind::volume;
-  auto* const view = qobject_cast<pqRenderView*>(
-      pqApplicationCore::instance()->getObjectBuilder()->createView(pqRenderView::renderViewType(), &server));
-  vtkSMProxy& proxy = *view->getProxy();
-  const auto set = [&](const char* name, int value) { vtkSMPropertyHelper(&proxy, name, true).Set(value); };
-  set("UseColorPaletteForBackground", 0);
-  set("OrientationAxesVisibility", 0);  // X, Y, Z
-  set("CenterAxesVisibility", 0);
-  if (flat) set("InteractionMode", 1);
-  const double black[3] = {0, 0, 0};
-  vtkSMPropertyHelper(&proxy, "Background").Set(black, 3);
-  proxy.UpdateVTKObjects();
-  return view;
-}
-
-vtkSMViewLayoutProxy& make_layout(pqServer& server) {
-  const auto proxy = vtkSmartPointer<vtkSMProxy>::Take(server.proxyManager()->NewProxy("misc", "ViewLayout"));
-  vtkNew<vtkSMParaViewPipelineController> controller;
-  controller->InitializeProxy(proxy);
-  server.proxyManager()->RegisterProxy("layouts", "Scan", proxy);
-  return *vtkSMViewLayoutProxy::SafeDownCast(proxy);
-}
-
-vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRenderView& view, const char* array) {
-  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  vtkSMProxy* const shown = controller->Show(&image, 0, view.getViewProxy());
-  auto* const proxy = vtkSMPVRepresentationProxy::SafeDownCast(shown);
-  proxy->SetRepresentationType(representation);
-  color_by_points(*proxy, array);
-  hide_scalar_bar(*proxy, *view.getViewProxy());
-  return *proxy;
-}
-
-constexpr int slice_mode(int index_axis) {
-  return index_axis == 2 ? VTK_XY_PLANE : index_axis == 1 ? VTK_XZ_PLANE : VTK_YZ_PLANE;
-}
-
-/// Half the size of the scan as it is seen along `direction`.
-double half_extent(const ImageLattice& lattice, const glm::dvec3& direction) {
-  double half = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    half += 0.5 * (lattice.dimensions[axis] - 1) * lattice.spacing[axis] *
-            std::abs(glm::dot(lattice.directions[static_cast<std::size_t>(axis)], direction));
-  }
-  return half;
-}
-
-/// As the scanner counts its own slices; those across them, the way the wheel goes.
-SliceNumbers numbers_of(const ImageLattice& lattice, Plane plane, const Sight& sight) {
-  constexpr int scanners_axis = 2;
-  if (sight.index_axis == scanners_axis) return {.from_last = lattice.counted_from_last};
-  return {.from_last = glm::dot(lattice.directions[static_cast<std::size_t>(sight.index_axis)], upwards(plane)) < 0};
 }
 
 constexpr struct {
@@ -224,36 +159,6 @@ vtkSMViewLayoutProxy& ClinicalViews::take_layout(pqServer& server) {
   return *layout;
 }
 
-namespace {
-
-/// A trace shows the scan in a view of ParaView's own. The clinical views are the panel's, and the panel is not there
-/// when a trace is replayed.
-void trace_shown(pqPipelineSource& source) {
-  SM_SCOPED_TRACE(TraceText)
-      .arg(("scanView = GetActiveViewOrCreate('RenderView')\n"
-            "scanDisplay = Show(FindSource('" +
-            source.getSMName().toStdString() +
-            "'), scanView)\n"
-            "scanDisplay.SetRepresentationType('Slice')\n"
-            "scanView.ResetCamera()")
-               .c_str())
-      .arg("comment", "the scan in a view");
-}
-
-/// From the front and a little from the patient's left and above; the head up.
-void look_from_the_front(const pqRenderView& view, const glm::dvec3& center) {
-  const glm::dvec3 eye = center + glm::dvec3(500, -900, 300);
-  const glm::dvec3 head(0, 0, 1);
-  vtkSMProxy& camera = *view.getProxy();
-  vtkSMPropertyHelper(&camera, "CameraPosition").Set(&eye.x, 3);
-  vtkSMPropertyHelper(&camera, "CameraFocalPoint").Set(&center.x, 3);
-  vtkSMPropertyHelper(&camera, "CameraViewUp").Set(&head.x, 3);
-  camera.UpdateVTKObjects();
-  view.getRenderViewProxy()->ResetCamera(true);
-}
-
-}  // namespace
-
 void ClinicalViews::show(pqPipelineSource& source) {
   close();
   trace_shown(source);
@@ -272,11 +177,11 @@ void ClinicalViews::show(pqPipelineSource& source) {
   plugin::set_window(*window_->gray_map, window_->window);
   name_window();
   for (const auto& [plane, kind, cell] : places) {
-    pqRenderView& view = *make_view(server, kind);
+    pqRenderView& view = *make_view(server, true);
     layout->AssignView(cell, view.getViewProxy());
     vtkSMProxy& shown = show_as("Slice", image, view, lattice.array.c_str());
     const Sight sight = sight_of(plane, lattice.directions);
-    vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight.index_axis));
+    vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight));
     vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->gray_map);
     vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
         .Set(vtkSMPropertyHelper(window_->gray_map, "ScalarOpacityFunction").GetAsProxy());
@@ -284,7 +189,7 @@ void ClinicalViews::show(pqPipelineSource& source) {
     add_slice(lattice, plane, kind, view, shown, lattice.dimensions[sight.index_axis] / 2, false);
   }
 
-  pqRenderView& volume_view = *make_view(server, ViewKind::volume);
+  pqRenderView& volume_view = *make_view(server, false);
   layout->AssignView(6, volume_view.getViewProxy());
   vtkSMProxy& volume = show_as("Volume", image, volume_view, lattice.array.c_str());
   first_look_ = suited_look(lattice.values);
@@ -328,27 +233,10 @@ void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice
 
 void ClinicalViews::add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view,
                               vtkSMProxy& shown, int slice, bool restored) {
-  const Sight sight = sight_of(plane, lattice.directions);
-  const glm::dvec3 right = glm::cross(sight.along, sight.up);
-  const int slices = lattice.dimensions[sight.index_axis];
-  const int right_axis = (sight.index_axis + 1) % 3, up_axis = (sight.index_axis + 2) % 3;
-  constexpr int scanners_axis = 2;
-  const glm::dvec3& to_next = lattice.directions[static_cast<std::size_t>(sight.index_axis)];
-  slices_.emplace_back(new SliceView(view, shown,
-                                     {.plane = plane,
-                                      .sight = sight,
-                                      .slices = slices,
-                                      .slice = slice,
-                                      .numbers = numbers_of(lattice, plane, sight),
-                                      .as_scanned = sight.index_axis == scanners_axis,
-                                      .pixel_mm = std::min(lattice.spacing[right_axis], lattice.spacing[up_axis]),
-                                      .first_mm = glm::dot(lattice.origin, sight.along),
-                                      .pitch_mm = lattice.spacing[sight.index_axis] * glm::dot(to_next, sight.along),
-                                      .center_mm = lattice.center(),
-                                      .half_height_mm = half_extent(lattice, sight.up),
-                                      .half_width_mm = half_extent(lattice, right),
-                                      .keeps_camera = restored},
-                                     window_));
+  SliceSetup setup = setup_of(lattice, plane);
+  setup.slice = slice;
+  setup.keeps_camera = restored;
+  slices_.emplace_back(new SliceView(view, shown, setup, window_));
   views_.push_back({kind, &view, slices_.back(), enlarging(view), std::make_unique<ViewMark>(view)});
 }
 
@@ -390,7 +278,7 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
     if (type != "Slice") continue;
     const int mode = vtkSMPropertyHelper(shown->getProxy(), "SliceMode").GetAsInt();
     const auto* const place = std::ranges::find_if(
-        places, [&](const auto& of) { return slice_mode(sight_of(of.plane, lattice.directions).index_axis) == mode; });
+        places, [&](const auto& of) { return slice_mode(sight_of(of.plane, lattice.directions)) == mode; });
     const bool taken = std::ranges::any_of(views_, [&](const OpenView& other) { return other.kind == place->kind; });
     if (taken) continue;
     add_slice(lattice, place->plane, place->kind, *view, *shown->getProxy(),

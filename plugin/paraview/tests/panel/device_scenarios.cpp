@@ -63,14 +63,26 @@ int place_of(const char* kind) {
   return -1;
 }
 
+void plug_in(PluggedDevice& plugged) {
+  plugged.plug_in();
+  wait_for(
+      "the stylus is in the list", [] { return place_of("force_dimension") > 0; }, 20);
+}
+
+/// The one that is plugged in, without a force.
+void connect_plugged() {
+  find<QComboBox>("palpateDevice").setCurrentIndex(place_of("force_dimension"));
+  click("palpateConnect");
+  wait_for(
+      "it is ready", [] { return label("palpateState").startsWith("Ready"); }, 20);
+}
+
 /// Nothing is pressed: the list follows what is plugged in, and the choice stays.
 void styluses_come_and_go() {
   PluggedDevice plugged;
   scan_is_shown();
   connect_stylus();
-  plugged.plug_in();
-  wait_for(
-      "the stylus is in the list", [] { return place_of("force_dimension") > 0; }, 20);
+  plug_in(plugged);
   expect(find<QComboBox>("palpateDevice").currentData().toString() == "simulated", "what is held stays chosen");
   plugged.unplug();
   wait_for(
@@ -83,15 +95,10 @@ void styluses_come_and_go() {
 void a_lost_stylus_comes_back() {
   PluggedDevice plugged;
   scan_is_shown();
-  plugged.plug_in();
-  wait_for(
-      "the stylus is in the list", [] { return place_of("force_dimension") > 0; }, 20);
+  plug_in(plugged);
   qputenv("PALPATE_GUARDIAN", "");
   PluggedDevice::device().has_wrist = 1;
-  find<QComboBox>("palpateDevice").setCurrentIndex(place_of("force_dimension"));
-  click("palpateConnect");
-  wait_for(
-      "it is ready", [] { return label("palpateState").startsWith("Ready"); }, 20);
+  connect_plugged();
   expect(label("palpateOwnLimits").contains("No guardian was found"), "that there is no guardian is said");
   expect(label("palpateOwnLimits").contains("torque stays zero"), "that torque stays zero is said");
   expect(label("palpateOwnLimits").contains("protocol-tested, never run on hardware"), "how it was tested is said");
@@ -119,14 +126,9 @@ void a_lost_stylus_comes_back() {
 void buttons_of_the_stylus() {
   PluggedDevice plugged;
   scan_is_shown();
-  plugged.plug_in();
-  wait_for(
-      "the stylus is in the list", [] { return place_of("force_dimension") > 0; }, 20);
+  plug_in(plugged);
   qputenv("PALPATE_GUARDIAN", "");
-  find<QComboBox>("palpateDevice").setCurrentIndex(place_of("force_dimension"));
-  click("palpateConnect");
-  wait_for(
-      "it is ready", [] { return label("palpateState").startsWith("Ready"); }, 20);
+  connect_plugged();
   turn_forces_on();
   const auto press = [](unsigned button) {
     PluggedDevice::device().buttons = button;
@@ -153,13 +155,8 @@ void buttons_of_the_stylus() {
 void a_short_press_counts() {
   PluggedDevice plugged;
   scan_is_shown();
-  plugged.plug_in();
-  wait_for(
-      "the stylus is in the list", [] { return place_of("force_dimension") > 0; }, 20);
-  find<QComboBox>("palpateDevice").setCurrentIndex(place_of("force_dimension"));
-  click("palpateConnect");
-  wait_for(
-      "it is ready", [] { return label("palpateState").startsWith("Ready"); }, 20);
+  plug_in(plugged);
+  connect_plugged();
   turn_forces_on();
   PluggedDevice::device().buttons = 4;
   QThread::msleep(60);
@@ -182,7 +179,7 @@ bool is_led_to_a_force(FakeDrd& device) {
   return false;
 }
 
-/// A child that stops this program when it is told to, and lets it go on once the guardian has stopped the device, or
+/// A child that stops this program while the device pushes, and lets it go on once somebody has stopped the device, or
 /// after 5 s. It is made before a force acts: to copy a program takes longer than a force may go unrenewed.
 class Stopper {
  public:
@@ -192,27 +189,42 @@ class Stopper {
     child_ = fork();
     if (child_ == 0) stop_when_told(file.constData());
   }
-  void stop() const {
-    expect(write(pipe_[1], "s", 1) == 1, "the child is told");
-    int status = 0;
-    waitpid(child_, &status, 0);
-  }
+  void begin() const { expect(write(pipe_[1], "s", 1) == 1, "the child is told"); }
+  bool has_ended() { return waitpid(child_, &status_, WNOHANG) == child_; }
+  /// Whether the device was stopped while this program stood still. Once it goes on it stops the device too.
+  bool saw_it_stopped() const { return WIFEXITED(status_) && WEXITSTATUS(status_) == 0; }
 
  private:
+  static bool is_pushing(const volatile FakeDrd& device) {
+    return device.forces_on != 0 && (device.force[0] != 0 || device.force[1] != 0 || device.force[2] != 0);
+  }
+  static void pause() {
+    const timespec briefly{0, 10'000'000};
+    nanosleep(&briefly, nullptr);
+  }
+
   [[noreturn]] void stop_when_told(const char* file) const {
     char word = 0;
     if (read(pipe_[0], &word, 1) != 1) _exit(1);
     const int node = open(file, O_RDONLY);
-    const auto* const device =
-        static_cast<const volatile FakeDrd*>(mmap(nullptr, sizeof(FakeDrd), PROT_READ, MAP_SHARED, node, 0));
-    kill(getppid(), SIGSTOP);
-    const timespec pause{0, 10'000'000};
-    for (int n = 0; n < 500 && device->stopped == 0; ++n) nanosleep(&pause, nullptr);
-    kill(getppid(), SIGCONT);
-    _exit(0);
+    const auto& device =
+        *static_cast<const volatile FakeDrd*>(mmap(nullptr, sizeof(FakeDrd), PROT_READ, MAP_SHARED, node, 0));
+    for (int tries = 0; tries < 6000; ++tries, pause()) {
+      if (!is_pushing(device)) continue;  // a busy program's session takes its force away by itself
+      kill(getppid(), SIGSTOP);
+      pause();
+      const bool pushes = is_pushing(device);
+      const int stopped = device.stopped;
+      for (int n = 0; pushes && n < 500 && device.stopped == stopped; ++n) pause();
+      const bool is_stopped = device.stopped != stopped && device.forces_on == 0;
+      kill(getppid(), SIGCONT);
+      if (pushes) _exit(is_stopped ? 0 : 1);
+    }
+    _exit(1);
   }
 
   int pipe_[2] = {-1, -1};
+  int status_ = 0;
   pid_t child_ = -1;
 };
 
@@ -221,26 +233,24 @@ void the_guardian_takes_the_force() {
   const QTemporaryDir folder;
   const QByteArray file = folder.filePath("device").toLocal8Bit();
   qputenv("PALPATE_FAKE_DRD", file);
-  const Stopper stopper(file);
+  Stopper stopper(file);
   PluggedDevice plugged;
   scan_is_shown();
-  plugged.plug_in();
-  wait_for(
-      "the stylus is in the list", [] { return place_of("force_dimension") > 0; }, 20);
-  find<QComboBox>("palpateDevice").setCurrentIndex(place_of("force_dimension"));
-  click("palpateConnect");
-  wait_for(
-      "it is ready", [] { return label("palpateState").startsWith("Ready"); }, 20);
+  plug_in(plugged);
+  connect_plugged();
   expect(!label("palpateOwnLimits").contains("No guardian"), "there is a guardian");
   turn_forces_on();
-  FakeDrd& device = PluggedDevice::device();
-  expect(is_led_to_a_force(device), "a force acts");
-  expect(device.stopped == 0, "and nobody has stopped the device");
-  stopper.stop();
-  expect(device.stopped == 1, "the guardian has stopped it");
-  expect(device.forces_on == 0, "and nobody has turned its force on again");
+  expect(is_led_to_a_force(PluggedDevice::device()), "a force acts");
+  stopper.begin();
+  wait_for("this program was stopped and goes on", [&] {
+    const bool ended = stopper.has_ended();
+    if (!ended && label("palpateState").startsWith("Stopped:")) turn_forces_on();
+    return ended;
+  });
+  expect(stopper.saw_it_stopped(), "the guardian stops it while this program stands still");
   wait_for(
-      "the panel says why", [] { return label("palpateState").startsWith("Stopped:"); }, 10);
+      "the panel says why", [] { return label("palpateState").startsWith("Stopped:"); }, 20);
+  expect(PluggedDevice::device().forces_on == 0, "and nobody has turned its force on again");
   save_screen("guardian");
   qunsetenv("PALPATE_FAKE_DRD");
 }

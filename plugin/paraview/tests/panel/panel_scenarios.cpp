@@ -6,10 +6,15 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QGuiApplication>
+#include <QImage>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPixmap>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QScreen>
 #include <QThread>
 #include <QTimer>
 #include <QToolButton>
@@ -245,6 +250,35 @@ void main_thread() {
   }
 }
 
+/// Whether something gray stands in the middle of a view on the screen.
+bool is_painted(const char* name) {
+  if (!find<QPushButton>("palpateConnect").isEnabled()) return false;
+  const QWidget& on = view(name);
+  const QPoint middle = on.mapToGlobal(on.rect().center()) - QPoint(20, 20);
+  const QImage seen =
+      QGuiApplication::primaryScreen()->grabWindow(0, middle.x(), middle.y(), 40, 40).toImage().scaled(1, 1);
+  return qGray(seen.pixel(0, 0)) > 16;
+}
+
+/// Not a test but a measurement: how long after a folder is dropped its scan is on the screen, and its tissues in the
+/// panel.
+void first_image() {
+  QElapsedTimer clock;
+  clock.start();
+  const BusyWatch watch;
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  wait_for("the scan is on the screen", [] { return is_painted("Axial"); });
+  const double image_s = 1e-3 * static_cast<double>(clock.elapsed());
+  wait_for("its tissues are found",
+           [] { return !find<QWidget>("palpateStudying").isVisible() && widget("palpateOn0") != nullptr; });
+  const double tissues_s = 1e-3 * static_cast<double>(clock.elapsed());
+  std::printf(
+      "first_image: on the screen after %.2f s, tissues in the panel after %.2f s; the main thread was busy for at "
+      "most "
+      "%.0f ms without rendering and %.0f ms with it\n",
+      image_s, tissues_s, watch.without_rendering().at(0), watch.longest_with_rendering_ms());
+}
+
 /// The program ends with the button down and the stylus pressed: by itself, with exit code 0.
 void closed_in_mid_contact() {
   feel();
@@ -264,6 +298,7 @@ const Scenarios scenarios{
     {"a_bad_folder", a_bad_folder},
     {"what_is_to_be_known_is_said", what_is_to_be_known_is_said},
     {"main_thread", main_thread},
+    {"first_image", first_image},
     {"closed_in_mid_contact", closed_in_mid_contact},
 };
 
@@ -272,7 +307,7 @@ const Scenarios scenarios{
 void choose_clock(const std::string& name) {
   using palpate::plugin::testing::UnhurriedClock;
   QWidget* const panel = widget("PalpatePanel");
-  if (!panel || name == "main_thread" || name.starts_with("rounds_of_")) return;
+  if (!panel || name == "main_thread" || name == "first_image" || name.starts_with("rounds_of_")) return;
   auto* const session = static_cast<palpate::plugin::SessionController*>(panel->findChild<QObject*>("palpateSession"));
   expect(session != nullptr, "the panel has a session");
   const bool is_left_alone = name == "a_fault_is_cleared" || name == "guide_fault" || name == "a_short_press_counts";

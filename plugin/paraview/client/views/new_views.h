@@ -1,0 +1,28 @@
+#pragma once
+
+/// How the views of a scan are made of ParaView's own: views, their layout, and what shows an image in them.
+
+#include <glm/vec3.hpp>
+
+class pqPipelineSource;
+class pqRenderView;
+class pqServer;
+class vtkSMProxy;
+class vtkSMSourceProxy;
+class vtkSMViewLayoutProxy;
+
+namespace palpate::plugin {
+
+/// Black and without axes. A flat one is moved, not turned.
+pqRenderView* make_view(pqServer& server, bool flat);
+/// An empty tab.
+vtkSMViewLayoutProxy& make_layout(pqServer& server);
+/// Shows an image, colored by an array of its points, without a scalar bar.
+vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRenderView& view, const char* array);
+/// From the front and a little from the patient's left and above; the head up. `center` in patient space, mm.
+void look_from_the_front(const pqRenderView& view, const glm::dvec3& center);
+/// A trace shows the scan in a view of ParaView's own. The clinical views are the panel's, and the panel is not there
+/// when a trace is replayed.
+void trace_shown(pqPipelineSource& source);
+
+}  // namespace palpate::plugin
