@@ -188,6 +188,7 @@ void SessionController::record(const std::string& file) {
     forget_marks();
     if (simulated_) move_hand(look_.probe_mm);  // where the new session finds it
     live_.record(file);
+    feels_ = live_.start() == LiveSession::Start::feeling;  // not after a fault
     recording_to_ = QString::fromStdString(file);
     next_tick_ = 0;
   } catch (const std::exception& error) {
