@@ -51,8 +51,8 @@
         <translation>beides</translation>
     </message>
     <message>
-        <source>Which way through it is resisted: in to the denser tissue, out of it, or both</source>
-        <translation>Welche Richtung Widerstand findet: hinein in das dichtere Gewebe, hinaus, oder beides</translation>
+        <source>The direction in which the stylus is resisted: into the denser tissue, out of it, or both</source>
+        <translation>In welcher Richtung der Stift Widerstand findet: hinein in das dichtere Gewebe, hinaus, oder beides</translation>
     </message>
     <message>
         <source>Direction of %1</source>
@@ -71,8 +71,8 @@
         <translation>Stärke von %1</translation>
     </message>
     <message>
-        <source>A hand cannot tell it from %1: it feels differences of a tenth or more.</source>
-        <translation>Eine Hand kann sie nicht von %1 unterscheiden: Sie fühlt Unterschiede ab einem Zehntel.</translation>
+        <source>A hand cannot tell this strength from that of %1: it feels only differences of a tenth or more.</source>
+        <translation>Eine Hand kann diese Stärke nicht von der von %1 unterscheiden: Sie fühlt erst Unterschiede ab einem Zehntel.</translation>
     </message>
 </context>
 <context>
@@ -86,8 +86,8 @@
         <translation>Öffnen…</translation>
     </message>
     <message>
-        <source>A folder of DICOM files, searched to the bottom</source>
-        <translation>Ein Ordner mit DICOM-Dateien, mit allen Unterordnern</translation>
+        <source>Opens a folder of DICOM files, with all its subfolders</source>
+        <translation>Öffnet einen Ordner mit DICOM-Dateien, mit allen Unterordnern</translation>
     </message>
     <message>
         <source>No folder was opened yet</source>
@@ -154,8 +154,8 @@
         <translation>Marken</translation>
     </message>
     <message>
-        <source>What was marked: the list, and what lies between</source>
-        <translation>Was markiert wurde: die Liste, und was dazwischen liegt</translation>
+        <source>Shows the marks, and the distances and angles between them</source>
+        <translation>Zeigt die Marken, und die Abstände und Winkel zwischen ihnen</translation>
     </message>
     <message>
         <source>Advanced</source>
@@ -170,8 +170,8 @@
         <translation>Volumen</translation>
     </message>
     <message>
-        <source>What is cut away from the volume</source>
-        <translation>Was vom Volumen weggeschnitten wird</translation>
+        <source>Hides parts of the volume</source>
+        <translation>Blendet Teile des Volumens aus</translation>
     </message>
     <message>
         <source>Without table and headrest</source>
@@ -190,12 +190,12 @@
         <translation>Trennen</translation>
     </message>
     <message>
-        <source>Lets the stylus go</source>
-        <translation>Gibt den Stift frei</translation>
+        <source>Disconnects the stylus</source>
+        <translation>Trennt den Stift</translation>
     </message>
     <message>
-        <source>Takes the stylus that the panel names</source>
-        <translation>Nimmt den Stift, den das Feld nennt</translation>
+        <source>Connects the stylus that is chosen in the panel</source>
+        <translation>Verbindet den Stift, der im Feld gewählt ist</translation>
     </message>
     <message>
         <source>Marks (%1)</source>
@@ -228,8 +228,8 @@
 <context>
     <name>CurveEditor</name>
     <message>
-        <source>Drag a node; click for a new one; Delete takes the chosen one away; arrow keys move it. With Shift held down the whole curve is dragged. The line: what is under the pointer in a slice.</source>
-        <translation>Einen Knoten ziehen; ein Klick macht einen neuen; Entf nimmt den gewählten weg; Pfeiltasten bewegen ihn. Mit gedrückter Umschalttaste wird die ganze Kurve gezogen. Die Linie: was in einer Schicht unter dem Zeiger liegt.</translation>
+        <source>Drag a node to move it; click to add one. Delete removes the chosen node, and the arrow keys move it. Drag with Shift to move the whole curve. The line marks what is under the pointer in a slice.</source>
+        <translation>Einen Knoten ziehen, um ihn zu bewegen; klicken, um einen hinzuzufügen. Entf entfernt den gewählten Knoten, die Pfeiltasten bewegen ihn. Mit gedrückter Umschalttaste wird die ganze Kurve gezogen. Die Linie zeigt, was in einer Schicht unter dem Zeiger liegt.</translation>
     </message>
     <message>
         <source>Node</source>
@@ -278,8 +278,8 @@
 <context>
     <name>CurvesSection</name>
     <message>
-        <source>Undo. The scene as it was before the last edit: hold B.</source>
-        <translation>Rückgängig. Die Szene vor der letzten Änderung: B gedrückt halten.</translation>
+        <source>Undo. Hold B to feel the scene as it was before the last edit.</source>
+        <translation>Rückgängig. B gedrückt halten, um die Szene vor der letzten Änderung zu fühlen.</translation>
     </message>
     <message>
         <source>Redo</source>
@@ -352,8 +352,8 @@
         <translation>Filter</translation>
     </message>
     <message>
-        <source>Against noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local means keep edges where they are; a Gaussian rounds them.</source>
-        <translation>Gegen Rauschen, das als Rauheit zu fühlen ist. Der Stift fühlt die gefilterten Werte. Bilateral und Non-local means lassen Kanten, wo sie sind; ein Gauß-Filter rundet sie.</translation>
+        <source>Reduces noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local means keep edges where they are; a Gaussian rounds them.</source>
+        <translation>Verringert Rauschen, das als Rauheit zu fühlen ist. Der Stift fühlt die gefilterten Werte. Bilateral und Non-local means lassen Kanten, wo sie sind; ein Gauß-Filter rundet sie.</translation>
     </message>
     <message>
         <source>None</source>
@@ -415,8 +415,8 @@
         <translation>Kraft auf den Stift</translation>
     </message>
     <message>
-        <source>How far the stylus is past the boundary that holds it, in the patient</source>
-        <translation>Wie weit der Stift hinter der Grenze ist, die ihn hält, im Patienten</translation>
+        <source>Distance of the stylus behind the boundary that holds it, in mm of the patient</source>
+        <translation>Abstand des Stifts hinter der Grenze, die ihn hält, in mm im Patienten</translation>
     </message>
     <message>
         <source>Scan, frame and scene that the stylus feels</source>
@@ -431,16 +431,16 @@
         <translation>Technisches</translation>
     </message>
     <message>
-        <source>For developers: solver, servo, the stylus&apos; own limits, and what the scene does without</source>
-        <translation>Für Entwickler: Löser, Regler, die Grenzen des Stifts, und worauf die Szene verzichtet</translation>
+        <source>For developers: solver, servo, the stylus&apos; own limits, and the parts of the scene that are left out</source>
+        <translation>Für Entwickler: Löser, Regler, die Grenzen des Stifts, und welche Teile der Szene fehlen</translation>
     </message>
     <message>
         <source>Record…</source>
         <translation>Aufzeichnen…</translation>
     </message>
     <message>
-        <source>Keeps all that is felt in a file, to be looked at again. No patient&apos;s name goes into it.</source>
-        <translation>Hält alles Gefühlte in einer Datei fest, um es wieder anzusehen. Kein Patientenname kommt hinein.</translation>
+        <source>Records all that is felt in a file, to be replayed later. The file holds no patient&apos;s name.</source>
+        <translation>Zeichnet alles Gefühlte in einer Datei auf, um es später abzuspielen. Die Datei enthält keinen Patientennamen.</translation>
     </message>
     <message>
         <source>Release  (Esc)</source>
@@ -455,8 +455,8 @@
         <translation>Marke  (M)</translation>
     </message>
     <message>
-        <source>A mark where the stylus touches; kept down while the stylus moves, a path. The stylus&apos; second button and the key M in a view do the same.</source>
-        <translation>Eine Marke, wo der Stift berührt; gedrückt gehalten, während er sich bewegt, ein Pfad. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
+        <source>Marks the point that the stylus touches. Keep it pressed while the stylus moves to mark a path. The stylus&apos; second button and the key M in a view do the same.</source>
+        <translation>Markiert den Punkt, den der Stift berührt. Gedrückt gehalten, während er sich bewegt, einen Pfad. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
     </message>
     <message>
         <source>Stop recording</source>
@@ -514,8 +514,8 @@
 <context>
     <name>ForceStrip</name>
     <message>
-        <source>Force of the last ten seconds. Dashed: the limit, once a third of it is felt.</source>
-        <translation>Kraft der letzten zehn Sekunden. Gestrichelt: die Grenze, sobald ein Drittel von ihr gefühlt wird.</translation>
+        <source>Force of the last ten seconds. The dashed line is the limit; it is shown once a third of the limit was felt.</source>
+        <translation>Kraft der letzten zehn Sekunden. Die gestrichelte Linie ist die Grenze; sie erscheint, sobald ein Drittel der Grenze gefühlt wurde.</translation>
     </message>
     <message>
         <source>limit %1 N</source>
@@ -575,32 +575,32 @@
         <translation>Hierher</translation>
     </message>
     <message>
-        <source>The mark goes to where the stylus touches now</source>
-        <translation>Die Marke geht dorthin, wo der Stift jetzt berührt</translation>
+        <source>Moves the mark to the point that the stylus touches now</source>
+        <translation>Setzt die Marke auf den Punkt, den der Stift jetzt berührt</translation>
     </message>
     <message>
         <source>Delete</source>
         <translation>Löschen</translation>
     </message>
     <message>
-        <source>What is chosen in the list</source>
-        <translation>Was in der Liste gewählt ist</translation>
+        <source>Deletes what is chosen in the list</source>
+        <translation>Löscht, was in der Liste gewählt ist</translation>
     </message>
     <message>
         <source>Undo</source>
         <translation>Rückgängig</translation>
     </message>
     <message>
-        <source>The last step, of marks or of the scene</source>
-        <translation>Der letzte Schritt, von Marken oder der Szene</translation>
+        <source>Takes back the last change of the marks or of the scene</source>
+        <translation>Nimmt die letzte Änderung an den Marken oder der Szene zurück</translation>
     </message>
     <message>
         <source>Send…</source>
         <translation>Senden…</translation>
     </message>
     <message>
-        <source>Shows first what would go into an archive, and for whom</source>
-        <translation>Zeigt erst, was in ein Archiv ginge, und für wen</translation>
+        <source>Shows first what would be sent to an archive, and for which patient</source>
+        <translation>Zeigt erst, was an ein Archiv gesendet würde, und für welchen Patienten</translation>
     </message>
     <message>
         <source>nothing felt</source>
@@ -1080,8 +1080,8 @@
         <translation>DICOM-Ordner öffnen…</translation>
     </message>
     <message>
-        <source>A folder of DICOM files, searched to the bottom. A folder may also be dropped here.</source>
-        <translation>Ein Ordner mit DICOM-Dateien, mit allen Unterordnern. Er kann auch hier abgelegt werden.</translation>
+        <source>Opens a folder of DICOM files, with all its subfolders. A folder may also be dropped here.</source>
+        <translation>Öffnet einen Ordner mit DICOM-Dateien, mit allen Unterordnern. Er kann auch hier abgelegt werden.</translation>
     </message>
     <message>
         <source>File…</source>
@@ -1360,8 +1360,8 @@
         <translation>Deckkraft</translation>
     </message>
     <message>
-        <source>Of the surfaces in the volume view</source>
-        <translation>Der Flächen in der Volumenansicht</translation>
+        <source>Opacity of the surfaces in the volume view</source>
+        <translation>Deckkraft der Flächen in der Volumenansicht</translation>
     </message>
     <message>
         <source>Boundary</source>
@@ -1471,8 +1471,8 @@
         <translation>Auskuppeln</translation>
     </message>
     <message>
-        <source>While it is down, hand and patient are parted: move the hand to a better place, or turn the view. The stylus&apos; first button does the same.</source>
-        <translation>Solange gedrückt, sind Hand und Patient getrennt: die Hand besser hinlegen oder die Ansicht drehen. Die erste Taste des Stifts tut dasselbe.</translation>
+        <source>While it is pressed, the hand moves and the stylus stays where it is in the patient: move the hand to a better place, or turn the view. The stylus&apos; first button does the same.</source>
+        <translation>Solange gedrückt, bewegt sich die Hand, und der Stift bleibt im Patienten, wo er ist: die Hand besser hinlegen oder die Ansicht drehen. Die erste Taste des Stifts tut dasselbe.</translation>
     </message>
     <message>
         <source>Clutch turns it with the view</source>
@@ -1601,8 +1601,8 @@
         <translation>Speichert diese Szene in eine Datei</translation>
     </message>
     <message>
-        <source>Made for %1, and this scan is none.</source>
-        <translation>Für %1 gemacht, und diese Aufnahme ist keine.</translation>
+        <source>Made for %1. This scan is of another kind.</source>
+        <translation>Für %1 gemacht. Diese Aufnahme ist von anderer Art.</translation>
     </message>
     <message>
         <source>Restored with the state</source>

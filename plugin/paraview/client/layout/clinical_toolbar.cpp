@@ -81,7 +81,7 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
   QAction* const picture = add("palpatePicture", tr("Picture…"), tr("Saves what the views show as a PNG file"));
   connect(picture, &QAction::triggered, this, &ClinicalToolbar::picture_wanted);
   // After Release, which a narrow window is to keep.
-  marks_ = add("palpateToolbarMarks", tr("Marks"), tr("What was marked: the list, and what lies between"));
+  marks_ = add("palpateToolbarMarks", tr("Marks"), tr("Shows the marks, and the distances and angles between them"));
   connect(marks_, &QAction::triggered, this, &ClinicalToolbar::marks_wanted);
   marks_->setVisible(false);
   auto* const gap = new QWidget(this);
@@ -95,7 +95,8 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
 
 /// Opens a folder, or one of those that were opened before.
 void ClinicalToolbar::add_open() {
-  QAction* const open = add("palpateToolbarOpen", tr("Open…"), tr("A folder of DICOM files, searched to the bottom"));
+  QAction* const open =
+      add("palpateToolbarOpen", tr("Open…"), tr("Opens a folder of DICOM files, with all its subfolders"));
   open->setIcon(style()->standardIcon(QStyle::SP_DirOpenIcon));
   connect(open, &QAction::triggered, this, &ClinicalToolbar::open_wanted);
   auto* const recent = new QMenu(this);
@@ -158,7 +159,7 @@ QToolButton* ClinicalToolbar::make_volume_menu() {
   auto* const button = new QToolButton(this);
   button->setObjectName(QStringLiteral("palpateVolumeMenu"));
   button->setText(tr("Volume"));
-  button->setToolTip(tr("What is cut away from the volume"));
+  button->setToolTip(tr("Hides parts of the volume"));
   button->setPopupMode(QToolButton::InstantPopup);
   auto* const menu = new QMenu(button);
   cut_ = menu->addAction(tr("Without table and headrest"));
@@ -193,7 +194,8 @@ QAction* ClinicalToolbar::add(const char* name, const QString& text, const QStri
 
 void ClinicalToolbar::show_connection(bool connected, bool can_connect) {
   connect_->setText(connected ? tr("Disconnect") : tr("Connect"));
-  connect_->setToolTip(connected ? tr("Lets the stylus go") : tr("Takes the stylus that the panel names"));
+  connect_->setToolTip(connected ? tr("Disconnects the stylus")
+                                 : tr("Connects the stylus that is chosen in the panel"));
   connect_->setEnabled(can_connect);
   release_->setEnabled(connected);
 }

@@ -119,7 +119,8 @@ void BoundaryRow::add_direction(QWidget& parent, QGridLayout& grid, int row) {
   direction_ = new QComboBox(&parent);
   direction_->setObjectName(QStringLiteral("palpateDirection") + QString::number(row));
   direction_->addItems({tr("in"), tr("out"), tr("both")});
-  direction_->setToolTip(tr("Which way through it is resisted: in to the denser tissue, out of it, or both"));
+  direction_->setToolTip(
+      tr("The direction in which the stylus is resisted: into the denser tissue, out of it, or both"));
   connect(direction_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { set_felt(tr("Direction of %1").arg(name_of(model_.scene(), mode_)), true); });
   grid.addWidget(direction_, row, name_column + 1);
@@ -167,8 +168,9 @@ void BoundaryRow::show_values() {
 
 void BoundaryRow::set_alike(const QStringList& others) {
   alike_->setVisible(!others.isEmpty());
-  alike_->setToolTip(tr("A hand cannot tell it from %1: it feels differences of a tenth or more.")
-                         .arg(others.join(QStringLiteral(", "))));
+  alike_->setToolTip(
+      tr("A hand cannot tell this strength from that of %1: it feels only differences of a tenth or more.")
+          .arg(others.join(QStringLiteral(", "))));
 }
 
 }  // namespace palpate::plugin

@@ -105,8 +105,8 @@ CurveEditor::CurveEditor(const QString& name, const QString& across, const QStri
   widget_->setObjectName(name + QStringLiteral("Chart"));
   widget_->setMinimumHeight(110);
   widget_->setToolTip(
-      tr("Drag a node; click for a new one; Delete takes the chosen one away; arrow keys move it. With Shift held down "
-         "the whole curve is dragged. The line: what is under the pointer in a slice."));
+      tr("Drag a node to move it; click to add one. Delete removes the chosen node, and the arrow keys move it. Drag "
+         "with Shift to move the whole curve. The line marks what is under the pointer in a slice."));
   widget_->initialize(functions_->colors, false, functions_->curve, true);
   widget_->installEventFilter(this);
   for (QWidget* const part : widget_->findChildren<QWidget*>()) part->installEventFilter(this);

@@ -47,7 +47,7 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
   connect(modes_, QOverload<int>::of(&QComboBox::activated), this, [this] { show_mode(); });
   row->addWidget(modes_, 1);
   add_tool_button(*row, *this, "palpateUndo", QStringLiteral("↶"),
-                  tr("Undo. The scene as it was before the last edit: hold B."), [this] { model_.undo(); });
+                  tr("Undo. Hold B to feel the scene as it was before the last edit."), [this] { model_.undo(); });
   add_tool_button(*row, *this, "palpateRedo", QStringLiteral("↷"), tr("Redo"), [this] { model_.redo(); });
   column->addLayout(row);
   strength_ = new CurveEditor(QStringLiteral("palpateStrengthCurve"), tr("gradient"), tr("strength, N"), this);

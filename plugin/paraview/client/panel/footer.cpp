@@ -70,8 +70,8 @@ void Footer::add_values(QGridLayout& grid) {
   grid.addWidget(force_, 0, 0);
   tissue_ = make_value(this, "palpateTissue", tr("Value of the scan and tissue at the proxy"));
   grid.addWidget(tissue_, 0, 1, 1, 2);
-  depth_ =
-      make_value(this, "palpateDepth", tr("How far the stylus is past the boundary that holds it, in the patient"));
+  depth_ = make_value(this, "palpateDepth",
+                      tr("Distance of the stylus behind the boundary that holds it, in mm of the patient"));
   grid.addWidget(depth_, 1, 0, 1, 3);  // the longest: a boundary's name, and how well its place is known
   strip_ = new ForceStrip(this);
   grid.addWidget(strip_, 2, 0, 1, 3);
@@ -96,7 +96,8 @@ void Footer::add_technical(QGridLayout& grid) {
   technical_ = new QToolButton(this);
   technical_->setObjectName(QStringLiteral("palpateTechnical"));
   technical_->setText(tr("Technical"));
-  technical_->setToolTip(tr("For developers: solver, servo, the stylus' own limits, and what the scene does without"));
+  technical_->setToolTip(
+      tr("For developers: solver, servo, the stylus' own limits, and the parts of the scene that are left out"));
   technical_->setCheckable(true);
   technical_->setAutoRaise(true);
   connect(technical_, &QToolButton::toggled, this, [this](bool on) {
@@ -109,7 +110,8 @@ void Footer::add_technical(QGridLayout& grid) {
   grid.addWidget(technical_, 5, 0);
   record_ = new QPushButton(tr("Record…"), this);
   record_->setObjectName(QStringLiteral("palpateRecord"));
-  record_->setToolTip(tr("Keeps all that is felt in a file, to be looked at again. No patient's name goes into it."));
+  record_->setToolTip(
+      tr("Records all that is felt in a file, to be replayed later. The file holds no patient's name."));
   connect(record_, &QPushButton::clicked, this, [this] { toggle_recording(); });
   grid.addWidget(record_, 5, 2);
 }
@@ -144,8 +146,8 @@ QLayout* Footer::make_buttons() {
   mark_->setObjectName(QStringLiteral("palpateMark"));
   mark_->setMinimumHeight(38);
   mark_->setToolTip(
-      tr("A mark where the stylus touches; kept down while the stylus moves, a path. The stylus' second button and the "
-         "key M in a view do the same."));
+      tr("Marks the point that the stylus touches. Keep it pressed while the stylus moves to mark a path. The stylus' "
+         "second button and the key M in a view do the same."));
   mark_->setFocusPolicy(Qt::NoFocus);  // the keys are the views'
   connect(mark_, &QPushButton::pressed, this, [this] { touching_.press_mark(); });
   connect(mark_, &QPushButton::released, this, [this] { touching_.let_go_mark(); });

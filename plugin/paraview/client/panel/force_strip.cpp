@@ -22,7 +22,8 @@ ForceStrip::ForceStrip(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("palpateStrip"));
   setMinimumHeight(48);
   setToolTip(QCoreApplication::translate(
-      "ForceStrip", "Force of the last ten seconds. Dashed: the limit, once a third of it is felt."));
+      "ForceStrip",
+      "Force of the last ten seconds. The dashed line is the limit; it is shown once a third of the limit was felt."));
 }
 
 void ForceStrip::add(double force_n) {

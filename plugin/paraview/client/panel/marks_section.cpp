@@ -71,15 +71,15 @@ void MarksSection::build() {
   keep_ = add_tool_button(*row, *this, "palpateKeepMeasure", tr("Keep"),
                           tr("The distance or angle stays in the list and in the views"), [this] { keep_measure(); });
   move_ = add_tool_button(*row, *this, "palpateMoveMark", tr("Move here"),
-                          tr("The mark goes to where the stylus touches now"), [this] { move_here(); });
-  remove_ = add_tool_button(*row, *this, "palpateDeleteMark", tr("Delete"), tr("What is chosen in the list"),
+                          tr("Moves the mark to the point that the stylus touches now"), [this] { move_here(); });
+  remove_ = add_tool_button(*row, *this, "palpateDeleteMark", tr("Delete"), tr("Deletes what is chosen in the list"),
                             [this] { remove(); });
-  undo_ = add_tool_button(*row, *this, "palpateUndoMark", tr("Undo"), tr("The last step, of marks or of the scene"),
-                          [this] { model_.undo(); });
+  undo_ = add_tool_button(*row, *this, "palpateUndoMark", tr("Undo"),
+                          tr("Takes back the last change of the marks or of the scene"), [this] { model_.undo(); });
   row->addStretch(1);
   send_ = new QPushButton(tr("Send…"), this);
   send_->setObjectName(QStringLiteral("palpateSendMarks"));
-  send_->setToolTip(tr("Shows first what would go into an archive, and for whom"));
+  send_->setToolTip(tr("Shows first what would be sent to an archive, and for which patient"));
   connect(send_, &QPushButton::clicked, this, &MarksSection::send_wanted);
   row->addWidget(send_);
   column->addLayout(row);

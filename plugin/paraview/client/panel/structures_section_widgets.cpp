@@ -60,7 +60,7 @@ void StructuresSection::build() {
   opacity_->setRange(0, 100);
   opacity_->setValue(static_cast<int>(100 * first_opacity));
   opacity_->setMaximumWidth(80);
-  opacity_->setToolTip(tr("Of the surfaces in the volume view"));
+  opacity_->setToolTip(tr("Opacity of the surfaces in the volume view"));
   connect(opacity_, &QSlider::valueChanged, this, [this] { draw(); });
   row->addWidget(opacity_);
   column->addLayout(row);

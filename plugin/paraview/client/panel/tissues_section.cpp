@@ -129,7 +129,7 @@ void TissuesSection::list_choices() {
     scenes_->addItem(choice.label);
     if (choice.made_for.isEmpty()) continue;
     const int item = scenes_->count() - 1;
-    scenes_->setItemData(item, tr("Made for %1, and this scan is none.").arg(choice.made_for), Qt::ToolTipRole);
+    scenes_->setItemData(item, tr("Made for %1. This scan is of another kind.").arg(choice.made_for), Qt::ToolTipRole);
     scenes_->setItemData(item, palette().color(QPalette::Disabled, QPalette::Text), Qt::ForegroundRole);
   }
 }

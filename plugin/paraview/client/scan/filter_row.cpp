@@ -41,7 +41,7 @@ FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanSection
   type_ = new QComboBox(this);
   type_->setObjectName(QStringLiteral("palpateFilter"));
   type_->setToolTip(
-      tr("Against noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local "
+      tr("Reduces noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local "
          "means keep edges where they are; a Gaussian rounds them."));
   using io::FilterType;
   for (const auto& [type, name] : {std::pair{FilterType::none, tr("None")},

@@ -57,7 +57,7 @@ void ScanSection::build() {
 void ScanSection::build_series() {
   open_ = new QPushButton(tr("Open DICOM folder…"), this);
   open_->setObjectName(QStringLiteral("palpateOpen"));
-  open_->setToolTip(tr("A folder of DICOM files, searched to the bottom. A folder may also be dropped here."));
+  open_->setToolTip(tr("Opens a folder of DICOM files, with all its subfolders. A folder may also be dropped here."));
   connect(open_, &QPushButton::clicked, this, [this] { ask_folder(); });
   auto* const file = new QPushButton(tr("File…"), this);
   file->setObjectName(QStringLiteral("palpateOpenFile"));

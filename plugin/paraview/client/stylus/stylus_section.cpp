@@ -145,8 +145,8 @@ void StylusSection::build_workspace() {
   clutch_->setObjectName(QStringLiteral("palpateClutch"));
   clutch_->setCheckable(true);
   clutch_->setToolTip(
-      tr("While it is down, hand and patient are parted: move the hand to a better place, or turn the view. "
-         "The stylus' first button does the same."));
+      tr("While it is pressed, the hand moves and the stylus stays where it is in the patient: move the hand to a "
+         "better place, or turn the view. The stylus' first button does the same."));
   connect(clutch_, &QPushButton::clicked, this, [this](bool on) { clutch(on); });
   row->addWidget(clutch_);
   column->addLayout(row);
