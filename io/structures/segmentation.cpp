@@ -129,7 +129,7 @@ std::vector<Vec3> filled(const std::vector<Vec3>& positions, const Vec3& normal,
     if (std::abs(steps - whole) > tolerance * whole || whole > most) {
       return positions;
     }
-    for (double n = 1; n <= whole; ++n) {
+    for (int n = 1; n <= whole; ++n) {
       all.push_back(positions[k - 1] + (positions[k] - positions[k - 1]) * (n / whole));
     }
   }
