@@ -25,6 +25,22 @@ class LabelMapSource final : public MaskSource {
  public:
   LabelMapSource(VoxelFile image, std::map<int, Box> boxes) : image_(std::move(image)), boxes_(std::move(boxes)) {}
 
+  StructureBox box(int number, const RigidMotion& motion) const override {
+    const auto found = boxes_.find(number);
+    if (found == boxes_.end()) throw DicomError(say("no-voxel-inside"));
+    StructureBox around{Vec3(std::numeric_limits<double>::infinity()), Vec3(-std::numeric_limits<double>::infinity())};
+    for (int k = found->second.low.z; k <= found->second.high.z; ++k) {  // slices may be sheared against each other
+      for (int corner = 0; corner < 4; ++corner) {
+        const glm::ivec3 voxel((corner % 2 == 0 ? found->second.low : found->second.high).x,
+                               (corner / 2 == 0 ? found->second.low : found->second.high).y, k);
+        const Vec3 at = motion(image_.geometry.to_patient(Vec3(voxel)));
+        around.low_mm = glm::min(around.low_mm, at);
+        around.high_mm = glm::max(around.high_mm, at);
+      }
+    }
+    return around;
+  }
+
  private:
   Mask mask_of(int number) const override {
     Mask mask;

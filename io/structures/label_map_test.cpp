@@ -100,6 +100,40 @@ TEST(LabelMap, BelievesTheSformFirst) {
   expect_at(file.written(), 9, {-1 - 3, -2 - 4, 3 - 4});
 }
 
+/// 4 x 5 x 6 voxels of 1 mm around a place.
+Geometry scan_around(const Vec3& place) {
+  Geometry scan;
+  scan.dimensions = {4, 5, 6};
+  for (int k = 0; k < 6; ++k) scan.slice_positions.push_back(place + Vec3(-1.5, -2, k - 2.5));
+  return scan;
+}
+
+// Label 9 lies at -14, -23, 34 mm.
+TEST(LabelMap, IsOffAScanThatHasNoneOfIt) {
+  Nifti file;
+  file.put<float>(268, 10).put<float>(272, 20).put<float>(276, 30);
+  Structure nine = find_structures(std::array{file.written()}).structures.at(1);
+  const Vec3 place(-14, -23, 34);
+  const StructureBox box = box_of(nine);
+  EXPECT_EQ(box.low_mm, place);
+  EXPECT_EQ(box.high_mm, place);
+  EXPECT_FALSE(is_off(box, scan_around(place)));
+  const Vec3 half(2, 2.5, 3);  // of the scan: its outermost voxels end there
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      SCOPED_TRACE(axis * side);
+      Vec3 away(0);
+      away[axis] = side * (half[axis] + 0.4);
+      EXPECT_FALSE(is_off(box, scan_around(place + away)));
+      away[axis] = side * (half[axis] + 0.6);
+      EXPECT_TRUE(is_off(box, scan_around(place + away)));
+    }
+  }
+  nine.motion.shift = {100, 0, 0};
+  EXPECT_TRUE(is_off(box_of(nine), scan_around(place)));
+  EXPECT_FALSE(is_off(box_of(nine), scan_around(place + Vec3(100, 0, 0))));
+}
+
 TEST(LabelMap, HasTheNamesThatSlicerWrites) {
   const fs::path file =
       write("labels.seg.nrrd",

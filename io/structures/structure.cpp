@@ -5,6 +5,9 @@
 #include <dcmtk/dcmdata/dcdeftag.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -134,6 +137,29 @@ std::shared_ptr<const DistanceField> load_distance(const Structure& structure, c
 StructureMeasures measure(const Structure& structure) {
   return named(structure,
                [&](const StructureSource& source) { return source.measure(structure.number, structure.motion); });
+}
+
+StructureBox box_of(const Structure& structure) {
+  return named(structure,
+               [&](const StructureSource& source) { return source.box(structure.number, structure.motion); });
+}
+
+StructureBox StructureSource::box(int number, const RigidMotion& motion) const {
+  const StructureMeasures measures = measure(number, motion);
+  return {measures.box_low_mm, measures.box_high_mm};
+}
+
+bool is_off(const StructureBox& box, const Geometry& scan) {
+  Vec3 low(std::numeric_limits<double>::infinity());
+  Vec3 high(-std::numeric_limits<double>::infinity());
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto end = [&](int axis) { return (corner >> axis) % 2 == 0 ? box.low_mm[axis] : box.high_mm[axis]; };
+    const Vec3 index = scan.to_index({end(0), end(1), end(2)});
+    low = glm::min(low, index);
+    high = glm::max(high, index);
+  }
+  const Vec3 ends(scan.dimensions);  // a voxel beyond the outermost ones
+  return glm::any(glm::lessThan(high, Vec3(-1))) || glm::any(glm::greaterThan(low, ends));
 }
 
 }  // namespace palpate::io

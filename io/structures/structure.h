@@ -35,6 +35,14 @@ struct StructureMeasures {
   std::vector<Text> warnings;
 };
 
+/// A box that holds a structure, LPS, mm: of voxel centers or contour points.
+struct StructureBox {
+  Vec3 low_mm{0}, high_mm{0};
+};
+
+/// Whether the box lies wholly outside the scan: none of it within a voxel of the scan's outermost voxels.
+bool is_off(const StructureBox& box, const Geometry& scan);
+
 /// A file that holds structures. Immutable; from any thread.
 class StructureSource {
  public:
@@ -46,6 +54,8 @@ class StructureSource {
   /// Both throw DicomError if the structure cannot be read or is empty. The reason does not name the file.
   virtual StructureMeasures measure(int number, const RigidMotion& motion) const = 0;
   virtual std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const = 0;
+  /// Throws as measure() does. It may be wider than the one that measure() gives, and need not decode anything.
+  virtual StructureBox box(int number, const RigidMotion& motion) const;
 };
 
 struct Structure {
@@ -80,5 +90,9 @@ std::shared_ptr<const DistanceField> load_distance(const Structure& structure, c
 
 /// Of the structure where its motion puts it. Throws DicomError that names the file and the structure.
 StructureMeasures measure(const Structure& structure);
+
+/// A box that holds the structure where its motion puts it; for label maps much faster than measure(). Throws as
+/// measure() does.
+StructureBox box_of(const Structure& structure);
 
 }  // namespace palpate::io

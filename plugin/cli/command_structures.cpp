@@ -18,12 +18,14 @@
 #include "plugin/options/series_option.h"
 #include "plugin/session/registered_structure.h"
 #include "plugin/session/structure_files.h"
+#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 namespace {
 
 struct StructuresOptions {
   std::vector<std::string> paths;
+  std::string scan;  ///< a folder or file; empty: none
   bool json = false;
 };
 
@@ -34,10 +36,16 @@ struct MeasuredStructure {
   Text refused;
 };
 
-MeasuredStructure measured(io::Structure structure) {
+/// `scan`: the one that it is to be felt on, or null.
+MeasuredStructure measured(io::Structure structure, const io::Volume* scan) {
   MeasuredStructure result{.structure = std::move(structure)};
+  io::Structure& found = result.structure;
   try {
-    result.measures = io::measure(result.structure);
+    if (scan) result.refused = place_on(found, registrations_for(found, *scan), *scan).why_not;
+    result.measures = io::measure(found);
+    if (!scan || !result.refused.empty()) return result;
+    const io::StructureBox box{result.measures->box_low_mm, result.measures->box_high_mm};
+    if (const Text off = off_scan(found, box, scan->geometry); !off.empty()) found.warnings.push_back(off);
   } catch (const io::DicomError& error) {
     result.refused = error.text();
   }
@@ -122,11 +130,13 @@ void print_registration(const io::Registration& registration) {
 
 void run_structures(const StructuresOptions& options) {
   const std::vector<std::filesystem::path> paths(options.paths.begin(), options.paths.end());
+  std::optional<io::Volume> scan;
+  if (!options.scan.empty()) scan = load_series({.path = options.scan, .series = {}});
   const io::StructureCatalogue catalogue = io::find_structures(paths, terminal_progress("finding structures"));
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::filesystem::path file;
   for (const io::Structure& structure : catalogue.structures) {
-    const MeasuredStructure found = measured(structure);
+    const MeasuredStructure found = measured(structure, scan ? &*scan : nullptr);
     if (options.json) {
       list.push_back(structure_json(found));
       continue;
@@ -164,6 +174,7 @@ void add_structures(CLI::App& program) {
       "structures", "Lists outlined structures: segments, ROIs and labels with their names, volumes and places");
   const auto options = std::make_shared<StructuresOptions>();
   command->add_option("PATH", options->paths, "Folders with all that they hold, and files")->required();
+  command->add_option("--scan", options->scan, "Also say which of them cannot be felt on this scan, or lie outside it");
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
   command->callback([options] { run_structures(*options); });
 }

@@ -235,6 +235,34 @@ TEST(CommandStructures, TellsWhatARegistrationMoves) {
   EXPECT_EQ(json[0].at("parts")[0].at("frame_of_reference_uid"), "1.2");
 }
 
+// Two label maps of 4 mm each: one in the middle of the scan, and one 500 mm beside it.
+TEST(CommandStructures, SaysWhichLieOffTheScan) {
+  const fs::path folder = fresh_path("off");
+  fs::create_directories(folder);
+  for (const auto& [name, x] : {std::pair{"here", "0"}, std::pair{"off", "500"}}) {
+    std::ofstream(folder / (std::string(name) + ".mha"))
+        << "NDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nOffset = " << x << " 0 0\nElementDataFile = LOCAL\n"
+        << std::string(64, '\1');
+  }
+  const std::string off =
+      "note: off.mha: \"label 1\" lies wholly outside the scan: choose one that was outlined on this scan\n";
+  const auto times_in = [](const std::string& part, const std::string& output) {
+    int count = 0;
+    for (std::size_t at = output.find(part); at != std::string::npos; at = output.find(part, at + 1)) ++count;
+    return count;
+  };
+  const std::string listed = palpate("structures " + folder.string() + " --scan " + phantom().string(), false).output;
+  EXPECT_THAT(listed, HasSubstr(off));
+  EXPECT_EQ(times_in("wholly outside", listed), 1) << listed;
+  EXPECT_THAT(palpate("structures " + folder.string(), false).output, ::testing::Not(HasSubstr("wholly outside")));
+  const Outcome suggested = palpate(
+      "suggest " + phantom().string() + " --structures " + folder.string() + " -o " + (folder / "scene.json").string(),
+      false);
+  EXPECT_EQ(suggested.exit, 0);
+  EXPECT_THAT(suggested.output, HasSubstr(off));
+  EXPECT_EQ(times_in("wholly outside", suggested.output), 1) << suggested.output;
+}
+
 TEST(CommandStructures, SaysWhereThereAreNone) {
   const fs::path folder = fresh_path("no_structures");
   fs::create_directories(folder);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/errors.h"
 #include "io/structures/structure.h"
 #include "modes/scene/scene_json.h"
 #include "modes/scene/suggest.h"
@@ -45,7 +46,17 @@ struct Offer {
   io::Structure structure;
   std::string name;  ///< in the scene
   Text why_not;
+  Text off;  ///< that it lies wholly outside the scan
 };
+
+/// Nothing where it cannot be told: then it cannot be felt, which is said when it is.
+Text off(const io::Structure& structure, const io::Geometry& scan) {
+  try {
+    return off_scan(structure, io::box_of(structure), scan);
+  } catch (const io::DicomError&) {
+    return {};
+  }
+}
 
 /// The structures of the study, put into the scene where they can be felt. No mode reads them yet.
 std::vector<Offer> offer_structures(const SuggestOptions& options, const io::Volume& volume, modes::Scene& scene) {
@@ -53,11 +64,14 @@ std::vector<Offer> offer_structures(const SuggestOptions& options, const io::Vol
   places.emplace_back(options.series.path);
   std::vector<Offer> offers;
   for (io::Structure& found : io::find_structures(places, terminal_progress("finding structures")).structures) {
-    Offer offer{.structure = std::move(found), .name = {}, .why_not = {}};
+    Offer offer{.structure = std::move(found), .name = {}, .why_not = {}, .off = {}};
     io::Structure& structure = offer.structure;
     structure.file = std::filesystem::absolute(structure.file);
     offer.why_not = place_on(structure, registrations_for(structure, volume), volume).why_not;
-    if (offer.why_not.empty()) offer.name = name_in_scene(scene, structure);
+    if (offer.why_not.empty()) {
+      offer.name = name_in_scene(scene, structure);
+      offer.off = off(structure, volume.geometry);
+    }
     offers.push_back(std::move(offer));
   }
   return offers;
@@ -74,6 +88,7 @@ void print_offers(const std::vector<Offer>& offers) {
       continue;
     }
     put("  {:<36} {}, {}\n", offer.name, io::name_of(offer.structure.kind), file);
+    if (!offer.off.empty()) put("    note: {}\n", offer.off);
     if (first.empty()) first = offer.name;
   }
   if (!first.empty()) {

@@ -111,6 +111,9 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
     keep_what_is_to_be_checked(structure);
     const std::optional<RegisteredStructure> registered = place(structure, wanted, volume, recorded);
     try {
+      if (const Text off = off_scan(structure, io::box_of(structure), volume.geometry); !off.empty()) {
+        structure.warnings.push_back(off);
+      }
       loaded.push_back(
           {file.string(), segment, structure.warnings, registered, shared_distance(structure, volume.geometry, reach)});
     } catch (const io::DicomError& error) {

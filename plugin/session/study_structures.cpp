@@ -119,6 +119,11 @@ Placed place_on(io::Structure& structure, std::span<const io::Registration> regi
   return {.why_not = {}, .registration = joined.file};
 }
 
+Text off_scan(const io::Structure& structure, const io::StructureBox& box, const io::Geometry& scan) {
+  if (!io::is_off(box, scan)) return {};
+  return say("structure-lies-off-the-scan", structure.file.filename().string(), structure.name);
+}
+
 std::vector<io::Registration> registrations_for(const io::Structure& structure, const io::Volume& scan) {
   namespace fs = std::filesystem;
   if (agree(structure.frame_of_reference_uid, scan.frame_of_reference_uid).value_or(true)) return {};

@@ -24,6 +24,9 @@ Placed place_on(io::Structure& structure, std::span<const io::Registration> regi
 /// The same by a motion that was recorded. Returns why it cannot be felt on this scan, or an empty text if it can.
 Text place_by(io::Structure& structure, const io::RigidMotion& motion, const io::Volume& scan);
 
+/// Says that a structure, which that box holds, lies wholly outside the scan; empty if some of it may lie inside.
+Text off_scan(const io::Structure& structure, const io::StructureBox& box, const io::Geometry& scan);
+
 /// The registrations for a structure whose frame of reference is not the scan's: those in the folder of its file, and
 /// in the folders beside that one, as a study is stored. Empty if the frames are the same.
 std::vector<io::Registration> registrations_for(const io::Structure& structure, const io::Volume& scan);

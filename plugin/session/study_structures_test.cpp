@@ -51,6 +51,22 @@ TEST(StudyStructures, AreJoinedByARegistrationOfTheirStudy) {
   EXPECT_EQ(felt(study.path() / "1" / "rt.dcm"), registered) << "in its own folder";
 }
 
+// The scan begins at 60 mm, and the contours end at 10 mm.
+TEST(StudyStructures, OffTheScanAreSaidToBe) {
+  const TestFolder folder;
+  write_contours(folder / "rt.dcm", "1.1", "7", "Doe^Jane");
+  const auto scan = testing::registered_scan();
+  constexpr const char* off =
+      "rt.dcm: \"Cube\" lies wholly outside the scan: choose one that was outlined on this scan";
+  const auto said = [&] {
+    const PreparedScene prepared = prepare(scene_of(folder / "rt.dcm"), scan, glm::dvec3(0.1));
+    return prepared.structures.at(0).warnings;
+  };
+  EXPECT_EQ(said(), std::vector<Text>{off});
+  for (io::Vec3& position : scan->geometry.slice_positions) position.x = 9;
+  EXPECT_EQ(said(), std::vector<Text>());
+}
+
 /// What is said of a structure of that patient that lies where it should.
 std::string said_of(const std::string& id, const std::string& name, const io::Volume& scan) {
   const TestFolder folder;

@@ -1344,6 +1344,10 @@
         <translation>Keine Strukturen da: weder DICOM SEG noch RTSTRUCT.</translation>
     </message>
     <message>
+        <source>outside the scan</source>
+        <translation>außerhalb der Aufnahme</translation>
+    </message>
+    <message>
         <source>Reading…</source>
         <translation>Lesen…</translation>
     </message>

@@ -3,6 +3,7 @@
 #include <vtkPolyData.h>
 
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QPixmap>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -15,6 +16,7 @@
 
 #include "device/simulated/simulated_stylus.h"
 #include "plugin/paraview/client/message_label.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/structure_shapes.h"
 #include "plugin/session/shared_distance.h"
 #include "plugin/session/study_structures.h"
@@ -197,12 +199,15 @@ void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) cons
   QPixmap swatch(12, 12);
   swatch.fill(QColor(text(entry.color)));
   item.setIcon(0, QIcon(swatch));
-  item.setText(1, entry.measures ? volume_in_words(entry.measures->volume_mm3) : QString());
+  item.setText(1, !entry.off.empty() ? tr("outside the scan")
+                  : entry.measures   ? volume_in_words(entry.measures->volume_mm3)
+                                     : QString());
   item.setFlags(fits ? Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable : Qt::ItemIsSelectable);
   item.setCheckState(0, entry.shown ? Qt::Checked : Qt::Unchecked);
   QString tip = text(entry.structure.file.filename().string());
   if (!entry.structure.code.empty()) tip += QLatin1Char('\n') + text(entry.structure.code);
   if (!fits) tip += QLatin1Char('\n') + text(entry.why_not);
+  if (!entry.off.empty()) tip += QLatin1Char('\n') + words(entry.off);
   for (const Text& warning : entry.structure.warnings) tip += QLatin1Char('\n') + text(warning);
   item.setToolTip(0, tip);
 }
@@ -246,8 +251,19 @@ void StructuresSection::take_made(const Made& made) {
   if (!made.error.empty()) entry->shown = false;
   entry->measures = made.measures;
   if (made.drawn.distance) entry->drawn = made.drawn;
+  look_whether_off(*entry);
   list();
   draw();
+}
+
+/// Of several the first is told; each has it in its row.
+void StructuresSection::look_whether_off(Entry& entry) {
+  if (!entry.measures || !entry.off.empty()) return;
+  const bool first = std::ranges::all_of(entries_, [](const Entry& one) { return one.off.empty(); });
+  entry.off = off_scan(entry.structure, {entry.measures->box_low_mm, entry.measures->box_high_mm}, scan_->geometry);
+  if (entry.off.empty() || !first) return;
+  const QString before = message_->text();
+  tell(before.isEmpty() ? words(entry.off) : before + QLatin1Char('\n') + words(entry.off), true);
 }
 
 void StructuresSection::draw() {
@@ -265,8 +281,8 @@ void StructuresSection::use(const QString& what, const Edit& edit) {
   if (!scan_ || !chosen()) return;
   chosen()->shown = true;
   const modes::Scene now = model_.scene();
-  then_ = [this, what, edit] {
-    tell({}, false);
+  then_ = [this, what, edit, off = chosen()->off] {
+    tell(words(off), !off.empty());
     model_.edit(what, edit);
   };
   tell(tr("Reading…"), false);

@@ -57,6 +57,7 @@ class StructuresSection : public QWidget {
   struct Entry {
     io::Structure structure;
     std::string why_not;  ///< why it cannot be felt; empty where it can
+    Text off;             ///< that it lies wholly outside the scan; empty where it does not, or is not yet measured
     bool shown = false;
     std::string color;
     std::shared_ptr<const io::StructureMeasures> measures;
@@ -82,6 +83,7 @@ class StructuresSection : public QWidget {
   void show_row(QTreeWidgetItem& item, const Entry& entry) const;
   void make_next();
   void take_made(const Made& made);
+  void look_whether_off(Entry& entry);
   void draw();
   void choose_color(std::size_t n);
   Entry* chosen();
