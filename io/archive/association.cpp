@@ -8,6 +8,7 @@
 #include <dcmtk/dcmnet/dul.h>
 #include <dcmtk/dcmtls/tlscond.h>
 #include <fmt/format.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <mutex>
@@ -173,6 +174,8 @@ Association::~Association() {
   const bool ended = watch_->ended();
   watch_.reset();
   if (broken_ || ended) {
+    // Nothing answers an abort. DCMTK reads until the peer closes, which one that is silent does late.
+    if (transport_->socket >= 0) ::shutdown(transport_->socket, SHUT_RD);
     ASC_abortAssociation(association_);
   } else {
     ASC_releaseAssociation(association_);

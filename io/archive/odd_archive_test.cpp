@@ -275,6 +275,19 @@ TEST(OddArchive, ACanceledFetchEndsSoon) {
   EXPECT_EQ(odd.entries(), 0U);
 }
 
+TEST(OddArchive, ACanceledSendEndsSoon) {
+  const fs::path series = fs::path(PALPATE_SHARED_DATA) / "mr_tx_uncompressed_explicit_4";
+  if (!fs::exists(series)) GTEST_SKIP() << "no series in " << PALPATE_SHARED_DATA;
+  OddArchive silent("silent-at-store");
+  silent.archive().silence_s = 60;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(
+      send(silent.archive(), {fs::directory_iterator(series)->path()},
+           [&](std::size_t) { return std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(300); }),
+      Cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+}
+
 TEST(OddArchive, ThatDoesNotTakeAFileIsQuoted) {
   const fs::path series = fs::path(PALPATE_SHARED_DATA) / "mr_tx_uncompressed_explicit_4";
   if (!fs::exists(series)) GTEST_SKIP() << "no series in " << PALPATE_SHARED_DATA;

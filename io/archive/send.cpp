@@ -68,7 +68,7 @@ T_ASC_PresentationContextID context_of(Association& association, const Outgoing&
 }
 
 /// Why it was not taken; empty: it was.
-Text send_one(Association& association, const Outgoing& one) {
+Text send_one(Association& association, const Outgoing& one, const KeepGoing& keep_going) {
   Command command;
   command.context = context_of(association, one);
   if (command.context == 0) {
@@ -86,7 +86,7 @@ Text send_one(Association& association, const Outgoing& one) {
   OFStandard::strlcpy(request.AffectedSOPClassUID, one.sop_class.c_str(), sizeof request.AffectedSOPClassUID);
   OFStandard::strlcpy(request.AffectedSOPInstanceUID, one.instance.c_str(), sizeof request.AffectedSOPInstanceUID);
   association.send(command, format.getDataset());
-  const Command answer = association.receive({});
+  const Command answer = association.receive(keep_going);
   if (answer.message.CommandField != DIMSE_C_STORE_RSP) {
     association.give_up();
     throw ArchiveError(say("archive-answered-a-file-with-something-else", association.archive().name));
@@ -114,8 +114,9 @@ Sent send(const Archive& archive, const std::vector<std::filesystem::path>& file
   Association association(archive, proposals);
   std::size_t done = 0;
   for (const Outgoing& one : all) {
-    if (progress && !progress(done)) throw Cancelled();
-    const Text why = one.refused.empty() ? send_one(association, one) : one.refused;
+    const auto keep_going = [&] { return !progress || progress(done); };
+    if (!keep_going()) throw Cancelled();
+    const Text why = one.refused.empty() ? send_one(association, one, keep_going) : one.refused;
     if (why.empty()) {
       ++sent.files;
     } else {

@@ -22,7 +22,8 @@ struct Sent {
 };
 
 /// Sends the files as they are, in the encoding they have. Throws ArchiveError where there is no association or it
-/// breaks, Cancelled where `progress` returns false. It is called before each file, with the number of files done.
+/// breaks, Cancelled where `progress` returns false. It is called with the number of files done, before each file and
+/// once a second while the archive does not answer. What the archive has taken by then stays there.
 Sent send(const Archive& archive, const std::vector<std::filesystem::path>& files,
           const std::function<bool(std::size_t done)>& progress = {});
 

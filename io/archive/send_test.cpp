@@ -9,6 +9,7 @@
 #include "io/archive/send.h"
 #include "io/archive/testing/orthanc_test_case.h"
 #include "io/archive/testing/says.h"
+#include "io/errors.h"
 
 namespace palpate::io {
 namespace {
@@ -19,6 +20,17 @@ using testing::OrthancTest;
 using testing::says;
 using testing::shared;
 
+/// Whether DCMTK's own program finds so many images of the series there. What it says goes to `said`.
+bool has(const Archive& archive, const std::string& series, std::size_t count, const fs::path& said) {
+  const std::string command =
+      "findscu -aet PALPATE -aec ORTHANC -S -k QueryRetrieveLevel=SERIES -k StudyInstanceUID -k "
+      "SeriesInstanceUID=" +
+      instances(shared / series).begin()->second.series + " -k NumberOfSeriesRelatedInstances 127.0.0.1 " +
+      std::to_string(archive.port) + " > " + said.string() + " 2>&1";
+  return std::system(command.c_str()) == 0 &&
+         std::system(("grep -q '\\[" + std::to_string(count) + " *\\]' " + said.string()).c_str()) == 0;
+}
+
 TEST_F(OrthancTest, TakesWhatIsSent) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(shared / "mr_gap_decubitus_35")) files.push_back(entry.path());
@@ -27,16 +39,19 @@ TEST_F(OrthancTest, TakesWhatIsSent) {
   EXPECT_EQ(sent.files, files.size() - 1);
   ASSERT_EQ(sent.not_sent.size(), 1U);
   EXPECT_TRUE(says(sent.not_sent.front().why, "not a DICOM file that can be sent"));
-  // DCMTK's own program finds it there.
-  const std::string series = instances(shared / "mr_gap_decubitus_35").begin()->second.series;
-  const std::string found = folder("found").string();
-  const std::string command =
-      "findscu -aet PALPATE -aec ORTHANC -S -k QueryRetrieveLevel=SERIES -k StudyInstanceUID -k "
-      "SeriesInstanceUID=" +
-      series + " -k NumberOfSeriesRelatedInstances 127.0.0.1 " + std::to_string(archive().port) + " > " + found +
-      " 2>&1";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(std::system(("grep -q '\\[" + std::to_string(sent.files) + " *\\]' " + found).c_str()), 0);
+  EXPECT_TRUE(has(archive(), "mr_gap_decubitus_35", sent.files, folder("found")));
+}
+
+// What it has taken by then stays there, and no more comes.
+TEST_F(OrthancTest, KeepsWhatWasSentBeforeACancel) {
+  const std::string name = "ct_missing_slice_4";  // no other test sends it
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(shared / name)) files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 4U);
+  EXPECT_THROW(send(archive(), files, [](std::size_t done) { return done < 2; }), Cancelled);
+  EXPECT_TRUE(has(archive(), name, 2, folder("canceled")));
+  EXPECT_EQ(send(archive(), files).files, 4U);
+  EXPECT_TRUE(has(archive(), name, 4, folder("sent-again")));
 }
 
 }  // namespace
