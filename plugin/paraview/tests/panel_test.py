@@ -119,6 +119,10 @@ def outlined():
     shutil.copytree(os.path.join(shared, "dcmqi/ct-3slice"), folder)
     shutil.copy(os.path.join(shared, "dcmqi/liver.dcm"), folder)
     os.environ["PALPATE_FOREIGN"] = os.path.join(shared, "dcmqi/24x38x3/seg/label.seg")
+    os.environ["PALPATE_OFF"] = scratch("off.mha")
+    with open(scratch("off.mha"), "wb") as file:
+        file.write(b"NDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nOffset = 5000 0 0\nElementDataFile = LOCAL\n" +
+                   b"\1" * 64)
     with open(os.path.join(shared, "truth.json")) as file:
         volume = json.load(file)["dcmqi/liver.dcm"]["segments"]["1"]["mm3"]
     os.environ["PALPATE_LIVER"] = f"{volume / 1000:.0f} ml"

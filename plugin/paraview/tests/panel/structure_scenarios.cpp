@@ -82,6 +82,12 @@ void structures_are_seen_and_felt() {
   const QTreeWidgetItem& foreign = *list().topLevelItem(1);
   expect((foreign.flags() & Qt::ItemIsUserCheckable) == 0 && foreign.toolTip(0).contains("outlined on another patient"),
          "and cannot be used, which is said");
+  name_file("palpateAddStructures", qEnvironmentVariable("PALPATE_OFF"));
+  wait_for(
+      "a label map that lies elsewhere is said to",
+      [] { return list().topLevelItemCount() == 3 && list().topLevelItem(2)->text(1) == "outside the scan"; }, 20);
+  expect(label("palpateStructureMessage").contains("off.mha: \"label 1\" lies wholly outside the scan"),
+         "with its file: " + label("palpateStructureMessage").toStdString());
 }
 
 }  // namespace
