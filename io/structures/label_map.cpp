@@ -139,6 +139,7 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
   if (image->axes != std::array{0, 1, 2}) throw DicomError(say("labels-in-another-order"));
   const std::map<int, Box> boxes = boxes_in(*image);
   const std::map<int, LabelName> names = image->names;
+  const std::filesystem::path voxels_at = image->voxels_at;
   const auto source = std::make_shared<const LabelMapSource>(std::move(*image), boxes);
   std::set<int> numbers;
   for (const auto& [number, box] : boxes) numbers.insert(number);
@@ -151,6 +152,7 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
     Structure structure;
     if (!boxes.contains(number)) structure.unfit = say("no-voxel-inside");
     structure.file = path;
+    if (voxels_at != path) structure.voxels_file = voxels_at;
     structure.kind = StructureKind::label_map;
     structure.number = number;
     const auto named = names.find(number);

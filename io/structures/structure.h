@@ -60,6 +60,7 @@ class StructureSource {
 
 struct Structure {
   std::filesystem::path file;
+  std::filesystem::path voxels_file;  ///< of a label map whose voxels lie in a file beside `file`; else empty
   StructureKind kind = StructureKind::segmentation;
   int number = 0;                      ///< SegmentNumber, ROINumber or the label's value
   std::string name;                    ///< SegmentLabel, ROIName, ...; where there is none, what its code means

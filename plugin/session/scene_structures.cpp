@@ -48,12 +48,13 @@ double reach_of(const modes::Scene& scene, const modes::SceneStructure& structur
 io::Structure find_structure(const modes::SceneStructure& wanted, const std::filesystem::path& file) {
   io::StructureCatalogue catalogue;
   try {
-    catalogue = io::find_structures(std::array{file});
+    catalogue = io::find_structures(std::array{copy_of(file)});
   } catch (const io::DicomError& error) {
     refuse(wanted, error.text());
   }
   std::string known;
-  for (const io::Structure& structure : catalogue.structures) {
+  for (io::Structure& structure : catalogue.structures) {
+    structure.file = file;
     const bool is_it =
         wanted.segment_number ? structure.number == *wanted.segment_number : structure.name == wanted.segment;
     if (is_it) return structure;

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "plugin/session/structure_files.h"
+
 namespace palpate::plugin {
 namespace {
 
@@ -47,7 +49,7 @@ template <typename Fits>
 std::shared_ptr<const io::DistanceField> find_or_make(const io::Structure& structure, const io::Geometry& scan,
                                                       double reach_mm, const Fits& fits) {
   std::error_code absent;
-  const auto time = std::filesystem::last_write_time(structure.file, absent);
+  const auto time = std::filesystem::last_write_time(copy_of(structure.file), absent);
   {
     const std::lock_guard lock(mutex);
     if (auto found = find(structure, time, scan, fits)) return found;

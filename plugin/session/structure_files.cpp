@@ -39,7 +39,29 @@ std::string read_and_hash(const std::filesystem::path& file) {
   return input.bad() ? unknown : fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 
+std::mutex fetched_mutex;
+std::map<std::filesystem::path, std::filesystem::path> fetched;
+
 }  // namespace
+
+void set_fetched_files(std::map<std::filesystem::path, std::filesystem::path> here_by_name) {
+  const std::lock_guard lock(fetched_mutex);
+  fetched = std::move(here_by_name);
+}
+
+std::filesystem::path copy_of(const std::filesystem::path& name) {
+  const std::lock_guard lock(fetched_mutex);
+  const auto found = fetched.find(name);
+  return found == fetched.end() ? name : found->second;
+}
+
+std::filesystem::path name_of_copy(const std::filesystem::path& here) {
+  const std::lock_guard lock(fetched_mutex);
+  for (const auto& [name, place] : fetched) {
+    if (place == here) return name;
+  }
+  return here;
+}
 
 std::string hash_of_file(const std::filesystem::path& file) {
   // A scene that is dragged while it is recorded is written down thirty times a second.
@@ -57,7 +79,7 @@ std::string hash_of_file(const std::filesystem::path& file) {
 
 modes::Scene without_paths(modes::Scene scene) {
   for (modes::SceneStructure& structure : scene.structures) {
-    if (!is_hash(structure.file)) structure.file = hash_of_file(structure.file);
+    if (!is_hash(structure.file)) structure.file = hash_of_file(copy_of(structure.file));
   }
   return scene;
 }

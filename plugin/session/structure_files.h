@@ -15,6 +15,14 @@ namespace palpate::plugin {
 /// 16 hexadecimal digits; all zero if the file cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
+/// Files of a server that were fetched, by their names there, and where they are here. A scene names them as the server
+/// does. From any thread. The next call takes the place of the last.
+void set_fetched_files(std::map<std::filesystem::path, std::filesystem::path> here_by_name);
+/// Where the file of that name is read: the file itself, unless it was fetched.
+std::filesystem::path copy_of(const std::filesystem::path& name);
+/// What a scene calls a file of this machine: its own path, unless it was fetched.
+std::filesystem::path name_of_copy(const std::filesystem::path& here);
+
 /// The scene, with the hash of each structure's file in place of its name.
 modes::Scene without_paths(modes::Scene scene);
 

@@ -5,9 +5,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/session/scan.h"
+#include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {
 namespace {
@@ -23,7 +26,7 @@ modes::Scene scene_of(const fs::path& file) {
 }
 
 TEST(StructureFiles, AreNamedByTheirContent) {
-  const fs::path folder = fs::path(testing::TempDir()) / "structure_files";
+  const fs::path folder = fs::path(::testing::TempDir()) / "structure_files";
   fs::create_directories(folder);
   std::ofstream(folder / "a") << "the same";
   std::ofstream(folder / "b") << "the same";
@@ -41,7 +44,7 @@ TEST(StructureFiles, AreFoundWhereverTheyWentMeanwhile) {
   const modes::Scene recorded = without_paths(scene_of(liver));
   EXPECT_EQ(modes::to_json(recorded).find("/"), std::string::npos);
   EXPECT_EQ(modes::to_json(without_paths(recorded)), modes::to_json(recorded));
-  const fs::path folder = fs::path(testing::TempDir()) / "moved";
+  const fs::path folder = fs::path(::testing::TempDir()) / "moved";
   fs::remove_all(folder);
   fs::create_directories(folder / "deep");
   fs::copy_file(liver, folder / "deep/renamed");
@@ -54,6 +57,26 @@ TEST(StructureFiles, AreFoundWhereverTheyWentMeanwhile) {
     EXPECT_STREQ(error.what(),
                  "structure \"liver\": the file that it was felt from is not here: name it with --structures");
   }
+}
+
+// A scene that names a file of a server is felt from its copy, and recorded by what is in it.
+TEST(StructureFiles, OfAServerAreReadFromTheirCopies) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "fetched_structures";
+  testing::write_contours(folder / "0/rt.dcm", "1.1", "7", "Doe^Jane");
+  const auto volume = std::make_shared<io::Volume>(*testing::registered_scan());
+  for (io::Vec3& position : volume->geometry.slice_positions) position.x = -40;
+  const modes::Scene scene = testing::scene_of("/there/study/rt.dcm");
+  const glm::dvec3 extent(0.1);
+  EXPECT_THROW(prepare(scene, volume, extent), std::invalid_argument);
+  set_fetched_files({{"/there/study/rt.dcm", folder / "0/rt.dcm"}});
+  const PreparedScene prepared = prepare(scene, volume, extent);
+  EXPECT_EQ(prepared.structures.at(0).file, "/there/study/rt.dcm");
+  EXPECT_NEAR(prepared.structures[0].distance->sample({8, 0, 9}).mm, 2, 0.15);
+  EXPECT_EQ(without_paths(scene).structures[0].file, hash_of_file(folder / "0/rt.dcm"));
+  EXPECT_EQ(name_of_copy(folder / "0/rt.dcm"), "/there/study/rt.dcm");
+  EXPECT_EQ(name_of_copy(folder / "0/other.dcm"), folder / "0/other.dcm");
+  set_fetched_files({});
+  EXPECT_THROW(prepare(scene, volume, extent), std::invalid_argument);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "modes/types/mode_type.h"
 #include "plugin/messages/messages.h"
+#include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
 namespace {
@@ -128,7 +129,7 @@ std::vector<io::Registration> registrations_for(const io::Structure& structure, 
   namespace fs = std::filesystem;
   if (agree(structure.frame_of_reference_uid, scan.frame_of_reference_uid).value_or(true)) return {};
   std::error_code ignored;
-  const fs::path folder = fs::absolute(structure.file, ignored).parent_path();
+  const fs::path folder = fs::absolute(copy_of(structure.file), ignored).parent_path();
   std::vector<fs::path> places{folder};
   for (const auto& series : fs::directory_iterator(folder.parent_path(), ignored)) {
     if (!series.is_directory(ignored) || series.path() == folder) continue;

@@ -1,8 +1,6 @@
 #include "plugin/paraview/common/structure_files_message.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -32,19 +30,11 @@ std::set<fs::path> structure_files_in(const std::string& path) {
   elsewhere.frame_of_reference_uid = "-";
   for (const io::Structure& structure : catalogue.structures) {
     if (!files.insert(structure.file).second) continue;
+    if (!structure.voxels_file.empty()) files.insert(structure.voxels_file);
     for (const io::Registration& one : registrations_for(structure, elsewhere)) files.insert(one.file);
   }
   for (const io::Registration& one : catalogue.registrations) files.insert(one.file);
   return files;
-}
-
-/// Letters and dots alone: nothing of a name.
-std::string suffix_of(const fs::path& file) {
-  const std::string name = file.filename().string();
-  for (const char* suffix : {".seg.nrrd", ".nii.gz", ".nrrd", ".nii", ".mha", ".mhd"}) {
-    if (name.ends_with(suffix)) return suffix;
-  }
-  return ".dcm";
 }
 
 }  // namespace
@@ -53,7 +43,7 @@ std::vector<ServedFile> find_served_files(const std::string& path) {
   const std::set<fs::path> files = structure_files_in(path);
   std::vector<ServedFile> served;
   for (const fs::path& file : files) {
-    served.push_back({.hash = hash_of_file(file), .suffix = suffix_of(file), .bytes = fs::file_size(file)});
+    served.push_back({.hash = hash_of_file(file), .path = fs::absolute(file), .bytes = fs::file_size(file)});
   }
   const std::lock_guard lock(mutex);
   found[path].assign(files.begin(), files.end());
@@ -82,22 +72,30 @@ std::vector<unsigned char> read_served_file(const std::string& path, int file, i
 std::string text_of(const std::vector<ServedFile>& files) {
   nlohmann::json list = nlohmann::json::array();
   for (const ServedFile& file : files) {
-    list.push_back({{"hash", file.hash}, {"suffix", file.suffix}, {"bytes", file.bytes}});
+    list.push_back({{"hash", file.hash}, {"path", file.path.string()}, {"bytes", file.bytes}});
   }
-  return list.dump();
+  return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::vector<ServedFile> served_files_of(const std::string& text) {
   std::vector<ServedFile> files;
   for (const nlohmann::json& one : nlohmann::json::parse(text)) {
-    files.push_back({.hash = one.at("hash"), .suffix = one.at("suffix"), .bytes = one.at("bytes")});
-    // They become a file's name here.
-    const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.'; };
-    if (!std::ranges::all_of(files.back().hash + files.back().suffix, plain)) {
-      throw Refusal(say("server-has-no-such-structures"));
-    }
+    const fs::path path = one.at("path").get<std::string>();
+    files.push_back({.hash = one.at("hash"), .path = path, .bytes = one.at("bytes")});
+    const fs::path name = path.filename();  // its name here
+    if (name.empty() || name == "." || name == "..") throw Refusal(say("server-has-no-such-structures"));
   }
   return files;
+}
+
+std::vector<fs::path> places_of(const std::vector<ServedFile>& files) {
+  std::map<fs::path, std::size_t> folders;
+  std::vector<fs::path> places;
+  for (const ServedFile& file : files) {
+    const std::size_t folder = folders.emplace(file.path.parent_path(), folders.size()).first->second;
+    places.push_back(fs::path(std::to_string(folder)) / file.path.filename());
+  }
+  return places;
 }
 
 }  // namespace palpate::plugin

@@ -83,6 +83,11 @@ def outlined():
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(os.path.join(shared, "dcmqi/ct-3slice"), folder)
     shutil.copy(os.path.join(shared, "dcmqi/liver.dcm"), folder)
+    with open(os.path.join(folder, "box.mhd"), "w") as file:  # its voxels lie beside it
+        file.write("NDims = 3\nDimSize = 20 20 3\nElementType = MET_UCHAR\nOffset = -150 0 -133\n"
+                   "ElementSpacing = 1 1 5\nElementDataFile = box.raw\n")
+    with open(os.path.join(folder, "box.raw"), "wb") as file:
+        file.write(b"\1" * (20 * 20 * 3))
     os.environ["PALPATE_FOREIGN"] = os.path.join(shared, "dcmqi/24x38x3/seg/label.seg")
     return folder
 

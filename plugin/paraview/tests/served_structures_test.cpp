@@ -4,12 +4,14 @@
 #include <vtkClientServerStream.h>
 #include <vtkNew.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "io/structures/structure.h"
 #include "plugin/paraview/common/slices_message.h"
 #include "plugin/paraview/common/structure_files_message.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
@@ -49,13 +51,13 @@ TEST(ServedStructures, AreTheFilesOfTheStudyByteForByte) {
   reader->Update();
   const SlicesAnswered listed = ask(*reader, {.what = SlicesAsked::What::structures});
   ASSERT_EQ(listed.error, "");
-  EXPECT_THAT(listed.structures, Not(HasSubstr("Jane")));
   const std::vector<ServedFile> files = served_files_of(listed.structures);
   ASSERT_EQ(files.size(), 2U) << "the contours, and the registration in the folder beside";
   for (int n = 0; n < 2; ++n) {
     const fs::path file = n == 0 ? study / "registrations/reg.dcm" : study / "scan/Doe_Jane.dcm";
     std::ifstream input(file, std::ios::binary);
     const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(input), {}};
+    EXPECT_EQ(files[static_cast<std::size_t>(n)].path, file);
     EXPECT_EQ(files[static_cast<std::size_t>(n)].hash, hash_of_file(file));
     EXPECT_EQ(files[static_cast<std::size_t>(n)].bytes, bytes.size());
     EXPECT_EQ(ask(*reader, {.what = SlicesAsked::What::structure_pieces, .frame = n, .count = 4}).bytes, bytes);
@@ -64,7 +66,47 @@ TEST(ServedStructures, AreTheFilesOfTheStudyByteForByte) {
 }
 
 TEST(ServedStructures, AreNotNamedAsAnotherFolder) {
-  EXPECT_ANY_THROW(served_files_of(R"([{"hash": "../../etc", "suffix": ".dcm", "bytes": 3}])"));
+  const auto text = [](const std::string& path) { return R"([{"hash": "0", "path": ")" + path + R"(", "bytes": 3}])"; };
+  EXPECT_EQ(places_of(served_files_of(text("/a/../etc/passwd"))), std::vector<fs::path>{"0/passwd"});
+  for (const char* const path : {"/a/..", "/a/.", "/a/", ""}) EXPECT_ANY_THROW(served_files_of(text(path))) << path;
+}
+
+TEST(ServedStructures, OfOneFolderAreBesideEachOther) {
+  EXPECT_EQ(places_of({{.hash = {}, .path = "/a/labels.mhd"},
+                       {.hash = {}, .path = "/b/labels.mhd"},
+                       {.hash = {}, .path = "/a/labels.raw"}}),
+            (std::vector<fs::path>{"0/labels.mhd", "1/labels.mhd", "0/labels.raw"}));
+}
+
+// Two kinds of headers with their voxels beside them: all four come, and are read where they came to.
+TEST(ServedStructures, ComeWithTheVoxelsBesideThem) {
+  const fs::path study = testing::fresh_path("detached");
+  testdata::write_series(testdata::scan(testdata::make_sphere(5), testdata::make_geometry({.size = glm::ivec3(16)})),
+                         study / "scan");
+  std::ofstream(study / "scan/a.mhd")
+      << "NDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nElementDataFile = a.raw\n";
+  std::ofstream(study / "scan/b.nhdr") << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n"
+                                          "sizes: 4 4 4\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\n"
+                                          "space origin: (0,0,0)\ndata file: b.raw\n";
+  for (const char* const raw : {"a.raw", "b.raw"}) std::ofstream(study / "scan" / raw) << std::string(64, '\1');
+  const vtkNew<PalpateDicomReader> reader;
+  reader->SetFileName((study / "scan").c_str());
+  reader->Update();
+  const std::vector<ServedFile> files =
+      served_files_of(ask(*reader, {.what = SlicesAsked::What::structures}).structures);
+  ASSERT_EQ(files.size(), 4U);
+  const fs::path client = testing::fresh_path("fetched");
+  const std::vector<fs::path> places = places_of(files);
+  for (int n = 0; n < 4; ++n) {
+    const fs::path place = client / places[static_cast<std::size_t>(n)];
+    fs::create_directories(place.parent_path());
+    const auto bytes = ask(*reader, {.what = SlicesAsked::What::structure_pieces, .frame = n, .count = 4}).bytes;
+    std::ofstream(place, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  const auto found = io::find_structures(std::array{client}).structures;
+  ASSERT_EQ(found.size(), 2U);
+  for (const io::Structure& structure : found) EXPECT_EQ(io::measure(structure).voxels, 64U) << structure.file;
 }
 
 TEST(ServedStructures, TheHeadTellsFrameOfReferenceAndNoPatient) {

@@ -25,7 +25,13 @@ void PanelParts::show_structures(const ScanHandle& handle) {
   }
   // The server's own: a folder of this machine that has the same name may hold others.
   structures->set_scan(handle.volume, {});
-  served.get(reader, [this](const auto& files, const QString& said) { structures->add(files, said); });
+  served.get(reader, [this, handle](const auto& files, const QString& said) {
+    structures->add(files, said);
+    if (touching.live().scan()) return;
+    // A state's scene, which names a structure that was not here before.
+    emit touching.told({}, false);
+    show_frame(handle);
+  });
 }
 
 void PanelParts::leave_structures() {

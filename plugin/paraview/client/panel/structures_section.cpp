@@ -19,6 +19,7 @@
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/structure_shapes.h"
 #include "plugin/session/shared_distance.h"
+#include "plugin/session/structure_files.h"
 #include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
@@ -100,7 +101,7 @@ void StructuresSection::add(const std::vector<std::filesystem::path>& files, con
 void StructuresSection::look_into(const std::vector<std::filesystem::path>& places) {
   if (!scan_) return;
   for (const std::filesystem::path& place : places) {
-    if (looked_into_.insert(place).second) waiting_.push_back(place);
+    if (looked_into_.insert(place).second) waiting_.push_back(copy_of(place));
   }
   if (waiting_.empty()) return;
   finding_.ask([places = waiting_, scan = scan_] {
@@ -108,7 +109,8 @@ void StructuresSection::look_into(const std::vector<std::filesystem::path>& plac
     // Those that a scene will find, and no others: what is listed here is what can be felt.
     found.registrations.clear();
     std::set<std::filesystem::path> looked;
-    for (const io::Structure& structure : found.structures) {
+    for (io::Structure& structure : found.structures) {
+      structure.file = name_of_copy(structure.file);
       if (!looked.insert(structure.file).second) continue;
       for (io::Registration& one : registrations_for(structure, *scan)) found.registrations.push_back(std::move(one));
     }
@@ -163,7 +165,7 @@ void StructuresSection::follow_scene() {
     if (!named.color.empty()) entry->color = named.color;
   }
   std::error_code absent;
-  std::erase_if(files, [&](const auto& file) { return !std::filesystem::exists(file, absent); });
+  std::erase_if(files, [&](const auto& file) { return !std::filesystem::exists(copy_of(file), absent); });
   list();
   draw();
   make_next();

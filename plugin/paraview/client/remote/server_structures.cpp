@@ -10,6 +10,8 @@
 
 #include <exception>
 #include <fstream>
+#include <map>
+#include <system_error>
 #include <utility>
 
 #include "plugin/messages/messages.h"
@@ -36,7 +38,9 @@ void ServerStructures::cancel() {
   ++run_;
   done_ = {};
   files_.clear();
+  places_.clear();
   here_.clear();
+  set_fetched_files({});
   folder_.reset();
   file_ = 0;
   piece_ = 0;
@@ -82,15 +86,17 @@ void ServerStructures::ask_files() {
     return;
   }
   folder_ = std::make_unique<QTemporaryDir>();
+  for (const std::filesystem::path& place : places_of(files_)) {
+    places_.push_back(std::filesystem::path(folder_->path().toStdString()) / "structures" / place);
+    std::error_code full;  // which is found when it is written
+    std::filesystem::create_directories(places_.back().parent_path(), full);
+  }
   next(&ServerStructures::ask_pieces);
-}
-
-std::filesystem::path ServerStructures::here(const ServedFile& file) const {
-  return std::filesystem::path(folder_->path().toStdString()) / (file.hash + file.suffix);
 }
 
 void ServerStructures::ask_pieces() {
   const ServedFile file = files_[file_];
+  const std::filesystem::path place = places_[file_];
   SlicesAnswered answered;
   if (!ask({.what = SlicesAsked::What::structure_pieces,
             .frame = static_cast<int>(file_),
@@ -100,18 +106,17 @@ void ServerStructures::ask_pieces() {
     return;
   }
   {
-    std::ofstream output(here(file),
-                         piece_ == 0 ? std::ios::binary | std::ios::trunc : std::ios::binary | std::ios::app);
+    std::ofstream output(place, piece_ == 0 ? std::ios::binary | std::ios::trunc : std::ios::binary | std::ios::app);
     output.write(reinterpret_cast<const char*>(answered.bytes.data()),
                  static_cast<std::streamsize>(answered.bytes.size()));
   }
   piece_ += pieces_at_a_time;
   if (static_cast<std::uint64_t>(piece_) * bytes_of_piece >= file.bytes) {
-    if (hash_of_file(here(file)) != file.hash) {
+    if (hash_of_file(place) != file.hash) {
       finish(words(say("structures-did-not-arrive")));
       return;
     }
-    here_.push_back(here(file));
+    here_.push_back(place);
     piece_ = 0;
     ++file_;
   }
@@ -123,6 +128,9 @@ void ServerStructures::ask_pieces() {
 }
 
 void ServerStructures::finish(const QString& said) {
+  std::map<std::filesystem::path, std::filesystem::path> here_by_name;
+  for (std::size_t n = 0; n < here_.size(); ++n) here_by_name.emplace(files_[n].path, here_[n]);
+  set_fetched_files(std::move(here_by_name));
   const Done done = std::exchange(done_, {});
   if (done) done(here_, said);
 }

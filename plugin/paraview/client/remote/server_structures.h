@@ -1,7 +1,8 @@
 #pragma once
 
 /// Brings the files of structures that lie beside a scan on a server to this machine, where they are felt. They are
-/// kept in a folder that only the user may read, until the scan goes.
+/// kept in a folder that only the user may read, until the scan goes. A scene names them as the server does
+/// (plugin/session/structure_files.h).
 
 #include <pqPipelineSource.h>
 
@@ -37,7 +38,6 @@ class ServerStructures : public QObject {
   void ask_files();
   void ask_pieces();
   bool ask(const SlicesAsked& asked, SlicesAnswered& answered);
-  std::filesystem::path here(const ServedFile& file) const;
   void finish(const QString& said);
 
   QPointer<pqPipelineSource> reader_;
@@ -45,7 +45,8 @@ class ServerStructures : public QObject {
   unsigned run_ = 0;  // counts up: a step of an earlier run is not taken
   std::unique_ptr<QTemporaryDir> folder_;
   std::vector<ServedFile> files_;
-  std::vector<std::filesystem::path> here_;
+  std::vector<std::filesystem::path> places_;  // of each of them, here
+  std::vector<std::filesystem::path> here_;    // those that have arrived
   std::size_t file_ = 0;
   int piece_ = 0;
 };

@@ -254,8 +254,32 @@ QTreeWidget& structure_list() {
   return find<QTreeWidget>("palpateStructureList");
 }
 
-/// A segmentation that lies beside the scan on the server, where no path of this machine leads, is listed and felt; one
-/// of another patient, of this machine, is not. repeats() has the session again of the server's files.
+bool is_of_server(const std::string& scene) {
+  const std::string there = qEnvironmentVariable("PALPATE_REMOTE").toStdString();
+  return scene.find(there + "/liver.dcm") != std::string::npos;
+}
+
+/// A state that names a structure of the server brings both back.
+void structures_come_back() {
+  const std::string saved = scene_text();
+  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/panel-remote-structures.pvsm");
+  pqApplicationCore& core = *pqApplicationCore::instance();
+  expect(core.saveState(file), "the state is saved");
+  core.getObjectBuilder()->resetServer(active_server());
+  wait_for(
+      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 10);
+  core.loadState(file.toUtf8().constData(), active_server());
+  scan_is_shown();
+  expect(scene_text() == saved, "the scene is the same text");
+  wait_for(
+      "its structures are listed again", [] { return structure_list().topLevelItemCount() == 2; }, 30);
+  wait_for(
+      "and can be felt", [] { return find<QPushButton>("palpateConnect").isEnabled(); }, 20);
+}
+
+/// A segmentation and a label map, whose voxels have a file of their own, lie beside the scan on the server, where no
+/// path of this machine leads. They are listed and felt; one of another patient, of this machine, is not. repeats() has
+/// the session again of the server's files.
 void remote_structures() {
   connect_server();
   open_on_server();
@@ -263,14 +287,21 @@ void remote_structures() {
   scan_is_shown();
   click("palpateStructuresSectionFold");
   wait_for(
-      "the server's segmentation is listed", [] { return structure_list().topLevelItemCount() == 1; }, 30);
-  expect(structure_list().topLevelItem(0)->text(0) == "Liver", "by its name");
+      "the server's structures are listed", [] { return structure_list().topLevelItemCount() == 2; }, 30);
+  const bool liver_first = structure_list().topLevelItem(0)->text(0) == "Liver";
+  QTreeWidgetItem& liver = *structure_list().topLevelItem(liver_first ? 0 : 1);
+  QTreeWidgetItem& box = *structure_list().topLevelItem(liver_first ? 1 : 0);
+  expect(liver.text(0) == "Liver" && box.text(0) == "label 1", "by their names");
   wait_for(
-      "it is measured", [] { return !structure_list().topLevelItem(0)->text(1).isEmpty(); }, 20);
+      "they are measured", [&] { return !liver.text(1).isEmpty() && !box.text(1).isEmpty(); }, 20);
+  expect(box.text(1) == "6.00 ml", "with its voxels: " + box.text(1).toStdString());
+  structure_list().setCurrentItem(&liver);
   scroll_to(find<QWidget>("palpateStructureKeepOut"));
   click("palpateStructureKeepOut");
   wait_for(
       "one press makes a margin to keep out of", [] { return scene_text().find("keep_out") != std::string::npos; }, 20);
+  expect(is_of_server(scene_text()), "which names the file as the server does: " + scene_text());
+  structures_come_back();
   find<QCheckBox>("palpateFollow").setChecked(false);
   connect_stylus();
   record();
@@ -280,8 +311,8 @@ void remote_structures() {
   save_screen("remote-structures");
   name_file("palpateAddStructures", qEnvironmentVariable("PALPATE_FOREIGN"));
   wait_for(
-      "another patient's is listed, too", [] { return structure_list().topLevelItemCount() == 2; }, 20);
-  const QTreeWidgetItem& foreign = *structure_list().topLevelItem(1);
+      "another patient's is listed, too", [] { return structure_list().topLevelItemCount() == 3; }, 20);
+  const QTreeWidgetItem& foreign = *structure_list().topLevelItem(2);
   expect((foreign.flags() & Qt::ItemIsUserCheckable) == 0 && foreign.toolTip(0).contains("outlined on another patient"),
          "and cannot be used, which is said");
   click("palpateRecord");
