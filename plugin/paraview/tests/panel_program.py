@@ -48,9 +48,10 @@ def plugin_list(*files):
 
 
 def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), longest_s=LONGEST_S, said=None, first=True,
-        prepare=None, **more):
+        prepare=None, screen=None, **more):
     """The program once, with a folder opened; whether the scenario passed. Its own lines are added to `said`. Where it is
-    not its `first` start it has the settings of the one before. `prepare` is given its home.
+    not its `first` start it has the settings of the one before. `prepare` is given its home. `screen`:
+    the size of one of its own, in pixels.
     """
     home = scratch("panel-home")
     if first:
@@ -66,7 +67,8 @@ def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), lon
     if folder:
         environment["PALPATE_OPEN"] = folder
     try:
-        result = subprocess.run(["paraview", *arguments], env=environment, stdout=subprocess.PIPE,
+        display = ["xvfb-run", "-a", "-s", f"-screen 0 {screen}x24"] if screen else []
+        result = subprocess.run([*display, "paraview", *arguments], env=environment, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, timeout=longest_s)
     except subprocess.TimeoutExpired as late:
         print(f"{scenario}: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}", flush=True)

@@ -151,6 +151,7 @@ FOLDERS = {
 }
 SCENARIOS = [
     "the_layout_is_clinical",
+    "the_panel_fits_the_screen",
     "the_panel_speaks_german",
     "one_tab_is_used_again",
     "ones_way_is_found",
@@ -228,6 +229,13 @@ def layout():
     return run("the_layout_is_clinical", folder) and run("advanced_is_remembered", folder, first=False)
 
 
+def fits():
+    """A small laptop's screen, a common one, and one with two pixels to a point that is as large as the first."""
+    return all([run("the_panel_fits_the_screen", ball(), screen=screen, QT_SCALE_FACTOR=scale, PALPATE_POINTS=points)
+                for screen, scale, points in (("1366x768", "1", "1366x768"), ("1920x1080", "1", "1920x1080"),
+                                              ("2732x1536", "2", "1366x768"))])
+
+
 def other_files():
     return run("other_files_are_opened_and_felt", PALPATE_NIFTI=write_nifti(scratch("ball.nii.gz")),
                PALPATE_NRRD=write_nrrd(scratch("ball.nrrd")))
@@ -252,6 +260,7 @@ BY_NAME = ["main_thread", "first_image"]
 TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
 TESTS["the_layout_is_clinical"] = layout
 TESTS["the_panel_speaks_german"] = german
+TESTS["the_panel_fits_the_screen"] = fits
 TESTS["marks_are_saved"] = marks_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
 TESTS["first_image"] = lambda: run("first_image", PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())

@@ -59,14 +59,55 @@ QRect on_screen(const QWidget& of) {
 }
 
 /// All of it: in the window, and in whatever scrolls around it.
-void expect_all_in_sight(const char* name) {
+bool is_all_in_sight(const char* name) {
   QWidget& of = find<QWidget>(name);
   const QRect place = on_screen(of);
-  expect(of.isVisible() && on_screen(window()).contains(place), std::string(name) + " is in the window");
+  if (!of.isVisible() || !on_screen(window()).contains(place)) return false;
   for (QWidget* above = of.parentWidget(); above; above = above->parentWidget()) {
     auto* const scroll = qobject_cast<QScrollArea*>(above);
-    if (scroll) expect(on_screen(*scroll->viewport()).contains(place), std::string(name) + " is not scrolled away");
+    if (scroll && !on_screen(*scroll->viewport()).contains(place)) return false;
   }
+  return true;
+}
+
+void expect_all_in_sight(const char* name) {
+  expect(is_all_in_sight(name), std::string(name) + " is in the window, and not scrolled away");
+}
+
+/// A file with a scene of five surfaces.
+QString five_tissues() {
+  QString modes;
+  for (int n = 0; n < 5; ++n) {
+    modes += QStringLiteral(R"(%1{"type": "surface", "name": "tissue %2", "strength_n": %2})")
+                 .arg(n == 0 ? "" : ", ")
+                 .arg(n + 1);
+  }
+  const QString name = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/five tissues.json");
+  QFile file(name);
+  const QByteArray text = QStringLiteral(R"({"version": 1, "modes": [%1]})").arg(modes).toUtf8();
+  expect(file.open(QIODevice::WriteOnly) && file.write(text) == text.size(), "the scene is written");
+  return name;
+}
+
+/// PALPATE_POINTS: as large as the screen is, in points.
+void the_panel_fits_the_screen() {
+  scan_is_shown();
+  const QSize points = QGuiApplication::primaryScreen()->size();
+  const QString size = QStringLiteral("%1x%2").arg(points.width()).arg(points.height());
+  expect(size == qEnvironmentVariable("PALPATE_POINTS"), "the screen has these points: " + size.toStdString());
+  window().setGeometry(QRect({0, 0}, points));
+  name_file("palpateOpenScene", five_tissues());
+  wait_for(
+      "five tissues are listed", [] { return widget("palpateOn4") && widget("palpateOn4")->isVisible(); }, 10);
+  connect_stylus();
+  for (const char* const name :
+       {"palpateConnect", "palpateOn0", "palpateStrength0", "palpateOn1", "palpateStrength1", "palpateOn2",
+        "palpateStrength2", "palpateOn3", "palpateStrength3", "palpateOn4", "palpateStrength4", "palpateFooter",
+        "palpateRelease", "palpateToolbarConnectButton", "palpateToolbarRelease"}) {
+    wait_for(
+        std::string(name) + " is in the window, and not scrolled away", [&] { return is_all_in_sight(name); }, 5);
+  }
+  save_screen("fits-" + std::to_string(view("Axial").devicePixelRatio()) + "-" + size.toStdString());
 }
 
 void expect_host(bool there, const char* when) {
@@ -300,10 +341,9 @@ void one_tab_is_used_again() {
 }  // namespace
 
 const Scenarios& layout_scenarios() {
-  static const Scenarios scenarios{{"the_layout_is_clinical", the_layout_is_clinical},
-                                   {"advanced_is_remembered", advanced_is_remembered},
-                                   {"ones_way_is_found", ones_way_is_found},
-                                   {"a_chosen_look_stays", a_chosen_look_stays},
-                                   {"one_tab_is_used_again", one_tab_is_used_again}};
+  static const Scenarios scenarios{
+      {"the_layout_is_clinical", the_layout_is_clinical}, {"the_panel_fits_the_screen", the_panel_fits_the_screen},
+      {"advanced_is_remembered", advanced_is_remembered}, {"ones_way_is_found", ones_way_is_found},
+      {"a_chosen_look_stays", a_chosen_look_stays},       {"one_tab_is_used_again", one_tab_is_used_again}};
   return scenarios;
 }
