@@ -22,22 +22,22 @@ plugin::Marks kept_marks() {
 
 void has_rows(int count, const std::string& what) {
   wait_for(
-      what, [&] { return mark_list().topLevelItemCount() == count; }, 10);
+      what, [&] { return mark_list().topLevelItemCount() == count; }, 20);
 }
 
 void touch_surface() {
   QWidget& coronal = view("Coronal");
   for (int n = 0; n < 60 && number("palpateForce") < 0.3; ++n) {
-    press_key_in(coronal, "Prior");
-    wait_ms(60);
+    step_hand(coronal, "Prior");
+    stylus_rests();
   }
   wait_for(
-      "a force is felt", [] { return number("palpateForce") > 0.2; }, 10);
+      "a force is felt", [] { return number("palpateForce") > 0.2; }, 20);
 }
 
 void step(const char* key, int times) {
-  for (int n = 0; n < times; ++n) press_key_in(view("Coronal"), key);
-  wait_ms(300);
+  for (int n = 0; n < times; ++n) step_hand(view("Coronal"), key);
+  stylus_rests();
 }
 
 void mark_by_key() {

@@ -17,12 +17,13 @@
 #include <vtkTextActor.h>
 
 #include <QApplication>
+#include <QCursor>
 #include <QFile>
 #include <QFileDialog>
-#include <QImage>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPixmap>
+#include <QPointer>
 #include <QProcess>
 #include <QRegularExpression>
 #include <QScreen>
@@ -31,6 +32,7 @@
 #include <QtTest/QTest>
 
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
@@ -62,25 +64,17 @@ void scroll_to(QWidget& to) {
   QTest::qWait(30);
 }
 
+void scroll_to(QWidget& to, const QWidget& shown) {
+  is_laid_out(to);
+  scroll_to(to);
+  is_laid_out(shown);
+}
+
 void save_screen(const std::string& name) {
   const QString folder = qEnvironmentVariable("PALPATE_PICTURES");
   if (folder.isEmpty()) return;
   QGuiApplication::primaryScreen()->grabWindow(0).save(folder + QStringLiteral("/panel-") +
                                                        QString::fromStdString(name) + QStringLiteral(".png"));
-}
-
-void expect(bool holds, const std::string& what) {
-  if (!holds) throw std::runtime_error("it does not hold that " + what);
-}
-
-void wait_for(const std::string& what, const std::function<bool()>& holds, int seconds) {
-  if (!QTest::qWaitFor(holds, seconds * 1000)) {
-    throw std::runtime_error("after " + std::to_string(seconds) + " s still not: " + what);
-  }
-}
-
-void wait_ms(int ms) {
-  QTest::qWait(ms);
 }
 
 QWidget* widget(const char* name) {
@@ -126,18 +120,37 @@ void type_key(const char* key) {
   xdotool({QStringLiteral("key"), QString::fromLatin1(key)});
 }
 
-void name_file(const char* button, const QString& file) {
-  constexpr int open_ms = 800;
-  bool named = false;
-  QTimer::singleShot(open_ms, [&] {
-    auto* const dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;
-    dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->setText(file);
-    QMetaObject::invokeMethod(dialog, "accept");
-    named = true;
+void in_dialog(const char* button, const std::function<void(QDialog&)>& act) {
+  bool came = false;
+  std::exception_ptr failed;
+  QTimer looking;
+  QObject::connect(&looking, &QTimer::timeout, [&] {
+    auto* const dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    if (!dialog || !dialog->isVisible()) return;
+    looking.stop();
+    came = true;
+    try {
+      handle_events(20);
+      act(*dialog);
+    } catch (...) {
+      failed = std::current_exception();
+      dialog->reject();
+    }
   });
+  constexpr int poll_ms = 200;
+  looking.start(poll_ms);
   click(button);
-  expect(named, std::string(button) + " asks for a file");
+  if (failed) std::rethrow_exception(failed);
+  expect(came, std::string(button) + " opens a dialog");
+}
+
+void name_file(const char* button, const QString& file) {
+  in_dialog(button, [&](QDialog& dialog) {
+    auto* const name = dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+    expect(name != nullptr, std::string(button) + " asks for a file");
+    name->setText(file);
+    QMetaObject::invokeMethod(&dialog, "accept");
+  });
 }
 
 void save_as(const char* button, const QString& file) {
@@ -214,7 +227,7 @@ void turn_wheel(const char* name, int steps) {
   for (int n = 0; n < std::abs(steps); ++n) {
     interactor.InvokeEvent(steps > 0 ? vtkCommand::MouseWheelForwardEvent : vtkCommand::MouseWheelBackwardEvent);
   }
-  QTest::qWait(200);
+  handle_events(20);
 }
 
 void point_with_shift(const char* name, double x, double y) {
@@ -223,41 +236,19 @@ void point_with_shift(const char* name, double x, double y) {
   interactor.SetEventInformation(static_cast<int>(x * size.width()), static_cast<int>(y * size.height()), 0, 1);
   interactor.InvokeEvent(vtkCommand::MouseMoveEvent);
   interactor.SetShiftKey(0);
-  QTest::qWait(200);
-}
-
-QPoint proxy_in(QWidget& view) {
-  const QImage picture = QGuiApplication::primaryScreen()
-                             ->grabWindow(main_window().winId(), view.mapTo(&main_window(), QPoint(0, 0)).x(),
-                                          view.mapTo(&main_window(), QPoint(0, 0)).y(), view.width(), view.height())
-                             .toImage();
-  // The largest patch of its yellow: letters are of another, and thin.
-  QPoint best;
-  int most = 0;
-  constexpr int half = 5;
-  for (int y = half; y < picture.height() - half; y += 2) {
-    for (int x = half; x < picture.width() - half; x += 2) {
-      int yellow = 0;
-      for (int j = -half; j <= half; ++j) {
-        for (int i = -half; i <= half; ++i) {
-          const QColor color = picture.pixelColor(x + i, y + j);
-          if (color.red() > 120 && color.green() > 0.7 * color.red() && color.blue() < 0.45 * color.red()) ++yellow;
-        }
-      }
-      if (yellow > most) {
-        most = yellow;
-        best = {x, y};
-      }
-    }
-  }
-  constexpr int enough = 60;
-  if (most < enough) throw std::runtime_error("the proxy is not seen in the view");
-  return best;
+  handle_events(20);
 }
 
 void move_pointer(const QWidget& in, const QPoint& at) {
   const QPoint place = in.mapToGlobal(at);
   xdotool({QStringLiteral("mousemove"), QString::number(place.x()), QString::number(place.y())});
+  // Once the display has it there, what it tells of the way comes with the next events.
+  const QRect screen = QGuiApplication::primaryScreen()->geometry();
+  if (screen.contains(place)) {
+    wait_for(
+        "the pointer is there", [&] { return QCursor::pos() == place; }, 20);
+  }
+  handle_events(3);
 }
 
 void drag(QWidget& view, const QPoint& from, const QPoint& to, bool release) {
@@ -283,8 +274,9 @@ namespace {
 
 /// By the display: the pointer is in the view, and has clicked beside everything.
 void key_in(QWidget& view, const char* how, const char* key) {
-  static QWidget* last = nullptr;
-  if (std::exchange(last, &view) != &view) {
+  static QPointer<QWidget> last;
+  if (last != &view) {
+    last = &view;
     constexpr QPoint corner(12, 12);
     move_pointer(view, corner);
     xdotool({QStringLiteral("click"), QStringLiteral("1")});

@@ -3,12 +3,14 @@
 /// A user of the panel, in the real program: finds widgets by name, clicks, drags, types, waits and looks. Everything
 /// throws std::runtime_error saying what was expected where it does not come.
 
+#include <QDialog>
 #include <QPoint>
 #include <QString>
 #include <QStringList>
 #include <QWidget>
 
 #include <functional>
+#include <optional>
 #include <string>
 
 /// Runs one of the scenarios.
@@ -21,6 +23,16 @@ void expect(bool holds, const std::string& what);
 /// Events are handled meanwhile.
 void wait_for(const std::string& what, const std::function<bool()>& holds, int seconds = 60);
 void wait_ms(int ms);
+/// Whether it comes true in time. Events are handled meanwhile.
+bool comes_true(const std::function<bool()>& holds, int seconds = 20);
+/// Handles events so often, for 10 ms or more each time: on a slow machine for longer.
+void handle_events(int times);
+/// What `text` tells once it stays: the same while events are handled so often, a hundred times for a second or more.
+QString steady(const std::string& what, const std::function<QString()>& text, int turns = 100);
+/// Until the pictures of all views on the screen have stayed for 1.5 s or more, or 20 s have gone by.
+void views_rest();
+/// Until the widget is seen, and has kept its place and size.
+void is_laid_out(const QWidget& shown);
 
 QWidget* widget(const char* name);
 template <typename Widget>
@@ -33,6 +45,8 @@ Widget& find(const char* name) {
 QString label(const char* name);
 /// The number that a label begins with.
 double number(const char* name);
+/// The same once the label stays.
+double steady_number(const char* name);
 
 /// Clicks so far: what a user's finger does.
 int clicks();
@@ -41,6 +55,8 @@ void click(QWidget& on, const QPoint& at);
 void press_key(int key);
 /// By the display, wherever the pointer is: goes to what has the keyboard. By X11's name of the key.
 void type_key(const char* key);
+/// Clicks on a button that opens a dialog, and does in it what a user does. Fails where no dialog comes.
+void in_dialog(const char* button, const std::function<void(QDialog&)>& act);
 /// Clicks on a button that asks for a file, and names it.
 void name_file(const char* button, const QString& file);
 /// The same where it is to be written at once.
@@ -52,7 +68,9 @@ void hold_key_in(QWidget& view, const char* key, bool down);
 
 /// The widget of a clinical view: "Axial", "Sagittal", "Coronal", "Volume".
 QWidget& view(const char* name);
-/// The middle of the stylus' yellow proxy in a view's picture, pixels.
+/// The middle of the stylus' yellow proxy in a view's picture, pixels; nothing where it is not seen.
+std::optional<QPoint> proxy_now(QWidget& view);
+/// The same once it is seen and stays there.
 QPoint proxy_in(QWidget& view);
 /// What stands in the corner of a slice view, and what is told of the place under its pointer.
 QString corner_text(const char* view);
@@ -68,6 +86,8 @@ void turn_wheel(const char* view, int steps);
 void point_with_shift(const char* view, double x, double y);
 /// Brings it into sight, as a user scrolls.
 void scroll_to(QWidget& to);
+/// The same where the column has just changed, and until `shown` is laid out.
+void scroll_to(QWidget& to, const QWidget& shown);
 void move_pointer(const QWidget& in, const QPoint& at);
 /// Presses at `from` and moves to `to` in steps; lets go only where asked to.
 void drag(QWidget& view, const QPoint& from, const QPoint& to, bool let_go);

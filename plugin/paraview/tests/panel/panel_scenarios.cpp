@@ -15,19 +15,15 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QScreen>
-#include <QThread>
-#include <QTimer>
 #include <QToolButton>
 
 #include <cstdio>
-#include <memory>
 #include <stdexcept>
 
 #include "plugin/paraview/client/panel/session_controller.h"
 #include "plugin/paraview/tests/panel/busy_watch.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
-#include "plugin/testing/test_clocks.h"
 
 namespace {
 
@@ -35,7 +31,8 @@ void four_clicks() {
   feel();
   expect(clicks() <= 4, "it took at most four clicks");
   save_screen("four-clicks");
-  expect(label("palpateDepth").contains(QRegularExpression("^[0-9.]+ mm past .*, known to .[0-9.]+ mm$")),
+  const QRegularExpression depth("^[0-9.]+ mm past .*, known to .[0-9.]+ mm$");
+  expect(comes_true([&] { return label("palpateDepth").contains(depth); }),
          "the depth is told, the boundary, and how well it is known: " + label("palpateDepth").toStdString());
   expect(label("palpateTissue").contains("HU"), "the value is told");
   expect(label("palpateSolver").contains("error below"), "the error is told");
@@ -51,27 +48,20 @@ void escape_releases() {
   feel();
   press_key(Qt::Key_Escape);
   wait_for(
-      "the force is zero", [] { return number("palpateForce") == 0; }, 5);
+      "the force is zero", [] { return number("palpateForce") == 0; }, 20);
   wait_for(
-      "it says so", [] { return label("palpateState").startsWith("Ready"); }, 5);
+      "it says so", [] { return label("palpateState").startsWith("Ready"); }, 20);
   save_screen("released");
   click("palpateFeel");
   wait_for(
-      "forces are on again", [] { return forces_are_on(); }, 10);
+      "forces are on again", [] { return forces_are_on(); }, 20);
 }
 
 void escape_releases_under_a_dialog() {
   feel();
-  bool released = false;
-  QTimer::singleShot(1500, [&] {
-    expect(QApplication::activeModalWidget() != nullptr, "a dialog is open");
-    press_key(Qt::Key_Escape);
-    released = true;
-  });
-  click("palpateOpenScene");
-  expect(released, "the dialog has been there");
+  in_dialog("palpateOpenScene", [](QDialog&) { press_key(Qt::Key_Escape); });
   wait_for(
-      "the force is zero", [] { return number("palpateForce") == 0; }, 5);
+      "the force is zero", [] { return number("palpateForce") == 0; }, 20);
 }
 
 void a_tissue_is_switched() {
@@ -89,81 +79,81 @@ void a_tissue_is_switched() {
   }
   expect(switched > 0, "there are tissues to switch");
   wait_for(
-      "nothing is held any more", [&] { return number("palpateForce") < 0.3 * felt; }, 10);
+      "nothing is held any more", [&] { return number("palpateForce") < 0.3 * felt; }, 20);
   find<QCheckBox>("palpateOn0").click();
   wait_for(
-      "the switch is in the scene", [] { return scene_text().find("\"enabled\": true") != std::string::npos; }, 5);
+      "the switch is in the scene", [] { return scene_text().find("\"enabled\": true") != std::string::npos; }, 20);
 }
 
 void a_curve_is_edited_and_undone() {
   scan_is_shown();
   connect_stylus();
   click("palpateCurvesSectionFold");
-  wait_ms(500);
   const std::string before = scene_text();
   expect(!before.empty(), "the scene is in the pipeline");
   QWidget& chart = find<QWidget>("palpateStrengthCurveChart");
-  scroll_to(find<QWidget>("palpateStrengthCurveValue"));
-  wait_ms(500);
+  scroll_to(find<QWidget>("palpateStrengthCurveValue"), chart);
   const QPoint middle = chart.rect().center();
   drag(chart, middle, middle, true);  // where there is no node a click makes one
   wait_for(
-      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 20);
   drag(chart, middle, middle - QPoint(0, 25), true);
   save_screen("curve");
   wait_for(
-      "the edit is in the scene", [&] { return scene_text() != before; }, 5);
-  wait_ms(600);
-  const std::string edited = scene_text();
+      "the edit is in the scene", [&] { return scene_text() != before; }, 20);
+  const std::string edited = steady_scene();
   auto& value = find<QDoubleSpinBox>("palpateStrengthCurveValue");
   value.setValue(value.value() / 2);
   wait_for(
-      "the number is in the scene", [&] { return scene_text() != edited; }, 5);
+      "the number is in the scene", [&] { return scene_text() != edited; }, 20);
   click("palpateUndo");
   wait_for(
-      "undone", [&] { return scene_text() == edited; }, 5);
+      "undone", [&] { return scene_text() == edited; }, 20);
   click("palpateRedo");
   wait_for(
-      "done again", [&] { return scene_text() != edited; }, 5);
+      "done again", [&] { return scene_text() != edited; }, 20);
   for (int n = 0; n < 10 && scene_text() != before; ++n) click("palpateUndo");
   expect(scene_text() == before, "undo leads back to the scene as it was");
 }
 
 void a_fault_is_cleared() {
   feel();
-  QThread::msleep(3000);  // the program does nothing: nobody could release
+  hang();  // nobody could release
   wait_for(
       "the fault is told",
       [] {
         return label("palpateState").startsWith("Stopped: The panel stopped answering") &&
                find<QPushButton>("palpateFeel").text() == "Clear fault";
       },
-      10);
+      20);
   save_screen("fault");
-  expect(number("palpateForce") == 0, "the force was taken away");
+  wait_for(
+      "the force was taken away", [] { return number("palpateForce") == 0; }, 20);
   click("palpateFeel");  // "Clear fault"
   wait_for(
-      "it is ready, and no more", [] { return label("palpateState").startsWith("Ready: no force"); }, 10);
+      "it is ready, and no more", [] { return label("palpateState").startsWith("Ready: no force"); }, 20);
   wait_ms(1000);
   expect(label("palpateState").startsWith("Ready: no force") && number("palpateForce") == 0,
          "clearing a fault turns no force on");
   click("palpateFeel");
   wait_for(
-      "forces are on again", [] { return forces_are_on(); }, 10);
+      "forces are on again", [] { return forces_are_on(); }, 20);
 }
 
 void the_view_is_clutched() {
   feel();
-  expect(!find<QToolButton>("palpateFitView").isEnabled(), "the mapping stays while something is held");
+  wait_for(
+      "the mapping stays while something is held", [] { return !find<QToolButton>("palpateFitView").isEnabled(); }, 20);
   click("palpateClutch");
   wait_for(
-      "no force", [] { return number("palpateForce") == 0; }, 5);
-  expect(find<QToolButton>("palpateFitView").isEnabled(), "clutched, the mapping may change");
+      "no force", [] { return number("palpateForce") == 0; }, 20);
+  wait_for(
+      "clutched, the mapping may change", [] { return find<QToolButton>("palpateFitView").isEnabled(); }, 20);
   find<QCheckBox>("palpateTurn").setChecked(true);
   const std::string before = scene_text();
   click("palpateClutch");
   wait_for(
-      "forces are on again", [] { return forces_are_on(); }, 10);
+      "forces are on again", [] { return forces_are_on(); }, 20);
   expect(scene_text() != before, "the mapping is turned as the view is");
 }
 
@@ -173,12 +163,12 @@ void the_scan_changes_in_mid_contact() {
   click(*series.viewport(), series.visualItemRect(series.item(0)).center());
   feel();
   click("palpateScanSectionFold");
-  wait_ms(200);
+  is_laid_out(*series.viewport());
+  const unsigned before = reader_in_pipeline();
   const QRect other = series.visualItemRect(series.item(1));
   click(*series.viewport(), other.center());
-  wait_for("the other scan is shown",
-           [] { return !label("palpateState").isEmpty() && find<QPushButton>("palpateConnect").isEnabled(); });
-  wait_ms(3000);
+  another_scan_is_shown(before);
+  wait_ms(1500);
   expect(number("palpateForce") < 3.1, "the force keeps its limit");
   expect(find<QPushButton>("palpateConnect").text() == "Disconnect", "the stylus is still held");
 }
@@ -302,18 +292,12 @@ const Scenarios scenarios{
     {"closed_in_mid_contact", closed_in_mid_contact},
 };
 
-/// Ticks are never late, however busy the machine is: what is tested is the panel. Measurements have the computer's
-/// clock.
+/// What is tested is the panel, however busy the machine is. Measurements have the computer's clock.
 void choose_clock(const std::string& name) {
-  using palpate::plugin::testing::UnhurriedClock;
-  QWidget* const panel = widget("PalpatePanel");
-  if (!panel || name == "main_thread" || name == "first_image" || name.starts_with("rounds_of_")) return;
-  auto* const session = static_cast<palpate::plugin::SessionController*>(panel->findChild<QObject*>("palpateSession"));
-  expect(session != nullptr, "the panel has a session");
-  const bool is_left_alone = name == "a_fault_is_cleared" || name == "guide_fault" || name == "a_short_press_counts";
-  const auto then =
-      is_left_alone ? UnhurriedClock::WithoutHeartbeat::goes_on : UnhurriedClock::WithoutHeartbeat::stands_still;
-  session->set_clock([then](double period_s) { return std::make_unique<UnhurriedClock>(period_s, then); });
+  if (!widget("PalpatePanel") || name == "main_thread" || name == "first_image" || name.starts_with("rounds_of_"))
+    return;
+  const bool left_alone = name == "a_short_press_counts";
+  panel_session().set_clock([left_alone](double period_s) { return panel_clock(period_s, left_alone); });
 }
 
 }  // namespace

@@ -16,11 +16,20 @@
 #include <QListWidget>
 #include <QMimeData>
 #include <QPushButton>
+#include <QThread>
 #include <QUrl>
 
+#include <atomic>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <optional>
 #include <stdexcept>
 
+#include "plugin/paraview/client/panel/session_controller.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
+#include "plugin/testing/test_clocks.h"
+
+using namespace palpate;
 
 namespace {
 
@@ -60,13 +69,15 @@ void choose_series(int row) {
   scroll_to(series);
   series.scrollToItem(series.item(row));
   click(*series.viewport(), series.visualItemRect(series.item(row)).center());
-  wait_for("another scan is in the pipeline",
-           [&] { return reader_in_pipeline() != 0 && reader_in_pipeline() != before; });
-  scan_is_shown();
+  another_scan_is_shown(before);
 }
 
 std::string scene_text() {
   return text_beside_the_scene("Scene");
+}
+
+std::string steady_scene() {
+  return steady("the scene", [] { return QString::fromStdString(scene_text()); }).toStdString();
 }
 
 std::string marks_text() {
@@ -76,7 +87,21 @@ std::string marks_text() {
 void scan_is_shown() {
   wait_for("the scan is in the views", [] { return find<QPushButton>("palpateConnect").isEnabled(); });
   wait_for("its tissues are found", [] { return !find<QWidget>("palpateStudying").isVisible(); });
-  wait_ms(1500);
+  wait_for("nothing is being loaded", [] { return !find<QWidget>("palpateProgress").isVisible(); });
+  views_rest();
+}
+
+void another_scan_is_shown(unsigned before) {
+  wait_for("another scan is in the pipeline",
+           [&] { return reader_in_pipeline() != 0 && reader_in_pipeline() != before; });
+  scan_is_shown();
+}
+
+plugin::SessionController& panel_session() {
+  auto* const session =
+      static_cast<plugin::SessionController*>(find<QWidget>("PalpatePanel").findChild<QObject*>("palpateSession"));
+  expect(session != nullptr, "the panel has a session");
+  return *session;
 }
 
 bool forces_are_on() {
@@ -86,19 +111,85 @@ bool forces_are_on() {
 void turn_forces_on() {
   auto& feel = find<QPushButton>("palpateFeel");
   wait_for("it is known what the stylus does", [] { return !label("palpateState").isEmpty(); });
+  QString clicked_at;  // a press is answered later on a busy machine, and is not to be made twice
+  int turns = 0;
   wait_for("forces are on", [&] {
-    if (feel.isEnabled() && !label("palpateState").startsWith("Feeling")) {
+    const QString state = label("palpateState");
+    constexpr int unanswered = 200;
+    if (feel.isEnabled() && !state.startsWith("Feeling") && (state != clicked_at || ++turns > unanswered)) {
+      clicked_at = state;
+      turns = 0;
       click("palpateFeel");  // or "Clear fault" before it
-      wait_ms(100);
     }
     return forces_are_on();
   });
 }
 
+void stylus_rests() {
+  std::optional<plugin::SessionStatus> since;
+  wait_for("the stylus rests", [&] {
+    const plugin::SessionStatus& now = panel_session().last();
+    if (!now.connected) return true;
+    if (!now.fresh) return false;
+    constexpr double moved_mm = 0.1;
+    constexpr std::uint64_t long_enough = 100;
+    if (!since || now.tick.index < since->tick.index || glm::distance(now.probe_mm, since->probe_mm) > moved_mm) {
+      since = now;
+    }
+    return now.tick.index >= since->tick.index + long_enough;
+  });
+}
+
+void step_hand(QWidget& in, const char* key) {
+  const glm::dvec3 before = panel_session().hand_mm();
+  press_key_in(in, key);
+  constexpr double half_a_step_mm = 0.5;
+  wait_for(
+      std::string("the key ") + key + " moves the hand",
+      [&] { return glm::distance(panel_session().hand_mm(), before) > half_a_step_mm; }, 20);
+}
+
 void connect_stylus() {
   click("palpateConnect");
   turn_forces_on();
-  wait_ms(1500);
+  stylus_rests();
+  views_rest();
+}
+
+namespace {
+
+std::atomic<bool> hangs{false};
+
+class PanelClock : public plugin::ServoClock {
+ public:
+  PanelClock(double period_s, bool left_alone)
+      : goes_on_(period_s, plugin::testing::UnhurriedClock::WithoutHeartbeat::goes_on),
+        stands_still_(period_s, plugin::testing::UnhurriedClock::WithoutHeartbeat::stands_still),
+        left_alone_(left_alone) {}
+  Deadline wait(std::uint64_t heartbeats) noexcept override {
+    return left_alone_ || hangs ? goes_on_.wait(heartbeats) : stands_still_.wait(heartbeats);
+  }
+
+ private:
+  plugin::testing::UnhurriedClock goes_on_, stands_still_;
+  bool left_alone_;
+};
+
+}  // namespace
+
+std::unique_ptr<plugin::ServoClock> panel_clock(double period_s, bool left_alone) {
+  return std::make_unique<PanelClock>(period_s, left_alone);
+}
+
+void hang() {
+  const plugin::TickRing* const ticks = panel_session().live().ticks();
+  expect(ticks != nullptr, "a stylus is connected");
+  constexpr std::uint64_t enough = 3000;  // of the 2000 that a servo allows at 1 kHz
+  const std::uint64_t end = ticks->written() + enough;
+  hangs = true;
+  for (int n = 0; n < 6000 && ticks->written() < end; ++n) QThread::msleep(10);
+  hangs = false;
+  expect(ticks->written() >= end, "the servo ticks while the program hangs");
 }
 
 namespace {
@@ -116,12 +207,14 @@ void press() {
   QWidget& sagittal = view("Sagittal");
   const QPoint from = proxy_in(sagittal);
   drag(sagittal, from, from + QPoint(4, 0), false);  // the front is on the left
+  stylus_rests();
   for (int pixels = 8; pixels < 120 && number("palpateForce") < 0.3; pixels += 4) {
     move_pointer(sagittal, from + QPoint(pixels, 0));
+    stylus_rests();
   }
   wait_for(
-      "a force is felt", [] { return number("palpateForce") > 0.2; }, 5);
-  wait_ms(500);
+      "a force is felt", [] { return number("palpateForce") > 0.2; }, 20);
+  stylus_rests();
 }
 
 void press_once() {
@@ -129,16 +222,16 @@ void press_once() {
   const auto send = [&](unsigned long event, const QPoint& at) {
     hand.SetEventInformation(at.x(), view("Sagittal").height() - 1 - at.y());
     hand.InvokeEvent(event);
-    wait_ms(40);
+    stylus_rests();
   };
   turn_forces_on();
   const QPoint at = proxy_in(view("Sagittal"));
   send(vtkCommand::LeftButtonPressEvent, at);
-  for (int pixels = 0; pixels < 160 && number("palpateForce") < 0.3; pixels += 2) {
+  for (int pixels = 0; pixels < 160 && number("palpateForce") < 0.3; pixels += 4) {
     send(vtkCommand::MouseMoveEvent, at + QPoint(pixels, 0));
   }
-  expect(number("palpateForce") > 0.2, "a force is felt");
-  wait_ms(300);
+  wait_for(
+      "a force is felt", [] { return number("palpateForce") > 0.2; }, 20);
   send(vtkCommand::LeftButtonReleaseEvent, at);
 }
 

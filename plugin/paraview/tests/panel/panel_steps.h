@@ -3,11 +3,19 @@
 /// What most scenarios begin with.
 
 #include <QString>
+#include <QWidget>
 
 #include <map>
+#include <memory>
 #include <string>
 
+#include "plugin/session/servo_clock.h"
+
 class pqPipelineSource;
+
+namespace palpate::plugin {
+class SessionController;
+}
 
 /// A scenario by its name.
 using Scenarios = std::map<std::string, void (*)()>;
@@ -45,19 +53,33 @@ unsigned reader_in_pipeline();
 void choose_series(int row);
 /// The JSON text of the scene in the pipeline; empty where there is none.
 std::string scene_text();
+/// The same once it stays: no edit is on its way.
+std::string steady_scene();
 /// The marks' text in the pipeline, which holds those of all scans.
 std::string marks_text();
-/// Waits for the scan and its tissues.
+/// Waits for the scan and its tissues, and until the views rest.
 void scan_is_shown();
+/// The same where a scan is shown already: for one whose reader is another than `before`.
+void another_scan_is_shown(unsigned before);
+/// The panel's own session.
+palpate::plugin::SessionController& panel_session();
 /// Connects, and turns the forces on.
 void connect_stylus();
 /// Feel, after a fault is cleared where there is one.
 void turn_forces_on();
 bool forces_are_on();
+/// Until the stylus has kept its place for a tenth of a second of its own time, in which it ticks.
+void stylus_rests();
+/// One step of the hand, by a key in a view: returns once the hand wants to be elsewhere.
+void step_hand(QWidget& in, const char* key);
+/// The program hangs as long as it takes the servo to see it: no event is handled meanwhile.
+void hang();
+/// The servo's clock in a scenario: its ticks are never late, and time stands still while the program is too busy to
+/// be seen alive, unless it hangs or is `left_alone`.
+std::unique_ptr<palpate::plugin::ServoClock> panel_clock(double period_s, bool left_alone);
 /// Presses from the front, slowly, until something is felt; the button stays down.
 void press();
-/// The same, and lets go, by the view's own events instead of the display's pointer, which takes long; once more where
-/// a busy machine's servo has taken the force away meanwhile.
+/// The same, and lets go, by the view's own events instead of the display's pointer, which takes long.
 void press_once();
 /// Waits for the scan, connects, and presses.
 void feel();

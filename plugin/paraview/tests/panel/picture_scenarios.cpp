@@ -9,7 +9,6 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QSlider>
-#include <QThread>
 #include <QToolButton>
 #include <QWidget>
 #include <QWindow>
@@ -104,7 +103,7 @@ void guide_pictures() {
 void guide_fault() {
   scan_is_shown();
   connect_stylus();
-  QThread::sleep(3);  // as if the program hung: the servo takes the force away
+  hang();  // the servo takes the force away
   wait_for("the fault is told", [] { return find<QPushButton>("palpateFeel").text() == "Clear fault"; });
   arrange(QGuiApplication::primaryScreen()->size(), 460);
   save_widget("fault", "palpateFooter");
