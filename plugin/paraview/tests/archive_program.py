@@ -68,15 +68,17 @@ class Orthanc:
         self.log = open(os.path.join(self.folder, "orthanc.log"), "w")
         self.process = subprocess.Popen([PROGRAM, self.settings], env=dict(os.environ, TCP_NODELAY="1"), stdout=self.log,
                                         stderr=self.log)
-        for _ in range(1000):
+        for _ in range(3000):  # a busy machine; on a quiet one it takes a second
             if is_listening(self.port):
                 return self
+            if self.process.poll() is not None:
+                break
             time.sleep(0.02)
         raise RuntimeError("Orthanc did not start: see " + self.log.name)
 
     def __exit__(self, *_):
         self.process.terminate()
-        self.process.wait(20)
+        self.process.wait(60)
         self.log.close()
 
     def fill(self, folder):

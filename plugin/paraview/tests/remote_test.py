@@ -130,7 +130,7 @@ def run(scenario, ranks, here):
     try:
         result = subprocess.run(["paraview"], cwd=local, env=environment, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True,
-                                timeout=int(os.environ.get("PALPATE_PATIENCE", "240")))
+                                timeout=int(os.environ.get("PALPATE_PATIENCE", "560")))
     except subprocess.TimeoutExpired as late:
         print(f"{scenario}, {ranks} ranks: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}")
         return False
