@@ -1,7 +1,6 @@
 // From an archive to a felt boundary: search, fetch, feel; what lies on disk; an archive that is entered, and one that
 // never ends. archive_test.py starts the archives.
 
-#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
@@ -13,11 +12,9 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTabBar>
-#include <QTimer>
 #include <QTreeWidget>
 #include <QtTest/QTest>
 
-#include <exception>
 #include <string>
 
 #include "plugin/paraview/tests/panel/busy_watch.h"
@@ -130,23 +127,6 @@ void what_was_kept_is_emptied() {
   wait_for("it is gone", [] { return label("palpateOnDisk") == "On disk: 0 series, 0.0 MiB"; });
 }
 
-/// What a user does in a dialog, while it is open.
-void in_dialog(const std::function<void(QDialog&)>& act) {
-  std::exception_ptr failed;
-  QTimer::singleShot(500, [&] {
-    auto* const dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;
-    try {
-      act(*dialog);
-    } catch (...) {
-      failed = std::current_exception();
-      dialog->reject();
-    }
-  });
-  click("palpateArchiveAdd");
-  if (failed) std::rethrow_exception(failed);
-}
-
 bool dialog_says(const char* sentence) {
   return label("palpateArchiveDialogMessage") == sentence;
 }
@@ -161,7 +141,7 @@ void an_archive_is_entered() {
   wait_for("it is said that there is none",
            [] { return is_told("No archive is entered yet: press Add and ask who runs yours for the five entries."); });
   bool entered = false;
-  in_dialog([&](QDialog& dialog) {
+  in_dialog("palpateArchiveAdd", [&](QDialog& dialog) {
     click("palpateArchiveOk");
     expect(dialog_says("An archive needs a name."), "a name is asked for");
     find<QLineEdit>("palpateArchiveName").setText("clinic");
@@ -199,7 +179,7 @@ void an_archive_is_entered_with_tls() {
   const QString certificates = qEnvironmentVariable("PALPATE_CERTIFICATES") + "/";
   open_archive_tab();
   bool entered = false;
-  in_dialog([&](QDialog& dialog) {
+  in_dialog("palpateArchiveAdd", [&](QDialog& dialog) {
     find<QLineEdit>("palpateArchiveName").setText("clinic");
     find<QLineEdit>("palpateArchiveHost").setText("127.0.0.1");
     find<QSpinBox>("palpateArchivePort").setValue(qEnvironmentVariableIntValue("PALPATE_ARCHIVE_PORT"));
@@ -239,21 +219,25 @@ void a_fetch_is_cancelled() {
   click("palpateFetch");
   auto& progress = find<QProgressBar>("palpateFetching");
   wait_for("it is fetched", [&] { return progress.isVisible(); });
-  wait_ms(2000);
+  const auto is_empty = [](const QString& folder) {
+    return QDir(folder).entryList(QDir::NoDotAndDotDot | QDir::AllEntries).isEmpty();
+  };
+  wait_for("something has come", [&] { return !is_empty(fetched_folder() + "/run-001"); });
   save_screen("archive-fetching");
   {
     const BusyWatch watch;
     click("palpateFetchCancel");
-    wait_ms(200);
+    wait_for(
+        "it is said", [] { return is_told("Cancelled."); }, 20);
     const auto stretches = watch.without_rendering();
-    expect(stretches.empty() || stretches.front() < 100, "nothing waits for the archive");
+    constexpr double longest_ms = 1000;  // a busy machine, and much less than an archive is waited for
+    expect(stretches.empty() || stretches.front() < longest_ms, "nothing waits for the archive");
   }
-  expect(is_told("Cancelled."), "it is said");
-  expect(!progress.isVisible() && find<QPushButton>("palpateFetch").isEnabled(), "it can be fetched again");
   wait_for(
-      "nothing is left of it",
-      [] { return QDir(fetched_folder() + "/run-001").entryList(QDir::NoDotAndDotDot | QDir::AllEntries).isEmpty(); },
-      10);
+      "it can be fetched again", [&] { return !progress.isVisible() && find<QPushButton>("palpateFetch").isEnabled(); },
+      20);
+  wait_for(
+      "nothing is left of it", [&] { return is_empty(fetched_folder() + "/run-001"); }, 20);
 }
 
 }  // namespace

@@ -1,14 +1,10 @@
 // Marks that are sent to an archive, and the dialog that shows before what would be sent.
 
-#include <QApplication>
 #include <QComboBox>
 #include <QDialog>
 #include <QFile>
 #include <QPushButton>
-#include <QTimer>
 
-#include <exception>
-#include <functional>
 #include <string>
 
 #include "plugin/paraview/tests/panel/mark_steps.h"
@@ -20,26 +16,6 @@ namespace {
 
 using namespace palpate;
 
-/// What a user does in the dialog that shows what would be sent.
-void in_send_dialog(const std::function<void(QDialog&)>& act) {
-  std::exception_ptr failed;
-  bool came = false;
-  QTimer::singleShot(700, [&] {
-    auto* const dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;
-    came = true;
-    try {
-      act(*dialog);
-    } catch (...) {
-      failed = std::current_exception();
-      dialog->reject();
-    }
-  });
-  click("palpateSendMarks");
-  if (failed) std::rethrow_exception(failed);
-  expect(came, "it is shown what would be sent");
-}
-
 /// On a scan that lies in the archive, too; archive_test.py looks what has come there.
 void marks_are_sent() {
   scan_is_shown();
@@ -48,7 +24,7 @@ void marks_are_sent() {
   choose_marks({0, 1});
   click("palpateKeepMeasure");
   has_rows(4, "a distance is kept");
-  in_send_dialog([](QDialog& dialog) {
+  in_dialog("palpateSendMarks", [](QDialog& dialog) {
     expect(label("palpateSendPatient") == "Muster, Erika  ·  P1",
            "for whom: " + label("palpateSendPatient").toStdString());
     expect(label("palpateSendStudy").startsWith("2026-01-01"), "of which day");
@@ -62,7 +38,7 @@ void marks_are_sent() {
   wait_ms(300);
   expect(label("palpateMarkMessage").isEmpty() && !find<QWidget>("palpateSending").isVisible(),
          "what is only looked at is not sent");
-  in_send_dialog([](QDialog&) { click("palpateSendOk"); });
+  in_dialog("palpateSendMarks", [](QDialog&) { click("palpateSendOk"); });
   wait_for("they are sent", [] { return label("palpateMarkMessage") == "Sent to clinic: a report and 3 pictures."; });
   QFile file(beside_pictures("sent-marks.json"));
   expect(file.open(QIODevice::WriteOnly), "what was sent can be told");
@@ -75,7 +51,7 @@ void marks_are_not_sent() {
   expect(!find<QPushButton>("palpateSendMarks").isEnabled(), "there is nothing to send");
   connect_stylus();
   mark_three();
-  in_send_dialog([](QDialog&) { click("palpateSendOk"); });
+  in_dialog("palpateSendMarks", [](QDialog&) { click("palpateSendOk"); });
   wait_for("it is said why not", [] {
     return label("palpateMarkMessage").contains("clinic (127.0.0.1:1) cannot be reached (connection refused)");
   });
