@@ -3,13 +3,13 @@
 #include <pqCoreUtilities.h>
 #include <pqTabbedMultiViewWidget.h>
 
-#include <QApplication>
 #include <QCoreApplication>
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QLabel>
 #include <QListWidget>
 #include <QMainWindow>
@@ -18,7 +18,6 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
-#include <QTimer>
 #include <QUrl>
 
 #include <string>
@@ -94,7 +93,7 @@ QPushButton& best_card() {
 
 void click_card(QPushButton& card) {
   page().ensureWidgetVisible(&card);
-  wait_ms(200);
+  is_laid_out(card);
   click(card, card.rect().center());
 }
 
@@ -151,7 +150,8 @@ void a_scan_is_chosen_in_the_center() {
   click_card(*cards().back());
   scan_is_shown();
   drop_folder(qEnvironmentVariable("PALPATE_OTHER"));
-  wait_ms(3000);
+  wait_for("they are listed again", [] { return find<QListWidget>("palpateSeries").count() == 2; });
+  wait_ms(1000);
   expect(reader_in_pipeline() != 0 && views_are_there(), "the same patient's scan stays while one chooses again");
 }
 
@@ -161,14 +161,13 @@ void folders_are_opened_again() {
   drop_on_page(qEnvironmentVariable("PALPATE_DROP"));
   scan_is_shown();
   QString began;
-  QTimer::singleShot(800, [&] {
-    auto* const dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;
-    began = dialog->directory().absolutePath();
-    dialog->reject();
-  });
   click("palpateScanSectionFold");
-  click("palpateOpen");
+  in_dialog("palpateOpen", [&](QDialog& dialog) {
+    auto* const asks = qobject_cast<QFileDialog*>(&dialog);
+    expect(asks != nullptr, "a folder is asked for");
+    began = asks->directory().absolutePath();
+    dialog.reject();
+  });
   expect(began == QFileInfo(qEnvironmentVariable("PALPATE_DROP")).dir().absolutePath(),
          "the dialog begins where one was last: " + began.toStdString());
 }
