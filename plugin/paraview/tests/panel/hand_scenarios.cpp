@@ -8,12 +8,10 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
-#include <QApplication>
 #include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
-#include <QTimer>
 #include <QWidget>
 
 #include <cmath>
@@ -23,16 +21,16 @@
 
 namespace {
 
-/// Presses the key until it is felt, with a step's time for each; how often it was pressed.
+/// Presses the key until it is felt, once the stylus rests after each; how often it was pressed.
 int press_until_felt(QWidget& in, const char* key, double newtons) {
   int presses = 0;
   while (number("palpateForce") < newtons && presses < 60) {
-    press_key_in(in, key);
+    step_hand(in, key);
     ++presses;
-    wait_ms(60);
+    stylus_rests();
   }
   wait_for(
-      "a force is felt", [&] { return number("palpateForce") >= 0.8 * newtons; }, 10);
+      "a force is felt", [&] { return number("palpateForce") >= 0.8 * newtons; }, 20);
   return presses;
 }
 
@@ -42,14 +40,16 @@ void keys_step_in_the_views() {
   connect_stylus();
   QWidget& coronal = view("Coronal");
   const QPoint before = proxy_in(coronal);
-  for (int n = 0; n < 10; ++n) press_key_in(coronal, "Right");
-  wait_for("the proxy goes to the right", [&] { return proxy_in(coronal).x() > before.x() + 4; });
-  for (int n = 0; n < 10; ++n) press_key_in(coronal, "Left");
-  wait_for("and back", [&] { return std::abs(proxy_in(coronal).x() - before.x()) <= 3; });
-  for (int n = 0; n < 8; ++n) press_key_in(coronal, "Up");
-  wait_for("it goes up", [&] { return proxy_in(coronal).y() < before.y() - 4; });
-  for (int n = 0; n < 8; ++n) press_key_in(coronal, "Down");
-  wait_for("and down again", [&] { return std::abs(proxy_in(coronal).y() - before.y()) <= 3; });
+  const auto across = [&] { return proxy_now(coronal).value_or(before).x(); };
+  const auto down = [&] { return proxy_now(coronal).value_or(before).y(); };
+  for (int n = 0; n < 10; ++n) step_hand(coronal, "Right");
+  wait_for("the proxy goes to the right", [&] { return across() > before.x() + 4; });
+  for (int n = 0; n < 10; ++n) step_hand(coronal, "Left");
+  wait_for("and back", [&] { return std::abs(across() - before.x()) <= 3; });
+  for (int n = 0; n < 8; ++n) step_hand(coronal, "Up");
+  wait_for("it goes up", [&] { return down() < before.y() - 4; });
+  for (int n = 0; n < 8; ++n) step_hand(coronal, "Down");
+  wait_for("and down again", [&] { return std::abs(down() - before.y()) <= 3; });
   expect(number("palpateForce") == 0, "nothing was touched on the way");
 
   // Away from the eye, from the front: into the patient, past some of the 6.5 mm of air that the phantom has before
@@ -57,7 +57,7 @@ void keys_step_in_the_views() {
   const int presses = press_until_felt(coronal, "Prior", 0.3);
   expect(presses >= 3 && presses <= 20, "a step is a millimeter: " + std::to_string(presses) + " presses");
   save_screen("keys");
-  for (int n = 0; n < 10; ++n) press_key_in(coronal, "Next");
+  for (int n = 0; n < 10; ++n) step_hand(coronal, "Next");
   wait_for("towards the eye it is free again", [] { return number("palpateForce") < 0.02; });
 }
 
@@ -87,24 +87,23 @@ void a_color_is_chosen() {
   looks.setCurrentText(QStringLiteral("Felt boundaries"));
   emit looks.activated(looks.currentIndex());
   expect(!shown(), "the color is a new one");
-  QTimer::singleShot(1500, [] {
-    auto* const dialog = qobject_cast<QColorDialog*>(QApplication::activeModalWidget());
-    expect(dialog != nullptr, "the dialog of colors is open");
-    dialog->setCurrentColor(QColor(0x12, 0x34, 0x56));
+  in_dialog("palpateColor0", [](QDialog& dialog) {
+    auto* const colors = qobject_cast<QColorDialog*>(&dialog);
+    expect(colors != nullptr, "the dialog of colors is open");
+    colors->setCurrentColor(QColor(0x12, 0x34, 0x56));
     save_screen("colors");
-    dialog->accept();
+    colors->accept();
   });
-  click("palpateColor0");
   wait_for(
-      "the color is in the scene", [] { return scene_text().find("#123456") != std::string::npos; }, 10);
+      "the color is in the scene", [] { return scene_text().find("#123456") != std::string::npos; }, 20);
   expect(find<QWidget>("palpateColor0").styleSheet().contains("#123456"), "its swatch has it");
-  wait_for("the volume has it", shown, 10);
+  wait_for("the volume has it", shown, 20);
   click("palpateCurvesSectionFold");
   click("palpateUndo");
   wait_for(
-      "the scene is as it was", [&] { return scene_text() == before; }, 10);
+      "the scene is as it was", [&] { return scene_text() == before; }, 20);
   wait_for(
-      "and the volume", [&] { return !shown(); }, 10);
+      "and the volume", [&] { return !shown(); }, 20);
 }
 
 /// While the button is still down: what is dragged is felt at once, and is in the undo stack as one edit after it.
@@ -113,28 +112,24 @@ void a_dragged_node_is_felt() {
   connect_stylus();
   find<QDoubleSpinBox>("palpateStrength0").setValue(1);
   press_until_felt(view("Coronal"), "Prior", 0.6);
-  wait_ms(500);
   const double felt = number("palpateForce");
   click("palpateCurvesSectionFold");
-  wait_ms(500);
   QWidget& chart = find<QWidget>("palpateStrengthCurveChart");
-  scroll_to(find<QWidget>("palpateStrengthCurveValue"));
-  wait_ms(500);
+  scroll_to(find<QWidget>("palpateStrengthCurveValue"), chart);
   // The last one: what is as steep as a boundary can be.
   const QPoint node(chart.width() - 8, chart.height() * 2 / 3);
   drag(chart, node, node, true);  // where there is none a click makes one
   wait_for(
-      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
-  wait_ms(600);
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 20);
+  const std::string before = steady_scene();
   expect(number("palpateForce") > 0.7 * felt, "it is still felt");
-  const std::string before = scene_text();
   drag(chart, node, QPoint(node.x(), chart.height() - 6), false);
   wait_for(
-      "the force falls while the node is dragged", [&] { return number("palpateForce") < 0.6 * felt; }, 10);
+      "the force falls while the node is dragged", [&] { return number("palpateForce") < 0.6 * felt; }, 20);
   save_screen("node-dragged");
   let_go();
   wait_for(
-      "the edit is in the scene", [&] { return scene_text() != before; }, 10);
+      "the edit is in the scene", [&] { return scene_text() != before; }, 20);
 }
 
 }  // namespace

@@ -70,10 +70,10 @@ void expect_edge_under_stylus() {
   QWidget& coronal = view("Coronal");
   for (int presses = 0; number("palpateForce") < 0.3; ++presses) {
     expect(presses < 80, "the ball is felt");
-    press_key_in(coronal, "Prior");
-    wait_ms(60);
+    step_hand(coronal, "Prior");
+    stylus_rests();
   }
-  wait_ms(1500);
+  views_rest();
   const double degree = std::acos(-1) / 180, about_z = std::cos(20 * degree), about_x = std::cos(10 * degree);
   const double left = off_center("Sagittal", "L", "R", center_l, about_z);
   const double back = off_center("Coronal", "P", "A", center_p, about_z * about_x);
@@ -109,9 +109,9 @@ void other_files_are_opened_and_felt() {
   expect_edge_under_stylus();
   save_screen("nifti");
   click("palpateConnect");  // no stylus any more that the slices would follow
+  const unsigned nifti = reader_in_pipeline();
   drop_folder(qEnvironmentVariable("PALPATE_NRRD"));
-  wait_ms(1000);
-  scan_is_shown();
+  another_scan_is_shown(nifti);
   expect(identity_text("Axial").contains("ball.nrrd"),
          "the other file is shown: " + identity_text("Axial").toStdString());
   turn_wheel("Coronal", 0);
