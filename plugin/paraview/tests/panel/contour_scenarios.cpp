@@ -135,8 +135,7 @@ void boundaries_are_drawn_where_they_are_felt() {
   // A node of the gate is dragged, and the line follows before it is let go.
   click("palpateCurvesSectionFold");
   QWidget& gate = find<QWidget>("palpateGateCurveChart");
-  scroll_to(find<QWidget>("palpateGateCurveValue"));
-  wait_ms(500);
+  scroll_to(find<QWidget>("palpateGateCurveValue"), gate);
   const double before = mean_radius(drawn_in("Axial"));
   const QPoint node(gate.width() / 3, gate.height() / 2);
   drag(gate, node, node + QPoint(-gate.width() / 5, -gate.height() / 3), false);
@@ -152,13 +151,13 @@ void boundaries_are_drawn_where_they_are_felt() {
 
   find<QCheckBox>("palpateOn0").click();
   wait_for(
-      "what is switched off is not drawn", [] { return drawn_in("Axial").empty(); }, 10);
+      "what is switched off is not drawn", [] { return drawn_in("Axial").empty(); }, 20);
   find<QCheckBox>("palpateOn0").click();
   wait_for(
-      "and comes back", [] { return !drawn_in("Axial").empty(); }, 10);
+      "and comes back", [] { return !drawn_in("Axial").empty(); }, 20);
   find<QCheckBox>("palpateContours").setChecked(false);
   wait_for(
-      "lines can be put away", [] { return drawn_in("Sagittal").empty(); }, 10);
+      "lines can be put away", [] { return drawn_in("Sagittal").empty(); }, 20);
 }
 
 /// Pixels of a view's picture that have about that color.

@@ -88,10 +88,10 @@ void measure_the_ball(QWidget& axial) {
   const QString window = corner_text("Axial");
   press_key_in(axial, "l");
   wait_for(
-      "the toolbar knows", [] { return find<QToolButton>("palpateRulerButton").isChecked(); }, 5);
+      "the toolbar knows", [] { return find<QToolButton>("palpateRulerButton").isChecked(); }, 20);
   drag(axial, {left, middle.y()}, {right, middle.y()}, true);
   wait_for(
-      "a length is told", [] { return measured_in("Axial").size() == 1; }, 5);
+      "a length is told", [] { return measured_in("Axial").size() == 1; }, 20);
   const double length = measured_in("Axial").first().section(' ', 0, 0).toDouble();
   expect(std::abs(length - ball_mm) < 0.025 * ball_mm,
          "the ball is 50 mm wide: " + measured_in("Axial").first().toStdString());
@@ -105,7 +105,7 @@ void measure_an_angle(QWidget& axial) {
   drag(axial, corner + QPoint(90, 0), corner, true);
   drag(axial, corner + QPoint(60, -60), corner + QPoint(60, -60), true);
   wait_for(
-      "an angle is told", [] { return measured_in("Axial").size() == 2; }, 5);
+      "an angle is told", [] { return measured_in("Axial").size() == 2; }, 20);
   const QString angle = measured_in("Axial").last();
   expect(angle.endsWith("°") && std::abs(angle.section(QChar(0xb0), 0, 0).toDouble() - 45) < 1.5,
          "it is 45 degrees: " + angle.toStdString());
@@ -115,7 +115,7 @@ void measure_an_angle(QWidget& axial) {
 void slices_are_read_and_measured() {
   scan_is_shown();
   find<QCheckBox>("palpateContours").setChecked(false);
-  wait_ms(500);
+  views_rest();
   QWidget& axial = view("Axial");
   expect_texts();
   expect_height("at first");
@@ -132,44 +132,45 @@ void slices_are_read_and_measured() {
   expect(measured_in("Axial").size() == 2, "but on its own");
   press_key_in(axial, "Delete");
   wait_for(
-      "the key takes the last away", [] { return measured_in("Axial").size() == 1; }, 5);
+      "the key takes the last away", [] { return measured_in("Axial").size() == 1; }, 20);
   press_key_in(axial, "Delete");
   wait_for(
-      "and the one before it", [] { return measured_in("Axial").isEmpty(); }, 5);
+      "and the one before it", [] { return measured_in("Axial").isEmpty(); }, 20);
 
   const int at_bar = axial.width() - 4;
   drag(axial, {at_bar, axial.height() / 2}, {at_bar, 1}, true);
   const QStringList heights = qEnvironmentVariable("PALPATE_HEIGHTS").split(' ');
   const double highest = std::max(heights.first().toDouble(), heights.last().toDouble());
   wait_for(
-      "the bar leads to the head's end", [&] { return std::abs(height_told() - highest) < 0.06; }, 5);
+      "the bar leads to the head's end", [&] { return std::abs(height_told() - highest) < 0.06; }, 20);
   expect_height("after the bar");
 
   const QPoint low(axial.width() / 4, axial.height() * 3 / 4);
   drag(axial, low, low + QPoint(40, 10), true);
   wait_for(
-      "the window is nobody's", [] { return corner_text("Coronal").endsWith("custom"); }, 5);
+      "the window is nobody's", [] { return corner_text("Coronal").endsWith("custom"); }, 20);
   press_key_in(axial, "1");
   wait_for(
-      "and has its name again", [] { return corner_text("Coronal").endsWith("Soft tissue"); }, 5);
+      "and has its name again", [] { return corner_text("Coronal").endsWith("Soft tissue"); }, 20);
 
   const int written = yellow_in_corner(axial.grab().toImage());
   expect(written > 60, "the patient is told in the picture on the screen: " + std::to_string(written));
   const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/read.png");
   click("palpateOneUpButton");
-  wait_ms(1000);
+  is_laid_out(axial);
+  views_rest();
   save_as("palpatePictureButton", file);
   const int saved = yellow_in_corner(QImage(file));
   expect(saved == 0, "but in no picture that is saved: " + std::to_string(saved));
   click("palpateFourUpButton");
-  wait_ms(500);
+  is_laid_out(axial);
   press_key_in(axial, "i");
   wait_for(
       "the key takes the texts away", [] { return identity_text("Axial").isEmpty() && corner_text("Axial").isEmpty(); },
-      5);
+      20);
   press_key_in(axial, "i");
   wait_for(
-      "and brings them back", [] { return identity_text("Axial").contains("DOE"); }, 5);
+      "and brings them back", [] { return identity_text("Axial").contains("DOE"); }, 20);
 }
 
 }  // namespace

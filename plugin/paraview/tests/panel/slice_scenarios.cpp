@@ -24,7 +24,8 @@ void expect_begins_in_sight() {
   click("palpateConnect");
   wait_for(
       "it is ready", [] { return label("palpateState").startsWith("Ready: no force"); }, 20);
-  wait_ms(1500);
+  stylus_rests();
+  views_rest();
   expect(label("palpateState").startsWith("Ready: no force") && number("palpateForce") == 0,
          "connecting turns no force on");
   expect(number("palpateTissue") < -300, "it is in air: " + label("palpateTissue").toStdString());
@@ -49,8 +50,7 @@ void the_hand_begins_in_sight() {
   click("palpateConnect");
   // The reach is the user's: a scene does not change it.
   click("palpateOneToOne");
-  wait_ms(300);
-  const QString reach = label("palpateScale");
+  const QString reach = steady("the reach", [] { return label("palpateScale"); });
   auto& scenes = find<QComboBox>("palpateScenes");
   for (const int choice : {1, 0}) {
     scenes.setCurrentIndex(choice);
@@ -75,11 +75,10 @@ void keys_go_to_the_marked_view() {
   auto& stiffness = find<QDoubleSpinBox>("palpateStiffness");
   const double before = stiffness.value();
   move_pointer(find<QWidget>("palpateFeel"), QPoint(5, 5));  // where it was when Feel was clicked
-  wait_ms(500);
   const QPoint at = proxy_in(coronal);
   for (int n = 0; n < 8; ++n) type_key("Up");
   wait_for(
-      "the stylus goes up", [&] { return proxy_in(coronal).y() < at.y() - 4; }, 10);
+      "the stylus goes up", [&] { return proxy_now(coronal).value_or(at).y() < at.y() - 4; }, 20);
   expect(stiffness.value() == before, "no number has changed");
   // A number that is clicked takes them, until another button is clicked.
   scroll_to(stiffness);
@@ -87,7 +86,7 @@ void keys_go_to_the_marked_view() {
   type_key("Up");
   wait_for(
       "the number that was clicked has changed", [&] { return stiffness.value() == before + stiffness.singleStep(); },
-      5);
+      20);
   click("palpateRelease");
   press_key(Qt::Key_Up);
   wait_ms(300);
@@ -131,18 +130,18 @@ void slices_are_scrolled() {
 
   // Following does not undo scrolling.
   connect_stylus();
-  wait_ms(800);
   const int through = slice_number("Axial");
   turn_wheel("Axial", 6);
   const int leafed = slice_number("Axial");
   expect(std::abs(leafed - through) == 6, "the wheel leafs");
-  press_key_in(view("Coronal"), "Right");
+  step_hand(view("Coronal"), "Right");
+  stylus_rests();
   wait_ms(1500);
   expect(slice_number("Axial") == leafed, "the slice stays, though the stylus moves");
   save_screen("leafed");
   click("palpateGoToStylus");
   wait_for(
-      "Go to stylus leads back", [&] { return slice_number("Axial") == through; }, 5);
+      "Go to stylus leads back", [&] { return slice_number("Axial") == through; }, 20);
 }
 
 /// With Shift held down the pointer takes the other slices along, and the crosshair stands where they are.

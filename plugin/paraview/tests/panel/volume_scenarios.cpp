@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -81,18 +82,18 @@ int of_skin(int top, int bottom) {
   return count;
 }
 
-/// In the middle of the handle's blue that is highest.
-QPoint highest_handle() {
+/// In the middle of the handle's blue that is highest; nothing where none is seen.
+std::optional<QPoint> highest_handle() {
   const QImage picture = view("Volume").grab().toImage();
   const int edge = 10;
   for (int y = edge; y < picture.height() - edge; ++y) {
     for (int x = edge; x < picture.width() - edge; ++x) {
       const QColor color = picture.pixelColor(x, y);
       const bool blue = color.blue() > 90 && color.blue() > 1.15 * color.green() && color.green() > 1.5 * color.red();
-      if (blue) return {x, y + 4};
+      if (blue) return QPoint(x, y + 4);
     }
   }
-  throw std::runtime_error("there is no handle");
+  return {};
 }
 
 /// A ball on a table.
@@ -103,6 +104,7 @@ void the_table_is_cut_away() {
   expect(cut.isChecked(), "it is cut away at first");
   wait_for(
       "the ball alone is seen", [] { return is_round(seen()); }, 20);
+  views_rest();
   const QRect ball = seen();
   save_screen("without-table");
   cut.trigger();
@@ -114,17 +116,22 @@ void the_table_is_cut_away() {
       "and the ball alone again", [] { return is_round(seen()); }, 20);
 
   action("palpateCropBox").trigger();
-  wait_ms(1500);
+  wait_for(
+      "there is a handle", [] { return highest_handle().has_value(); }, 20);
+  views_rest();
   save_screen("crop-box");
-  const QPoint handle = highest_handle();
+  const QPoint handle = *highest_handle();
   const int whole_top = of_skin(ball.top(), ball.center().y()), whole_low = of_skin(ball.center().y(), ball.bottom());
   drag(view("Volume"), handle, handle + QPoint(0, ball.height() * 2 / 5), true);
-  wait_ms(1000);
+  int top = 0, low = 0;
+  const bool is_cropped = comes_true([&] {
+    top = of_skin(ball.top(), ball.center().y());
+    low = of_skin(ball.center().y(), ball.bottom());
+    return top < whole_top * 7 / 10 && low > whole_low * 9 / 10;
+  });
   save_screen("cropped");
-  const int top = of_skin(ball.top(), ball.center().y()), low = of_skin(ball.center().y(), ball.bottom());
-  expect(top < whole_top * 7 / 10 && low > whole_low * 9 / 10,
-         "what is above the box is cut away: " + std::to_string(top) + " of " + std::to_string(whole_top) +
-             ", and what is in it stays: " + std::to_string(low) + " of " + std::to_string(whole_low));
+  expect(is_cropped, "what is above the box is cut away: " + std::to_string(top) + " of " + std::to_string(whole_top) +
+                         ", and what is in it stays: " + std::to_string(low) + " of " + std::to_string(whole_low));
   action("palpateCropBox").trigger();
   wait_for(
       "without the box all of it is there", [] { return is_round(seen()); }, 20);
@@ -186,20 +193,20 @@ void surfaces_are_seen_where_they_are_felt() {
   expect(felt.color == QColor(0xe6, 0x9f, 0x00), "in the boundary's color: " + felt.color.name().toStdString());
   expect(felt.opacity > 0.5 && felt.opacity < 1, "seen through a little");
   expect(!scan_is_drawn(), "nothing hides it");
-  wait_ms(500);
+  views_rest();
   const QImage picture = view("Volume").grab().toImage();
   const QColor middle = picture.pixelColor(seen_in(picture).center());
   expect(std::abs(middle.hue() - 41) < 12, "it is orange in the picture: " + middle.name().toStdString());
   save_screen("felt-surfaces");
   find<QAbstractButton>("palpateOn0").click();
   wait_for(
-      "what is switched off is not drawn", [] { return surface_seen().most_mm == 0; }, 10);
+      "what is switched off is not drawn", [] { return surface_seen().most_mm == 0; }, 20);
   find<QAbstractButton>("palpateOn0").click();
   wait_for(
-      "and comes back", [] { return surface_seen().most_mm > 0; }, 10);
+      "and comes back", [] { return surface_seen().most_mm > 0; }, 20);
   choose(0);
   wait_for(
-      "another look shows the scan", [] { return scan_is_drawn() && surface_seen().most_mm == 0; }, 10);
+      "another look shows the scan", [] { return scan_is_drawn() && surface_seen().most_mm == 0; }, 20);
 }
 
 }  // namespace
