@@ -41,7 +41,7 @@ void the_panel_speaks_german() {
   expect(corner_text("Axial").contains("Axial") && corner_text("Koronal").contains("Koronal"), "so are the views");
   const auto state_is = [](const char* words) { return label("palpateState") == QString::fromUtf8(words); };
   wait_for(
-      "the state line is German", [&] { return state_is("Aus: kein Stift ist verbunden"); }, 5);
+      "the state line is German", [&] { return state_is("Aus: kein Stift ist verbunden"); }, 20);
   click("palpateConnect");
   wait_for(
       "and what it says of a stylus", [&] { return state_is("Bereit: keine Kraft. Fühlen schaltet sie ein"); }, 20);
@@ -54,14 +54,14 @@ void the_panel_speaks_german() {
   save_screen("german");
   click("palpateRelease");
   wait_for(
-      "nothing is felt", [&] { return !state_is("Fühlt: Kräfte sind an"); }, 5);
+      "nothing is felt", [&] { return !state_is("Fühlt: Kräfte sind an"); }, 20);
 }
 
 void the_setting_says_english() {
   scan_is_shown();
   expect_words("palpateRelease", "Release  (Esc)");
   wait_for(
-      "the state line is English", [] { return label("palpateState") == "Off: no stylus is connected"; }, 5);
+      "the state line is English", [] { return label("palpateState") == "Off: no stylus is connected"; }, 20);
 }
 
 }  // namespace

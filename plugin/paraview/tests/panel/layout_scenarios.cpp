@@ -111,11 +111,14 @@ void the_panel_fits_the_screen() {
 }
 
 void expect_host(bool there, const char* when) {
-  const bool toolbars = shown<QToolBar>().size() > 1;
-  const bool pipeline = shown<QDockWidget>().contains(QStringLiteral("pipelineBrowserDock"));
-  expect(toolbars == there && pipeline == there,
-         std::string(when) + " ParaView's own is " + (there ? "there" : "hidden") + ": toolbars " +
-             shown<QToolBar>().join(", ").toStdString() + "; docks " + shown<QDockWidget>().join(", ").toStdString());
+  const bool comes = comes_true([there] {
+    const bool toolbars = shown<QToolBar>().size() > 1;
+    const bool pipeline = shown<QDockWidget>().contains(QStringLiteral("pipelineBrowserDock"));
+    return toolbars == there && pipeline == there;
+  });
+  expect(comes, std::string(when) + " ParaView's own is " + (there ? "there" : "hidden") + ": toolbars " +
+                    shown<QToolBar>().join(", ").toStdString() + "; docks " +
+                    shown<QDockWidget>().join(", ").toStdString());
 }
 
 int views_in_sight() {
@@ -142,7 +145,8 @@ void double_click(const char* name) {
 void the_layout_is_clinical() {
   scan_is_shown();
   window().setGeometry(QGuiApplication::primaryScreen()->geometry());
-  wait_ms(1500);
+  is_laid_out(window());
+  views_rest();
   expect_host(false, "at first");
   expect(shown<QToolBar>() == QStringList("palpateToolbar"), "one toolbar is there");
   expect(shown<QDockWidget>() == QStringList("PalpatePanel"), "and the panel");
@@ -160,27 +164,27 @@ void the_layout_is_clinical() {
   const int wide = view("Axial").width();
   double_click("Axial");
   wait_for(
-      "the view is enlarged", [&] { return views_in_sight() == 1 && view("Axial").width() > 1.8 * wide; }, 10);
+      "the view is enlarged", [&] { return views_in_sight() == 1 && view("Axial").width() > 1.8 * wide; }, 20);
   expect(find<QToolButton>("palpateOneUpButton").isChecked(), "the toolbar says so");
-  wait_ms(800);
+  is_laid_out(view("Axial"));
   save_screen("layout-one-up");
   double_click("Axial");
   wait_for(
-      "all are there again", [] { return views_in_sight() == 4; }, 10);
+      "all are there again", [] { return views_in_sight() == 4; }, 20);
   expect(find<QToolButton>("palpateFourUpButton").isChecked(), "the toolbar says so");
   click("palpateOneUpButton");
   wait_for(
-      "the marked view is alone", [] { return views_in_sight() == 1; }, 10);
+      "the marked view is alone", [] { return views_in_sight() == 1; }, 20);
   click("palpateFourUpButton");
   wait_for(
-      "all are there again", [] { return views_in_sight() == 4; }, 10);
+      "all are there again", [] { return views_in_sight() == 4; }, 20);
 
   click("palpateToolbarConnectButton");
   turn_forces_on();
   expect(find<QToolButton>("palpateToolbarConnectButton").text() == "Disconnect", "the toolbar knows");
   click("palpateToolbarRelease");
   wait_for(
-      "it is released", [] { return label("palpateState").startsWith("Ready"); }, 5);
+      "it is released", [] { return label("palpateState").startsWith("Ready"); }, 20);
 
   auto& windows = find<QComboBox>("palpateWindow");
   const int named = windows.count();
@@ -188,17 +192,15 @@ void the_layout_is_clinical() {
   drag(axial, QPoint(axial.width() / 4, axial.height() * 3 / 4), QPoint(axial.width() / 3, axial.height() * 3 / 4),
        true);
   wait_for(
-      "the box says that the window is nobody's", [&] { return windows.currentText().startsWith("Custom ("); }, 5);
+      "the box says that the window is nobody's", [&] { return windows.currentText().startsWith("Custom ("); }, 20);
   windows.setCurrentIndex(0);
   emit windows.activated(0);
   expect(windows.count() == named && windows.currentIndex() == 0, "and that it is a named one again");
 
   click("palpateAdvancedButton");
-  wait_ms(800);
   expect_host(true, "under Advanced");
   save_screen("layout-advanced");
   click("palpateAdvancedButton");
-  wait_ms(500);
   expect_host(false, "without Advanced");
   click("palpateAdvancedButton");  // and so it is left
 }
@@ -218,11 +220,12 @@ void ones_way_is_found() {
   expect(windows.count() >= 8, "there are windows for eight keys");
   press_key_in(axial, "2");
   wait_for(
-      "the key 2 chooses the second window", [&] { return windows.currentIndex() == 1; }, 5);
-  expect(corner_text("Axial").contains("W 80  L 40"), "the slices have it: " + corner_text("Axial").toStdString());
+      "the key 2 chooses the second window", [&] { return windows.currentIndex() == 1; }, 20);
+  expect(comes_true([] { return corner_text("Axial").contains("W 80  L 40"); }),
+         "the slices have it: " + corner_text("Axial").toStdString());
   press_key_in(axial, "1");
   wait_for(
-      "the key 1 the first", [&] { return windows.currentIndex() == 0; }, 5);
+      "the key 1 the first", [&] { return windows.currentIndex() == 0; }, 20);
 
   const QString picture = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/views");
   QFile::remove(picture + ".png");
@@ -231,7 +234,8 @@ void ones_way_is_found() {
   expect(all.width() > 1.8 * axial.width() && all.height() > 1.8 * axial.height(), "the picture is of all views");
   click("palpateOneUpButton");
   wait_for(
-      "one view is alone", [] { return views_in_sight() == 1; }, 10);
+      "one view is alone", [] { return views_in_sight() == 1; }, 20);
+  is_laid_out(view("Axial"));
   QFile::remove(picture + ".png");  // or it asks whether to replace it
   name_file("palpatePictureButton", picture);
   const QImage one(picture + ".png");
@@ -245,7 +249,7 @@ void ones_way_is_found() {
 
   press_key_in(view("Coronal"), "F1");
   wait_for(
-      "F1 opens the guide", [] { return widget("palpateGuide") && widget("palpateGuide")->isVisible(); }, 5);
+      "F1 opens the guide", [] { return widget("palpateGuide") && widget("palpateGuide")->isVisible(); }, 20);
   auto& guide = find<QTextBrowser>("palpateGuideText");
   expect(guide.toPlainText().contains("First five minutes"), "which is there without a network");
   expect(!guide.document()->resource(QTextDocument::ImageResource, QUrl("pictures/panel.png")).isNull(),
@@ -299,20 +303,21 @@ void a_chosen_look_stays() {
   const auto choose = [&](const char* look) {
     looks.setCurrentText(QLatin1String(look));
     emit looks.activated(looks.currentIndex());
-    wait_ms(500);
   };
   const std::vector<double> skin = volume_opacity();
   choose("CT bone");
+  wait_for(
+      "it is shown as chosen", [&] { return !volume_opacity().empty() && volume_opacity() != skin; }, 20);
+  views_rest();
   const std::vector<double> bone = volume_opacity();
-  expect(!bone.empty() && bone != skin, "it is shown as chosen");
   auto& strength = find<QDoubleSpinBox>("palpateStrength0");
   strength.setValue(strength.value() / 2);
   wait_ms(1000);
   expect(volume_opacity() == bone, "tuning leaves the look that was chosen");
   choose("Felt boundaries");
-  expect(volume_opacity() != bone, "the boundaries are shown where that is chosen");
   wait_for(
-      "they are seen: " + std::to_string(shown_part()), [] { return shown_part() > 0.05; }, 5);
+      "the boundaries are shown where that is chosen", [&] { return volume_opacity() != bone; }, 20);
+  expect(comes_true([] { return shown_part() > 0.05; }), "they are seen: " + std::to_string(shown_part()));
   save_screen("felt-boundaries");
 }
 
@@ -326,15 +331,15 @@ void one_tab_is_used_again() {
   auto& series = find<QListWidget>("palpateSeries");
   wait_for("the series are listed", [&] { return series.count() > 1; });
   for (const int row : {0, 1, 0}) {
+    is_laid_out(*series.viewport());
+    const unsigned before = reader_in_pipeline();
     click(*series.viewport(), series.visualItemRect(series.item(row)).center());
-    wait_ms(500);
-    scan_is_shown();
+    another_scan_is_shown(before);
     expect(tabs() == 1, "there is one tab: " + std::to_string(tabs()));
     expect(views_in_sight() == 4, "with four views");
     const auto views = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>();
     expect(views.size() == 4, "and no other: " + std::to_string(views.size()));
     click("palpateScanSectionFold");
-    wait_ms(200);
   }
 }
 
