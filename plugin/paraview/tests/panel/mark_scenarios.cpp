@@ -56,9 +56,9 @@ void record_to(const QString& file) {
   QFile::remove(file);
   name_file("palpateRecord", file);
   wait_for(
-      "it is recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 10);
+      "it is recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 20);
   turn_forces_on();
-  wait_ms(500);
+  stylus_rests();
 }
 
 plugin::RecordedSession recorded(const QString& file) {
@@ -114,14 +114,15 @@ void marks_are_where_the_stylus_was() {
   hold_key_in(view("Coronal"), "m", false);
   has_rows(4, "kept down it is a path");
   expect(toolbar_tells(), "the toolbar tells of marks");
-  expect(pixels_of_marks("Volume") > 30, "they are seen in the volume view");
+  wait_for(
+      "they are seen in the volume view", [] { return pixels_of_marks("Volume") > 30; }, 20);
   const QStringList drawn = measured_in("Volume");
   for (const char* const name : {"Mark 1", "Mark 2", "Mark 3", "Path 1"}) {
     expect(drawn.contains(name), std::string(name) + " is named in the volume view");
   }
   scroll_to(find<QWidget>("palpateSendMarks"));
   choose_marks({0, 1});
-  wait_ms(800);
+  views_rest();
   save_screen("marks");
 
   const plugin::RecordedSession session = recorded(beside_pictures("marks.h5"));
@@ -193,7 +194,7 @@ void marks_are_measured_and_changed() {
 
   mark_list().topLevelItem(1)->setText(0, "edge of the liver");
   wait_for(
-      "it is renamed", [] { return kept_marks().points[1].name == "edge of the liver"; }, 5);
+      "it is renamed", [] { return kept_marks().points[1].name == "edge of the liver"; }, 20);
   expect(measured_in("Volume").contains("edge of the liver"), "in the views, too");
   choose_marks({1});
   click("palpateDeleteMark");
@@ -204,13 +205,13 @@ void marks_are_measured_and_changed() {
   expect(kept_marks().points[1].name == "edge of the liver", "as it was");
   click("palpateUndoMark");
   wait_for(
-      "with its first name", [&] { return marks_text() == three; }, 5);
+      "with its first name", [&] { return marks_text() == three; }, 20);
 
   go_to("Right", 8);
   choose_marks({2});
   click("palpateMoveMark");
   wait_for(
-      "it is moved", [&] { return marks_text() != three; }, 5);
+      "it is moved", [&] { return marks_text() != three; }, 20);
   const glm::dvec3 moved = kept_marks().points[2].position_mm;
   expect(kept_marks().points[2].name == "Mark 3", "it keeps its name");
   expect(glm::distance(moved, marks.points[2].position_mm) > 4, "to where the hand went");
@@ -227,10 +228,10 @@ void marks_belong_to_a_scan() {
   wait_for("the series are listed", [&] { return series.count() > 1; });
   const auto open = [&](int row) {
     if (!series.isVisible()) click("palpateScanSectionFold");
-    wait_ms(300);
+    is_laid_out(*series.viewport());
+    const unsigned before = reader_in_pipeline();
     click(*series.viewport(), series.visualItemRect(series.item(row)).center());
-    wait_ms(3000);
-    scan_is_shown();
+    another_scan_is_shown(before);
   };
   open(0);
   connect_stylus();
@@ -282,7 +283,7 @@ void marks_are_restored() {
   connect_stylus();
   mark_by_key();
   expect(kept_marks().points.back().name == "Mark 4", "and one can go on");
-  wait_ms(500);
+  views_rest();
   save_screen("marks-restored");
 }
 
