@@ -28,46 +28,44 @@ void profile_follows_an_edit() {
   const QPoint middle = sagittal.rect().center();
   drag(sagittal, QPoint(sagittal.width() / 8, middle.y()), middle, true);  // the front is on the left
   wait_for(
-      "a boundary is met", [] { return largest_told() > 0; }, 10);
+      "a boundary is met", [] { return largest_told() > 0; }, 20);
   expect(!find<QPushButton>("palpateProfilePick").isChecked(), "picking has ended");
   scroll_to(find<QPushButton>("palpateProfilePicture"));
-  wait_ms(1000);
+  steady("the profile", [] { return label("palpateProfileReadout"); });
   save_screen("profile");
   const double before = largest_told();
 
   auto& strength = find<QDoubleSpinBox>("palpateStrength0");
   strength.setValue(strength.value() / 2);
   wait_for(
-      "the profile follows the edit", [&] { return largest_told() > 0 && largest_told() < 0.8 * before; }, 10);
+      "the profile follows the edit", [&] { return largest_told() > 0 && largest_told() < 0.8 * before; }, 20);
   const double halved = largest_told();
   click("palpateCurvesSectionFold");
   click("palpateUndo");
   wait_for(
-      "and its undoing", [&] { return largest_told() == before; }, 10);
+      "and its undoing", [&] { return largest_told() == before; }, 20);
   expect(halved < before, "less is felt of a boundary half as strong");
 
   QWidget& curve = find<QWidget>("palpateStrengthCurveChart");
-  scroll_to(find<QWidget>("palpateStrengthCurveValue"));
-  wait_ms(500);
+  scroll_to(find<QWidget>("palpateStrengthCurveValue"), curve);
   const QPoint node = curve.rect().center();
   drag(curve, node, node, true);  // where there is none a click makes one
   wait_for(
-      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
-  wait_ms(500);
-  const QString at_rest = label("palpateProfileReadout");
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 20);
+  const QString at_rest = steady("the profile", [] { return label("palpateProfileReadout"); });
   drag(curve, node, node + QPoint(0, curve.height() / 4), false);
   wait_for(
       "the profile follows a node that is being dragged", [&] { return label("palpateProfileReadout") != at_rest; },
-      10);
+      20);
   let_go();
 
   QWidget& chart = find<QWidget>("palpateProfileChart");
-  scroll_to(chart);
+  scroll_to(chart, chart);
   move_pointer(chart, chart.rect().center());
   move_pointer(chart, chart.rect().center() + QPoint(3, 0));
   wait_for(
       "what is under the pointer is told",
-      [] { return label("palpateProfileReadout").contains(QRegularExpression("^[0-9.]+ mm: .* N.*HU")); }, 5);
+      [] { return label("palpateProfileReadout").contains(QRegularExpression("^[0-9.]+ mm: .* N.*HU")); }, 20);
 
   const QString folder = qEnvironmentVariable("PALPATE_PICTURES");
   save_as("palpateProfilePicture", folder + "/profile.png");
@@ -84,13 +82,13 @@ void profile_follows_an_edit() {
   drag(volume, volume.rect().center(), volume.rect().center(), true);
   wait_for(
       "a point is picked in the 3D view",
-      [&] { return !from.text().isEmpty() && find<QLineEdit>("palpateProfileTo").text().isEmpty(); }, 5);
+      [&] { return !from.text().isEmpty() && find<QLineEdit>("palpateProfileTo").text().isEmpty(); }, 20);
   const QStringList place = from.text().split(',');
   const double radius = std::hypot(place[0].toDouble(), place[1].toDouble(), place[2].toDouble());
   expect(radius > 22 && radius < 26, "it is on the ball's surface, not " + std::to_string(radius) + " mm out");
   drag(sagittal, middle, middle, true);
   wait_for(
-      "and another in a slice", [] { return !find<QPushButton>("palpateProfilePick").isChecked(); }, 5);
+      "and another in a slice", [] { return !find<QPushButton>("palpateProfilePick").isChecked(); }, 20);
 
   from.setText(QStringLiteral("0, -40 0"));
   emit from.editingFinished();
@@ -110,9 +108,8 @@ std::pair<double, double> told_below_the_curve() {
 void a_curve_shows_its_force() {
   scan_is_shown();
   click("palpateCurvesSectionFold");
-  wait_ms(500);
   QWidget& chart = find<QWidget>("palpateCurveProfileChart");
-  scroll_to(chart);
+  scroll_to(chart, chart);
   expect(label("palpateCurveProfileWords").contains("Rest with the pointer"), "it is said how a line is chosen");
 
   // On the edge of the ball, as it is seen.
@@ -126,16 +123,17 @@ void a_curve_shows_its_force() {
   }();
   move_pointer(axial, axial.rect().center() - QPoint(radius, 0));
   wait_for(
-      "the force across what is pointed at", [] { return told_below_the_curve().first > 0; }, 10);
+      "the force across what is pointed at", [] { return told_below_the_curve().first > 0; }, 20);
   expect(label("palpateCurveProfileWords").startsWith("Across the place pointed at"), "it is said where");
   const double before = told_below_the_curve().first;
 
   QWidget& curve = find<QWidget>("palpateStrengthCurveChart");
+  is_laid_out(curve);
   const QPoint node(curve.width() * 3 / 10, curve.height() / 2);  // a gradient that the ball's surface has
   drag(curve, node, node, true);                                  // where there is none a click makes one
   wait_for(
-      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 10);
-  wait_ms(1000);
+      "a node is chosen", [] { return find<QDoubleSpinBox>("palpateStrengthCurveValue").isEnabled(); }, 20);
+  steady("the force across what is pointed at", [] { return label("palpateCurveProfileWords"); });
   const double at_rest = told_below_the_curve().first;
   drag(curve, node, node - QPoint(0, curve.height() / 4), false);
   wait_for(
@@ -144,19 +142,24 @@ void a_curve_shows_its_force() {
         const auto [now, was] = told_below_the_curve();
         return now > 1.1 * at_rest && std::abs(was - at_rest) < 0.011;
       },
-      10);
-  const QImage drawn = chart.grab().toImage();
-  int gray = 0;
-  for (int x = drawn.width() / 4; x < drawn.width(); ++x) {
-    for (int y = 4; y < drawn.height() / 2; ++y)
-      gray += drawn.pixelColor(x, y).saturation() < 20 && drawn.pixelColor(x, y).value() < 180;
-  }
-  expect(gray > 10, "what was felt before is drawn, too");
+      20);
+  const auto gray = [&] {
+    const QImage drawn = chart.grab().toImage();
+    int count = 0;
+    for (int x = drawn.width() / 4; x < drawn.width(); ++x) {
+      for (int y = 4; y < drawn.height() / 2; ++y)
+        count += drawn.pixelColor(x, y).saturation() < 20 && drawn.pixelColor(x, y).value() < 180;
+    }
+    return count;
+  };
+  wait_for(
+      "what was felt before is drawn, too", [&] { return gray() > 10; }, 20);
   save_screen("curve-profile");
   let_go();
   expect(before > 0, "a force was told before");
 
   auto& strength = find<QDoubleSpinBox>("palpateStrength0");
+  steady("the force once the node is let go", [] { return label("palpateCurveProfileWords"); });
   const double told = told_below_the_curve().first;
   strength.setValue(strength.value() / 2);
   wait_for(
@@ -165,7 +168,7 @@ void a_curve_shows_its_force() {
         const auto [now, was] = told_below_the_curve();
         return now > 0 && now < 0.7 * told && was == 0;
       },
-      10);
+      20);
 
   click("palpateProfileSectionFold");
   click("palpateProfilePick");
@@ -174,7 +177,7 @@ void a_curve_shows_its_force() {
   drag(sagittal, QPoint(sagittal.width() / 8, middle.y()), middle, true);
   wait_for(
       "the chosen stroke is taken instead",
-      [] { return label("palpateCurveProfileWords").startsWith("Along the chosen stroke"); }, 10);
+      [] { return label("palpateCurveProfileWords").startsWith("Along the chosen stroke"); }, 20);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ void expect_marks() {
   // Bone and soft tissue.
   for (const double part : {0.25, 0.75}) {
     move_pointer(coronal, QPoint(static_cast<int>(part * coronal.width()), coronal.height() * 6 / 10));
-    wait_ms(500);
+    steady("what is pointed at", [&] { return pointer_text("Coronal") + QString::number(mark_in(chart)); });
     const int at = mark_in(chart);
     expect(at >= 0, "what is pointed at is marked");
     marks.emplace_back(value_under_pointer(), at);
@@ -106,8 +106,8 @@ void expect_block() {
   type("keyup", "shift");
   const double by = (high - low) * across / chart.width();
   wait_for(
-      "the gate has moved", [&] { return gate_nodes() != before; }, 10);
-  wait_ms(500);
+      "the gate has moved", [&] { return gate_nodes() != before; }, 20);
+  steady_scene();
   const std::vector<double> after = gate_nodes();
   expect(after.size() == before.size(), "it has as many nodes as before");
   for (std::size_t n = 0; n < after.size(); ++n) {
@@ -121,14 +121,14 @@ void expect_before_and_after() {
   auto& strength = find<QDoubleSpinBox>("palpateStrength0");
   const double before = strength.value(), after = before / 2;
   strength.setValue(after);
-  wait_ms(600);
+  steady_scene();
   press_key_in(view("Coronal"), "Home");  // the pointer is there, and the keyboard
   type("keydown", "b");
   wait_for(
-      "while the key is held it is as before", [&] { return std::abs(strength.value() - before) < 0.006; }, 5);
+      "while the key is held it is as before", [&] { return std::abs(strength.value() - before) < 0.006; }, 20);
   type("keyup", "b");
   wait_for(
-      "and then as it was edited", [&] { return std::abs(strength.value() - after) < 0.006; }, 5);
+      "and then as it was edited", [&] { return std::abs(strength.value() - after) < 0.006; }, 20);
 }
 
 void expect_alike() {
@@ -142,20 +142,18 @@ void expect_alike() {
   second.setValue(1.9);
   wait_for(
       "a hand cannot tell 1.9 N from 2 N",
-      [&] { return marked("palpateAlike0") && marked("palpateAlike1") && !marked("palpateAlike2"); }, 5);
+      [&] { return marked("palpateAlike0") && marked("palpateAlike1") && !marked("palpateAlike2"); }, 20);
   expect(find<QLabel>("palpateAlike0").toolTip().contains("a tenth"), "and it is said why");
   save_screen("alike");
   second.setValue(1.6);
   wait_for(
-      "but 1.6 N", [&] { return !marked("palpateAlike0") && !marked("palpateAlike1"); }, 5);
+      "but 1.6 N", [&] { return !marked("palpateAlike0") && !marked("palpateAlike1"); }, 20);
 }
 
 void a_scene_shows_what_it_does() {
   scan_is_shown();
   click("palpateCurvesSectionFold");
-  wait_ms(500);
-  scroll_to(find<QWidget>("palpateGateCurveValue"));
-  wait_ms(500);
+  scroll_to(find<QWidget>("palpateGateCurveValue"), find<QWidget>("palpateGateCurveChart"));
   expect_marks();
   expect_block();
   expect_before_and_after();
@@ -199,17 +197,15 @@ void small_things_are_right() {
         for (int y = limit - 1; y <= limit + 1; ++y) most = std::max(most, drawn_part(picture, y));
         return most > 0.3 && drawn_part(picture, strip.height() / 2) < 0.3;
       },
-      10);
+      20);
   save_screen("strip");
   click("palpateCurvesSectionFold");
-  wait_ms(500);
-  scroll_to(find<QWidget>("palpateGateCurveValue"));
-  wait_ms(500);
+  scroll_to(find<QWidget>("palpateGateCurveValue"), find<QWidget>("palpateGateCurveAxes"));
   expect_fits("palpateStrengthCurveAxes");
   expect_fits("palpateGateCurveAxes");
   move_pointer(view("Axial"), view("Axial").rect().center() + QPoint(7, 9));
-  wait_ms(300);
-  expect(QRegularExpression(QStringLiteral(" -?[0-9]+ HU$")).match(pointer_text("Axial")).hasMatch(),
+  const QRegularExpression whole(QStringLiteral(" -?[0-9]+ HU$"));
+  expect(comes_true([&] { return whole.match(pointer_text("Axial")).hasMatch(); }),
          "HU are whole: " + pointer_text("Axial").toStdString());
   // One column scrolls, and nothing within it.
   int scrollers = 0;
@@ -223,9 +219,9 @@ void small_things_are_right() {
 void series_are_listed_in_full() {
   auto& series = find<QListWidget>("palpateSeries");
   wait_for("the series are listed", [&] { return series.count() > 5; });
-  wait_ms(500);
-  const QRect last = series.visualItemRect(series.item(series.count() - 1));
-  expect(series.viewport()->rect().contains(last), "the last of six rows is in sight");
+  wait_for(
+      "the last of six rows is in sight",
+      [&] { return series.viewport()->rect().contains(series.visualItemRect(series.item(series.count() - 1))); }, 20);
   save_screen("series");
 }
 
@@ -242,7 +238,7 @@ void scenes_are_offered_by_the_part() {
   scenes.setCurrentIndex(1);
   emit scenes.activated(1);
   wait_for(
-      "it is taken", [] { return QString::fromStdString(scene_text()).contains("CT: chest"); }, 10);
+      "it is taken", [] { return QString::fromStdString(scene_text()).contains("CT: chest"); }, 20);
 }
 
 void words_for_developers_stand_under_technical() {
@@ -267,7 +263,9 @@ void words_for_developers_stand_under_technical() {
   expect(!technical.isChecked(), "at first it is off");
   expect_texts(false);
   technical.click();
-  wait_ms(500);
+  wait_for(
+      "what the stylus limits itself is told", [] { return find<QLabel>("palpateOwnLimits").isVisible(); }, 20);
+  handle_events(50);
   expect_texts(true);
   expect(find<QLabel>("palpatePlan").isVisible(), "what is left out is told, too");
   save_screen("technical");
