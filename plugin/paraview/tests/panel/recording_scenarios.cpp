@@ -18,17 +18,17 @@ void record_a_press(const QString& file) {
   QFile::remove(file);
   name_file("palpateRecord", file);
   wait_for(
-      "it is being recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 10);
+      "it is being recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 20);
   expect(label("palpateStylusMessage") ==
              "Recording: the session was started again, so that it can be repeated to the last bit.",
          "it is said that the session was started again");
   wait_for(
       "forces are on", [] { return forces_are_on(); }, 20);
-  wait_ms(1500);
+  stylus_rests();
   press();
   let_go();
   wait_for(
-      "the simulated hand relaxes", [] { return number("palpateForce") < 0.05; }, 10);
+      "the simulated hand relaxes", [] { return number("palpateForce") < 0.05; }, 20);
   click("palpateRecord");
   wait_for(
       "the recording is written and open",
@@ -47,14 +47,14 @@ void recordings_are_replayed_and_compared() {
   record_a_press(folder + "/second.h5");
   click("palpateConnect");
   wait_for(
-      "the stylus is let go", [] { return label("palpateState").startsWith("Off"); }, 10);
+      "the stylus is let go", [] { return label("palpateState").startsWith("Off"); }, 20);
 
   auto& slider = find<QSlider>("palpateScrub");
   double most = 0;
   int most_ms = 0;
   for (int n = 0; n <= 40; ++n) {
     slider.setValue(slider.maximum() * n / 40);
-    wait_ms(80);
+    handle_events(10);  // until it is looked at
     if (number("palpateForce") > most) {
       most = number("palpateForce");
       most_ms = slider.value();
@@ -62,7 +62,6 @@ void recordings_are_replayed_and_compared() {
   }
   expect(most > 0.1, "the recorded force is seen while one scrubs");
   slider.setValue(most_ms);
-  wait_ms(1500);
   proxy_in(view("Sagittal"));  // throws where it is not seen
   expect(label("palpateTick").startsWith("recorded"), "it is said that this is a recording");
   scroll_to(find<QWidget>("palpateCloseRecording"));
@@ -93,7 +92,7 @@ void recordings_are_replayed_and_compared() {
   name_file("palpateCompare", folder + "/comparison.csv");
   wait_for(
       "what is no recording is refused in words",
-      [] { return label("palpateRecordingMessage").contains("recording comparison.csv"); }, 10);
+      [] { return label("palpateRecordingMessage").contains("recording comparison.csv"); }, 20);
   // What is felt is not taken for a recording, whatever was looked at before.
   slider.setValue(most_ms);
   connect_stylus();
@@ -102,7 +101,7 @@ void recordings_are_replayed_and_compared() {
   click("palpateCloseRecording");
   expect(!find<QSlider>("palpateScrub").isVisible(), "the recordings are closed");
   wait_for(
-      "nothing is shown any more", [] { return label("palpateDepth") == "no stylus"; }, 5);
+      "nothing is shown any more", [] { return label("palpateDepth") == "no stylus"; }, 20);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ void choose(const char* button, const QString& path) {
     chosen = true;
     wait_ms(500);
     if (dialog->isVisible()) QTest::keyClick(name, Qt::Key_Return);
-    for (int n = 0; n < 3 && dialog->isVisible(); ++n) {  // a folder is gone into first
+    for (int n = 0; n < 10 && dialog->isVisible(); ++n) {  // a folder is gone into first
       wait_ms(1000);
       for (auto* const ok : dialog->findChildren<QPushButton*>()) {
         const bool accepts = ok->isDefault() || ok->text().remove(QLatin1Char('&')) == QLatin1String("OK");
@@ -82,7 +82,7 @@ void open_on_server() {
 void record() {
   choose("palpateRecord", qEnvironmentVariable("PALPATE_RECORDING"));
   wait_for("it records", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; });
-  wait_ms(3000);  // the session began anew: the hand goes to its place
+  stylus_rests();  // the session began anew: the hand goes to its place
 }
 
 void feel_remotely(bool recorded) {
@@ -90,7 +90,7 @@ void feel_remotely(bool recorded) {
   find<QCheckBox>("palpateFollow").setChecked(false);  // each slice is a question to the server
   connect_stylus();
   find<QToolButton>("palpateGoToStylus").click();  // where the mouse can take it
-  wait_ms(2000);
+  views_rest();
   if (recorded) record();
   press();
 }
@@ -108,7 +108,7 @@ void remote_probe() {
   save_screen("remote");
   pqApplicationCore::instance()->getObjectBuilder()->removeServer(active_server());
   wait_for(
-      "nothing is held", [] { return label("palpateState").startsWith("Off"); }, 10);
+      "nothing is held", [] { return label("palpateState").startsWith("Off"); }, 20);
   expect(number("palpateForce") == 0, "the force was taken away");
   expect(label("palpateStylusMessage")
              .contains("ParaView left the server: the stylus was let go, and a recording closed."),
@@ -132,7 +132,7 @@ void remote_fetched() {
   wait_for_word("Cancelled.");
   QObject::disconnect(cancelling);
   wait_for(
-      "connecting can be tried", [] { return find<QPushButton>("palpateConnect").isEnabled(); }, 10);
+      "connecting can be tried", [] { return find<QPushButton>("palpateConnect").isEnabled(); }, 20);
   click("palpateConnect");
   expect(label("palpateStylusMessage")
              .contains(
@@ -150,7 +150,7 @@ void remote_fetched() {
         const QString said = label("palpateStylusMessage");
         return said.startsWith("Recorded: ") && said.endsWith(" ticks, 0 lost.");
       },
-      10);
+      20);
   let_go();
 }
 
@@ -163,7 +163,7 @@ void remote_different() {
   feel_remotely(true);
   click("palpateRecord");
   wait_for(
-      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 20);
   let_go();
   click("palpateConnect");
   const std::string saved = scene_text();
@@ -172,7 +172,7 @@ void remote_different() {
   expect(core.saveState(file), "the state is saved");
   core.getObjectBuilder()->resetServer(active_server());
   wait_for(
-      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 10);
+      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 20);
   core.loadState(file.toUtf8().constData(), active_server());
   wait_for_word(
       "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
@@ -246,7 +246,7 @@ void remote_frames() {
   save_screen("remote-frame");
   click("palpateRecord");
   wait_for(
-      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 20);
   let_go();
 }
 
@@ -307,7 +307,7 @@ void remote_structures() {
   record();
   wait_for(
       "the distance is told",
-      [] { return find<QLabel>("palpateDistance").isVisible() && label("palpateDistance").contains("Liver"); }, 10);
+      [] { return find<QLabel>("palpateDistance").isVisible() && label("palpateDistance").contains("Liver"); }, 20);
   save_screen("remote-structures");
   name_file("palpateAddStructures", qEnvironmentVariable("PALPATE_FOREIGN"));
   wait_for(
@@ -317,7 +317,7 @@ void remote_structures() {
          "and cannot be used, which is said");
   click("palpateRecord");
   wait_for(
-      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 10);
+      "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 20);
   click("palpateConnect");
 }
 

@@ -27,7 +27,7 @@ void expect_stopped(const char* why) {
       std::string("it is stopped: ") + why,
       [&] { return label("palpateState").startsWith("Stopped: ") && label("palpateState").contains(why); }, 20);
   wait_for(
-      "the force is gone", [] { return number("palpateForce") == 0; }, 5);
+      "the force is gone", [] { return number("palpateForce") == 0; }, 20);
   wait_ms(500);
   expect(number("palpateForce") == 0, "the force stays away");
   expect(!find<QPushButton>("palpateFeel").isEnabled() || find<QPushButton>("palpateFeel").text() == "Clear fault",
@@ -83,12 +83,12 @@ void no_scan_shown_no_force() {
   also->setVisible(true);
   wait_for(
       "it is said which one is not felt",
-      [&] { return label("palpateFelt").endsWith("Also shown, not felt: " + second->getSMName() + "."); }, 10);
+      [&] { return label("palpateFelt").endsWith("Also shown, not felt: " + second->getSMName() + "."); }, 20);
   save_screen("second-scan");
   pqActiveObjects::instance().setActiveSource(&first);
   expect_ready_to_feel();
   builder.destroy(second);
-  wait_ms(500);
+  views_rest();
 
   // The reader is deleted in mid-contact.
   press();
@@ -109,7 +109,8 @@ void a_reset_session_has_no_force() {
   let_go();
   wait_for("ParaView has a session again", [] { return pqActiveObjects::instance().activeServer() != nullptr; });
   wait_ms(1000);
-  expect(label("palpateFelt") == "No scan is open.", "nothing is said to be felt");
+  wait_for(
+      "nothing is said to be felt", [] { return label("palpateFelt") == "No scan is open."; }, 20);
   drop_folder(qEnvironmentVariable("PALPATE_OPEN"));
   scan_is_shown();
   expect_ready_to_feel();
@@ -123,8 +124,9 @@ void a_reset_session_has_no_force() {
 void a_loaded_state_has_no_force() {
   scan_is_shown();
   find<QDoubleSpinBox>("palpateStrength0").setValue(0.45);
-  wait_ms(500);
-  const std::string saved = scene_text();
+  wait_for(
+      "the edit is in the scene", [] { return scene_text().find("0.45") != std::string::npos; }, 20);
+  const std::string saved = steady_scene();
   const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/panel-shown.pvsm");
   expect(pqApplicationCore::instance()->saveState(file), "the state is saved");
   find<QDoubleSpinBox>("palpateStrength0").setValue(0.9);
@@ -132,13 +134,16 @@ void a_loaded_state_has_no_force() {
   press();
   pqApplicationCore::instance()->loadState(file.toUtf8().constData(), pqActiveObjects::instance().activeServer());
   wait_for(
-      "the force is gone", [] { return number("palpateForce") == 0; }, 5);
+      "the force is gone", [] { return number("palpateForce") == 0; }, 20);
   let_go();
   wait_for("the scene is the state's", [&] { return scene_text() == saved || !scene_text().empty(); });
   scan_is_shown();
   expect(find<QPushButton>("palpateConnect").text() == "Disconnect", "the stylus is still connected");
-  expect(find<QDoubleSpinBox>("palpateStrength0").value() == 0.45, "the panel has the state's scene");
-  expect(label("palpateFelt").contains("Scene: Restored with the state."), "it is said where the scene is from");
+  wait_for(
+      "the panel has the state's scene", [] { return find<QDoubleSpinBox>("palpateStrength0").value() == 0.45; }, 20);
+  wait_for(
+      "it is said where the scene is from",
+      [] { return label("palpateFelt").contains("Scene: Restored with the state."); }, 20);
   save_screen("state-loaded");
   expect_ready_to_feel();
 }
@@ -150,15 +155,15 @@ void undo_belongs_to_a_scan() {
   find<QDoubleSpinBox>("palpateStrength0").setValue(0.65);
   wait_for(
       "the scene says that it was edited",
-      [] { return find<QComboBox>("palpateScenes").currentText() == "Found in this scan, edited"; }, 5);
+      [] { return find<QComboBox>("palpateScenes").currentText() == "Found in this scan, edited"; }, 20);
   click("palpateCurvesSectionFold");
   click("palpateUndo");
   wait_for(
       "undone, it is what was found",
-      [] { return find<QComboBox>("palpateScenes").currentText() == "Found in this scan"; }, 5);
+      [] { return find<QComboBox>("palpateScenes").currentText() == "Found in this scan"; }, 20);
   click("palpateRedo");
   wait_for(
-      "done again", [] { return find<QComboBox>("palpateScenes").currentText() == "Found in this scan, edited"; }, 5);
+      "done again", [] { return find<QComboBox>("palpateScenes").currentText() == "Found in this scan, edited"; }, 20);
   const std::string first = scene_text();
   choose_series(1);
   const std::string second = scene_text();
@@ -171,23 +176,24 @@ void undo_belongs_to_a_scan() {
   // A file's scene is called by the file, and leaves the reach as it is.
   const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/my scene.json");
   find<QDoubleSpinBox>("palpateStrength0").setValue(0.7);
-  wait_ms(300);
+  wait_for(
+      "the edit is in the scene", [&] { return scene_text() != second; }, 20);
   save_as("palpateSaveScene", file);
   click("palpateOneToOne");
-  wait_ms(300);
-  const QString reach = label("palpateScale");
+  const QString reach = steady("the reach", [] { return label("palpateScale"); });
   name_file("palpateOpenScene", file);
   wait_for(
       "the scene is called by its file",
-      [] { return find<QComboBox>("palpateScenes").currentText() == "my scene.json"; }, 5);
+      [] { return find<QComboBox>("palpateScenes").currentText() == "my scene.json"; }, 20);
   expect(label("palpateScale") == reach, "the reach is the user's");
   save_screen("scene-named");
   // With a stylus connected, another series gets a scene that says what it is.
   connect_stylus();
   choose_series(0);
   expect(find<QComboBox>("palpateScenes").currentText() != "my scene.json", "the file's scene was another scan's");
-  expect(label("palpateFelt").contains("Scene: " + find<QComboBox>("palpateScenes").currentText()),
-         "the footer names the same");
+  wait_for(
+      "the footer names the same",
+      [] { return label("palpateFelt").contains("Scene: " + find<QComboBox>("palpateScenes").currentText()); }, 20);
 }
 
 }  // namespace

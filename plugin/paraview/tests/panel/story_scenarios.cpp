@@ -134,10 +134,10 @@ void edit_the_scene() {
   auto& strength = find<QDoubleSpinBox>("palpateStrength0");
   strength.setValue(0.65);
   wait_for(
-      "the edit is in the scene", [] { return scene_text().find("0.65") != std::string::npos; }, 5);
+      "the edit is in the scene", [] { return scene_text().find("0.65") != std::string::npos; }, 20);
   find<QDoubleSpinBox>("palpateStiffness").setValue(700);
   wait_for(
-      "the stiffness is in the scene", [] { return scene_text().find("700") != std::string::npos; }, 5);
+      "the stiffness is in the scene", [] { return scene_text().find("700") != std::string::npos; }, 20);
 }
 
 void write_what_is_compared(const char* run) {
@@ -157,16 +157,16 @@ void a_session_is_saved() {
   name_file("palpateRecord", recording);
   wait_for("it is recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; });
   wait_for("forces are on", [] { return forces_are_on(); });
-  wait_ms(1500);
+  stylus_rests();
   press_once();
-  wait_ms(500);
+  stylus_rests();
   click("palpateRecord");
   wait_for("the recording is closed", [] { return find<QPushButton>("palpateRecord").text() != "Stop recording"; });
   click("palpateConnect");
   add_stroke();
   find<QComboBox>("palpateWindow").setCurrentIndex(1);
   emit find<QComboBox>("palpateWindow").activated(1);
-  wait_ms(1000);
+  views_rest();
   write_what_is_compared("saved");
   expect(pqApplicationCore::instance()->saveState(beside("story.pvsm")), "the state is saved");
 }
@@ -199,7 +199,7 @@ void a_session_is_restored() {
   expect(frames_that_differ(scene_text()) == 0, "every force is the same to the last bit");
   find<QDoubleSpinBox>("palpateStrength0").setValue(0.3);
   wait_for(
-      "the edit is in the scene", [] { return scene_text().find("0.3") != std::string::npos; }, 5);
+      "the edit is in the scene", [] { return scene_text().find("0.3") != std::string::npos; }, 20);
   expect(frames_that_differ(scene_text()) > 0, "another scene is felt otherwise");
   connect_stylus();
   press_once();
@@ -216,7 +216,7 @@ void a_session_is_traced() {
   edit_the_scene();
   connect_stylus();
   press_once();
-  wait_ms(500);
+  stylus_rests();
   click("palpateConnect");
   add_stroke();
   write_what_is_compared("traced");
@@ -230,7 +230,7 @@ void twenty_edits_are_undone() {
   std::vector<std::string> texts{before};
   const auto done = [&](const std::string& what) {
     wait_for(
-        what + " is in the scene", [&] { return scene_text() != texts.back(); }, 10);
+        what + " is in the scene", [&] { return scene_text() != texts.back(); }, 20);
     texts.push_back(scene_text());
   };
   for (int n = 0; n < 5; ++n) {
@@ -250,12 +250,12 @@ void twenty_edits_are_undone() {
   for (std::size_t n = texts.size() - 1; n-- > 0;) {
     click("palpateUndo");
     wait_for(
-        "edit " + std::to_string(n + 1) + " is undone", [&] { return scene_text() == texts[n]; }, 10);
+        "edit " + std::to_string(n + 1) + " is undone", [&] { return scene_text() == texts[n]; }, 20);
   }
   for (std::size_t n = 1; n < texts.size(); ++n) {
     click("palpateRedo");
     wait_for(
-        "edit " + std::to_string(n) + " is done again", [&] { return scene_text() == texts[n]; }, 10);
+        "edit " + std::to_string(n) + " is done again", [&] { return scene_text() == texts[n]; }, 20);
   }
   expect(find<QDoubleSpinBox>("palpateStrength0").value() == 0.5, "the panel shows it");
 }

@@ -52,7 +52,7 @@ void structures_are_seen_and_felt() {
   save_screen("structures");
   list().topLevelItem(0)->setCheckState(0, Qt::Unchecked);
   wait_for(
-      "its outline goes with its tick", [&] { return pixels_of("Axial", color) < 20; }, 10);
+      "its outline goes with its tick", [&] { return pixels_of("Axial", color) < 20; }, 20);
   list().topLevelItem(0)->setCheckState(0, Qt::Checked);
 
   click("palpateStructureBoundary");
@@ -62,10 +62,10 @@ void structures_are_seen_and_felt() {
   click("palpateCurvesSectionFold");
   click("palpateUndo");
   wait_for(
-      "which is undone", [] { return !scene_has("Liver"); }, 10);
+      "which is undone", [] { return !scene_has("Liver"); }, 20);
   click("palpateRedo");
   wait_for(
-      "and redone", [] { return scene_has("Liver"); }, 10);
+      "and redone", [] { return scene_has("Liver"); }, 20);
   scroll_to(find<QWidget>("palpateStructureKeepOut"));
   click("palpateStructureKeepOut");
   wait_for(
@@ -73,7 +73,7 @@ void structures_are_seen_and_felt() {
   connect_stylus();
   wait_for(
       "the distance is told",
-      [] { return find<QLabel>("palpateDistance").isVisible() && label("palpateDistance").contains("Liver"); }, 10);
+      [] { return find<QLabel>("palpateDistance").isVisible() && label("palpateDistance").contains("Liver"); }, 20);
   save_screen("structures-felt");
 
   name_file("palpateAddStructures", qEnvironmentVariable("PALPATE_FOREIGN"));
