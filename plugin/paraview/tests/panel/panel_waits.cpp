@@ -11,6 +11,7 @@
 #include <QScreen>
 #include <QtTest/QTest>
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -65,8 +66,17 @@ void is_laid_out(const QWidget& shown) {
 }
 
 double steady_number(const char* name) {
-  steady(name, [name] { return label(name); });
-  return number(name);
+  double first = number(name);
+  int same = 0;
+  wait_for(std::string(name) + " stays", [&] {
+    constexpr double part = 0.005;
+    const double now = number(name);
+    const bool stays = std::abs(now - first) <= part * std::abs(first);
+    same = stays ? same + 1 : 0;
+    if (!stays) first = now;
+    return same == 100;
+  });
+  return first;
 }
 
 namespace {
