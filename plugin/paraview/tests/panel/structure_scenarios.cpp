@@ -40,7 +40,7 @@ void structures_are_seen_and_felt() {
   scan_is_shown();
   click("palpateStructuresSectionFold");
   wait_for(
-      "the segmentation is found with the scan", [] { return list().topLevelItemCount() == 1; }, 20);
+      "the segmentation is found with the scan", [] { return list().topLevelItemCount() == 1; }, 60);
   expect(list().topLevelItem(0)->text(0) == "Liver", "it is listed by its name");
   wait_for(
       "it is measured", [] { return !list().topLevelItem(0)->text(1).isEmpty(); }, 20);
