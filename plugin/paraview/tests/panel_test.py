@@ -183,6 +183,7 @@ SCENARIOS = [
     "a_dragged_node_is_felt",
     "profile_follows_an_edit",
     "a_curve_shows_its_force",
+    "a_touched_boundary_shows_its_force",
     "recordings_are_replayed_and_compared",
     "no_scan_shown_no_force",
     "a_reset_session_has_no_force",

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "plugin/paraview/tests/panel/mark_steps.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -180,10 +181,34 @@ void a_curve_shows_its_force() {
       [] { return label("palpateCurveProfileWords").startsWith("Along the chosen stroke"); }, 20);
 }
 
+/// The stylus goes in from the front, and the line below the curve the same way: a line across it would miss the ball.
+void a_touched_boundary_shows_its_force() {
+  scan_is_shown();
+  click("palpateCurvesSectionFold");
+  connect_stylus();
+  touch_surface();
+  QString past;
+  wait_for(
+      "a boundary is held",
+      [&] {
+        past = label("palpateDepth").section(" past ", 1).section(',', 0, 0);
+        return !past.isEmpty();
+      },
+      5);
+  wait_for(
+      "the force across what is touched",
+      [&] {
+        return label("palpateCurveProfileWords").startsWith("Across the place last touched: " + past + " up to ");
+      },
+      10);
+  save_screen("curve-touched");
+}
+
 }  // namespace
 
 const Scenarios& profile_scenarios() {
   static const Scenarios all{{"profile_follows_an_edit", profile_follows_an_edit},
-                             {"a_curve_shows_its_force", a_curve_shows_its_force}};
+                             {"a_curve_shows_its_force", a_curve_shows_its_force},
+                             {"a_touched_boundary_shows_its_force", a_touched_boundary_shows_its_force}};
   return all;
 }
