@@ -250,15 +250,21 @@ TEST(LiveSession, AFilterIsFeltAndItsRecordingRepeatedToTheLastBit) {
   std::filesystem::remove(file);
 }
 
-TEST(LiveSession, AStylusThatWasLostComesBackUnarmed) {
-  LiveSession live;
+/// Connects a stylus that presses until it is unplugged; it can be opened again. False if no force or no fault came.
+bool presses_and_is_lost(LiveSession& live) {
   live.set_scan(ball(), modes::load_scene("ct-skin-and-bone"));
   const auto held = pressing();
   live.connect(held);
-  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.1; }));
+  if (!comes(live, [&] { return sent_n(live) > 0.1; })) return false;
   held->inject(device::SimulatedFault::unplugged);
-  ASSERT_TRUE(comes(live, [&] { return fault_of(last_tick(live)) == device::Fault::device_lost; }));
+  const bool lost = comes(live, [&] { return fault_of(last_tick(live)) == device::Fault::device_lost; });
   held->inject(device::SimulatedFault::none);
+  return lost;
+}
+
+TEST(LiveSession, AStylusThatWasLostComesBackUnarmed) {
+  LiveSession live;
+  ASSERT_TRUE(presses_and_is_lost(live));
   live.reopen();
   ASSERT_TRUE(live.is_connected());
   ASSERT_TRUE(comes(live, [&] { return live.ticks()->written() > 1000; }));
@@ -272,13 +278,7 @@ TEST(LiveSession, AStylusThatWasLostComesBackUnarmed) {
 TEST(LiveSession, ARecordingThatBeginsAfterAFaultHasNoForce) {
   const auto file = fresh_path("after-a-fault.h5");
   UnhurriedSession live;
-  live.set_scan(ball(), modes::load_scene("ct-skin-and-bone"));
-  const auto held = pressing();
-  live.connect(held);
-  ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.1; }));
-  held->inject(device::SimulatedFault::unplugged);
-  ASSERT_TRUE(comes(live, [&] { return fault_of(last_tick(live)) == device::Fault::device_lost; }));
-  held->inject(device::SimulatedFault::none);
+  ASSERT_TRUE(presses_and_is_lost(live));
   live.record(file);
   EXPECT_EQ(live.start(), LiveSession::Start::released);
   ASSERT_TRUE(comes(live, [&] { return live.ticks()->written() > 1000; }));

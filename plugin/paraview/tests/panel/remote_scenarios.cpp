@@ -154,6 +154,20 @@ void remote_fetched() {
   let_go();
 }
 
+/// Saved, and loaded where nothing is left of it: the scan comes back, and the scene.
+void state_is_loaded_again() {
+  const std::string saved = scene_text();
+  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/panel-remote.pvsm");
+  pqApplicationCore& core = *pqApplicationCore::instance();
+  expect(core.saveState(file), "the state is saved");
+  core.getObjectBuilder()->resetServer(active_server());
+  wait_for(
+      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 20);
+  core.loadState(file.toUtf8().constData(), active_server());
+  scan_is_shown();
+  expect(scene_text() == saved, "the scene is the same text");
+}
+
 /// A folder of this machine has the same name and series, and other voxels; and a state brings it all back.
 void remote_different() {
   connect_server();
@@ -166,18 +180,9 @@ void remote_different() {
       "the recording is closed", [] { return label("palpateStylusMessage").startsWith("Recorded"); }, 20);
   let_go();
   click("palpateConnect");
-  const std::string saved = scene_text();
-  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/panel-remote.pvsm");
-  pqApplicationCore& core = *pqApplicationCore::instance();
-  expect(core.saveState(file), "the state is saved");
-  core.getObjectBuilder()->resetServer(active_server());
-  wait_for(
-      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 20);
-  core.loadState(file.toUtf8().constData(), active_server());
+  state_is_loaded_again();
   wait_for_word(
       "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
-  scan_is_shown();
-  expect(scene_text() == saved, "the scene is the same text");
   feel_remotely(false);
 }
 
@@ -261,16 +266,7 @@ bool is_of_server(const std::string& scene) {
 
 /// A state that names a structure of the server brings both back.
 void structures_come_back() {
-  const std::string saved = scene_text();
-  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/panel-remote-structures.pvsm");
-  pqApplicationCore& core = *pqApplicationCore::instance();
-  expect(core.saveState(file), "the state is saved");
-  core.getObjectBuilder()->resetServer(active_server());
-  wait_for(
-      "nothing is left to feel", [] { return !find<QPushButton>("palpateConnect").isEnabled(); }, 10);
-  core.loadState(file.toUtf8().constData(), active_server());
-  scan_is_shown();
-  expect(scene_text() == saved, "the scene is the same text");
+  state_is_loaded_again();
   wait_for(
       "its structures are listed again", [] { return structure_list().topLevelItemCount() == 2; }, 30);
   wait_for(
