@@ -15,6 +15,7 @@
 #include "io/quantile.h"
 #include "plugin/paraview/common/even_copy.h"
 #include "plugin/paraview/common/shared_voxels.h"
+#include "plugin/paraview/common/value_range.h"
 
 namespace palpate::plugin {
 namespace {
@@ -124,6 +125,7 @@ void show_volume(const Part& part, const DisplayGrid& grid, const std::array<int
   if (image.GetNumberOfPoints() == 0) return;  // an MPI rank without a part
   const auto array = array_of(part, grid, extent);
   array->SetName(name.c_str());
+  keep_range(*array);
   image.GetPointData()->SetScalars(array);
 }
 

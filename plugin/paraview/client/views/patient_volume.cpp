@@ -22,6 +22,7 @@
 #include "plugin/paraview/client/panel/latest_job.h"
 #include "plugin/paraview/client/views/crop_box.h"
 #include "plugin/paraview/common/body_mask.h"
+#include "plugin/paraview/common/value_range.h"
 
 namespace palpate::plugin {
 namespace {
@@ -43,14 +44,16 @@ vtkSmartPointer<vtkImageData> body_of(vtkImageData& image) {
   cut->CopyStructure(&image);
   const auto kept = vtkSmartPointer<vtkDataArray>::Take(values.NewInstance());
   kept->DeepCopy(&values);
-  const double air = values.GetRange(0)[0];
+  double range[2];
+  values.GetRange(range, 0);
   for (int k = 0; k < size[2]; ++k) {
     for (int j = 0; j < size[1]; ++j) {
       for (int i = 0; i < size[0]; ++i) {
-        if (!body.holds(i, j, k)) kept->SetComponent(at(i, j, k), 0, air);
+        if (!body.holds(i, j, k)) kept->SetComponent(at(i, j, k), 0, range[0]);
       }
     }
   }
+  keep_range(*kept);
   cut->GetPointData()->SetScalars(kept);
   return cut;
 }
