@@ -157,6 +157,7 @@ SCENARIOS = [
     "ones_way_is_found",
     "slices_are_read_and_measured",
     "the_table_is_cut_away",
+    "the_volume_is_drawn_seldom",
     "surfaces_are_seen_where_they_are_felt",
     "a_scene_shows_what_it_does",
     "small_things_are_right",
@@ -265,5 +266,6 @@ TESTS["the_panel_fits_the_screen"] = fits
 TESTS["marks_are_saved"] = marks_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
 TESTS["first_image"] = lambda: run("first_image", PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
+TESTS["the_volume_is_drawn_seldom"] = lambda: run("the_volume_is_drawn_seldom", PALPATE_DROP=on_a_table())
 TESTS["other_files_are_opened_and_felt"] = other_files
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

@@ -14,6 +14,8 @@
 #include <QTimer>
 #include <QToolBar>
 
+#include "plugin/paraview/client/layout/seen_panels.h"
+
 namespace palpate::plugin {
 namespace {
 
@@ -29,6 +31,7 @@ bool has_pipeline() {
 
 HostLayout::HostLayout(QMainWindow& window, QToolBar& toolbar, QDockWidget& panel, QObject* parent)
     : QObject(parent), window_(window), toolbar_(toolbar), panel_(panel) {
+  follow_while_seen(window_);
   // ParaView restores its window from the last time, 10 ms after it is made.
   auto* const waiting = new QTimer(this);
   connect(waiting, &QTimer::timeout, this, [this, waiting] {

@@ -76,11 +76,10 @@ void ClinicalViews::close() {
 
 void ClinicalViews::refresh() {
   for (const auto& slice : slices_) {
-    if (!slice) continue;
-    slice->refresh_text();
+    if (slice) slice->refresh_text();
   }
   for (const auto& open : views_) {
-    if (open.view) open.view->render();
+    if (open.view && open.slice) open.view->render();
   }
 }
 

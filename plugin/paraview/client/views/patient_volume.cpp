@@ -17,6 +17,8 @@
 #include <vtkVolume.h>
 #include <vtkVolumeCollection.h>
 
+#include <QTimer>
+
 #include <utility>
 
 #include "plugin/paraview/client/panel/latest_job.h"
@@ -67,10 +69,9 @@ struct PatientVolume::Cut {
 PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed)
     : view_(&view), scan_(&scan), hounsfield_(hounsfield), changed_(std::move(changed)) {
   const auto done = [this](const auto& found, const QString&) {
-    if (!found || !*found) return;
-    cut_image_ = *found;
-    refresh();
-    if (changed_) changed_();
+    if (found) cut_image_ = *found;
+    begin_to_draw();
+    if (cut_image_ && changed_) changed_();
   };
   job_ = std::unique_ptr<Cut>(new Cut{LatestJob<vtkSmartPointer<vtkImageData>>(done)});
   take_image();
@@ -79,19 +80,28 @@ PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool ho
                    [this] { take_image(); });
 }
 
+void PatientVolume::begin_to_draw() {
+  waits_ = false;
+  refresh();
+}
+
 void PatientVolume::take_image() {
   auto* const reader = scan_ ? vtkAlgorithm::SafeDownCast(scan_->getProxy()->GetClientSideObject()) : nullptr;
   auto* const image = reader ? vtkImageData::SafeDownCast(reader->GetOutputDataObject(0)) : nullptr;
   vtkSMProperty* const times = scan_ ? scan_->getProxy()->GetProperty("TimestepValues") : nullptr;
   const bool one_frame = !times || vtkSMPropertyHelper(times).GetNumberOfElements() <= 1;
   vtkDataArray* const values = image ? image->GetPointData()->GetScalars() : nullptr;
-  if (!values || !one_frame || (whole_image_ && whole_image_->GetPointData()->GetScalars() == values)) return;
+  const bool same = whole_image_ && whole_image_->GetPointData()->GetScalars() == values;
+  const bool seek_body = values && one_frame && hounsfield_;
+  // A timer that is started now ends after those of the slices.
+  if (waits_ && !seek_body) QTimer::singleShot(1, &lifetime_, [this] { begin_to_draw(); });
+  if (!values || !one_frame || same) return;
   whole_image_ = vtkSmartPointer<vtkImageData>::New();
   whole_image_->ShallowCopy(image);
   cut_image_ = nullptr;
   job_->job.drop();
   refresh();
-  if (hounsfield_) job_->job.ask([image = whole_image_] { return body_of(*image); });
+  if (seek_body) job_->job.ask([image = whole_image_] { return body_of(*image); });
 }
 
 PatientVolume::~PatientVolume() {
@@ -146,7 +156,8 @@ void PatientVolume::refresh() {
   vtkVolume* const theirs = of_paraview();
   if (!theirs) return;
   const bool cut = cut_ && cut_image_;
-  const bool ours = !hidden_ && (cut || cropped_);
+  const bool hidden = hidden_ || waits_;
+  const bool ours = !hidden && (cut || cropped_);
   if (ours && !own_) {
     own_ = vtkSmartPointer<vtkVolume>::New();
     own_->PickableOff();
@@ -166,7 +177,7 @@ void PatientVolume::refresh() {
     }
     own_->SetVisibility(ours ? 1 : 0);
   }
-  take_out(*theirs, ours || hidden_);
+  take_out(*theirs, ours || hidden);
   view_->render();
 }
 

@@ -24,7 +24,8 @@ class CropBox;
 class PatientVolume {
  public:
   /// Looks for the body in the background, where the scan is one of HU and of one frame. `changed` is called when
-  /// can_cut() has become known.
+  /// can_cut() has become known. The volume is drawn from then on, and in any case after the slices: without a graphics
+  /// card its picture takes seconds.
   PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed);
   PatientVolume(const PatientVolume&) = delete;
   PatientVolume& operator=(const PatientVolume&) = delete;
@@ -43,6 +44,7 @@ class PatientVolume {
  private:
   struct Cut;
   void take_image();
+  void begin_to_draw();
   void refresh();
   void take_out(vtkVolume& theirs, bool out);
   vtkVolume* of_paraview() const;
@@ -55,7 +57,7 @@ class PatientVolume {
   vtkSmartPointer<vtkVolume> own_;
   vtkSmartPointer<vtkVolume> taken_out_;  // ParaView's, while it is not drawn
   std::unique_ptr<CropBox> box_;
-  bool cut_ = true, cropped_ = false, hidden_ = false;
+  bool cut_ = true, cropped_ = false, hidden_ = false, waits_ = true;
   QObject lifetime_;          // its end ends what is connected to the scan
   std::unique_ptr<Cut> job_;  // last: it ends before what it sets
 };

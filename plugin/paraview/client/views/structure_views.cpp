@@ -79,10 +79,13 @@ StructureViews::~StructureViews() = default;
 
 void StructureViews::set_views(const std::vector<ClinicalView>& views) {
   views_.clear();
+  structures_.clear();
   for (const ClinicalView& view : views) views_.push_back(std::make_unique<One>(view));
 }
 
 void StructureViews::set_structures(std::vector<DrawnStructure> structures, double opacity) {
+  // Every edit of the scene comes here, and a picture of the volume may take seconds.
+  if (structures == structures_ && opacity == opacity_) return;
   structures_ = std::move(structures);
   opacity_ = opacity;
   for (const auto& one : views_) {

@@ -22,6 +22,7 @@ struct DrawnStructure {
   glm::dvec3 low_mm{0}, high_mm{0};  ///< of a box around all of it
   vtkSmartPointer<vtkPolyData> surface;
   QColor color;
+  bool operator==(const DrawnStructure&) const = default;
 };
 
 class StructureViews {

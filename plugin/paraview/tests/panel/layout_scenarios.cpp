@@ -1,7 +1,11 @@
 // The clinical layout: what is on the screen, where it is, and how views are enlarged.
 
+#include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
+#include <pqDataRepresentation.h>
+#include <pqPropertiesPanel.h>
+#include <pqProxyWidget.h>
 #include <pqRenderView.h>
 #include <pqRepresentation.h>
 #include <pqServer.h>
@@ -31,7 +35,9 @@
 #include <QToolButton>
 #include <QUrl>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -141,6 +147,27 @@ void double_click(const char* name) {
   double_click(in, QPoint(in.width() / 4, in.height() * 3 / 4));
 }
 
+/// ParaView's *Properties* stand for the representation that is active, once they are seen.
+void expect_properties_of_the_active() {
+  const auto& panel = *window().findChild<pqPropertiesPanel*>();
+  wait_for(
+      "Properties show what is active",
+      [&] {
+        const pqDataRepresentation* const active = pqActiveObjects::instance().activeRepresentation();
+        return active && std::ranges::any_of(panel.findChildren<pqProxyWidget*>(), [&](const pqProxyWidget* one) {
+                 return one->proxy() == active->getProxy();
+               });
+      },
+      20);
+}
+
+pqView& view_of(const char* name) {
+  for (auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
+    if (one->getSMName() == QLatin1String(name)) return *one;
+  }
+  throw std::runtime_error(std::string("there is no view ") + name);
+}
+
 /// On a small laptop's screen.
 void the_layout_is_clinical() {
   scan_is_shown();
@@ -199,10 +226,15 @@ void the_layout_is_clinical() {
 
   click("palpateAdvancedButton");
   expect_host(true, "under Advanced");
+  expect_properties_of_the_active();
   save_screen("layout-advanced");
+  pqActiveObjects::instance().setActiveView(&view_of("Sagittal"));
+  expect_properties_of_the_active();
   click("palpateAdvancedButton");
   expect_host(false, "without Advanced");
+  pqActiveObjects::instance().setActiveView(&view_of("Coronal"));
   click("palpateAdvancedButton");  // and so it is left
+  expect_properties_of_the_active();
 }
 
 /// In the program's next start.

@@ -4,8 +4,10 @@
 #include <pqCoreUtilities.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <pqView.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
+#include <vtkCommand.h>
 #include <vtkPVRenderView.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -19,17 +21,21 @@
 #include <QAction>
 #include <QComboBox>
 #include <QImage>
+#include <QObject>
 #include <QPoint>
 #include <QRect>
 #include <QWidget>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -165,8 +171,8 @@ Surface surface_seen() {
   return seen;
 }
 
-bool scan_is_drawn() {
-  vtkVolumeCollection& volumes = *renderer().GetVolumes();
+bool scan_is_drawn(vtkRenderer& in) {
+  vtkVolumeCollection& volumes = *in.GetVolumes();
   for (int n = 0; n < volumes.GetNumberOfItems(); ++n) {
     if (vtkVolume::SafeDownCast(volumes.GetItemAsObject(n))->GetVisibility()) return true;
   }
@@ -176,7 +182,8 @@ bool scan_is_drawn() {
 /// A ball of 25 mm about the origin.
 void surfaces_are_seen_where_they_are_felt() {
   scan_is_shown();
-  expect(scan_is_drawn(), "the scan is drawn at first");
+  wait_for(
+      "the scan is drawn at first", [] { return scan_is_drawn(renderer()); }, 20);
   auto& looks = find<QComboBox>("palpateVolumeLook");
   const auto choose = [&](int look) {
     looks.setCurrentIndex(look);
@@ -192,7 +199,7 @@ void surfaces_are_seen_where_they_are_felt() {
          "it is the ball's: " + std::to_string(felt.least_mm) + " to " + std::to_string(felt.most_mm) + " mm");
   expect(felt.color == QColor(0xe6, 0x9f, 0x00), "in the boundary's color: " + felt.color.name().toStdString());
   expect(felt.opacity > 0.5 && felt.opacity < 1, "seen through a little");
-  expect(!scan_is_drawn(), "nothing hides it");
+  expect(!scan_is_drawn(renderer()), "nothing hides it");
   views_rest();
   const QImage picture = view("Volume").grab().toImage();
   const QColor middle = picture.pixelColor(seen_in(picture).center());
@@ -206,13 +213,55 @@ void surfaces_are_seen_where_they_are_felt() {
       "and comes back", [] { return surface_seen().most_mm > 0; }, 20);
   choose(0);
   wait_for(
-      "another look shows the scan", [] { return scan_is_drawn() && surface_seen().most_mm == 0; }, 20);
+      "another look shows the scan", [] { return scan_is_drawn(renderer()) && surface_seen().most_mm == 0; }, 20);
+}
+
+/// How often the scan is drawn in the volume view, from the view's first picture on.
+struct Drawings {
+  Drawings() {
+    QObject::connect(
+        pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::viewAdded, &lifetime,
+        [this](pqView* made) {
+          auto* const view = qobject_cast<pqRenderView*>(made);
+          if (!view) return;
+          auto* const drawn =
+              vtkPVRenderView::SafeDownCast(view->getRenderViewProxy()->GetClientSideView())->GetRenderer();
+          watches.push_back(std::make_unique<palpate::plugin::EventWatch>(
+              drawn, vtkCommand::EndEvent, [this, drawn] { count += scan_is_drawn(*drawn) ? 1 : 0; }));
+        });
+  }
+  int count = 0;
+  std::vector<std::unique_ptr<palpate::plugin::EventWatch>> watches;
+  QObject lifetime;
+};
+
+/// Without a graphics card its picture takes seconds: it is drawn once the table is cut away, and not for what only the
+/// slices show.
+void the_volume_is_drawn_seldom() {
+  const Drawings drawings;
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  scan_is_shown();
+  wait_for("the table is found", [] { return action("palpateCutTable").isEnabled(); });
+  views_rest();
+  const int first = drawings.count;
+  // ParaView may ask for a second picture by itself.
+  expect(first == 1 || first == 2, "the scan was drawn once: " + std::to_string(first));
+  auto& on = find<QAbstractButton>("palpateOn0");
+  on.click();
+  views_rest();
+  on.click();
+  views_rest();
+  expect(drawings.count == first, "a tissue that is switched off and on does not draw it anew");
+  action("palpateCutTable").trigger();
+  wait_for(
+      "with the table it is drawn anew", [&] { return drawings.count > first; }, 20);
 }
 
 }  // namespace
 
 const Scenarios& volume_scenarios() {
   static const Scenarios scenarios{{"the_table_is_cut_away", the_table_is_cut_away},
+                                   {"the_volume_is_drawn_seldom", the_volume_is_drawn_seldom},
                                    {"surfaces_are_seen_where_they_are_felt", surfaces_are_seen_where_they_are_felt}};
   return scenarios;
 }
