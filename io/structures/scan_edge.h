@@ -1,0 +1,43 @@
+#pragma once
+
+/// Where the scan's own values have an edge beside a structure's surface. Labels place the surface by whole voxels, and
+/// a person may have drawn it elsewhere; the values say where the tissue changes, if they change there.
+///
+/// The values are read along a straight way through the surface. An edge is a stretch over which they rise or fall. It
+/// is cut on both sides where the slope is the same part of its steepest, and its place is where the value is half-way
+/// between the two ends. So the place does not depend on the samples, and a neighboring edge that cuts one side short
+/// does not shift it.
+///
+/// Blur shifts the edge of a round body towards the center of curvature: by half of the sum, over the two tangent
+/// directions, of the blur's variance times the curvature. That is taken out. The blur is the voxel's, the
+/// interpolation's, and what the width of the edge says of the scanner's; the curvature is the structure's.
+
+#include <optional>
+
+#include "io/fields/field_source.h"
+#include "io/geometry.h"
+#include "io/structures/distance_field.h"
+
+namespace palpate::io {
+
+struct ScanEdge {
+  double mm = 0;           ///< from the place along the way; negative: the edge lies before the place
+  double rise = 0;         ///< of the value along the way, the scan's unit; negative: it falls
+  double known_to_mm = 0;  ///< two standard deviations of `mm`, through noise and the phase between voxels, and a part
+                           ///< of the blur's shift
+};
+
+/// What the edge is looked for in.
+struct ScanValues {
+  const FieldSource& source;  ///< the cubic value and its own gradient (GradientMethod::cubic)
+  const Geometry& geometry;
+};
+
+/// The edge nearest to a place on the structure's surface (mm, patient space) along a way (unit), within so many mm to
+/// both sides. It rises or falls by six times the noise at least. None if there is no such edge, if the way runs
+/// almost along the surface, or if the noise cannot be measured there, as at the end of the scan. Takes some thousand
+/// samples: not for the tick.
+std::optional<ScanEdge> scan_edge(const ScanValues& scan, const DistanceField& structure, const Vec3& place_mm,
+                                  const Vec3& way, double within_mm);
+
+}  // namespace palpate::io
