@@ -14,6 +14,7 @@
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/stroke_picture.h"
+#include "plugin/report/structure_crossings.h"
 #include "plugin/report/summary.h"
 #include "plugin/session/scan.h"
 
@@ -36,8 +37,21 @@ nlohmann::json vector(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
+nlohmann::json to_json(const StructureCrossing& crossing, const modes::Scene& scene) {
+  const io::ScanEdge edge = crossing.own_edge.value_or(io::ScanEdge{NAN, NAN, NAN});
+  return {{"structure", scene.structures[crossing.structure].name},
+          {"entering", crossing.entering},
+          {"position_mm", vector(crossing.place_mm)},
+          {"depth_mm", crossing.depth_mm},
+          {"scan_edge_mm", number(edge.mm)},
+          {"scan_edge_rise", number(edge.rise)},
+          {"scan_edge_known_to_mm", number(edge.known_to_mm)},
+          {"scan_edge_within_mm", scan_edge_within_mm}};
+}
+
 std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<MetBoundary>& met,
-                    const modes::Plan& plan, const modes::Scene& scene) {
+                    const std::vector<StructureCrossing>& crossings, const modes::Plan& plan,
+                    const modes::Scene& scene) {
   nlohmann::json json{{"position_mm", nlohmann::json::array()}, {"proxy_mm", nlohmann::json::array()},
                       {"force_n", nlohmann::json::array()},     {"value", nlohmann::json::array()},
                       {"solver", nlohmann::json::array()},      {"error_bound_m", nlohmann::json::array()},
@@ -68,11 +82,13 @@ std::string to_json(const std::vector<StrokePoint>& stroke, const std::vector<Me
                            {"known_to_mm", number(boundary.known_to_mm.value_or(NAN))},
                            {"known_along_mm", number(boundary.known_along_mm.value_or(NAN))}});
   }
+  json["crossings"] = nlohmann::json::array();
+  for (const StructureCrossing& crossing : crossings) json["crossings"].push_back(to_json(crossing, scene));
   return json.dump();
 }
 
 void print_text(const std::vector<StrokePoint>& stroke, const std::vector<MetBoundary>& met,
-                const modes::Scene& scene) {
+                const std::vector<StructureCrossing>& crossings, const modes::Scene& scene) {
   put("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
   const glm::dvec3 from = stroke.front().position_mm;
   const glm::dvec3 along = glm::normalize(stroke.back().position_mm - from);
@@ -95,6 +111,7 @@ void print_text(const std::vector<StrokePoint>& stroke, const std::vector<MetBou
         boundary.depth_mm, patient_coordinates(first.proxy_mm), first.value, contact.peak_n,
         known_to_text(boundary.known_to_mm), strength_to_text(contact));
   }
+  for (const StructureCrossing& crossing : crossings) put("{}\n", in_words(crossing, scene));
 }
 
 void run(const ProfileOptions& options) {
@@ -116,10 +133,11 @@ void run(const ProfileOptions& options) {
   profile.met = met_along(profile, felt);
   if (!options.picture.empty()) write_png(charts_of(profile), options.picture);
   if (!options.table.empty()) write_csv(profile, options.table);
+  const std::vector<StructureCrossing> crossings = crossings_along(from, to, felt);
   if (options.json) {
-    put_json_text(to_json(profile.stroke, profile.met, *felt.plan, scene));
+    put_json_text(to_json(profile.stroke, profile.met, crossings, *felt.plan, scene));
   } else {
-    print_text(profile.stroke, profile.met, scene);
+    print_text(profile.stroke, profile.met, crossings, scene);
   }
 }
 

@@ -110,6 +110,43 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(input), {}};
 }
 
+// From the liver by stomach and bowel, which are as bright, into the spleen: the stroke and the scene of README.md.
+TEST(CommandStructures, LiverIsFeltAgainstSpleenAndBesideTheScansOwnEdges) {
+  if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
+  const std::string labels = (shared / "totalsegmentator/example_seg_dicom.nii.gz").string();
+  const fs::path scene = fresh_path("liver_spleen.json");
+  std::ofstream(scene) << R"({"version": 1, "structures": [{"name": "liver", "segment": "liver", "file": ")" << labels
+                       << R"("}, {"name": "spleen", "segment": "spleen", "file": ")" << labels << R"("}],
+    "modes": [{"type": "surface", "structure": "liver", "side": "both", "strength_n": 1.2},
+              {"type": "surface", "structure": "spleen", "side": "both", "strength_n": 0.6}]})";
+  const Outcome outcome = palpate("profile --json " + (shared / "totalsegmentator/example_ct_dicom").string() +
+                                      " --scene " + scene.string() + " --from=-20,-200,-785 --to 125,-115,-785",
+                                  false);
+  ASSERT_EQ(outcome.exit, 0) << outcome.output;
+  const Json stroke = Json::parse(outcome.output);
+  const Json& met = stroke.at("met");
+  ASSERT_EQ(met.size(), 2U);
+  EXPECT_EQ(met[0].at("boundary"), "liver");
+  EXPECT_EQ(met[1].at("boundary"), "spleen");
+  EXPECT_GT(met[0].at("peak_n"), 1.0);
+  EXPECT_NEAR(met[1].at("peak_n").get<double>(), 0.6, 0.01);
+  const Json& crossings = stroke.at("crossings");
+  ASSERT_EQ(crossings.size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(crossings[n].at("structure"), met[n].at("boundary"));
+    EXPECT_EQ(crossings[n].at("entering"), n == 1);
+    EXPECT_NEAR(crossings[n].at("depth_mm").get<double>(), met[n].at("depth_mm").get<double>(), 0.3);
+    EXPECT_EQ(crossings[n].at("scan_edge_within_mm"), 5);
+  }
+  // The liver ends in fat, darker by more than 100 HU. The stomach's wall lies on the spleen: nothing tells them apart.
+  EXPECT_NEAR(crossings[0].at("scan_edge_mm").get<double>(), 0, 1.0);
+  EXPECT_LT(crossings[0].at("scan_edge_rise"), -100);
+  EXPECT_GT(crossings[0].at("scan_edge_known_to_mm"), 0);
+  for (const char* const key : {"scan_edge_mm", "scan_edge_rise", "scan_edge_known_to_mm"}) {
+    EXPECT_TRUE(crossings[1].at(key).is_null()) << key;
+  }
+}
+
 // Through the margin and into what is to be kept out of.
 TEST(CommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
