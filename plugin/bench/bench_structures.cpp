@@ -22,6 +22,7 @@
 #include "io/structures/structure.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/app/run_session.h"
+#include "plugin/bench/scan_edge_study.h"
 #include "plugin/bench/tick_study.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/text_file.h"
@@ -244,6 +245,7 @@ void add_bench_structures(CLI::App& bench) {
         if (!folder.empty()) write_text(folder / name, csv);
       };
       keep("balls.csv", tabulate_balls());
+      keep("own_edges.csv", tabulate_own_edges());
       keep("readiness.csv", tabulate_readiness());
       if (!arguments->series.path.empty()) keep("tick.csv", tabulate_ticks(*arguments));
     });
