@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace palpate::io::internal {
 
@@ -37,8 +38,32 @@ bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept {
   return true;
 }
 
+namespace {
+
+/// The sum over a cell of eight whole numbers, in the same order as below: what has no weight adds nothing.
+template <typename Stored>
+double sum_of_eight(const Stored* first, std::size_t row, std::size_t slice, const Cell& cell) noexcept {
+  double sum = 0;
+  for (int k = 0; k < 2; ++k) {
+    for (int j = 0; j < 2; ++j) {
+      const Stored* const two = first + (k != 0 ? slice : 0) + (j != 0 ? row : 0);
+      sum += cell.weight(0, j, k) * static_cast<double>(two[0]);
+      sum += cell.weight(1, j, k) * static_cast<double>(two[1]);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
 double trilinear_value(const Volume& volume, const Cell& cell) noexcept {
   const auto stored = [&](const auto& voxels) {
+    if constexpr (std::is_integral_v<typename std::decay_t<decltype(voxels)>::value_type>) {
+      if (cell.size == glm::ivec3(2)) {
+        return sum_of_eight(voxels.data() + volume.offset(cell.first.x, cell.first.y, cell.first.z),
+                            volume.offset(0, 1, 0), volume.offset(0, 0, 1), cell);
+      }
+    }
     double sum = 0;
     for (int k = 0; k < cell.size.z; ++k) {
       for (int j = 0; j < cell.size.y; ++j) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "io/fields/evenly_spread.h"
 #include "io/fields/low_high.h"
 
 namespace palpate::io {
@@ -71,7 +72,7 @@ std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const Gr
                                                   const Progress& progress, int threads) {
   check(values, "values");
   constexpr std::uint64_t enough_voxels = 1'000'000;  // far more than the bins can show
-  const std::uint64_t stride = 1 + volume.offset(0, 0, volume.geometry.dimensions.z) / enough_voxels;
+  const internal::EvenlySpread counted(volume.offset(0, 0, volume.geometry.dimensions.z), enough_voxels);
   const auto columns = static_cast<std::size_t>(values.count);
   std::vector<LowHighHistogram> all(least_magnitudes.size(), {values, std::vector<std::uint64_t>(columns * columns)});
   const double least_of_all = *std::min_element(least_magnitudes.begin(), least_magnitudes.end());
@@ -85,10 +86,9 @@ std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const Gr
     auto gradient = gradients.begin();
     for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
       for (int j = block.first.y; j < block.first.y + block.size.y; ++j) {
-        for (int i = block.first.x; i < block.first.x + block.size.x; ++i, ++gradient) {
-          // Hashed: an even stride would fall into step with the rows.
-          const std::uint64_t hash = (volume.offset(i, j, k) * 0x9E3779B97F4A7C15U) >> 32U;
-          if (hash % stride != 0) continue;
+        std::uint64_t offset = volume.offset(block.first.x, j, k);
+        for (int i = block.first.x; i < block.first.x + block.size.x; ++i, ++gradient, ++offset) {
+          if (!counted.has(offset)) continue;
           const auto magnitude = static_cast<double>(glm::length(*gradient));
           if (!(magnitude > least_of_all) || volume.is_padding(i, j, k)) continue;
           const LowHigh sides = low_high_at(volume, {i, j, k}, Vec3(*gradient), kernel.scale_mm());

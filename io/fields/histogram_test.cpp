@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "io/fields/evenly_spread.h"
 #include "testdata/scan.h"
 
 namespace palpate::io {
@@ -74,6 +75,17 @@ TEST(Bins, CountWhatLiesOutsideInTheOutermost) {
   EXPECT_EQ(values.bin_of(5000), 43);
   EXPECT_EQ(values.bin_of(1100), 43);
   for (int bin = 0; bin < values.count; ++bin) EXPECT_EQ(values.bin_of(values.middle(bin)), bin);
+}
+
+TEST(EvenlySpread, HasTheVoxelsWhoseHashTheStrideDivides) {
+  for (const std::uint64_t all : {10U, 1000U, 65'000U, 1'000'000U, 4'000'000U, 4'294'967'295U}) {
+    constexpr std::uint64_t enough = 1000;
+    const internal::EvenlySpread spread(all, enough);
+    for (std::uint64_t offset = 0; offset < 100'000; ++offset) {
+      const std::uint64_t hash = (offset * 0x9E3779B97F4A7C15U) >> 32U;
+      ASSERT_EQ(spread.has(offset), hash % (1 + all / enough) == 0) << all << " voxels, " << offset;
+    }
+  }
 }
 
 }  // namespace

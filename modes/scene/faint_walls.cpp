@@ -50,11 +50,10 @@ Tissue side_of(const Hill& hill, const io::Bins& values, double softness) {
 
 }  // namespace
 
-double least_gradient_of_walls(const io::Volume& volume, const io::GradientKernel& kernel, const Spread& spread) {
-  const double bandwidth = bandwidth_of_range * (spread.high - spread.low);
-  const double of_noise = noise_between(volume, kernel, {}, spread.low).front().gradient;
-  return std::max(part_of_thin * steepest(least_in_bandwidths * bandwidth, kernel.scale_mm()),
-                  steep_in_noise * of_noise);
+double least_gradient_of_walls(const ScanNoise& noise, double scale_mm) {
+  const double bandwidth = bandwidth_of_range * (noise.spread().high - noise.spread().low);
+  return std::max(part_of_thin * steepest(least_in_bandwidths * bandwidth, scale_mm),
+                  steep_in_noise * noise.between({}).front().gradient);
 }
 
 std::vector<FaintWall> faint_walls(const io::LowHighHistogram& edges, const TissueHills& tissues,

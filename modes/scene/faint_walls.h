@@ -29,7 +29,8 @@ struct FaintWall {
 std::vector<FaintWall> faint_walls(const io::LowHighHistogram& edges, const TissueHills& tissues,
                                    std::span<const Noise> noise, double range, double voxels_at_boundaries, bool is_ct);
 
-/// Per mm: an edge less steep may be noise, or is fainter than any wall that is looked for.
-double least_gradient_of_walls(const io::Volume& volume, const io::GradientKernel& kernel, const Spread& spread);
+/// Per mm, of a gradient at that scale: an edge less steep may be noise, or is fainter than any wall that is looked
+/// for.
+double least_gradient_of_walls(const ScanNoise& noise, double scale_mm);
 
 }  // namespace palpate::modes::internal

@@ -244,7 +244,8 @@ void add_modes(Suggestion& suggestion, std::size_t between_tissues, const std::v
 Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress, int threads) {
   const double scale_mm = io::default_gradient_scale_mm(volume->geometry);
   const io::GradientKernel kernel(volume, scale_mm);
-  const internal::Spread spread = internal::spread_of(*volume);
+  const internal::ScanNoise noise(*volume, kernel, threads);
+  const internal::Spread& spread = noise.spread();
   const double range = spread.high - spread.low;
   Suggestion suggestion;
   suggestion.scene.name = "Suggested for this " + (volume->modality.empty() ? "scan" : volume->modality);
@@ -253,7 +254,7 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
     return suggestion;
   }
   const double steepest_of_least = least_step * range / (scale_mm * std::sqrt(2 * std::numbers::pi));
-  const std::array least_gradients{steepest_of_least, internal::least_gradient_of_walls(*volume, kernel, spread)};
+  const std::array least_gradients{steepest_of_least, internal::least_gradient_of_walls(noise, scale_mm)};
   std::vector<io::LowHighHistogram> edges =
       io::low_high_histograms(*volume, kernel, {spread.low - margin * range, spread.high + margin * range, value_bins},
                               least_gradients, progress, threads);
@@ -271,8 +272,8 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   std::vector<double> limits, noise_gradients(suggestion.boundaries.size());
   for (std::size_t t = 1; t < found.hills.size(); ++t) limits.push_back(suggestion.scene.tissues[t].low);
   const std::size_t between_tissues = suggestion.boundaries.size();
-  const std::vector<internal::Noise> noise = internal::noise_between(*volume, kernel, limits, spread.low);
-  add_faint_walls(internal::faint_walls(edges[1], found, noise, range, counts.all, is_ct), suggestion, noise_gradients);
+  add_faint_walls(internal::faint_walls(edges[1], found, noise.between(limits), range, counts.all, is_ct), suggestion,
+                  noise_gradients);
   add_modes(suggestion, between_tissues, noise_gradients, scale_mm, is_ct);
   suggestion.scene.description =
       "Tissues and boundaries as they were found in the scan: rename, switch and reshape them.";
