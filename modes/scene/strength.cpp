@@ -1,5 +1,7 @@
 #include "modes/scene/strength.h"
 
+#include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 
 namespace palpate::modes {
@@ -72,6 +74,19 @@ double Strength::operator()(const io::Sample& sample) const noexcept {
     product *= factor.table(datum_of(sample, factor.of, factor.structure));
   }
   return product;
+}
+
+void Strength::add_to(std::span<const double> values, std::span<const double> magnitudes,
+                      std::span<double> sums) const noexcept {
+  if (factors_.empty()) return;
+  std::array<double, most_at_once> all;
+  const std::span products = std::span(all).first(sums.size());
+  std::ranges::fill(products, 1.0);
+  for (const Factor& factor : factors_) {
+    // Most voxels are no boundary: what is zero stays zero.
+    if (!factor.table.multiply(factor.of == Datum::value ? values : magnitudes, products)) return;
+  }
+  for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += products[n];
 }
 
 io::FieldSet Strength::reads() const noexcept {

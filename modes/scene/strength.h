@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ class Strength {
 
   /// N, >= 0. In the tick.
   double operator()(const io::Sample& sample) const noexcept;
+  static constexpr std::size_t most_at_once = 64;
+  /// Adds that of many samples, at most most_at_once, with the same bits. It must read no more than value and gradient.
+  void add_to(std::span<const double> values, std::span<const double> magnitudes,
+              std::span<double> sums) const noexcept;
   /// The fields that operator() reads.
   io::FieldSet reads() const noexcept;
   /// N: the strength is never above this.

@@ -56,6 +56,29 @@ double StrengthTable::operator()(double at) const noexcept {
   if (at >= last_) {
     return beyond_;
   }
+  return look_up(at);
+}
+
+bool StrengthTable::multiply(std::span<const double> at, std::span<double> products) const noexcept {
+  int inner = 0, beyond = 0;
+  for (const double each : at) {
+    inner += each > first_ ? 1 : 0;
+    beyond += each >= last_ ? 1 : 0;
+  }
+  if (before_ == 0 && inner == 0) return false;
+  const bool all_before = inner == 0, all_beyond = beyond == static_cast<int>(at.size());
+  if ((before_ == 1 && all_before) || (beyond_ == 1 && all_beyond)) return true;
+  bool any = false;
+  for (std::size_t n = 0; n < products.size(); ++n) {
+    if (products[n] == 0) continue;
+    products[n] *= (*this)(at[n]);
+    any = any || products[n] != 0;
+  }
+  return any;
+}
+
+/// Between the first node and the last.
+double StrengthTable::look_up(double at) const noexcept {
   const auto cell = std::min(static_cast<std::size_t>((at - first_) * cells_per_unit_), piece_at_.size() - 1);
   std::size_t i = piece_at_[cell];
   // Rounding may put a datum at a cell's edge into the neighbor: look both ways.

@@ -3,6 +3,7 @@
 /// A transfer function in the form for the tick: O(1), whatever the number of nodes.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "modes/scene/transfer_function.h"
@@ -17,8 +18,12 @@ class StrengthTable {
 
   /// In the tick: does not allocate or throw. NaN gives the value of the first node.
   double operator()(double at) const noexcept;
+  /// Multiplies each product by the value at its datum. False if all products would be zero; they may be left as
+  /// they are then.
+  bool multiply(std::span<const double> at, std::span<double> products) const noexcept;
 
  private:
+  double look_up(double at) const noexcept;
   struct Piece {
     double from = 0;                        ///< datum at the piece's start
     double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< value = c0 + c1 d + c2 d^2 + c3 d^3, d = datum - from

@@ -2,25 +2,21 @@
 
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
-#include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <exception>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <mutex>
 #include <optional>
-#include <stdexcept>
-#include <thread>
+#include <span>
 
-#include "io/errors.h"
 #include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
+#include "io/parallel.h"
+#include "modes/scene/felt_strength.h"
 #include "modes/types/mode_type.h"
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/common/all_cores.h"
 #include "plugin/paraview/server/module/scan_of_image.h"
 #include "plugin/session/scan.h"
 
@@ -31,17 +27,15 @@ using io::FieldSet;
 
 /// The modes whose strengths are added up.
 std::vector<const modes::ActiveMode*> felt_modes(const modes::Plan& plan, const FieldChoice& choice) {
-  std::vector<const modes::ActiveMode*> felt;
-  if (!choice.felt) return felt;
+  if (!choice.felt) return {};
+  if (choice.mode.empty()) return modes::holding_modes(plan);
   const auto& all = choice.scene.modes;
-  if (!choice.mode.empty() &&
-      std::ranges::none_of(all, [&](const modes::Mode& mode) { return mode.name == choice.mode; })) {
+  if (std::ranges::none_of(all, [&](const modes::Mode& mode) { return mode.name == choice.mode; })) {
     throw InvalidInput(say("scene-has-no-mode-named", choice.mode));
   }
+  std::vector<const modes::ActiveMode*> felt;
   for (const modes::ActiveMode& mode : plan.modes) {
-    const bool wanted =
-        choice.mode.empty() ? mode.holds && mode.structure < 0 : all[mode.scene_index].name == choice.mode;
-    if (wanted) felt.push_back(&mode);
+    if (all[mode.scene_index].name == choice.mode) felt.push_back(&mode);
   }
   return felt;
 }
@@ -76,6 +70,21 @@ class Fields {
     felt_->SetValue(point, static_cast<float>(strength));
   }
 
+  /// The same of voxels along a row.
+  void put_row(vtkIdType point, const io::Volume& volume, const glm::ivec3& first,
+               std::span<const glm::vec3> gradients) const {
+    const std::size_t count = gradients.size();
+    for (std::size_t n = 0; (gradient_ || magnitude_) && n < count; ++n) {
+      const bool inside = !volume.is_padding(first.x + static_cast<int>(n), first.y, first.z);
+      const glm::vec3 gradient = inside ? gradients[n] : glm::vec3(0);
+      const vtkIdType at = point + static_cast<vtkIdType>(n);
+      if (gradient_) gradient_->SetTypedTuple(at, &gradient.x);
+      if (magnitude_) magnitude_->SetValue(at, static_cast<float>(glm::length(glm::dvec3(gradient))));
+    }
+    if (!felt_) return;
+    modes::FeltStrength(volume, felt_modes_).at_row(first, gradients, {felt_->GetPointer(point), count});
+  }
+
   std::vector<vtkSmartPointer<vtkFloatArray>> arrays() const {
     std::vector<vtkSmartPointer<vtkFloatArray>> made;
     for (const auto& array : {gradient_, magnitude_, felt_}) {
@@ -90,28 +99,6 @@ class Fields {
   vtkSmartPointer<vtkFloatArray> magnitude_;
   vtkSmartPointer<vtkFloatArray> felt_;
 };
-
-/// work(0) ... work(count - 1) on all cores, some at a time so that progress is told and cancelling works.
-template <typename Work>
-void for_pieces(std::size_t count, const io::Progress& progress, const Work& work) {
-  const std::size_t at_a_time = 4 * std::max(std::thread::hardware_concurrency(), 1U);
-  std::mutex failing;
-  std::exception_ptr failure;  // of the first piece that failed: none may leave its thread
-  const auto try_pieces = [&](vtkIdType one, vtkIdType last) {
-    try {
-      for (; one < last; ++one) work(static_cast<std::size_t>(one));
-    } catch (...) {
-      const std::scoped_lock lock(failing);
-      failure = std::current_exception();
-    }
-  };
-  for (std::size_t begin = 0; begin < count; begin += at_a_time) {
-    if (progress && !progress(static_cast<double>(begin) / static_cast<double>(count))) throw io::Cancelled();
-    const std::size_t end = std::min(begin + at_a_time, count);
-    on_all_cores([&] { vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end), 1, try_pieces); });
-    if (failure) std::rethrow_exception(failure);
-  }
-}
 
 /// A box of points in blocks whose sums stay in a second-level cache, as GradientKernel has its own.
 std::vector<io::Block> blocks_of(const glm::ivec3& size) {
@@ -129,42 +116,36 @@ std::vector<io::Block> blocks_of(const glm::ivec3& size) {
 void fill_from_voxels(const io::Volume& volume, const io::GradientKernel* kernel, const glm::ivec3& first,
                       const glm::ivec3& size, const io::Progress& progress, const Fields& fields) {
   const std::vector<io::Block> blocks = blocks_of(size);
-  for_pieces(blocks.size(), progress, [&](std::size_t one) {
+  const auto fill = [&](std::size_t one) {
     const io::Block& block = blocks[one];
     std::vector<glm::vec3> gradients(block.voxels());
     if (kernel) kernel->at_block({first + block.first, block.size}, gradients);
+    const auto count = static_cast<std::size_t>(block.size.x);
     std::size_t n = 0;
     const glm::ivec3 end = block.first + block.size;
     for (int k = block.first.z; k < end.z; ++k) {
-      for (int j = block.first.y; j < end.y; ++j) {
-        vtkIdType point = (vtkIdType{k} * size.y + j) * size.x + block.first.x;
-        for (int i = block.first.x; i < end.x; ++i, ++n, ++point) {
-          const glm::ivec3 at = first + glm::ivec3(i, j, k);
-          io::Sample sample;
-          sample.inside = !volume.is_padding(at.x, at.y, at.z);
-          if (sample.inside) {
-            sample.value = volume.value_at(at.x, at.y, at.z);
-            sample.gradient = gradients[n];
-          }
-          fields.put(point, sample);
-        }
+      for (int j = block.first.y; j < end.y; ++j, n += count) {
+        const vtkIdType point = (vtkIdType{k} * size.y + j) * size.x + block.first.x;
+        fields.put_row(point, volume, first + glm::ivec3(block.first.x, j, k), std::span(gradients).subspan(n, count));
       }
     }
-  });
+  };
+  io::internal::parallel_for(blocks.size(), fill, progress, 0);
 }
 
 void fill_from_samples(vtkImageData& image, const io::FieldSource& source, FieldSet wanted,
                        const io::Progress& progress, const Fields& fields) {
   const int* const size = image.GetDimensions();
   const vtkIdType slice = vtkIdType{size[0]} * size[1];
-  for_pieces(static_cast<std::size_t>(size[2]), progress, [&](std::size_t k) {
+  const auto fill = [&](std::size_t k) {
     const auto begin = static_cast<vtkIdType>(k) * slice;
     for (vtkIdType point = begin; point < begin + slice; ++point) {
       glm::dvec3 position;
       image.GetPoint(point, &position.x);
       fields.put(point, source.sample(position, wanted));
     }
-  });
+  };
+  io::internal::parallel_for(static_cast<std::size_t>(size[2]), fill, progress, 0);
 }
 
 }  // namespace
