@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "io/for_processor.h"
+
 namespace palpate::modes {
 namespace {
 
@@ -25,11 +27,19 @@ void read_values(const io::Volume& volume, std::size_t offset, std::span<double>
 }
 
 /// As glm::length() of a vector of doubles.
-void measure(std::span<const glm::vec3> gradients, std::span<double> magnitudes) {
-  for (std::size_t n = 0; n < gradients.size(); ++n) {
+PALPATE_FOR_PROCESSOR
+void measure(const glm::vec3* gradients, std::size_t count, double* magnitudes) {
+  PALPATE_INDEPENDENT
+  for (std::size_t n = 0; n < count; ++n) {
     const double x = gradients[n].x, y = gradients[n].y, z = gradients[n].z;
     magnitudes[n] = std::sqrt(x * x + y * y + z * z);
   }
+}
+
+PALPATE_FOR_PROCESSOR
+void store(const double* sums, std::size_t count, float* felt) {
+  PALPATE_INDEPENDENT
+  for (std::size_t n = 0; n < count; ++n) felt[n] = static_cast<float>(sums[n]);
 }
 
 }  // namespace
@@ -51,12 +61,12 @@ void FeltStrength::at_row(const glm::ivec3& first, std::span<const glm::vec3> gr
     const std::span sums = std::span(row.sums).first(count);
     const int i = first.x + static_cast<int>(begin);
     read_values(volume_, volume_.offset(i, first.y, first.z), values);
-    measure(gradients.subspan(begin, count), magnitudes);
+    measure(gradients.data() + begin, count, magnitudes.data());
     std::ranges::fill(sums, 0.0);
     for (const ActiveMode* mode : modes_) mode->strength.add_to(values, magnitudes, sums);
-    for (std::size_t n = 0; n < count; ++n) {
-      const bool is_padding = volume_.is_padding(i + static_cast<int>(n), first.y, first.z);
-      felt[begin + n] = is_padding ? 0.0F : static_cast<float>(sums[n]);
+    store(sums.data(), count, felt.data() + begin);
+    for (std::size_t n = 0; volume_.padding && n < count; ++n) {
+      if (volume_.is_padding(i + static_cast<int>(n), first.y, first.z)) felt[begin + n] = 0;
     }
   }
 }
