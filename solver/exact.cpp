@@ -8,6 +8,7 @@
 
 #include "solver/certify.h"
 #include "solver/exact/answer.h"
+#include "solver/exact/sorted.h"
 #include "solver/exact/walk.h"
 
 namespace palpate::solver {
@@ -23,6 +24,8 @@ struct ExactScratch::Arrays {
   std::vector<Vec3> forces;
   std::vector<ForceRegion> hold;
   std::vector<std::uint32_t> met;
+  internal::Sorted sorted;    // of many primitives
+  internal::Columns columns;  // of the same
 
   void fit(std::size_t n) {
     if (placed.size() < n) {
@@ -31,6 +34,8 @@ struct ExactScratch::Arrays {
       forces.resize(n);
       hold.resize(n);
       met.resize(n);
+      sorted.fit(n);
+      columns.fit(n);
     }
   }
 };
@@ -42,7 +47,7 @@ ExactScratch::~ExactScratch() = default;
 std::size_t ExactScratch::memory_bytes() const noexcept {
   const auto size = [](const auto& array) { return array.capacity() * sizeof array[0]; };
   return sizeof(Arrays) + size(arrays_->placed) + size(arrays_->moved) + size(arrays_->forces) + size(arrays_->hold) +
-         size(arrays_->met);
+         size(arrays_->met) + arrays_->sorted.memory_bytes() + arrays_->columns.memory_bytes();
 }
 ExactScratch::ExactScratch(ExactScratch&&) noexcept = default;
 ExactScratch& ExactScratch::operator=(ExactScratch&&) noexcept = default;
@@ -62,8 +67,10 @@ class Search {
  private:
   void start_from_forces();
   void start_from_sweep();
+  void sweep();
   std::size_t start_at_common_position();
   void take_as_given();
+  void set_columns();
   void make_general();
   bool walk(int cap, bool anyway = false);
   bool walk_as_given(Start start);
@@ -75,16 +82,21 @@ class Search {
   std::span<Vec3> forces_;
   std::span<Placed> placed_;
   std::span<Placed> moved_;
+  internal::Columns& columns_;
   internal::Walk walk_;
   Solution solution_;
   int cap_;
   double bound_ = infinity;   // of the best answer
   double hard_strength_ = 0;  // N: what stands for infinity; 0 where nothing is hard
   double extent_ = 0;         // m: of the start
+  bool is_swept_ = false;     // what follows is known: the sweep's end
+  FineVec3 swept_;
+  internal::ActiveSet swept_active_;
+  double swept_extent_ = 0;
 };
 
 Search::Search(const Balance& balance, std::span<Vec3> forces, ExactScratch::Arrays& arrays, int cap)
-    : balance_(balance), forces_(forces), cap_(cap) {
+    : balance_(balance), forces_(forces), columns_(arrays.columns), cap_(cap) {
   const std::size_t n = balance.primitives.size();
   arrays.fit(n);
   placed_ = std::span(arrays.placed).first(n);
@@ -138,8 +150,21 @@ void Search::start_from_forces() {
   extent_ = length_of(sum) / balance_.stiffness;
 }
 
-// One pass of proximal steps: the analytical solver without its conditions.
+// Where one pass of proximal steps ends: the analytical solver without its conditions.
 void Search::start_from_sweep() {
+  if (!is_swept_) {
+    sweep();
+    swept_ = walk_.z;
+    swept_active_ = walk_.active;
+    swept_extent_ = extent_;
+    is_swept_ = true;
+  }
+  walk_.z = swept_;
+  walk_.active = swept_active_;
+  extent_ = swept_extent_;
+}
+
+void Search::sweep() {
   Vec3 z = walk_.pull / balance_.stiffness;
   walk_.active = {};
   for (const PrimitiveType type : {PrimitiveType::plane, PrimitiveType::line, PrimitiveType::point}) {
@@ -193,6 +218,7 @@ std::size_t Search::start_at_common_position() {
 void Search::take_as_given() {
   if (hard_strength_ == 0) {
     walk_.primitives = placed_;
+    set_columns();
     return;
   }
   for (std::size_t i = 0; i < placed_.size(); ++i) {
@@ -200,6 +226,14 @@ void Search::take_as_given() {
     moved_[i].strength = std::min(moved_[i].strength, hard_strength_);
   }
   walk_.primitives = moved_;
+  set_columns();
+}
+
+void Search::set_columns() {
+  if (walk_.primitives.size() > internal::few) {
+    columns_.take(walk_.primitives);
+    walk_.columns = &columns_;
+  }
 }
 
 // Moves every primitive by less than half an ulp, each its own way, so that no more of them meet than have to. Hard
@@ -225,6 +259,7 @@ void Search::make_general() {
     }
   }
   walk_.primitives = moved_;
+  set_columns();
 }
 
 // True where the walk's end is the answer. anyway: looks at it though the walk has not arrived.
@@ -239,7 +274,9 @@ bool Search::walk(int cap, bool anyway) {
 void Search::consider() {
   internal::Settled settled = internal::settle_on(walk_.active, placed_, balance_.stiffness, walk_.z, walk_.forces);
   const double promise = promised_accuracy(balance_, balance_.probe + settled.z.hi(), walk_.forces);
-  if (!(settled.bound.error <= 0.05 * promise)) {
+  // Of many primitives what is left may be the rounding of their sum alone, which no other flat takes away.
+  const bool is_rounding = walk_.columns != nullptr && settled.bound.slack == 0;
+  if (!(settled.bound.error <= 0.05 * promise) && !(is_rounding && settled.bound.error <= promise)) {
     const internal::PlacedPrimitives primitives = placed_.empty()
                                                       ? internal::PlacedPrimitives(balance_.primitives, balance_.probe)
                                                       : internal::PlacedPrimitives(placed_);
@@ -342,7 +379,15 @@ Solution Search::run(Start start) {
 
 Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch, Start start,
                      const ExactOptions& options) noexcept {
-  return Search(balance, forces, scratch.arrays(), options.max_iterations).run(start);
+  ExactScratch::Arrays& arrays = scratch.arrays();
+  if (balance.primitives.size() <= internal::few) {
+    return Search(balance, forces, arrays, options.max_iterations).run(start);
+  }
+  arrays.fit(balance.primitives.size());
+  const Balance sorted = arrays.sorted.take(balance, forces);
+  Solution solution = Search(sorted, arrays.sorted.forces(), arrays, options.max_iterations).run(start);
+  arrays.sorted.give_back(forces, solution);
+  return solution;
 }
 
 }  // namespace palpate::solver

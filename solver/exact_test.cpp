@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/analytical.h"
+#include "solver/certify.h"
 #include "solver/testing/problems.h"
 
 namespace palpate::solver {
@@ -118,6 +119,23 @@ TEST(Exact, RefusesHardConstraintsWithoutACommonPointAndNamesOne) {
     EXPECT_GT(solution.rejection->value, 0.4 * hard.apart);
     EXPECT_LT(solution.rejection->value, 1.5 * hard.apart);
     EXPECT_THAT(describe(*solution.rejection), testing::HasSubstr("1e-12"));
+  }
+}
+
+// Many are sorted by kind; what is said of them is said in the order that they were given in.
+TEST(Exact, OfManyPrimitivesAnswersInTheirOrder) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Problem problem = make_problem(Family::many, seed, 150);
+    std::vector<Vec3> forces(150);
+    ExactScratch scratch;
+    const Solution solution = solve_exact(problem.balance(), forces, scratch);
+    ASSERT_EQ(solution.outcome, Outcome::solved);
+    EXPECT_LT(certify(problem.balance(), solution.proxy, forces).error_bound, 1e-14);
+    problem.primitives[40] = make_point(std::numeric_limits<double>::infinity(), {0.001, 0, 0});
+    problem.primitives[90] = make_plane(std::numeric_limits<double>::infinity(), {0.002, 0, 0}, {1, 0, 0});
+    const Solution refused = solve_exact(problem.balance(), forces, scratch);
+    ASSERT_EQ(refused.outcome, Outcome::refused);
+    EXPECT_THAT(refused.rejection->primitive, testing::AnyOf(40U, 90U));
   }
 }
 

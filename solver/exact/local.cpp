@@ -29,7 +29,7 @@ bool add_plane(const Walk& walk, const Placed& plane, const FineVec3& z, Local& 
 
 // The same of a line or point.
 bool add_attractor(const Walk& walk, const Placed& attractor, const FineVec3& z, Local& local, Vec3& force) {
-  const Miss miss = miss_of(attractor, z);
+  const Miss miss = walk.columns != nullptr ? quick_miss_of(attractor, z) : miss_of(attractor, z);
   if (miss.length <= 4 * miss.error + reach_of(walk, attractor, z)) {
     return false;
   }
@@ -48,6 +48,33 @@ bool add_attractor(const Walk& walk, const Placed& attractor, const FineVec3& z,
   return true;
 }
 
+// Adds what a primitive does, or counts it among what is met.
+void add(const Walk& walk, std::uint32_t i, const FineVec3& z, const ActiveSet& active, Local& local) {
+  const Placed& primitive = walk.primitives[i];
+  const bool off = !active.has(i) &&
+                   (primitive.type == PrimitiveType::plane ? add_plane(walk, primitive, z, local, walk.forces[i])
+                                                           : add_attractor(walk, primitive, z, local, walk.forces[i]));
+  if (off) {
+    local.gradient -= walk.forces[i];
+  } else {
+    walk.met[local.met++] = i;
+  }
+}
+
+void look_at_many(const Walk& walk, const FineVec3& z, const ActiveSet& active, Local& local) {
+  Sums sums;
+  const std::size_t near = add_far(*walk.columns, z, active, walk.coarseness, touch, sums, walk.forces, walk.met);
+  local.gradient -= sums.force;
+  local.size += sums.size;
+  // As if all roundings went one way, which those of many do not: a walk that stops there stops too early.
+  constexpr double likely = 0.1;
+  local.noise += likely * sums.noise;
+  local.hessian.add(sums.hessian);
+  for (std::size_t n = 0; n < near; ++n) {
+    add(walk, walk.met[n], z, active, local);
+  }
+}
+
 }  // namespace
 
 Local look(const Walk& walk, const FineVec3& z, const ActiveSet& active) {
@@ -55,18 +82,13 @@ Local look(const Walk& walk, const FineVec3& z, const ActiveSet& active) {
   local.hessian = Symmetric3::identity(walk.stiffness);
   local.gradient = z.hi() * walk.stiffness - walk.pull;
   local.size = length_of(z.hi()) * walk.stiffness + length_of(walk.pull);
-  for (std::size_t i = 0; i < walk.primitives.size(); ++i) {
-    const Placed& primitive = walk.primitives[i];
-    if (primitive.type == PrimitiveType::directed_force) {
-      continue;
-    }
-    const bool off = !active.has(i) && (primitive.type == PrimitiveType::plane
-                                            ? add_plane(walk, primitive, z, local, walk.forces[i])
-                                            : add_attractor(walk, primitive, z, local, walk.forces[i]));
-    if (off) {
-      local.gradient -= walk.forces[i];
-    } else {
-      walk.met[local.met++] = static_cast<std::uint32_t>(i);
+  if (walk.columns != nullptr) {
+    look_at_many(walk, z, active, local);
+    return local;
+  }
+  for (std::uint32_t i = 0; i < walk.primitives.size(); ++i) {
+    if (walk.primitives[i].type != PrimitiveType::directed_force) {
+      add(walk, i, z, active, local);
     }
   }
   return local;

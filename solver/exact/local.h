@@ -2,10 +2,12 @@
 
 /// What the energy does about one point: everything that a walk looks at.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "solver/exact/active_set.h"
+#include "solver/exact/columns.h"
 #include "solver/exact/placed.h"
 #include "solver/exact/share.h"
 #include "solver/exact/symmetric.h"
@@ -15,6 +17,7 @@ namespace palpate::solver::internal {
 /// A balance relative to the probe, and where a walk down its energy is.
 struct Walk {
   std::span<const Placed> primitives;  ///< of finite strengths
+  const Columns* columns = nullptr;    ///< the same, sorted by kind; null of few
   double stiffness = 0;                ///< k, N/m
   Vec3 pull{0};                        ///< the sum of the directed forces, N
   double coarseness = 0;               ///< of what counts as met, relative to the distances from the probe
@@ -25,6 +28,10 @@ struct Walk {
   std::span<ForceRegion> hold;         ///< scratch
   std::span<std::uint32_t> met;        ///< scratch
 };
+
+/// More primitives than this are sorted and looked at side by side. No tick has as many, so what was recorded keeps its
+/// bits.
+inline constexpr std::size_t few = 64;
 
 struct Local {
   Vec3 gradient{0};      ///< N, of all that is not met

@@ -83,6 +83,25 @@ inline Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
   return 4 * length > size ? Miss{fine(rough), length, rough_rounding * size} : fine_miss_of(line_or_point, z);
 }
 
+/// Of quick_miss_of(), relative to the distance from z to the primitive's position; and the part of that distance that
+/// a miss must be for that to be good enough: the rest is taken in double-double.
+inline constexpr double quick_rounding = 0x1p-49;
+inline constexpr double quick_part = 4;
+
+/// The same with an error that is small beside the distance from z to the primitive's position: a difference of two
+/// double-doubles rounded to a double is nearly exact. Takes a quarter of the time where the probe is not far away.
+inline Miss quick_miss_of(const Placed& line_or_point, const FineVec3& z) {
+  const FineVec3& o = line_or_point.offset;
+  const Vec3 e{(o.x.hi - z.x.hi) + (o.x.lo - z.x.lo), (o.y.hi - z.y.hi) + (o.y.lo - z.y.lo),
+               (o.z.hi - z.z.hi) + (o.z.lo - z.z.lo)};
+  const Vec3& q = line_or_point.direction;
+  const Vec3 quick = line_or_point.type == PrimitiveType::point ? e : e - q * glm::dot(q, e);
+  const double length = length_of(quick);
+  const double distance = std::abs(e.x) + std::abs(e.y) + std::abs(e.z);
+  return quick_part * length > distance ? Miss{fine(quick), length, quick_rounding * distance}
+                                        : fine_miss_of(line_or_point, z);
+}
+
 /// (position - z) . direction of a plane, positive behind it.
 struct Depth {
   double value = 0;

@@ -20,6 +20,14 @@ struct Symmetric3 {
     yy += scale;
     zz += scale;
   }
+  void add(const Symmetric3& other) {
+    xx += other.xx;
+    yy += other.yy;
+    zz += other.zz;
+    xy += other.xy;
+    xz += other.xz;
+    yz += other.yz;
+  }
   void add_dyad(const Vec3& v, double scale) {
     const Vec3 w = v * scale;
     xx += w.x * v.x;

@@ -235,7 +235,9 @@ void Walker::advance(const FineVec3& way) {
 std::uint32_t Walker::crossed_plane(const FineVec3& way, const Bracket& bracket, double& at) const {
   std::uint32_t found = none;
   double best = 0;
-  for (std::size_t i = 0; i < walk_.primitives.size(); ++i) {
+  const Columns* const sorted = walk_.columns;
+  const std::size_t end = sorted != nullptr ? sorted->attractors : walk_.primitives.size();
+  for (std::size_t i = sorted != nullptr ? sorted->planes : 0; i < end; ++i) {
     const Placed& primitive = walk_.primitives[i];
     if (primitive.type != PrimitiveType::plane || i == released_ || walk_.active.has(i)) {
       continue;
@@ -285,7 +287,8 @@ bool Walker::lock_plane(const FineVec3& way, Bracket& bracket, double middle) {
 
 // Where the way passes an attractor that may hold the proxy against all others: tries whether it does.
 bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
-  for (std::uint32_t i = 0; i < walk_.primitives.size(); ++i) {
+  const std::size_t begin = walk_.columns != nullptr ? walk_.columns->attractors : 0;
+  for (auto i = static_cast<std::uint32_t>(begin); i < walk_.primitives.size(); ++i) {
     const Placed& primitive = walk_.primitives[i];
     if (primitive.type == PrimitiveType::directed_force || primitive.type == PrimitiveType::plane || i == released_ ||
         walk_.active.has(i)) {
@@ -295,7 +298,8 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
     const bool line = primitive.type == PrimitiveType::line;
     const Vec3 across = line ? way.hi() - q * glm::dot(q, way.hi()) : way.hi();
     const double speed = length_of(across);
-    const double nearest = glm::dot(miss_of(primitive, walk_.z).vector.hi(), across) / (speed * speed);
+    const Miss miss = walk_.columns != nullptr ? quick_miss_of(primitive, walk_.z) : miss_of(primitive, walk_.z);
+    const double nearest = glm::dot(miss.vector.hi(), across) / (speed * speed);
     // Where primitives meet, one of them may have narrowed the bracket to that point.
     const double rounding = 1e-12 * nearest;
     if (!(nearest > bracket.low - rounding && nearest < bracket.high + rounding && nearest > 0)) {
