@@ -4,12 +4,10 @@
 /// each voxel for itself takes ten times as long; the results are the same to the last bit.
 
 #include <glm/vec3.hpp>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "io/fields/gradient.h"
-#include "io/progress.h"
 #include "modes/scene/plan.h"
 
 namespace palpate::modes {
