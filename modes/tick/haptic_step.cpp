@@ -60,6 +60,9 @@ void hold_structures(const Plan& plan, const Vec3& proxy_m, const Vec3& place_mm
     follow_level(distance.mm, distance.gradient, place_mm, surface);
     const Vec3 step_mm = anchor_step_mm(surface);
     distance.mm = level_at_anchor(surface, step_mm);
+    if (surface.hold != HoldState::held) {
+      continue;  // the step is zero: of most structures, in most ticks
+    }
     const Vec3 step_m = here.workspace.direction_to_device(step_mm) / here.workspace.mm_per_m;
     structure_anchor_m[n] += step_m;
     if (alone) {
@@ -100,32 +103,36 @@ PlacedScene place(const SceneOnData& scenery, double weight, std::uint8_t mark, 
   return placed;
 }
 
-/// How the surfaces of a scenery hold the proxy: held on one of them goes before yielding through another. Those of the
-/// scan (structure -1), or of one structure.
-HoldState hold_of(int structure, const PlacedScene& placed, const Plan& plan, const StepResult& result,
-                  const Vec3& proxy_m) {
-  HoldState hold = HoldState::none;
+/// How the surfaces of a scenery hold the proxy, of the scan (first) and of each structure: held on one of its planes
+/// goes before yielding through another.
+std::array<HoldState, io::most_structures + 1> holds_of(const PlacedScene& placed, const Plan& plan,
+                                                        const StepResult& result, const Vec3& proxy_m) {
+  std::array<HoldState, io::most_structures + 1> holds{};
   for (std::size_t i = placed.first; i < placed.end; ++i) {
     const solver::Primitive& primitive = result.primitives[i];
-    const std::size_t mode = result.mode_of[i] & (of_scene_left - 1U);
-    if (plan.modes[mode].holds && plan.modes[mode].structure == structure &&
-        primitive.type == solver::PrimitiveType::plane) {
-      const double distance = glm::dot(proxy_m - primitive.position, primitive.direction);
-      if (std::abs(distance) <= contact_tolerance_m) {
-        return HoldState::held;
-      }
+    const ActiveMode& mode = plan.modes[result.mode_of[i] & (of_scene_left - 1U)];
+    if (!mode.holds || primitive.type != solver::PrimitiveType::plane) {
+      continue;
+    }
+    const int scan_or_structure = mode.structure + 1;
+    HoldState& hold = holds[static_cast<std::size_t>(scan_or_structure)];
+    const double distance = glm::dot(proxy_m - primitive.position, primitive.direction);
+    if (std::abs(distance) <= contact_tolerance_m) {
+      hold = HoldState::held;
+    } else if (hold != HoldState::held) {
       hold = distance < 0 ? HoldState::yielding : std::max(hold, HoldState::lifted);
     }
   }
-  return hold;
+  return holds;
 }
 
 /// Of the scan's surface and of each structure's; returns how the proxy is held by all of them.
 HoldState update_holds(const PlacedScene& placed, const Plan& plan, const StepResult& result, const Vec3& proxy_m,
                        HeldSurfaces& contact) {
-  HoldState all = contact.scan.hold = hold_of(-1, placed, plan, result, proxy_m);
+  const auto holds = holds_of(placed, plan, result, proxy_m);
+  HoldState all = contact.scan.hold = holds[0];
   for (std::size_t n = 0; n < plan.structures.size(); ++n) {
-    const HoldState hold = hold_of(static_cast<int>(n), placed, plan, result, proxy_m);
+    const HoldState hold = holds[n + 1];
     contact.structure[n].hold = hold;
     const bool either_held = all == HoldState::held || hold == HoldState::held;
     all = either_held ? HoldState::held : std::max(all, hold);

@@ -131,6 +131,20 @@ TEST(StructureLaw, DoesNotCreepWhereAHandSlidesRoundIt) {
   EXPECT_NEAR(glm::length(hand.force()), first, 0.02 * first);
 }
 
+// From inside the wall is concave: each step along its tangent plane would sink into it.
+TEST(StructureLaw, DoesNotCreepThroughAWallFromInside) {
+  const BallSource source;
+  Hand hand(scene_with(R"({"type": "surface", "structure": "liver", "side": "leaving", "strength_n": 3})"), source);
+  hand.stroke({1, 0, 0}, {22, 0, 0}, 2100);
+  const double first = glm::length(hand.force());
+  EXPECT_GT(first, 0.7);
+  for (int n = 0; n < 6000; ++n) {
+    const double angle = 0.005 * n;  // 110 mm/s, almost five times round
+    hand.move_to(22.0 * Vec3(std::cos(angle), std::sin(angle), 0));
+  }
+  EXPECT_NEAR(glm::length(hand.force()), first, 0.05 * first);
+}
+
 TEST(StructureLaw, FrictionStandsWithItsWallWhereTheScanHasNone) {
   // So a balance of both is the analytical solver's, though the scene has surfaces of the scan as well. Steps that are
   // this long leave the round wall, and are brought back to it.
