@@ -179,7 +179,70 @@ modes::Scene bare() {
                                 "bench structures");
 }
 
-/// Into the first structure and out of it again, 10 mm on each side of its edge.
+/// A walk of 10 mm to each side of a place, along x, and the structures of the scenes that are felt on it.
+struct TickStudy {
+  std::string what;
+  glm::dvec3 place{0};
+  std::vector<io::Structure> felt;
+};
+
+/// The scene without structures, told of them, and kept out of them.
+std::string tabulate_ticks_at(const TickStudy& study, const std::shared_ptr<const io::Volume>& volume,
+                              std::size_t ticks) {
+  std::vector<glm::dvec3> poses;
+  const modes::Workspace workspace{.center_mm = study.place};
+  for (double x = -10; x < 10; x += 0.05) poses.push_back(workspace.to_device(study.place + glm::dvec3(x, 0, 0)));
+  fmt::print("\n{}\n\n{}\n", study.what, tick_row_header());
+  std::string csv;
+  const device::Specification stylus = device::SimulatedStylus().specification();
+  const auto measure = [&](const std::string& what, modes::Scene scene) {
+    scene.workspace.center_mm = study.place;
+    const TickRow row = measure_ticks(
+        what, snapshot_of(scene, prepare(scene, volume, stylus.workspace_half_extent), stylus), poses, ticks);
+    fmt::print("{}\n", to_text(row));
+    csv += to_csv(row);
+    return row.us.median;
+  };
+  const double without = measure("surface + friction", bare());
+  modes::Scene watched = bare(), kept = bare();
+  for (std::size_t n = 0; n < study.felt.size(); ++n) {
+    modes::Scene one;
+    add_keep_out_of(one, study.felt[n], 3);
+    // The same structure may come several times.
+    one.structures[0].name = one.modes[0].structure = one.modes[0].name = fmt::format("structure {}", n + 1);
+    watched.structures.push_back(one.structures[0]);
+    kept.structures.push_back(one.structures[0]);
+    kept.modes.push_back(one.modes[0]);
+  }
+  const double with_watched = measure(fmt::format("the same, {} structures told of", study.felt.size()), watched);
+  const double with_kept = measure(fmt::format("the same, {} kept out of", study.felt.size()), kept);
+  fmt::print("\nmedian tick with them: {:.2f} and {:.2f} times the tick without\n", with_watched / without,
+             with_kept / without);
+  return csv;
+}
+
+using Fields = std::vector<std::shared_ptr<const io::DistanceField>>;
+
+/// Of every eighth voxel of the middle slice: the one that is farthest from all structures, in the body.
+glm::dvec3 place_far_from(const Fields& fields, const io::Volume& volume) {
+  constexpr double air = -300;
+  glm::dvec3 best(0);
+  double most = -1e9;
+  const glm::ivec3 size = volume.geometry.dimensions;
+  for (int j = 0; j < size.y; j += 8) {
+    for (int i = 0; i < size.x; i += 8) {
+      const glm::dvec3 at = volume.geometry.to_patient(glm::dvec3(i, j, size.z / 2));
+      double nearest = 1e9;
+      for (const auto& field : fields) nearest = std::min(nearest, -field->sample(at).mm);
+      if (nearest > most && volume.value_at(i, j, size.z / 2) > air) {
+        most = nearest;
+        best = at;
+      }
+    }
+  }
+  return best;
+}
+
 std::string tabulate_ticks(const StructureArguments& arguments) {
   const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
   std::vector<io::Structure> felt;
@@ -191,36 +254,21 @@ std::string tabulate_ticks(const StructureArguments& arguments) {
     fmt::print("\nNo structure there lies on this scan.\n");
     return tick_csv_header();
   }
-  const glm::dvec3 inside = io::measure(felt.front()).centroid_mm;
-  const auto distance = shared_distance(felt.front(), volume->geometry);
-  glm::dvec3 edge = inside;
-  while (distance->sample(edge).mm > 0) edge.x -= 0.1;
-  std::vector<glm::dvec3> poses;
-  const modes::Workspace workspace{.center_mm = edge};
-  for (double x = -10; x < 10; x += 0.05) poses.push_back(workspace.to_device(edge + glm::dvec3(x, 0, 0)));
-
-  fmt::print("\nOn {}, in and out of {}\n\n{}\n", describe_scan(*volume), felt.front().name, tick_row_header());
+  Fields fields;
+  for (const io::Structure& structure : felt) fields.push_back(shared_distance(structure, volume->geometry));
+  glm::dvec3 edge = io::measure(felt.front()).centroid_mm;
+  while (fields.front()->sample(edge).mm > 0) edge.x -= 0.1;
+  const glm::dvec3 far = place_far_from(fields, *volume);
+  fmt::print("\nOn {}\n", describe_scan(*volume));
+  const std::string& name = felt.front().name;
   std::string csv = tick_csv_header();
-  const device::Specification stylus = device::SimulatedStylus().specification();
-  const auto measure = [&](const std::string& what, modes::Scene scene) {
-    scene.workspace.center_mm = edge;
-    const TickRow row = measure_ticks(
-        what, snapshot_of(scene, prepare(scene, volume, stylus.workspace_half_extent), stylus), poses, arguments.ticks);
-    fmt::print("{}\n", to_text(row));
-    csv += to_csv(row);
-    return row.us.median;
-  };
-  const double without = measure("surface + friction", bare());
-  modes::Scene watched = bare(), kept = bare();
-  for (const io::Structure& structure : felt) {
-    name_in_scene(watched, structure);
-    watched.structures.back().margin_mm = 3;
-    add_keep_out_of(kept, structure, 3);
+  for (const TickStudy& study :
+       {TickStudy{"in and out of " + name, edge, felt},
+        TickStudy{"in and out of " + name + ", which is alone", edge, {felt.front()}},
+        TickStudy{"in and out of five that are all " + name, edge, std::vector(5, felt.front())},
+        TickStudy{"far from all of them", far, felt}}) {
+    csv += tabulate_ticks_at(study, volume, arguments.ticks);
   }
-  const double with_watched = measure(fmt::format("the same, {} structures told of", felt.size()), watched);
-  const double with_kept = measure(fmt::format("the same, {} kept out of", felt.size()), kept);
-  fmt::print("\nmedian tick with them: {:.2f} and {:.2f} times the tick without\n", with_watched / without,
-             with_kept / without);
   return csv;
 }
 
