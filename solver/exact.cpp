@@ -34,8 +34,10 @@ struct ExactScratch::Arrays {
       forces.resize(n);
       hold.resize(n);
       met.resize(n);
-      sorted.fit(n);
-      columns.fit(n);
+      if (n > internal::few) {
+        sorted.fit(n);
+        columns.fit(n);
+      }
     }
   }
 };

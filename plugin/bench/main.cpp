@@ -14,6 +14,7 @@
 #include "plugin/bench/bench_subdivision.h"
 #include "plugin/bench/bench_suggest.h"
 #include "plugin/bench/bench_tick.h"
+#include "plugin/bench/bench_waits.h"
 #include "plugin/bench/extremes_study.h"
 #include "plugin/bench/loop_studies.h"
 #include "plugin/options/run_program.h"
@@ -63,5 +64,6 @@ int main(int argc, char** argv) {
   add_bench_subdivision(program);
   add_bench_suggest(program);
   add_bench_tick(program);
+  add_bench_waits(program);
   return run_program(program, argc, argv);
 }
