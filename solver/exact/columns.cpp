@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/exact/for_processor.h"
+
 namespace palpate::solver::internal {
 
 namespace {
@@ -19,6 +21,7 @@ struct Chunk {
   double far[at_once];  // 1 or 0: a number as wide as the others, for the compiler's sake
 };
 
+PALPATE_SIDE_BY_SIDE
 void look_at_planes(const Columns& c, std::size_t begin, std::size_t count, const FineVec3& z, double coarseness,
                     double touch, Chunk& __restrict chunk) {
   const Vec3 at = z.hi();
@@ -41,6 +44,7 @@ void look_at_planes(const Columns& c, std::size_t begin, std::size_t count, cons
 }
 
 // As quick_miss_of().
+PALPATE_SIDE_BY_SIDE
 void look_at_attractors(const Columns& c, std::size_t begin, std::size_t count, const FineVec3& z, double coarseness,
                         double touch, Chunk& __restrict chunk) {
   const double size_of_z = size_of(z);
@@ -82,6 +86,7 @@ double sum_of(const double (&lane)[lanes]) {
   return (lane[0] + lane[1]) + (lane[2] + lane[3]);
 }
 
+PALPATE_SIDE_BY_SIDE
 void add_forces(const Chunk& chunk, std::size_t count, Sums& sums) {
   double x[lanes]{}, y[lanes]{}, z[lanes]{}, size[lanes]{};
   for (std::size_t n = 0; n < count; n += lanes) {
@@ -97,6 +102,7 @@ void add_forces(const Chunk& chunk, std::size_t count, Sums& sums) {
 }
 
 // c (1 - q q^T - t t^T): across a line, and across the direction to it.
+PALPATE_SIDE_BY_SIDE
 void add_curvatures(const Columns& c, std::size_t begin, const Chunk& chunk, std::size_t count, Sums& sums) {
   double xx[lanes]{}, yy[lanes]{}, zz[lanes]{}, xy[lanes]{}, xz[lanes]{}, yz[lanes]{}, noise[lanes]{};
   for (std::size_t n = 0; n < count; n += lanes) {

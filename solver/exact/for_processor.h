@@ -1,0 +1,17 @@
+#pragma once
+
+/// PALPATE_SIDE_BY_SIDE before a function: compiled twice, and the one with 256-bit vectors is taken where the
+/// processor has them, with the same bits. As PALPATE_FOR_PROCESSOR of io, which the solver does not know; there is
+/// told why not under sanitizers.
+
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define PALPATE_SIDE_BY_SIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define PALPATE_SIDE_BY_SIDE
+#endif
+#ifdef __has_feature
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#undef PALPATE_SIDE_BY_SIDE
+#define PALPATE_SIDE_BY_SIDE
+#endif
+#endif
