@@ -29,7 +29,7 @@ void expect_near(const Vec3& a, const Json& b) {
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b.at(static_cast<std::size_t>(axis)).get<double>(), 1e-3);
 }
 
-TEST(StructuresTruth, MeetsEverySegmentation) {
+TEST(SharedStructuresTruth, MeetsEverySegmentation) {
   if (!fs::exists(shared / "truth.json"))
     GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   std::ifstream file(shared / "truth.json");
@@ -55,7 +55,7 @@ TEST(StructuresTruth, MeetsEverySegmentation) {
   EXPECT_GE(met, 39);
 }
 
-TEST(StructuresTruth, HasADistanceThatGoesOnWhereTheScanEnds) {
+TEST(SharedStructuresTruth, HasADistanceThatGoesOnWhereTheScanEnds) {
   if (!fs::exists(shared / "truth.json"))
     GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const Structure liver = structure_in(shared / "dcmqi" / "liver.dcm", 1);

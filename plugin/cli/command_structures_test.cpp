@@ -31,7 +31,7 @@ using testing::phantom;
 
 const fs::path shared = fs::path(PALPATE_SHARED_DATA) / "structures";
 
-TEST(CommandStructures, SaysWhatTheTruthSays) {
+TEST(SharedCommandStructures, SaysWhatTheTruthSays) {
   std::ifstream file(shared / "truth.json");
   if (!file) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const Json truth = Json::parse(file);
@@ -72,7 +72,7 @@ const std::string into_liver = " --from -180,8.2586,-127.69 --to -165,8.2586,-12
 constexpr double last_outside_mm = -235.2 + 80 * 0.810547, first_inside_mm = -235.2 + 81 * 0.810547;
 const std::string edge = R"({"type": "surface", "structure": "liver", "strength_n": 1})";
 
-TEST(CommandStructures, AreFeltAtTheirEdge) {
+TEST(SharedCommandStructures, AreFeltAtTheirEdge) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const fs::path scene = scene_beside_liver("\"Liver\"", edge);
   const Outcome outcome =
@@ -111,7 +111,7 @@ std::string text_of(const fs::path& file) {
 }
 
 // From the liver by stomach and bowel, which are as bright, into the spleen: the stroke and the scene of README.md.
-TEST(CommandStructures, LiverIsFeltAgainstSpleenAndBesideTheScansOwnEdges) {
+TEST(SharedCommandStructures, LiverIsFeltAgainstSpleenAndBesideTheScansOwnEdges) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const std::string labels = (shared / "totalsegmentator/example_seg_dicom.nii.gz").string();
   const fs::path scene = fresh_path("liver_spleen.json");
@@ -148,7 +148,7 @@ TEST(CommandStructures, LiverIsFeltAgainstSpleenAndBesideTheScansOwnEdges) {
 }
 
 // Through the margin and into what is to be kept out of.
-TEST(CommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
+TEST(SharedCommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const std::string ct = (shared / "totalsegmentator/example_ct_dicom").string();
   const fs::path folder = fresh_path("aorta");
@@ -199,7 +199,7 @@ TEST(CommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
   EXPECT_THAT(table.substr(0, table.find('\n')), ::testing::EndsWith(",\"distance_mm aorta\""));
 }
 
-TEST(CommandStructures, AreLeftOutWhereNoModeReadsThem) {
+TEST(SharedCommandStructures, AreLeftOutWhereNoModeReadsThem) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const Outcome outcome = palpate("plan --json " + (shared / "dcmqi/ct-3slice").string() + " --scene " +
                                   scene_beside_liver("1", edge).string());
@@ -207,7 +207,7 @@ TEST(CommandStructures, AreLeftOutWhereNoModeReadsThem) {
   EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr(R"(structure \"liver\")")));
 }
 
-TEST(CommandStructures, OfASceneAreRefusedInWords) {
+TEST(SharedCommandStructures, OfASceneAreRefusedInWords) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const std::string ct = (shared / "dcmqi/ct-3slice").string();
   const fs::path unknown = scene_beside_liver("\"Spleen\"", edge);
@@ -227,7 +227,7 @@ TEST(CommandStructures, OfASceneAreRefusedInWords) {
 }
 
 // The scene names what can be felt, and the text what cannot, too.
-TEST(CommandStructures, AreOfferedWithWhatIsSuggested) {
+TEST(SharedCommandStructures, AreOfferedWithWhatIsSuggested) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const std::string suggest = "suggest " + (shared / "totalsegmentator/example_ct_dicom").string() + " --structures " +
                               (shared / "totalsegmentator/example_seg_dicom.nii.gz").string() + " " +

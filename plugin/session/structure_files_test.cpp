@@ -17,11 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path liver = fs::path(PALPATE_SHARED_DATA) / "structures/dcmqi/liver.dcm";
-
 modes::Scene scene_of(const fs::path& file) {
   modes::Scene scene;
-  scene.structures.push_back({.name = "liver", .file = file.string(), .segment = "Liver"});
+  scene.structures.push_back({.name = "cube", .file = file.string(), .segment = "Cube"});
   return scene;
 }
 
@@ -40,14 +38,14 @@ TEST(StructureFiles, AreNamedByTheirContent) {
 }
 
 TEST(StructureFiles, AreFoundWhereverTheyWentMeanwhile) {
-  if (!fs::exists(liver)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
-  const modes::Scene recorded = without_paths(scene_of(liver));
-  EXPECT_EQ(modes::to_json(recorded).find("/"), std::string::npos);
-  EXPECT_EQ(modes::to_json(without_paths(recorded)), modes::to_json(recorded));
   const fs::path folder = fs::path(::testing::TempDir()) / "moved";
   fs::remove_all(folder);
+  testing::write_contours(folder / "first/rt.dcm", "1.1", "7", "Doe^Jane");
+  const modes::Scene recorded = without_paths(scene_of(folder / "first/rt.dcm"));
+  EXPECT_EQ(modes::to_json(recorded).find("/"), std::string::npos);
+  EXPECT_EQ(modes::to_json(without_paths(recorded)), modes::to_json(recorded));
   fs::create_directories(folder / "deep");
-  fs::copy_file(liver, folder / "deep/renamed");
+  fs::rename(folder / "first/rt.dcm", folder / "deep/renamed");
   EXPECT_EQ(StructureFiles({folder}).with_paths(recorded).structures[0].file, (folder / "deep/renamed").string());
   fs::remove(folder / "deep/renamed");
   try {
@@ -55,7 +53,7 @@ TEST(StructureFiles, AreFoundWhereverTheyWentMeanwhile) {
     FAIL() << "was found";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "structure \"liver\": the file that it was felt from is not here: name it with --structures");
+                 "structure \"cube\": the file that it was felt from is not here: name it with --structures");
   }
 }
 

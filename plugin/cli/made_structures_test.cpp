@@ -1,0 +1,188 @@
+// Structures as a script meets them, on a scan and a label map that are made here: what the shared ones show on real
+// organs (SharedCommandStructures) holds without them, too.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "plugin/recording/recording.h"
+#include "plugin/testing/command_rig.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing::forehead;
+using testing::fresh_path;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::palpate;
+using testing::phantom;
+
+constexpr int voxels = 60;
+constexpr double radius_mm = 10;
+
+/// Of a voxel of the phantom's lattice, 1 mm apart about the origin.
+double at_mm(int index) {
+  return index - 0.5 * (voxels - 1);
+}
+
+/// A ball of 10 mm about the origin as label 1, in front of it a bar as label 2.
+struct Labels {
+  std::string bytes;
+  int in_ball = 0;
+};
+
+Labels labels() {
+  Labels made;
+  for (int k = 0; k < voxels; ++k) {
+    for (int j = 0; j < voxels; ++j) {
+      for (int i = 0; i < voxels; ++i) {
+        const bool ball = glm::length(glm::dvec3(at_mm(i), at_mm(j), at_mm(k))) < radius_mm;
+        const bool bar = j < 8 && std::abs(at_mm(i)) < 3;
+        made.bytes += ball ? '\1' : bar ? '\2' : '\0';
+        made.in_ball += ball ? 1 : 0;
+      }
+    }
+  }
+  return made;
+}
+
+fs::path folder_of_labels() {
+  const fs::path folder = fresh_path("made_labels");
+  fs::create_directories(folder);
+  std::ofstream(folder / "labels.mha") << "NDims = 3\nDimSize = 60 60 60\nElementType = MET_UCHAR\n"
+                                       << "Offset = -29.5 -29.5 -29.5\nElementDataFile = LOCAL\n"
+                                       << labels().bytes;
+  return folder;
+}
+
+/// A scene beside the labels, which names the ball and the bar.
+fs::path scene_in(const fs::path& folder, const std::string& modes, const std::string& segment = "1") {
+  std::ofstream(folder / "scene.json") << R"({"version": 1, "structures": [
+    {"name": "ball", "file": "labels.mha", "segment": )"
+                                       << segment << R"(}, {"name": "bar", "file": "labels.mha", "segment": 2}],
+    "modes": [)" << modes << "]}";
+  return folder / "scene.json";
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream input(file);
+  return {std::istreambuf_iterator<char>(input), {}};
+}
+
+const std::string edge = R"({"type": "surface", "structure": "ball", "strength_n": 1})";
+
+TEST(MadeStructures, AreListedWithTheirSizes) {
+  const Outcome outcome = palpate("structures --json " + folder_of_labels().string(), false);
+  ASSERT_EQ(outcome.exit, 0);
+  const Json found = Json::parse(outcome.output).at("structures");
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].at("number"), 1);
+  EXPECT_EQ(found[0].at("voxels"), labels().in_ball);
+  EXPECT_NEAR(found[0].at("volume_mm3").get<double>(), labels().in_ball, 1e-6);
+  for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(found[0].at("centroid_mm").at(axis).get<double>(), 0, 1e-6);
+}
+
+TEST(MadeStructures, AreFeltAtTheirEdge) {
+  const fs::path scene = scene_in(folder_of_labels(), edge);
+  const Outcome outcome =
+      palpate("profile --json " + phantom().string() + forehead + "--scene " + scene.string(), false);
+  ASSERT_EQ(outcome.exit, 0);
+  const Json stroke = Json::parse(outcome.output);
+  const Json& distances = stroke.at("distance_mm").at("ball");
+  EXPECT_FALSE(stroke.at("distance_mm").contains("bar"));
+  double most = 0;
+  for (std::size_t n = 0; n < distances.size(); ++n) {
+    const glm::dvec3 at(stroke.at("proxy_mm").at(n).at(0), stroke.at("proxy_mm").at(n).at(1),
+                        stroke.at("proxy_mm").at(n).at(2));
+    const glm::dvec3 force(stroke.at("force_n").at(n).at(0), stroke.at("force_n").at(n).at(1),
+                           stroke.at("force_n").at(n).at(2));
+    const double inside_mm = radius_mm - glm::length(at);
+    if (std::abs(inside_mm) < 5) {
+      EXPECT_NEAR(distances[n].get<double>(), inside_mm, 0.5) << at.y;
+    }
+    if (inside_mm < -0.5) {
+      EXPECT_LT(glm::length(force), 1e-6) << at.y;
+    }
+    most = std::max(most, glm::length(force));
+  }
+  EXPECT_NEAR(most, 1, 0.01);
+}
+
+// Into the margin of what is to be kept out of.
+TEST(MadeStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
+  const fs::path folder = folder_of_labels();
+  const fs::path scene =
+      scene_in(folder, R"({"type": "keep_out", "structure": "ball", "margin_mm": 3, "strength_n": 1})");
+  const fs::path out = fresh_path("made_out");
+  ASSERT_EQ(palpate("probe " + phantom().string() + " --from 0,-29,0 --to 0,25,0 --scene " + scene.string() + " -o " +
+                    out.string())
+                .exit,
+            0);
+  const Recording recording = read_recording(out / "recording.h5");
+  ASSERT_EQ(recording.scenes.size(), 1U);
+  EXPECT_EQ(recording.scenes[0].structures, std::vector<std::string>{"ball"});
+  double deepest = -1e9, most = 0;
+  for (const TickRecord& tick : recording.ticks) {
+    const double force = glm::length(vector_of(tick.force_n));
+    deepest = std::max(deepest, tick.distance_mm[0]);
+    most = std::max(most, force);
+    if (tick.distance_mm[0] < -3.2) {  // a step of the proxy beyond the margin
+      EXPECT_LT(force, 1e-6) << tick.index;
+    }
+  }
+  EXPECT_GT(deepest, -3);
+  EXPECT_LT(deepest, 0);
+  EXPECT_GT(most, 0.5);
+  EXPECT_LE(most, 1 + 1e-9);
+  EXPECT_THAT(text_of(out / "summary.txt"), HasSubstr("mm from ball, at "));
+
+  // The file has another name and place now.
+  const fs::path moved = fresh_path("made_moved");
+  fs::create_directories(moved);
+  fs::rename(folder / "labels.mha", moved / "renamed.mha");
+  const std::string replay = "replay " + (out / "recording.h5").string() + " " + phantom().string();
+  const Outcome without = palpate(replay);
+  EXPECT_EQ(without.exit, 1);
+  EXPECT_THAT(without.output,
+              HasSubstr("structure \"ball\": the file that it was felt from is not here: name it with --structures"));
+  const Outcome same = palpate(replay + " --structures " + moved.string());
+  EXPECT_EQ(same.exit, 0) << same.output;
+  EXPECT_THAT(same.output, HasSubstr("the same to the last bit"));
+}
+
+TEST(MadeStructures, AreLeftOutWhereNoModeReadsThem) {
+  const Outcome outcome =
+      palpate("plan --json " + phantom().string() + " --scene " + scene_in(folder_of_labels(), edge).string());
+  EXPECT_THAT(outcome.output, HasSubstr(R"(structure \"bar\")"));
+  EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr(R"(structure \"ball\")")));
+}
+
+TEST(MadeStructures, OfASceneAreRefusedInWords) {
+  const fs::path unknown = scene_in(folder_of_labels(), edge, "\"spleen\"");
+  const Outcome outcome = palpate("profile " + phantom().string() + forehead + "--scene " + unknown.string());
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("structure \"ball\": labels.mha has no \"spleen\"; there are: "));
+}
+
+TEST(MadeStructures, AreOfferedWithWhatIsSuggested) {
+  const fs::path folder = folder_of_labels();
+  const Outcome json = palpate("suggest " + phantom().string() + " --structures " + folder.string(), false);
+  ASSERT_EQ(json.exit, 0);
+  const Json offered = Json::parse(json.output).at("structures");
+  ASSERT_EQ(offered.size(), 2U);
+  EXPECT_EQ(offered[0].at("segment"), 1);
+  EXPECT_EQ(offered[0].at("file"), (folder / "labels.mha").string());
+}
+
+}  // namespace
+}  // namespace palpate::plugin
