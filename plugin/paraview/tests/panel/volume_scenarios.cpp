@@ -166,7 +166,8 @@ Surface surface_seen() {
     }
     seen.opacity = actor->GetProperty()->GetOpacity();
     const double* const color = actor->GetProperty()->GetColor();
-    seen.color = QColor::fromRgbF(color[0], color[1], color[2]);
+    const auto byte = [](double part) { return static_cast<int>(std::lround(255 * part)); };
+    seen.color = QColor(byte(color[0]), byte(color[1]), byte(color[2]));
   }
   return seen;
 }
