@@ -3,11 +3,12 @@
 /// What modes hold at the voxels of a scan: the sum of their strengths. For pictures of a whole scan, where sampling
 /// each voxel for itself takes ten times as long; the results are the same to the last bit.
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
-#include "io/fields/gradient.h"
+#include "io/fields/voxel_fields.h"
 #include "modes/scene/plan.h"
 
 namespace palpate::modes {
@@ -15,19 +16,34 @@ namespace palpate::modes {
 /// The modes of a plan that hold the proxy at a boundary of the scan itself.
 std::vector<const ActiveMode*> holding_modes(const Plan& plan);
 
-/// The sum of the modes' strengths at voxels. The modes may read value and gradient. Immutable: any number of threads
-/// may use it.
+/// The sum of the modes' strengths at voxels. The modes may read value, gradient, low and high. Immutable: any number
+/// of threads may use it.
+///
+/// Where no mode reads low or high, the value is the voxel's own. Where one does, a voxel is sampled as in a tick, but
+/// only what can be felt: its value where the gradient's factors are not zero for all modes, low and high where the
+/// value's are not zero either.
 class FeltStrength {
  public:
-  /// All of them have to outlive it.
-  FeltStrength(const io::Volume& volume, std::span<const ActiveMode* const> modes) : volume_(volume), modes_(modes) {}
+  /// All of them have to outlive it. `value` and `scale_mm` (sigma of the gradients' Gaussian) are read with low and
+  /// high only.
+  FeltStrength(const io::Volume& volume, std::span<const ActiveMode* const> modes, io::ValueMethod value,
+               double scale_mm);
 
   /// N, at the voxels from `first` on along a row, whose gradients (patient axes, per mm) are given; zero in padding.
   void at_row(const glm::ivec3& first, std::span<const glm::vec3> gradients, std::span<float> felt) const;
 
  private:
+  struct Row;
+  using Bits = std::uint64_t;  ///< of the voxels of a row, the first is the lowest
+
+  void add_up(const glm::ivec3& first, Row& row) const;
+  void sample_and_add_up(const glm::ivec3& first, std::span<const glm::vec3> gradients, Row& row) const;
+  Bits sample_values(const glm::ivec3& first, Bits wanted, Row& row) const;
+
   const io::Volume& volume_;
   std::span<const ActiveMode* const> modes_;
+  bool reads_low_high_;
+  io::VoxelFields voxels_;
 };
 
 }  // namespace palpate::modes

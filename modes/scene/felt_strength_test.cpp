@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/fields/gradient.h"
 #include "modes/scene/scene_json.h"
 #include "testdata/scan.h"
 
@@ -56,7 +57,7 @@ TEST(FeltStrength, IsTheSumOfTheSamplesStrengthsToTheLastBit) {
     const Plan plan = make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, {});
     std::vector<const ActiveMode*> modes;
     for (const ActiveMode& mode : plan.modes) modes.push_back(&mode);
-    const FeltStrength strength(*volume, modes);
+    const FeltStrength strength(*volume, modes, io::ValueMethod::cubic, 2);
     std::size_t felt_somewhere = 0;
     for (int k = 0; k < size.z; ++k) {
       for (int j = 0; j < size.y; ++j) {

@@ -89,6 +89,13 @@ void Strength::add_to(std::span<const double> values, std::span<const double> ma
   for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += products[n];
 }
 
+std::uint64_t Strength::not_zero(Datum of, std::span<const double> data, std::uint64_t bits) const noexcept {
+  for (const Factor& factor : factors_) {
+    if (factor.of == of) bits = factor.table.not_zero(data, bits);
+  }
+  return factors_.empty() ? 0 : bits;
+}
+
 io::FieldSet Strength::reads() const noexcept {
   io::FieldSet fields = io::FieldSet::none;
   for (const Factor& factor : factors_) {

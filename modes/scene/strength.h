@@ -3,6 +3,7 @@
 /// A mode's strength in the form for the tick: the product of a transfer function and its gates, looked up in tables.
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -32,6 +33,9 @@ class Strength {
   /// Adds that of many samples, at most most_at_once, with the same bits. It must read no more than value and gradient.
   void add_to(std::span<const double> values, std::span<const double> magnitudes,
               std::span<double> sums) const noexcept;
+  /// Of at most most_at_once samples whose datum is known, those among `bits` (the first sample is the lowest) at
+  /// which no factor of that datum is zero.
+  std::uint64_t not_zero(Datum of, std::span<const double> data, std::uint64_t bits) const noexcept;
   /// The fields that operator() reads.
   io::FieldSet reads() const noexcept;
   /// N: the strength is never above this.

@@ -1,6 +1,7 @@
 #include "modes/scene/strength_table.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace palpate::modes {
 namespace {
@@ -75,6 +76,13 @@ bool StrengthTable::multiply(std::span<const double> at, std::span<double> produ
     any = any || products[n] != 0;
   }
   return any;
+}
+
+std::uint64_t StrengthTable::not_zero(std::span<const double> at, std::uint64_t bits) const noexcept {
+  for (std::uint64_t left = bits; left != 0; left &= left - 1) {
+    if ((*this)(at[static_cast<std::size_t>(std::countr_zero(left))]) == 0) bits &= ~(left & (~left + 1));
+  }
+  return bits;
 }
 
 /// Between the first node and the last.

@@ -21,6 +21,8 @@ class StrengthTable {
   /// Multiplies each product by the value at its datum. False if all products would be zero; they may be left as
   /// they are then.
   bool multiply(std::span<const double> at, std::span<double> products) const noexcept;
+  /// Of at most 64 data, those among `bits` (the first is the lowest) at which the value is not zero.
+  std::uint64_t not_zero(std::span<const double> at, std::uint64_t bits) const noexcept;
 
  private:
   double look_up(double at) const noexcept;

@@ -70,9 +70,10 @@ Cost cost_of(int rounds, const std::function<void()>& work) {
 std::vector<float> felt_everywhere(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene) {
   const auto plan = plan_for(scene, *volume, glm::dvec3(0.1));
   const auto holding = modes::holding_modes(*plan);
-  const modes::FeltStrength strength(*volume, holding);
+  const double scale_mm = io::default_gradient_scale_mm(volume->geometry);
+  const modes::FeltStrength strength(*volume, holding, scene.sampling.value, scale_mm);
   std::vector<float> felt(volume->offset(0, 0, volume->geometry.dimensions.z));
-  const io::GradientKernel kernel(volume, io::default_gradient_scale_mm(volume->geometry));
+  const io::GradientKernel kernel(volume, scale_mm);
   kernel.for_each_block([&](const io::Block& block, std::span<const glm::vec3> gradients) {
     const auto count = static_cast<std::size_t>(block.size.x);
     const glm::ivec3 end = block.first + block.size;
@@ -103,7 +104,7 @@ struct Growth {
               .y = {.label = std::move(y), .logarithmic = true},
               .curves = {},
               .marks = {}} {
-    constexpr Color palette[] = {colors::black, colors::sky, colors::vermilion};
+    constexpr Color palette[] = {colors::black, colors::sky, colors::vermilion, colors::green};
     for (std::size_t n = 0; n < names.size(); ++n) chart.curves.push_back({.label = names[n], .color = palette[n]});
   }
   void add(std::size_t curve, double x, double y) {
@@ -112,16 +113,18 @@ struct Growth {
   }
 };
 
-const std::vector<std::string> of_voxels{"gradient", "suggest", "felt"};
+const std::vector<std::string> of_voxels{"gradient", "suggest", "felt", "felt (suggested)"};
 
 void tabulate_scan(const std::string& name, const std::shared_ptr<const io::Volume>& volume, int rounds,
                    CsvTable& table, Growth& growth) {
   const auto voxels = static_cast<double>(volume->offset(0, 0, volume->geometry.dimensions.z));
   const io::GradientKernel kernel(volume, io::default_gradient_scale_mm(volume->geometry));
   const modes::Scene scene = scene_for("", *volume);
+  const modes::Scene suggested = modes::suggest(volume).scene;
   const std::vector<std::function<void()>> works{
       [&] { kernel.for_each_block([](const io::Block&, std::span<const glm::vec3>) {}); },
-      [&] { (void)modes::suggest(volume); }, [&] { (void)felt_everywhere(volume, scene); }};
+      [&] { (void)modes::suggest(volume); }, [&] { (void)felt_everywhere(volume, scene); },
+      [&] { (void)felt_everywhere(volume, suggested); }};
   for (std::size_t n = 0; n < works.size(); ++n) {
     const Cost cost = cost_of(rounds, works[n]);
     table.add(fmt::format("{},{},{:.0f},{:.3f},{:.1f},{:.0f}", of_voxels[n], name, voxels, cost.seconds,

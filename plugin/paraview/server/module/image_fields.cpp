@@ -10,6 +10,8 @@
 #include <glm/geometric.hpp>
 #include <optional>
 #include <span>
+#include <variant>
+#include <vector>
 
 #include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
@@ -24,6 +26,8 @@ namespace palpate::plugin {
 namespace {
 
 using io::FieldSet;
+
+constexpr FieldSet from_gradients = FieldSet::gradient | FieldSet::low_high;
 
 /// The modes whose strengths are added up.
 std::vector<const modes::ActiveMode*> felt_modes(const modes::Plan& plan, const FieldChoice& choice) {
@@ -51,8 +55,9 @@ vtkSmartPointer<vtkFloatArray> make_array(const char* name, int components, vtkI
 /// The arrays in the making; a point is written by one thread.
 class Fields {
  public:
-  Fields(const FieldChoice& choice, std::vector<const modes::ActiveMode*> felt, vtkIdType points)
-      : felt_modes_(std::move(felt)) {
+  Fields(const FieldChoice& choice, const io::Volume& volume, double scale_mm,
+         std::vector<const modes::ActiveMode*> felt, vtkIdType points)
+      : felt_modes_(std::move(felt)), strength_(volume, felt_modes_, choice.scene.sampling.value, scale_mm) {
     if (choice.gradient) gradient_ = make_array(gradient_name, 3, points);
     if (choice.magnitude) magnitude_ = make_array(magnitude_name, 1, points);
     if (choice.felt) felt_ = make_array(felt_name, 1, points);
@@ -74,15 +79,18 @@ class Fields {
   void put_row(vtkIdType point, const io::Volume& volume, const glm::ivec3& first,
                std::span<const glm::vec3> gradients) const {
     const std::size_t count = gradients.size();
+    const bool may_be_no_number = std::holds_alternative<std::vector<float>>(volume.voxels);
     for (std::size_t n = 0; (gradient_ || magnitude_) && n < count; ++n) {
-      const bool inside = !volume.is_padding(first.x + static_cast<int>(n), first.y, first.z);
+      const glm::ivec3 voxel = first + glm::ivec3(static_cast<int>(n), 0, 0);
+      const bool inside = !volume.is_padding(voxel.x, voxel.y, voxel.z) &&
+                          (!may_be_no_number || std::isfinite(volume.value_at(voxel.x, voxel.y, voxel.z)));
       const glm::vec3 gradient = inside ? gradients[n] : glm::vec3(0);
       const vtkIdType at = point + static_cast<vtkIdType>(n);
       if (gradient_) gradient_->SetTypedTuple(at, &gradient.x);
       if (magnitude_) magnitude_->SetValue(at, static_cast<float>(glm::length(glm::dvec3(gradient))));
     }
     if (!felt_) return;
-    modes::FeltStrength(volume, felt_modes_).at_row(first, gradients, {felt_->GetPointer(point), count});
+    strength_.at_row(first, gradients, {felt_->GetPointer(point), count});
   }
 
   std::vector<vtkSmartPointer<vtkFloatArray>> arrays() const {
@@ -95,6 +103,7 @@ class Fields {
 
  private:
   std::vector<const modes::ActiveMode*> felt_modes_;
+  modes::FeltStrength strength_;
   vtkSmartPointer<vtkFloatArray> gradient_;
   vtkSmartPointer<vtkFloatArray> magnitude_;
   vtkSmartPointer<vtkFloatArray> felt_;
@@ -161,13 +170,13 @@ std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
   for (const modes::ActiveMode* mode : modes) wanted = wanted | mode->strength.reads();
   if (choice.gradient || choice.magnitude) wanted = wanted | FieldSet::gradient;
 
-  const Fields fields(choice, modes, image.GetNumberOfPoints());
+  const Fields fields(choice, *volume, scale, modes, image.GetNumberOfPoints());
   const VoxelBlock block = block_of(image, *volume);
-  const bool of_voxels = block.aligned && io::contains(FieldSet::value | FieldSet::gradient, wanted) &&
+  const bool of_voxels = block.aligned && io::contains(FieldSet::value | from_gradients, wanted) &&
                          choice.scene.sampling.gradient == io::GradientMethod::gaussian;
   if (of_voxels) {
     std::optional<io::GradientKernel> kernel;
-    if (io::contains(wanted, FieldSet::gradient)) kernel.emplace(volume, scale);
+    if ((wanted & from_gradients) != FieldSet::none) kernel.emplace(volume, scale);
     glm::ivec3 size;
     image.GetDimensions(&size.x);
     const glm::ivec3 first(block.first[0], block.first[1], block.first[2]);

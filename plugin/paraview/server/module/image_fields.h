@@ -30,8 +30,8 @@ struct FieldChoice {
 };
 
 /// The chosen fields of the volume at the points of the image; zero outside the volume, in gaps and in padding. At a
-/// point that is a voxel they are those of the voxel. Elsewhere they are sampled. Uses all cores. Throws
-/// std::invalid_argument for a mode that the scene does not have, and io::Cancelled.
+/// point that is a voxel they are those of the voxel (felt strength: modes/scene/felt_strength.h). Elsewhere they are
+/// sampled. Uses all cores. Throws std::invalid_argument for a mode that the scene does not have, and io::Cancelled.
 std::vector<vtkSmartPointer<vtkFloatArray>> fields_of(vtkImageData& image,
                                                       const std::shared_ptr<const io::Volume>& volume,
                                                       const FieldChoice& choice, const io::Progress& progress);
