@@ -136,6 +136,26 @@ def one_mode_is_felt_alone():
         expect_near(felt.GetValue(n), wanted, 1e-6, f"friction at {value.GetValue(n)} HU")
 
 
+def a_boundary_of_two_tissues_is_felt_between_these():
+    def felt(name, pair):
+        scene = json.loads(SCENE)
+        scene["tissues"] = [{"name": "air", "high": -600, "softness": 100}, {"name": "bone", "low": 400, "softness": 100},
+                            {"name": "soft", "low": -600, "high": 400, "softness": 100}]
+        if pair:
+            scene["modes"][0].pop("side")
+            scene["modes"][0].update(zip(("from", "to"), pair))
+        data = fetch(simple.PalpateFields(Input=open_series(phantom(name)), Scene=json.dumps(scene))).GetPointData()
+        return [[data.GetArray(a).GetValue(n) for n in range(data.GetNumberOfTuples())] for a in ("Gradient magnitude", "Felt strength")]
+
+    for name in ("straight", "uneven"):
+        gradient, anywhere = felt(name, ())
+        steep = [n for n, length in enumerate(gradient) if length > 150]
+        expect(len(steep) > 1000, f"{name}: {len(steep)} voxels at the ball's edge")
+        skin, bone = felt(name, ("air", "soft"))[1], felt(name, ("soft", "bone"))[1]
+        expect(all(skin[n] == anywhere[n] > 1 for n in steep), f"{name}: the ball's edge is not felt as air to soft")
+        expect(max(bone) == 0, f"{name}: felt up to {max(bone)} N between tissues of which one is not there")
+
+
 def fields_of_any_image_are_the_images():
     # Of an image that no Palpate reader made: v = x + 2y - 3z, whose gradient is everywhere (1, 2, -3).
     wavelet = simple.Wavelet(WholeExtent=[-8, 8, -8, 8, -8, 8])
@@ -189,5 +209,6 @@ def a_bad_scene_is_refused():
 
 
 main([surfaces_are_in_the_right_place, surfaces_are_where_the_ball_is, a_structure_is_drawn_where_it_is_felt,
-      a_structure_that_is_not_there_is_refused, fields_are_the_cores, one_mode_is_felt_alone, fields_of_any_image_are_the_images,
+      a_structure_that_is_not_there_is_refused, fields_are_the_cores, one_mode_is_felt_alone,
+      a_boundary_of_two_tissues_is_felt_between_these, fields_of_any_image_are_the_images,
       a_part_of_a_scan_feels_as_the_whole, a_profile_is_the_command_lines, a_bad_scene_is_refused])
