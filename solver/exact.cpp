@@ -34,7 +34,7 @@ struct ExactScratch::Arrays {
       forces.resize(n);
       hold.resize(n);
       met.resize(n);
-      if (n > internal::few) {
+      if (n > internal::most_unsorted) {
         sorted.fit(n);
         columns.fit(n);
       }
@@ -232,7 +232,7 @@ void Search::take_as_given() {
 }
 
 void Search::set_columns() {
-  if (walk_.primitives.size() > internal::few) {
+  if (walk_.primitives.size() > internal::most_unsorted) {
     columns_.take(walk_.primitives);
     walk_.columns = &columns_;
   }
@@ -322,7 +322,7 @@ void Search::refuse_unmet() {
 }
 
 bool Search::walk_as_given(Start start) {
-  constexpr int few = 30;
+  constexpr int few_iterations = 30;
   walk_.coarseness = 0x1p-51;
   take_as_given();
   // Where the analytical solver's pass ends, one look is enough if that is the answer.
@@ -333,25 +333,25 @@ bool Search::walk_as_given(Start start) {
   }
   if (start == Start::warm) {
     start_from_forces();
-    if (walk(few)) {
+    if (walk(few_iterations)) {
       return true;
     }
   }
   if (elsewhere == 0) {
     start_at_common_position();
-    if (walk(few)) {
+    if (walk(few_iterations)) {
       return true;
     }
   }
   start_from_sweep();
-  if (walk(few)) {
+  if (walk(few_iterations)) {
     return true;
   }
   if (elsewhere == 0 || elsewhere == none_there) {
     return false;
   }
   start_at_common_position();
-  return walk(few);
+  return walk(few_iterations);
 }
 
 // In general position, and from there as given, to the last digits.
@@ -382,7 +382,7 @@ Solution Search::run(Start start) {
 Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch, Start start,
                      const ExactOptions& options) noexcept {
   ExactScratch::Arrays& arrays = scratch.arrays();
-  if (balance.primitives.size() <= internal::few) {
+  if (balance.primitives.size() <= internal::most_unsorted) {
     return Search(balance, forces, arrays, options.max_iterations).run(start);
   }
   arrays.fit(balance.primitives.size());

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "modes/testing/test_rig.h"
+#include "solver/exact/local.h"
 
 namespace palpate::modes {
 namespace {
@@ -66,6 +67,9 @@ Mode flow_mode(const char* type, double strength_n) {
 Scene skin() {
   return scene_of({surface(TransferFunction({{0.4, 0}, {0.5, 2}}), Datum::value), friction(0.1)});
 }
+
+// A tick's balance is solved as it was before many primitives were sorted: recordings keep their bits.
+static_assert(most_primitives <= solver::internal::most_unsorted);
 
 TEST(HapticStep, starts_free_wherever_it_starts) {
   const Ball ball;

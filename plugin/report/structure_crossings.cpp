@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 
 namespace palpate::plugin {
@@ -42,7 +43,8 @@ std::vector<StructureCrossing> crossings_along(const glm::dvec3& from_mm, const 
   const double length = glm::distance(from_mm, to_mm);
   const glm::dvec3 along = (to_mm - from_mm) / length;
   // The value's own gradient, whatever the scene feels; read once, so without bricks.
-  const io::VolumeFields values(felt.volume, io::FieldSet::value | io::FieldSet::gradient, 1,
+  const std::shared_ptr<const io::Volume> scan = io::raw_of(felt.volume);  // what is felt may be filtered
+  const io::VolumeFields values(scan, io::FieldSet::value | io::FieldSet::gradient, 1,
                                 {.gradient = io::GradientMethod::cubic, .brick_bytes = 0, .background = false});
   for (std::size_t n = 0; n < felt.structures.size(); ++n) {
     const io::DistanceField& distance = *felt.structures[n].distance;
@@ -54,7 +56,7 @@ std::vector<StructureCrossing> crossings_along(const glm::dvec3& from_mm, const 
            .entering = !inside,
            .place_mm = place,
            .depth_mm = depth,
-           .own_edge = io::scan_edge({values, felt.volume->geometry}, distance, place, along, scan_edge_within_mm)});
+           .own_edge = io::scan_edge({values, scan->geometry}, distance, place, along, scan_edge_within_mm)});
       inside = !inside;
     }
   }

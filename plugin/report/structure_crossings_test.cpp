@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "io/fields/filtered.h"
 #include "io/structures/distance_field.h"
 #include "testdata/scan.h"
 
@@ -70,6 +71,19 @@ TEST(StructureCrossings, SayWhereTheScanShowsNone) {
   EXPECT_FALSE(crossings[0].entering);
   EXPECT_FALSE(crossings[0].own_edge);
   EXPECT_THAT(in_words(crossings[0], study.scene), HasSubstr("; the scan's own values show no edge within 5 mm"));
+}
+
+// A filter hides noise, and how well an edge is known with it.
+TEST(StructureCrossings, TellTheScansOwnEdgeAndNotTheFilters) {
+  Study study = study_of_a_ball(60);
+  const auto raw = crossings_along({-18, 0, 0}, {18, 0, 0}, study.felt);
+  study.felt.volume = io::filtered(study.felt.volume, {.type = io::FilterType::median});
+  const auto filtered = crossings_along({-18, 0, 0}, {18, 0, 0}, study.felt);
+  ASSERT_EQ(filtered.size(), raw.size());
+  for (std::size_t n = 0; n < raw.size(); ++n) {
+    EXPECT_EQ(filtered[n].own_edge->mm, raw[n].own_edge->mm);
+    EXPECT_EQ(filtered[n].own_edge->known_to_mm, raw[n].own_edge->known_to_mm);
+  }
 }
 
 TEST(StructureCrossings, AreNoneWhereTheStrokeStaysOutside) {

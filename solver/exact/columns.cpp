@@ -64,7 +64,7 @@ void look_at_attractors(const Columns& c, std::size_t begin, std::size_t count, 
     const double reach = touch + coarseness * (c.size[i] + size_of_z);
     // One comparison, for the compiler's sake.
     const double in_range = std::min(squared - 1e-280, 1e280 - squared);
-    const double beyond = std::min(quick_part * length - distance, length - (4 * error + reach));
+    const double beyond = std::min(length - quick_part * distance, length - (4 * error + reach));
     const bool far = std::min(in_range, beyond) > 0;
     const double full = c.strength[i];
     const double strength = far ? full : 0;

@@ -17,7 +17,7 @@ namespace palpate::solver::internal {
 /// A balance relative to the probe, and where a walk down its energy is.
 struct Walk {
   std::span<const Placed> primitives;  ///< of finite strengths
-  const Columns* columns = nullptr;    ///< the same, sorted by kind; null of few
+  const Columns* columns = nullptr;    ///< the same, sorted by kind; null of most_unsorted and fewer
   double stiffness = 0;                ///< k, N/m
   Vec3 pull{0};                        ///< the sum of the directed forces, N
   double coarseness = 0;               ///< of what counts as met, relative to the distances from the probe
@@ -29,9 +29,9 @@ struct Walk {
   std::span<std::uint32_t> met;        ///< scratch
 };
 
-/// More primitives than this are sorted and looked at side by side. No tick has as many, so what was recorded keeps its
-/// bits.
-inline constexpr std::size_t few = 64;
+/// More primitives than this are sorted and looked at side by side. No tick has more (modes::most_primitives), so what
+/// was recorded keeps its bits.
+inline constexpr std::size_t most_unsorted = 128;
 
 struct Local {
   Vec3 gradient{0};      ///< N, of all that is not met

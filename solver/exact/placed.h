@@ -86,7 +86,7 @@ inline Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
 /// Of quick_miss_of(), relative to the distance from z to the primitive's position; and the part of that distance that
 /// a miss must be for that to be good enough: the rest is taken in double-double.
 inline constexpr double quick_rounding = 0x1p-49;
-inline constexpr double quick_part = 4;
+inline constexpr double quick_part = 0.25;
 
 /// The same with an error that is small beside the distance from z to the primitive's position: a difference of two
 /// double-doubles rounded to a double is nearly exact. Takes a quarter of the time where the probe is not far away.
@@ -98,7 +98,7 @@ inline Miss quick_miss_of(const Placed& line_or_point, const FineVec3& z) {
   const Vec3 quick = line_or_point.type == PrimitiveType::point ? e : e - q * glm::dot(q, e);
   const double length = length_of(quick);
   const double distance = std::abs(e.x) + std::abs(e.y) + std::abs(e.z);
-  return quick_part * length > distance ? Miss{fine(quick), length, quick_rounding * distance}
+  return length > quick_part * distance ? Miss{fine(quick), length, quick_rounding * distance}
                                         : fine_miss_of(line_or_point, z);
 }
 

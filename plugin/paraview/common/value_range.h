@@ -1,7 +1,7 @@
 #pragma once
 
-/// The range of an array's values, computed in one fast pass and kept where VTK looks for it. VTK's own pass takes
-/// 25 ns a value, on the thread that paints (`first_image` in plugin/docs/measurements.md).
+/// The range of an array's values, computed in one fast pass and kept where VTK looks for it: its own pass is slower,
+/// and runs on the thread that paints.
 
 class vtkDataArray;
 

@@ -25,12 +25,22 @@ void follow(pqPropertiesPanel& panel) {
   panel.setRepresentation(active.activeRepresentation());
 }
 
+/// What it shows may be gone by the time that it is seen again, and would be held until then.
+void let_go(pqPropertiesPanel& panel) {
+  panel.setRepresentation(nullptr);
+  panel.setPipelineProxy(nullptr);
+  panel.setView(nullptr);
+}
+
 void follow(pqColorMapEditor& panel) {
   // A protected slot: by its name.
   QObject::connect(&pqActiveObjects::instance(), SIGNAL(representationChanged(pqDataRepresentation*)), &panel,
                    SLOT(updateActive()));
   QMetaObject::invokeMethod(&panel, "updateActive");
 }
+
+/// It holds what it shows weakly.
+void let_go(pqColorMapEditor& /*panel*/) {}
 
 /// Not the dock's visibilityChanged: it is false where the dock is shown before it is laid out.
 template <typename Panel>
@@ -48,7 +58,7 @@ class WhileSeen : public QObject {
     const bool seen = event->type() == QEvent::Show, hidden = event->type() == QEvent::Hide;
     if ((seen || hidden) && !event->spontaneous()) {
       unfollow();
-      if (seen) follow(panel_);
+      seen ? follow(panel_) : let_go(panel_);
     }
     return QObject::eventFilter(watched, event);
   }

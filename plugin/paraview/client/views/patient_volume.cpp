@@ -70,7 +70,8 @@ PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool ho
     : view_(&view), scan_(&scan), hounsfield_(hounsfield), changed_(std::move(changed)) {
   const auto done = [this](const auto& found, const QString&) {
     if (found) cut_image_ = *found;
-    begin_to_draw();
+    waits_ = false;
+    refresh();
     if (cut_image_ && changed_) changed_();
   };
   job_ = std::unique_ptr<Cut>(new Cut{LatestJob<vtkSmartPointer<vtkImageData>>(done)});
@@ -81,8 +82,7 @@ PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool ho
 }
 
 void PatientVolume::begin_to_draw() {
-  waits_ = false;
-  refresh();
+  if (std::exchange(waits_, false)) refresh();
 }
 
 void PatientVolume::take_image() {
@@ -93,8 +93,9 @@ void PatientVolume::take_image() {
   vtkDataArray* const values = image ? image->GetPointData()->GetScalars() : nullptr;
   const bool same = whole_image_ && whole_image_->GetPointData()->GetScalars() == values;
   const bool seek_body = values && one_frame && hounsfield_;
-  // A timer that is started now ends after those of the slices.
-  if (waits_ && !seek_body) QTimer::singleShot(1, &lifetime_, [this] { begin_to_draw(); });
+  // The view's own timer is then started after those of the slices. A large scan's body takes long to find.
+  constexpr int no_wait_ms = 1, most_wait_ms = 3000;
+  if (waits_) QTimer::singleShot(seek_body ? most_wait_ms : no_wait_ms, &lifetime_, [this] { begin_to_draw(); });
   if (!values || !one_frame || same) return;
   whole_image_ = vtkSmartPointer<vtkImageData>::New();
   whole_image_->ShallowCopy(image);
@@ -153,6 +154,7 @@ void PatientVolume::take_out(vtkVolume& theirs, bool out) {
 
 void PatientVolume::refresh() {
   if (!view_) return;
+  view_->render();  // at the next turn of events
   vtkVolume* const theirs = of_paraview();
   if (!theirs) return;
   const bool cut = cut_ && cut_image_;
@@ -178,7 +180,6 @@ void PatientVolume::refresh() {
     own_->SetVisibility(ours ? 1 : 0);
   }
   take_out(*theirs, ours || hidden);
-  view_->render();
 }
 
 }  // namespace palpate::plugin

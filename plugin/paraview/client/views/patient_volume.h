@@ -24,8 +24,8 @@ class CropBox;
 class PatientVolume {
  public:
   /// Looks for the body in the background, where the scan is one of HU and of one frame. `changed` is called when
-  /// can_cut() has become known. The volume is drawn from then on, and in any case after the slices: without a graphics
-  /// card its picture takes seconds.
+  /// can_cut() has become known. The volume is drawn from then on, or after 3 s, and in any case after the slices:
+  /// without a graphics card its picture takes seconds.
   PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed);
   PatientVolume(const PatientVolume&) = delete;
   PatientVolume& operator=(const PatientVolume&) = delete;

@@ -12,8 +12,10 @@
 #include <pqServerManagerModel.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+#include <vtkSMRepresentationProxy.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMViewLayoutProxy.h>
+#include <vtkSMViewProxy.h>
 
 #include <QApplication>
 #include <QComboBox>
@@ -161,6 +163,19 @@ void expect_properties_of_the_active() {
       20);
 }
 
+/// Hidden, they would keep a scan's views and representations in memory when it is closed.
+void expect_properties_hold_no_view() {
+  const auto& panel = *window().findChild<pqPropertiesPanel*>();
+  wait_for(
+      "hidden Properties hold no view and no representation",
+      [&] {
+        return std::ranges::none_of(panel.findChildren<pqProxyWidget*>(), [](const pqProxyWidget* one) {
+          return vtkSMViewProxy::SafeDownCast(one->proxy()) || vtkSMRepresentationProxy::SafeDownCast(one->proxy());
+        });
+      },
+      20);
+}
+
 pqView& view_of(const char* name) {
   for (auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
     if (one->getSMName() == QLatin1String(name)) return *one;
@@ -232,6 +247,7 @@ void the_layout_is_clinical() {
   expect_properties_of_the_active();
   click("palpateAdvancedButton");
   expect_host(false, "without Advanced");
+  expect_properties_hold_no_view();
   pqActiveObjects::instance().setActiveView(&view_of("Coronal"));
   click("palpateAdvancedButton");  // and so it is left
   expect_properties_of_the_active();
