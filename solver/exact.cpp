@@ -91,7 +91,7 @@ class Search {
   double bound_ = infinity;   // of the best answer
   double hard_strength_ = 0;  // N: what stands for infinity; 0 where nothing is hard
   double extent_ = 0;         // m: of the start
-  bool is_swept_ = false;     // what follows is known: the sweep's end
+  bool is_swept_ = false;     // whether the end of the sweep, below, is known
   FineVec3 swept_;
   internal::ActiveSet swept_active_;
   double swept_extent_ = 0;

@@ -18,7 +18,7 @@ struct Chunk {
   double tx[at_once], ty[at_once], tz[at_once];
   double curvature[at_once];
   double size[at_once], noise[at_once];
-  double far[at_once];  // 1 or 0: a number as wide as the others, for the compiler's sake
+  double far[at_once];  // 1 or 0: as wide as the others, so that GCC vectorizes the loop
 };
 
 PALPATE_SIDE_BY_SIDE
@@ -31,7 +31,7 @@ void look_at_planes(const Columns& c, std::size_t begin, std::size_t count, cons
     const double depth = (c.x[i] - at.x) * c.qx[i] + (c.y[i] - at.y) * c.qy[i] + (c.z[i] - at.z) * c.qz[i];
     const double size = c.size[i] + size_of_z;
     const double error = rough_rounding * size;
-    // One comparison, for the compiler's sake.
+    // One comparison, so that GCC vectorizes the loop.
     const bool far = std::abs(depth) > std::max(0x1p20 * error, error + touch + coarseness * size);
     const double full = depth > 0 ? c.strength[i] : 0.0;
     const double strength = far ? full : 0.0;
@@ -62,7 +62,7 @@ void look_at_attractors(const Columns& c, std::size_t begin, std::size_t count, 
     const double distance = std::abs(ex) + std::abs(ey) + std::abs(ez);
     const double error = quick_rounding * distance;
     const double reach = touch + coarseness * (c.size[i] + size_of_z);
-    // One comparison, for the compiler's sake.
+    // One comparison, so that GCC vectorizes the loop.
     const double in_range = std::min(squared - 1e-280, 1e280 - squared);
     const double beyond = std::min(length - quick_part * distance, length - (4 * error + reach));
     const bool far = std::min(in_range, beyond) > 0;
