@@ -16,9 +16,9 @@ namespace {
 struct Crowd {
   Crowd(std::uint64_t seed, std::size_t count) {
     Problem problem = make_problem(Family::many, seed, count);
-    std::ranges::stable_sort(problem.primitives, {}, &Primitive::type);
+    std::ranges::sort(problem.primitives, {}, &Primitive::type);
     for (const Primitive& primitive : problem.primitives) placed.push_back(place(primitive, problem.probe));
-    std::ranges::stable_sort(placed, {}, &Placed::type);
+    std::ranges::sort(placed, {}, &Placed::type);
     columns.fit(count);
     columns.take(placed);
     forces.resize(count);
