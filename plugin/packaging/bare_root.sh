@@ -6,13 +6,13 @@ mirror=${PALPATE_MIRROR:-http://deb.debian.org/debian}
 
 mount_root() { # /dev, /proc, /sys, then FOLDER FROM TO
   local part
-  for part in proc sys dev; do mount --bind "/$part" "$1/$part"; done
+  for part in proc sys dev; do mount --bind "/$part" "$1/$part" || return 1; done
 }
 
 make_root() {
   local release=$1 root=$2
   mkdir -p "$(dirname "$root")"
-  mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$root" "$mirror"
+  mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$root" "$mirror" || return 1
   echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe" # it is thrown away
   cp /etc/resolv.conf /etc/hosts "$root/etc/"
   mount_root "$root"

@@ -14,7 +14,7 @@ desktop-file-validate plugin/packaging/palpate.desktop
 
 root=$(mktemp -d)/root
 trap 'drop_root "$root"' EXIT
-make_root "$release" "$root"
+make_root "$release" "$root" || exit 77 # no bare root can be made here
 mkdir "$root/root/packages"
 cp "$packages"/*.deb "$root/root/packages/"
 cp -r .cmake/outside "$root/root/outside"
