@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -251,25 +252,37 @@ TEST(ScanEdge, IsNoneWhereTheValuesAreAlike) {
   EXPECT_LE(found, rays / 50);
 }
 
+/// A phantom that changes along x alone, and a structure that ends at x = 1 mm.
+struct AlongX {
+  explicit AlongX(const testdata::Phantom& phantom)
+      : geometry(testdata::make_geometry({.size = {32, 24, 24}})),
+        structure(distance_of(
+            labels_of(geometry, [&](const glm::ivec3& voxel) { return geometry.to_patient(Vec3(voxel)).x < 1; }))),
+        values(fields_of_values(scanned(phantom, geometry))),
+        at(crossing(*structure, {-6, 0.2, 0.4}, {1, 0, 0}, 14) - 6) {}
+
+  std::optional<ScanEdge> edge(const Vec3& way) const {
+    return scan_edge({values, geometry}, *structure, {at, 0.2, 0.4}, way, within_mm);
+  }
+
+  Geometry geometry;
+  std::shared_ptr<const DistanceField> structure;
+  VolumeFields values;
+  double at;  ///< mm: x of the structure's surface
+};
+
 // Fat of 4 mm between the organ and the wall: the nearer of two edges, though the other one is as steep.
 TEST(ScanEdge, IsTheNearestAndNotShiftedByItsNeighbor) {
-  const Geometry geometry = testdata::make_geometry({.size = {32, 24, 24}});
-  const Vec3 inward(-1, 0, 0);
   for (const auto& [fat_mm, tolerance_mm] : {std::pair{3.0, 0.15}, {4.0, 0.07}}) {
-    const auto volume = scanned(
+    const AlongX scan(
         {.background = 60,
-         .bodies = {{testdata::HalfSpace{{1, 0, 0}, 0.3 + fat_mm}, -100}, {testdata::HalfSpace{{1, 0, 0}, 0.3}, 60}}},
-        geometry);
-    const auto structure =
-        distance_of(labels_of(geometry, [&](const glm::ivec3& at) { return geometry.to_patient(Vec3(at)).x < 1; }));
-    const VolumeFields values = fields_of_values(volume);
-    const double at = crossing(*structure, {-6, 0.2, 0.4}, {1, 0, 0}, 14) - 6;
-    const auto edge = scan_edge({values, geometry}, *structure, {at, 0.2, 0.4}, {1, 0, 0}, within_mm);
+         .bodies = {{testdata::HalfSpace{{1, 0, 0}, 0.3 + fat_mm}, -100}, {testdata::HalfSpace{{1, 0, 0}, 0.3}, 60}}});
+    const auto edge = scan.edge({1, 0, 0});
     ASSERT_TRUE(edge);
-    EXPECT_NEAR(at + edge->mm, 0.3, tolerance_mm) << fat_mm;
+    EXPECT_NEAR(scan.at + edge->mm, 0.3, tolerance_mm) << fat_mm;
     EXPECT_LT(edge->rise, 0);
     // The same seen the other way.
-    const auto back = scan_edge({values, geometry}, *structure, {at, 0.2, 0.4}, inward, within_mm);
+    const auto back = scan.edge({-1, 0, 0});
     ASSERT_TRUE(back);
     EXPECT_NEAR(back->mm, -edge->mm, 1e-9);
     EXPECT_NEAR(back->rise, -edge->rise, 1e-6);
@@ -278,18 +291,11 @@ TEST(ScanEdge, IsTheNearestAndNotShiftedByItsNeighbor) {
 
 // From bone by soft tissue to fat: the value falls twice, by steps of the same size.
 TEST(ScanEdge, IsOneStepOfTwo) {
-  const Geometry geometry = testdata::make_geometry({.size = {32, 24, 24}});
-  const auto volume =
-      scanned({.background = -100,
-               .bodies = {{testdata::HalfSpace{{1, 0, 0}, 3.9}, 0}, {testdata::HalfSpace{{1, 0, 0}, 0.3}, 100}}},
-              geometry);
-  const auto structure =
-      distance_of(labels_of(geometry, [&](const glm::ivec3& at) { return geometry.to_patient(Vec3(at)).x < 1; }));
-  const VolumeFields values = fields_of_values(volume);
-  const double at = crossing(*structure, {-6, 0.2, 0.4}, {1, 0, 0}, 14) - 6;
-  const auto edge = scan_edge({values, geometry}, *structure, {at, 0.2, 0.4}, {1, 0, 0}, within_mm);
+  const AlongX scan({.background = -100,
+                     .bodies = {{testdata::HalfSpace{{1, 0, 0}, 3.9}, 0}, {testdata::HalfSpace{{1, 0, 0}, 0.3}, 100}}});
+  const auto edge = scan.edge({1, 0, 0});
   ASSERT_TRUE(edge);
-  EXPECT_NEAR(at + edge->mm, 0.3, 0.022) << "cut off at both ends alike";
+  EXPECT_NEAR(scan.at + edge->mm, 0.3, 0.022) << "cut off at both ends alike";
   EXPECT_NEAR(edge->rise, -100, 6);
 }
 

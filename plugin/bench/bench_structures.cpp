@@ -22,6 +22,7 @@
 #include "io/structures/structure.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/app/run_session.h"
+#include "plugin/bench/ball_rays.h"
 #include "plugin/bench/scan_edge_study.h"
 #include "plugin/bench/tick_study.h"
 #include "plugin/options/series_option.h"
@@ -81,13 +82,8 @@ Error error_of(const io::DistanceField& field, double radius, const glm::dvec3& 
   std::mt19937 random(1);
   std::normal_distribution<double> any;
   for (int n = 0; n < rays; ++n) {
-    const double x = any(random), y = any(random), z = any(random);
-    const glm::dvec3 way = glm::normalize(glm::dvec3(x, y, z));
-    double in = 0, out = radius + 6;
-    for (int halving = 0; halving < 40; ++halving) {
-      const double middle = 0.5 * (in + out);
-      (field.sample(center + middle * way).mm > 0 ? in : out) = middle;
-    }
+    const glm::dvec3 way = any_direction(random, any);
+    const double in = radius_along(field, center, way, radius + 6);
     const double off = in - radius;
     const glm::dvec3 inward = glm::normalize(field.sample(center + in * way).gradient);
     error.largest_mm = std::max(error.largest_mm, std::abs(off));

@@ -14,6 +14,7 @@
 #include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 #include "io/structures/scan_edge.h"
+#include "plugin/bench/ball_rays.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {
@@ -89,13 +90,8 @@ Row study(const Ball& ball) {
   std::mt19937 random(1);
   std::normal_distribution<double> any;
   for (int n = 0; n < rays; ++n) {
-    const double x = any(random), y = any(random), z = any(random);
-    const glm::dvec3 way = glm::normalize(glm::dvec3(x, y, z));
-    double in = 0, out = ball.radius + 6;
-    for (int halving = 0; halving < 40; ++halving) {
-      const double middle = 0.5 * (in + out);
-      (structure->sample(ball.center + middle * way).mm > 0 ? in : out) = middle;
-    }
+    const glm::dvec3 way = any_direction(random, any);
+    const double in = radius_along(*structure, ball.center, way, ball.radius + 6);
     row.labels.add(in - ball.radius);
     constexpr double within_mm = 5;
     const auto edge = io::scan_edge({values, volume->geometry}, *structure, ball.center + in * way, way, within_mm);

@@ -15,6 +15,7 @@
 #include "plugin/recording/recording.h"
 #include "plugin/session/structure_files.h"
 #include "plugin/testing/command_rig.h"
+#include "plugin/testing/kept_out.h"
 #include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {
@@ -166,35 +167,14 @@ TEST(SharedCommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
       0);
   const Recording recording = read_recording(out / "recording.h5");
   ASSERT_EQ(recording.scenes.size(), 1U);
-  EXPECT_EQ(recording.scenes[0].structures, std::vector<std::string>{"aorta"});
-  EXPECT_EQ(recording.scenes[0].scene.find('/'), std::string::npos) << "no path goes into a recording";
-  double deepest = -1e9, most = 0;
-  for (const TickRecord& tick : recording.ticks) {
-    const double force = glm::length(vector_of(tick.force_n));
-    deepest = std::max(deepest, tick.distance_mm[0]);
-    most = std::max(most, force);
-    if (tick.distance_mm[0] < -3.2) {  // a step of the proxy beyond the margin
-      EXPECT_LT(force, 1e-6) << tick.index;
-    }
-    EXPECT_TRUE(std::isnan(tick.distance_mm[1]));
-  }
-  EXPECT_GT(deepest, 0);
-  EXPECT_GT(most, 1);
-  EXPECT_LE(most, 2 + 1e-9);
+  const auto [deepest_mm, most_n] = testing::kept_out_of("aorta", recording);
+  for (const TickRecord& tick : recording.ticks) EXPECT_TRUE(std::isnan(tick.distance_mm[1]));
+  EXPECT_GT(deepest_mm, 0);
+  EXPECT_GT(most_n, 1);
+  EXPECT_LE(most_n, 2 + 1e-9);
   EXPECT_THAT(text_of(out / "summary.txt"), HasSubstr("mm inside aorta, at "));
-
-  // The file has another name and place now.
-  const fs::path moved = fresh_path("moved");
-  fs::create_directories(moved);
-  fs::rename(folder / "labels.nii.gz", moved / "renamed.nii.gz");
-  const std::string replay = "replay " + (out / "recording.h5").string() + " " + ct;
-  const Outcome without = palpate(replay);
-  EXPECT_EQ(without.exit, 1);
-  EXPECT_THAT(without.output,
-              HasSubstr("structure \"aorta\": the file that it was felt from is not here: name it with --structures"));
-  const Outcome same = palpate(replay + " --structures " + moved.string() + " --csv " + csv.string());
-  EXPECT_EQ(same.exit, 0) << same.output;
-  EXPECT_THAT(same.output, HasSubstr("the same to the last bit"));
+  testing::expect_repeated_with_moved(folder / "labels.nii.gz", "aorta", out / "recording.h5", ct,
+                                      " --csv " + csv.string());
   const std::string table = text_of(csv);
   EXPECT_THAT(table.substr(0, table.find('\n')), ::testing::EndsWith(",\"distance_mm aorta\""));
 }

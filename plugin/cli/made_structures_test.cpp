@@ -10,10 +10,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
-#include "plugin/recording/recording.h"
 #include "plugin/testing/command_rig.h"
+#include "plugin/testing/kept_out.h"
 
 namespace palpate::plugin {
 namespace {
@@ -128,36 +127,13 @@ TEST(MadeStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
                     out.string())
                 .exit,
             0);
-  const Recording recording = read_recording(out / "recording.h5");
-  ASSERT_EQ(recording.scenes.size(), 1U);
-  EXPECT_EQ(recording.scenes[0].structures, std::vector<std::string>{"ball"});
-  double deepest = -1e9, most = 0;
-  for (const TickRecord& tick : recording.ticks) {
-    const double force = glm::length(vector_of(tick.force_n));
-    deepest = std::max(deepest, tick.distance_mm[0]);
-    most = std::max(most, force);
-    if (tick.distance_mm[0] < -3.2) {  // a step of the proxy beyond the margin
-      EXPECT_LT(force, 1e-6) << tick.index;
-    }
-  }
-  EXPECT_GT(deepest, -3);
-  EXPECT_LT(deepest, 0);
-  EXPECT_GT(most, 0.5);
-  EXPECT_LE(most, 1 + 1e-9);
+  const auto [deepest_mm, most_n] = testing::kept_out_of("ball", read_recording(out / "recording.h5"));
+  EXPECT_GT(deepest_mm, -3);
+  EXPECT_LT(deepest_mm, 0);
+  EXPECT_GT(most_n, 0.5);
+  EXPECT_LE(most_n, 1 + 1e-9);
   EXPECT_THAT(text_of(out / "summary.txt"), HasSubstr("mm from ball, at "));
-
-  // The file has another name and place now.
-  const fs::path moved = fresh_path("made_moved");
-  fs::create_directories(moved);
-  fs::rename(folder / "labels.mha", moved / "renamed.mha");
-  const std::string replay = "replay " + (out / "recording.h5").string() + " " + phantom().string();
-  const Outcome without = palpate(replay);
-  EXPECT_EQ(without.exit, 1);
-  EXPECT_THAT(without.output,
-              HasSubstr("structure \"ball\": the file that it was felt from is not here: name it with --structures"));
-  const Outcome same = palpate(replay + " --structures " + moved.string());
-  EXPECT_EQ(same.exit, 0) << same.output;
-  EXPECT_THAT(same.output, HasSubstr("the same to the last bit"));
+  testing::expect_repeated_with_moved(folder / "labels.mha", "ball", out / "recording.h5", phantom().string());
 }
 
 TEST(MadeStructures, AreLeftOutWhereNoModeReadsThem) {

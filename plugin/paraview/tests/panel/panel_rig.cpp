@@ -159,21 +159,18 @@ void save_as(const char* button, const QString& file) {
   expect(QFile::exists(file), file.toStdString() + " is written");
 }
 
-QWidget& view(const char* name) {
-  for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    if (one->getSMName() == QLatin1String(name)) return *one->widget();
-  }
-  throw std::runtime_error(std::string("there is no view ") + name);
-}
-
-namespace {
-
 pqRenderView& render_view(const char* name) {
   for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
     if (one->getSMName() == QLatin1String(name)) return *one;
   }
   throw std::runtime_error(std::string("there is no view ") + name);
 }
+
+QWidget& view(const char* name) {
+  return *render_view(name).widget();
+}
+
+namespace {
 
 /// Of the texts over a slice: four letters, the corner, the pointer, who was scanned, the place.
 QString overlay_text(const char* name, int which) {

@@ -13,6 +13,8 @@
 #include <optional>
 #include <string>
 
+class pqRenderView;
+
 /// Runs one of the scenarios.
 void run_scenario(const std::string& name);
 
@@ -66,6 +68,8 @@ void press_key_in(QWidget& view, const char* key);
 /// Keeps a key down there, or lets it go.
 void hold_key_in(QWidget& view, const char* key, bool down);
 
+/// A clinical view: "Axial", "Sagittal", "Coronal", "Volume". Throws where there is none.
+pqRenderView& render_view(const char* name);
 /// The widget of a clinical view: "Axial", "Sagittal", "Coronal", "Volume".
 QWidget& view(const char* name);
 /// The middle of the stylus' yellow proxy in a view's picture, pixels; nothing where it is not seen.

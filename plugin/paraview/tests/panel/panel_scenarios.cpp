@@ -1,7 +1,6 @@
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 #include <vtkRenderWindow.h>
 #include <vtkSMRenderViewProxy.h>
 
@@ -244,17 +243,10 @@ void main_thread() {
   }
 }
 
-bool is_drawn(const char* name) {
-  for (auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    if (one->getSMName() != QLatin1String(name)) continue;
-    if (one->getRenderViewProxy()->GetRenderWindow()->GetNeverRendered() == 0) return true;
-  }
-  return false;
-}
-
 /// Whether something gray stands in the middle of a view on the screen. The light start page stands there before.
 bool is_painted(const char* name) {
-  if (!is_drawn(name)) return false;
+  if (!find<QPushButton>("palpateConnect").isEnabled()) return false;
+  if (render_view(name).getRenderViewProxy()->GetRenderWindow()->GetNeverRendered() != 0) return false;
   const QWidget& on = view(name);
   const QPoint middle = on.mapToGlobal(on.rect().center()) - QPoint(20, 20);
   const QImage seen =

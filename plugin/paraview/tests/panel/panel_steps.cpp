@@ -195,10 +195,7 @@ void hang() {
 namespace {
 
 vtkRenderWindowInteractor& interactor(const char* name) {
-  for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    if (one->getSMName() == QLatin1String(name)) return *one->getRenderViewProxy()->GetInteractor();
-  }
-  throw std::runtime_error(std::string("there is no view ") + name);
+  return *render_view(name).getRenderViewProxy()->GetInteractor();
 }
 
 }  // namespace

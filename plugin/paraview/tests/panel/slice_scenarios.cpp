@@ -67,9 +67,7 @@ void the_hand_begins_in_sight() {
 
 void keys_go_to_the_marked_view() {
   scan_is_shown();
-  for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    if (one->getSMName() == QLatin1String("Coronal")) pqActiveObjects::instance().setActiveView(one);
-  }
+  pqActiveObjects::instance().setActiveView(&render_view("Coronal"));
   connect_stylus();
   QWidget& coronal = view("Coronal");
   auto& stiffness = find<QDoubleSpinBox>("palpateStiffness");

@@ -30,7 +30,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,11 +41,8 @@
 namespace {
 
 vtkRenderer& renderer() {
-  for (auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    if (one->getSMName() != QLatin1String("Volume")) continue;
-    return *vtkPVRenderView::SafeDownCast(one->getRenderViewProxy()->GetClientSideView())->GetRenderer();
-  }
-  throw std::runtime_error("there is no volume view");
+  auto* const client = render_view("Volume").getRenderViewProxy()->GetClientSideView();
+  return *vtkPVRenderView::SafeDownCast(client)->GetRenderer();
 }
 
 QAction& action(const char* name) {
