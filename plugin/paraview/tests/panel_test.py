@@ -158,6 +158,7 @@ SCENARIOS = [
     "slices_are_read_and_measured",
     "the_table_is_cut_away",
     "the_volume_is_drawn_seldom",
+    "a_volume_without_hu_is_drawn",
     "surfaces_are_seen_where_they_are_felt",
     "a_scene_shows_what_it_does",
     "small_things_are_right",
@@ -267,5 +268,6 @@ TESTS["marks_are_saved"] = marks_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
 TESTS["first_image"] = lambda: run("first_image", PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
 TESTS["the_volume_is_drawn_seldom"] = lambda: run("the_volume_is_drawn_seldom", PALPATE_DROP=on_a_table())
+TESTS["a_volume_without_hu_is_drawn"] = lambda: run("a_volume_without_hu_is_drawn", PALPATE_DROP=write_nifti(scratch("ball.nii.gz")))
 TESTS["other_files_are_opened_and_felt"] = other_files
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

@@ -254,11 +254,21 @@ void the_volume_is_drawn_seldom() {
       "with the table it is drawn anew", [&] { return drawings.count > first; }, 20);
 }
 
+/// Without HU nobody looks for a body: the volume waits for nothing but the slices.
+void a_volume_without_hu_is_drawn() {
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  scan_is_shown();
+  wait_for(
+      "the scan is drawn", [] { return scan_is_drawn(renderer()); }, 20);
+  expect(!action("palpateCutTable").isEnabled(), "no table is cut away");
+}
+
 }  // namespace
 
 const Scenarios& volume_scenarios() {
   static const Scenarios scenarios{{"the_table_is_cut_away", the_table_is_cut_away},
                                    {"the_volume_is_drawn_seldom", the_volume_is_drawn_seldom},
+                                   {"a_volume_without_hu_is_drawn", a_volume_without_hu_is_drawn},
                                    {"surfaces_are_seen_where_they_are_felt", surfaces_are_seen_where_they_are_felt}};
   return scenarios;
 }
