@@ -37,8 +37,8 @@ class Surroundings {
       return no_node;
     }
     const Vec3 t = node - base;
-    const CubicSample sample = cubic_sample(numbers_.data() + (first.z * wide + first.y) * wide + first.x, wide,
-                                            wide * wide, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+    const CubicSample sample =
+        cubic_sample(numbers_.data() + (first.z * wide + first.y) * wide + first.x, wide, wide * wide, t);
     slope = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / spacing_;
     return sample.value;
   }

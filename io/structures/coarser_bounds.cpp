@@ -80,8 +80,8 @@ void refine(const NodeBricks& coarse, const std::vector<float>& numbers, const N
       const glm::ivec3 node(n % edge, n / edge % edge, n / (edge * edge));
       const glm::ivec3 cell = first + node / 2 - 1;
       const glm::dvec3 t = 0.5 * glm::dvec3(node - node / 2 * 2);
-      const CubicSample sample = cubic_sample(around.data() + (cell.z * wide + cell.y) * wide + cell.x, wide,
-                                              wide * wide, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+      const CubicSample sample =
+          cubic_sample(around.data() + (cell.z * wide + cell.y) * wide + cell.x, wide, wide * wide, t);
       if (std::isfinite(sample.value))
         into[slot * nodes + static_cast<std::size_t>(n)] = static_cast<float>(sample.value);
     }

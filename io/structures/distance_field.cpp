@@ -158,8 +158,7 @@ bool DistanceField::sample_near(const Vec3& position_mm, Distance& distance) con
   const Vec3 t = node - Vec3(cell);
   const float* first = near_mm_.data() + static_cast<std::size_t>(slot) * nodes_of_a_brick +
                        static_cast<std::size_t>((in.z * wide + in.y) * wide + in.x);
-  const CubicSample sample =
-      cubic_sample(first, wide, wide * wide, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+  const CubicSample sample = cubic_sample(first, wide, wide * wide, t);
   distance.mm = sample.value;
   distance.gradient = from_node_ * Vec3(sample.slope[0], sample.slope[1], sample.slope[2]);
   return true;
@@ -177,7 +176,7 @@ Distance DistanceField::sample_far(const Vec3& position_mm) const noexcept {
   const float* first = far_.mm.data() + static_cast<std::size_t>(cell.z - 1) * static_cast<std::size_t>(plane) +
                        static_cast<std::size_t>(cell.y - 1) * static_cast<std::size_t>(row) +
                        static_cast<std::size_t>(cell.x - 1);
-  const CubicSample sample = cubic_sample(first, row, plane, CubicWeights(t.x), CubicWeights(t.y), CubicWeights(t.z));
+  const CubicSample sample = cubic_sample(first, row, plane, t);
   Distance distance{.mm = sample.value, .gradient = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) * per_mm};
   if (node != held) {
     const Vec3 beyond = (node - held) * far_.spacing;
