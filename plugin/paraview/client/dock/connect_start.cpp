@@ -7,6 +7,7 @@
 #include "plugin/paraview/client/layout/empty_center.h"
 #include "plugin/paraview/client/layout/host_layout.h"
 #include "plugin/paraview/client/layout/start_page.h"
+#include "plugin/paraview/client/layout/views_cover.h"
 #include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/scan/sample_scan.h"
 #include "plugin/paraview/client/scan/scan_section.h"
@@ -20,6 +21,10 @@ void PanelParts::connect_start() {
   auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
   auto* const page = new StartPage(window);
   auto* const center = new EmptyCenter(*window, *page, &dock);
+  auto* const cover = new ViewsCover(*window);
+  scan->views().set_making_changed([cover = QPointer(cover)](bool making) {
+    if (cover) cover->set_shown(making);
+  });
   QObject::connect(layout, &HostLayout::advanced_changed, center, &EmptyCenter::set_advanced);
   QObject::connect(page, &StartPage::open_wanted, scan, &ScanSection::ask_folder);
   QObject::connect(page, &StartPage::folder_wanted, scan,

@@ -1044,6 +1044,10 @@
         <translation>Serien werden gesucht</translation>
     </message>
     <message>
+        <source>Showing</source>
+        <translation>Wird angezeigt</translation>
+    </message>
+    <message>
         <source>Loading</source>
         <translation>Laden</translation>
     </message>

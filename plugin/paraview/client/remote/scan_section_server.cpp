@@ -116,6 +116,7 @@ void ScanSection::ask_copy() {
 }
 
 void ScanSection::server_gone() {
+  views_.stop_making();
   server_scan_.cancel();
   server_scan_.forget();
   on_server_.reset();
@@ -127,6 +128,7 @@ void ScanSection::server_gone() {
 }
 
 void ScanSection::adopt(pqPipelineSource& reader) {
+  views_.stop_making();
   source_ = &reader;
   path_ = vtkSMPropertyHelper(reader.getProxy(), "FileName").GetAsString();
   loader_.cancel();

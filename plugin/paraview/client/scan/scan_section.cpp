@@ -36,6 +36,8 @@
 namespace palpate::plugin {
 namespace {
 
+constexpr int again_ms = 100;
+
 QString text(const std::string& utf8) {
   return QString::fromStdString(utf8);
 }
@@ -79,6 +81,12 @@ void ScanSection::open(const std::string& path) {
 }
 
 void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error) {
+  if (is_in_paraview()) {  // what is shown may have to be closed
+    QTimer::singleShot(again_ms, this, [this, catalogue, error, path = path_] {
+      if (path == path_) list(catalogue, error);
+    });
+    return;
+  }
   set_busy(false);
   if (!catalogue) {
     tell(text(error), true);
@@ -115,16 +123,19 @@ void ScanSection::load(std::size_t series) {
   loader_.load(
       scan_at(*catalogue_, series), 0, {}, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
       [this, catalogue = catalogue_, path = path_, series](const auto& volume, const std::string& error) {
-        if (volume) show({path, scan_name(*catalogue, series), catalogue, series, volume});
-        set_busy(false);
+        volume ? show({path, scan_name(*catalogue, series), catalogue, series, volume}) : set_busy(false);
         if (!error.empty()) tell(text(error), true);
       });
 }
 
+/// ParaView handles events while it makes a view: what they ask for comes after it.
+bool ScanSection::is_in_paraview() const {
+  return showing_ || views_.is_inside();
+}
+
 void ScanSection::show(const Loaded& loaded) {
-  // ParaView handles events while it makes a layout: another scan may be asked for meanwhile, and comes after this one.
-  if (showing_) {
-    QTimer::singleShot(100, this, [this, loaded] { show(loaded); });
+  if (is_in_paraview()) {
+    QTimer::singleShot(again_ms, this, [this, loaded] { show(loaded); });
     return;
   }
   showing_ = true;
@@ -133,12 +144,14 @@ void ScanSection::show(const Loaded& loaded) {
 }
 
 void ScanSection::show_now(const Loaded& loaded) {
-  pqObjectBuilder& builder = *pqApplicationCore::instance()->getObjectBuilder();
   pqServer* const server = pqActiveObjects::instance().activeServer();
   if (!server) {
+    set_busy(false);
     tell(words(say("paraview-is-not-connected-to-a-server")), true);
     return;
   }
+  set_busy(true, tr("Showing"));
+  cancel_->hide();
   try {
     SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
     emit closing();
@@ -147,31 +160,56 @@ void ScanSection::show_now(const Loaded& loaded) {
     handle_ = {};
     frame_loader_.cancel();
     coming_.reset();
-    if (source_) builder.destroy(source_);
-    source_ = builder.createSource(QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), server);
-    if (!source_) {
-      throw Refusal(say("server-has-no-palpate-plug"));
-    }
-    vtkSMProxy& proxy = *source_->getProxy();
-    vtkSMPropertyHelper(&proxy, "ShowMessages", true).Set(0);  // they stand in this section
-    {
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", &proxy);  // else a trace has a reader of nothing
-      vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
-      vtkSMPropertyHelper(&proxy, "SeriesUid").Set(loaded.name.c_str());
-      proxy.UpdateVTKObjects();
-    }
-    source_->updatePipeline();
-    set_animation_time(loaded.frame);  // another series: the time starts anew
-    // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
-    // takes that for a change.
-    QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
-    views_.show(*source_);
+    felt_source_.clear();
+    catalogue_shown_ = loaded.catalogue;
+    series_shown_ = loaded.series;
+    if (source_) pqApplicationCore::instance()->getObjectBuilder()->destroy(source_);
+    views_.make_room();
+    read(loaded, *server);
+    views_.show(*source_, [this, loaded](const std::string& error) { views_are_made(loaded, error); });
+  } catch (const std::exception& error) {
+    catalogue_shown_.reset();
+    set_busy(false);
+    tell(text(error.what()), true);
+  }
+}
+
+/// The voxels are here already, or are the server's.
+void ScanSection::read(const Loaded& loaded, pqServer& server) {
+  source_ = pqApplicationCore::instance()->getObjectBuilder()->createSource(
+      QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), &server);
+  if (!source_) {
+    throw Refusal(say("server-has-no-palpate-plug"));
+  }
+  vtkSMProxy& proxy = *source_->getProxy();
+  vtkSMPropertyHelper(&proxy, "ShowMessages", true).Set(0);  // they stand in this section
+  {
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", &proxy);  // else a trace has a reader of nothing
+    vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
+    vtkSMPropertyHelper(&proxy, "SeriesUid").Set(loaded.name.c_str());
+    proxy.UpdateVTKObjects();
+  }
+  source_->updatePipeline();
+  set_animation_time(loaded.frame);  // another series: the time starts anew
+  // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
+  // takes that for a change.
+  QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
+}
+
+void ScanSection::views_are_made(const Loaded& loaded, const std::string& error) {
+  if (!loader_.is_busy()) set_busy(false);
+  if (!error.empty()) {
+    tell(text(error), true);
+    return;
+  }
+  try {
+    SCOPED_UNDO_EXCLUDE();
     list_windows();
     say_what_to_know(loaded);
     take(loaded);
     if (!loaded.volume) fetch();
-  } catch (const std::exception& error) {
-    tell(text(error.what()), true);
+  } catch (const std::exception& problem) {
+    tell(text(problem.what()), true);
   }
 }
 

@@ -21,6 +21,7 @@
 #include "plugin/paraview/client/scan/scan_loader.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 
+class pqServer;
 class QComboBox;
 class QLabel;
 class QListWidget;
@@ -115,6 +116,9 @@ class ScanSection : public QWidget {
   };
   void show(const Loaded& loaded);
   void show_now(const Loaded& loaded);
+  void read(const Loaded& loaded, pqServer& server);
+  void views_are_made(const Loaded& loaded, const std::string& error);
+  bool is_in_paraview() const;
   void take(const Loaded& loaded);
   QWidget* build_frames();
   void go_to_frame(int frame);

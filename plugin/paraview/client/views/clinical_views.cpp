@@ -8,6 +8,7 @@
 #include <pqRenderView.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 #include <vtkPVRenderView.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
@@ -16,10 +17,12 @@
 #include <vtkSMViewLayoutProxy.h>
 
 #include <QCoreApplication>
+#include <QWidget>
 
 #include <algorithm>
 #include <utility>
 
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/views/new_views.h"
 #include "plugin/paraview/client/views/patient_volume.h"
@@ -50,29 +53,8 @@ constexpr struct {
 } places[] = {{Plane::axial, ViewKind::axial, 3},
               {Plane::sagittal, ViewKind::sagittal, 5},
               {Plane::coronal, ViewKind::coronal, 4}};
+constexpr int volume_cell = 6;
 }  // namespace
-
-ClinicalViews::~ClinicalViews() = default;
-
-void ClinicalViews::close() {
-  slices_.clear();
-  marker_.reset();
-  patient_.reset();
-  if (patient_changed_) patient_changed_();
-  windows_.clear();
-  looks_.clear();
-  window_->value_at = {};
-  set_measure(Measure::none);
-  window_->identity.clear();
-  window_->frame.clear();
-  window_->thickness_mm = 0;
-  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
-  for (auto& open : views_) {
-    open.mark.reset();
-    if (open.view) builder->destroy(open.view);
-  }
-  views_.clear();
-}
 
 void ClinicalViews::refresh() {
   for (const auto& slice : slices_) {
@@ -158,47 +140,151 @@ vtkSMViewLayoutProxy& ClinicalViews::take_layout(pqServer& server) {
   return *layout;
 }
 
-void ClinicalViews::show(pqPipelineSource& source) {
+void ClinicalViews::make_room() {
+  auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  if (layout_ || !old || old->widget()->isVisible() || old->getNumberOfVisibleRepresentations() > 0) return;
+  vtkSMViewLayoutProxy* const layout = layout_of(*old);
+  if (!layout || layout->GetViews().size() != 1) return;
+  pqApplicationCore::instance()->getObjectBuilder()->destroy(old);
+  layout_ = layout;
+}
+
+/// What is being shown, while its views are made.
+struct ClinicalViews::Making {
+  QPointer<pqPipelineSource> source;
+  Shown shown;
+  ImageLattice lattice;
+  vtkWeakPointer<vtkSMViewLayoutProxy> layout;
+  bool has_layout = false;
+  QPointer<pqRenderView> view;  ///< made, and shows nothing yet
+
+  /// Under *Advanced* the user can close tabs and views, and delete the scan, between two steps.
+  bool is_there() const { return source && (!has_layout || layout); }
+  vtkSMSourceProxy& image() const { return *vtkSMSourceProxy::SafeDownCast(source->getProxy()); }
+};
+
+ClinicalViews::ClinicalViews()
+    : turns_([this](const std::string& error) {
+        const Shown shown = making_ ? making_->shown : Shown();
+        close();
+        if (shown) shown(error);
+      }) {}
+
+ClinicalViews::~ClinicalViews() = default;
+
+void ClinicalViews::close() {
+  const QPointer<pqRenderView> half_made = making_ ? making_->view : nullptr;
+  stop_making();
+  slices_.clear();
+  marker_.reset();
+  patient_.reset();
+  if (patient_changed_) patient_changed_();
+  windows_.clear();
+  looks_.clear();
+  window_->value_at = {};
+  set_measure(Measure::none);
+  window_->identity.clear();
+  window_->frame.clear();
+  window_->thickness_mm = 0;
+  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  for (auto& open : views_) {
+    open.mark.reset();
+    if (open.view) builder->destroy(open.view);
+  }
+  if (half_made) builder->destroy(half_made);
+  views_.clear();
+}
+
+void ClinicalViews::stop_making() {
+  turns_.clear();
+  const bool was = std::exchange(making_, nullptr) != nullptr;
+  if (was && making_changed_) making_changed_(false);
+}
+
+void ClinicalViews::add_step(const std::function<void(Making&)>& step) {
+  turns_.add([this, step] {
+    if (!making_->is_there()) throw Refusal(say("scan-left-the-pipeline"));
+    SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
+    SM_SCOPED_TRACE(BlockTraceItems);
+    step(*making_);
+  });
+}
+
+void ClinicalViews::show(pqPipelineSource& source, Shown shown) {
   close();
   trace_shown(source);
-  SM_SCOPED_TRACE(BlockTraceItems);
-  pqServer& server = *source.getServer();
-  auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
-  const ImageLattice lattice = lattice_of(image);
+  making_ = std::make_unique<Making>();
+  making_->source = &source;
+  making_->shown = std::move(shown);
+  if (making_changed_) making_changed_(true);
+  add_step([this](Making& making) { begin_layout(making); });
+  for (std::size_t place = 0; place < std::size(places); ++place) {
+    add_step([this, place](Making& making) { make_slice_view(making, place); });
+    add_step([this, place](Making& making) { fill_slice_view(making, place); });
+  }
+  add_step([this](Making& making) { make_volume_view(making); });
+  add_step([this](Making& making) { fill_volume_view(making); });
+  add_step([this](Making& making) { finish(making); });
+}
 
-  vtkSMViewLayoutProxy* const layout = &take_layout(server);
-  layout->SplitHorizontal(0, 0.5);
-  layout->SplitVertical(1, 0.5);
-  layout->SplitVertical(2, 0.5);
-
-  prepare(image, lattice);
+void ClinicalViews::begin_layout(Making& making) {
+  making.lattice = lattice_of(making.image());
+  making.layout = &take_layout(*making.source->getServer());
+  making.has_layout = true;
+  making.layout->SplitHorizontal(0, 0.5);
+  making.layout->SplitVertical(1, 0.5);
+  making.layout->SplitVertical(2, 0.5);
+  prepare(making.image(), making.lattice);
   window_->window = windows_.front().window;
   plugin::set_window(*window_->gray_map, window_->window);
   name_window();
-  for (const auto& [plane, kind, cell] : places) {
-    pqRenderView& view = *make_view(server, true);
-    layout->AssignView(cell, view.getViewProxy());
-    vtkSMProxy& shown = show_as("Slice", image, view, lattice.array.c_str());
-    const Sight sight = sight_of(plane, lattice.directions);
-    vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight));
-    vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->gray_map);
-    vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
-        .Set(vtkSMPropertyHelper(window_->gray_map, "ScalarOpacityFunction").GetAsProxy());
-    shown.UpdateVTKObjects();
-    add_slice(lattice, plane, kind, view, shown, lattice.dimensions[sight.index_axis] / 2, false);
-  }
+}
 
-  pqRenderView& volume_view = *make_view(server, false);
-  layout->AssignView(6, volume_view.getViewProxy());
-  vtkSMProxy& volume = show_as("Volume", image, volume_view, lattice.array.c_str());
-  first_look_ = suited_look(lattice.values);
+void ClinicalViews::make_slice_view(Making& making, std::size_t place) {
+  making.view = make_view(*making.source->getServer(), true);
+  making.layout->AssignView(places[place].cell, making.view->getViewProxy());
+}
+
+void ClinicalViews::fill_slice_view(Making& making, std::size_t place) {
+  if (!making.view) return;
+  const auto& [plane, kind, cell] = places[place];
+  const ImageLattice& lattice = making.lattice;
+  vtkSMProxy& shown = show_as("Slice", making.image(), *making.view, lattice.array.c_str());
+  const Sight sight = sight_of(plane, lattice.directions);
+  vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight));
+  vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->gray_map);
+  vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
+      .Set(vtkSMPropertyHelper(window_->gray_map, "ScalarOpacityFunction").GetAsProxy());
+  shown.UpdateVTKObjects();
+  add_slice(lattice, plane, kind, *making.view, shown, lattice.dimensions[sight.index_axis] / 2, false);
+  making.view.clear();
+}
+
+void ClinicalViews::make_volume_view(Making& making) {
+  making.view = make_view(*making.source->getServer(), false);
+  making.layout->AssignView(volume_cell, making.view->getViewProxy());
+}
+
+void ClinicalViews::fill_volume_view(Making& making) {
+  if (!making.view) return;
+  vtkSMProxy& volume = show_as("Volume", making.image(), *making.view, making.lattice.array.c_str());
+  first_look_ = suited_look(making.lattice.values);
   set_volume_look(volume, looks_.at(*first_look_));
-  look_from_the_front(volume_view, lattice.center());
-  add_volume(volume_view, source);
+  look_from_the_front(*making.view, making.lattice.center());
+  add_volume(*making.view, *making.source);
+  making.view.clear();
+}
+
+void ClinicalViews::finish(Making& making) {
   // Not before all are there: the next would have this one's first name again.
-  for (const auto& open : views_) open.view->rename(name_of(open.kind));
+  for (const auto& open : views_) {
+    if (open.view) open.view->rename(name_of(open.kind));
+  }
   refresh();
   if (enlarged_changed_) enlarged_changed_(false);
+  const Shown shown = making.shown;
+  stop_making();
+  turns_.add([shown] { shown({}); });
 }
 
 void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice) {
@@ -260,6 +346,7 @@ void ClinicalViews::add_volume(pqRenderView& volume_view, pqPipelineSource& sour
 void ClinicalViews::adopt(pqPipelineSource& source) {
   auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
   const ImageLattice lattice = lattice_of(image);
+  stop_making();
   slices_.clear();
   marker_.reset();
   patient_.reset();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "plugin/paraview/client/layout/enlarged_view.h"
@@ -16,6 +17,7 @@
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/views/orientation_marker.h"
 #include "plugin/paraview/client/views/slice_view.h"
+#include "plugin/paraview/client/views/turns.h"
 
 class pqPipelineSource;
 class pqServer;
@@ -36,13 +38,24 @@ struct ClinicalView {
 
 class ClinicalViews {
  public:
-  ClinicalViews() = default;
+  ClinicalViews();
   ClinicalViews(const ClinicalViews&) = delete;
   ClinicalViews& operator=(const ClinicalViews&) = delete;
   ~ClinicalViews();
 
-  /// Shows an image in a layout of its own, the first slices in the middle. The source has to be up to date.
-  void show(pqPipelineSource& source);
+  /// Is told that the views are there, or with an error, in words, that they are not.
+  using Shown = std::function<void(const std::string& error)>;
+  /// Makes the views of an image in a layout of their own, the first slices in the middle: one after the other, each in
+  /// a turn of the event loop of its own. The source has to be up to date. close() ends it; nothing is told then.
+  void show(pqPipelineSource& source, Shown shown);
+  /// To be called before the source is made: the empty view of a fresh session, unseen yet, would be drawn first.
+  void make_room();
+  /// What is still to be made is not made: what was to be shown is gone, or has views already.
+  void stop_making();
+  /// Whether ParaView is just making a view. It may handle events meanwhile: nothing is to be closed then.
+  bool is_inside() const { return turns_.is_inside(); }
+  /// Called when the views begin to be made, and when they are all there, or will not be.
+  void set_making_changed(std::function<void(bool)> changed) { making_changed_ = std::move(changed); }
   /// Takes over existing clinical views of an image, which a state file has restored.
   void adopt(pqPipelineSource& source);
   /// Removes the views of the layout that was shown last.
@@ -93,6 +106,14 @@ class ClinicalViews {
   void refresh_values();
 
  private:
+  struct Making;
+  void add_step(const std::function<void(Making&)>& step);
+  void begin_layout(Making& making);
+  void make_slice_view(Making& making, std::size_t place);
+  void fill_slice_view(Making& making, std::size_t place);
+  void make_volume_view(Making& making);
+  void fill_volume_view(Making& making);
+  void finish(Making& making);
   vtkSMViewLayoutProxy& take_layout(pqServer& server);
   void prepare(vtkSMSourceProxy& image, const ImageLattice& lattice);
   void add_slice(const ImageLattice& lattice, Plane plane, ViewKind kind, pqRenderView& view, vtkSMProxy& shown,
@@ -107,6 +128,7 @@ class ClinicalViews {
   std::function<void(bool)> enlarged_changed_;
   std::function<void(Measure)> measure_changed_;
   std::function<void()> patient_changed_;
+  std::function<void(bool)> making_changed_;
   std::vector<NamedWindow> windows_;
   std::vector<VolumeLook> looks_;
   std::optional<std::size_t> first_look_;
@@ -123,6 +145,8 @@ class ClinicalViews {
   std::vector<OpenView> views_;
   vtkWeakPointer<vtkSMViewLayoutProxy> layout_;  ///< the tab that the scan is shown in, used again for the next
   QObject lifetime_;                             // its end ends what is connected to the views
+  std::unique_ptr<Making> making_;               // while the views are made
+  Turns turns_;
 };
 
 }  // namespace palpate::plugin

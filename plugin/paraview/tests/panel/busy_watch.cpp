@@ -3,15 +3,21 @@
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkSMRenderViewProxy.h>
 
 #include <QAbstractEventDispatcher>
 
 #include <functional>
+
+namespace {
+
+vtkRenderWindow& window_of(const pqRenderView& view) {
+  return *view.getRenderViewProxy()->GetRenderWindow();
+}
+
+}  // namespace
 
 BusyWatch::BusyWatch() {
   clock_.start();
@@ -26,26 +32,24 @@ BusyWatch::BusyWatch() {
     if (busy_) end();
     busy_ = false;
   });
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(this);
-  command->SetCallback(&BusyWatch::rendered);
-  for (pqRenderView* const view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    vtkRenderWindow* const window = view->getRenderViewProxy()->GetRenderWindow();
-    window->AddObserver(vtkCommand::StartEvent, command);
-    window->AddObserver(vtkCommand::EndEvent, command);
-  }
+  rendering_->SetClientData(this);
+  rendering_->SetCallback(&BusyWatch::rendered);
+  pqServerManagerModel& model = *pqApplicationCore::instance()->getServerManagerModel();
+  for (pqRenderView* const view : model.findItems<pqRenderView*>()) watch(*view);
+  connect(&model, &pqServerManagerModel::viewAdded, this, [this](pqView* added) {
+    if (auto* const view = qobject_cast<pqRenderView*>(added)) watch(*view);
+  });
 }
 
 BusyWatch::~BusyWatch() {
   for (pqRenderView* const view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    vtkRenderWindow* const window = view->getRenderViewProxy()->GetRenderWindow();
-    for (const auto event : {vtkCommand::StartEvent, vtkCommand::EndEvent}) {
-      while (auto* const command = vtkCallbackCommand::SafeDownCast(window->GetCommand(event))) {
-        if (command->GetClientData() != this) break;
-        window->RemoveObserver(command);
-      }
-    }
+    window_of(*view).RemoveObserver(rendering_);
   }
+}
+
+void BusyWatch::watch(pqRenderView& view) {
+  window_of(view).AddObserver(vtkCommand::StartEvent, rendering_);
+  window_of(view).AddObserver(vtkCommand::EndEvent, rendering_);
 }
 
 void BusyWatch::rendered(vtkObject*, unsigned long event, void* self, void*) {
@@ -60,12 +64,18 @@ void BusyWatch::rendered(vtkObject*, unsigned long event, void* self, void*) {
 
 void BusyWatch::end() {
   const double whole_ms = 1e-6 * static_cast<double>(clock_.nsecsElapsed()) - began_ms_;
-  longest_ms_ = std::max(longest_ms_, whole_ms);
-  stretches_.push_back(whole_ms - rendering_ms_);
+  stretches_.push_back({began_ms_, whole_ms, rendering_ms_});
+}
+
+double BusyWatch::longest_with_rendering_ms() const {
+  double longest = 0;
+  for (const Stretch& one : stretches_) longest = std::max(longest, one.took_ms);
+  return longest;
 }
 
 std::vector<double> BusyWatch::without_rendering() const {
-  std::vector<double> sorted = stretches_;
+  std::vector<double> sorted;
+  for (const Stretch& one : stretches_) sorted.push_back(one.took_ms - one.rendering_ms);
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
   return sorted;
 }

@@ -2,12 +2,16 @@
 
 /// How long the program's main thread is busy at a stretch, with and without ParaView's own rendering.
 
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+
 #include <QElapsedTimer>
 #include <QObject>
 
 #include <algorithm>
 #include <vector>
 
+class pqRenderView;
 class vtkObject;
 
 class BusyWatch : public QObject {
@@ -17,14 +21,23 @@ class BusyWatch : public QObject {
 
   /// ms, most first, of the stretches since it was made: rendering taken out.
   std::vector<double> without_rendering() const;
-  double longest_with_rendering_ms() const { return longest_ms_; }
+  double longest_with_rendering_ms() const;
+  /// In the order in which they came, rendering included.
+  struct Stretch {
+    double began_ms = 0;  ///< since the watch was made
+    double took_ms = 0;
+    double rendering_ms = 0;  ///< of that
+  };
+  const std::vector<Stretch>& stretches() const { return stretches_; }
 
  private:
   static void rendered(vtkObject* window, unsigned long event, void* self, void*);
+  void watch(pqRenderView& view);
   void end();
 
   QElapsedTimer clock_;
-  double began_ms_ = 0, render_began_ms_ = 0, rendering_ms_ = 0, longest_ms_ = 0;
+  double began_ms_ = 0, render_began_ms_ = 0, rendering_ms_ = 0;
   bool busy_ = false;
-  std::vector<double> stretches_;
+  std::vector<Stretch> stretches_;
+  vtkNew<vtkCallbackCommand> rendering_;
 };

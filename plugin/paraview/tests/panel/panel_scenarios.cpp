@@ -254,8 +254,18 @@ bool is_painted(const char* name) {
   return qGray(seen.pixel(0, 0)) > 16;
 }
 
+/// Those of 100 ms or more, each with when it began.
+void print_stretches(const BusyWatch& watch) {
+  constexpr double long_ms = 100;
+  for (const BusyWatch::Stretch& one : watch.stretches()) {
+    if (one.took_ms < long_ms) continue;
+    std::printf("first_image: busy from %.2f s on for %.0f ms, %.0f of them rendering\n", 1e-3 * one.began_ms,
+                one.took_ms, one.rendering_ms);
+  }
+}
+
 /// Not a test but a measurement: how long after a folder is dropped its scan is on the screen, and its tissues in the
-/// panel.
+/// panel; and how long the main thread is busy at a stretch until the views rest.
 void first_image() {
   QElapsedTimer clock;
   clock.start();
@@ -266,11 +276,15 @@ void first_image() {
   wait_for("its tissues are found",
            [] { return !find<QWidget>("palpateStudying").isVisible() && widget("palpateOn0") != nullptr; });
   const double tissues_s = 1e-3 * static_cast<double>(clock.elapsed());
+  wait_for("the volume is on the screen", [] { return is_painted("Volume"); });
+  const double volume_s = 1e-3 * static_cast<double>(clock.elapsed());
+  views_rest();
+  save_screen("first-image");
   std::printf(
-      "first_image: on the screen after %.2f s, tissues in the panel after %.2f s; the main thread was busy for at "
-      "most "
-      "%.0f ms without rendering and %.0f ms with it\n",
-      image_s, tissues_s, watch.without_rendering().at(0), watch.longest_with_rendering_ms());
+      "first_image: on the screen after %.2f s, tissues in the panel after %.2f s, and the volume by %.2f s; the main "
+      "thread was busy for at most %.0f ms without rendering and %.0f ms with it\n",
+      image_s, tissues_s, volume_s, watch.without_rendering().at(0), watch.longest_with_rendering_ms());
+  print_stretches(watch);
 }
 
 /// The program ends with the button down and the stylus pressed: by itself, with exit code 0.

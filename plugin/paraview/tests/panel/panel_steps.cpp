@@ -85,9 +85,11 @@ std::string marks_text() {
 }
 
 void scan_is_shown() {
-  wait_for("the scan is in the views", [] { return find<QPushButton>("palpateConnect").isEnabled(); });
-  wait_for("its tissues are found", [] { return !find<QWidget>("palpateStudying").isVisible(); });
-  wait_for("nothing is being loaded", [] { return !find<QWidget>("palpateProgress").isVisible(); });
+  // All at once: a scan that takes another's place is being shown first, and then studied.
+  wait_for("the scan is in the views, its tissues are found, and nothing is being loaded", [] {
+    return find<QPushButton>("palpateConnect").isEnabled() && !find<QWidget>("palpateStudying").isVisible() &&
+           !find<QWidget>("palpateProgress").isVisible();
+  });
   views_rest();
 }
 

@@ -6,14 +6,18 @@
 #include <pqDeleteReaction.h>
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
+#include <pqRenderView.h>
 #include <pqServer.h>
+#include <pqServerManagerModel.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QListWidget>
 #include <QPushButton>
 
+#include <algorithm>
 #include <string>
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
@@ -196,6 +200,66 @@ void undo_belongs_to_a_scan() {
       [] { return label("palpateFelt").contains("Scene: " + find<QComboBox>("palpateScenes").currentText()); }, 20);
 }
 
+int views_open() {
+  return pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>().size();
+}
+
+std::string series_in_pipeline() {
+  return vtkSMPropertyHelper(reader().getProxy(), "SeriesUid").GetAsString();
+}
+
+/// Clicks on a row of the list of series, and returns while its views are being made: the reader that they are of.
+unsigned half_shown(int row) {
+  const unsigned before = reader_in_pipeline();
+  auto& series = find<QListWidget>("palpateSeries");
+  click(*series.viewport(), series.visualItemRect(series.item(row)).center());
+  wait_for("its first views are made", [before] {
+    return reader_in_pipeline() != 0 && reader_in_pipeline() != before && views_open() >= 2 &&
+           find<QWidget>("palpateCover").isVisible();
+  });
+  return reader_in_pipeline();
+}
+
+void expect_four_views_of_one_scan() {
+  expect(!find<QWidget>("palpateCover").isVisible(), "nothing lies over the views");
+  expect(views_open() == 4, "there are four views: " + std::to_string(views_open()));
+  const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  const auto scans = std::ranges::count_if(sources, [](const pqPipelineSource* one) {
+    return one->getProxy()->GetXMLName() == std::string("PalpateDicomReader");
+  });
+  expect(scans == 1, "there is one scan in the pipeline");
+  for (const char* const name : {"Axial", "Sagittal", "Coronal", "Volume"}) {
+    expect(reader().getRepresentation(&render_view(name)) != nullptr, std::string(name) + " shows it");
+  }
+}
+
+/// A scan's views are made one after the other. Between two of them another scan may be chosen, or the scan deleted.
+void a_scan_is_overtaken() {
+  choose_series(1);
+  const std::string second = series_in_pipeline();
+  click("palpateScanSectionFold");
+  is_laid_out(*find<QListWidget>("palpateSeries").viewport());
+  const unsigned overtaken = half_shown(0);
+  auto& series = find<QListWidget>("palpateSeries");
+  click(*series.viewport(), series.visualItemRect(series.item(1)).center());
+  another_scan_is_shown(overtaken);
+  expect(series_in_pipeline() == second, "the one that was chosen last is shown");
+  expect_four_views_of_one_scan();
+
+  click("palpateScanSectionFold");
+  is_laid_out(*series.viewport());
+  (void)half_shown(0);
+  pqApplicationCore::instance()->getObjectBuilder()->destroy(&reader());
+  wait_for("it is said that it is gone", [] {
+    return label("palpateMessage") == "the scan is no longer in the pipeline. Open a scan, then press Feel";
+  });
+  expect(views_open() == 0, "none of its views is left");
+  expect(!find<QWidget>("palpateCover").isVisible(), "nothing waits for them");
+  choose_series(1);
+  expect_four_views_of_one_scan();
+  connect_stylus();
+}
+
 }  // namespace
 
 const Scenarios& shown_scenarios() {
@@ -204,6 +268,7 @@ const Scenarios& shown_scenarios() {
       {"a_reset_session_has_no_force", a_reset_session_has_no_force},
       {"a_loaded_state_has_no_force", a_loaded_state_has_no_force},
       {"undo_belongs_to_a_scan", undo_belongs_to_a_scan},
+      {"a_scan_is_overtaken", a_scan_is_overtaken},
   };
   return all;
 }

@@ -1,0 +1,27 @@
+#pragma once
+
+/// Lies over ParaView's views while those of a scan are made, one after the other: nobody sees an empty one.
+
+#include <QPointer>
+#include <QWidget>
+
+class QMainWindow;
+
+namespace palpate::plugin {
+
+class ViewsCover : public QWidget {
+ public:
+  /// Not in sight yet. Never is where this ParaView has its views elsewhere.
+  explicit ViewsCover(QMainWindow& window);
+
+  void set_shown(bool shown);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  QPointer<QWidget> views_;
+};
+
+}  // namespace palpate::plugin
