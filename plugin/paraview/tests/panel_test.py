@@ -1,6 +1,6 @@
 """ParaView with the panel, on a virtual display, driven by the test plug-in: each scenario in a program of its own.
 
-Arguments as in panel_program.py; main_thread and first_image, which are measurements, can be asked for. PALPATE_FOLDER: another scan.
+Arguments as in panel_program.py; main_thread, first_image and the_volume_turns, which are measurements, can be asked for. PALPATE_FOLDER: another scan.
 """
 
 import json
@@ -160,6 +160,7 @@ SCENARIOS = [
     "the_table_is_cut_away",
     "the_volume_is_drawn_seldom",
     "a_volume_without_hu_is_drawn",
+    "the_volume_lies_in_the_patient",
     "surfaces_are_seen_where_they_are_felt",
     "a_scene_shows_what_it_does",
     "small_things_are_right",
@@ -261,15 +262,18 @@ def marks_last():
 
 
 # Only by name: measurements.
-BY_NAME = ["main_thread", "first_image"]
+BY_NAME = ["main_thread", "first_image", "the_volume_turns"]
 TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
 TESTS["the_layout_is_clinical"] = layout
 TESTS["the_panel_speaks_german"] = german
 TESTS["the_panel_fits_the_screen"] = fits
 TESTS["marks_are_saved"] = marks_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
-TESTS["first_image"] = lambda: run("first_image", PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
+for dropped in ("first_image", "the_volume_turns"):
+    TESTS[dropped] = lambda name=dropped: run(name, PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
 TESTS["the_volume_is_drawn_seldom"] = lambda: run("the_volume_is_drawn_seldom", PALPATE_DROP=on_a_table())
+TESTS["the_volume_lies_in_the_patient"] = lambda: run("the_volume_lies_in_the_patient", PALPATE_DROP=phantom(
+    "oblique", "sphere", "--radius", "25", "--orientation", "0.6", "0.8", "0", "-0.64", "0.48", "0.6"))
 TESTS["a_volume_without_hu_is_drawn"] = lambda: run("a_volume_without_hu_is_drawn", PALPATE_DROP=write_nifti(scratch("ball.nii.gz")))
 TESTS["other_files_are_opened_and_felt"] = other_files
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

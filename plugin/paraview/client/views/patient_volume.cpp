@@ -3,8 +3,11 @@
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <vtkAlgorithm.h>
+#include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPVRenderView.h>
 #include <vtkPointData.h>
@@ -16,13 +19,18 @@
 #include <vtkSmartVolumeMapper.h>
 #include <vtkVolume.h>
 #include <vtkVolumeCollection.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
 
 #include <QTimer>
 
+#include <atomic>
 #include <utility>
 
 #include "plugin/paraview/client/panel/latest_job.h"
 #include "plugin/paraview/client/views/crop_box.h"
+#include "plugin/paraview/client/views/event_watch.h"
+#include "plugin/paraview/client/views/software_volume.h"
 #include "plugin/paraview/common/body_mask.h"
 #include "plugin/paraview/common/value_range.h"
 
@@ -66,6 +74,23 @@ struct PatientVolume::Cut {
   LatestJob<vtkSmartPointer<vtkImageData>> job;
 };
 
+struct PatientVolume::Casting {
+  explicit Casting(std::function<void(vtkFixedPointVolumeRayCastMapper*)> ready)
+      : job([ready = std::move(ready)](const auto& made, const QString&) { ready(made ? made->Get() : nullptr); }) {}
+  ~Casting() { *cancelled = true; }
+  void drop() {
+    *std::exchange(cancelled, std::make_shared<std::atomic<bool>>(false)) = true;
+    job.drop();
+  }
+  void ask(vtkImageData& image, int step) {
+    drop();
+    job.ask(preparing_to_cast(image, step, cancelled));
+  }
+
+  std::shared_ptr<std::atomic<bool>> cancelled = std::make_shared<std::atomic<bool>>(false);
+  LatestJob<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>> job;
+};
+
 PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed)
     : view_(&view), scan_(&scan), hounsfield_(hounsfield), changed_(std::move(changed)) {
   const auto done = [this](const auto& found, const QString&) {
@@ -75,6 +100,11 @@ PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool ho
     if (cut_image_ && changed_) changed_();
   };
   job_ = std::unique_ptr<Cut>(new Cut{LatestJob<vtkSmartPointer<vtkImageData>>(done)});
+  casting_ = std::make_unique<Casting>([this](vtkFixedPointVolumeRayCastMapper* mapper) {
+    caster_ = mapper;
+    refresh();
+    if (std::exchange(coarse_, false) && cast_image_) casting_->ask(*cast_image_, 1);
+  });
   take_image();
   // Its values may be filtered, or read anew.
   QObject::connect(&scan, QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), &lifetime_,
@@ -95,17 +125,24 @@ void PatientVolume::take_image() {
   const bool seek_body = values && one_frame && hounsfield_;
   // The view's own timer is then started after those of the slices. A large scan's body takes long to find.
   constexpr int no_wait_ms = 1, most_wait_ms = 3000;
-  if (waits_) QTimer::singleShot(seek_body ? most_wait_ms : no_wait_ms, &lifetime_, [this] { begin_to_draw(); });
+  if (waits_ && !(seek_body && draws_without_card())) {
+    QTimer::singleShot(seek_body ? most_wait_ms : no_wait_ms, &lifetime_, [this] { begin_to_draw(); });
+  }
   if (!values || !one_frame || same) return;
   whole_image_ = vtkSmartPointer<vtkImageData>::New();
   whole_image_->ShallowCopy(image);
   cut_image_ = nullptr;
+  cast_image_ = nullptr;
+  caster_ = nullptr;
+  casting_->drop();
   job_->job.drop();
   refresh();
   if (seek_body) job_->job.ask([image = whole_image_] { return body_of(*image); });
 }
 
 PatientVolume::~PatientVolume() {
+  look_watch_.reset();
+  casting_.reset();
   job_.reset();
   box_.reset();
   if (!view_) return;
@@ -152,34 +189,66 @@ void PatientVolume::take_out(vtkVolume& theirs, bool out) {
   }
 }
 
+/// In the background; what is drawn until then stays.
+void PatientVolume::prepare_to_cast(vtkImageData& image) {
+  if (cast_image_ == &image) return;
+  cast_image_ = &image;
+  // Half of them along each axis first: an eighth of the time.
+  constexpr vtkIdType many_voxels = 20'000'000;
+  coarse_ = !caster_ && image.GetNumberOfPoints() > many_voxels;
+  casting_->ask(image, coarse_ ? 2 : 1);
+}
+
 void PatientVolume::refresh() {
   if (!view_) return;
   view_->render();  // at the next turn of events
   vtkVolume* const theirs = of_paraview();
   if (!theirs) return;
   const bool cut = cut_ && cut_image_;
-  const bool hidden = hidden_ || waits_;
-  const bool ours = !hidden && (cut || cropped_);
-  if (ours && !own_) {
-    own_ = vtkSmartPointer<vtkVolume>::New();
-    own_->PickableOff();
-    own_->SetMapper(vtkNew<vtkSmartVolumeMapper>());
-    own_->SetProperty(theirs->GetProperty());  // what is chosen for the one is seen of the other
-    client_view(*view_).GetRenderer()->AddVolume(own_);
-  }
+  vtkImageData* const image = cut ? cut_image_ : whole_image_;
+  const bool cast = image && can_be_cast(*image) && draws_without_card();
+  if (cast && !waits_) prepare_to_cast(*image);
+  const bool hidden = hidden_ || waits_ || (cast && !caster_);
+  const bool ours = !hidden && (cut || cropped_ || cast);
   if (cropped_ && !box_) box_ = std::make_unique<CropBox>(*view_, whole_image_->GetBounds());
   if (box_) box_->set_visible(cropped_);
-  if (own_) {
-    auto* const mapper = vtkSmartVolumeMapper::SafeDownCast(own_->GetMapper());
-    if (ours) mapper->SetInputData(cut ? cut_image_ : whole_image_);
-    if (cropped_) {
-      mapper->SetClippingPlanes(box_->planes());
-    } else {
-      mapper->RemoveAllClippingPlanes();
-    }
-    own_->SetVisibility(ours ? 1 : 0);
-  }
+  if (ours) draw_ours(*theirs, *image, cast);
+  if (own_) own_->SetVisibility(ours ? 1 : 0);
   take_out(*theirs, ours || hidden);
+}
+
+void PatientVolume::draw_ours(vtkVolume& theirs, vtkImageData& image, bool cast) {
+  if (!own_) {
+    own_ = vtkSmartPointer<vtkVolume>::New();
+    own_->PickableOff();
+    client_view(*view_).GetRenderer()->AddVolume(own_);
+  }
+  // What is chosen for the one is seen of the other.
+  if (cast) {
+    if (!look_watch_) {
+      own_->SetProperty(vtkNew<vtkVolumeProperty>());
+      const auto follow = [own = own_.Get(), of = theirs.GetProperty()] {
+        light_for_casting(*of, *own->GetProperty());
+      };
+      follow();
+      look_watch_ = std::make_unique<EventWatch>(theirs.GetProperty(), vtkCommand::ModifiedEvent, follow);
+    }
+    own_->SetMapper(caster_);
+    own_->SetUserMatrix(place_of(image));
+  } else {
+    look_watch_.reset();
+    own_->SetProperty(theirs.GetProperty());
+    auto* smart = vtkSmartVolumeMapper::SafeDownCast(own_->GetMapper());
+    if (!smart) own_->SetMapper(smart = vtkSmartPointer<vtkSmartVolumeMapper>::New());
+    smart->SetInputData(&image);
+    own_->SetUserMatrix(nullptr);
+  }
+  auto& mapper = *vtkVolumeMapper::SafeDownCast(own_->GetMapper());
+  if (cropped_) {
+    mapper.SetClippingPlanes(box_->planes());
+  } else {
+    mapper.RemoveAllClippingPlanes();
+  }
 }
 
 }  // namespace palpate::plugin

@@ -14,12 +14,14 @@
 
 class pqPipelineSource;
 class pqRenderView;
+class vtkFixedPointVolumeRayCastMapper;
 class vtkImageData;
 class vtkVolume;
 
 namespace palpate::plugin {
 
 class CropBox;
+class EventWatch;
 
 class PatientVolume {
  public:
@@ -43,9 +45,12 @@ class PatientVolume {
 
  private:
   struct Cut;
+  struct Casting;
   void take_image();
   void begin_to_draw();
   void refresh();
+  void draw_ours(vtkVolume& theirs, vtkImageData& image, bool cast);
+  void prepare_to_cast(vtkImageData& image);
   void take_out(vtkVolume& theirs, bool out);
   vtkVolume* of_paraview() const;
 
@@ -54,11 +59,16 @@ class PatientVolume {
   bool hounsfield_;
   std::function<void()> changed_;
   vtkSmartPointer<vtkImageData> whole_image_, cut_image_;
+  vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> caster_;  // without a graphics card
+  vtkSmartPointer<vtkImageData> cast_image_;                  // that it draws, or is being prepared to
   vtkSmartPointer<vtkVolume> own_;
-  vtkSmartPointer<vtkVolume> taken_out_;  // ParaView's, while it is not drawn
+  std::unique_ptr<EventWatch> look_watch_;  // of what is chosen for ParaView's
+  vtkSmartPointer<vtkVolume> taken_out_;    // ParaView's, while it is not drawn
   std::unique_ptr<CropBox> box_;
   bool cut_ = true, cropped_ = false, hidden_ = false, waits_ = true;
-  QObject lifetime_;          // its end ends what is connected to the scan
+  bool coarse_ = false;  // what is being prepared is a first picture
+  QObject lifetime_;     // its end ends what is connected to the scan
+  std::unique_ptr<Casting> casting_;
   std::unique_ptr<Cut> job_;  // last: it ends before what it sets
 };
 

@@ -9,12 +9,20 @@
 
 #include <QAbstractEventDispatcher>
 
+#include <ctime>
 #include <functional>
 
 namespace {
 
 vtkRenderWindow& window_of(const pqRenderView& view) {
   return *view.getRenderViewProxy()->GetRenderWindow();
+}
+
+/// Of this thread, since it began.
+double processor_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 }  // namespace
@@ -26,6 +34,7 @@ BusyWatch::BusyWatch() {
     if (busy_) end();
     busy_ = true;
     began_ms_ = 1e-6 * static_cast<double>(clock_.nsecsElapsed());
+    began_processor_ms_ = processor_ms();
     rendering_ms_ = 0;
   });
   connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, this, [this] {
@@ -64,7 +73,7 @@ void BusyWatch::rendered(vtkObject*, unsigned long event, void* self, void*) {
 
 void BusyWatch::end() {
   const double whole_ms = 1e-6 * static_cast<double>(clock_.nsecsElapsed()) - began_ms_;
-  stretches_.push_back({began_ms_, whole_ms, rendering_ms_});
+  stretches_.push_back({began_ms_, whole_ms, processor_ms() - began_processor_ms_, rendering_ms_});
 }
 
 double BusyWatch::longest_with_rendering_ms() const {

@@ -26,6 +26,7 @@ class BusyWatch : public QObject {
   struct Stretch {
     double began_ms = 0;  ///< since the watch was made
     double took_ms = 0;
+    double processor_ms = 0;  ///< of the main thread; less than it took where others had the processor, or it waited
     double rendering_ms = 0;  ///< of that
   };
   const std::vector<Stretch>& stretches() const { return stretches_; }
@@ -36,7 +37,7 @@ class BusyWatch : public QObject {
   void end();
 
   QElapsedTimer clock_;
-  double began_ms_ = 0, render_began_ms_ = 0, rendering_ms_ = 0;
+  double began_ms_ = 0, began_processor_ms_ = 0, render_began_ms_ = 0, rendering_ms_ = 0;
   bool busy_ = false;
   std::vector<Stretch> stretches_;
   vtkNew<vtkCallbackCommand> rendering_;

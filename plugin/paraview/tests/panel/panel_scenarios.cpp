@@ -259,8 +259,8 @@ void print_stretches(const BusyWatch& watch) {
   constexpr double long_ms = 100;
   for (const BusyWatch::Stretch& one : watch.stretches()) {
     if (one.took_ms < long_ms) continue;
-    std::printf("first_image: busy from %.2f s on for %.0f ms, %.0f of them rendering\n", 1e-3 * one.began_ms,
-                one.took_ms, one.rendering_ms);
+    std::printf("first_image: busy from %.2f s on for %.0f ms (%.0f of a processor), %.0f of them rendering\n",
+                1e-3 * one.began_ms, one.took_ms, one.processor_ms, one.rendering_ms);
   }
 }
 

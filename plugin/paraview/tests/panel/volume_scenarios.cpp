@@ -7,6 +7,7 @@
 #include <pqView.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
+#include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkPVRenderView.h>
 #include <vtkPolyData.h>
@@ -20,6 +21,7 @@
 #include <QAbstractButton>
 #include <QAction>
 #include <QComboBox>
+#include <QElapsedTimer>
 #include <QImage>
 #include <QObject>
 #include <QPoint>
@@ -28,6 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -254,6 +257,62 @@ void the_volume_is_drawn_seldom() {
       "with the table it is drawn anew", [&] { return drawings.count > first; }, 20);
 }
 
+/// In pixels of the view's picture, from the left and from above.
+QPoint origin_in_volume_view() {
+  double x = 0, y = 0, z = 0;
+  renderer().WorldToView(x, y, z);
+  const QWidget& in = view("Volume");
+  return QPoint(static_cast<int>((x + 1) / 2 * in.width()), static_cast<int>((1 - y) / 2 * in.height()));
+}
+
+/// The same without the quarters at the sides, where the orientation marker is.
+QRect seen_in_the_middle() {
+  const QImage picture = view("Volume").grab().toImage();
+  const QRect middle(picture.width() / 4, 0, picture.width() / 2, picture.height());
+  return seen_in(picture.copy(middle)).translated(middle.topLeft());
+}
+
+/// A ball of 25 mm about the origin, scanned obliquely.
+void the_volume_lies_in_the_patient() {
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  scan_is_shown();
+  wait_for(
+      "the ball is seen", [] { return is_round(seen_in_the_middle()); }, 20);
+  views_rest();
+  const QRect ball = seen_in_the_middle();
+  const QPoint off = ball.center() - origin_in_volume_view();
+  save_screen("oblique-volume");
+  expect(std::hypot(off.x(), off.y()) < 0.06 * ball.width(),
+         "its middle is the patient's origin: " + std::to_string(off.x()) + ", " + std::to_string(off.y()) +
+             " pixels off, it is " + std::to_string(ball.width()) + " wide");
+}
+
+/// Not a test but a measurement: how fast the volume turns, and how long it takes to be drawn in full.
+void the_volume_turns() {
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  scan_is_shown();
+  wait_for("the scan is drawn", [] { return scan_is_drawn(renderer()); });
+  // Without a graphics card a coarse picture comes first.
+  for (int n = 0; n < 5; ++n) views_rest();
+  vtkSMRenderViewProxy& view = *render_view("Volume").getRenderViewProxy();
+  QElapsedTimer clock;
+  const auto turn_and_draw = [&](bool still) {
+    view.GetActiveCamera()->Azimuth(3);
+    clock.start();
+    still ? view.StillRender() : view.InteractiveRender();
+    return 1e-6 * static_cast<double>(clock.nsecsElapsed());
+  };
+  std::vector<double> moving, resting;
+  for (int n = 0; n < 40; ++n) moving.push_back(turn_and_draw(false));
+  for (int n = 0; n < 5; ++n) resting.push_back(turn_and_draw(true));
+  std::ranges::sort(moving);
+  std::ranges::sort(resting);
+  std::printf(
+      "the_volume_turns: moving %.0f Hz in the median (the slowest picture %.0f ms); at rest %.0f ms, median of 5\n",
+      1000 / moving[moving.size() / 2], moving.back(), resting[resting.size() / 2]);
+  save_screen("turned");
+}
+
 /// Without HU nobody looks for a body: the volume waits for nothing but the slices.
 void a_volume_without_hu_is_drawn() {
   drop_folder(qEnvironmentVariable("PALPATE_DROP"));
@@ -267,6 +326,8 @@ void a_volume_without_hu_is_drawn() {
 
 const Scenarios& volume_scenarios() {
   static const Scenarios scenarios{{"the_table_is_cut_away", the_table_is_cut_away},
+                                   {"the_volume_lies_in_the_patient", the_volume_lies_in_the_patient},
+                                   {"the_volume_turns", the_volume_turns},
                                    {"the_volume_is_drawn_seldom", the_volume_is_drawn_seldom},
                                    {"a_volume_without_hu_is_drawn", a_volume_without_hu_is_drawn},
                                    {"surfaces_are_seen_where_they_are_felt", surfaces_are_seen_where_they_are_felt}};
