@@ -102,6 +102,10 @@ void HostLayout::show_host() {
     if (widget) widget->show();
   }
   hidden_.clear();
+  // Of the tabs, the one that was shown last would stand in front: Information, which tells little.
+  auto* const properties =
+      window_.findChild<QDockWidget*>(QStringLiteral("propertiesDock"), Qt::FindDirectChildrenOnly);
+  if (properties && properties->isVisibleTo(&window_)) properties->raise();
   refresh_tabs();
 }
 

@@ -181,6 +181,7 @@ void advanced_shows_the_host() {
   click("palpateAdvancedButton");
   expect_host(true, "under Advanced");
   expect_properties_of_the_active();
+  wait_for("Properties stand in front", [] { return !find<QWidget>("propertiesDock").visibleRegion().isEmpty(); });
   save_screen("layout-advanced");
   pqActiveObjects::instance().setActiveView(&render_view("Sagittal"));
   expect_properties_of_the_active();
@@ -220,8 +221,7 @@ void the_layout_is_clinical() {
   is_laid_out(view("Axial"));
   save_screen("layout-one-up");
   double_click("Axial");
-  wait_for(
-      "all are there again", [] { return views_in_sight() == 4; }, 20);
+  wait_for("all are there again", [] { return views_in_sight() == 4; });
   expect(find<QToolButton>("palpateFourUpButton").isChecked(), "the toolbar says so");
   click("palpateOneUpButton");
   wait_for(
