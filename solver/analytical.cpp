@@ -40,38 +40,49 @@ bool coincide(const Placed& primitive, const Group& group) {
     return false;
   }
   constexpr double rounding = 0x1p-50;
-  const Vec3 apart = primitive.offset.hi() - group.offset;
-  const double near = rounding * (length_of(primitive.offset.hi()) + length_of(group.offset));
+  const Vec3 offset = primitive.offset.hi();
+  const Vec3 apart = offset - group.offset;
   const Vec3& q = group.direction;
+  const auto near = [&] { return rounding * (length_of(offset) + length_of(group.offset)); };
   const auto parallel = [&] { return length_of(glm::cross(primitive.direction, q)) <= rounding; };
   switch (primitive.type) {
     case PrimitiveType::plane:
-      return parallel() && glm::dot(primitive.direction, q) > 0 && std::abs(glm::dot(apart, q)) <= near;
+      return parallel() && glm::dot(primitive.direction, q) > 0 && std::abs(glm::dot(apart, q)) <= near();
     case PrimitiveType::line:
-      return parallel() && length_of(apart - q * glm::dot(q, apart)) <= near;
+      return parallel() && length_of(apart - q * glm::dot(q, apart)) <= near();
     case PrimitiveType::point:
-      return length_of(apart) <= near;
+      return length_of(apart) <= near();
     case PrimitiveType::directed_force:
       break;
   }
   return false;
 }
 
-bool add_to_groups(const Placed& primitive, Groups& groups) {
+// The first group that it is of, or their count.
+std::size_t find_group(const Placed& primitive, const Groups& groups) {
+  std::size_t n = 0;
+  while (n < groups.count && !coincide(primitive, groups.group[n])) {
+    ++n;
+  }
+  return n;
+}
+
+// The group that it is of from now on; null where there is no room for another.
+const Group* add_to_groups(const Placed& primitive, Groups& groups) {
   const int hard = std::isinf(primitive.strength) ? 1 : 0;
-  for (Group& group : groups.all()) {
-    if (coincide(primitive, group)) {
-      group.strength += primitive.strength;
-      group.hard_members += hard;
-      return true;
-    }
+  const std::size_t n = find_group(primitive, groups);
+  if (n == groups.group.size()) {
+    return nullptr;
   }
-  if (groups.count == groups.group.size()) {
-    return false;
+  Group& group = groups.group[n];
+  if (n == groups.count) {
+    group = {primitive.type, primitive.strength, hard, primitive.offset.hi(), primitive.direction, Vec3{0}};
+    ++groups.count;
+  } else {
+    group.strength += primitive.strength;
+    group.hard_members += hard;
   }
-  groups.group[groups.count++] = {primitive.type,        primitive.strength,  hard,
-                                  primitive.offset.hi(), primitive.direction, Vec3{0}};
-  return true;
+  return &group;
 }
 
 // Moves z towards the group's constraint, but never past it, equations (13) to (16).
@@ -107,10 +118,11 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
   Solution solution;
   solution.solver = SolverKind::analytical;
   const std::size_t n = balance.primitives.size();
-  std::array<Placed, 8> few;
+  std::array<Placed, 16> few;
+  std::array<const Group*, few.size()> group_of;  // of the few
   const bool stored = n > 0 && n <= few.size();
   for (std::size_t i = 0; stored && i < n; ++i) {
-    few[i] = internal::place(balance.primitives[i], balance.probe);
+    internal::place(balance.primitives[i], balance.probe, few[i]);
   }
   const PlacedPrimitives primitives =
       stored ? PlacedPrimitives(std::span(few).first(n)) : PlacedPrimitives(balance.primitives, balance.probe);
@@ -124,8 +136,14 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
     if (primitive.type == PrimitiveType::directed_force) {
       forces[i] = primitive.direction * primitive.strength;
       z += forces[i] / balance.stiffness;
-    } else if (primitive.strength > 0 && !add_to_groups(primitive, groups)) {
-      return solution;
+    } else if (primitive.strength > 0) {
+      const Group* const group = add_to_groups(primitive, groups);
+      if (group == nullptr) {
+        return solution;
+      }
+      if (stored) {
+        group_of[i] = group;
+      }
     }
   }
   for (const PrimitiveType type : {PrimitiveType::plane, PrimitiveType::line, PrimitiveType::point}) {
@@ -139,8 +157,7 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
   for (std::size_t i = 0; i < n; ++i) {
     const Placed& primitive = primitives.at(i, room);
     if (primitive.type != PrimitiveType::directed_force && primitive.strength > 0) {
-      forces[i] = part_of(primitive, *std::find_if(groups.all().begin(), groups.all().end(),
-                                                   [&](const Group& group) { return coincide(primitive, group); }));
+      forces[i] = part_of(primitive, stored ? *group_of[i] : groups.group[find_group(primitive, groups)]);
     }
   }
 

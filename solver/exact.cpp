@@ -115,7 +115,7 @@ Search::Search(const Balance& balance, std::span<Vec3> forces, ExactScratch::Arr
   bool hard = false;
   for (std::size_t i = 0; i < n; ++i) {
     Placed& placed = placed_[i];
-    placed = internal::place(balance.primitives[i], balance.probe);
+    internal::place(balance.primitives[i], balance.probe, placed);
     if (placed.type == PrimitiveType::directed_force) {
       walk_.forces[i] = placed.direction * placed.strength;
       walk_.pull += walk_.forces[i];

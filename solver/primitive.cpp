@@ -23,22 +23,6 @@ Vec3 scaled_to_length(const Vec3& v, double length) {
 
 }  // namespace
 
-Primitive make_directed_force(double strength, const Vec3& direction) {
-  return {PrimitiveType::directed_force, strength, Vec3{0}, direction};
-}
-
-Primitive make_plane(double strength, const Vec3& position, const Vec3& direction) {
-  return {PrimitiveType::plane, strength, position, direction};
-}
-
-Primitive make_line(double strength, const Vec3& position, const Vec3& direction) {
-  return {PrimitiveType::line, strength, position, direction};
-}
-
-Primitive make_point(double strength, const Vec3& position) {
-  return {PrimitiveType::point, strength, position, Vec3{0}};
-}
-
 Vec3 force_on(const Primitive& primitive, const Vec3& proxy) {
   const Vec3 e = primitive.position - proxy;
   const Vec3 q = scaled_to_length(primitive.direction, 1);

@@ -23,10 +23,18 @@ struct Primitive {
   Vec3 direction{0};    ///< unit vector (the solvers normalize it once more); not read of a point
 };
 
-Primitive make_directed_force(double strength, const Vec3& direction);
-Primitive make_plane(double strength, const Vec3& position, const Vec3& direction);
-Primitive make_line(double strength, const Vec3& position, const Vec3& direction);
-Primitive make_point(double strength, const Vec3& position);
+inline Primitive make_directed_force(double strength, const Vec3& direction) {
+  return {PrimitiveType::directed_force, strength, Vec3{0}, direction};
+}
+inline Primitive make_plane(double strength, const Vec3& position, const Vec3& direction) {
+  return {PrimitiveType::plane, strength, position, direction};
+}
+inline Primitive make_line(double strength, const Vec3& position, const Vec3& direction) {
+  return {PrimitiveType::line, strength, position, direction};
+}
+inline Primitive make_point(double strength, const Vec3& position) {
+  return {PrimitiveType::point, strength, position, Vec3{0}};
+}
 
 /// The force of the primitive on a proxy, equations (2) to (6): N. Zero exactly on a plane, line or point.
 Vec3 force_on(const Primitive& primitive, const Vec3& proxy);

@@ -36,7 +36,11 @@ inline double push_share(const Mode& mode, double stiffness_n_per_m) {
 inline void place_keep(const ActiveMode& mode, const Place& place, double outward, PrimitiveList& primitives) noexcept {
   const auto n = static_cast<std::size_t>(mode.structure);
   const io::Distance distance = place.sample.distance[n];
-  const double part = keep_part(-outward * distance.mm, mode.margin_mm);
+  const double way = -outward * distance.mm;
+  if (!(way < mode.margin_mm)) {
+    return;  // of most structures, in most ticks
+  }
+  const double part = keep_part(way, mode.margin_mm);
   if (!(part > 0)) {
     return;
   }

@@ -33,16 +33,4 @@ std::string mode_type_names() {
   return names;
 }
 
-void PrimitiveList::add(const solver::Primitive& primitive) noexcept {
-  // The capacity is checked when a plan is made; this is the belt to those braces.
-  const double strength = weight_ * primitive.strength;
-  if (!(strength > 0) || size_ == room_.size()) {
-    return;
-  }
-  room_[size_] = primitive;
-  room_[size_].strength = strength;
-  mode_of_[size_] = mode_;
-  ++size_;
-}
-
 }  // namespace palpate::modes

@@ -88,7 +88,17 @@ class PrimitiveList {
   /// Multiplies the strength of what is added from here on.
   void set_weight(double weight) noexcept { weight_ = weight; }
   /// A primitive without strength is not added. A mode must not add one without a direction.
-  void add(const solver::Primitive& primitive) noexcept;
+  void add(const solver::Primitive& primitive) noexcept {
+    // The capacity is checked when a plan is made; this is the belt to those braces.
+    const double strength = weight_ * primitive.strength;
+    if (!(strength > 0) || size_ == room_.size()) {
+      return;
+    }
+    room_[size_] = primitive;
+    room_[size_].strength = strength;
+    mode_of_[size_] = mode_;
+    ++size_;
+  }
   std::size_t size() const noexcept { return size_; }
 
  private:

@@ -105,38 +105,76 @@ Contribution share_of(const Placed& primitive, const FineVec3& z, const Vec3& fo
   return {};
 }
 
-Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
-               std::span<const Vec3> forces, bool leniently) {
-  FineVec3 sum = z * stiffness;
-  Bound bound;
-  double rounding = stiffness * flat.doubt;
+namespace {
+
+// share_of() where z is the primitive's own position: on it, without any doubt, there is no slack.
+Contribution share_of_met(const Placed& primitive, const Vec3& force) {
+  const double s = primitive.strength;
+  if (primitive.type == PrimitiveType::plane) {
+    const double given = std::max(0.0, std::min(s, glm::dot(force, primitive.direction)));
+    return {primitive.direction * given, 4 * unit_roundoff * given, 0, 0, false};
+  }
+  const Vec3& q = primitive.direction;
+  Vec3 given = primitive.type == PrimitiveType::line ? force - q * glm::dot(q, force) : force;
+  double size = length_of(given);
+  if (size > s) {
+    given = s > 0 ? given * (s / size) : Vec3{0};
+    size = s;
+  }
+  return {given, 16 * unit_roundoff * size, 0, 0, false};
+}
+
+// The law, as one primitive after the other is added to it.
+struct Law {
+  FineVec3 sum;
+  double rounding;
+  double slack = 0;
   double backward_slack = 0;
-  Placed room;
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    Contribution share;
-    if (flat.has(i)) {
-      // On the exact flat its own primitives have no slack: only their force bodies are asked.
-      Placed met = primitives.at(i, room);
-      met.offset = z;
-      share = share_of(met, z, forces[i], stiffness);
-    } else {
-      share = share_of(primitives.at(i, room), z, forces[i], stiffness, flat.doubt, leniently);
-    }
+
+  void add(const Contribution& share) {
     sum = sum + -share.force;
     rounding += share.force_error;
-    bound.slack += share.slack;
+    slack += share.slack;
     backward_slack += share.backward_slack;
   }
-  const double outwards = 1 + 16 * unit_roundoff + 2 * unit_roundoff * static_cast<double>(primitives.size());
+  Bound bound(std::size_t primitives, double stiffness, double doubt) const;
+};
+
+Bound Law::bound(std::size_t primitives, double stiffness, double doubt) const {
+  Bound bound;
+  bound.slack = slack;
+  const double outwards = 1 + 16 * unit_roundoff + 2 * unit_roundoff * static_cast<double>(primitives);
   bound.residual = (length_of(sum.hi()) + rounding) * outwards;
-  const auto law = [&](double slack) {
+  const auto law = [&](double slack_then) {
     const double r = bound.residual / stiffness;
-    const double error = (r + std::sqrt(r * r + 4 * slack * outwards / stiffness)) / 2 + flat.doubt;
+    const double error = (r + std::sqrt(r * r + 4 * slack_then * outwards / stiffness)) / 2 + doubt;
     return error < infinity ? error * outwards + underflow_margin : infinity;
   };
-  bound.error = law(bound.slack);
-  bound.backward_error = bound.slack > 0 ? law(backward_slack) : bound.error;
+  bound.error = law(slack);
+  bound.backward_error = slack > 0 ? law(backward_slack) : bound.error;
   return bound;
+}
+
+}  // namespace
+
+Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
+               std::span<const Vec3> forces, bool leniently) {
+  Law law{.sum = z * stiffness, .rounding = stiffness * flat.doubt};
+  Placed room;
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    // On the exact flat its own primitives have no slack: only their force bodies are asked.
+    law.add(flat.has(i) ? share_of_met(primitives.at(i, room), forces[i])
+                        : share_of(primitives.at(i, room), z, forces[i], stiffness, flat.doubt, leniently));
+  }
+  return law.bound(primitives.size(), stiffness, flat.doubt);
+}
+
+Bound bound_of(std::span<const Contribution> shares, double stiffness, const FineVec3& z) {
+  Law law{.sum = z * stiffness, .rounding = 0};
+  for (const Contribution& share : shares) {
+    law.add(share);
+  }
+  return law.bound(shares.size(), stiffness, 0);
 }
 
 }  // namespace palpate::solver::internal

@@ -9,13 +9,14 @@
 
 namespace palpate::solver::internal {
 
-/// What a primitive contributes to the law at a point: an admissible force and its slack.
+/// What a primitive contributes to the law at a point: an admissible force and its slack. Not initialized by default:
+/// short arrays of these are kept on the stack.
 struct Contribution {
-  Vec3 force{0};              ///< N
-  double force_error = 0;     ///< N: rounding of the force
-  double slack = 0;           ///< J
-  double backward_slack = 0;  ///< J: what is left of it when the primitive may move by the rounding of its data
-  bool held = false;          ///< the force is one that only a point on the primitive exerts
+  Vec3 force;             ///< N
+  double force_error;     ///< N: rounding of the force
+  double slack;           ///< J
+  double backward_slack;  ///< J: what is left of it when the primitive may move by the rounding of its data
+  bool held;              ///< the force is one that only a point on the primitive exerts
 };
 
 /// The cheaper of the full force at z (no slack) and the admissible force nearest to `force` (with its slack).
@@ -45,5 +46,8 @@ struct Bound {
 /// count as met within hard_tolerance.
 Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
                std::span<const Vec3> forces, bool leniently = false);
+
+/// The same at z itself, where no flat holds the proxy, from what share_of() says there of each primitive.
+Bound bound_of(std::span<const Contribution> shares, double stiffness, const FineVec3& z);
 
 }  // namespace palpate::solver::internal

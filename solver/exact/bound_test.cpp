@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -107,6 +109,62 @@ TEST(Bound, ForgivesTheRoundingOfTheDataInTheBackwardErrorAlone) {
     } else {
       EXPECT_GT(bound.backward_error, law(residual, 0.4 * off, stiffness));
     }
+  }
+}
+
+/// A seeded balance, placed, with forces that are about as strong as its primitives, and a point near it.
+struct Situation {
+  explicit Situation(std::uint64_t seed)
+      : problem(make_problem(all_families[seed % std::size(all_families)], seed)), random(seed) {
+    for (const Primitive& primitive : problem.primitives) {
+      place(primitive, problem.probe, placed.emplace_back());
+      const double strength = std::isinf(primitive.strength) ? 1 : primitive.strength;
+      forces.push_back(random.uniform(0, 1.5) * strength * random.unit_vector());
+    }
+    z = exact_difference(problem.previous_proxy, problem.probe);
+  }
+  Problem problem;
+  Random random;
+  std::vector<Placed> placed;
+  std::vector<Vec3> forces;
+  FineVec3 z{};
+};
+
+void expect_same(const Bound& a, const Bound& b, std::uint64_t seed) {
+  EXPECT_EQ(a.error, b.error) << seed;
+  EXPECT_EQ(a.backward_error, b.backward_error) << seed;
+  EXPECT_EQ(a.residual, b.residual) << seed;
+  EXPECT_EQ(a.slack, b.slack) << seed;
+}
+
+TEST(BoundAt, IsOnItsFlatAsIfThatsPrimitivesStoodThere) {
+  for (std::uint64_t seed = 0; seed < 2200; ++seed) {
+    Situation here(seed);
+    Flat flat;
+    std::vector<Placed> there = here.placed;
+    const std::size_t count = std::min<std::size_t>(1 + seed % 3, there.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t chosen = here.random.below(there.size());
+      if (there[chosen].type == PrimitiveType::directed_force || flat.has(chosen)) continue;
+      flat.chosen[flat.count++] = static_cast<std::uint32_t>(chosen);
+      there[chosen].offset = here.z;
+    }
+    const double stiffness = here.problem.stiffness;
+    expect_same(bound_at(PlacedPrimitives(here.placed), stiffness, here.z, flat, here.forces),
+                bound_at(PlacedPrimitives(there), stiffness, here.z, {}, here.forces), seed);
+  }
+}
+
+TEST(BoundOf, IsTheLawWhereNoFlatHolds) {
+  for (std::uint64_t seed = 0; seed < 2200; ++seed) {
+    const Situation here(seed);
+    const double stiffness = here.problem.stiffness;
+    std::vector<Contribution> shares;
+    for (std::size_t i = 0; i < here.placed.size(); ++i) {
+      shares.push_back(share_of(here.placed[i], here.z, here.forces[i], stiffness));
+    }
+    expect_same(bound_of(shares, stiffness, here.z),
+                bound_at(PlacedPrimitives(here.placed), stiffness, here.z, {}, here.forces), seed);
   }
 }
 

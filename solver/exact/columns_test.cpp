@@ -17,7 +17,7 @@ struct Crowd {
   Crowd(std::uint64_t seed, std::size_t count) {
     Problem problem = make_problem(Family::many, seed, count);
     std::ranges::sort(problem.primitives, {}, &Primitive::type);
-    for (const Primitive& primitive : problem.primitives) placed.push_back(place(primitive, problem.probe));
+    for (const Primitive& primitive : problem.primitives) place(primitive, problem.probe, placed.emplace_back());
     std::ranges::sort(placed, {}, &Placed::type);
     columns.fit(count);
     columns.take(placed);

@@ -22,8 +22,7 @@ bool same(const FineVec3& a, const FineVec3& b) {
   return a.hi() == b.hi() && a.x.lo == b.x.lo && a.y.lo == b.y.lo && a.z.lo == b.z.lo;
 }
 
-Placed place(const Primitive& primitive, const Vec3& probe) {
-  Placed placed;
+void place(const Primitive& primitive, const Vec3& probe, Placed& placed) {
   placed.type = primitive.type;
   placed.strength = primitive.strength;
   if (primitive.type != PrimitiveType::directed_force) {
@@ -42,7 +41,6 @@ Placed place(const Primitive& primitive, const Vec3& probe) {
     placed.given_length = std::sqrt(squared);
     placed.direction = given / placed.given_length;
   }
-  return placed;
 }
 
 double scaled_length_of(const Vec3& v) {

@@ -24,7 +24,8 @@ struct Placed {
   double given_length;   ///< of given_direction, except for rounding
 };
 
-Placed place(const Primitive& primitive, const Vec3& probe);
+/// Written where it stands: a copy of what was written just now waits for it.
+void place(const Primitive& primitive, const Vec3& probe, Placed& placed);
 
 /// The primitives of a balance: placed once into an array by who has one, else each time that they are looked at.
 class PlacedPrimitives {
@@ -38,7 +39,7 @@ class PlacedPrimitives {
     if (!stored_.empty()) {
       return stored_[i];
     }
-    room = place(primitives_[i], probe_);
+    place(primitives_[i], probe_, room);
     return room;
   }
 
@@ -80,7 +81,10 @@ inline Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
   const Vec3 rough = line_or_point.type == PrimitiveType::point ? e : e - q * glm::dot(q, e);
   const double length = length_of(rough);
   const double size = size_of(line_or_point.offset) + size_of(z);
-  return 4 * length > size ? Miss{fine(rough), length, rough_rounding * size} : fine_miss_of(line_or_point, z);
+  if (4 * length > size) {
+    return {fine(rough), length, rough_rounding * size};
+  }
+  return fine_miss_of(line_or_point, z);
 }
 
 /// Of quick_miss_of(), relative to the distance from z to the primitive's position; and the part of that distance that

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <new>
 
 namespace palpate::solver::internal {
 
@@ -30,22 +31,38 @@ struct Holding {
 
 // A point, else a line, else the plane with the largest angle to what is locked.
 bool lock_best(const Holding& holding, ActiveSet& active) {
+  const int count = active.count;
+  const int rank = active.rank;
   std::uint32_t best = 0;
+  std::uint32_t tried = 0;  // a plane, while it is locked
   double best_size = 0;
   for (std::uint32_t i = 0; i < holding.count; ++i) {
     const PrimitiveType type = holding.placed[i].type;
     double size = 0;
     if (type == PrimitiveType::plane) {
-      ActiveSet with = active;
-      size = lock(with, holding.all(), i) ? std::abs(with.size[with.count - 1]) : 0;
-    } else if (active.count == 0) {
-      size = type == PrimitiveType::point ? 4 : 3;
+      active.count = count;
+      active.rank = rank;
+      if (!active.has(i) && lock(active, holding.all(), i)) {
+        size = std::abs(active.size[count]);
+        tried = i;
+      }
+    } else if (type == PrimitiveType::point && count == 0) {
+      active.rank = rank;
+      active.count = count;
+      return lock(active, holding.all(), i);
+    } else if (count == 0) {
+      size = 3;
     }
     if (size > best_size && size > independent) {
       best_size = size;
       best = i;
     }
   }
+  if (best_size > 0 && active.count > count && tried == best) {
+    return true;
+  }
+  active.count = count;
+  active.rank = rank;
   return best_size > 0 && lock(active, holding.all(), best);
 }
 
@@ -93,6 +110,9 @@ Flat settle(const Holding& holding, FineVec3& z) {
   return flat;
 }
 
+// Shares of no more primitives than this are kept.
+constexpr std::size_t few = 16;
+
 Bound law_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
              std::span<const Vec3> forces) {
   const Bound bound = bound_at(primitives, stiffness, z, flat, forces);
@@ -134,9 +154,13 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
   std::uint32_t slipping = 0;
   int slips = 0;
   Placed room;
+  std::array<Contribution, few> shares;
+  Contribution another;
   for (std::size_t i = 0; i < primitives.size() && !held.is_full(); ++i) {
     const Placed& primitive = primitives.at(i, room);
-    const Contribution share = share_of(primitive, z, forces[i], stiffness);
+    // Made in place: a copy of what was written just now waits for it.
+    const Contribution& share =
+        *new (i < few ? &shares[i] : &another) Contribution(share_of(primitive, z, forces[i], stiffness));
     const bool is_slipping = share.slack > 0 && has_full_size(primitive, forces[i]);
     if (is_slipping) {
       slipping = static_cast<std::uint32_t>(i);
@@ -150,6 +174,12 @@ Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, c
     }
   }
   Settled settled{z, {}};
+  if (held.count == 0 && primitives.size() <= few) {
+    settled.bound = bound_of(std::span(shares).first(primitives.size()), stiffness, z);
+    if (std::isfinite(settled.bound.error) && slips != 1) {
+      return settled;
+    }
+  }
   const Flat flat = settle(held, settled.z);
   settled.bound = law_at(primitives, stiffness, settled.z, flat, forces);
   if (slips == 1) {
