@@ -1,6 +1,8 @@
 #include "io/structures/cubic.h"
 
-#include <cstring>
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
 
 namespace palpate::io {
 namespace {
@@ -20,25 +22,25 @@ struct Row {
 
 }  // namespace
 
-CubicSample plain_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane,
-                               const glm::dvec3& t) noexcept {
-  const CubicWeights x(t.x);
-  const CubicWeights y(t.y);
-  const CubicWeights z(t.z);
+CubicSample plain_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, double x, double y,
+                               double z) noexcept {
+  const CubicWeights of_x(x);
+  const CubicWeights of_y(y);
+  const CubicWeights of_z(z);
   Row plain, along_y, along_z;
   for (std::size_t k = 0; k < 4; ++k) {
     Row in_plane, in_plane_y;
     for (std::size_t j = 0; j < 4; ++j) {
       const float* r = first + (static_cast<std::ptrdiff_t>(k) * plane + static_cast<std::ptrdiff_t>(j) * row);
       const Row numbers{{{r[0], r[1]}, {r[2], r[3]}}};
-      in_plane.add(y.value[j], numbers);
-      in_plane_y.add(y.slope[j], numbers);
+      in_plane.add(of_y.value[j], numbers);
+      in_plane_y.add(of_y.slope[j], numbers);
     }
-    plain.add(z.value[k], in_plane);
-    along_y.add(z.value[k], in_plane_y);
-    along_z.add(z.slope[k], in_plane);
+    plain.add(of_z.value[k], in_plane);
+    along_y.add(of_z.value[k], in_plane_y);
+    along_z.add(of_z.slope[k], in_plane);
   }
-  return {plain.sum(x.value), {plain.sum(x.slope), along_y.sum(x.value), along_z.sum(x.value)}};
+  return {plain.sum(of_x.value), {plain.sum(of_x.slope), along_y.sum(of_x.value), along_z.sum(of_x.value)}};
 }
 
 #ifdef __x86_64__
@@ -46,13 +48,15 @@ CubicSample plain_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrd
 namespace {
 
 using Four [[gnu::vector_size(32)]] = double;
-using FourFloats [[gnu::vector_size(16)]] = float;
+
+}  // namespace
 
 // plain_cubic_sample() with a row in one register and the weights of all axes side by side: each number is computed as
 // there. Not by PALPATE_FOR_PROCESSOR, for without such registers a vector of four is slower than two of two.
 __attribute__((target("avx2"))) CubicSample wide_cubic_sample(const float* first, std::ptrdiff_t row,
-                                                              std::ptrdiff_t plane, const glm::dvec3& t) noexcept {
-  const CubicWeightsOf<Four> weights(Four{t.x, t.y, t.z, 0});
+                                                              std::ptrdiff_t plane, double x, double y,
+                                                              double z) noexcept {
+  const CubicWeightsOf<Four> weights(Four{x, y, z, 0});
   Four plain{};
   Four along_y{};
   Four along_z{};
@@ -62,9 +66,7 @@ __attribute__((target("avx2"))) CubicSample wide_cubic_sample(const float* first
     Four in_plane_y{};
 #pragma GCC unroll 4
     for (std::ptrdiff_t j = 0; j < 4; ++j) {
-      FourFloats floats;
-      std::memcpy(&floats, first + (k * plane + j * row), sizeof floats);
-      const Four numbers = __builtin_convertvector(floats, Four);
+      const Four numbers = _mm256_cvtps_pd(_mm_loadu_ps(first + (k * plane + j * row)));
       in_plane += weights.value[j][1] * numbers;
       in_plane_y += weights.slope[j][1] * numbers;
     }
@@ -80,19 +82,6 @@ __attribute__((target("avx2"))) CubicSample wide_cubic_sample(const float* first
   }
   const Four sums = (parts[0] + parts[1]) + (parts[2] + parts[3]);
   return {sums[0], {sums[1], sums[2], sums[3]}};
-}
-
-}  // namespace
-
-CubicSample cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, const glm::dvec3& t) noexcept {
-  return __builtin_cpu_supports("avx2") ? wide_cubic_sample(first, row, plane, t)
-                                        : plain_cubic_sample(first, row, plane, t);
-}
-
-#else
-
-CubicSample cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, const glm::dvec3& t) noexcept {
-  return plain_cubic_sample(first, row, plane, t);
 }
 
 #endif

@@ -29,12 +29,26 @@ struct CubicSample {
   double slope[3] = {0, 0, 0};
 };
 
-/// From 4 x 4 x 4 numbers whose rows are `row` and planes `plane` apart; `first` is the one at -1, -1, -1. `t`: the
-/// part of a step along each axis. With 256-bit vectors where the processor has them, and the same bits.
-CubicSample cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, const glm::dvec3& t) noexcept;
+/// From 4 x 4 x 4 numbers whose rows are `row` and planes `plane` apart; `first` is the one at -1, -1, -1. x, y, z: the
+/// part of a step along each axis.
+CubicSample plain_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, double x, double y,
+                               double z) noexcept;
 
-/// The same on any processor.
-CubicSample plain_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane,
-                               const glm::dvec3& t) noexcept;
+/// The same to the last bit, for processors with AVX2. There is none for others.
+#ifdef __x86_64__
+CubicSample wide_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, double x, double y,
+                              double z) noexcept;
+#endif
+
+/// The faster of them on this processor.
+inline CubicSample cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane,
+                                const glm::dvec3& t) noexcept {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) {
+    return wide_cubic_sample(first, row, plane, t.x, t.y, t.z);
+  }
+#endif
+  return plain_cubic_sample(first, row, plane, t.x, t.y, t.z);
+}
 
 }  // namespace palpate::io

@@ -36,7 +36,7 @@ TEST(Cubic, HasTheSameBitsOnEveryProcessor) {
     for (float& number : numbers) number = random() % 16 == 0 ? -0.0F : any(random);
     const glm::dvec3 t = any_part(random);
     EXPECT_EQ(bits_of(cubic_sample(numbers.data(), row, plane, t)),
-              bits_of(plain_cubic_sample(numbers.data(), row, plane, t)))
+              bits_of(plain_cubic_sample(numbers.data(), row, plane, t.x, t.y, t.z)))
         << trial;
   }
 }
@@ -47,7 +47,7 @@ TEST(Cubic, KeepsTheSignOfZeroOnEveryProcessor) {
     numbers.fill(trial == 0 ? 0.0F : -0.0F);
     for (const glm::dvec3 t : {glm::dvec3(0), glm::dvec3(0.25, 0.5, 0.75), glm::dvec3(1)}) {
       EXPECT_EQ(bits_of(cubic_sample(numbers.data(), row, plane, t)),
-                bits_of(plain_cubic_sample(numbers.data(), row, plane, t)));
+                bits_of(plain_cubic_sample(numbers.data(), row, plane, t.x, t.y, t.z)));
     }
   }
 }
@@ -76,7 +76,7 @@ TEST(Cubic, IsExactForPolynomialsOfSecondDegree) {
     const glm::dvec3 t = any_part(random);
     const double x = along(0, t.x), y = along(1, t.y), z = along(2, t.z);
     for (const CubicSample& sample :
-         {cubic_sample(numbers.data(), row, plane, t), plain_cubic_sample(numbers.data(), row, plane, t)}) {
+         {cubic_sample(numbers.data(), row, plane, t), plain_cubic_sample(numbers.data(), row, plane, t.x, t.y, t.z)}) {
       constexpr double rounding = 1e-10;
       EXPECT_NEAR(sample.value, x * y * z, rounding);
       EXPECT_NEAR(sample.slope[0], slope(0, t.x) * y * z, rounding);
