@@ -1168,6 +1168,10 @@
         <translation>Mittlere 98 %</translation>
     </message>
     <message>
+        <source>Speed</source>
+        <translation>Geschwindigkeit</translation>
+    </message>
+    <message>
         <source>All values</source>
         <translation>Alle Werte</translation>
     </message>

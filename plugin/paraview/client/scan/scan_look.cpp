@@ -71,7 +71,13 @@ std::vector<NamedWindow> windows_for(const Values& values) {
     const auto& shares = values.shares;
     if (shares.size() > 2) {
       const std::size_t end = shares.size() - 1;
-      windows.push_back({"Middle 98 %", from_to(shares[end / 100], shares[end - end / 100])});
+      const double low = shares[end / 100], high = shares[end - end / 100];
+      if (values.speeds && low >= 0) {
+        windows.push_back({"Speed", from_to(0, 2 * high)});
+        windows.push_back({"All values", from_to(0, values.high)});  // some say -1e38 where nothing was measured
+        return windows;
+      }
+      windows.push_back({"Middle 98 %", from_to(low, high)});
     }
     windows.push_back({"All values", from_to(values.low, values.high)});
   }

@@ -25,6 +25,7 @@ struct NamedWindow {
 struct Values {
   std::string modality;                   ///< DICOM's: "CT", "MR", ...
   bool hounsfield = false;                ///< whether their unit is HU
+  bool speeds = false;                    ///< whether they are in m/s
   double low = 0;                         ///< least
   double high = 1;                        ///< greatest
   std::optional<Window> own;              ///< what the series asks for
@@ -34,7 +35,8 @@ struct Values {
 
 /// The windows that are offered for the slices. The first is the one shown first: the series' own window. Then follow,
 /// for HU, brain, soft tissue, lung and bone; for all other units the middle 98 percent of the values, and all of them.
-/// Never empty.
+/// Speeds, where nearly none is negative, are shown from zero to twice those of the first frame: a pulse makes others
+/// faster. Never empty.
 std::vector<NamedWindow> windows_for(const Values& values);
 
 /// As vtkColorTransferFunction (value, red, green, blue) and vtkPiecewiseFunction (value, opacity, 0.5, 0) take them.

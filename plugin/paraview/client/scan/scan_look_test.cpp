@@ -84,6 +84,21 @@ TEST(Windows, OfMrLeaveTheOuterPercentOnBothSidesOut) {
   EXPECT_EQ(windows[1].window.width, 2000);
 }
 
+TEST(Windows, OfSpeedsBeginAtRestAndLeaveRoomForAPulse) {
+  Values values;
+  for (int percent = 0; percent <= 100; ++percent) values.shares.push_back(0.8 + 0.004 * percent);
+  values.speeds = true;
+  values.low = -3e38;  // where nothing was measured
+  values.high = 1.2;
+  const auto windows = windows_for(values);
+  ASSERT_EQ(windows.size(), 2U);
+  for (const NamedWindow& one : windows) EXPECT_DOUBLE_EQ(one.window.level, one.window.width / 2);
+  EXPECT_NEAR(windows[0].window.width, 2 * 1.196, 1e-9);
+  EXPECT_NEAR(windows[1].window.width, 1.2, 1e-9);
+  for (double& share : values.shares) share -= 1;  // along one direction: forth and back
+  EXPECT_LT(windows_for(values)[0].window.level, windows_for(values)[0].window.width / 2);
+}
+
 VolumeLook suited(const Values& values) {
   return volume_looks_for(values).at(suited_look(values));
 }

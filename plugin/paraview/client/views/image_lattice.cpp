@@ -49,6 +49,7 @@ ImageLattice lattice_of(vtkSMSourceProxy& source) {
   if (window.size() == 2 && window[1] > 0) values.own = Window{window[0], window[1]};
   ValueProbe probe(source);
   values.shares = probe.shares();
+  values.speeds = lattice.array == "m/s";
   if (values.hounsfield) values.light_part = probe.light_part();
   return lattice;
 }

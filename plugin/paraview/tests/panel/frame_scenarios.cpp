@@ -20,6 +20,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QImage>
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
@@ -86,6 +87,10 @@ void frames_are_felt_as_shown() {
   find<QSlider>("palpateFrame").setValue(1);
   expect_frame(1, "the slider");
   expect(pqtime() == 1, "ParaView's time is the same");
+  views_rest();
+  const QImage faster = sagittal.grab().toImage();
+  const int stream = qGray(faster.pixel(faster.width() / 4, faster.height() * 3 / 4));
+  expect(stream > 60 && stream < 230, "a faster frame is neither black nor white: " + std::to_string(stream));
   save_screen("frame-2");
   const auto trigger = [](const char* action) {
     auto* const found = pqCoreUtilities::mainWidget()->findChild<QAction*>(QString::fromLatin1(action));
@@ -113,6 +118,7 @@ void frames_are_felt_as_shown() {
   find<QPushButton>("palpateRelease").click();
   choose_series(row_with("magnitude"));
   expect(pqtime() == 0 && find<QSlider>("palpateFrame").value() == 0, "another series: the time starts anew");
+  save_screen("frames-magnitude");
 }
 
 /// Standard deviation of the shown values in a corner of the scan, where the phantom is air.
