@@ -1,12 +1,16 @@
-/// Every family by every solver, over 256 seeded balances each.
+/// Every family by every solver, over 256 seeded balances each; and what keeping out of structures costs.
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <iterator>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/analytical.h"
+#include "solver/chain.h"
 #include "solver/descent.h"
 #include "solver/exact.h"
 #include "solver/testing/problems.h"
@@ -78,6 +82,43 @@ void descent(benchmark::State& state) {
   run(state, by_descent);
 }
 
+/// Balances of a walk into a wall that is kept out of over 3 mm and out again, with friction: a force and a plane for
+/// each of `structures`, which all lie in the same place.
+std::vector<Problem> walk_into(std::int64_t structures) {
+  constexpr int steps = 600;
+  const Vec3 outward = glm::normalize(Vec3(1, 0.2, -0.1));
+  Chain chain;
+  std::vector<Problem> walk;
+  std::vector<Vec3> forces;
+  Vec3 proxy(0.005, 0, 0);
+  for (int n = 0; n < 2 * steps; ++n) {
+    const double x = 0.005 - 0.015 * (n < steps ? n : 2 * steps - n) / steps;
+    Problem tick{.probe = {x, 0, 0}, .previous_proxy = proxy, .primitives = {make_point(0.1, proxy)}};
+    const double t = std::clamp(1 - glm::dot(proxy, outward) / 0.003, 0.0, 1.0);
+    const double part = t * t * (3 - 2 * t);
+    for (std::int64_t of = 0; of < structures && part > 0; ++of) {
+      tick.primitives.push_back(make_directed_force(0.4 * part, outward));
+      tick.primitives.push_back(make_plane(1.6 * part, proxy, outward));
+    }
+    forces.resize(tick.primitives.size());
+    proxy = chain.solve(tick.balance(), forces).proxy;
+    walk.push_back(std::move(tick));
+  }
+  return walk;
+}
+
+void keep_out(benchmark::State& state) {
+  const std::vector<Problem> walk = walk_into(state.range(0));
+  Chain chain;
+  std::vector<Vec3> forces(1 + 2 * static_cast<std::size_t>(state.range(0)));
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Problem& tick = walk[next++ % walk.size()];
+    Solution solution = chain.solve(tick.balance(), std::span(forces).first(tick.primitives.size()));
+    benchmark::DoNotOptimize(solution);
+  }
+}
+
 constexpr auto last = static_cast<std::int64_t>(std::size(all_families)) - 1;
 static_assert(all_families[last] == Family::many);
 
@@ -86,6 +127,8 @@ BENCHMARK(exact_cold)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
 BENCHMARK(exact_warm)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
 // Not `many`: 10 000 steps each, and no answer.
 BENCHMARK(descent)->DenseRange(0, last - 1)->Unit(benchmark::kMicrosecond);
+
+BENCHMARK(keep_out)->DenseRange(0, 5);
 
 }  // namespace
 }  // namespace palpate::solver
