@@ -18,9 +18,9 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 TEST(FindFiles, DescriptionBecomesUtf8) {
   const std::array<std::array<std::string, 3>, 7> cases{

@@ -12,10 +12,10 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 TEST(FindSeries, OrderOfFilesAndNumbersDoesNotMatter) {
   const TestFolder folder;

@@ -17,11 +17,11 @@ namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::SizeIs;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
 
 using Attributes = std::vector<std::pair<DcmTagKey, std::string>>;
 
@@ -115,7 +115,7 @@ TEST(SeriesDetails, NotesTellWhereWhatIsFeltIsNotWhatIsThought) {
                                     20);
   EXPECT_THAT(
       series.warnings,
-      testing::IsSupersetOf(
+      ::testing::IsSupersetOf(
           {"slices are 5.00 mm thick and 20.00 mm apart: what lies between them was not scanned",
            "its slices are projections (the largest or least value of several): depth is not felt at its true place",
            "lossy compression of 12.5 to 1: fine edges may be artifacts",
@@ -137,8 +137,8 @@ TEST(SeriesDetails, NotesAreGivenWhereTheyAreTrueOnly) {
   const std::string gap = "what lies between them was not scanned";
   for (const auto& [thickness, has_gap] : {std::pair{"2", false}, {"1.5", false}, {"1.25", true}, {"0.5", true}}) {
     const Series series = series_with({{DCM_SliceThickness, thickness}});  // 2 mm apart
-    EXPECT_THAT(series.warnings,
-                has_gap ? testing::Matcher<std::vector<Text>>(Contains(HasSubstr(gap))) : Not(Contains(HasSubstr(gap))))
+    EXPECT_THAT(series.warnings, has_gap ? ::testing::Matcher<std::vector<Text>>(Contains(HasSubstr(gap)))
+                                         : Not(Contains(HasSubstr(gap))))
         << thickness;
   }
   EXPECT_THAT(series_with({{DCM_Modality, "MR"}, {DCM_LossyImageCompression, "00"}}).warnings, IsEmpty());
@@ -216,7 +216,7 @@ TEST(SeriesDetails, SeriesAreSortedByStudyAndNumber) {
   }
   std::vector<std::string> order;
   for (const Series& series : find_in(folder).series) order.push_back(series.uid.substr(8));
-  EXPECT_THAT(order, testing::ElementsAre("0", "1", "2", "3", "4", "5"));
+  EXPECT_THAT(order, ::testing::ElementsAre("0", "1", "2", "3", "4", "5"));
 }
 
 TEST(SeriesDetails, WhatIsSetApartHasAKind) {
@@ -253,7 +253,7 @@ TEST(SeriesDetails, WhatIsSetApartHasAKind) {
   fs::copy_file(folder / "s1.dcm", folder / "z");
   std::vector<std::string> found;
   for (const SkippedFile& file : find_in(folder).skipped) found.push_back(file.kind);
-  EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
+  EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(expected));
 }
 
 // Stored values are 100 k + 10 i + j; 0 to 20 are padding.

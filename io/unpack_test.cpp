@@ -22,9 +22,9 @@ namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 using Entries = std::vector<std::pair<std::string, std::string>>;  ///< names and bytes
 
 /// By the name's ending: .zip, .tar.gz, or .gz of the one entry's bytes.
@@ -169,9 +169,9 @@ TEST(Packed, IsRefusedInWords) {
   EXPECT_EQ(refusal_of(folder / "text.zip"), "an archive without a scan in it");
   pack(folder / "cut.tar.gz", study(""));
   fs::resize_file(folder / "cut.tar.gz", fs::file_size(folder / "cut.tar.gz") / 2);
-  EXPECT_THAT(refusal_of(folder / "cut.tar.gz"), testing::StartsWith("an archive that cannot be unpacked ("));
+  EXPECT_THAT(refusal_of(folder / "cut.tar.gz"), ::testing::StartsWith("an archive that cannot be unpacked ("));
   pack(folder / "locked.zip", study(""), "a password");
-  EXPECT_THAT(refusal_of(folder / "locked.zip"), testing::StartsWith("an archive that cannot be unpacked ("));
+  EXPECT_THAT(refusal_of(folder / "locked.zip"), ::testing::StartsWith("an archive that cannot be unpacked ("));
 }
 
 TEST(Packed, IsCancelled) {

@@ -118,7 +118,7 @@ TEST(Exact, RefusesHardConstraintsWithoutACommonPointAndNamesOne) {
     EXPECT_LT(solution.rejection->primitive, hard.primitives.size());
     EXPECT_GT(solution.rejection->value, 0.4 * hard.apart);
     EXPECT_LT(solution.rejection->value, 1.5 * hard.apart);
-    EXPECT_THAT(describe(*solution.rejection), testing::HasSubstr("1e-12"));
+    EXPECT_THAT(describe(*solution.rejection), ::testing::HasSubstr("1e-12"));
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Exact, OfManyPrimitivesAnswersInTheirOrder) {
     problem.primitives[90] = make_plane(std::numeric_limits<double>::infinity(), {0.002, 0, 0}, {1, 0, 0});
     const Solution refused = solve_exact(problem.balance(), forces, scratch);
     ASSERT_EQ(refused.outcome, Outcome::refused);
-    EXPECT_THAT(refused.rejection->primitive, testing::AnyOf(40U, 90U));
+    EXPECT_THAT(refused.rejection->primitive, ::testing::AnyOf(40U, 90U));
   }
 }
 

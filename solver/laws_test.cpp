@@ -34,8 +34,8 @@ template <typename Law>
 void expect_of_all(std::span<const Family> families, std::uint64_t each, const Law& law) {
   for (const Family family : families) {
     const std::uint64_t count = family == Family::many ? std::max<std::uint64_t>(1, each / 100) : each;
-    for (std::uint64_t seed = 0; seed < count && !testing::Test::HasFatalFailure(); ++seed) {
-      SCOPED_TRACE(testing::Message() << name_of(family) << " " << seed);
+    for (std::uint64_t seed = 0; seed < count && !::testing::Test::HasFatalFailure(); ++seed) {
+      SCOPED_TRACE(::testing::Message() << name_of(family) << " " << seed);
       law(make_problem(family, seed), seed);
     }
   }

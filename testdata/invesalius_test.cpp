@@ -14,7 +14,7 @@ namespace {
 constexpr double tissue = -300;  // HU: between air and skin
 constexpr double bone = 700;
 
-class Cranium : public testing::Test {
+class Cranium : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(invesalius_cranium)) {

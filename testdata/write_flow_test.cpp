@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class FlowFolder : public testing::Test {
+class FlowFolder : public ::testing::Test {
  protected:
   io::Catalogue write(const FlowStudy& study) {
     write_flow_study(study, folder_);

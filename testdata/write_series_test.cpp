@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class WriteSeries : public testing::Test {
+class WriteSeries : public ::testing::Test {
  protected:
   void SetUp() override {
     Grid grid;

@@ -70,8 +70,8 @@ void expect_refusal(Bench& bench, const std::string& reason) {
     bench.stylus->open();
     FAIL() << "not refused: " << reason;
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("Novint Falcon"));
-    EXPECT_THAT(error.what(), testing::HasSubstr(reason));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("Novint Falcon"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(reason));
   }
   EXPECT_EQ(bench.stylus->state(), State::disconnected);
 }
@@ -110,8 +110,8 @@ TEST(FalconSettings, WrongOnesAreRefusedByName) {
     }
     return {};
   };
-  EXPECT_THAT(refusal(R"({"motor_gain": 0})"), testing::HasSubstr("the motor gain must be above zero"));
-  EXPECT_THAT(refusal(R"({"maximum_force": 13})"), testing::HasSubstr("the largest force lies between 0 and 12 N"));
+  EXPECT_THAT(refusal(R"({"motor_gain": 0})"), ::testing::HasSubstr("the motor gain must be above zero"));
+  EXPECT_THAT(refusal(R"({"maximum_force": 13})"), ::testing::HasSubstr("the largest force lies between 0 and 12 N"));
   EXPECT_EQ(refusal(R"({"motor_gain": 9000, "maximum_force": 4})"), "");
 }
 

@@ -16,7 +16,7 @@ namespace palpate::device {
 namespace {
 
 /// By a clock that only the exchanges move.
-class ForceDimension : public testing::Test {
+class ForceDimension : public ::testing::Test {
  protected:
   ForceDimension() {
     setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
@@ -51,8 +51,8 @@ class ForceDimension : public testing::Test {
       open();
       FAIL() << "not refused: " << why;
     } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("Force Dimension"));
-      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("Force Dimension"));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(why));
     }
   }
 

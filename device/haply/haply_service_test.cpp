@@ -128,7 +128,7 @@ TEST(HaplyService, IsFoundWithItsSettings) {
   const auto found = find_haply();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].address, "049D");
-  EXPECT_THAT(found[0].note, testing::HasSubstr("gravity compensation on"));
+  EXPECT_THAT(found[0].note, ::testing::HasSubstr("gravity compensation on"));
   setenv("PALPATE_HAPLY", "nonsense", 1);
   EXPECT_EQ(haply_defaults().port, 10001);
   unsetenv("PALPATE_HAPLY");

@@ -42,8 +42,8 @@ struct Bench {
       stylus->open();
       FAIL() << "not refused: " << why;
     } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("Haply"));
-      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("Haply"));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(why));
     }
   }
 };
@@ -172,10 +172,10 @@ TEST(Haply, SaysWhatIsMissing) {
     make_haply({.port = 1})->open();
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("Haply: its service does not answer at localhost:1 ("));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("Haply: its service does not answer at localhost:1 ("));
     EXPECT_THAT(error.what(),
-                testing::HasSubstr("); install Haply Hub or the Inverse Service and start it: sudo systemctl start "
-                                   "haply-inverse-service"));
+                ::testing::HasSubstr("); install Haply Hub or the Inverse Service and start it: sudo systemctl start "
+                                     "haply-inverse-service"));
   }
   try {
     make_haply({.maximum_force = 0});
@@ -192,8 +192,8 @@ TEST(Haply, SaysWhatIsMissing) {
 TEST(Haply, TellsWhatChangesWhatIsFelt) {
   const auto devices = haply_inventory(FakeHaply().inventory());
   ASSERT_EQ(devices.size(), 1U);
-  EXPECT_THAT(describe(devices[0]), testing::HasSubstr("gravity compensation on"));
-  EXPECT_THAT(describe(devices[0]), testing::HasSubstr("force gate 0.30"));
+  EXPECT_THAT(describe(devices[0]), ::testing::HasSubstr("gravity compensation on"));
+  EXPECT_THAT(describe(devices[0]), ::testing::HasSubstr("force gate 0.30"));
 }
 
 TEST(Haply, KnowsTheSmallArm) {

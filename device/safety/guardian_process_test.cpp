@@ -55,7 +55,7 @@ bool comes(const std::function<bool()>& holds, int most_ms = 5000) {
   return false;
 }
 
-class GuardianOfProcess : public testing::Test {
+class GuardianOfProcess : public ::testing::Test {
  protected:
   GuardianOfProcess() {
     for (const char* name : {"PALPATE_LIBHD", "PALPATE_LIBDRD", "PALPATE_HAPLY", "PALPATE_GUARDIAN"}) unsetenv(name);

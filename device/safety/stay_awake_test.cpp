@@ -25,7 +25,7 @@ std::string content_of(const std::string& file) {
 }
 
 /// A program of systemd-inhibit's name that says what it was asked, and for how long it was held.
-class StayAwakeTest : public testing::Test {
+class StayAwakeTest : public ::testing::Test {
  protected:
   StayAwakeTest() : before_(std::getenv("PATH")) {
     const std::string program =

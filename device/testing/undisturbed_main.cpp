@@ -8,7 +8,7 @@
 
 int main(int count, char** arguments) {
   std::vector<char*> given(arguments, arguments + count + 1);  // GoogleTest takes its own away
-  testing::InitGoogleTest(&count, arguments);
+  ::testing::InitGoogleTest(&count, arguments);
   const palpate::device::StallMeter meter;
   return palpate::device::judged(RUN_ALL_TESTS(), meter, given.data());
 }

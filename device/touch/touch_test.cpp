@@ -23,7 +23,7 @@ Function function_of_library(const char* name) {
 }
 
 /// The scheduler's rounds come by hand, one a millisecond of a clock that only they move.
-class Touch : public testing::Test {
+class Touch : public ::testing::Test {
  protected:
   Touch() {
     setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
@@ -65,8 +65,8 @@ class Touch : public testing::Test {
       open();
       FAIL() << "not refused: " << why;
     } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("3D Systems Touch"));
-      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("3D Systems Touch"));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(why));
     }
   }
 

@@ -111,7 +111,7 @@ TEST(WoodenHapticsDriver, AnotherArmThanThePresetIsRefused) {
     bench.stylus->open();
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("reports of 8 bytes, which the preset 2015 does not have"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("reports of 8 bytes, which the preset 2015 does not have"));
   }
 }
 

@@ -113,8 +113,8 @@ TEST(WoodenHapticsSettings, WrongOnesAreRefusedByName) {
       read_wooden_haptics(write_settings(example.json));
       FAIL() << example.json;
     } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr(example.names));
-      EXPECT_THAT(error.what(), testing::HasSubstr("wooden.json"));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(example.names));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("wooden.json"));
     }
   }
 }

@@ -17,8 +17,8 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 // Codes the image's values where DCMTK cannot.
 void code(DcmDataset& dataset, E_TransferSyntax syntax, const TestImage& image, int bits, bool is_signed,
@@ -50,7 +50,7 @@ int expected_value(const Format& format, int k, int i, int j) {
   return least + range * (i + 2 * j + k) / (31 + 2 * 23 + 2);
 }
 
-class Decode : public testing::TestWithParam<std::tuple<Coding, Format>> {};
+class Decode : public ::testing::TestWithParam<std::tuple<Coding, Format>> {};
 
 TEST_P(Decode, GivesTheValuesThatWentIn) {
   const auto& [coding, format] = GetParam();
@@ -86,23 +86,23 @@ TEST_P(Decode, GivesTheValuesThatWentIn) {
 
 INSTANTIATE_TEST_SUITE_P(
     Lossless, Decode,
-    testing::Combine(testing::Values(Coding{"implicit", EXS_LittleEndianImplicit, 0},
-                                     Coding{"explicit", EXS_LittleEndianExplicit, 0},
-                                     Coding{"big_endian", EXS_BigEndianExplicit, 0},
-                                     Coding{"deflated", EXS_DeflatedLittleEndianExplicit, 0},
-                                     Coding{"jpeg_lossless", EXS_JPEGProcess14SV1, 0},
-                                     Coding{"jpeg_lossless_any_predictor", EXS_JPEGProcess14, 0},
-                                     Coding{"jpeg_ls", EXS_JPEGLSLossless, 0},
-                                     Coding{"jpeg_2000", EXS_JPEG2000LosslessOnly, 0},
-                                     Coding{"rle", EXS_RLELossless, 0}),
-                     testing::Values(Format{"unsigned_12", 12, false}, Format{"unsigned_16", 16, false},
-                                     Format{"signed_12", 12, true}, Format{"signed_16", 16, true})),
+    ::testing::Combine(::testing::Values(Coding{"implicit", EXS_LittleEndianImplicit, 0},
+                                         Coding{"explicit", EXS_LittleEndianExplicit, 0},
+                                         Coding{"big_endian", EXS_BigEndianExplicit, 0},
+                                         Coding{"deflated", EXS_DeflatedLittleEndianExplicit, 0},
+                                         Coding{"jpeg_lossless", EXS_JPEGProcess14SV1, 0},
+                                         Coding{"jpeg_lossless_any_predictor", EXS_JPEGProcess14, 0},
+                                         Coding{"jpeg_ls", EXS_JPEGLSLossless, 0},
+                                         Coding{"jpeg_2000", EXS_JPEG2000LosslessOnly, 0},
+                                         Coding{"rle", EXS_RLELossless, 0}),
+                       ::testing::Values(Format{"unsigned_12", 12, false}, Format{"unsigned_16", 16, false},
+                                         Format{"signed_12", 12, true}, Format{"signed_16", 16, true})),
     [](const auto& which) { return std::string(std::get<0>(which.param).name) + "_" + std::get<1>(which.param).name; });
 
 INSTANTIATE_TEST_SUITE_P(Lossy, Decode,
-                         testing::Combine(testing::Values(Coding{"jpeg_extended", EXS_JPEGProcess2_4, 4},
-                                                          Coding{"jpeg_ls_near", EXS_JPEGLSLossy, 1}),
-                                          testing::Values(Format{"unsigned_12", 12, false})),
+                         ::testing::Combine(::testing::Values(Coding{"jpeg_extended", EXS_JPEGProcess2_4, 4},
+                                                              Coding{"jpeg_ls_near", EXS_JPEGLSLossy, 1}),
+                                            ::testing::Values(Format{"unsigned_12", 12, false})),
                          [](const auto& which) { return std::string(std::get<0>(which.param).name); });
 
 // 8-bit pixels, odd in number, in every byte order: big-endian words hold the second pixel first.
@@ -199,7 +199,7 @@ void write_noise_stack(const TestFolder& folder, E_TransferSyntax syntax, std::s
 void expect_slice_2_lost(const TestFolder& folder) {
   const Volume volume = load(find_series(std::array{folder.path()}).series.at(0));
   EXPECT_EQ(volume.geometry.dimensions.z, 4);
-  EXPECT_THAT(volume.geometry.gaps, testing::ElementsAre(1));
+  EXPECT_THAT(volume.geometry.gaps, ::testing::ElementsAre(1));
   ASSERT_EQ(volume.warnings.size(), 1U);
   EXPECT_THAT(volume.warnings[0], HasSubstr("s2.dcm"));
   EXPECT_EQ(volume.value_at(7, 9, 2), noise(3, 7, 9));
@@ -277,7 +277,7 @@ TEST(DecodeOdd, LossyJpegThatNamesNoFrequenciesIsReadWhole) {
     });
     const Volume truth = load(find_series(std::array{folder.path()}).series.at(0));
     EXPECT_EQ(truth.geometry.dimensions.z, 3);
-    EXPECT_THAT(truth.warnings, testing::IsEmpty());
+    EXPECT_THAT(truth.warnings, ::testing::IsEmpty());
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
       std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
       const std::string bytes{std::istreambuf_iterator<char>(file), {}};
@@ -290,8 +290,8 @@ TEST(DecodeOdd, LossyJpegThatNamesNoFrequenciesIsReadWhole) {
     }
     const Volume volume = load(find_series(std::array{folder.path()}).series.at(0));
     EXPECT_EQ(volume.voxels, truth.voxels);
-    EXPECT_THAT(volume.warnings, testing::ElementsAre("its JPEG images name a range of frequencies that they do not "
-                                                      "have; they are read whole"));
+    EXPECT_THAT(volume.warnings, ::testing::ElementsAre("its JPEG images name a range of frequencies that they do not "
+                                                        "have; they are read whole"));
   }
 }
 
@@ -315,7 +315,7 @@ TEST(DecodeOdd, JpegLsWithZerosBeforeItsEndIsReadWhole) {
       for (int n = 0; n < 64 * 64; ++n) ASSERT_EQ(volume.value_at(n % 64, n / 64, k), noise(k, n % 64, n / 64));
     }
     EXPECT_THAT(volume.warnings,
-                testing::ElementsAre("its JPEG-LS images hold zeros before their end; they are whole without these"));
+                ::testing::ElementsAre("its JPEG-LS images hold zeros before their end; they are whole without these"));
   }
 }
 

@@ -25,8 +25,8 @@ using internal::put;
 using internal::TestFolder;
 using internal::TestImage;
 using internal::write;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::string digits(std::initializer_list<double> numbers) {
   std::string text;
@@ -92,7 +92,7 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance, const std::stri
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b[axis], tolerance) << what;
 }
 
-class GeneratedTruth : public testing::TestWithParam<std::pair<const char*, E_TransferSyntax>> {};
+class GeneratedTruth : public ::testing::TestWithParam<std::pair<const char*, E_TransferSyntax>> {};
 
 TEST_P(GeneratedTruth, EveryVoxelIsInItsPlace) {
   internal::register_encoders();
@@ -141,13 +141,13 @@ TEST_P(GeneratedTruth, EveryVoxelIsInItsPlace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryCoding, GeneratedTruth,
-                         testing::Values(std::pair{"implicit", EXS_LittleEndianImplicit},
-                                         std::pair{"explicit", EXS_LittleEndianExplicit},
-                                         std::pair{"big_endian", EXS_BigEndianExplicit},
-                                         std::pair{"deflated", EXS_DeflatedLittleEndianExplicit},
-                                         std::pair{"rle", EXS_RLELossless}, std::pair{"jpeg", EXS_JPEGProcess14SV1},
-                                         std::pair{"jpeg_ls", EXS_JPEGLSLossless},
-                                         std::pair{"jpeg_2000", EXS_JPEG2000LosslessOnly}),
+                         ::testing::Values(std::pair{"implicit", EXS_LittleEndianImplicit},
+                                           std::pair{"explicit", EXS_LittleEndianExplicit},
+                                           std::pair{"big_endian", EXS_BigEndianExplicit},
+                                           std::pair{"deflated", EXS_DeflatedLittleEndianExplicit},
+                                           std::pair{"rle", EXS_RLELossless}, std::pair{"jpeg", EXS_JPEGProcess14SV1},
+                                           std::pair{"jpeg_ls", EXS_JPEGLSLossless},
+                                           std::pair{"jpeg_2000", EXS_JPEG2000LosslessOnly}),
                          [](const auto& which) { return std::string(which.param.first); });
 
 TEST(GeneratedTruthWithJudgement, MissingSliceIsNamedAndKeptAsAGap) {
@@ -157,7 +157,7 @@ TEST(GeneratedTruthWithJudgement, MissingSliceIsNamedAndKeptAsAGap) {
   const Series series = internal::find_in(folder).series.at(0);
   EXPECT_TRUE(series.usable);
   EXPECT_EQ(series.geometry.gaps, std::vector<int>({2}));
-  EXPECT_THAT(series.warnings, testing::Contains(HasSubstr("1 slice is missing between slices 2 and 3")));
+  EXPECT_THAT(series.warnings, ::testing::Contains(HasSubstr("1 slice is missing between slices 2 and 3")));
   const Volume volume = load(series);
   ASSERT_EQ(volume.geometry.dimensions.z, 6);
   for (int k = 0; k < 6; ++k) {
@@ -280,7 +280,7 @@ TEST(GeneratedTruthWithJudgement, MixedFolderGivesItsSeriesAndAReasonForTheRest)
   EXPECT_THAT(reasons["README.md"], HasSubstr("not a DICOM file"));
   EXPECT_THAT(reasons["contours.dcm"], HasSubstr("no image in it"));
   EXPECT_THAT(reasons["color.dcm"], HasSubstr("color"));
-  EXPECT_THAT(reasons["cut.dcm"], testing::AnyOf(HasSubstr("a copy of s2.dcm"), HasSubstr("truncated")));
+  EXPECT_THAT(reasons["cut.dcm"], ::testing::AnyOf(HasSubstr("a copy of s2.dcm"), HasSubstr("truncated")));
 }
 
 }  // namespace

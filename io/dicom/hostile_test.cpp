@@ -21,9 +21,9 @@ namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AnyOf;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool under_sanitizer = true;

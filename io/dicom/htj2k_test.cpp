@@ -17,7 +17,7 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::IsEmpty;
+using ::testing::IsEmpty;
 
 constexpr int columns = 12, rows = 8;
 
@@ -69,7 +69,7 @@ TEST(Htj2k, CopiesOfWhatIsNotDecodedAreNotCompared) {
   }
   write_stack(folder.path(), 4);
   const Catalogue found = find_in(folder);
-  ASSERT_THAT(found.series, testing::Not(IsEmpty()));
+  ASSERT_THAT(found.series, ::testing::Not(IsEmpty()));
   EXPECT_TRUE(found.series[0].usable);
   EXPECT_EQ(load(found.series[0]).value_at(3, 2, 1), 132);
 }

@@ -13,13 +13,13 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::SizeIs;
-using testing::UnorderedElementsAreArray;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::UnorderedElementsAreArray;
 
 /// Height and value of each slice, ascending.
 using Stack = std::vector<std::pair<double, int>>;
@@ -122,7 +122,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-class Interleaved : public testing::TestWithParam<Case> {};
+class Interleaved : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Interleaved, AcquisitionsAreVolumesOfTheirOwn) {
   const TestFolder folder;
@@ -132,7 +132,7 @@ TEST_P(Interleaved, AcquisitionsAreVolumesOfTheirOwn) {
   EXPECT_THAT(volumes_in(found), UnorderedElementsAreArray(truth));
 }
 
-INSTANTIATE_TEST_SUITE_P(OfCt, Interleaved, testing::ValuesIn(cases()), [](const auto& it) { return it.param.name; });
+INSTANTIATE_TEST_SUITE_P(OfCt, Interleaved, ::testing::ValuesIn(cases()), [](const auto& it) { return it.param.name; });
 
 TEST(InterleavedStacks, AreNamed) {
   const TestFolder folder;

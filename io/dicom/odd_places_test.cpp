@@ -14,10 +14,10 @@ namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 TEST(OddPlaces, PositionsThatJitterAreOneStackOfFrames) {
   const TestFolder folder;

@@ -14,11 +14,11 @@ namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 void put_private(DcmDataset& d, Uint16 group, const char* creator, Uint16 element, DcmEVR vr, const char* value) {
   succeed(d.putAndInsertString(DcmTag(group, 0x0010, EVR_LO), creator));

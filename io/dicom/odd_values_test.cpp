@@ -12,10 +12,10 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::Each;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 std::string only_reason(const Catalogue& found) {
   EXPECT_THAT(found.series, IsEmpty());

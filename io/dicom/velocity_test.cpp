@@ -12,7 +12,7 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::SizeIs;
+using ::testing::SizeIs;
 
 // Enhanced phase contrast: magnitude and three directions in one file, frame by frame.
 TEST(Velocity, OfAnEnhancedFileIsJoined) {
@@ -68,9 +68,9 @@ TEST(Velocity, NamedByTheSequenceIsJoined) {
   EXPECT_THAT(found.series, SizeIs(3));
   ASSERT_THAT(found.velocity_fields, SizeIs(1));
   // What cannot be known from public documents is said: once of the field, and of each series.
-  EXPECT_THAT(found.velocity_fields[0].warnings, testing::Contains(testing::HasSubstr("may be reversed")).Times(1));
+  EXPECT_THAT(found.velocity_fields[0].warnings, ::testing::Contains(::testing::HasSubstr("may be reversed")).Times(1));
   for (const Series& series : found.series) {
-    EXPECT_THAT(series.warnings, testing::Contains(testing::HasSubstr("may be reversed")));
+    EXPECT_THAT(series.warnings, ::testing::Contains(::testing::HasSubstr("may be reversed")));
   }
   const VectorComponents vectors = *load(found.velocity_fields[0]).vectors;
   Vec3 along;

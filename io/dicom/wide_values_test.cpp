@@ -14,8 +14,8 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 constexpr int columns = 6, rows = 4;
 

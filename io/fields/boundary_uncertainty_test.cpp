@@ -134,7 +134,7 @@ Coverage coverage_of(const Case& test, ValueMethod method, int places) {
   return {.within = within / static_cast<double>(errors.size()), .wider = stated[stated.size() / 2] / would_do};
 }
 
-class HowWellItIsKnown : public testing::TestWithParam<ValueMethod> {};
+class HowWellItIsKnown : public ::testing::TestWithParam<ValueMethod> {};
 
 TEST_P(HowWellItIsKnown, HoldsTheTrueSurfaceIn95Of100PlacesAndIsNotStatedTwiceTooWide) {
   double within = 0;
@@ -151,7 +151,7 @@ TEST_P(HowWellItIsKnown, HoldsTheTrueSurfaceIn95Of100PlacesAndIsNotStatedTwiceTo
 }
 
 INSTANTIATE_TEST_SUITE_P(BoundaryUncertainty, HowWellItIsKnown,
-                         testing::Values(ValueMethod::cubic, ValueMethod::trilinear));
+                         ::testing::Values(ValueMethod::cubic, ValueMethod::trilinear));
 
 TEST(BoundaryUncertainty, GrowsWithTheNoiseAndIsInfiniteWhereNothingRises) {
   const auto grid = grid_of({40, 40, 40}, {1, 1, 1});

@@ -17,9 +17,9 @@
 namespace palpate::io::internal {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 // plastimatch reads and writes all three by ITK, which the reader here is independent of.
 TEST(Interchange, PlastimatchPutsEveryVoxelToTheSamePlace) {

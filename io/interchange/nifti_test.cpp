@@ -17,7 +17,7 @@ namespace palpate::io::internal {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::SizeIs;
+using ::testing::SizeIs;
 
 TEST(Nifti, LiesWhereItsSformSaysInEveryForm) {
   for (const Rows& rows : {oblique(), flipped()}) {

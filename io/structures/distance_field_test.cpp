@@ -184,8 +184,8 @@ TEST(DistanceField, OfFractionsIsTruerThanThatOfTheVoxelsInside) {
            {shares_of(radius, center, extent, spacing), likelihoods_of(radius, center, extent, spacing)}) {
         const auto [largest, rms] = errors_of(mask, radius, center);
         const auto [largest_without, rms_without] = errors_of(binarised(mask), radius, center);
-        SCOPED_TRACE(testing::Message() << "R " << radius << ", slices " << slices << ": largest " << largest << " for "
-                                        << largest_without << ", rms " << rms << " for " << rms_without);
+        SCOPED_TRACE(::testing::Message() << "R " << radius << ", slices " << slices << ": largest " << largest
+                                          << " for " << largest_without << ", rms " << rms << " for " << rms_without);
         // A large ball is nearly found again by its smoothness alone; a small one is not.
         const double part = radius > 5 ? 1.2 : 0.5;
         EXPECT_LT(largest, part * largest_without);

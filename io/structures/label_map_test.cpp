@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path fresh_folder() {
-  fs::path folder = fs::path(testing::TempDir()) / ("label_maps-" + std::to_string(::getpid()));
+  fs::path folder = fs::path(::testing::TempDir()) / ("label_maps-" + std::to_string(::getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

@@ -14,8 +14,8 @@
 namespace palpate::modes {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string error_of(const std::string& text) {
   try {

@@ -16,7 +16,7 @@ namespace palpate::plugin {
 namespace {
 
 using Json = nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr std::array all_choices = {SolverChoice::chain, SolverChoice::analytical, SolverChoice::exact,
                                     SolverChoice::descent};
@@ -60,8 +60,8 @@ TEST(SolveJson, ThePlaneOfTheHelpTextForEverySolverThatFits) {
     const Json json = answer(pressed_plane, {.solver = choice});
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    EXPECT_THAT(keys, testing::UnorderedElementsAre("id", "proxy", "force", "forces", "solver", "error_bound",
-                                                    "iterations", "time_ns"));
+    EXPECT_THAT(keys, ::testing::UnorderedElementsAre("id", "proxy", "force", "forces", "solver", "error_bound",
+                                                      "iterations", "time_ns"));
     // Held on the plane: it takes 400 N/m x 2 mm of its 2 N.
     EXPECT_EQ(json["id"], "a");
     EXPECT_NEAR(json["proxy"][0].get<double>(), 0.001, 1e-17);
@@ -190,7 +190,7 @@ TEST(SolveJson, NamesPrimitiveAndFieldOfEveryFlaw) {
       {"[0,0,1]", "[0,0,1e300]", "primitive 0: direction is out of range (1e+300)"},
   };
   for (const auto& [from, to, words] : cases) {
-    EXPECT_THAT(error(with(from, to)), testing::StartsWith(words)) << from << " -> " << to;
+    EXPECT_THAT(error(with(from, to)), ::testing::StartsWith(words)) << from << " -> " << to;
     for (const SolverChoice choice : all_choices) {
       EXPECT_EQ(error(with(from, to), {.solver = choice}), error(with(from, to)));
     }
@@ -201,7 +201,7 @@ TEST(SolveJson, NamesPrimitiveAndFieldOfEveryFlaw) {
   EXPECT_THAT(error(R"({"stiffness":400,"probe":[0,0,0],"primitives":[)"
                     R"({"type":"point","strength":"inf","position":[0,0,0]},)"
                     R"({"type":"point","strength":"inf","position":[0,0,1]}]})"),
-              testing::MatchesRegex("primitive [01]: has infinite strength, but .* hard constraints.*"));
+              ::testing::MatchesRegex("primitive [01]: has infinite strength, but .* hard constraints.*"));
 }
 
 TEST(SolveJson, AnswersWhatIsNotABalance) {
@@ -220,7 +220,7 @@ TEST(SolveJson, AnswersWhatIsNotABalance) {
   for (int n = 0; n < 100000; ++n) objects += R"({"id":)";
   EXPECT_THAT(error(objects), HasSubstr("nested more than 16 deep"));
   EXPECT_THAT(error(std::string(longest_line + 1, ' ')), HasSubstr("longer than"));
-  EXPECT_THAT(error("\"" + std::string(1000000, 'x')), testing::SizeIs(testing::Le(400)));
+  EXPECT_THAT(error("\"" + std::string(1000000, 'x')), ::testing::SizeIs(::testing::Le(400)));
   EXPECT_TRUE(solve_line(pressed_plane + "\r").solved);
 }
 

@@ -58,9 +58,9 @@ TEST(PlaceText, TurnsLeftAndPosteriorRoundForRas) {
 
 TEST(Sight, ShowsEveryPlaneAsRadiologyDoesHoweverTheScanWasAcquired) {
   for (const auto& scan : {axial_scan, coronal_scan, sagittal_scan}) {
-    EXPECT_THAT(edges(sight_of(Plane::axial, scan)), testing::ElementsAre("L", "R", "A", "P"));
-    EXPECT_THAT(edges(sight_of(Plane::coronal, scan)), testing::ElementsAre("L", "R", "H", "F"));
-    EXPECT_THAT(edges(sight_of(Plane::sagittal, scan)), testing::ElementsAre("P", "A", "H", "F"));
+    EXPECT_THAT(edges(sight_of(Plane::axial, scan)), ::testing::ElementsAre("L", "R", "A", "P"));
+    EXPECT_THAT(edges(sight_of(Plane::coronal, scan)), ::testing::ElementsAre("L", "R", "H", "F"));
+    EXPECT_THAT(edges(sight_of(Plane::sagittal, scan)), ::testing::ElementsAre("P", "A", "H", "F"));
   }
 }
 
@@ -82,7 +82,7 @@ TEST(Sight, LooksStraightAtASliceOfAnObliqueOrTiltedScan) {
     }
     EXPECT_EQ(axes.size(), 3U) << "two planes show the same slices";
   }
-  EXPECT_THAT(edges(sight_of(Plane::axial, tilted)), testing::ElementsAre("L", "R", "AF", "PH"));
+  EXPECT_THAT(edges(sight_of(Plane::axial, tilted)), ::testing::ElementsAre("L", "R", "AF", "PH"));
 }
 
 }  // namespace
