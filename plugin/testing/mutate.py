@@ -193,7 +193,7 @@ class Bench:
                 shutil.copy(source, copy)
         self.environment = {"CCACHE_BASEDIR": str(self.tree), "CCACHE_NOHASHDIR": "1"}
         # A slip may leave a variable unused: that is for the tests to see, not for the compiler.
-        self.run(["cmake", "--preset", "release", "-DPALPATE_TESTS=ON", "-DPALPATE_WERROR=OFF",
+        self.run(["cmake", "--preset", "release", "-DPALPATE_TESTS=ON", "-DPALPATE_TOGETHER=OFF", "-DPALPATE_WERROR=OFF",
                   f"-DPALPATE_MODULES={modules}"], 600)
         if self.make(3600) != 0:
             sys.exit(f"mutate: {self.target} does not build without any slip:\n{self.log[-2000:]}")
