@@ -33,6 +33,11 @@ endif()
 if(PALPATE_WERROR)
   target_compile_options(palpate_compile_options INTERFACE -Werror)
 endif()
+if(PALPATE_WERROR AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  # What these say changes with what the compiler inlines: told, but no errors.
+  target_compile_options(palpate_compile_options INTERFACE -Wno-error=array-bounds -Wno-error=dangling-reference
+    -Wno-error=maybe-uninitialized -Wno-error=restrict -Wno-error=stringop-overflow -Wno-error=stringop-overread)
+endif()
 if(PALPATE_SANITIZE)
   target_compile_options(palpate_compile_options INTERFACE
     -fsanitize=${PALPATE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
