@@ -45,7 +45,7 @@ class LatestJob {
  private:
   void start(Work work) {
     running_ = true;
-    pool_.start([this, generation = generation_, work = std::move(work)] {
+    pool_.start([this, generation = generation_, work = std::move(work)]() mutable {
       std::shared_ptr<const Result> result;
       QString error;
       try {
@@ -53,8 +53,10 @@ class LatestJob {
       } catch (const std::exception& failure) {
         error = QString::fromUtf8(failure.what());
       }
+      work = nullptr;  // what it holds may be used by the other thread from now on
       QMetaObject::invokeMethod(
-          &receiver_, [this, generation, result, error] { finish(generation, result, error); }, Qt::QueuedConnection);
+          &receiver_, [this, generation, result = std::move(result), error] { finish(generation, result, error); },
+          Qt::QueuedConnection);
     });
   }
   void finish(int generation, const std::shared_ptr<const Result>& result, const QString& error) {

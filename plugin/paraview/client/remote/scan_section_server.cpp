@@ -53,10 +53,10 @@ void ScanSection::open_on_server() {
 }
 
 /// The frame that is shown.
-void ScanSection::fetch() {
+void ScanSection::fetch(const std::string& path) {
   copy_->show();
   set_busy(true);
-  std::vector<std::string> places{path_};
+  std::vector<std::string> places{path};
   places.insert(places.end(), copies_.begin(), copies_.end());
   const int frames = server_frames();
   const int frame = frame_at(frames, source_->getServer()->getTimeKeeper()->getTime());
@@ -66,13 +66,13 @@ void ScanSection::fetch() {
         progress_->setFormat(what + QStringLiteral(" %p%"));
         progress_->setValue(static_cast<int>(100 * done));
       },
-      [this, frame](const ServerScan::Found& found) {
+      [this, frame, path](const ServerScan::Found& found) {
         set_busy(false);
         const QString notes = message_->text();
         tell(notes.isEmpty() ? found.said : notes + QLatin1Char('\n') + found.said, !found.volume);
         copy_->setVisible(!found.volume);
         if (found.volume) {
-          take({.path = path_, .name = {}, .catalogue = {}, .volume = found.volume, .frame = frame});
+          take({.path = path, .name = {}, .catalogue = {}, .volume = found.volume, .frame = frame});
         } else {
           emit out_of_reach(found.said);
         }
@@ -112,10 +112,11 @@ void ScanSection::ask_copy() {
       QFileDialog::getExistingDirectory(this, tr("Folder of this machine with the scan that the server shows"));
   if (folder.isEmpty() || !source_) return;
   copies_.push_back(folder.toStdString());
-  fetch();
+  fetch(path_);
 }
 
 void ScanSection::server_gone() {
+  ++asked_;
   views_.stop_making();
   server_scan_.cancel();
   server_scan_.forget();
@@ -128,6 +129,7 @@ void ScanSection::server_gone() {
 }
 
 void ScanSection::adopt(pqPipelineSource& reader) {
+  ++asked_;
   views_.stop_making();
   source_ = &reader;
   path_ = vtkSMPropertyHelper(reader.getProxy(), "FileName").GetAsString();
@@ -181,7 +183,7 @@ void ScanSection::adopt_from_server() {
   views_.adopt(*source_);
   list_windows();
   say_what_to_know({});
-  fetch();
+  fetch(path_);
 }
 
 }  // namespace palpate::plugin

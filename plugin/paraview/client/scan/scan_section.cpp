@@ -60,6 +60,7 @@ void ScanSection::tell(const QString& message, bool problem) {
 
 void ScanSection::open(const std::string& path) {
   path_ = path;
+  ++asked_;
   catalogue_.reset();
   on_server_.reset();
   series_->clear();
@@ -134,8 +135,11 @@ bool ScanSection::is_in_paraview() const {
 }
 
 void ScanSection::show(const Loaded& loaded) {
+  ++asked_;
   if (is_in_paraview()) {
-    QTimer::singleShot(again_ms, this, [this, loaded] { show(loaded); });
+    QTimer::singleShot(again_ms, this, [this, loaded, asked = asked_] {
+      if (asked == asked_) show(loaded);
+    });
     return;
   }
   showing_ = true;
@@ -202,12 +206,17 @@ void ScanSection::views_are_made(const Loaded& loaded, const std::string& error)
     tell(text(error), true);
     return;
   }
+  if (!source_) {  // deleted since the last of them was made
+    views_.close();
+    tell(words(say("scan-left-the-pipeline")), true);
+    return;
+  }
   try {
     SCOPED_UNDO_EXCLUDE();
     list_windows();
-    say_what_to_know(loaded);
+    if (loaded.path == path_) say_what_to_know(loaded);  // else another folder is open, and has told what it holds
     take(loaded);
-    if (!loaded.volume) fetch();
+    if (!loaded.volume) fetch(loaded.path);
   } catch (const std::exception& problem) {
     tell(text(problem.what()), true);
   }

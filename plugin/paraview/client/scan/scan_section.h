@@ -129,7 +129,7 @@ class ScanSection : public QWidget {
   int frame_of_time() const;
   io::Filter felt_filter() const;
   void open_on_server();
-  void fetch();
+  void fetch(const std::string& path);
   void fetch_frame(int frame);
   int server_frames() const;
   void ask_copy();
@@ -164,6 +164,7 @@ class ScanSection : public QWidget {
   std::vector<std::string> copies_;          // folders of this machine that were named
   int fetching_ = 0;                         // frame that is on its way from the server
   bool showing_ = false;
+  int asked_ = 0;  // what was asked for last is shown
   QPointer<pqPipelineSource> source_;
   QPointer<pqPipelineSource> felt_source_;  // what the handle is of
   ScanHandle handle_;

@@ -203,17 +203,23 @@ void ClinicalViews::stop_making() {
 
 void ClinicalViews::add_step(const std::function<void(Making&)>& step) {
   turns_.add([this, step] {
-    if (!making_->is_there()) throw Refusal(say("scan-left-the-pipeline"));
+    const auto making = making_;  // a server that is lost within the step ends it
+    if (!making->is_there()) throw Refusal(say("scan-left-the-pipeline"));
     SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
     SM_SCOPED_TRACE(BlockTraceItems);
-    step(*making_);
+    step(*making);
   });
+}
+
+/// Asked after what may handle events.
+bool ClinicalViews::goes_on(const Making& making) const {
+  return making_.get() == &making && making.is_there();
 }
 
 void ClinicalViews::show(pqPipelineSource& source, Shown shown) {
   close();
   trace_shown(source);
-  making_ = std::make_unique<Making>();
+  making_ = std::make_shared<Making>();
   making_->source = &source;
   making_->shown = std::move(shown);
   if (making_changed_) making_changed_(true);
@@ -242,6 +248,7 @@ void ClinicalViews::begin_layout(Making& making) {
 
 void ClinicalViews::make_slice_view(Making& making, std::size_t place) {
   making.view = make_view(*making.source->getServer(), true);
+  if (!goes_on(making) || !making.view) return;
   making.layout->AssignView(places[place].cell, making.view->getViewProxy());
 }
 
@@ -250,6 +257,7 @@ void ClinicalViews::fill_slice_view(Making& making, std::size_t place) {
   const auto& [plane, kind, cell] = places[place];
   const ImageLattice& lattice = making.lattice;
   vtkSMProxy& shown = show_as("Slice", making.image(), *making.view, lattice.array.c_str());
+  if (!goes_on(making) || !making.view) return;
   const Sight sight = sight_of(plane, lattice.directions);
   vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight));
   vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->gray_map);
@@ -262,12 +270,14 @@ void ClinicalViews::fill_slice_view(Making& making, std::size_t place) {
 
 void ClinicalViews::make_volume_view(Making& making) {
   making.view = make_view(*making.source->getServer(), false);
+  if (!goes_on(making) || !making.view) return;
   making.layout->AssignView(volume_cell, making.view->getViewProxy());
 }
 
 void ClinicalViews::fill_volume_view(Making& making) {
   if (!making.view) return;
   vtkSMProxy& volume = show_as("Volume", making.image(), *making.view, making.lattice.array.c_str());
+  if (!goes_on(making) || !making.view) return;
   first_look_ = suited_look(making.lattice.values);
   set_volume_look(volume, looks_.at(*first_look_));
   look_from_the_front(*making.view, making.lattice.center());

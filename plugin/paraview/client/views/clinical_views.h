@@ -108,6 +108,7 @@ class ClinicalViews {
  private:
   struct Making;
   void add_step(const std::function<void(Making&)>& step);
+  bool goes_on(const Making& making) const;
   void begin_layout(Making& making);
   void make_slice_view(Making& making, std::size_t place);
   void fill_slice_view(Making& making, std::size_t place);
@@ -145,7 +146,7 @@ class ClinicalViews {
   std::vector<OpenView> views_;
   vtkWeakPointer<vtkSMViewLayoutProxy> layout_;  ///< the tab that the scan is shown in, used again for the next
   QObject lifetime_;                             // its end ends what is connected to the views
-  std::unique_ptr<Making> making_;               // while the views are made
+  std::shared_ptr<Making> making_;               // while the views are made
   Turns turns_;
 };
 

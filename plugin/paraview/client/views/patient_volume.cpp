@@ -1,5 +1,6 @@
 #include "plugin/paraview/client/views/patient_volume.h"
 
+#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <vtkAlgorithm.h>
@@ -25,6 +26,7 @@
 #include <QTimer>
 
 #include <atomic>
+#include <string_view>
 #include <utility>
 
 #include "plugin/paraview/client/panel/latest_job.h"
@@ -101,10 +103,17 @@ PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool ho
   };
   job_ = std::unique_ptr<Cut>(new Cut{LatestJob<vtkSmartPointer<vtkImageData>>(done)});
   casting_ = std::make_unique<Casting>([this](vtkFixedPointVolumeRayCastMapper* mapper) {
-    caster_ = mapper;
+    if (mapper) caster_ = mapper;  // else the coarse one stays, where there is one
+    cannot_cast_ = !caster_;
     refresh();
-    if (std::exchange(coarse_, false) && cast_image_) casting_->ask(*cast_image_, 1);
+    if (std::exchange(coarse_, false) && mapper && cast_image_) casting_->ask(*cast_image_, 1);
   });
+  if (pqDataRepresentation* const shown = scan.getRepresentation(&view)) {
+    const auto again = [this] { refresh(); };
+    QObject::connect(shown, &pqRepresentation::visibilityChanged, &lifetime_, again);
+    type_watch_ = std::make_unique<EventWatch>(shown->getProxy()->GetProperty("Representation"),
+                                               vtkCommand::ModifiedEvent, again);
+  }
   take_image();
   // Its values may be filtered, or read anew.
   QObject::connect(&scan, QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), &lifetime_,
@@ -134,6 +143,7 @@ void PatientVolume::take_image() {
   cut_image_ = nullptr;
   cast_image_ = nullptr;
   caster_ = nullptr;
+  cannot_cast_ = false;
   casting_->drop();
   job_->job.drop();
   refresh();
@@ -141,6 +151,7 @@ void PatientVolume::take_image() {
 }
 
 PatientVolume::~PatientVolume() {
+  type_watch_.reset();
   look_watch_.reset();
   casting_.reset();
   job_.reset();
@@ -199,6 +210,14 @@ void PatientVolume::prepare_to_cast(vtkImageData& image) {
   casting_->ask(image, coarse_ ? 2 : 1);
 }
 
+/// Under *Advanced* the user can hide the scan, or show it as something else.
+bool PatientVolume::is_shown() const {
+  pqDataRepresentation* const shown = scan_ ? scan_->getRepresentation(view_) : nullptr;
+  if (!shown) return false;
+  const char* const type = vtkSMPropertyHelper(shown->getProxy(), "Representation").GetAsString();
+  return shown->isVisible() && type && std::string_view(type) == "Volume";
+}
+
 void PatientVolume::refresh() {
   if (!view_) return;
   view_->render();  // at the next turn of events
@@ -206,9 +225,9 @@ void PatientVolume::refresh() {
   if (!theirs) return;
   const bool cut = cut_ && cut_image_;
   vtkImageData* const image = cut ? cut_image_ : whole_image_;
-  const bool cast = image && can_be_cast(*image) && draws_without_card();
+  const bool cast = image && !cannot_cast_ && can_be_cast(*image) && draws_without_card();
   if (cast && !waits_) prepare_to_cast(*image);
-  const bool hidden = hidden_ || waits_ || (cast && !caster_);
+  const bool hidden = hidden_ || waits_ || (cast && !caster_) || !is_shown();
   const bool ours = !hidden && (cut || cropped_ || cast);
   if (cropped_ && !box_) box_ = std::make_unique<CropBox>(*view_, whole_image_->GetBounds());
   if (box_) box_->set_visible(cropped_);

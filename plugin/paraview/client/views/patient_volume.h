@@ -53,6 +53,7 @@ class PatientVolume {
   void prepare_to_cast(vtkImageData& image);
   void take_out(vtkVolume& theirs, bool out);
   vtkVolume* of_paraview() const;
+  bool is_shown() const;
 
   QPointer<pqRenderView> view_;
   QPointer<pqPipelineSource> scan_;
@@ -63,11 +64,13 @@ class PatientVolume {
   vtkSmartPointer<vtkImageData> cast_image_;                  // that it draws, or is being prepared to
   vtkSmartPointer<vtkVolume> own_;
   std::unique_ptr<EventWatch> look_watch_;  // of what is chosen for ParaView's
+  std::unique_ptr<EventWatch> type_watch_;  // whether that is a volume
   vtkSmartPointer<vtkVolume> taken_out_;    // ParaView's, while it is not drawn
   std::unique_ptr<CropBox> box_;
   bool cut_ = true, cropped_ = false, hidden_ = false, waits_ = true;
-  bool coarse_ = false;  // what is being prepared is a first picture
-  QObject lifetime_;     // its end ends what is connected to the scan
+  bool coarse_ = false;       // what is being prepared is a first picture
+  bool cannot_cast_ = false;  // it could not be prepared: ParaView draws
+  QObject lifetime_;          // its end ends what is connected to the scan
   std::unique_ptr<Casting> casting_;
   std::unique_ptr<Cut> job_;  // last: it ends before what it sets
 };

@@ -23,6 +23,7 @@
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <vector>
@@ -101,8 +102,16 @@ bool draws_without_card() {
 }
 
 bool can_be_cast(vtkImageData& image) {
-  const vtkDataArray* const values = image.GetPointData()->GetScalars();
-  return values && values->GetNumberOfComponents() == 1;
+  vtkDataArray* const values = image.GetPointData()->GetScalars();
+  if (!values || values->GetNumberOfComponents() != 1) return false;
+  if (values->GetDataTypeSize() <= 2) return true;
+  // Of other numbers VTK makes 32 768 steps from the least to the greatest, and where they are flat it looks three
+  // voxels ahead, also of the coarse ones.
+  constexpr double most_range = 1e6;
+  constexpr int fewest_voxels = 8;
+  const int* const size = image.GetDimensions();
+  const double* const range = values->GetRange(0);
+  return range[1] - range[0] < most_range && std::min({size[0], size[1], size[2]}) >= fewest_voxels;
 }
 
 std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>()> preparing_to_cast(

@@ -2,6 +2,8 @@
 
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
+#include <pqDataRepresentation.h>
+#include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
 #include <pqView.h>
@@ -285,6 +287,12 @@ void the_volume_lies_in_the_patient() {
   expect(std::hypot(off.x(), off.y()) < 0.06 * ball.width(),
          "its middle is the patient's origin: " + std::to_string(off.x()) + ", " + std::to_string(off.y()) +
              " pixels off, it is " + std::to_string(ball.width()) + " wide");
+  // As the eye in the pipeline browser does.
+  pqDataRepresentation* const shown = reader().getRepresentation(&render_view("Volume"));
+  shown->setVisible(false);
+  wait_for("what is hidden is not drawn", [] { return !is_round(seen_in_the_middle()); });
+  shown->setVisible(true);
+  wait_for("it is drawn again", [] { return is_round(seen_in_the_middle()); });
 }
 
 /// Not a test but a measurement: how fast the volume turns, and how long it takes to be drawn in full.
