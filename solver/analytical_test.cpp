@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "solver/testing/problems.h"
@@ -91,6 +92,32 @@ TEST(Analytical, CodirectionalPlanesAddTheirStrengths) {
   EXPECT_NEAR(held.forces[0].y, 0.2, 1e-15);
   EXPECT_EQ(held.forces[1], o);
   EXPECT_NEAR(held.forces[2].y, 0.4, 1e-15);
+}
+
+TEST(Analytical, TellsHowOftenItMovedTheProxy) {  // once for what was merged, not at all for forces
+  EXPECT_EQ(solve({make_directed_force(1, x)}, o).solution.iterations, 0);
+  EXPECT_EQ(solve({make_plane(1, o, x), make_plane(2, o, x)}, o).solution.iterations, 1);
+  EXPECT_EQ(solve({make_plane(1, o, x), make_directed_force(1, z), make_plane(1, o, y)}, o).solution.iterations, 2);
+  EXPECT_EQ(solve({make_plane(1, o, x), make_plane(1, o, y), make_plane(1, o, z)}, o).solution.iterations, 3);
+}
+
+// What rounding may have set apart counts as one, what is further apart does not.
+TEST(Analytical, MergesWhatOnlyRoundingSetsApart) {
+  const auto movements = [](double apart, double turned) {
+    const Vec3 at{10 * mm, 20 * mm, 5 * mm};
+    std::vector<int> counts;
+    for (const auto& [a, b] : {std::pair{make_plane(1, at, x), make_plane(1, at + apart * x, x + turned * y)},
+                               std::pair{make_line(1, at, z), make_line(1, at + apart * x, z + turned * y)},
+                               std::pair{make_point(1, at), make_point(1, at + apart * x + turned * y)}}) {
+      counts.push_back(solve({a, b}, o).solution.iterations);
+    }
+    return counts;
+  };
+  EXPECT_EQ(movements(0, 0), (std::vector{1, 1, 1}));
+  EXPECT_EQ(movements(1e-17, 0), (std::vector{1, 1, 1}));
+  EXPECT_EQ(movements(1e-16, 0), (std::vector{2, 2, 2}));
+  EXPECT_EQ(movements(0, 4e-16), (std::vector{1, 1, 2}));
+  EXPECT_EQ(movements(0, 2e-15), (std::vector{2, 2, 2}));
 }
 
 TEST(Analytical, ParallelLinesAddTheirStrengths) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace palpate::solver {
@@ -67,6 +68,46 @@ TEST(Balance, RubbishNamesPrimitiveAndField) {
     EXPECT_EQ(rejection->flaw, c.flaw);
     EXPECT_THAT(describe(*rejection), HasSubstr("primitive 1: "));
   }
+}
+
+// Of every number that has a range: the ends pass, what is just beyond is refused by its name, in every component.
+TEST(Balance, RangesEndWhereTheyAreSaidToEnd) {
+  const double most = largest_quantity, more = std::nextafter(most, infinity);
+  const double least = 1 / most, less = std::nextafter(least, 0);
+  const auto expect_end = [](const std::optional<Rejection>& at_end, const std::optional<Rejection>& beyond,
+                             Field field, Flaw flaw, double value) {
+    EXPECT_FALSE(at_end);
+    ASSERT_TRUE(beyond);
+    EXPECT_EQ(beyond->field, field);
+    EXPECT_EQ(beyond->flaw, flaw);
+    EXPECT_EQ(beyond->value, value);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto along = [axis](double size) {
+      Vec3 v{0};
+      v[axis] = size;
+      return v;
+    };
+    for (const double sign : {1.0, -1.0}) {
+      expect_end(check(make_point(1, along(sign * most))), check(make_point(1, along(sign * more))), Field::position,
+                 Flaw::out_of_range, more);
+      expect_end(check(make_directed_force(1, along(sign * most))), check(make_directed_force(1, along(sign * more))),
+                 Field::direction, Flaw::out_of_range, more);
+      expect_end(check(make_line(1, Vec3{0}, along(sign * least))), check(make_line(1, Vec3{0}, along(sign * less))),
+                 Field::direction, Flaw::zero_direction, less);
+      expect_end(validate({400, along(sign * most), Vec3{0}, {}}), validate({400, along(sign * more), Vec3{0}, {}}),
+                 Field::probe, Flaw::out_of_range, more);
+      expect_end(validate({400, Vec3{0}, along(sign * most), {}}), validate({400, Vec3{0}, along(sign * more), {}}),
+                 Field::previous_proxy, Flaw::out_of_range, more);
+    }
+  }
+  expect_end(check(make_point(most, Vec3{0})), check(make_point(more, Vec3{0})), Field::strength, Flaw::out_of_range,
+             more);
+  expect_end(validate({most, Vec3{0}, Vec3{0}, {}}), validate({more, Vec3{0}, Vec3{0}, {}}), Field::stiffness,
+             Flaw::out_of_range, more);
+  const double softer = std::nextafter(smallest_stiffness, 0);
+  expect_end(validate({smallest_stiffness, Vec3{0}, Vec3{0}, {}}), validate({softer, Vec3{0}, Vec3{0}, {}}),
+             Field::stiffness, Flaw::out_of_range, softer);
 }
 
 TEST(Balance, WhatIsNotReadMayBeAnything) {

@@ -51,19 +51,28 @@ Contribution share_of_plane(const Placed& plane, const FineVec3& z, const Vec3& 
   return {plane.direction * given, 4 * unit_roundoff * given, slack, backward, slack > 0};
 }
 
+struct Given {
+  Vec3 force;
+  double size;
+};
+
+// What a line or point gives of a force (newtons): the part that it can, at most its strength.
+Given given_by_attractor(const Placed& attractor, const Vec3& force) {
+  const double s = attractor.strength;
+  const Vec3& q = attractor.direction;
+  const Vec3 wanted = attractor.type == PrimitiveType::line ? force - q * glm::dot(q, force) : force;
+  const double size = length_of(wanted);
+  if (size > s) return {s > 0 ? wanted * (s / size) : Vec3{0}, s};
+  return {wanted, size};
+}
+
 Contribution share_of_attractor(const Placed& attractor, const FineVec3& z, const Vec3& force, double stiffness,
                                 double doubt, bool leniently) {
   const double s = attractor.strength;
   const bool hard = std::isinf(s);
   Miss miss = miss_of(attractor, z);
   miss.error += doubt;
-  const Vec3& q = attractor.direction;
-  Vec3 given = attractor.type == PrimitiveType::line ? force - q * glm::dot(q, force) : force;
-  double size = length_of(given);
-  if (size > s) {
-    given = s > 0 ? given * (s / size) : Vec3{0};
-    size = s;
-  }
+  const auto [given, size] = given_by_attractor(attractor, force);
   const double reach = hard ? size : s + size;
   const double rounding = 8 * unit_roundoff * reach * miss.length + 2 * reach * miss.error;
   const double off =
@@ -114,13 +123,7 @@ Contribution share_of_met(const Placed& primitive, const Vec3& force) {
     const double given = std::max(0.0, std::min(s, glm::dot(force, primitive.direction)));
     return {primitive.direction * given, 4 * unit_roundoff * given, 0, 0, false};
   }
-  const Vec3& q = primitive.direction;
-  Vec3 given = primitive.type == PrimitiveType::line ? force - q * glm::dot(q, force) : force;
-  double size = length_of(given);
-  if (size > s) {
-    given = s > 0 ? given * (s / size) : Vec3{0};
-    size = s;
-  }
+  const auto [given, size] = given_by_attractor(primitive, force);
   return {given, 16 * unit_roundoff * size, 0, 0, false};
 }
 

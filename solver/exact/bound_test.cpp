@@ -112,6 +112,26 @@ TEST(Bound, ForgivesTheRoundingOfTheDataInTheBackwardErrorAlone) {
   }
 }
 
+/// A hard constraint is met or not; the rounding of its data alone does not count as missing it.
+TEST(Bound, OfAHardPlaneForgivesTheRoundingOfItsDataAlone) {
+  constexpr double stiffness = 400;
+  const Vec3 probe(0.1, 0.2, 0.3), normal(0, 1, 0);
+  const std::vector<Primitive> primitives{
+      make_plane(std::numeric_limits<double>::infinity(), probe + 0.01 * normal, normal)};
+  const std::vector<Vec3> forces{0.5 * normal};
+  for (const double ulps : {0.5, 1.0, 100.0}) {
+    const double off = ulps * std::numeric_limits<double>::epsilon() * 0.01;
+    const FineVec3 z = exact_difference(primitives[0].position, probe) - fine(normal * off);
+    const Bound bound = bound_at(PlacedPrimitives(primitives, probe), stiffness, z, {}, forces);
+    EXPECT_TRUE(std::isinf(bound.error)) << ulps;
+    if (ulps <= 1) {
+      EXPECT_NEAR(bound.backward_error, std::abs(stiffness * z.y.hi - 0.5) / stiffness, 1e-15);
+    } else {
+      EXPECT_TRUE(std::isinf(bound.backward_error));
+    }
+  }
+}
+
 /// A seeded balance, placed, with forces that are about as strong as its primitives, and a point near it.
 struct Situation {
   explicit Situation(std::uint64_t seed)
@@ -153,6 +173,55 @@ TEST(BoundAt, IsOnItsFlatAsIfThatsPrimitivesStoodThere) {
     expect_same(bound_at(PlacedPrimitives(here.placed), stiffness, here.z, flat, here.forces),
                 bound_at(PlacedPrimitives(there), stiffness, here.z, {}, here.forces), seed);
   }
+}
+
+/// s |m| - F . m at a point, or 0 where the force is the full one there but for what its error covers.
+double true_slack(const Placed& primitive, const Contribution& share, const FineVec3& z) {
+  const Vec3 to_it = (primitive.offset - z).hi();
+  const double s = primitive.strength;
+  if (primitive.type == PrimitiveType::plane) {
+    const double depth = glm::dot(to_it, primitive.direction);
+    const double given = glm::dot(share.force, primitive.direction);
+    return depth > 0 ? (s - given) * depth : -given * depth;
+  }
+  const bool is_line = primitive.type == PrimitiveType::line;
+  const Vec3 miss = is_line ? to_it - primitive.direction * glm::dot(primitive.direction, to_it) : to_it;
+  const double length = glm::length(miss), size = glm::length(share.force);
+  if (glm::length(miss * (s / length) - share.force) <= share.force_error) return 0;
+  const Vec3 force = std::abs(s - size) <= share.force_error ? share.force * (s / size) : share.force;
+  return s * length - glm::dot(force, miss);
+}
+
+/// Where a point is known to a distance alone, the slack holds at every point within it. Forces of full size almost the
+/// primitive's way count most: those are of friction that is about to slip.
+TEST(ShareOf, HoldsAtEveryPointThatMayBeMeant) {
+  int full = 0, turned = 0;
+  for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+    Random random(seed);
+    const double s = random.log_uniform(0.1, 10), far = random.log_uniform(1e-6, 1e-2);
+    const Vec3 way = random.unit_vector(), place_of_it = random.normal_vector(1e-2);
+    const Primitive primitive = seed % 3 == 0   ? make_point(s, place_of_it)
+                                : seed % 3 == 1 ? make_line(s, place_of_it, random.unit_vector())
+                                                : make_plane(s, place_of_it, random.unit_vector());
+    Placed placed;
+    place(primitive, Vec3{0}, placed);
+    const FineVec3 z = fine(place_of_it - far * way);
+    const double doubt = far * random.uniform(0, 0.24);
+    const Vec3 aim = force_on(primitive, z.hi());
+    const double off = random.log_uniform(1e-6, 1);
+    Vec3 force = glm::length(aim) > 0 ? s * glm::normalize(aim / s + off * random.unit_vector()) : s * way;
+    if (primitive.type == PrimitiveType::line) force -= placed.direction * glm::dot(placed.direction, force);
+    if (seed % 5 != 0) force *= s / glm::length(force);
+    const Contribution share = share_of(placed, z, force, random.log_uniform(1, 1e5), doubt);
+    full += share.slack == 0 ? 1 : 0;
+    turned += share.slack > 0 ? 1 : 0;
+    for (int n = 0; n < 8; ++n) {
+      const FineVec3 meant = z + fine(doubt * random.unit_vector());
+      ASSERT_LE(true_slack(placed, share, meant), share.slack * (1 + 1e-12) + 1e-14 * s * far) << seed;
+    }
+  }
+  EXPECT_GT(full, 1000);
+  EXPECT_GT(turned, 1000);
 }
 
 TEST(BoundOf, IsTheLawWhereNoFlatHolds) {

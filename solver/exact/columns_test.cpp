@@ -12,10 +12,14 @@
 namespace palpate::solver::internal {
 namespace {
 
-/// Many primitives of all kinds, sorted by kind, and a walk over them.
+/// Many primitives of all kinds, or of those that are kept, sorted by kind, and a walk over them.
 struct Crowd {
-  Crowd(std::uint64_t seed, std::size_t count) {
+  using Kept = bool(PrimitiveType);
+  Crowd(
+      std::uint64_t seed, std::size_t count, Kept kept = [](PrimitiveType) { return true; }) {
     Problem problem = make_problem(Family::many, seed, count);
+    std::erase_if(problem.primitives, [&](const Primitive& primitive) { return !kept(primitive.type); });
+    count = problem.primitives.size();
     std::ranges::sort(problem.primitives, {}, &Primitive::type);
     for (const Primitive& primitive : problem.primitives) place(primitive, problem.probe, placed.emplace_back());
     std::ranges::sort(placed, {}, &Placed::type);
@@ -77,6 +81,24 @@ TEST(Columns, SideBySideIsAsOneAfterTheOther) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Crowd crowd(seed, 65 + 7 * seed);
     Random random(seed);
+    for (int n = 0; n < 10; ++n) expect_the_same(crowd, fine(random.normal_vector(2e-3)));
+  }
+}
+
+TEST(Columns, KindsMayBeMissing) {
+  using Type = PrimitiveType;
+  constexpr Crowd::Kept* some[] = {
+      [](Type type) { return type == Type::point; },
+      [](Type type) { return type == Type::line; },
+      [](Type type) { return type == Type::plane; },
+      [](Type type) { return type == Type::plane || type == Type::point; },
+      [](Type type) { return type == Type::line || type == Type::directed_force; },
+      [](Type type) { return type == Type::plane || type == Type::directed_force; },
+  };
+  for (Crowd::Kept* const kept : some) {
+    Crowd crowd(5, 400, kept);
+    ASSERT_GT(crowd.placed.size(), 50);
+    Random random(5);
     for (int n = 0; n < 10; ++n) expect_the_same(crowd, fine(random.normal_vector(2e-3)));
   }
 }

@@ -1,0 +1,201 @@
+/// What a chain remembers changes no answer: a balance that differs from the last one in anything is solved anew.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "solver/certify.h"
+#include "solver/chain.h"
+
+namespace palpate::solver {
+namespace {
+
+constexpr ChainOptions descent_alone{
+    .analytical = false, .exact = false, .descent = true, .descent_options = {.max_iterations = 40}};
+
+struct ChainAnswer {
+  Solution solution;
+  std::vector<Vec3> forces;
+};
+
+ChainAnswer answer_of(Chain& chain, const Balance& balance) {
+  ChainAnswer answer{{}, std::vector<Vec3>(balance.primitives.size(), Vec3{-77, 77, -77})};
+  answer.solution = chain.solve(balance, answer.forces);
+  return answer;
+}
+
+/// An oblique balance that every kind of primitive has a part in.
+struct EachKind {
+  std::vector<Primitive> primitives{make_plane(2, {0, 1e-3, 0}, {0.6, 0.8, 0}), make_plane(3, Vec3{0}, {0, 0.8, 0.6}),
+                                    make_line(0.3, {2e-3, 0, 0}, {0.36, 0.48, 0.8}), make_point(0.2, {0, 0, -3e-3}),
+                                    make_directed_force(0.4, {1, 0, 0})};
+  double stiffness = 400;
+  Vec3 probe{1e-3, -4e-3, 2e-3};
+  Vec3 previous_proxy{1e-3, 0, 0};
+
+  Balance balance() const { return {stiffness, probe, previous_proxy, primitives}; }
+};
+
+const std::vector<std::function<void(EachKind&)>> changes{
+    [](EachKind& e) { e.stiffness = 500; },
+    [](EachKind& e) { e.probe.x += 1e-3; },
+    [](EachKind& e) { e.probe.y += 1e-3; },
+    [](EachKind& e) { e.probe.z += 1e-3; },
+    [](EachKind& e) { e.primitives[0].strength = 1; },
+    [](EachKind& e) { e.primitives[1].position.y = 1e-3; },
+    [](EachKind& e) {
+      e.primitives[2].direction = {0, 0, 1};
+    },
+    [](EachKind& e) {
+      e.primitives[3].type = PrimitiveType::line, e.primitives[3].direction = {1, 0, 0};
+    },
+    [](EachKind& e) {
+      e.primitives[4].direction = {0, -1, 0};
+    },
+    [](EachKind& e) { e.primitives.pop_back(); },
+    [](EachKind& e) {
+      e.primitives.push_back(make_directed_force(0.5, {0, 0, 1}));
+    },
+    [](EachKind& e) { std::swap(e.primitives[0], e.primitives[2]); },
+};
+
+TEST(ChainLaws, ABalanceThatChangedInAnythingIsSolvedAnew) {
+  for (const ChainOptions& options : {ChainOptions{}, descent_alone}) {
+    for (std::size_t n = 0; n < changes.size(); ++n) {
+      EachKind scene;
+      Chain chain(options);
+      const ChainAnswer before = answer_of(chain, scene.balance());
+      changes[n](scene);
+      const ChainAnswer after = answer_of(chain, scene.balance());
+      Chain fresh(options);
+      const ChainAnswer anew = answer_of(fresh, scene.balance());
+      const double alike = options.descent ? 0 : after.solution.error_bound + anew.solution.error_bound;
+      EXPECT_LE(glm::distance(after.solution.proxy, anew.solution.proxy), alike) << "change " << n;
+      ASSERT_EQ(after.forces.size(), anew.forces.size());
+      for (std::size_t i = 0; i < anew.forces.size(); ++i) {
+        EXPECT_LT(glm::distance(after.forces[i], anew.forces[i]), 1e-9) << "change " << n << ", force " << i;
+      }
+      // The change is one that can be told.
+      const bool same = after.solution.proxy == before.solution.proxy && after.forces == before.forces;
+      EXPECT_FALSE(same) << "change " << n;
+    }
+  }
+}
+
+TEST(ChainLaws, TheSameBalanceHasTheSameAnswerWithAllOfItsForces) {
+  EachKind scene;
+  Chain chain;
+  const ChainAnswer first = answer_of(chain, scene.balance());
+  ASSERT_EQ(first.solution.outcome, Outcome::solved);
+  scene.previous_proxy += Vec3{1e-3, 0, 0};  // which no solver but descent reads
+  const ChainAnswer again = answer_of(chain, scene.balance());
+  EXPECT_EQ(again.forces, first.forces);
+  EXPECT_EQ(again.solution.proxy, first.solution.proxy);
+  EXPECT_EQ(again.solution.error_bound, first.solution.error_bound);
+  EXPECT_EQ(again.solution.iterations, first.solution.iterations);
+  EXPECT_EQ(again.solution.solver, first.solution.solver);
+}
+
+TEST(ChainLaws, DescentStartsAnewFromAnotherPreviousProxy) {
+  EachKind scene;
+  scene.primitives.resize(1);
+  ChainOptions options = descent_alone;
+  options.descent_options.max_iterations = 10000;
+  Chain chain(options);
+  ASSERT_EQ(answer_of(chain, scene.balance()).solution.outcome, Outcome::solved);
+  scene.previous_proxy += Vec3{7e-4, 5e-4, 3e-4};
+  Chain fresh(options);
+  const ChainAnswer after = answer_of(chain, scene.balance()), anew = answer_of(fresh, scene.balance());
+  EXPECT_EQ(after.solution.proxy, anew.solution.proxy);
+  EXPECT_EQ(after.solution.iterations, anew.solution.iterations);
+}
+
+/// A refusal is not an answer to be repeated, nor are the forces before it a start.
+TEST(ChainLaws, AfterARefusalOfTheSolversTheNextBalanceStartsCold) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  EachKind apart;
+  apart.primitives[2] = make_point(infinity, Vec3{0});
+  apart.primitives[3] = make_point(infinity, {1e-3, 0, 0});
+  const EachKind scene;
+  Chain chain;
+  answer_of(chain, scene.balance());
+  ASSERT_EQ(answer_of(chain, apart.balance()).solution.outcome, Outcome::refused);
+  const ChainAnswer after = answer_of(chain, scene.balance());
+  Chain fresh;
+  const ChainAnswer anew = answer_of(fresh, scene.balance());
+  EXPECT_EQ(after.solution.proxy, anew.solution.proxy);
+  EXPECT_EQ(after.forces, anew.forces);
+  EXPECT_EQ(after.solution.iterations, anew.solution.iterations);
+}
+
+TEST(ChainLaws, ForgottenItIsAsFresh) {
+  const EachKind scene;
+  EachKind other;
+  other.probe *= 3.0;
+  Chain chain, fresh;
+  answer_of(chain, other.balance());
+  chain.forget();
+  const ChainAnswer after = answer_of(chain, scene.balance()), anew = answer_of(fresh, scene.balance());
+  EXPECT_EQ(after.solution.proxy, anew.solution.proxy);
+  EXPECT_EQ(after.forces, anew.forces);
+  EXPECT_EQ(after.solution.iterations, anew.solution.iterations);
+}
+
+TEST(ChainLaws, WithoutAWarmStartNothingIsRemembered) {
+  const EachKind scene;
+  EachKind other;
+  other.probe *= 3.0;
+  Chain chain({.warm_start = false}), fresh({.warm_start = false});
+  answer_of(chain, other.balance());
+  const ChainAnswer after = answer_of(chain, scene.balance()), anew = answer_of(fresh, scene.balance());
+  EXPECT_EQ(after.solution.proxy, anew.solution.proxy);
+  EXPECT_EQ(after.forces, anew.forces);
+  EXPECT_EQ(after.solution.iterations, anew.solution.iterations);
+}
+
+/// What it is remembered for: the probe moves little from tick to tick.
+TEST(ChainLaws, AWarmStartSparesIterations) {
+  EachKind scene;
+  Chain warm({.analytical = false}), cold({.analytical = false, .warm_start = false});
+  int warm_iterations = 0, cold_iterations = 0;
+  for (int tick = 0; tick < 100; ++tick) {
+    scene.probe += Vec3{2e-5, 1e-5, -1e-5};
+    const ChainAnswer a = answer_of(warm, scene.balance()), b = answer_of(cold, scene.balance());
+    ASSERT_EQ(a.solution.outcome, Outcome::solved);
+    EXPECT_LE(glm::distance(a.solution.proxy, b.solution.proxy), a.solution.error_bound + b.solution.error_bound);
+    warm_iterations += a.solution.iterations;
+    cold_iterations += b.solution.iterations;
+  }
+  EXPECT_LT(warm_iterations, cold_iterations);
+}
+
+TEST(ChainLaws, ItsMemoryIsThatOfItsCapacity) {
+  const std::size_t of_each = sizeof(Vec3) + sizeof(Primitive);
+  EXPECT_EQ(Chain({.exact = false, .capacity = 64}).memory_bytes(), ExactScratch(0).memory_bytes() + 64 * of_each);
+  EXPECT_EQ(Chain({.capacity = 64}).memory_bytes(), ExactScratch(64).memory_bytes() + 64 * of_each);
+}
+
+/// 16 units in the last place of the largest length that has a part, and of the way that the forces make.
+TEST(ChainLaws, ThePromiseGrowsWithTheLargestLengthAndTheForces) {
+  const std::array primitives{make_point(5, {0, -30, 0}), make_directed_force(9, {1, 0, 0}), make_point(5, {0, 0, 70})};
+  constexpr double ulp = 0x1p-52;
+  const auto promise = [&](const Vec3& probe, const Vec3& proxy, const std::array<Vec3, 3>& forces) {
+    return (promised_accuracy({250, probe, Vec3{900, 0, 0}, primitives}, proxy, forces) - 1e-14) / (16 * ulp);
+  };
+  const Vec3 none{0};
+  EXPECT_NEAR(promise({2, 0, 0}, {0, 3, 0}, {none, none, none}), 3, 1e-12);
+  EXPECT_NEAR(promise({0, 4, 0}, {0, 3, 0}, {none, none, none}), 4, 1e-12);
+  EXPECT_NEAR(promise({2, 0, 0}, {0, 3, 0}, {Vec3{3, 0, 4}, none, none}), 30 + 5.0 / 250, 1e-12);
+  EXPECT_NEAR(promise({2, 0, 0}, {0, 3, 0}, {Vec3{3, 0, 4}, Vec3{0, 9, 0}, none}), 30 + 14.0 / 250, 1e-12);
+  EXPECT_NEAR(promise({2, 0, 0}, {0, 3, 0}, {none, Vec3{0, 9, 0}, none}), 3 + 9.0 / 250, 1e-12);
+  EXPECT_NEAR(promise({2, 0, 0}, {0, 3, 0}, {Vec3{1, 0, 0}, none, Vec3{0, 0, 1}}), 70 + 2.0 / 250, 1e-12);
+  EXPECT_EQ(promised_accuracy({250, none, none, {}}, none, {}), 1e-14);
+}
+
+}  // namespace
+}  // namespace palpate::solver
