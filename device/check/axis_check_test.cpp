@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -120,6 +121,38 @@ TEST(AxisCheck, EndsWhereTheUserSaysSoAndWhereTheStylusGoes) {
     EXPECT_EQ(check.fault, unplugged ? Fault::device_lost : Fault::none);
     EXPECT_EQ(pushes, unplugged ? 1 : 2);
     EXPECT_EQ(rig.force(), Vec3(0));
+  }
+}
+
+/// A stylus that stays in one state, and keeps the largest force that it was given.
+class StayingStylus : public Stylus {
+ public:
+  explicit StayingStylus(State state) : state_(state) {}
+  Specification specification() const override {
+    return {.name = "one that stays", .maximum_force = 3, .continuous_force = 3};
+  }
+  void open() override {}
+  void close() noexcept override {}
+  Reading read() noexcept override { return {.time = time += 1e-3, .fresh = true}; }
+  void write_force(const Vec3& force) noexcept override { strongest = std::max(strongest, glm::length(force)); }
+  State state() const noexcept override { return state_; }
+
+  double time = 0, strongest = 0;
+
+ private:
+  State state_;
+};
+
+TEST(AxisCheck, PushesOnlyWhatCanBePushed) {
+  for (const State state :
+       {State::disconnected, State::idle, State::homing, State::ramping, State::active, State::fault}) {
+    StayingStylus stylus(state);
+    Asked asked;
+    const AxisCheck check = check_axes(stylus, asked.hand(), [&] { return stylus.time; });
+    const bool can = state == State::idle || state == State::ramping || state == State::active;
+    EXPECT_EQ(check.ended, !can) << name_of(state);
+    EXPECT_EQ(!asked.axes.empty(), can) << name_of(state);
+    EXPECT_EQ(stylus.strongest > 0, can) << name_of(state);
   }
 }
 

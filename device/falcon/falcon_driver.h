@@ -12,6 +12,10 @@
 
 namespace palpate::device {
 
+/// FTDI's vendor request for the chip's buffers, and its value that empties that of what was received.
+constexpr std::uint8_t ftdi_reset = 0;
+constexpr std::uint16_t ftdi_purge_received = 1;
+
 Specification falcon_specification(const FalconSettings& settings);
 
 /// The same stylus as make_falcon()'s, on any link.

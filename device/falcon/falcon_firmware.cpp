@@ -12,15 +12,13 @@ namespace palpate::device {
 
 namespace {
 
-// FTDI vendor requests.
-constexpr std::uint8_t reset = 0;
+// Further vendor requests of FTDI.
 constexpr std::uint8_t modem = 1;
 constexpr std::uint8_t flow_control = 2;
 constexpr std::uint8_t baud = 3;
 constexpr std::uint8_t framing = 4;
 constexpr std::uint8_t latency = 9;
 
-constexpr std::uint16_t purge_received = 1;
 constexpr std::uint16_t purge_sent = 2;
 constexpr std::uint16_t dtr_low = 0x0100;
 constexpr std::uint16_t dtr_high = 0x0101;
@@ -67,7 +65,7 @@ std::vector<std::uint8_t> receive_bytes(Link& link, std::size_t wanted, double t
 }
 
 void enter_run_mode(FalconLink& link) {
-  configure(link, {{latency, 1}, {baud, baud_1500k}, {reset, purge_received}, {reset, purge_sent}});
+  configure(link, {{latency, 1}, {baud, baud_1500k}, {ftdi_reset, ftdi_purge_received}, {ftdi_reset, purge_sent}});
 }
 
 bool answers_run_packets(Link& link) {
@@ -95,8 +93,8 @@ bool greet(FalconLink& link) {
 
 /// One try; nothing, or what went wrong.
 Text upload(FalconLink& link, const std::vector<std::uint8_t>& image) {
-  configure(link, {{reset, purge_received},
-                   {reset, purge_sent},
+  configure(link, {{ftdi_reset, ftdi_purge_received},
+                   {ftdi_reset, purge_sent},
                    {latency, 16},
                    {baud, baud_9600},
                    {framing, eight_n_one},
@@ -134,7 +132,7 @@ std::vector<std::uint8_t> read_image(const std::string& file) {
 }  // namespace
 
 void connect_falcon(FalconLink& link, const std::string& firmware_file) {
-  configure(link, {{reset, purge_received}, {reset, purge_sent}});
+  configure(link, {{ftdi_reset, ftdi_purge_received}, {ftdi_reset, purge_sent}});
   enter_run_mode(link);
   if (answers_run_packets(link)) return;
   if (firmware_file.empty()) {

@@ -178,9 +178,7 @@ class FalconUsb final : public FalconLink {
     constexpr std::uint8_t vendor_request_out = 0x40;
     const int result = libusb_control_transfer(handle_.get(), vendor_request_out, request, value, 0, nullptr, 0, 1000);
     if (result == LIBUSB_ERROR_NO_DEVICE) lost_ = true;
-    constexpr std::uint8_t reset = 0;
-    constexpr std::uint16_t purge_received = 1;
-    if (request == reset && value == purge_received) waiting_size_ = 0;
+    if (request == ftdi_reset && value == ftdi_purge_received) waiting_size_ = 0;
     return result >= 0;
   }
 

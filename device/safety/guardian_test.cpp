@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -144,6 +146,34 @@ TEST(Guardian, SendsZerosToADeviceThatComesBack) {
   std::this_thread::sleep_for(milliseconds(100));
   node.files.write("node", "");
   EXPECT_GT(written(node.path), 0U);
+}
+
+/// Files that this process has open, but for the folder that tells them.
+long open_files() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator()) - 1;
+}
+
+TEST(Guardian, EndsOnceAndLeavesNothingOpen) {
+  const long before = open_files();
+  for (const bool lost : {false, true}) {
+    // A program that reads its input to the end, and one that has ended before it is told anything.
+    for (const char* const program : {"/bin/cat", "/bin/true"}) {
+      auto guardian = start_guardian({.program = program, .kind = "-", .address = "-"});
+      EXPECT_EQ(open_files(), before + 1) << "the pipe's end";
+      guardian->beat(true);
+      lost ? guardian->hand_over() : guardian->dismiss();
+      EXPECT_EQ(open_files(), before);
+      // The number of the pipe's end is taken by another file, which a second end must leave alone.
+      const int others[] = {dup(STDERR_FILENO), dup(STDERR_FILENO), dup(STDERR_FILENO)};
+      guardian->dismiss();
+      guardian.reset();
+      for (const int other : others) EXPECT_EQ(close(other), 0);
+      EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a process is left";
+    }
+  }
+  EXPECT_ANY_THROW(start_guardian({.program = "/absent", .kind = "falcon", .address = ""}));
+  EXPECT_EQ(open_files(), before);
+  EXPECT_EQ(start_guardian({}), nullptr);
 }
 
 }  // namespace

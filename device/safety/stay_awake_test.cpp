@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -43,6 +45,12 @@ class StayAwakeTest : public ::testing::Test {
     return content_of(said_);
   }
 
+  /// Whether a process that this one has started has not been waited for.
+  static bool has_children() {
+    siginfo_t info{};
+    return waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) == 0;
+  }
+
   std::string before_;
   TestFiles files_;
   std::string said_ = files_.write("said", "");
@@ -57,7 +65,25 @@ TEST_F(StayAwakeTest, ASessionWithMotorsAsksTheSystemNotToSleep) {
       {}, [&] { return std::make_unique<FakeFalconLink>(bench); }, options);
   stylus->open();
   EXPECT_EQ(asked(), "--what=sleep:idle --mode=block --who=Palpate --why=Novint Falcon is held cat\n");
+  EXPECT_TRUE(has_children());
   stylus->close();
+  EXPECT_FALSE(has_children()) << "the system may sleep as soon as the stylus is closed";
+}
+
+TEST_F(StayAwakeTest, LeavesNothingOpen) {
+  const auto open_files = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
+  };
+  const auto before = open_files();
+  {
+    const auto held = stay_awake("Novint Falcon");
+    ASSERT_NE(held, nullptr);
+    EXPECT_EQ(open_files(), before + 1) << "the end that is held";
+  }
+  EXPECT_EQ(open_files(), before);
+  setenv("PATH", "/absent", 1);
+  EXPECT_EQ(stay_awake("Novint Falcon"), nullptr);
+  EXPECT_EQ(open_files(), before);
 }
 
 TEST_F(StayAwakeTest, WithoutTheProgramTheSessionGoesOn) {

@@ -382,5 +382,18 @@ TEST(HandPath, RefusesTimesThatDoNotIncrease) {
   EXPECT_THROW(check_path({}), std::invalid_argument);
 }
 
+TEST(SimulatedStylus, OpenedAnewAndStalledItTellsNoPoseOfBefore) {
+  SimulatedStylus stylus;
+  const Waypoint away[] = {{0, {0.01, 0.02, 0.03}}};
+  stylus.follow(away);
+  stylus.open();
+  EXPECT_GT(glm::length(stylus.read().position), 0.03);
+  stylus.close();
+  stylus.inject(SimulatedFault::stalled);
+  stylus.open();
+  EXPECT_EQ(stylus.read().position, Vec3(0));
+  EXPECT_FALSE(stylus.read().fresh);
+}
+
 }  // namespace
 }  // namespace palpate::device

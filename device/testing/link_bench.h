@@ -1,0 +1,90 @@
+#pragma once
+
+/// A LinkStylus whose device and time are the test's.
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "device/link/link_stylus.h"
+
+namespace palpate::device {
+
+/// A device that answers at once and can be told to go; it outlives its driver.
+struct LinkBench {
+  std::atomic<double> time{0};
+  std::atomic<bool> lost{false};
+  std::atomic<int> takes{0};
+  std::atomic<bool> speaks{true};  ///< sends poses
+  State state = State::idle;
+  LinkFault fault = LinkFault::none;  ///< that the device tells
+  Vec3 position{0};
+  Vec3 force{0};
+  std::vector<Vec3> forces;  ///< all that were given
+  int flushes = 0;
+  int open = 0;
+};
+
+class LinkBenchDriver final : public Driver {
+ public:
+  explicit LinkBenchDriver(LinkBench& bench) : bench_(bench) {}
+  void connect() override {
+    status_ = {.state = bench_.state};
+    ++bench_.open;
+  }
+  void disconnect() noexcept override { --bench_.open; }
+  double now() noexcept override { return bench_.time; }
+  void take(double timeout) noexcept override {
+    ++bench_.takes;
+    if (bench_.lost) return;  // as a link does that is gone: at once
+    bench_.time = bench_.time + timeout;
+    status_.state = bench_.state;
+    status_.fault = bench_.fault;
+    if (!bench_.speaks) return;
+    status_.position = bench_.position;
+    ++status_.news;
+  }
+  void give(const Vec3& force) noexcept override {
+    bench_.force = force;
+    bench_.forces.push_back(force);
+  }
+  void flush(double /*timeout*/) noexcept override { ++bench_.flushes; }
+  bool lost() const noexcept override { return bench_.lost; }
+  const ProtocolStatus& status() const noexcept override { return status_; }
+
+ private:
+  LinkBench& bench_;
+  ProtocolStatus status_;
+};
+
+inline double asleep_s = 0;  ///< that the machine has slept
+inline double asleep() noexcept {
+  return asleep_s;
+}
+
+inline Specification pushing() {
+  Specification specification;
+  specification.maximum_force = 8;
+  specification.continuous_force = 4;
+  return specification;
+}
+
+/// Exchanges are the test's own.
+inline std::unique_ptr<LinkStylus> unthreaded(LinkBench& bench, LinkStylusOptions options = {}) {
+  options.threaded = false;
+  options.asleep = &asleep;
+  auto stylus = std::make_unique<LinkStylus>(pushing(), std::make_unique<LinkBenchDriver>(bench), options);
+  stylus->open();
+  return stylus;
+}
+
+/// Asks for a force upwards, anew in each exchange of a millisecond.
+inline void push(LinkBench& bench, LinkStylus& stylus, double newtons, double seconds) {
+  const double end = bench.time + seconds;
+  while (bench.time < end) {
+    stylus.write_force(Vec3(0, newtons, 0));
+    stylus.service(1e-3);
+  }
+}
+
+}  // namespace palpate::device
