@@ -44,6 +44,25 @@ if(PALPATE_SANITIZE)
   target_link_options(palpate_compile_options INTERFACE -fsanitize=${PALPATE_SANITIZE})
 endif()
 
+# Under clang's address sanitizer, the fuzzers. What they read counts its edges: .ci/fuzzed names it.
+set(palpate_fuzzes OFF)
+if(PALPATE_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL Clang AND PALPATE_SANITIZE MATCHES address)
+  set(palpate_fuzzes ON)
+  target_compile_options(palpate_compile_options INTERFACE
+    -fsanitize=fuzzer-no-link -fsanitize-coverage-allowlist=${PROJECT_SOURCE_DIR}/.ci/fuzzed)
+endif()
+
+# palpate_fuzzer(<name> SOURCES <file>... LINK <library>...): the program fuzz_<name>, which plugin/testing/fuzz runs.
+function(palpate_fuzzer name)
+  if(NOT palpate_fuzzes)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(fuzz_${name} ${ARG_SOURCES})
+  target_link_libraries(fuzz_${name} PRIVATE palpate_compile_options ${ARG_LINK})
+  target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+endfunction()
+
 # palpate_together(<target>): the files of each folder are compiled together, which halves the time of a cold build: most of a file's
 # time is what it includes. So names in unnamed namespaces are unique within a folder.
 function(palpate_together target)
@@ -62,7 +81,7 @@ function(palpate_together target)
     math(EXPR count "0${count_${folder}} + 1")
     set(count_${folder} ${count})
     math(EXPR part "${count} / 12")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${part})
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${folder}_${part})
   endforeach()
 endfunction()
 

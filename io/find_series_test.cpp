@@ -7,6 +7,7 @@
 #include "io/errors.h"
 #include "io/load.h"
 #include "io/series.h"
+#include "io/testing/test_coders.h"
 #include "io/testing/test_image.h"
 
 namespace palpate::io::internal {
@@ -47,6 +48,25 @@ TEST(FindSeries, TellsTheWindowThatTheMiddleSliceAsksFor) {
   EXPECT_EQ(found.series[0].window->width, 400.5);
 }
 
+// Of an enhanced file each frame has its own, or all share one (PS3.3 C.7.6.16.2.10).
+TEST(FindSeries, TellsTheWindowOfTheMiddleFrameOfAnEnhancedFile) {
+  const TestFolder folder;
+  TestImage image;
+  image.edit = [](DcmDataset& d) {
+    repeat_pixels(d, 3);
+    make_multi_frame(d, {0, 2, 4}, [](std::size_t n, DcmItem& frame) {
+      DcmItem& window = group(frame, DCM_FrameVOILUTSequence);
+      succeed(window.putAndInsertString(DCM_WindowCenter, std::to_string(40 + n).c_str()));
+      succeed(window.putAndInsertString(DCM_WindowWidth, std::to_string(400 + n).c_str()));
+    });
+  };
+  write(image, folder / "enhanced");
+  const Series series = only_series_in(folder);
+  ASSERT_TRUE(series.window);
+  EXPECT_EQ(series.window->level, 41);
+  EXPECT_EQ(series.window->width, 401);
+}
+
 TEST(FindSeries, AWindowWithoutAWidthIsNone) {
   for (const char* width : {"0", "-5", ""}) {
     const TestFolder folder;
@@ -83,6 +103,51 @@ TEST(Load, SomeSlicesAreThoseOfTheWhole) {
   }
   some.slices = {7, 3};
   EXPECT_THROW(load(series, some), DicomError);
+  // Missing slices are known where both of their neighbors are there.
+  for (int first = 0; first < 9; ++first) {
+    for (int count = 1; count <= 9 - first; ++count) {
+      some.slices = LoadOptions::Range{first, count};
+      const std::vector<int> gaps = load(series, some).geometry.gaps;
+      const bool both = first <= 5 && first + count > 6;
+      EXPECT_EQ(gaps, both ? std::vector<int>{5 - first} : std::vector<int>()) << first << " + " << count;
+    }
+  }
+}
+
+// A slice that turns out to be unreadable is left out of whatever part it lies in.
+TEST(Load, ASliceThatCannotBeReadIsLeftOutOfEveryPartThatHoldsIt) {
+  register_encoders();
+  constexpr int bad = 3;
+  const TestFolder folder;
+  write_stack(folder.path(), 7, [](int k, TestImage& image) {
+    image.syntax = EXS_RLELossless;
+    if (k == bad)
+      image.edit = [](DcmDataset& d) { encapsulate(d, EXS_RLELossless, {std::vector<Uint8>(100, 7)}, 1000); };
+  });
+  const Series series = find_in(folder).series.at(0);
+  for (int first = 0; first < 7; ++first) {
+    for (int count = 2; count <= 7 - first; ++count) {
+      SCOPED_TRACE(::testing::Message() << first << " + " << count);
+      LoadOptions some;
+      some.slices = LoadOptions::Range{first, count};
+      const Volume part = load(series, some);
+      const bool holds_it = first <= bad && bad < first + count;
+      std::vector<double> heights;
+      for (const Vec3& position : part.geometry.slice_positions) heights.push_back(position.z);
+      std::vector<double> expected;
+      for (int k = first; k < first + count; ++k) {
+        if (k != bad) expected.push_back(2.0 * k);
+      }
+      EXPECT_EQ(heights, expected);
+      ASSERT_EQ(part.geometry.dimensions.z, static_cast<int>(expected.size()));
+      for (int k = 0; k < part.geometry.dimensions.z; ++k) {
+        EXPECT_EQ(part.value_at(3, 2, k), 50 * expected[static_cast<std::size_t>(k)] + 32);
+      }
+      const bool both = holds_it && first < bad && first + count > bad + 1;
+      EXPECT_EQ(part.geometry.gaps, both ? std::vector<int>{bad - 1 - first} : std::vector<int>());
+      EXPECT_EQ(part.warnings.empty(), !holds_it);
+    }
+  }
 }
 
 TEST(FindSeries, EchoesBecomeFramesInTheirOrder) {

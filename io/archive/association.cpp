@@ -22,8 +22,6 @@ namespace palpate::io {
 namespace {
 
 constexpr int connect_s = 10;
-constexpr long maximum_pdu = 65536;
-
 bool is(const OFCondition& condition, unsigned short code) {
   return condition.module() == OFM_dcmnet && condition.code() == code;
 }

@@ -18,7 +18,7 @@
 namespace palpate::io {
 namespace {
 
-constexpr std::size_t largest_answer = 8U << 20U;  // bytes; an answer may list the UIDs that failed
+constexpr std::size_t largest_count = 8U << 20U;  // bytes; an answer may list the UIDs that failed
 
 /// How C-MOVE or C-GET ended: the last answer's counts.
 struct Ended {
@@ -73,7 +73,7 @@ class Teller {
 std::string failed_instances(Association& association, const Command& command, T_DIMSE_DataSetType type) {
   if (type == DIMSE_DATASET_NULL) return {};
   OFString list;
-  association.receive_dataset(command.context, largest_answer)
+  association.receive_dataset(command.context, largest_count)
       ->findAndGetOFStringArray(DCM_FailedSOPInstanceUIDList, list);
   std::string words = list.c_str();
   std::ranges::replace(words, '\\', ' ');
@@ -82,10 +82,6 @@ std::string failed_instances(Association& association, const Command& command, T
   std::ranges::replace_if(
       words, [](char c) { return c < ' ' || c > '~'; }, '?');
   return words;
-}
-
-bool is_pending(std::uint16_t status) {
-  return status == STATUS_Pending;
 }
 
 Ended move(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& teller, std::string& turned_away) {
@@ -114,7 +110,7 @@ Ended move(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& t
       const std::string which = failed_instances(association, command, answer.DataSetType);
       server.rethrow();
       if (!teller()) throw Cancelled();
-      if (!is_pending(answer.DimseStatus)) {
+      if (answer.DimseStatus != STATUS_Pending) {
         turned_away = server.turned_away();
         return {answer.DimseStatus, answer.NumberOfFailedSubOperations, which};
       }
@@ -179,7 +175,7 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
       } else if (command.message.CommandField == DIMSE_C_GET_RSP) {
         const T_DIMSE_C_GetRSP& answer = command.message.msg.CGetRSP;
         const std::string which = failed_instances(association, command, answer.DataSetType);
-        if (!is_pending(answer.DimseStatus)) {
+        if (answer.DimseStatus != STATUS_Pending) {
           return {answer.DimseStatus, answer.NumberOfFailedSubOperations, which};
         }
       } else {

@@ -16,12 +16,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing::brain;
 using testing::compressed;
+using testing::ct;
 using testing::instances;
+using testing::made_series;
 using testing::OrthancTest;
 using testing::refusal;
 using testing::says;
-using testing::shared;
-using testing::tilt;
 
 TEST_F(OrthancTest, FetchesASeriesByMove) {
   std::size_t told = 0;
@@ -54,10 +54,10 @@ TEST_F(OrthancTest, ListensOnlyWhileItFetches) {
 TEST_F(OrthancTest, FetchesAStudyByGet) {
   Archive by_get = archive();
   by_get.uses_get = true;
-  const std::string study = instances(shared / tilt).begin()->second.study;
+  const std::string study = instances(made_series() / ct).begin()->second.study;
   const Fetched fetched = fetch(by_get, {study}, folder("by-get"));
   EXPECT_TRUE(fetched.warnings.empty());
-  expect_same(tilt, folder("by-get"));
+  expect_same(ct, folder("by-get"));
 }
 
 TEST_F(OrthancTest, FetchesCompressedImagesAsTheyAre) {
@@ -68,7 +68,7 @@ TEST_F(OrthancTest, FetchesCompressedImagesAsTheyAre) {
     const Fetched fetched = fetch(way, {uid_of(compressed)}, here);
     EXPECT_EQ(fetched.files, 4U) << here;
     const auto got = instances(here);
-    for (const auto& [uid, one] : instances(shared / compressed)) {
+    for (const auto& [uid, one] : instances(made_series() / compressed)) {
       ASSERT_TRUE(got.contains(uid));
       EXPECT_EQ(got.at(uid).syntax, one.syntax) << here;
     }
@@ -76,8 +76,8 @@ TEST_F(OrthancTest, FetchesCompressedImagesAsTheyAre) {
 }
 
 TEST_F(OrthancTest, FetchesTwiceIntoOneFolder) {
-  fetch(archive(), {uid_of(tilt)}, folder("twice"));
-  const Fetched again = fetch(archive(), {uid_of(tilt)}, folder("twice"));
+  fetch(archive(), {uid_of(ct)}, folder("twice"));
+  const Fetched again = fetch(archive(), {uid_of(ct)}, folder("twice"));
   EXPECT_EQ(again.series.front().folder.filename(), "series-002");
 }
 
@@ -118,7 +118,7 @@ TEST_F(OrthancTest, SaysWhenItsPortIsTaken) {
   Archive taken = archive();
   taken.listen_port = taken.port;  // the archive itself listens there
   taken.listen_address = "0.0.0.0";
-  EXPECT_TRUE(says(refusal([&] { fetch(taken, {uid_of(tilt)}, folder("taken")); }),
+  EXPECT_TRUE(says(refusal([&] { fetch(taken, {uid_of(ct)}, folder("taken")); }),
                    "cannot listen on {}:{} for what archive {} sends ({}): set another address or port with "
                    "--listen-address and --listen, and have it entered in the archive"));
 }
@@ -126,7 +126,7 @@ TEST_F(OrthancTest, SaysWhenItsPortIsTaken) {
 TEST_F(OrthancTest, ListensOnAnAddressOfThisMachine) {
   Archive elsewhere = archive();
   elsewhere.listen_address = "everywhere";
-  EXPECT_TRUE(says(refusal([&] { fetch(elsewhere, {uid_of(tilt)}, folder("elsewhere")); }), "no IPv4 address"));
+  EXPECT_TRUE(says(refusal([&] { fetch(elsewhere, {uid_of(ct)}, folder("elsewhere")); }), "no IPv4 address"));
 }
 
 }  // namespace

@@ -20,13 +20,14 @@ namespace {
 using testing::brain;
 using testing::compressed;
 namespace fs = std::filesystem;
+using testing::ct;
 using ::testing::HasSubstr;
+using testing::Instance;
 using testing::instances;
+using testing::made_series;
 using testing::OrthancTest;
 using testing::refusal;
 using testing::says;
-using testing::shared;
-using testing::tilt;
 
 std::string text(DcmItem& item, const DcmTagKey& key) {
   OFString value;
@@ -48,7 +49,7 @@ TEST_F(OrthancTest, SaysWhichTitleIsWrong) {
 }
 
 TEST_F(OrthancTest, FindsWhatIsThere) {
-  const auto wanted = instances(shared / brain);
+  const auto wanted = instances(made_series() / brain);
   const Found all = find(archive(), {});
   EXPECT_FALSE(all.more);
   std::map<std::string, std::size_t> images;
@@ -56,13 +57,13 @@ TEST_F(OrthancTest, FindsWhatIsThere) {
     for (const ArchivedSeries& series : study.series) images[series.uid] += static_cast<std::size_t>(series.images);
   }
   std::map<std::string, std::size_t> expected;
-  for (const std::string& name : {tilt, compressed, brain}) {
-    for (const auto& [uid, one] : instances(shared / name)) ++expected[one.series];
+  for (const std::string& name : {ct, compressed, brain}) {
+    for (const auto& [uid, one] : instances(made_series() / name)) ++expected[one.series];
   }
   EXPECT_EQ(images, expected);
 
   DcmFileFormat file;
-  ASSERT_TRUE(file.loadFile(fs::directory_iterator(shared / brain)->path().c_str()).good());
+  ASSERT_TRUE(file.loadFile(fs::directory_iterator(made_series() / brain)->path().c_str()).good());
   const std::string date = text(*file.getDataset(), DCM_StudyDate), id = text(*file.getDataset(), DCM_PatientID);
   const std::string study = text(*file.getDataset(), DCM_StudyInstanceUID);
   ArchiveQuery query;
@@ -92,6 +93,41 @@ TEST_F(OrthancTest, FindsWhatIsThere) {
   for (const ArchivedStudy& found : find(archive(), by_modality).studies) {
     for (const ArchivedSeries& series : found.series) EXPECT_EQ(series.modality, "CT");
   }
+}
+
+/// Whatever is asked for by itself, or in part, is looked for, and nothing else is found.
+TEST_F(OrthancTest, FindsByEachPartOfAQuestion) {
+  const Instance third = instances(made_series() / brain).begin()->second;
+  const auto expect_third = [&](const char* what, const ArchiveQuery& query) {
+    const Found found = find(archive(), query);
+    ASSERT_EQ(found.studies.size(), 1U) << what;
+    EXPECT_EQ(found.studies.front().uid, third.study) << what;
+    EXPECT_EQ(found.studies.front().patient, "Generated^N3");
+    EXPECT_EQ(found.studies.front().patient_id, "P3");
+    EXPECT_EQ(found.studies.front().date, "20200103");
+    EXPECT_EQ(found.studies.front().description, "Study of N3");
+    ASSERT_EQ(found.studies.front().series.size(), 1U);
+    EXPECT_EQ(found.studies.front().series.front().uid, third.series);
+    EXPECT_EQ(found.studies.front().series.front().images, 20);
+    EXPECT_EQ(found.studies.front().series.front().modality, "MR");
+  };
+  ArchiveQuery query;
+  query.patient = "N3";
+  expect_third("part of a name", query);
+  query = {};
+  query.patient_id = "P3";
+  expect_third("a patient's number", query);
+  query = {};
+  query.date = "20200103-20200103";
+  expect_third("days", query);
+  query = {};
+  query.description = "of N3";
+  expect_third("part of a description", query);
+  query = {};
+  query.modality = "CT";
+  const Found of_ct = find(archive(), query);
+  EXPECT_FALSE(of_ct.studies.empty());
+  for (const ArchivedStudy& study : of_ct.studies) EXPECT_NE(study.uid, third.study);
 }
 
 TEST_F(OrthancTest, LimitsWhatAnEmptyQuestionReturns) {

@@ -12,6 +12,7 @@
 #include "io/archive/fetch.h"
 #include "io/archive/find.h"
 #include "io/archive/send.h"
+#include "io/archive/testing/made_series.h"
 #include "io/archive/testing/odd_archive.h"
 #include "io/archive/testing/says.h"
 #include "io/errors.h"
@@ -276,8 +277,7 @@ TEST(OddArchive, ACanceledFetchEndsSoon) {
 }
 
 TEST(OddArchive, ACanceledSendEndsSoon) {
-  const fs::path series = fs::path(PALPATE_SHARED_DATA) / "mr_tx_uncompressed_explicit_4";
-  if (!fs::exists(series)) GTEST_SKIP() << "no series in " << PALPATE_SHARED_DATA;
+  const fs::path series = testing::made_series() / testing::ct;
   OddArchive silent("silent-at-store");
   silent.archive().silence_s = 60;
   const auto begin = std::chrono::steady_clock::now();
@@ -289,9 +289,7 @@ TEST(OddArchive, ACanceledSendEndsSoon) {
 }
 
 TEST(OddArchive, ThatDoesNotTakeAFileIsQuoted) {
-  const fs::path series = fs::path(PALPATE_SHARED_DATA) / "mr_tx_uncompressed_explicit_4";
-  if (!fs::exists(series)) GTEST_SKIP() << "no series in " << PALPATE_SHARED_DATA;
-  const fs::path file = fs::directory_iterator(series)->path();
+  const fs::path file = fs::directory_iterator(testing::made_series() / testing::ct)->path();
   OddArchive refuses("refuses-store");
   const Sent sent = send(refuses.archive(), {file});
   EXPECT_EQ(sent.files, 0U);

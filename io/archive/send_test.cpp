@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -15,17 +16,19 @@ namespace palpate::io {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::another_ct;
+using testing::another_mr;
 using testing::instances;
+using testing::made_series;
 using testing::OrthancTest;
 using testing::says;
-using testing::shared;
 
 /// Whether DCMTK's own program finds so many images of the series there. What it says goes to `said`.
 bool has(const Archive& archive, const std::string& series, std::size_t count, const fs::path& said) {
   const std::string command =
       "findscu -aet PALPATE -aec ORTHANC -S -k QueryRetrieveLevel=SERIES -k StudyInstanceUID -k "
       "SeriesInstanceUID=" +
-      instances(shared / series).begin()->second.series + " -k NumberOfSeriesRelatedInstances 127.0.0.1 " +
+      instances(made_series() / series).begin()->second.series + " -k NumberOfSeriesRelatedInstances 127.0.0.1 " +
       std::to_string(archive.port) + " > " + said.string() + " 2>&1";
   return std::system(command.c_str()) == 0 &&
          std::system(("grep -q '\\[" + std::to_string(count) + " *\\]' " + said.string()).c_str()) == 0;
@@ -33,20 +36,21 @@ bool has(const Archive& archive, const std::string& series, std::size_t count, c
 
 TEST_F(OrthancTest, TakesWhatIsSent) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(shared / "mr_gap_decubitus_35")) files.push_back(entry.path());
-  files.emplace_back(shared / "README.md");
+  for (const auto& entry : fs::directory_iterator(made_series() / another_mr)) files.push_back(entry.path());
+  files.push_back(folder("notes.txt"));
+  std::ofstream(files.back()) << "not an image";
   const Sent sent = send(archive(), files);
   EXPECT_EQ(sent.files, files.size() - 1);
   ASSERT_EQ(sent.not_sent.size(), 1U);
   EXPECT_TRUE(says(sent.not_sent.front().why, "not a DICOM file that can be sent"));
-  EXPECT_TRUE(has(archive(), "mr_gap_decubitus_35", sent.files, folder("found")));
+  EXPECT_TRUE(has(archive(), another_mr, sent.files, folder("found")));
 }
 
 // What it has taken by then stays there, and no more comes.
 TEST_F(OrthancTest, KeepsWhatWasSentBeforeACancel) {
-  const std::string name = "ct_missing_slice_4";  // no other test sends it
+  const std::string& name = another_ct;  // no other test sends it
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(shared / name)) files.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(made_series() / name)) files.push_back(entry.path());
   ASSERT_EQ(files.size(), 4U);
   EXPECT_THROW(send(archive(), files, [](std::size_t done) { return done < 2; }), Cancelled);
   EXPECT_TRUE(has(archive(), name, 2, folder("canceled")));

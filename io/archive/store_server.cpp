@@ -22,7 +22,6 @@ namespace palpate::io {
 namespace {
 
 constexpr int greeting_s = 10;  // for TLS and the association's first message
-constexpr long maximum_pdu = 65536;
 
 int listen_on(const Archive& archive) {
   const auto refuse = [&](const std::string& why) {

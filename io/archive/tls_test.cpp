@@ -20,12 +20,12 @@ namespace palpate::io {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ct;
 using ::testing::HasSubstr;
+using testing::made_series;
 using testing::OrthancTest;
 using testing::refusal;
 using testing::says;
-using testing::shared;
-using testing::tilt;
 
 TEST_F(OrthancTest, DoesAllOfItWithTls) {
   const fs::path certificates = folder("certificates");
@@ -37,15 +37,15 @@ TEST_F(OrthancTest, DoesAllOfItWithTls) {
   elsewhere.tls.name = "other.example";
   EXPECT_THAT(refusal([&] { echo(elsewhere); }), HasSubstr("showed a certificate that is not for other.example"));
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(shared / tilt)) files.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(made_series() / ct)) files.push_back(entry.path());
   EXPECT_EQ(send(secure, files).files, files.size());
   EXPECT_EQ(find(secure, {}).studies.size(), 1U);
-  fetch(secure, {uid_of(tilt)}, folder("tls-move"));
-  expect_same(tilt, folder("tls-move"));
+  fetch(secure, {uid_of(ct)}, folder("tls-move"));
+  expect_same(ct, folder("tls-move"));
   Archive by_get = secure;
   by_get.uses_get = true;
-  fetch(by_get, {uid_of(tilt)}, folder("tls-get"));
-  expect_same(tilt, folder("tls-get"));
+  fetch(by_get, {uid_of(ct)}, folder("tls-get"));
+  expect_same(ct, folder("tls-get"));
 
   Archive plain = secure;
   plain.tls = {};

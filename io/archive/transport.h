@@ -18,6 +18,8 @@
 
 namespace palpate::io {
 
+constexpr long maximum_pdu = 65536;  ///< bytes of a message that we take in one part
+
 /// DCMTK's layer for one connection, which also remembers the connection's socket.
 struct Transport {
   std::unique_ptr<DcmTransportLayer> layer;

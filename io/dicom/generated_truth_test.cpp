@@ -195,13 +195,14 @@ std::vector<Uint8> csa_header(const std::map<std::string, std::vector<double>>& 
   return bytes;
 }
 
-/// Five slices of 6 x 4 in three rows of three, on a plane that is oblique; both ways that slices can be counted.
-TEST(GeneratedTruthWithJudgement, MosaicIsTakenApart) {
-  const Vec3 along_i = glm::normalize(Vec3(1, 0.2, 0)), along_j = glm::normalize(Vec3(-0.2, 1, 0));
-  const Vec3 normal = glm::cross(along_i, along_j), corner(-40, 10, 5);
-  const auto value = [](int i, int j, int tile) { return 1000 * tile + 50 * j + i + 1; };
-  for (const double sense : {1.0, -1.0}) {
-    const TestFolder folder;
+/// Five slices of 6 x 4 in three rows of three, on a plane that is oblique.
+struct Mosaic {
+  Vec3 along_i = glm::normalize(Vec3(1, 0.2, 0)), along_j = glm::normalize(Vec3(-0.2, 1, 0));
+  Vec3 normal = glm::cross(along_i, along_j), corner{-40, 10, 5};
+
+  static int value(int i, int j, int tile) { return 1000 * tile + 50 * j + i + 1; }
+  /// `sense`: which way slices are counted, along the normal or against it. `more`: of Siemens' private header.
+  void write_to(const fs::path& file, double sense, const std::map<std::string, std::vector<double>>& more = {}) const {
     TestImage image;
     image.columns = 18;
     image.rows = 12;
@@ -215,29 +216,54 @@ TEST(GeneratedTruthWithJudgement, MosaicIsTakenApart) {
       put(d, DCM_ImagePositionPatient, digits(corner));
       put(d, DCM_ImageOrientationPatient, digits(along_i) + "\\" + digits(along_j));
       put(d, DCM_PixelSpacing, digits({2.5, 2}));  // rows 2.5 mm apart, columns 2 mm
+      put(d, DCM_SliceThickness, std::string("2.25"));
       put(d, DCM_SpacingBetweenSlices, std::string("3"));
-      const auto csa = csa_header({{"NumberOfImagesInMosaic", {5}},
-                                   {"SliceNormalVector", {sense * normal.x, sense * normal.y, sense * normal.z}}});
+      std::map<std::string, std::vector<double>> values{
+          {"NumberOfImagesInMosaic", {5}},
+          {"SliceNormalVector", {sense * normal.x, sense * normal.y, sense * normal.z}}};
+      values.insert(more.begin(), more.end());
+      const auto csa = csa_header(values);
       internal::succeed(d.putAndInsertString(DcmTag(0x0029, 0x0010, EVR_LO), "SIEMENS CSA HEADER"));
       internal::succeed(d.putAndInsertUint8Array(DcmTag(0x0029, 0x1010, EVR_OB), csa.data(), csa.size()));
     };
-    write(image, folder / "mosaic.dcm");
+    write(image, file);
+  }
+};
+
+/// Both ways that slices can be counted.
+TEST(GeneratedTruthWithJudgement, MosaicIsTakenApart) {
+  const Mosaic mosaic;
+  for (const double sense : {1.0, -1.0}) {
+    const TestFolder folder;
+    mosaic.write_to(folder / "mosaic.dcm", sense);
     const Catalogue found = internal::find_in(folder);
     ASSERT_EQ(found.series.size(), 1U);
     const Volume volume = load(found.series[0]);
     const Geometry& g = volume.geometry;
     ASSERT_EQ(g.dimensions, glm::ivec3(6, 4, 5));
     // The position is that of an image as large as the mosaic about the first slice's middle.
-    const Vec3 first = corner + 0.5 * (18 - 6) * 2.0 * along_i + 0.5 * (12 - 4) * 2.5 * along_j;
+    const Vec3 first = mosaic.corner + 0.5 * (18 - 6) * 2.0 * mosaic.along_i + 0.5 * (12 - 4) * 2.5 * mosaic.along_j;
     for (int k = 0; k < 5; ++k) {
       const int tile = sense > 0 ? k : 4 - k;  // slices ascend along i x j
-      expect_near(g.slice_positions[static_cast<std::size_t>(k)], first + 3.0 * sense * tile * normal, 1e-9,
+      expect_near(g.slice_positions[static_cast<std::size_t>(k)], first + 3.0 * sense * tile * mosaic.normal, 1e-9,
                   "position");
       for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 6; ++i) ASSERT_EQ(volume.value_at(i, j, k), value(i, j, tile)) << i << ' ' << j << ' ' << k;
+        for (int i = 0; i < 6; ++i) {
+          ASSERT_EQ(volume.value_at(i, j, k), Mosaic::value(i, j, tile)) << i << ' ' << j << ' ' << k;
+        }
       }
     }
   }
+}
+
+/// The private header says the diffusion weighting, too: a frame each.
+TEST(GeneratedTruthWithJudgement, MosaicsOfSeveralWeightingsAreFrames) {
+  const TestFolder folder;
+  for (const double b : {1000.0, 0.0, 49.6}) {
+    Mosaic().write_to(folder / (internal::numbered("b", static_cast<int>(b)) + ".dcm"), 1, {{"B_value", {b}}});
+  }
+  const Series series = internal::find_in(folder).series.at(0);
+  EXPECT_THAT(series.frame_names, ::testing::ElementsAre("b = 0 s/mm2", "b = 50 s/mm2", "b = 1000 s/mm2"));
 }
 
 TEST(GeneratedTruthWithJudgement, MixedFolderGivesItsSeriesAndAReasonForTheRest) {

@@ -125,6 +125,92 @@ TEST(OddValues, PaddingRangeHoldsBothItsEnds) {
   for (int i = 0; i < 6; ++i) EXPECT_EQ(volume.is_padding(i, 0, 0), i >= 1 && i <= 3);
 }
 
+/// What is padding in a stack whose stored values are -2..3 or 0..5, by how the padding is written.
+std::vector<int> padding_in(const char* modality, bool is_signed, int value, int limit) {
+  const TestFolder folder;
+  const int least = is_signed ? -2 : 0;
+  write_stack(folder.path(), 2, [=](int, TestImage& image) {
+    image.value = [=](int i, int) { return least + i; };
+    image.edit = [=](DcmDataset& d) {
+      put(d, DCM_Modality, modality);
+      put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
+      // As US, whatever the pixels are: that is what is met.
+      put(d, DCM_PixelPaddingValue, value & 0xFFFF);
+      put(d, DCM_PixelPaddingRangeLimit, limit & 0xFFFF);
+    };
+  });
+  const Volume volume = load(find_in(folder).series.at(0));
+  std::vector<int> padding;
+  for (int i = 0; i < 6; ++i) {
+    if (volume.is_padding(i, 1, 1)) padding.push_back(least + i);
+  }
+  return padding;
+}
+
+// MR writes 0 where it means nothing by it; and what is above 32767 is below 0 where pixels are signed.
+TEST(OddValues, PaddingIsWhatTheModalityMeansByIt) {
+  using ::testing::ElementsAre;
+  EXPECT_THAT(padding_in("CT", false, 0, 0), ElementsAre(0));
+  EXPECT_THAT(padding_in("CT", true, 0, 0), ElementsAre(0));
+  EXPECT_THAT(padding_in("MR", false, 0, 0), IsEmpty());
+  EXPECT_THAT(padding_in("MR", true, 0, 2), IsEmpty());
+  EXPECT_THAT(padding_in("MR", false, 1, 1), ElementsAre(1));
+  EXPECT_THAT(padding_in("CT", true, -2, -2), ElementsAre(-2));
+  EXPECT_THAT(padding_in("CT", true, -1, 2), ElementsAre(-1, 0, 1, 2));
+  EXPECT_THAT(padding_in("CT", true, 1, -2), ElementsAre(-2, -1, 0, 1));
+  EXPECT_THAT(padding_in("CT", false, 3, 5), ElementsAre(3, 4, 5));
+}
+
+// The largest and the least value that the stored bits hold are values; only beyond them is a word none.
+TEST(OddValues, PaddingAtTheEndOfTheStoredBitsIsOfThoseBits) {
+  for (const bool is_signed : {false, true}) {
+    for (const bool top : {false, true}) {
+      const int end = is_signed ? (top ? 2047 : -2048) : top ? 4095 : 0;
+      const TestFolder folder;
+      write_stack(folder.path(), 2, [&](int, TestImage& image) {
+        // An overlay above bit 11: the padding is known by its lower bits alone.
+        image.value = [=](int i, int) { return (i == 0 ? end & 0xFFF : 100 + i) | 0x3000; };
+        image.edit = [&](DcmDataset& d) {
+          put(d, DCM_BitsStored, 12);
+          put(d, DCM_HighBit, 11);
+          put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
+          put(d, DCM_PixelPaddingValue, end & 0xFFFF);
+        };
+      });
+      const Volume volume = load(find_in(folder).series.at(0));
+      for (int i = 0; i < 6; ++i) {
+        EXPECT_EQ(volume.is_padding(i, 1, 1), i == 0) << is_signed << top;
+        EXPECT_EQ(volume.value_at(i, 1, 1), i == 0 ? end : 100 + i) << is_signed << top;
+      }
+    }
+  }
+}
+
+// Rescaled slice by slice, it is still known by what was stored, each slice by its own padding.
+TEST(OddValues, PaddingOfSlicesThatAreRescaledDifferentlyIsThatOfEach) {
+  for (const bool same_rescale : {false, true}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 3, [&](int k, TestImage& image) {
+      image.value = [](int i, int) { return 1000 + i; };
+      image.edit = [=](DcmDataset& d) {
+        if (!same_rescale) put(d, DCM_RescaleSlope, std::to_string(k + 1));
+        put(d, DCM_PixelPaddingValue, 1001 + (same_rescale ? k : 0));
+        put(d, DCM_PixelPaddingRangeLimit, 1003);
+      };
+    });
+    const Volume volume = load(find_in(folder).series.at(0));
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 6; ++i) {
+        const bool padding = i >= 1 + (same_rescale ? k : 0) && i <= 3;
+        EXPECT_EQ(volume.is_padding(i, 0, k), padding) << i << ' ' << k;
+        if (!padding) {
+          EXPECT_EQ(volume.value_at(i, 0, k), (same_rescale ? 1 : k + 1) * (1000 + i));
+        }
+      }
+    }
+  }
+}
+
 TEST(OddValues, EightSignedBits) {
   const TestFolder folder;
   write_stack(folder.path(), 2, [](int, TestImage& image) {

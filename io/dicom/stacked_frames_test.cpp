@@ -130,6 +130,65 @@ TEST(Dose, OffsetsMayBeThePlanesOwnCoordinates) {
   EXPECT_NEAR(volume.value_at(0, 0, 0), 0.002 * 2000, 1e-6);
 }
 
+/// The planes' own coordinates, whichever way the normal points and whichever way they are counted; and offsets, which
+/// follow the normal.
+TEST(Dose, LiesWhereItsPlanesSayOnRowsOfEitherSense) {
+  for (const bool down : {false, true}) {  // whether the normal points to the feet
+    for (const bool falling : {false, true}) {
+      const Volume volume = volume_of([&](DcmDataset& d) {
+        make_dose(d, falling ? "30\\27\\20" : "30\\33\\40", 3);
+        put(d, DCM_ImageOrientationPatient, std::string(down ? "1\\0\\0\\0\\-1\\0" : "1\\0\\0\\0\\1\\0"));
+      });
+      SCOPED_TRACE(::testing::Message() << down << falling);
+      const std::vector<double> planes = falling ? std::vector<double>{30, 27, 20} : std::vector<double>{30, 33, 40};
+      ASSERT_EQ(volume.geometry.dimensions.z, 3);
+      for (int k = 0; k < 3; ++k) {
+        const auto plane = static_cast<std::size_t>(down == falling ? k : 2 - k);
+        EXPECT_EQ(volume.geometry.slice_positions[static_cast<std::size_t>(k)], Vec3(-10, -20, planes[plane]));
+        EXPECT_NEAR(volume.value_at(0, 0, k), 0.002 * 1000 * static_cast<double>(plane), 1e-6);
+      }
+    }
+    const Volume volume = volume_of([&](DcmDataset& d) {
+      make_dose(d, "0\\3\\7", 3);
+      put(d, DCM_ImageOrientationPatient, std::string(down ? "1\\0\\0\\0\\-1\\0" : "1\\0\\0\\0\\1\\0"));
+    });
+    const double sense = down ? -1 : 1;
+    EXPECT_THAT(heights_of(volume), ElementsAre(30, 30 + sense * 3, 30 + sense * 7));
+  }
+}
+
+TEST(Dose, ScalingThatIsNotAboveZeroIsRefused) {
+  for (const std::string scaling : {"0", "-0.002"}) {
+    const TestFolder folder;
+    TestImage image;
+    image.edit = [&](DcmDataset& d) {
+      make_dose(d, "0\\3\\7", 3);
+      put(d, DCM_DoseGridScaling, scaling);
+    };
+    write(image, folder / "a.dcm");
+    const Catalogue found = find_in(folder);
+    ASSERT_THAT(found.skipped, SizeIs(1)) << scaling;
+    EXPECT_EQ(found.skipped[0].reason, "a dose without DoseGridScaling, which says what its values are");
+  }
+}
+
+// One plane needs neither offsets nor a spacing.
+TEST(Dose, OfOnePlaneLiesWhereItSays) {
+  const TestFolder folder;
+  TestImage image;
+  image.edit = [](DcmDataset& d) {
+    make_dose(d, "0", 1);
+    d.findAndDeleteElement(DCM_GridFrameOffsetVector);
+    d.findAndDeleteElement(DCM_FrameIncrementPointer);
+  };
+  write(image, folder / "a.dcm");
+  const Series series = only_series_in(folder);
+  EXPECT_FALSE(series.usable) << "one slice";
+  const Volume volume = load(series);
+  EXPECT_EQ(volume.geometry.slice_positions.at(0), Vec3(-10, -20, 30));
+  EXPECT_NEAR(volume.value_at(4, 3, 0), 0.002 * 43, 1e-6);
+}
+
 TEST(Dose, WithoutItsScalingIsRefused) {
   const TestFolder folder;
   TestImage image;

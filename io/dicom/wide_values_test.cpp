@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "io/load.h"
 #include "io/testing/test_coders.h"
@@ -71,6 +73,42 @@ TEST(WideValues, IntegersOf32BitsInEverySyntaxThatHoldsThem) {
   }
 }
 
+/// PS3.5 8.1.1: BitsStored bits up to HighBit; what lies above and below them is none of theirs.
+TEST(WideValues, IntegersAreCutOutOfTheirWords) {
+  for (const auto& [stored, high] : {std::pair{20, 25}, {17, 31}, {24, 23}, {31, 30}}) {
+    for (const bool is_signed : {false, true}) {
+      const auto value_at = [stored = stored, is_signed](int n) {
+        const double range = std::ldexp(1.0, stored);
+        const double value = std::floor(range * (n + 1) / 26);
+        return is_signed && value >= range / 2 ? value - range : value;
+      };
+      const TestFolder folder;
+      write_stack(folder.path(), 2, [&, stored = stored, high = high](int, TestImage& image) {
+        image.edit = [=](DcmDataset& d) {
+          put_words(d, 0, is_signed);
+          put(d, DCM_BitsStored, stored);
+          put(d, DCM_HighBit, high);
+          std::vector<Uint16> words;
+          for (int n = 0; n < columns * rows; ++n) {
+            const auto bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(value_at(n)));
+            const std::uint64_t mask = (std::uint64_t{1} << stored) - 1;
+            const int below = high + 1 - stored;
+            const std::uint64_t word = (bits & mask) << below | ~(mask << below);  // ones all around it
+            words.push_back(static_cast<Uint16>(word));
+            words.push_back(static_cast<Uint16>(word >> 16));
+          }
+          succeed(d.putAndInsertUint16Array(DCM_PixelData, words.data(), static_cast<unsigned long>(words.size())));
+        };
+      });
+      const Volume volume = load(only_series_in(folder));
+      for (int n = 0; n < columns * rows; ++n) {
+        ASSERT_EQ(volume.value_at(n % columns, n / columns, 1), static_cast<double>(static_cast<float>(value_at(n))))
+            << stored << " bits up to " << high << ", " << n;
+      }
+    }
+  }
+}
+
 TEST(WideValues, CompressedIntegersOf32BitsAreRefused) {
   const TestFolder folder;
   write_stack(folder.path(), 3, [&](int, TestImage& image) {
@@ -128,6 +166,73 @@ TEST(WideValues, FloatingPointPixelsOfBothSizes) {
   }
 }
 
+// The limit may be below the value or above it, and both ends are padding.
+TEST(WideValues, FloatingPointPaddingMayBeARange) {
+  for (const bool is_double : {false, true}) {
+    for (const bool swapped : {false, true}) {
+      const double low = truth(1, 0, 1, true) + 0.25, high = truth(3, 0, 1, true) + 0.25;
+      const double value = swapped ? high : low, limit = swapped ? low : high;
+      const TestFolder folder;
+      write_stack(folder.path(), 3, [&](int k, TestImage& image) {
+        image.edit = [=](DcmDataset& d) {
+          const double first = truth(0, 0, 1, true) + 0.25;  // no hole
+          is_double ? put_numbers<Float64>(d, k, first) : put_numbers<Float32>(d, k, first);
+          if (is_double) {
+            succeed(d.putAndInsertFloat64(DCM_DoubleFloatPixelPaddingValue, value));
+            succeed(d.putAndInsertFloat64(DCM_DoubleFloatPixelPaddingRangeLimit, limit));
+          } else {
+            succeed(d.putAndInsertFloat32(DCM_FloatPixelPaddingValue, static_cast<Float32>(value)));
+            succeed(d.putAndInsertFloat32(DCM_FloatPixelPaddingRangeLimit, static_cast<Float32>(limit)));
+          }
+        };
+      });
+      const Volume volume = load(only_series_in(folder));
+      for (int k = 0; k < 3; ++k) {
+        for (int j = 0; j < rows; ++j) {
+          for (int i = 0; i < columns; ++i) {
+            const double here = truth(i, j, k, true) + 0.25;
+            EXPECT_EQ(volume.is_padding(i, j, k), here >= low && here <= high) << i << ' ' << j << ' ' << k;
+          }
+        }
+      }
+    }
+  }
+}
+
+Catalogue map_with(const char* unit, double slope, bool by_a_table = false) {
+  const TestFolder folder;
+  TestImage image;
+  image.edit = [=](DcmDataset& d) {
+    make_multi_frame(d, {0, 2, 4}, [=](std::size_t, DcmItem& frame) {
+      DcmItem& mapping = group(frame, DCM_RealWorldValueMappingSequence);
+      if (!by_a_table) succeed(mapping.putAndInsertFloat64(DCM_RealWorldValueSlope, slope));
+      succeed(mapping.putAndInsertFloat64(DCM_RealWorldValueIntercept, 2));
+      succeed(group(mapping, DCM_MeasurementUnitsCodeSequence).putAndInsertString(DCM_CodeValue, unit));
+    });
+    repeat_pixels(d, 3);
+    put(d, DCM_SOPClassUID, UID_ParametricMapStorage);
+  };
+  write(image, folder / "map.dcm");
+  return find_in(folder);
+}
+
+// "1" and what stands in braces say that there is none; "[hnsf'U]" is UCUM's Hounsfield unit.
+TEST(WideValues, AParametricMapsUnitsAreWrittenAsTheyAreRead) {
+  for (const auto& [code, unit] : {std::pair{"[hnsf'U]", "HU"}, {"1", ""}, {"{ratio}", ""}, {"um2/s", "um2/s"}}) {
+    const Catalogue found = map_with(code, -0.5);
+    ASSERT_THAT(found.series, SizeIs(1)) << code;
+    EXPECT_EQ(found.series[0].unit, unit);
+  }
+}
+
+TEST(WideValues, AParametricMapWithoutALineIsRefused) {
+  const Catalogue flat = map_with("1", 0), bent = map_with("1", 1, true);
+  ASSERT_THAT(flat.skipped, SizeIs(1));
+  EXPECT_EQ(flat.skipped[0].reason, "its rescale slope is 0: it says that all values are the same");
+  ASSERT_THAT(bent.skipped, SizeIs(1));
+  EXPECT_EQ(bent.skipped[0].reason, "its real world values are given by a table, which is not applied here");
+}
+
 // PS3.3 C.7.6.16.2.11: the real world value mapping says what a parametric map's values are.
 TEST(WideValues, AParametricMapHasItsUnit) {
   const TestFolder folder;
@@ -181,6 +286,32 @@ TEST(WideValues, AModalityLookUpTableIsApplied) {
   const auto expected = [](int stored) { return stored < 12 ? 0 : stored > 19 ? 49 : (stored - 12) * (stored - 12); };
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) EXPECT_EQ(volume.value_at(i, j, 1), expected(10 + i + 3 * j));
+  }
+}
+
+// Of signed pixels the first stored value is signed, too, whatever the descriptor's VR; and a count of 0 is 65536.
+TEST(WideValues, AModalityLookUpTableMayBeginBelowZeroAndHoldEveryValue) {
+  for (const bool is_signed : {false, true}) {
+    for (const bool whole : {false, true}) {
+      const TestFolder folder;
+      std::vector<Uint16> data(whole ? 65536 : 8);
+      for (std::size_t n = 0; n < data.size(); ++n) data[n] = static_cast<Uint16>(3 * n + 1);
+      const int first = whole ? (is_signed ? -32768 : 0) : is_signed ? -3 : 2;
+      write_stack(folder.path(), 2, [&](int, TestImage& image) {
+        image.value = [&](int i, int j) { return (is_signed ? -3 : 2) + i + j % 2; };  // no more than 7 entries
+        image.edit = [&](DcmDataset& d) {
+          put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
+          add_table(d, {static_cast<Uint16>(whole ? 0 : 8), static_cast<Uint16>(first), 16}, data, "US");
+        };
+      });
+      const Volume volume = load(only_series_in(folder));
+      for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+          const int stored = (is_signed ? -3 : 2) + i + j % 2;
+          EXPECT_EQ(volume.value_at(i, j, 1), static_cast<Uint16>(3 * (stored - first) + 1)) << is_signed << whole;
+        }
+      }
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -211,6 +212,79 @@ TEST(Filtered, MedianIsTheMiddleOfItsSquare) {
           }
           std::ranges::nth_element(near, near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2));
           ASSERT_EQ(at(*smooth, i, j, k), near[near.size() / 2]);
+        }
+      }
+    }
+  }
+}
+
+/// The definition: the mean of the voxels within two standard deviations, which are rounded up to whole voxels,
+/// weighted by their distance in voxels of the same area and by how much they differ.
+TEST(Filtered, BilateralIsTheMeanOfWhatIsNearAndAlike) {
+  const auto raw = odd_scan();
+  constexpr double sigma_mm = 1.3, sigma_value = 60;
+  const auto smooth = filtered(raw, {.type = FilterType::bilateral, .sigma_mm = sigma_mm, .sigma_value = sigma_value});
+  const double sigma = sigma_mm / std::sqrt(raw->geometry.spacing_i * raw->geometry.spacing_j);
+  const int radius = static_cast<int>(std::ceil(2 * sigma));
+  for (int k = 0; k < 40 - 2; k += 7) {
+    for (int j = 15; j < 22; ++j) {
+      for (int i = 15; i < 26; ++i) {
+        const double here = at(*raw, i, j, k);
+        double sum = 0, weights = 0;
+        for (int y = -radius; y <= radius; ++y) {
+          for (int x = -radius; x <= radius; ++x) {
+            const double squared = x * x + y * y, there = at(*raw, i + x, j + y, k);
+            if (squared > radius * radius) continue;
+            const double differs = (there - here) / sigma_value;
+            const double weight = std::exp(-0.5 * squared / (sigma * sigma) - 0.5 * differs * differs);
+            sum += weight * there;
+            weights += weight;
+          }
+        }
+        ASSERT_NEAR(at(*smooth, i, j, k), sum / weights, 0.05) << i << ' ' << j << ' ' << k;
+      }
+    }
+  }
+}
+
+/// However far apart the values are, and however small what is taken for noise.
+TEST(Filtered, NonLocalMeansKeepsValuesThatAreFarApart) {
+  testdata::Grid grid;
+  grid.size = {32, 32, 1};
+  const Geometry geometry = testdata::make_geometry(grid);
+  const double wall = geometry.to_patient({15.5, 0, 0}).x;
+  for (const double high : {40.0, 5000.0, 60000.0}) {
+    const auto raw = painted(geometry, [&](const Vec3& p) { return p.x < wall ? -300 : high; });
+    const auto smooth = filtered(raw, {.type = FilterType::non_local_means, .sigma_value = 1});
+    for (int j = 0; j < 32; ++j) {
+      for (int i = 0; i < 32; ++i) ASSERT_NEAR(at(*smooth, i, j, 0), at(*raw, i, j, 0), 1) << high;
+    }
+  }
+}
+
+/// Where a slope turns values round, it turns the padding's range round as well.
+TEST(Filtered, PaddingStaysWhatItIsUnderASlopeOfEitherSign) {
+  for (const double slope : {2.0, -2.0}) {
+    Volume v;
+    v.geometry.dimensions = {6, 5, 2};
+    v.geometry.slice_positions = {{0, 0, 0}, {0, 0, 1}};
+    std::vector<std::int16_t> voxels;
+    for (int n = 0; n < 60; ++n) voxels.push_back(static_cast<std::int16_t>(n % 7 == 0 ? -2000 - n % 3 : n));
+    v.voxels = std::move(voxels);
+    v.slope = slope;
+    v.intercept = 5;
+    v.padding = {-2002, -2000};
+    const auto raw = std::make_shared<const Volume>(v);
+    for (const Filter& filter : filters) {
+      const auto smooth = filtered(raw, filter);
+      ASSERT_TRUE(smooth->padding);
+      EXPECT_EQ(smooth->padding->first, slope * (slope > 0 ? -2002 : -2000) + 5);
+      EXPECT_EQ(smooth->padding->second, slope * (slope > 0 ? -2000 : -2002) + 5);
+      for (int n = 0; n < 60; ++n) {
+        const int i = n % 6, j = n / 6 % 5, k = n / 30;
+        EXPECT_EQ(smooth->is_padding(i, j, k), n % 7 == 0) << in_words(filter) << ' ' << n;
+        if (n % 7 == 0) {
+          EXPECT_EQ(at(*smooth, i, j, k), at(*raw, i, j, k));
         }
       }
     }

@@ -43,9 +43,12 @@ constexpr int cell_floats = [] {
          2 * (space_sums(1) + space_sums(2)) * 2 * cell_lanes;
 }();
 
-/// The whole volume in blocks whose sums stay in a second-level cache.
-std::vector<Block> blocks_of(const glm::ivec3& size) {
-  const glm::ivec3 longest(512, 24, 64);
+/// Blocks of a whole volume: large ones share more of their neighborhoods, and small ones need less memory for
+/// gradients that are not kept.
+constexpr glm::ivec3 kept_block(512, 48, 128);
+constexpr glm::ivec3 passing_block(512, 24, 64);
+
+std::vector<Block> blocks_of(const glm::ivec3& size, const glm::ivec3& longest) {
   std::vector<Block> blocks;
   glm::ivec3 at(0);
   for (at.z = 0; at.z < size.z; at.z += longest.z) {
@@ -276,7 +279,7 @@ void GradientKernel::at_block(const Block& block, std::span<glm::vec3> gradients
 
 void GradientKernel::for_each_block(const std::function<void(const Block&, std::span<const glm::vec3>)>& use,
                                     const Progress& progress, int threads) const {
-  const std::vector<Block> blocks = blocks_of(weights_->volume->geometry.dimensions);
+  const std::vector<Block> blocks = blocks_of(weights_->volume->geometry.dimensions, passing_block);
   const auto one = [&](std::size_t n) {
     std::vector<glm::vec3> gradients(blocks[n].voxels());
     at_block(blocks[n], gradients);
@@ -288,7 +291,7 @@ void GradientKernel::for_each_block(const std::function<void(const Block&, std::
 void GradientKernel::whole_into(std::span<glm::vec3> gradients, const Progress& progress, int threads) const {
   const Volume& volume = *weights_->volume;
   internal::prefer_large_pages(gradients.data(), gradients.size_bytes());
-  const std::vector<Block> blocks = blocks_of(volume.geometry.dimensions);
+  const std::vector<Block> blocks = blocks_of(volume.geometry.dimensions, kept_block);
   const auto row = static_cast<std::ptrdiff_t>(volume.offset(0, 1, 0));
   const auto slice = static_cast<std::ptrdiff_t>(volume.offset(0, 0, 1));
   const auto one = [&](std::size_t n) {

@@ -148,6 +148,16 @@ TEST(Gradient, HasTheSameBitsInTheWholeInAnyBlockAndInACell) {
   }
 }
 
+TEST(Gradient, HasTheSameBitsWhereRowsAreLongAndManyVoxelsCount) {
+  Grid grid;  // rows of three tiles; twelve voxels on each side along rows, nine along columns, three slices
+  grid.size = {530, 44, 13};
+  grid.spacing = {0.4, 0.5, 1.7};
+  const auto volume = scan(testdata::make_sphere(8), grid, {.noise = 40});
+  const GradientKernel kernel(volume, 1.4);
+  ASSERT_EQ(kernel.radius(), glm::ivec3(12, 9, 2));
+  expect_the_same_bits_everywhere(kernel, *volume);
+}
+
 TEST(CentralDifferences, AreExactOnLinearFieldsOnEveryGridUpToEdgesAndPadding) {
   const Vec3 slope(3, -2, 5);
   for (const Grid& grid : grids({24, 22, 20})) {

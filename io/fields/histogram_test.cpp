@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <stdexcept>
 
 #include "io/fields/evenly_spread.h"
+#include "io/fields/low_high.h"
 #include "testdata/scan.h"
 
 namespace palpate::io {
@@ -61,6 +63,44 @@ TEST(JointHistogram, OfASphereIsTwoTissuesAndAnArch) {
   for (int m = magnitudes.bin_of(230); m < magnitudes.count; ++m) {
     for (int v = 0; v < values.count; ++v) EXPECT_EQ(h.at(v, m), 0U);
   }
+}
+
+/// Of each voxel whose gradient is steeper than a threshold: a column of its thinner side, a row of its denser one.
+TEST(LowHighHistogram, CountsEachEdgeByItsTwoSides) {
+  testdata::Grid grid;
+  grid.size = {40, 36, 30};
+  const auto volume = std::make_shared<const Volume>(
+      testdata::scan(testdata::make_sphere(9), testdata::make_geometry(grid), {.circle_radius = 10}));
+  const GradientKernel kernel(volume, 2);
+  const auto gradients = kernel.whole();
+  constexpr std::array<double, 3> least{60, 20, 150};
+  std::array<std::vector<std::uint64_t>, 3> counts;
+  counts.fill(std::vector<std::uint64_t>(std::size_t{44} * 44));
+  for (int k = 0; k < 30; ++k) {
+    for (int j = 0; j < 36; ++j) {
+      for (int i = 0; i < 40; ++i) {
+        const glm::vec3 gradient = gradients[volume->offset(i, j, k)];
+        if (volume->is_padding(i, j, k)) continue;
+        for (std::size_t h = 0; h < least.size(); ++h) {
+          if (!(static_cast<double>(glm::length(gradient)) > least[h])) continue;
+          const LowHigh sides = low_high_at(*volume, {i, j, k}, Vec3(gradient), 2);
+          const auto column = static_cast<std::size_t>((static_cast<double>(sides.low) + 1100) / 50);
+          const auto row = static_cast<std::size_t>((static_cast<double>(sides.high) + 1100) / 50);
+          ++counts[h][row * 44 + column];
+        }
+      }
+    }
+  }
+  const std::vector<LowHighHistogram> found = low_high_histograms(*volume, kernel, values, least);
+  ASSERT_EQ(found.size(), least.size());
+  for (std::size_t h = 0; h < least.size(); ++h) {
+    EXPECT_EQ(found[h].counts, counts[h]) << least[h];
+    EXPECT_EQ(found[h].voxels, std::accumulate(counts[h].begin(), counts[h].end(), std::uint64_t{0})) << least[h];
+    EXPECT_GT(found[h].voxels, 100U);
+    EXPECT_EQ(low_high_histogram(*volume, kernel, values, least[h], {}, 1).counts, counts[h]);
+  }
+  EXPECT_LT(found[2].voxels, found[0].voxels);
+  EXPECT_LT(found[0].voxels, found[1].voxels);
 }
 
 TEST(JointHistogram, RefusesBinsThatAreNone) {

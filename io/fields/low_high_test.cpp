@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <vector>
@@ -102,6 +104,75 @@ TEST(LowHigh, of_a_sinus_wall_are_air_and_bone_although_every_soft_tissue_value_
   EXPECT_GT(sinus.within_tenth, 0.99);
 }
 
+/// A volume of 0.2 mm voxels along one axis, and of others along the other two, whose values depend on the place along
+/// that axis alone.
+Volume along(int axis, const std::function<double(double)>& value) {
+  Volume volume;
+  Geometry& g = volume.geometry;
+  g.dimensions = glm::ivec3(3);
+  g.dimensions[axis] = 61;
+  Vec3 spacing(3, 1.7, 2.3);
+  spacing[axis] = 0.2;
+  g.spacing_i = spacing.x;
+  g.spacing_j = spacing.y;
+  g.step = {0, 0, spacing.z};
+  for (int k = 0; k < g.dimensions.z; ++k) g.slice_positions.push_back(static_cast<double>(k) * g.step);
+  std::vector<float> voxels;
+  for (int k = 0; k < g.dimensions.z; ++k) {
+    for (int j = 0; j < g.dimensions.y; ++j) {
+      for (int i = 0; i < g.dimensions.x; ++i) {
+        voxels.push_back(static_cast<float>(value(0.2 * (glm::ivec3(i, j, k)[axis] - 30))));
+      }
+    }
+  }
+  volume.voxels = std::move(voxels);
+  return volume;
+}
+
+// Behind a rise of 100 a mm comes a lull, and then it rises again. The boundary ends in the lull where the slope there
+// is below three tenths of the steepest, and behind it a fifth more of that; else it goes on to where it is flat.
+TEST(LowHigh, end_in_a_lull_before_the_next_rise) {
+  struct Case {
+    double lull, again;
+    bool ends;
+  };
+  for (const Case& c : {Case{0.25, 0.5, true},
+                        {0.2, 0.45, true},
+                        {0.28, 0.52, true},
+                        {0.35, 0.6, false},
+                        {0.32, 0.57, false},
+                        {0.25, 0.4, false},
+                        {0.25, 0.43, false},
+                        {0.12, 0.25, false}}) {
+    const auto above = [&](double x) {  // of the middle of the steepest part
+      return 100 * (std::min(x, 1.0) + c.lull * std::clamp(x - 1, 0.0, 1.4) + c.again * std::clamp(x - 2.4, 0.0, 1.4));
+    };
+    const double flat = above(3.8), first = above(1), last = above(2.4);
+    for (int axis = 0; axis < 3; ++axis) {
+      SCOPED_TRACE(::testing::Message() << c.lull << ' ' << c.again << ", axis " << axis);
+      Vec3 uphill(0);
+      uphill[axis] = 100;
+      glm::ivec3 voxel(1);
+      voxel[axis] = 30;
+      const Volume up = along(axis, [&](double x) { return x > 0 ? above(x) : 100 * std::max(x, -1.0); });
+      const LowHigh of_up = low_high_at(up, voxel, uphill, 2);
+      EXPECT_NEAR(of_up.low, -100, 1);
+      // And the same the other way round.
+      const Volume down = along(axis, [&](double x) { return x < 0 ? -above(-x) : 100 * std::min(x, 1.0); });
+      const LowHigh of_down = low_high_at(down, voxel, uphill, 2);
+      EXPECT_NEAR(of_down.high, 100, 1);
+      for (const double end : {static_cast<double>(of_up.high), -static_cast<double>(of_down.low)}) {
+        if (c.ends) {
+          EXPECT_GE(end, first - 1);
+          EXPECT_LE(end, last + 1);
+        } else {
+          EXPECT_NEAR(end, flat, 1);
+        }
+      }
+    }
+  }
+}
+
 TEST(LowHigh, is_the_value_itself_where_there_is_no_boundary) {
   testdata::Phantom even;
   even.background = 40;
@@ -134,6 +205,39 @@ TEST(LowHigh, vary_smoothly_between_voxels_and_are_those_of_the_voxels_at_their_
   const Sample sample = fields.sample(volume->geometry.to_patient(voxel), FieldSet::low_high);
   EXPECT_FLOAT_EQ(static_cast<float>(sample.low), sides.low);
   EXPECT_FLOAT_EQ(static_cast<float>(sample.high), sides.high);
+}
+
+// Between voxels: theirs, weighted by how near they are and by the square of the slope there.
+TEST(LowHigh, of_a_cell_are_the_mean_of_its_corners_by_the_square_of_their_slopes) {
+  Grid grid;
+  grid.size = {40, 36, 30};
+  grid.spacing = {0.9, 1.1, 1.6};
+  const auto volume = std::make_shared<const Volume>(
+      testdata::scan(testdata::make_sphere(12), testdata::make_geometry(grid), {.noise = 30}));
+  const VolumeFields fields(volume, FieldSet::low_high, 1.8);
+  const GradientKernel kernel(volume, 1.8);
+  int edges = 0;
+  for (int n = 0; n < 200; ++n) {
+    const glm::ivec3 first(6 + 7 * n % 27, 5 + 5 * n % 25, 4 + 3 * n % 21);
+    const Vec3 part(0.01 * (37 * n % 100), 0.01 * (53 * n % 100), 0.01 * (71 * n % 100));
+    std::array<glm::vec3, 8> gradients;
+    kernel.at_cell({first, glm::ivec3(2)}, gradients);
+    double low = 0, high = 0, sum = 0;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const glm::ivec3 side(corner % 2, corner / 2 % 2, corner / 4);
+      const Vec3 share = Vec3(side) * part + (1.0 - Vec3(side)) * (1.0 - part), slope(gradients[corner]);
+      const double weight = share.x * share.y * share.z * glm::dot(slope, slope);
+      const LowHigh sides = low_high_at(*volume, first + side, slope, 1.8);
+      low += weight * static_cast<double>(sides.low);
+      high += weight * static_cast<double>(sides.high);
+      sum += weight;
+    }
+    const Sample sample = fields.sample(volume->geometry.to_patient(Vec3(first) + part), FieldSet::low_high);
+    EXPECT_NEAR(sample.low, low / sum, 1e-2) << n;
+    EXPECT_NEAR(sample.high, high / sum, 1e-2) << n;
+    edges += high - low > 500 * sum ? 1 : 0;
+  }
+  EXPECT_GT(edges, 20);
 }
 
 }  // namespace

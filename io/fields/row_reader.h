@@ -30,11 +30,21 @@ class RowReader {
     std::fill(row + last, row + count, 0.0F);
     complete_ = complete_ && last - first == count;
   }
+  /// Asks for a row that is read soon.
+  void prefetch(int slice, int j, int i, int count) const noexcept {
+    const glm::ivec3 size = volume_.geometry.dimensions;
+    if (j < 0 || j >= size.y) return;
+    const int first = std::max(i, 0);
+    const Stored* const row = voxels_ + volume_.offset(0, j, slice);
+    for (int n = first; n < std::min(i + count, size.x); n += line) __builtin_prefetch(row + n);
+  }
   /// Whether everything read so far was inside and no padding.
   bool complete() const noexcept { return complete_; }
   bool met_padding() const noexcept { return met_padding_; }
 
  private:
+  static constexpr int line = 64 / sizeof(Stored);  ///< voxels that the nearest cache reads at once
+
   void copy(const Stored* stored, int count, float* row) const noexcept {
     if constexpr (std::is_integral_v<Stored>) {
       if (!volume_.padding) {

@@ -2,60 +2,69 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "io/fields/row_reader.h"
 #include "io/fields/straight_filters.h"
 
+// Offsets within a tile, far below what an int holds.
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)
 namespace palpate::io::internal {
 namespace {
+
+/// Floats that begin at a line of the cache.
+class Lines {
+ public:
+  explicit Lines(std::size_t floats) : lines_(std::make_unique_for_overwrite<Line[]>((floats + 15) / 16)) {}
+  float* get() const noexcept { return lines_[0].floats; }
+
+ private:
+  struct alignas(64) Line {
+    float floats[16];
+  };
+  std::unique_ptr<Line[]> lines_;
+};
 
 std::vector<TapPair> pairs_of(const Taps& taps) {
   std::vector<TapPair> pairs;
   for (std::size_t t = 2; t < taps.size(); t += 2) {
-    pairs.push_back({taps[t].offset, taps[t].weight[0], taps[t].weight[1]});
+    pairs.push_back({taps[t].weight[0], taps[t].weight[1]});
   }
   return pairs;
 }
 
+/// A block in tiles of tile_width voxels along a row, slice by slice: what a tile's voxels share stays in the nearer
+/// caches.
 template <typename Stored>
 class StraightBlock {
  public:
   StraightBlock(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel, const Fits& fits,
                 const Block& block)
       : volume_(volume),
+        voxels_(voxels),
         kernel_(kernel),
         fits_(fits),
-        block_(block),
-        reader_(volume, voxels, false),
+        tile_(block),
         along_i_(pairs_of(kernel.taps_i[0])),
         along_j_(pairs_of(kernel.taps_j[0])),
-        width_(static_cast<std::ptrdiff_t>(block.size.x + 7) / 8 * 8),
-        plane_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(block.size.y) + apart),
-        rows_(block.size.y + std::ptrdiff_t{2} * kernel.radius.y),
-        ring_(2 * kernel.radius.z + 1),
-        row_(static_cast<std::size_t>(width_ + std::ptrdiff_t{2} * kernel.radius.x), 0.0F),
-        filtered_(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(2 * width_ * rows_))),
-        planes_(std::make_unique_for_overwrite<float[]>(3 * plane_ * static_cast<std::size_t>(ring_))),
-        sum_(static_cast<std::size_t>(width_) + 16),
-        sums_(4 * sum_) {}
+        plane_(static_cast<std::size_t>(3 * tile_width * block.size.y) + apart),
+        ring_(2 * kernel.radius.z + slices_at_once),
+        row_(static_cast<std::size_t>(tile_width + 2 * kernel.radius.x), 0.0F),
+        filtered_(static_cast<std::size_t>(2 * tile_width) *
+                  static_cast<std::size_t>(block.size.y + 2 * kernel.radius.y)),
+        planes_(plane_ * static_cast<std::size_t>(ring_)),
+        sums_(4 * tile_width),
+        row_fits_(fit_rows * tile_width) {}
 
   bool run(const GradientTarget& target) {
-    int next = std::max(block_.first.z - kernel_.radius.z, 0);
-    for (int k = 0; k < block_.size.z; ++k) {
-      const int slice = block_.first.z + k;
-      const auto& contributions = kernel_.of_slice[static_cast<std::size_t>(slice)];
-      int last = 0;
-      for (const Contribution& c : contributions) last = std::max(last, c.slice);
-      for (; next <= last; ++next) {
-        filter_plane(next);
-        if (reader_.met_padding() || (!reader_.complete() && !fits_.knows_edges())) return false;
-      }
-      balanced_ = fits_.whole(slice).constant == glm::vec3(0);
-      find_pairs(contributions);
-      for (int j = 0; j < block_.size.y; ++j) {
-        sum_row();
-        fit_row(j, slice, target.first + k * target.slice + j * target.row);
-      }
+    const Block block = tile_;
+    const int tiles = (block.size.x + tile_width - 1) / tile_width;
+    const int width = (block.size.x + tiles - 1) / tiles;
+    const int longest = std::min((width + 15) / 16 * 16, tile_width);
+    for (int i = 0; i < block.size.x; i += longest) {
+      tile_.first.x = block.first.x + i;
+      tile_.size.x = std::min(longest, block.size.x - i);
+      if (!run_tile({target.first + i, target.row, target.slice})) return false;
     }
     return true;
   }
@@ -64,34 +73,86 @@ class StraightBlock {
   /// Planes lie a little more than their size apart: as a power of two it would let the same place of all of them
   /// compete for the same few lines of the nearest cache.
   static constexpr std::size_t apart = 80;
+  static constexpr int row_floats = 3 * tile_width;
 
-  float* plane_of(int slice) { return planes_.get() + 3 * plane_ * static_cast<std::size_t>(slice % ring_); }
+  /// That are read ahead of the one in hand: where rows are cut into tiles, the processor does not see that coming.
+  static constexpr int rows_ahead = 8;
 
-  void filter_plane(int slice) {
-    const int reach = kernel_.radius.x;
-    for (std::ptrdiff_t r = 0; r < rows_; ++r) {
-      reader_(slice, block_.first.y + static_cast<int>(r) - kernel_.radius.y, block_.first.x - reach,
-              block_.size.x + 2 * reach, row_.data());
-      float* const one = filtered_.get() + 2 * width_ * r;
-      filter_row(row_.data() + reach, kernel_.taps_i[0][0].weight[0], along_i_.data(),
-                 static_cast<int>(along_i_.size()), static_cast<int>(width_), one, one + width_);
+  static int whole_lanes(int count) { return (count + 7) / 8 * 8; }
+
+  bool run_tile(const GradientTarget& target) {
+    const RowReader<Stored> reader(volume_, voxels_, false);
+    known_fits_ = {-1, -1};
+    int next = std::max(tile_.first.z - kernel_.radius.z, 0);
+    for (int k = 0; k < tile_.size.z; k += at_once_) {
+      slice_ = tile_.first.z + k;
+      find_at_once(tile_.size.z - k);
+      int last = 0;
+      for (const Contribution& c : contributions(at_once_ - 1)) last = std::max(last, c.slice);
+      for (; next <= last; ++next) {
+        filter_plane(reader, next);
+        if (reader.met_padding() || (!reader.complete() && !fits_.knows_edges())) return false;
+      }
+      complete_ = reader.complete();
+      find_planes();
+      for (int j = 0; j < tile_.size.y; ++j) {
+        fit_slices(j, target.first + k * target.slice + j * target.row, target.slice);
+      }
     }
+    return true;
+  }
+
+  const std::vector<Contribution>& contributions(int n) const {
+    return kernel_.of_slice[static_cast<std::size_t>(slice_ + n)];
+  }
+
+  float* plane_of(int slice) const { return planes_.get() + plane_ * static_cast<std::size_t>(slice % ring_); }
+
+  void filter_plane(const RowReader<Stored>& reader, int slice) {
+    const int reach_i = kernel_.radius.x;
+    const int reach_j = kernel_.radius.y;
     float* const to = plane_of(slice);
-    for (int j = 0; j < block_.size.y; ++j) {
-      float* const one = to + width_ * j;
-      filter_column(filtered_.get() + 2 * width_ * (j + kernel_.radius.y), 2 * width_, kernel_.taps_j[0][0].weight[0],
-                    along_j_.data(), static_cast<int>(along_j_.size()), static_cast<int>(width_), one, one + plane_,
-                    one + 2 * plane_);
+    for (int r = 0; r < tile_.size.y + 2 * reach_j; ++r) {
+      const int first = tile_.first.x - reach_i;
+      const int count = tile_.size.x + 2 * reach_i;
+      reader.prefetch(slice, tile_.first.y + r - reach_j + rows_ahead, first, count);
+      reader(slice, tile_.first.y + r - reach_j, first, count, row_.data());
+      filter_row(row_.data() + reach_i, kernel_.taps_i[0][0].weight[0], along_i_.data(), reach_i,
+                 whole_lanes(tile_.size.x), filtered_.get() + 2 * tile_width * r);
+      // As soon as the last of a column's rows is there, while they all are in the nearest cache.
+      if (const int j = r - 2 * reach_j; j >= 0) {
+        filter_column(filtered_.get() + 2 * tile_width * (j + reach_j), kernel_.taps_j[0][0].weight[0], along_j_.data(),
+                      reach_j, whole_lanes(tile_.size.x), to + row_floats * j);
+      }
     }
   }
 
-  void find_pairs(const std::vector<Contribution>& contributions) {
-    pairs_.clear();
-    for (std::size_t n = 0; n < contributions.size(); ++n) {
+  /// How many slices from slice_ on may be summed at once, and with which weights.
+  void find_at_once(int most) {
+    const auto& all = contributions(0);
+    between_.clear();
+    even_ = fits_.whole(slice_).constant == glm::vec3(0) && all.size() <= 2 * most_even_pairs + 1;
+    middle_ = {all[0].weight, all[0].weight * all[0].offset[2]};
+    for (std::size_t n = 1; n < all.size() && even_; n += 2) {
+      even_ = all[n].paired;
       // Of a pair the weight is that of the slice above, which comes second.
-      const Contribution& c = contributions[n + (contributions[n].paired ? 1 : 0)];
-      SlicePair pair{plane_of(contributions[n].slice), nullptr, c.weight, c.weight * c.offset[2]};
-      if (contributions[n].paired) {
+      if (even_) between_.push_back({all[n + 1].weight, all[n + 1].weight * all[n + 1].offset[2]});
+    }
+    at_once_ = 1;
+    while (even_ && at_once_ < std::min(most, slices_at_once) && fits_.alike(slice_, slice_ + at_once_)) ++at_once_;
+    if (at_once_ < slices_at_once) at_once_ = 1;
+  }
+
+  void find_planes() {
+    around_.clear();
+    pairs_.clear();
+    const int reach = static_cast<int>(between_.size());
+    for (int n = -reach; even_ && n < at_once_ + reach; ++n) around_.push_back(plane_of(slice_ + n));
+    const auto& all = contributions(0);
+    for (std::size_t n = 0; n < all.size() && !even_; ++n) {
+      const Contribution& c = all[n + (all[n].paired ? 1 : 0)];
+      SlicePair pair{plane_of(all[n].slice), nullptr, c.weight, c.weight * c.offset[2]};
+      if (all[n].paired) {
         pair.above = plane_of(c.slice);
         ++n;
       }
@@ -99,64 +160,70 @@ class StraightBlock {
     }
   }
 
-  // The row after the one that the pairs point at is theirs next.
-  void sum_row() {
-    float* const s = sums_.data();
-    const bool needs_total = !balanced_ || !reader_.complete();
-    sum_slices(pairs_.data(), static_cast<int>(pairs_.size()), plane_, needs_total ? s : nullptr, s + sum_,
-               s + 2 * sum_, s + 3 * sum_, static_cast<std::size_t>(width_));
-    for (SlicePair& pair : pairs_) {
-      pair.below += width_;
-      if (pair.above != nullptr) pair.above += width_;
-    }
-  }
-
-  void fit_row(int j, int slice, glm::vec3* gradients) {
+  /// A row of the slices in hand.
+  void fit_slices(int j, glm::vec3* gradients, std::ptrdiff_t apart_slices) {
     const glm::ivec3 size = volume_.geometry.dimensions;
-    const int y = block_.first.y + j;
-    int first = 0;
-    int last = block_.size.x;
-    if (!reader_.complete()) {
-      const bool inner_row = y >= kernel_.radius.y && y < size.y - kernel_.radius.y;
-      first = inner_row ? std::clamp(kernel_.radius.x - block_.first.x, 0, last) : last;
-      last = inner_row ? std::clamp(size.x - kernel_.radius.x - block_.first.x, first, last) : last;
+    const int y = tile_.first.y + j;
+    const bool inner_row = complete_ || (y >= kernel_.radius.y && y < size.y - kernel_.radius.y);
+    // Complete neighborhoods, as far as rows go.
+    const int begin = complete_ ? 0 : std::clamp(kernel_.radius.x - tile_.first.x, 0, tile_.size.x);
+    const int end =
+        complete_ ? tile_.size.x : std::clamp(size.x - kernel_.radius.x - tile_.first.x, begin, tile_.size.x);
+    const std::ptrdiff_t row = row_floats * j;
+    if (!even_) {
+      look_up_fits(inner_row ? -1 : y);
+      fit_any_slices(pairs_.data(), static_cast<int>(pairs_.size()), row, row_fits_.get(), tile_.size.x, sums_.get(),
+                     gradients);
+      return;
     }
-    const float* const s = sums_.data();
-    for (int i = 0; i < first; ++i) fit_voxel(fits_.at(block_.first.x + i, y, slice), s + i, gradients[i]);
-    const PlaneFit& whole = fits_.whole(slice);
-    if (balanced_) {
-      fit_balanced_row(whole.slope, s + sum_ + first, s + 2 * sum_ + first, s + 3 * sum_ + first, last - first,
-                       gradients + first);
-    } else {
-      for (int i = first; i < last; ++i) fit_voxel(whole, s + i, gradients[i]);
-    }
-    for (int i = last; i < block_.size.x; ++i) {
-      fit_voxel(fits_.at(block_.first.x + i, y, slice), s + i, gradients[i]);
+    EvenSlices even{around_.data() + between_.size(), row, middle_.even, middle_.odd, between_.data(),
+                    static_cast<int>(between_.size())};
+    const bool balanced = inner_row && begin < end;
+    if (balanced) fit_balanced_slices(even, at_once_, fits_.whole(slice_).slope, tile_.size.x, gradients, apart_slices);
+    if (balanced && begin == 0 && end == tile_.size.x) return;
+    look_up_fits(inner_row ? -1 : y);
+    for (int s = 0; s < at_once_; ++s, ++even.slices, gradients += apart_slices) {
+      fit_even_slices(even, row_fits_.get(), 0, balanced ? begin : tile_.size.x, gradients);
+      if (balanced) fit_even_slices(even, row_fits_.get(), end, tile_.size.x, gradients);
     }
   }
 
-  void fit_voxel(const PlaneFit& fit, const float* s, glm::vec3& gradient) const {
-    gradient = gradient_of(fit, s, sum_);
+  /// The fits of a row's voxels, in slices that are alike; y: -1 for any row far from the edge.
+  void look_up_fits(int y) {
+    if (known_fits_ == std::pair(slice_, y)) return;
+    known_fits_ = {slice_, y};
+    for (int i = 0; i < tile_.size.x; ++i) {
+      const PlaneFit& fit =
+          complete_ ? fits_.whole(slice_) : fits_.at(tile_.first.x + i, y < 0 ? kernel_.radius.y : y, slice_);
+      for (int n = 0; n < fit_rows; ++n) {
+        row_fits_.get()[n * tile_width + i] = n < 9 ? fit.slope[n / 3][n % 3] : fit.constant[n - 9];
+      }
+    }
   }
 
   const Volume& volume_;
+  const std::vector<Stored>& voxels_;
   const SliceKernel& kernel_;
   const Fits& fits_;
-  const Block& block_;
-  RowReader<Stored> reader_;
+  Block tile_;
   std::vector<TapPair> along_i_;
   std::vector<TapPair> along_j_;
-  std::ptrdiff_t width_;  ///< floats of a row
-  std::size_t plane_;     ///< floats of a plane
-  std::ptrdiff_t rows_;   ///< that the columns of a slice reach over
-  int ring_;              ///< planes kept
+  std::size_t plane_;  ///< floats of a plane
+  int ring_;           ///< planes kept
   std::vector<float> row_;
-  std::unique_ptr<float[]> filtered_;
-  std::unique_ptr<float[]> planes_;
-  std::vector<SlicePair> pairs_;
-  std::size_t sum_;  ///< floats from one of a row's sums to the next
-  std::vector<float> sums_;
-  bool balanced_ = true;
+  Lines filtered_;
+  Lines planes_;
+  Lines sums_;
+  Lines row_fits_;
+  std::pair<int, int> known_fits_{-1, -1};
+  int slice_ = 0;    ///< the first of those in hand
+  int at_once_ = 1;  ///< how many these are
+  bool even_ = false;
+  bool complete_ = false;
+  TapPair middle_;
+  std::vector<TapPair> between_;      ///< of even slices: weights by distance, and the slice's own before
+  std::vector<SlicePair> pairs_;      ///< of other slices
+  std::vector<const float*> around_;  ///< of even slices: their planes and their neighbors'
 };
 
 }  // namespace
@@ -175,3 +242,5 @@ template bool straight_block(const Volume&, const std::vector<float>&, const Sli
                              const GradientTarget&);
 
 }  // namespace palpate::io::internal
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)

@@ -1,186 +1,213 @@
 #include "io/fields/straight_filters.h"
 
+#include <algorithm>
+
 #include "io/for_processor.h"
 
+// Offsets within a tile, far below what an int holds.
+// NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)
 namespace palpate::io::internal {
 namespace {
 
-// Several pairs in one pass, so that the sums stay in registers meanwhile; the first pass starts them.
+// As many pairs in one pass as there may be registers for their weights, so that the sums stay in registers meanwhile;
+// the first pass starts them.
+constexpr int most_at_once = 8;
 
 template <int Count, bool First>
-[[gnu::always_inline]] inline void add_row_pairs(const float* __restrict in, float middle, const TapPair* pairs,
-                                                 int width, float* __restrict one, float* __restrict p) {
+[[gnu::always_inline]] inline void add_row_pairs(const float* __restrict in, float middle,
+                                                 const TapPair* __restrict pairs, int done, int width,
+                                                 float* __restrict sums) {
   PALPATE_INDEPENDENT
   for (int i = 0; i < width; ++i) {
-    float even = First ? middle * in[i] : one[i];
-    float odd = First ? 0 : p[i];
+    float even = First ? middle * in[i] : sums[i];
+    float odd = First ? 0 : sums[i + tile_width];
     for (int n = 0; n < Count; ++n) {
-      const float right = in[i + pairs[n].offset];
-      const float left = in[i - pairs[n].offset];
+      const float right = in[i + (First ? 0 : done) + n + 1];
+      const float left = in[i - (First ? 0 : done) - n - 1];
       even += pairs[n].even * (right + left);
       odd += pairs[n].odd * (right - left);
     }
-    one[i] = even;
-    p[i] = odd;
+    sums[i] = even;
+    sums[i + tile_width] = odd;
   }
 }
 
 template <int Count, bool First>
-[[gnu::always_inline]] inline void add_column_pairs(const float* __restrict rows, std::ptrdiff_t stride, float middle,
-                                                    const TapPair* pairs, int width, float* __restrict one,
-                                                    float* __restrict p, float* __restrict q) {
+[[gnu::always_inline]] inline void add_column_pairs(const float* __restrict rows, float middle,
+                                                    const TapPair* __restrict pairs, int done, int width,
+                                                    float* __restrict sums) {
+  constexpr std::ptrdiff_t row = 2 * tile_width;
   PALPATE_INDEPENDENT
   for (int i = 0; i < width; ++i) {
-    float s0 = First ? middle * rows[i] : one[i];
-    float s1 = First ? middle * rows[i + width] : p[i];
-    float s2 = First ? 0 : q[i];
+    float s0 = First ? middle * rows[i] : sums[i];
+    float s1 = First ? middle * rows[i + tile_width] : sums[i + tile_width];
+    float s2 = First ? 0 : sums[i + 2 * tile_width];
     for (int n = 0; n < Count; ++n) {
-      const float* const right = rows + pairs[n].offset * stride;
-      const float* const left = rows - pairs[n].offset * stride;
+      const float* const right = rows + ((First ? 0 : done) + n + 1) * row;
+      const float* const left = rows - ((First ? 0 : done) + n + 1) * row;
       s0 += pairs[n].even * (right[i] + left[i]);
-      s1 += pairs[n].even * (right[i + width] + left[i + width]);
+      s1 += pairs[n].even * (right[i + tile_width] + left[i + tile_width]);
       s2 += pairs[n].odd * (right[i] - left[i]);
     }
-    one[i] = s0;
-    p[i] = s1;
-    q[i] = s2;
+    sums[i] = s0;
+    sums[i + tile_width] = s1;
+    sums[i + 2 * tile_width] = s2;
   }
 }
 
-/// Calls pass<Count, First>(pairs) with as many pairs at once as there are registers for.
+/// Calls run<Count>() with a count of most_at_once at most.
+template <int Most = most_at_once, typename Run>
+[[gnu::always_inline]] inline void with_count(int count, const Run& run) {
+  if constexpr (Most > 0) {
+    if (count < Most) return with_count<Most - 1>(count, run);
+  }
+  run.template operator()<Most>();
+}
+
+/// Calls pass<Count, First>(done) with the pairs that are done.
 template <typename Pass>
-[[gnu::always_inline]] inline void in_passes(const TapPair* pairs, int count, const Pass& pass) {
-  const auto at_most = [&]<bool First>(const TapPair* from, int rest) __attribute__((always_inline)) {
-    switch (rest) {
-      case 0:
-        return pass.template operator()<0, First>(from);
-      case 1:
-        return pass.template operator()<1, First>(from);
-      case 2:
-        return pass.template operator()<2, First>(from);
-      default:
-        return pass.template operator()<3, First>(from);
-    }
-  };
-  at_most.template operator()<true>(pairs, count);
-  for (int n = 3; n < count; n += 3) at_most.template operator()<false>(pairs + n, count - n);
-}
-
-struct Sums {
-  float* s0;  ///< null: not wanted
-  float* p;
-  float* q;
-  float* w;
-};
-
-template <int Count, bool Total>
-[[gnu::always_inline]] inline void add_slice_pairs(const SlicePair* pairs, std::size_t plane, const Sums& sums,
-                                                   std::size_t count) {
-  float* __restrict const s0 = sums.s0;
-  float* __restrict const p = sums.p;
-  float* __restrict const q = sums.q;
-  float* __restrict const w = sums.w;
-  PALPATE_INDEPENDENT
-  for (std::size_t n = 0; n < count; ++n) {
-    float sum0 = Total ? s0[n] : 0;
-    float sum1 = p[n];
-    float sum2 = q[n];
-    float sum3 = w[n];
-    for (int c = 0; c < Count; ++c) {
-      const float* const a = pairs[c].above;
-      const float* const b = pairs[c].below;
-      if constexpr (Total) sum0 += pairs[c].weight * (a[n] + b[n]);
-      sum1 += pairs[c].weight * (a[n + plane] + b[n + plane]);
-      sum2 += pairs[c].weight * (a[n + 2 * plane] + b[n + 2 * plane]);
-      sum3 += pairs[c].weight_w * (a[n] - b[n]);
-    }
-    if constexpr (Total) s0[n] = sum0;
-    p[n] = sum1;
-    q[n] = sum2;
-    w[n] = sum3;
+[[gnu::always_inline]] inline void in_passes(int count, const Pass& pass) {
+  with_count(
+      count, [&]<int Count>() __attribute__((always_inline)) { pass.template operator()<Count, true>(0); });
+  for (int n = most_at_once; n < count; n += most_at_once) {
+    with_count(
+        count - n, [&]<int Count>() __attribute__((always_inline)) { pass.template operator()<Count, false>(n); });
   }
 }
 
-template <bool Total, bool First>
-[[gnu::always_inline]] inline void add_slice(const SlicePair& slice, std::size_t plane, const Sums& sums,
-                                             std::size_t count) {
-  float* __restrict const s0 = sums.s0;
-  float* __restrict const p = sums.p;
-  float* __restrict const q = sums.q;
-  float* __restrict const w = sums.w;
-  const float* __restrict const b = slice.below;
-  const float weight = slice.weight;
-  const float weight_w = slice.weight_w;
-  PALPATE_INDEPENDENT
-  for (std::size_t n = 0; n < count; ++n) {
-    if constexpr (Total) s0[n] = (First ? 0 : s0[n]) + weight * b[n];
-    p[n] = (First ? 0 : p[n]) + weight * b[n + plane];
-    q[n] = (First ? 0 : q[n]) + weight * b[n + 2 * plane];
-    w[n] = (First ? 0 : w[n]) + weight_w * b[n];
+template <int Count, int Slices>
+[[gnu::always_inline]] inline void fit_balanced(const EvenSlices& even, const glm::mat3& slope, int width,
+                                                glm::vec3* gradients, std::ptrdiff_t apart) {
+  const float* at[2 * Count + Slices];
+  for (int n = 0; n < 2 * Count + Slices; ++n) at[n] = even.slices[n - Count] + even.row;
+  float m[9];
+  for (int n = 0; n < 9; ++n) m[n] = slope[n / 3][n % 3];
+  const TapPair* __restrict const pairs = even.pairs;
+  const float middle = even.middle;
+  const float middle_w = even.middle_w;
+  for (int k = 0; k < Slices; ++k) {
+    float* __restrict const out = &(gradients + k * apart)->x;
+    PALPATE_INDEPENDENT
+    for (int i = 0; i < width; ++i) {
+      float p = middle * at[k + Count][i + tile_width];
+      float q = middle * at[k + Count][i + 2 * tile_width];
+      float w = middle_w * at[k + Count][i];
+      for (int n = 0; n < Count; ++n) {
+        const float* const a = at[k + Count + n + 1];
+        const float* const b = at[k + Count - n - 1];
+        p += pairs[n].even * (a[i + tile_width] + b[i + tile_width]);
+        q += pairs[n].even * (a[i + 2 * tile_width] + b[i + 2 * tile_width]);
+        w += pairs[n].odd * (a[i] - b[i]);
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        out[3 * i + axis] = ((m[axis] * p + m[3 + axis] * q) + m[6 + axis] * w) + 0.0F;
+      }
+    }
   }
 }
 
-template <bool Total>
-[[gnu::always_inline]] inline void add_all_slices(const SlicePair* pairs, int pair_count, std::size_t plane,
-                                                  const Sums& sums, std::size_t count) {
-  // From itself outwards: the first is always one slice.
-  add_slice<Total, true>(pairs[0], plane, sums, count);
-  for (int c = 1; c < pair_count;) {
-    if (pairs[c].above == nullptr) {
-      add_slice<Total, false>(pairs[c], plane, sums, count);
-      ++c;
-    } else if (c + 1 < pair_count && pairs[c + 1].above != nullptr) {
-      add_slice_pairs<2, Total>(pairs + c, plane, sums, count);
-      c += 2;
-    } else {
-      add_slice_pairs<1, Total>(pairs + c, plane, sums, count);
-      ++c;
+/// gradient_of() with the fit of voxel i.
+[[gnu::always_inline]] inline void fit_voxel(const float* fits, int i, float one, float p, float q, float w,
+                                             float* gradient) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* const m = fits + axis * tile_width + i;
+    gradient[axis] = ((m[0] * p + m[3 * tile_width] * q) + (m[6 * tile_width] * w + m[9 * tile_width] * one)) + 0.0F;
+  }
+}
+
+template <int Count>
+[[gnu::always_inline]] inline void fit_even(const EvenSlices& even, const float* __restrict fits, int begin, int end,
+                                            glm::vec3* gradients) {
+  const float* at[2 * Count + 1];
+  for (int n = 0; n < 2 * Count + 1; ++n) at[n] = even.slices[n - Count] + even.row;
+  const TapPair* __restrict const pairs = even.pairs;
+  float* __restrict const out = &gradients->x;
+  PALPATE_INDEPENDENT
+  for (int i = begin; i < end; ++i) {
+    float one = even.middle * at[Count][i];
+    float p = even.middle * at[Count][i + tile_width];
+    float q = even.middle * at[Count][i + 2 * tile_width];
+    float w = even.middle_w * at[Count][i];
+    for (int n = 0; n < Count; ++n) {
+      const float* const a = at[Count + n + 1];
+      const float* const b = at[Count - n - 1];
+      one += pairs[n].even * (a[i] + b[i]);
+      p += pairs[n].even * (a[i + tile_width] + b[i + tile_width]);
+      q += pairs[n].even * (a[i + 2 * tile_width] + b[i + 2 * tile_width]);
+      w += pairs[n].odd * (a[i] - b[i]);
     }
+    fit_voxel(fits, i, one, p, q, w, out + 3 * i);
+  }
+}
+
+template <bool Pair>
+[[gnu::always_inline]] inline void add_slices(const SlicePair& slices, std::ptrdiff_t row, int width,
+                                              float* __restrict sums) {
+  const float* __restrict const b = slices.below + row;
+  const float* __restrict const a = Pair ? slices.above + row : b;
+  PALPATE_INDEPENDENT
+  for (int i = 0; i < width; ++i) {
+    for (int n = 0; n < 3; ++n) {
+      const int at = i + n * tile_width;
+      sums[at] += slices.weight * (Pair ? a[at] + b[at] : b[at]);
+    }
+    sums[i + 3 * tile_width] += slices.weight_w * (Pair ? a[i] - b[i] : b[i]);
   }
 }
 
 }  // namespace
 
 PALPATE_FOR_PROCESSOR
-void filter_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* one, float* p) {
+void filter_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* sums) {
   in_passes(
-      pairs, count, [=]<int Count, bool First>(const TapPair* from) __attribute__((always_inline)) {
-        add_row_pairs<Count, First>(in, middle, from, width, one, p);
+      count, [=]<int Count, bool First>(int done) __attribute__((always_inline)) {
+        add_row_pairs<Count, First>(in, middle, pairs + done, done, width, sums);
       });
 }
 
 PALPATE_FOR_PROCESSOR
-void filter_column(const float* rows, std::ptrdiff_t stride, float middle, const TapPair* pairs, int count, int width,
-                   float* one, float* p, float* q) {
+void filter_column(const float* rows, float middle, const TapPair* pairs, int count, int width, float* sums) {
   in_passes(
-      pairs, count, [=]<int Count, bool First>(const TapPair* from) __attribute__((always_inline)) {
-        add_column_pairs<Count, First>(rows, stride, middle, from, width, one, p, q);
+      count, [=]<int Count, bool First>(int done) __attribute__((always_inline)) {
+        add_column_pairs<Count, First>(rows, middle, pairs + done, done, width, sums);
       });
 }
 
 PALPATE_FOR_PROCESSOR
-void sum_slices(const SlicePair* pairs, int pair_count, std::size_t plane, float* s0, float* p, float* q, float* w,
-                std::size_t count) {
-  const Sums sums{s0, p, q, w};
-  if (s0 == nullptr) {
-    add_all_slices<false>(pairs, pair_count, plane, sums, count);
-  } else {
-    add_all_slices<true>(pairs, pair_count, plane, sums, count);
-  }
-}
-
-PALPATE_FOR_PROCESSOR
-void fit_balanced_row(const glm::mat3& slope, const float* p, const float* q, const float* w, int count,
-                      glm::vec3* gradients) {
-  float m[9];
-  for (int n = 0; n < 9; ++n) m[n] = slope[n / 3][n % 3];
-  float* const out = &gradients->x;
-  PALPATE_INDEPENDENT
-  for (int i = 0; i < count; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      out[3 * i + axis] = ((m[axis] * p[i] + m[3 + axis] * q[i]) + m[6 + axis] * w[i]) + 0.0F;
+void fit_any_slices(const SlicePair* pairs, int pair_count, std::ptrdiff_t row, const float* fits, int width,
+                    float* sums, glm::vec3* gradients) {
+  std::fill(sums, sums + 4 * tile_width, 0.0F);
+  for (int c = 0; c < pair_count; ++c) {
+    if (pairs[c].above == nullptr) {
+      add_slices<false>(pairs[c], row, width, sums);
+    } else {
+      add_slices<true>(pairs[c], row, width, sums);
     }
   }
+  const float* __restrict const s = sums;
+  float* __restrict const out = &gradients->x;
+  PALPATE_INDEPENDENT
+  for (int i = 0; i < width; ++i) {
+    fit_voxel(fits, i, s[i], s[i + tile_width], s[i + 2 * tile_width], s[i + 3 * tile_width], out + 3 * i);
+  }
+}
+
+PALPATE_FOR_PROCESSOR
+void fit_balanced_slices(const EvenSlices& even, int slices, const glm::mat3& slope, int width, glm::vec3* gradients,
+                         std::ptrdiff_t apart) {
+  with_count(
+      even.count, [&]<int Count>() __attribute__((always_inline)) {
+        slices == slices_at_once ? fit_balanced<Count, slices_at_once>(even, slope, width, gradients, apart)
+                                 : fit_balanced<Count, 1>(even, slope, width, gradients, apart);
+      });
+}
+
+PALPATE_FOR_PROCESSOR
+void fit_even_slices(const EvenSlices& even, const float* fits, int begin, int end, glm::vec3* gradients) {
+  static_assert(most_even_pairs <= most_at_once);
+  with_count(
+      even.count, [&]<int Count>()
+                      __attribute__((always_inline)) { fit_even<Count>(even, fits, begin, end, gradients); });
 }
 
 PALPATE_FOR_PROCESSOR
@@ -196,3 +223,5 @@ void to_floats(const std::uint16_t* stored, int count, float* values) {
 }
 
 }  // namespace palpate::io::internal
+
+// NOLINTEND(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)

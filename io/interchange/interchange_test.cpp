@@ -51,6 +51,119 @@ TEST(Interchange, ASeriesSaysWhatItIsAndIsTheSameAnywhere) {
   EXPECT_EQ(series.uid, find_series(std::array{elsewhere.path()}).series.at(0).uid);
 }
 
+/// After each slice the part that is read; of some slices alone it begins and ends just so.
+TEST(Interchange, TellsHowMuchIsReadAndStopsWhenItIsToldTo) {
+  const TestFolder folder;
+  write_bytes(folder / "a.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + voxels<std::int16_t>());
+  const Series series = find_series(std::array{folder.path()}).series.at(0);
+  const int slices = load(series).geometry.dimensions.z;
+  ASSERT_GT(slices, 3);
+  std::vector<double> told;
+  LoadOptions options;
+  options.progress = [&](double part) {
+    told.push_back(part);
+    return true;
+  };
+  for (const LoadOptions::Range range : {LoadOptions::Range{0, slices}, LoadOptions::Range{1, slices - 2}}) {
+    told.clear();
+    options.slices = range;
+    load(series, options);
+    ASSERT_EQ(told.size(), static_cast<std::size_t>(range.count));
+    for (std::size_t n = 0; n < told.size(); ++n) {
+      EXPECT_DOUBLE_EQ(told[n], static_cast<double>(n + 1) / range.count);
+    }
+  }
+  options.progress = [](double part) { return part < 0.5; };
+  EXPECT_THROW(load(series, options), Cancelled);
+}
+
+/// Whichever way the file's slices go, packed or not, and of any of its volumes.
+TEST(Interchange, SomeSlicesAreThoseOfTheWhole) {
+  const TestFolder folder;
+  const std::string data = voxels<std::int16_t>(false, 3);
+  const auto three_volumes = [](const Rows& rows) {
+    return Nifti().sform(rows).put<std::int16_t>(40, 4).put<std::int16_t>(48, 3).bytes();
+  };
+  const Rows in_the_plane{{{1, 0.4, 0, 5}, {0, 1, 0, 6}, {0, 0, -3, 7}}};  // i and k become the slices' axes
+  write_bytes(folder / "upward.nii", three_volumes(oblique()) + data);
+  write_bytes(folder / "downward.nii.gz", packed(three_volumes(flipped()) + data, 31));
+  write_bytes(folder / "across.nii", three_volumes(in_the_plane) + data);
+  write_bytes(folder / "downward.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + data);
+  for (const char* const name : {"upward.nii", "downward.nii.gz", "across.nii", "downward.mha"}) {
+    const Series series = find_series(std::array{folder / name}).series.at(0);
+    for (int frame = 0; frame < series.frames_per_position; ++frame) {
+      const Volume whole = load(series, {.frame = frame});
+      const int slices = whole.geometry.dimensions.z;
+      for (int first = 0; first < slices; ++first) {
+        for (int count = 1; count <= slices - first; ++count) {
+          SCOPED_TRACE(::testing::Message() << name << ", frame " << frame << ": " << first << " + " << count);
+          const Volume part = load(series, {.frame = frame, .slices = LoadOptions::Range{first, count}});
+          ASSERT_EQ(part.geometry.dimensions,
+                    glm::ivec3(whole.geometry.dimensions.x, whole.geometry.dimensions.y, count));
+          for (int k = 0; k < count; ++k) {
+            EXPECT_EQ(part.geometry.slice_positions[static_cast<std::size_t>(k)],
+                      whole.geometry.slice_positions[static_cast<std::size_t>(first + k)]);
+            for (int n = 0; n < part.geometry.dimensions.x * part.geometry.dimensions.y; ++n) {
+              const int i = n % part.geometry.dimensions.x, j = n / part.geometry.dimensions.x;
+              ASSERT_EQ(part.value_at(i, j, k), whole.value_at(i, j, first + k)) << i << ' ' << j << ' ' << k;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Interchange, WhatIsNotThereIsNamedByItsNumber) {
+  const TestFolder folder;
+  write_bytes(folder / "a.nii", Nifti().sform(oblique()).put<std::int16_t>(40, 4).put<std::int16_t>(48, 3).bytes() +
+                                    voxels<std::int16_t>(false, 3));
+  const Series series = find_series(std::array{folder / "a.nii"}).series.at(0);
+  const auto refused = [&](const LoadOptions& options) -> std::string {
+    try {
+      load(series, options);
+    } catch (const DicomError& error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  for (const int frame : {-1, 3}) {
+    EXPECT_EQ(refused({.frame = frame}),
+              "series " + series.uid + " (a.nii) has frames 0 to 2, not " + std::to_string(frame));
+  }
+  for (const auto& [first, count] : {std::pair{-1, 2}, {0, 0}, {0, 6}, {3, 3}}) {
+    EXPECT_EQ(refused({.slices = LoadOptions::Range{first, count}}),
+              "series " + series.uid + " (a.nii) has slices 0 to 4, not " + std::to_string(count) + " from " +
+                  std::to_string(first));
+  }
+}
+
+TEST(Interchange, OneSliceAloneIsNoVolume) {
+  for (const int slices : {1, 2}) {
+    const TestFolder folder;
+    write_bytes(folder / "a.nii",
+                Nifti().sform(oblique()).put(46, static_cast<std::int16_t>(slices)).bytes() + voxels<std::int16_t>());
+    const Series series = find_series(std::array{folder / "a.nii"}).series.at(0);
+    EXPECT_EQ(series.geometry.dimensions.z, slices);
+    EXPECT_EQ(series.usable, slices > 1);
+  }
+}
+
+/// Of a file that is in two, both count.
+TEST(Interchange, FilesThatDifferHaveOtherNames) {
+  const TestFolder folder;
+  const auto uid_of = [&](const std::string& header, const std::string& data) {
+    write_bytes(folder / "a.mhd", meta_image(header + "ElementDataFile = a.raw\n"));
+    write_bytes(folder / "a.raw", data);
+    return find_series(std::array{folder / "a.mhd"}).series.at(0).uid;
+  };
+  std::string data = voxels<std::int16_t>();
+  const std::string uid = uid_of(meta_place, data);
+  EXPECT_NE(uid_of(meta_place + "Comment = another\n", data), uid);
+  data.back() = static_cast<char>(data.back() + 1);
+  EXPECT_NE(uid_of(meta_place, data), uid);
+}
+
 // Beside a scan it is a map of it; alone and named it is what was meant.
 TEST(Interchange, ALabelMapIsNoScanUnlessItIsNamed) {
   const TestFolder folder;

@@ -25,5 +25,37 @@ TEST(MetaImage, LiesWhereItsMatrixSays) {
   }
 }
 
+// HeaderSize: so many bytes before the voxels; -1 where they are what the file ends with (itk::MetaImageIO).
+TEST(MetaImage, VoxelsMayBeginWithinTheirFile) {
+  const TestFolder folder;
+  write_bytes(folder / "a.raw", "before" + voxels<std::int16_t>());
+  for (const char* const size : {"6", "-1"}) {
+    SCOPED_TRACE(size);
+    write_bytes(folder / "a.mhd", meta_image(meta_place + "HeaderSize = " + size + "\nElementDataFile = a.raw\n"));
+    expect_all(
+        only_volume(folder / "a.mhd"), [](int a, int b, int c) { return place_of(meta_rows, a, b, c); }, stored);
+  }
+}
+
+TEST(MetaImage, FieldsGoByEachOfTheirNames) {
+  const TestFolder folder;
+  const std::string data = voxels<std::int16_t>();
+  for (const std::string turn : {"TransformMatrix", "Rotation", "Orientation"}) {
+    for (const std::string offset : {"Offset", "Position", "Origin"}) {
+      for (const std::string spacing : {"ElementSpacing", "ElementSize"}) {
+        SCOPED_TRACE(turn + ' ' + offset + ' ' + spacing);
+        write_bytes(folder / "a.mha", meta_image(turn + " = 0.6 0.8 0 -0.8 0.6 0 0 0 -1\n" + offset + " = -12 5 90\n" +
+                                                 spacing + " = 0.5 2 3\nElementDataFile = LOCAL\n") +
+                                          data);
+        expect_all(
+            only_volume(folder / "a.mha"), [](int a, int b, int c) { return place_of(meta_rows, a, b, c); }, stored);
+      }
+    }
+  }
+  write_bytes(folder / "a.mha", meta_image("ElementDataFile = LOCAL\n") + data);
+  expect_all(
+      only_volume(folder / "a.mha"), [](int a, int b, int c) { return Vec3(a, b, c); }, stored);
+}
+
 }  // namespace
 }  // namespace palpate::io::internal

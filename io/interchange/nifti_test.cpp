@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -9,6 +11,7 @@
 
 #include "io/load.h"
 #include "io/series.h"
+#include "io/structures/structure.h"
 #include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
 #include "io/testing/voxel_files.h"
@@ -135,7 +138,7 @@ TEST(Nifti, ValuesAreScaled) {
   for (const float slope : {0.5F, 0.0F}) {
     const TestFolder folder;
     Nifti header;
-    header.sform(oblique()).put<float>(112, slope).put<float>(116, 7);
+    header.sform(oblique()).put<float>(112, slope).put<float>(116, 7).put<float>(120, 99);
     write_bytes(folder / "a.nii", header.bytes() + voxels<std::int16_t>());
     const auto value = [&](int a, int b, int c) { return slope == 0 ? stored(a, b, c) : 0.5 * stored(a, b, c) + 7; };
     expect_all(
@@ -167,6 +170,76 @@ TEST(Nifti, NumbersOfAllTypes) {
   expect(16, voxels<float>(), 0);
   expect(64, voxels<double>(), 0);
   expect(1024, voxels<std::int64_t>(), 0);
+}
+
+// cal_max and cal_min: the values that are shown brightest and darkest (nifti1.h).
+TEST(Nifti, TellsTheWindowThatItsValuesAreShownIn) {
+  const auto window_of = [](float darkest, float brightest) {
+    const TestFolder folder;
+    write_bytes(folder / "a.nii",
+                Nifti().sform(oblique()).put(124, brightest).put(128, darkest).bytes() + voxels<std::int16_t>());
+    return find_series(std::array{folder / "a.nii"}).series.at(0).window;
+  };
+  ASSERT_TRUE(window_of(-160, 240));
+  EXPECT_EQ(window_of(-160, 240)->level, 40);
+  EXPECT_EQ(window_of(-160, 240)->width, 400);
+  EXPECT_FALSE(window_of(0, 0));
+  EXPECT_FALSE(window_of(5, -5));
+  EXPECT_FALSE(window_of(0, std::numeric_limits<float>::infinity()));
+}
+
+// dim[4] to dim[7] all count volumes, as far as dim[0] says; a size of 0 is 1.
+TEST(Nifti, VolumesAreOfAllFurtherAxes) {
+  for (int axes = 3; axes <= 7; ++axes) {
+    const TestFolder folder;
+    Nifti header;
+    header.sform(oblique()).put(40, static_cast<std::int16_t>(axes));
+    const std::array<std::int16_t, 4> sizes{2, 0, 3, 2};
+    int volumes = 1;
+    for (std::size_t n = 0; n < sizes.size(); ++n) {
+      header.put(48 + 2 * n, sizes[n]);
+      if (static_cast<int>(n) + 4 <= axes) volumes *= std::max<int>(1, sizes[n]);
+    }
+    write_bytes(folder / "a.nii", header.bytes() + voxels<std::int16_t>(false, volumes));
+    EXPECT_EQ(find_series(std::array{folder / "a.nii"}).series.at(0).frames_per_position, volumes) << axes;
+    EXPECT_EQ(only_volume(folder / "a.nii", volumes - 1).value_at(2, 1, 3),
+              only_volume(folder / "a.nii").value_at(2, 1, 3) + 1000 * (volumes - 1));
+  }
+}
+
+// Behind the header, up to vox_offset, lie extensions: here the table of labels of the Connectome Workbench.
+TEST(Nifti, NamesLabelsByTheTableInItsExtension) {
+  const std::string table =
+      "<LabelTable><Label Key=\"0\" Red=\"1\" Green=\"1\" Blue=\"1\" Alpha=\"0\">none</Label>"
+      "<Label Key=\"7\" Red=\"0.2\" Green=\"0.4\" Blue=\"1\" Alpha=\"1\"><![CDATA[left kidney]]></Label>"
+      "<Label Key=\"9\" Red=\"1\" Green=\"0\" Blue=\"0.6\" Alpha=\"1\">spleen</Label></LabelTable>";
+  const TestFolder folder;
+  Nifti header;
+  header.sform(oblique()).put<float>(108, static_cast<float>(352 + table.size()));
+  write_bytes(folder / "a.nii", header.bytes() + table + labels());
+  const std::vector<Structure> found = find_structures(std::array{folder / "a.nii"}).structures;
+  ASSERT_THAT(found, SizeIs(3));
+  EXPECT_EQ(found[1].number, 7);
+  EXPECT_EQ(found[1].name, "left kidney");
+  EXPECT_EQ(found[1].color, "#3366ff");
+  EXPECT_EQ(measure(found[1]).voxels, static_cast<std::uint64_t>(3 * nx * ny));
+  EXPECT_EQ(found[2].number, 9);
+  EXPECT_EQ(found[2].name, "spleen");
+  EXPECT_EQ(found[2].color, "#ff0099");
+  EXPECT_FALSE(found[2].unfit.empty()) << "nobody outlined it";
+}
+
+// intent_code 1002: what looks like an image, a label a voxel, is a map of labels where the file says so.
+TEST(Nifti, IsAMapOfLabelsWhereItsIntentSaysSo) {
+  std::string data;
+  for (int n = 0; n < nx * ny * nz; ++n) data += as_bytes(static_cast<std::int16_t>(1 + n));
+  for (const int intent : {0, 1001, 1002, 1003}) {
+    const TestFolder folder;
+    write_bytes(folder / "a.nii", Nifti().sform(oblique()).put(68, static_cast<std::int16_t>(intent)).bytes() + data);
+    EXPECT_EQ(find_structures(std::array{folder / "a.nii"}).structures.size(),
+              intent == 1002 ? static_cast<std::size_t>(nx * ny * nz) : 0U)
+        << intent;
+  }
 }
 
 TEST(Nifti, WhatIsNoNumberIsPadding) {

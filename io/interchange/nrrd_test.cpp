@@ -37,5 +37,19 @@ TEST(Nrrd, LiesWhereItsDirectionsSay) {
   }
 }
 
+TEST(Nrrd, WhatIsToBeSkippedOtherwiseIsRefused) {
+  const TestFolder folder;
+  const std::string place = "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
+  const std::string why =
+      "its encoding \"raw with lines or packed bytes to be skipped\" is not read; there are: raw, gzip";
+  const std::string data = voxels<std::int16_t>();
+  for (const std::string fields :
+       {"encoding: raw\nline skip: 1\n", "encoding: raw\nlineskip: 2\n", "encoding: raw\nbyte skip: -2\n"}) {
+    EXPECT_EQ(refusal_of("a.nrrd", nrrd(place + fields) + data), why) << fields;
+  }
+  EXPECT_EQ(refusal_of("a.nrrd", nrrd(place + "encoding: gzip\nbyteskip: 3\n") + packed(data, 31)), why);
+  EXPECT_EQ(refusal_of("a.nrrd", nrrd(place + "encoding: gzip\nbyteskip: -1\n") + packed(data, 31)), why);
+}
+
 }  // namespace
 }  // namespace palpate::io::internal

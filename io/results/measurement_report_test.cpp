@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "io/archive/testing/says.h"
 #include "io/errors.h"
@@ -104,6 +106,62 @@ TEST(MeasurementReport, GoesIntoTheStudyOfItsImages) {
   EXPECT_EQ(points[0].YCoord, -2.5F);
   EXPECT_EQ(points[0].ZCoord, 300.125F);
   EXPECT_EQ(points[3].YCoord, 1.5F);
+}
+
+/// A line for each content item below this one: relationship, type and the code of its concept, by the file's bytes.
+void outline(DcmItem& item, const std::string& indent, std::vector<std::string>& lines) {
+  std::string line = indent;
+  if (const std::string relation = text(item, DCM_RelationshipType); !relation.empty()) line += relation + " ";
+  line += text(item, DCM_ValueType);
+  DcmItem* part = nullptr;
+  if (item.findAndGetSequenceItem(DCM_ConceptNameCodeSequence, part).good()) line += " " + text(*part, DCM_CodeValue);
+  if (item.findAndGetSequenceItem(DCM_ContentTemplateSequence, part).good()) {
+    line += ", template " + text(*part, DCM_TemplateIdentifier);
+  }
+  lines.push_back(line);
+  for (long n = 0; item.findAndGetSequenceItem(DCM_ContentSequence, part, n).good(); ++n) {
+    outline(*part, indent + "  ", lines);
+  }
+}
+
+/// Source: DICOM PS3.16, templates 1500, 1501, 1600 and 1004, and the codes of its annex D.
+TEST(MeasurementReport, HasTheTreeOfItsTemplates) {
+  const FreshFolder scratch = temporary_folder();
+  const fs::path file = scratch.path() / "report.dcm";
+  write_measurement_report(series_in(scratch.path()), two_marks, file);
+  DcmFileFormat format;
+  ASSERT_TRUE(format.loadFile(file.c_str()).good());
+  std::vector<std::string> lines;
+  outline(*format.getDataset(), "", lines);
+  const std::vector<std::string> wanted{"CONTAINER 126000, template 1500",
+                                        "  HAS CONCEPT MOD CODE 121049",
+                                        "  HAS OBS CONTEXT CODE 121005",
+                                        "  HAS OBS CONTEXT UIDREF 121012",
+                                        "  HAS OBS CONTEXT TEXT 121013",
+                                        "  HAS CONCEPT MOD CODE 121058",
+                                        "  CONTAINS CONTAINER 111028",
+                                        "    CONTAINS CONTAINER 126200",
+                                        "      CONTAINS IMAGE",
+                                        "      CONTAINS IMAGE",
+                                        "  CONTAINS CONTAINER 126010",
+                                        "    CONTAINS CONTAINER 125007, template 1501",
+                                        "      HAS OBS CONTEXT TEXT 112039",
+                                        "      HAS OBS CONTEXT UIDREF 112040",
+                                        "      CONTAINS TEXT 121106",
+                                        "      CONTAINS SCOORD3D 111030",
+                                        "      CONTAINS NUM 112031",
+                                        "      CONTAINS NUM FORCE",
+                                        "    CONTAINS CONTAINER 125007, template 1501",
+                                        "      HAS OBS CONTEXT TEXT 112039",
+                                        "      HAS OBS CONTEXT UIDREF 112040",
+                                        "      CONTAINS SCOORD3D 111030",
+                                        "    CONTAINS CONTAINER 125007, template 1501",
+                                        "      HAS OBS CONTEXT TEXT 112039",
+                                        "      HAS OBS CONTEXT UIDREF 112040",
+                                        "      CONTAINS NUM 121206",
+                                        "        INFERRED FROM SCOORD3D 121055",
+                                        "  CONTAINS TEXT 121106"};
+  EXPECT_EQ(lines, wanted);
 }
 
 TEST(MeasurementReport, RefusesWhatNothingCanReferTo) {

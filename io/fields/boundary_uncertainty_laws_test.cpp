@@ -1,0 +1,275 @@
+/// Each number of a boundary's uncertainty, of values that mathematics gives, on grids that are oblique, tilted and not
+/// square. boundary_uncertainty_test.cpp tells whether the numbers together hold the truth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "io/fields/boundary_uncertainty.h"
+
+namespace palpate::io {
+namespace {
+
+/// Values by a formula, at places by another; the gradient's direction is the normal's, its length means nothing.
+class FormulaSource final : public FieldSource {
+ public:
+  std::function<double(const Vec3&)> value;
+  std::function<bool(const Vec3&)> inside = [](const Vec3&) { return true; };
+  Vec3 gradient{0};
+
+  FieldSet available() const noexcept override { return FieldSet::value | FieldSet::gradient; }
+  Sample sample(const Vec3& at, FieldSet wanted) const noexcept override {
+    Sample sample;
+    sample.inside = inside(at);
+    if (!sample.inside) return sample;
+    sample.value = value(at);
+    if (contains(wanted, FieldSet::gradient)) sample.gradient = gradient;
+    return sample;
+  }
+};
+
+/// The same number for the same place, and another one for any other: even between 0 and 1.
+double hashed(const Vec3& at) {
+  std::uint64_t bits = 0x9E3779B97F4A7C15;
+  for (int axis = 0; axis < 3; ++axis) {
+    bits = (bits ^ static_cast<std::uint64_t>(std::llround(at[axis] * 1e6))) * 0xBF58476D1CE4E5B9;
+    bits ^= bits >> 29;
+  }
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
+/// Of a standard deviation of one.
+double gaussian_at(const Vec3& at) {
+  const double u = hashed(at), v = hashed(at + Vec3(1e4, 0, 0));
+  return std::sqrt(-2 * std::log(u + 1e-12)) * std::cos(2 * std::numbers::pi * v);
+}
+
+struct TiltedBoundary {
+  Geometry geometry;
+  Vec3 place{0}, normal{0};
+  glm::dmat3 tangent{1};  // projects onto the boundary's plane
+};
+
+Vec3 any_unit(std::mt19937& random) {
+  std::normal_distribution<double> any;
+  const double x = any(random), y = any(random), z = any(random);
+  return glm::normalize(Vec3(x, y, z));
+}
+
+TiltedBoundary tilted_boundary(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> mm(0.4, 3);
+  TiltedBoundary made;
+  Geometry& g = made.geometry;
+  g.dimensions = {100, 100, 100};
+  g.direction_i = any_unit(random);
+  g.direction_j = glm::normalize(glm::cross(any_unit(random), g.direction_i));
+  g.spacing_i = mm(random);
+  g.spacing_j = mm(random);
+  const double apart = mm(random), slide = mm(random);
+  g.step = apart * glm::cross(g.direction_i, g.direction_j) + slide * g.direction_j - 0.5 * slide * g.direction_i;
+  for (int k = 0; k < g.dimensions.z; ++k) g.slice_positions.push_back(static_cast<double>(k) * g.step);
+  made.place = g.to_patient({50, 50, 50});
+  made.normal = any_unit(random);
+  made.tangent = glm::dmat3(1) - glm::outerProduct(made.normal, made.normal);
+  return made;
+}
+
+double trace(const glm::dmat3& m) {
+  return m[0][0] + m[1][1] + m[2][2];
+}
+
+/// The mean over the directions a of a plane of (a.A a) (a.B a), of matrices that lie in it.
+double mean_of_product(const glm::dmat3& a, const glm::dmat3& b) {
+  return (trace(a) * trace(b) + 2 * trace(a * b)) / 8;
+}
+
+/// A voxel's extent along a unit direction is the root of this form.
+glm::dmat3 extent_form(const Geometry& g, double across_slices) {
+  const Vec3 normal = glm::cross(g.direction_i, g.direction_j);
+  return g.spacing_i * g.spacing_i * glm::outerProduct(g.direction_i, g.direction_i) +
+         g.spacing_j * g.spacing_j * glm::outerProduct(g.direction_j, g.direction_j) +
+         across_slices * across_slices * glm::outerProduct(normal, normal);
+}
+
+constexpr double box = 1.0 / 12, hat = 1.0 / 6, spline = 0.58 * 0.58;  // variances of blur, voxels squared
+
+TEST(BoundaryUncertaintyLaws, CurvatureShiftsByTheVarianceOfTheBlurAlongEachTangent) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const TiltedBoundary b = tilted_boundary(seed);
+    std::mt19937 random(seed + 1000);
+    const Vec3 one = any_unit(random), other = any_unit(random);
+    const double slope = 70;
+    // Bent in two directions by different radii, and not at all across the boundary.
+    const glm::dmat3 bend =
+        b.tangent * (3.0 * glm::outerProduct(one, one) - 1.3 * glm::outerProduct(other, other)) * b.tangent;
+    FormulaSource source;
+    source.gradient = 0.2 * b.normal;
+    source.value = [&](const Vec3& at) {
+      const Vec3 away = at - b.place;
+      return 40 + slope * glm::dot(b.normal, away) + 0.5 * glm::dot(away, bend * away);
+    };
+    const Geometry& g = b.geometry;
+    const glm::dmat3 voxel = b.tangent * extent_form(g, g.slice_spacing()) * b.tangent;
+    const glm::dmat3 in_slice = b.tangent * extent_form(g, 0) * b.tangent;
+    const Filter gaussian{.type = FilterType::gaussian, .sigma_mm = 1.7};
+    const Filter median{.type = FilterType::median, .sigma_mm = 1.7, .width = 5};
+    const Filter bilateral{.type = FilterType::bilateral, .sigma_mm = 1.7, .width = 5};
+    const auto expect = [&](ValueMethod method, const Filter& filter, double mean) {
+      const BoundaryUncertainty known = uncertainty_at(source, g, method, b.place, filter);
+      EXPECT_NEAR(known.slope, slope, 1e-9 * slope) << seed;
+      EXPECT_NEAR(known.curvature_mm, -mean / slope, 1e-7) << seed;
+      EXPECT_NEAR(known.noise_mm, 0, 1e-9) << seed;
+      EXPECT_NEAR(known.two_sigma_mm, 2 * known.sampling_mm + std::abs(mean) / slope, 1e-7) << seed;
+    };
+    const double hats = (box + hat) * mean_of_product(voxel, bend);
+    expect(ValueMethod::trilinear, {}, hats);
+    expect(ValueMethod::cubic, {}, (box + spline) * mean_of_product(voxel, bend));
+    expect(ValueMethod::trilinear, bilateral, hats);
+    expect(ValueMethod::trilinear, gaussian, hats + 1.7 * 1.7 * trace(bend) / 2);
+    expect(ValueMethod::trilinear, median, hats + 25.0 / 12 * mean_of_product(in_slice, bend));
+  }
+}
+
+/// Noise of a known deviation, on a plane that is much steeper along the boundary than the noise: a wrong normal.
+TEST(BoundaryUncertaintyLaws, NoiseIsItsStandardDeviationWhateverTheTilt) {
+  double squares = 0, slopes = 0;
+  constexpr int places = 600;
+  const double sigma = 12, slope = 500;
+  for (unsigned seed = 0; seed < places; ++seed) {
+    const TiltedBoundary b = tilted_boundary(seed);
+    std::mt19937 random(seed + 1000);
+    const Vec3 tilt = 40.0 * (b.tangent * any_unit(random));
+    FormulaSource source;
+    source.gradient = b.normal;
+    source.value = [&](const Vec3& at) {
+      return slope * glm::dot(b.normal, at - b.place) + glm::dot(tilt, at) + sigma * gaussian_at(at);
+    };
+    const BoundaryUncertainty known = uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place);
+    squares += known.noise * known.noise / places;
+    slopes += known.slope / places;
+    EXPECT_DOUBLE_EQ(known.noise_mm, known.noise / known.slope);
+    EXPECT_DOUBLE_EQ(known.two_sigma_mm,
+                     2 * std::max(known.noise_mm, known.sampling_mm) + std::abs(known.curvature_mm));
+  }
+  // Those beyond three deviations, as the pairs themselves tell them, are left out: that takes a little.
+  EXPECT_NEAR(std::sqrt(squares), 0.975 * sigma, 0.012 * sigma);
+  EXPECT_NEAR(slopes, slope, 0.01 * slope);
+}
+
+/// A structure beside the boundary, in few of the pairs, is none of the noise.
+TEST(BoundaryUncertaintyLaws, WhatIsFarOutsideOfTheNoiseIsLeftOut) {
+  constexpr int places = 200;
+  double squares = 0;
+  for (unsigned seed = 0; seed < places; ++seed) {
+    const TiltedBoundary b = tilted_boundary(seed);
+    FormulaSource source;
+    source.gradient = b.normal;
+    const auto value = [&](const Vec3& at) { return 200 * glm::dot(b.normal, at - b.place) + 5 * gaussian_at(at); };
+    // A place of the nearest pair, which lies on the plane.
+    Vec3 nearest(1e9);
+    source.value = [&](const Vec3& at) {
+      const bool on_plane = std::abs(glm::dot(b.normal, at - b.place)) < 1e-9;
+      const double away = glm::distance(at, b.place);
+      if (on_plane && away > 1e-9 && away < glm::distance(nearest, b.place)) nearest = at;
+      return value(at);
+    };
+    uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place);
+    source.value = [&](const Vec3& at) { return value(at) + (glm::distance(at, nearest) < 1e-9 ? 400 : 0); };
+    const double noise = uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place).noise;
+    squares += noise * noise / places;
+  }
+  EXPECT_LT(std::sqrt(squares), 9);  // it pulls at the tilt; counted itself, it would make 50
+}
+
+/// Phases of the axes, as measured, in voxels; they add as noise does.
+TEST(BoundaryUncertaintyLaws, ThePhaseIsThatOfTheAxesThatTheBoundaryLiesAcross) {
+  constexpr double fine = 0.02, coarse = 0.05, linear = 0.04;
+  for (int longest = 0; longest < 3; ++longest) {
+    for (const double length : {1.5, 1.6, 4.0}) {
+      Vec3 spacing(1, 1.25, 1.125);
+      spacing[longest] = length;
+      spacing[(longest + 1) % 3] = 1;
+      Geometry g;
+      g.dimensions = {60, 60, 60};
+      g.direction_i = {0, 1, 0};
+      g.direction_j = {0, 0, 1};  // so that the slices ascend along x
+      g.spacing_i = spacing.x;
+      g.spacing_j = spacing.y;
+      g.step = {spacing.z, 0, 0};
+      for (int k = 0; k < 60; ++k) g.slice_positions.push_back(static_cast<double>(k) * g.step);
+      const std::array axes{g.direction_i, g.direction_j, Vec3(1, 0, 0)};
+      for (const Vec3& weights : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.48, 0.64, 0.6)}) {
+        FormulaSource source;
+        source.gradient = weights.x * axes[0] + weights.y * axes[1] + weights.z * axes[2];
+        source.value = [&](const Vec3& at) { return glm::dot(source.gradient, at); };
+        Vec3 cubic, trilinear;
+        for (int axis = 0; axis < 3; ++axis) {
+          const double part = weights[axis] * spacing[axis];
+          cubic[axis] = part * (axis == longest && length > 1.5 ? coarse : fine);
+          trilinear[axis] = part * linear;
+        }
+        const auto phase = [&](ValueMethod method) {
+          return uncertainty_at(source, g, method, g.to_patient({30, 30, 30})).sampling_mm;
+        };
+        EXPECT_NEAR(phase(ValueMethod::cubic), glm::length(cubic), 1e-12) << longest << ' ' << length;
+        EXPECT_NEAR(phase(ValueMethod::trilinear), glm::length(trilinear), 1e-12) << longest << ' ' << length;
+      }
+    }
+  }
+}
+
+/// What lies outside the scan has a value of zero, which must not count: neither alone nor of a pair.
+TEST(BoundaryUncertaintyLaws, WhatLiesOutsideDoesNotCount) {
+  int known_at = 0, unknown_at = 0;
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    const TiltedBoundary b = tilted_boundary(seed);
+    const double part = 0.1 * (seed % 8);  // outside
+    FormulaSource source;
+    source.gradient = b.normal;
+    source.value = [&](const Vec3& at) { return 1000 + 30 * glm::dot(b.normal, at - b.place); };
+    source.inside = [&](const Vec3& at) { return at == b.place || hashed(at) >= part; };
+    const BoundaryUncertainty known = uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place);
+    if (std::isfinite(known.two_sigma_mm)) {
+      ++known_at;
+      EXPECT_NEAR(known.slope, 30, 1e-6);
+      EXPECT_NEAR(known.noise, 0, 1e-6);
+      EXPECT_NEAR(known.curvature_mm, 0, 1e-6);
+    } else {
+      ++unknown_at;
+    }
+    // Half of the 32 pairs have to be there.
+    if (part == 0) {
+      EXPECT_TRUE(std::isfinite(known.two_sigma_mm));
+    }
+    if (part > 0.65) {
+      EXPECT_FALSE(std::isfinite(known.two_sigma_mm));
+    }
+  }
+  EXPECT_GT(known_at, 30);
+  EXPECT_GT(unknown_at, 15);
+}
+
+TEST(BoundaryUncertaintyLaws, ABoundaryThatFallsAlongItsGradientIsUnknown) {
+  const TiltedBoundary b = tilted_boundary(1);
+  FormulaSource source;
+  source.gradient = b.normal;
+  for (const double slope : {-3.0, 0.0}) {
+    source.value = [&](const Vec3& at) { return slope * glm::dot(b.normal, at); };
+    const BoundaryUncertainty known = uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place);
+    EXPECT_EQ(known.two_sigma_mm, std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(known.slope, slope, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::io

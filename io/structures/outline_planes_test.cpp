@@ -1,0 +1,313 @@
+// What contours and masks become before a surface is laid through them: distances in each plane against every edge, and
+// which planes there are, on planes that lie obliquely.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <tuple>
+#include <vector>
+
+#include "io/errors.h"
+#include "io/structures/beyond_slices.h"
+#include "io/structures/contour_planes.h"
+
+namespace palpate::io {
+namespace {
+
+/// Planes that lie obliquely; points are given along them and by their height.
+struct ObliquePlanes {
+  Vec3 u = glm::normalize(Vec3(0.9, 0.3, -0.2)), v = glm::normalize(glm::cross(Vec3(0.2, -0.4, 1), u));
+  Vec3 n = glm::cross(u, v), first{30, -40, 50};
+
+  Vec3 at(double x, double y, double height) const { return first + x * u + y * v + height * n; }
+  Contour contour(const std::vector<glm::dvec2>& points, double height) const {
+    Contour all;
+    for (const glm::dvec2& p : points) all.push_back(at(p.x, p.y, height));
+    return all;
+  }
+};
+
+using Points = std::vector<glm::dvec2>;
+
+double squared_distance(const Points& polygon, const glm::dvec2& at) {
+  double least = 1e12;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const glm::dvec2 a = polygon[k], along = polygon[(k + 1) % polygon.size()] - a;
+    const double part = std::clamp(glm::dot(at - a, along) / glm::dot(along, along), 0.0, 1.0);
+    least = std::min(least, glm::dot(at - a - part * along, at - a - part * along));
+  }
+  return least;
+}
+
+/// By the sum of the angles under which its edges are seen: once round, or not at all.
+bool is_within(const Points& polygon, const glm::dvec2& at) {
+  double turn = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const glm::dvec2 a = polygon[k] - at, b = polygon[(k + 1) % polygon.size()] - at;
+    turn += std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+  }
+  return std::abs(turn) > 3;
+}
+
+TEST(OutlineOfContours, HasTheDistanceOfEveryNodeToItsEdges) {
+  const ObliquePlanes planes;
+  const Points outer{{0, 0}, {17, 2}, {21, 13}, {6, 19}, {9, 9}}, hole{{11, 5}, {15, 6}, {14, 10}};
+  std::vector<Contour> contours;
+  for (int k = 0; k < 3; ++k) {
+    contours.push_back(planes.contour(outer, 3.0 * k));
+    contours.push_back(planes.contour(hole, 3.0 * k));
+  }
+  const ContourStack stack = stack_of(contours);
+  EXPECT_DOUBLE_EQ(stack.step_mm, 3);
+  const OutlinePlanes outline = planes_of(stack, {});
+  const NodeLattice& lattice = outline.lattice;
+  const double band = outline.band_mm;
+  const glm::ivec2 size(lattice.bricks * NodeBricks::edge);
+  int drawn = 0;
+  for (std::size_t plane = 0; plane < outline.node.size(); ++plane) {
+    PlaneDistances distances;
+    outline.compute(plane, distances);
+    const Vec3 corner = lattice.position({0, 0, outline.node[plane]}) - planes.first;
+    const double height = glm::dot(corner, planes.n);
+    EXPECT_NEAR(height, 3 * std::round(height / 3), 1e-6) << "on a plane of the contours, or as far beyond";
+    const bool empty = height < -1 || height > 7;
+    drawn += empty ? 0 : 1;
+    for (int n = 0; n < size.x * size.y; ++n) {
+      const Vec3 node = lattice.position({n % size.x, n / size.x, outline.node[plane]}) - planes.first;
+      const glm::dvec2 at(glm::dot(node, planes.u), glm::dot(node, planes.v));
+      const bool inside = !empty && is_within(outer, at) && !is_within(hole, at);
+      const double squared = empty ? 1e12 : std::min(squared_distance(outer, at), squared_distance(hole, at));
+      const auto index = static_cast<std::size_t>(n);
+      const double other = inside ? distances.to_inside[index] : distances.to_outside[index];
+      const double own = inside ? distances.to_outside[index] : distances.to_inside[index];
+      if (squared < 1e-12) continue;
+      ASSERT_EQ(other, 0) << at.x << ' ' << at.y;
+      if (squared <= band * band) {
+        ASSERT_NEAR(own, squared, 1e-4 * (1 + squared)) << at.x << ' ' << at.y;
+      } else {
+        ASSERT_GE(own, band * band) << at.x << ' ' << at.y;
+      }
+    }
+  }
+  EXPECT_EQ(drawn, 3);
+  EXPECT_EQ(lattice.spacing.x, 1);
+  EXPECT_EQ(lattice.spacing.y, 1);
+}
+
+std::size_t planes_with_something(const OutlinePlanes& outline) {
+  std::size_t count = 0;
+  for (std::size_t plane = 0; plane < outline.node.size(); ++plane) {
+    PlaneDistances distances;
+    outline.compute(plane, distances);
+    count += std::ranges::any_of(distances.to_outside, [](float mm) { return mm > 0; }) ? 1 : 0;
+  }
+  return count;
+}
+
+const Points square{{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+
+// Up to four planes may be missing; where five are, there are two bodies, with empty planes between them.
+TEST(OutlineOfContours, GoesOnThroughFewMissingPlanes) {
+  const ObliquePlanes planes;
+  for (const int apart : {1, 4, 5, 7}) {
+    std::vector<Contour> contours;
+    for (const int k : {0, 1, 2, 2 + apart, 3 + apart, 4 + apart}) contours.push_back(planes.contour(square, 2.0 * k));
+    const ContourStack stack = stack_of(contours);
+    const OutlinePlanes outline = planes_of(stack, {});
+    const auto beyond = static_cast<int>(std::ceil((outline.band_mm + 2 * outline.lattice.spacing.x) / 2));
+    EXPECT_EQ(outline.node.size(), static_cast<std::size_t>(6 + 2 * beyond + (apart > 4 ? apart - 1 : 0))) << apart;
+    EXPECT_EQ(planes_with_something(outline), 6U);
+    EXPECT_TRUE(std::is_sorted(outline.node.begin(), outline.node.end()));
+  }
+}
+
+// Pixels are as fine as the planes are apart, from half a millimeter to one.
+TEST(OutlineOfContours, LatticeIsAsFineAsItsPlanes) {
+  for (const auto& [step, fine] : {std::pair{0.2, 0.5}, {0.5, 0.5}, {0.7, 0.7}, {1.0, 1.0}, {4.0, 1.0}}) {
+    const ObliquePlanes planes;
+    std::vector<Contour> contours;
+    for (int k = 0; k < 4; ++k) contours.push_back(planes.contour(square, step * k));
+    const ContourStack stack = stack_of(contours);
+    const NodeLattice lattice = planes_of(stack, {}).lattice;
+    EXPECT_NEAR(lattice.spacing.x, fine, 1e-9) << step;
+    EXPECT_NEAR(lattice.spacing.y, fine, 1e-9) << step;
+    EXPECT_LE(lattice.spacing.z, 1.5) << step;
+    EXPECT_NEAR(step / lattice.spacing.z, std::round(step / lattice.spacing.z), 1e-9) << step;
+  }
+}
+
+// Where the scan ends with the contours nobody has seen an end; elsewhere they end.
+TEST(OutlineOfContours, GoesOnWhereTheScanEnds) {
+  const ObliquePlanes planes;
+  std::vector<Contour> contours;
+  for (int k = 0; k < 8; ++k) contours.push_back(planes.contour(square, 2.0 * k));
+  const ContourStack stack = stack_of(contours);
+  const OutlinePlanes alone = planes_of(stack, {});
+  const std::size_t beyond = (alone.node.size() - 8) / 2;
+  for (const bool ends_below : {false, true}) {
+    for (const bool ends_above : {false, true}) {
+      Geometry scan;
+      scan.dimensions = {50, 50, 8 + (ends_below ? 0 : 40) + (ends_above ? 0 : 40)};
+      scan.direction_i = planes.u;
+      scan.direction_j = planes.v;
+      scan.step = 2.0 * planes.n;
+      for (int k = 0; k < scan.dimensions.z; ++k) {
+        scan.slice_positions.push_back(planes.at(-10, -10, 2.0 * (k - (ends_below ? 0 : 40))));
+      }
+      DistanceOptions options;
+      options.scan = &scan;
+      EXPECT_EQ(planes_with_something(planes_of(stack, options)),
+                8 + (ends_below ? beyond : 0) + (ends_above ? beyond : 0));
+    }
+  }
+}
+
+TEST(ContourStacks, AreOfTheLargestContoursPlane) {
+  const ObliquePlanes planes;
+  const Points tiny{{5, 5}, {5.2, 5}, {5, 5.2}};
+  for (const bool first : {false, true}) {
+    std::vector<Contour> contours{planes.contour(square, 0), planes.contour(square, 2)};
+    Contour tilted = planes.contour(tiny, 2);
+    tilted[1] += 0.2 * planes.n;
+    contours.insert(first ? contours.begin() : contours.end(), tilted);
+    const ContourStack stack = stack_of(contours);
+    EXPECT_LT(glm::length(glm::cross(stack.axes[2], planes.n)), 1e-9) << first;
+  }
+}
+
+// Heights of a hundredth of a millimeter are one plane; a contour leans by half a millimeter at most.
+TEST(ContourStacks, PlanesAreAHundredthOfAMillimeterApart) {
+  const ObliquePlanes planes;
+  const auto planes_at = [&](double height) {
+    return stack_of({planes.contour(square, 0), planes.contour(square, 4), planes.contour(square, 4 + height)})
+        .planes.size();
+  };
+  EXPECT_EQ(planes_at(1e-4), 2U);
+  EXPECT_EQ(planes_at(0.02), 3U);
+  EXPECT_EQ(planes_at(0.3), 3U);
+  for (const auto& [leaning, fits] : {std::pair{0.49, true}, {0.51, false}}) {
+    Contour contour = planes.contour({{3, 3}, {9, 3}, {9, 9}}, 2);
+    contour[1] += leaning * planes.n;
+    const std::vector<Contour> contours{planes.contour(square, 0), contour};
+    if (fits) {
+      EXPECT_NO_THROW(stack_of(contours));
+    } else {
+      EXPECT_THROW(stack_of(contours), DicomError);
+    }
+  }
+}
+
+// Along the patient's axes as long as the normal is one of them to a millionth, and along its own beyond that.
+TEST(ContourStacks, LieAlongThePatientsAxesWhereTheyNearlyDo) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const auto& [lean, along] : {std::pair{1e-4, true}, {0.01, false}, {0.3, false}}) {
+      Vec3 normal(0);
+      normal[axis] = 1;
+      normal[(axis + 1) % 3] = lean;
+      normal = glm::normalize(normal);
+      const Vec3 u = glm::normalize(glm::cross(normal, Vec3(0.3, 0.5, 0.7))), v = glm::cross(normal, u);
+      const ContourStack stack = stack_of({{3.0 * u, 3.0 * v, -3.0 * u}, {3.0 * u + normal, 3.0 * v + normal, normal}});
+      Vec3 expected = normal;
+      if (along) {
+        expected = Vec3(0);
+        expected[axis] = 1;
+      }
+      EXPECT_LT(std::min(glm::distance(stack.axes[2], expected), glm::distance(stack.axes[2], -expected)), 1e-9)
+          << axis << ' ' << lean;
+      EXPECT_NEAR(glm::determinant(stack.axes), 1, 1e-9);
+    }
+  }
+}
+
+Mask mask_on(const Geometry& geometry) {
+  Mask mask;
+  mask.geometry = geometry;
+  mask.low = {2, 3, 0};
+  mask.size = {4, 3, geometry.dimensions.z};
+  return mask;
+}
+
+Geometry lattice_with(int slices, const Vec3& first, const Vec3& step) {
+  const ObliquePlanes planes;
+  Geometry g;
+  g.dimensions = {12, 10, slices};
+  g.direction_i = planes.u;
+  g.direction_j = planes.v;
+  g.spacing_i = 0.8;
+  g.spacing_j = 1.1;
+  g.step = step;
+  for (int k = 0; k < slices; ++k) g.slice_positions.push_back(first + static_cast<double>(k) * step);
+  return g;
+}
+
+// As many as the field reaches over and 20 mm more, up to 64, at either end.
+TEST(EmptySlices, AreAddedAsFarAsTheFieldReads) {
+  const ObliquePlanes planes;
+  for (const auto& [apart, reach, count] : {std::tuple{2.0, 3.0, 12}, {2.0, 9.0, 15}, {0.1, 3.0, 64}, {50.0, 3.0, 1}}) {
+    const Vec3 step = apart * planes.n + 0.3 * planes.v;
+    const Geometry before = lattice_with(5, planes.first, step);
+    Mask mask = mask_on(before);
+    DistanceOptions options;
+    options.reach_mm = reach;
+    add_empty_slices(options, mask);
+    ASSERT_EQ(mask.geometry.dimensions.z, 5 + 2 * count) << apart;
+    EXPECT_EQ(mask.low, glm::ivec3(2, 3, count));
+    for (int k = 0; k < mask.geometry.dimensions.z; ++k) {
+      EXPECT_LT(glm::distance(mask.geometry.slice_positions[static_cast<std::size_t>(k)],
+                              planes.first + static_cast<double>(k - count) * step),
+                1e-9);
+    }
+  }
+}
+
+// A slice is seen up to half a slice beyond the scan's last one.
+TEST(EmptySlices, AreAddedWhereTheScanHasSeenThemAlone) {
+  const ObliquePlanes planes;
+  const Vec3 step = 2.0 * planes.n;
+  const Geometry lattice = lattice_with(5, planes.first, step);
+  for (const int below : {0, 1, 3}) {
+    for (const int above : {0, 2, 4}) {
+      for (const double off : {-0.4, 0.0, 0.4}) {
+        const Geometry scan = lattice_with(5 + below + above, planes.first + (off - below) * step, step);
+        DistanceOptions options;
+        options.scan = &scan;
+        Mask mask = mask_on(lattice);
+        add_empty_slices(options, mask);
+        EXPECT_EQ(mask.low.z, below) << off;
+        EXPECT_EQ(mask.geometry.dimensions.z, 5 + below + above) << off;
+      }
+      const Geometry lower = lattice_with(5 + below + above, planes.first + (-0.6 - below) * step, step);
+      EXPECT_TRUE(is_seen({.scan = &lower}, planes.first - (below + 1.0) * step));
+      EXPECT_FALSE(is_seen({.scan = &lower}, planes.first + (4.0 + above) * step));
+    }
+  }
+}
+
+// Of a scan across it, it is the middle of the mask's box that is seen or not.
+TEST(EmptySlices, AreSeenAtTheMiddleOfTheBox) {
+  const ObliquePlanes planes;
+  const Geometry lattice = lattice_with(5, planes.first, 2.0 * planes.n);
+  const Mask box = mask_on(lattice);
+  const double middle_i = 0.8 * (2 + 0.5 * 4), middle_j = 1.1 * (3 + 0.5 * 3);
+  for (const bool along_i : {false, true}) {
+    for (const double beyond : {-0.4, 0.4}) {  // mm, of the middle of the box
+      Geometry scan;                           // slices along the mask's rows, or its columns
+      scan.direction_i = along_i ? planes.v : planes.n;
+      scan.direction_j = along_i ? planes.n : planes.u;
+      scan.step = along_i ? planes.u : planes.v;
+      scan.dimensions = {200, 200, 30};
+      const double end = (along_i ? middle_i : middle_j) - beyond - 0.5;  // the last slice's
+      for (int k = 0; k < 30; ++k) scan.slice_positions.push_back(planes.first + (end - 29 + k) * scan.step);
+      DistanceOptions options;
+      options.scan = &scan;
+      Mask mask = box;
+      add_empty_slices(options, mask);
+      EXPECT_EQ(mask.geometry.dimensions.z > 5, beyond < 0) << along_i << ' ' << beyond;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::io

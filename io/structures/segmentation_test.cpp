@@ -1,0 +1,316 @@
+// Segmentations written by DCMTK, in every form they come in, and what is refused in words.
+#include "io/structures/structure.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+
+#include "io/errors.h"
+#include "io/testing/test_coders.h"
+#include "io/testing/test_image.h"
+#include "io/testing/test_segmentation.h"
+
+namespace palpate::io {
+namespace {
+
+using internal::group;
+using internal::put;
+using internal::TestFolder;
+using internal::TestImage;
+using ::testing::HasSubstr;
+
+using internal::TestSegmentation;
+using internal::write;
+using Frame = TestSegmentation::Frame;
+
+constexpr int columns = TestSegmentation::columns, rows = TestSegmentation::rows;
+
+int box(int i, int j) {
+  return i >= 3 && i < 8 && j >= 2 && j < 6 ? 1 : 0;
+}
+int other_box(int i, int j) {
+  return i >= 6 && i < 11 && j >= 4 && j < 8 ? 1 : 0;
+}
+
+StructureCatalogue structures_in(const TestFolder& folder) {
+  return find_structures(std::array{folder.path()});
+}
+
+StructureCatalogue found_of(const TestSegmentation& segmentation) {
+  const TestFolder folder;
+  write(segmentation, folder / "seg.dcm");
+  StructureCatalogue catalogue = structures_in(folder);
+  for (Structure& structure : catalogue.structures) {
+    if (structure.unfit.empty()) measure(structure);
+  }
+  return catalogue;
+}
+
+std::uint64_t voxels_of(const Structure& structure) {
+  return measure(structure).voxels.value_or(0);
+}
+
+TEST(Segmentations, AreReadInAnyOrderSparseAndOverlapping) {
+  const TestFolder folder;
+  // Frames of two segments, shuffled; that at 2 mm is left out of both, for it is empty.
+  write({.names = {"Liver", "Tumor"},
+         .frames = {{1, 6, box}, {2, 0, other_box}, {1, 0, box}, {2, 6, other_box}, {1, 4, box}}},
+        folder / "seg.dcm");
+  const StructureCatalogue catalogue = structures_in(folder);
+  ASSERT_EQ(catalogue.structures.size(), 2U);
+  const Structure& liver = catalogue.structures[0];
+  EXPECT_EQ(liver.name, "Liver");
+  EXPECT_EQ(liver.color, "#ffffff");
+  EXPECT_EQ(liver.frame_of_reference_uid, "1.2.3.9");
+  EXPECT_EQ(voxels_of(liver), 3U * 20U);
+  EXPECT_EQ(voxels_of(catalogue.structures[1]), 2U * 20U);
+  EXPECT_DOUBLE_EQ(measure(liver).box_low_mm.z, 0);
+  EXPECT_DOUBLE_EQ(measure(liver).box_high_mm.z, 6);
+  EXPECT_NEAR(measure(liver).centroid_mm.z, 10.0 / 3, 1e-12);
+}
+
+TEST(Segmentations, OfFractionsHaveTheirEdgeAtHalf) {
+  const TestFolder folder;
+  const auto rising = [](int i, int) { return 20 * i; };  // 100 of 200 at column 5
+  write({.type = "FRACTIONAL", .bits = 8, .frames = {{1, 0, rising}, {1, 2, rising}}}, folder / "seg.dcm");
+  EXPECT_EQ(voxels_of(structures_in(folder).structures.at(0)), 2U * rows * (columns - 5));
+}
+
+// Nothing up to column 4, 60 of 200 in column 5, all of what follows: the edge lies within column 5.
+TEST(Segmentations, OfFractionsAreFeltWhereTheirFractionsSay) {
+  const auto step = [](int i, int) { return i < 5 ? 0 : (i == 5 ? 60 : 200); };
+  const auto edge_of = [&](const char* type) {
+    const TestFolder folder;
+    TestSegmentation segmentation{.type = "FRACTIONAL", .bits = 8};
+    for (int n = 0; n < 24; ++n) segmentation.frames.push_back({1, 2.0 * n, step});
+    segmentation.edit = [&](DcmDataset& dataset) { put(dataset, DCM_SegmentationFractionalType, type); };
+    write(segmentation, folder / "seg.dcm");
+    const Structure structure = structures_in(folder).structures.at(0);
+    const auto field = load_distance(structure);
+    const StructureMeasures measures = measure(structure);  // of columns 6 to 12, all rows
+    const double spacing = (measures.box_high_mm.x - measures.box_low_mm.x) / 6;
+    const double y = 0.5 * (measures.box_low_mm.y + measures.box_high_mm.y);
+    double out = measures.box_low_mm.x - 2 * spacing, in = measures.box_low_mm.x;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (in + out);
+      (field->sample({middle, y, 23}).mm > 0 ? in : out) = middle;
+    }
+    return 6 + (in - measures.box_low_mm.x) / spacing;
+  };
+  EXPECT_NEAR(edge_of("OCCUPANCY"), 5.2, 0.05) << "0.7 of column 5, which ends at 5.5, is outside";
+  EXPECT_NEAR(edge_of("PROBABILITY"), 5 + 0.2 / 0.7, 0.05) << "half lies between 0.3 and 1";
+}
+
+TEST(Segmentations, OfLabelsHaveOneAFrame) {
+  for (const int bits : {8, 16}) {
+    const TestFolder folder;
+    const auto labels = [](int i, int j) { return box(i, j) != 0 ? 1 : (other_box(i, j) != 0 ? 2 : 0); };
+    write({.type = "LABELMAP", .bits = bits, .names = {"Liver", "Spleen"}, .frames = {{0, 0, labels}, {0, 2, labels}}},
+          folder / "seg.dcm");
+    const StructureCatalogue catalogue = structures_in(folder);
+    ASSERT_EQ(catalogue.structures.size(), 2U);
+    EXPECT_EQ(voxels_of(catalogue.structures[0]), 2U * 20U);
+    EXPECT_EQ(voxels_of(catalogue.structures[1]), 2U * (20U - 4U));
+  }
+}
+
+// 257 and 256 are other labels than 1 and 0, in either order of bytes.
+TEST(Segmentations, OfLabelsHoldNumbersOfSixteenBits) {
+  for (const E_TransferSyntax syntax : {EXS_LittleEndianExplicit, EXS_BigEndianExplicit}) {
+    const TestFolder folder;
+    const auto labels = [](int i, int j) {
+      return box(i, j) != 0 ? 1 : (other_box(i, j) != 0 ? 257 : i == 0 ? 256 : 0);
+    };
+    TestSegmentation segmentation{.type = "LABELMAP", .bits = 16, .frames = {{0, 0, labels}, {0, 2, labels}}};
+    segmentation.syntax = syntax;
+    segmentation.edit = [&](DcmDataset& dataset) {
+      std::vector<Uint16> words;
+      for (int n = 0; n < 2 * columns * rows; ++n) {
+        words.push_back(static_cast<Uint16>(labels(n % columns, n / columns % rows)));
+      }
+      internal::succeed(
+          dataset.putAndInsertUint16Array(DCM_PixelData, words.data(), static_cast<unsigned long>(words.size())));
+    };
+    write(segmentation, folder / "seg.dcm");
+    const Structure liver = structures_in(folder).structures.at(0);
+    const StructureMeasures measures = measure(liver);
+    EXPECT_EQ(measures.voxels, 2U * 20U) << syntax;
+    // Columns 3 to 7 and rows 2 to 5.
+    EXPECT_NEAR((measures.centroid_mm.x - 0) / 0.75, 5, 1e-9);
+    EXPECT_NEAR((measures.centroid_mm.y - 0) / 0.5, 3.5, 1e-9);
+  }
+}
+
+// Bits are packed before they are run-length coded, eight to a byte, the least significant first (PS3.5 8.2.2, G).
+TEST(Segmentations, OfBitsAreReadRunLengthCoded) {
+  const TestFolder folder;
+  TestSegmentation segmentation{.frames = {{1, 0, box}, {1, 2, other_box}}};
+  segmentation.syntax = EXS_RLELossless;
+  segmentation.edit = [&](DcmDataset& dataset) {
+    std::vector<std::vector<Uint8>> frames;
+    for (const Frame& frame : segmentation.frames) {
+      std::vector<Uint8> bytes((columns * rows + 7) / 8);
+      for (std::size_t n = 0; n < static_cast<std::size_t>(columns * rows); ++n) {
+        const int bit = frame.value(static_cast<int>(n) % columns, static_cast<int>(n) / columns);
+        bytes[n / 8] = static_cast<Uint8>(bytes[n / 8] | bit << (n % 8));
+      }
+      std::vector<Uint8> coded(64);  // one segment, which begins behind this header
+      coded[0] = 1;
+      coded[4] = 64;
+      coded.push_back(static_cast<Uint8>(bytes.size() - 1));  // a literal
+      coded.insert(coded.end(), bytes.begin(), bytes.end());
+      frames.push_back(coded);
+    }
+    internal::encapsulate(dataset, EXS_RLELossless, frames, 1U << 16U);
+  };
+  write(segmentation, folder / "seg.dcm");
+  const StructureCatalogue catalogue = structures_in(folder);
+  ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? Text() : catalogue.skipped[0].reason);
+  const StructureMeasures measures = measure(catalogue.structures[0]);
+  EXPECT_EQ(measures.voxels, 20U + 20U);
+  EXPECT_NEAR(measures.box_low_mm.x, 0.75 * 3, 1e-9);
+  EXPECT_NEAR(measures.box_high_mm.x, 0.75 * 10, 1e-9);
+  EXPECT_NEAR(measures.centroid_mm.x, 0.75 * 0.5 * (5 + 8), 1e-9);
+  EXPECT_NEAR(measures.centroid_mm.y, 0.5 * 0.5 * (3.5 + 5.5), 1e-9);
+}
+
+// Positions differ in their last digits from frame to frame, and a slice may have several frames of a segment.
+TEST(Segmentations, FramesNearlyAtOnePlaceAreOnOneSlice) {
+  // The second of them within the other box; all between them is no part of it.
+  const auto two_voxels = [](int i, int j) { return (i == 3 && j == 2) || (i == 10 && j == 7) ? 1 : 0; };
+  for (const double off : {-0.004, 0.004}) {
+    const TestFolder folder;
+    write({.names = {"Liver", "Tumor"},
+           .frames = {{1, 0, box},
+                      {1, 2, box},
+                      {1, 4, box},
+                      {2, 2 + off, other_box},
+                      {2, 4 + off, other_box},
+                      {2, 4 - off, two_voxels}}},
+          folder / "seg.dcm");
+    const StructureCatalogue catalogue = structures_in(folder);
+    const StructureMeasures liver = measure(catalogue.structures.at(0)), tumor = measure(catalogue.structures.at(1));
+    EXPECT_NEAR(liver.volume_mm3, 3 * 20 * 0.5 * 0.75 * 2, 0.2);
+    EXPECT_EQ(tumor.voxels, 20U + 21U);
+    EXPECT_NEAR(tumor.box_low_mm.z, 2, 0.01);
+    EXPECT_NEAR(tumor.box_high_mm.z, 4, 0.01);
+    EXPECT_NEAR(tumor.volume_mm3, 41 * 0.5 * 0.75 * 2, 0.2);
+  }
+}
+
+// Pixels of all frames are of one size, to a thousandth.
+TEST(Segmentations, FramesShareTheirPixelsSize) {
+  for (const auto& [spacing, fits] :
+       {std::pair{"0.5004\\0.75", true}, {"0.5006\\0.75", false}, {"0.5\\0.7507", true}, {"0.5\\0.7508", false}}) {
+    const TestFolder folder;
+    TestSegmentation segmentation{.frames = {{1, 0, box}, {1, 2, box}}};
+    segmentation.edit = [text = spacing](DcmDataset& dataset) {
+      DcmItem* second = nullptr;
+      internal::succeed(dataset.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, second, 1));
+      internal::succeed(group(*second, DCM_PixelMeasuresSequence).putAndInsertString(DCM_PixelSpacing, text));
+    };
+    write(segmentation, folder / "seg.dcm");
+    EXPECT_EQ(structures_in(folder).skipped.empty(), fits) << spacing;
+  }
+}
+
+// Slices without a frame are there where all distances are multiples of the least one, or of what is said to be the
+// spacing, to a twentieth; else the slices are those that have frames.
+TEST(Segmentations, SlicesThatHaveNoFrameAreWhereTheirSpacingSays) {
+  const auto slice_mm = [](const std::vector<double>& heights, const char* spacing) {
+    TestSegmentation segmentation;
+    for (const double height : heights) segmentation.frames.push_back({1, height, box});
+    segmentation.edit = [&](DcmDataset& dataset) {
+      if (*spacing == 0) return;
+      DcmItem& shared = group(dataset, DCM_SharedFunctionalGroupsSequence);
+      internal::succeed(group(shared, DCM_PixelMeasuresSequence).putAndInsertString(DCM_SpacingBetweenSlices, spacing));
+    };
+    const TestFolder folder;
+    write(segmentation, folder / "seg.dcm");
+    const StructureMeasures measures = measure(structures_in(folder).structures.at(0));
+    return measures.volume_mm3 / (static_cast<double>(*measures.voxels) * 0.5 * 0.75);
+  };
+  EXPECT_NEAR(slice_mm({0, 2, 8}, ""), 2, 1e-9);
+  EXPECT_NEAR(slice_mm({0, 2, 6.18}, ""), 6.18 / 3, 1e-9);
+  EXPECT_NEAR(slice_mm({0, 2, 6.22}, ""), 6.22 / 2, 1e-9);
+  EXPECT_NEAR(slice_mm({0, 6}, ""), 6, 1e-9);
+  EXPECT_NEAR(slice_mm({0, 6}, "2"), 2, 1e-9);
+  EXPECT_NEAR(slice_mm({0, 6}, "-2"), 2, 1e-9);
+  EXPECT_NEAR(slice_mm({5}, "2.5"), 2.5, 1e-9);
+}
+
+TEST(Segmentations, AreReadCompressed) {
+  const TestFolder folder;
+  TestSegmentation segmentation{.type = "LABELMAP", .bits = 8, .frames = {{0, 0, box}, {0, 2, box}}};
+  segmentation.syntax = EXS_JPEG2000LosslessOnly;
+  segmentation.edit = [](DcmDataset& dataset) {
+    internal::encapsulate(
+        dataset, EXS_JPEG2000LosslessOnly,
+        {internal::jpeg2000(columns, rows, 8, false, box), internal::jpeg2000(columns, rows, 8, false, box)},
+        1U << 16U);
+  };
+  write(segmentation, folder / "seg.dcm");
+  const StructureCatalogue catalogue = structures_in(folder);
+  ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? Text() : catalogue.skipped[0].reason);
+  EXPECT_EQ(voxels_of(catalogue.structures[0]), 2U * 20U);
+}
+
+std::string refusal_of(const TestSegmentation& segmentation) {
+  try {
+    const StructureCatalogue catalogue = found_of(segmentation);
+    return catalogue.skipped.empty() ? "not refused" : catalogue.skipped.front().reason.c_str();
+  } catch (const DicomError& error) {
+    return error.what();
+  }
+}
+
+TEST(Segmentations, AreRefusedInWords) {
+  const auto none = [](int, int) { return 0; };
+  const std::vector<Frame> frames{{1, 0, box}, {1, 2, box}};
+  EXPECT_THAT(refusal_of({.frames = {{1, 0, none}}}),
+              HasSubstr("seg.dcm: SEG \"Liver\" (1) cannot be read: it is empty: no voxel is inside"));
+  const auto edited = [&](const std::function<void(DcmDataset&)>& edit) {
+    return refusal_of({.frames = frames, .edit = edit});
+  };
+  EXPECT_EQ(edited([](DcmDataset& d) { d.putAndInsertUint32(DCM_TotalPixelMatrixColumns, 4000); }),
+            "it outlines a microscope's slide, not a scan: it cannot be felt");
+  EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_PixelData); }), "it has no pixels: export it again");
+  EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_Rows); }),
+            "it has no pixels: Rows or Columns is missing");
+  EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_BitsAllocated, 3); }),
+            "its pixels have 3 bits: a segmentation has 1, 8 or 16");
+  EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_SegmentationType, "OTHER"); }),
+            "its segmentation type \"OTHER\" is unknown; there are: BINARY, FRACTIONAL, LABELMAP");
+  EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_SegmentSequence); }),
+            "it names no segments (SegmentSequence): export it again");
+  EXPECT_EQ(edited([](DcmDataset& d) { d.findAndDeleteElement(DCM_PerFrameFunctionalGroupsSequence); }),
+            "it does not say where its frames lie (PerFrameFunctionalGroupsSequence): export it again");
+  EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_NumberOfFrames, "5"); }),
+            "it gives the positions of only 2 of its 5 frames: export it again");
+  EXPECT_EQ(
+      edited([](DcmDataset& d) { group(d, DCM_SharedFunctionalGroupsSequence).clear(); }),
+      "a frame of it does not say where it lies in the patient (position, orientation or spacing): export it again");
+  EXPECT_EQ(edited([](DcmDataset& d) { put(d, DCM_SOPClassUID, "1.2.840.10008.5.1.4.1.1.66.5"); }),
+            "it holds surfaces (Surface Segmentation), which are not read: export it as SEG");
+  const auto of_frame = [](DcmDataset& d) -> DcmItem& { return group(d, DCM_PerFrameFunctionalGroupsSequence); };
+  EXPECT_EQ(edited([&](DcmDataset& d) { of_frame(d).findAndDeleteElement(DCM_SegmentIdentificationSequence); }),
+            "a frame of it does not say to which segment it belongs: export it again");
+  EXPECT_EQ(edited([&](DcmDataset& d) {
+              group(of_frame(d), DCM_PixelMeasuresSequence).putAndInsertString(DCM_PixelSpacing, "2\\2");
+            }),
+            "its frames have several orientations or pixel sizes: export each as a segmentation of its own");
+  EXPECT_EQ(refusal_of({.type = "FRACTIONAL",
+                        .bits = 8,
+                        .frames = frames,
+                        .edit = [](DcmDataset& d) { put(d, DCM_MaximumFractionalValue, 0); }}),
+            "its MaximumFractionalValue is not above 0: export it again");
+  EXPECT_THAT(edited([](DcmDataset& d) { d.putAndInsertUint8Array(DCM_PixelData, nullptr, 0); }),
+              HasSubstr("bytes of pixels"));
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,36 @@
+#pragma once
+
+/// Small segmentations (DICOM SEG) written by DCMTK, for tests and as seeds for fuzzing.
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace palpate::io::internal {
+
+struct TestSegmentation {
+  static constexpr int columns = 13;  ///< odd, so that a frame of bits begins within a byte
+  static constexpr int rows = 9;
+
+  /// Of which segment, at which height (mm), and the value of each of its pixels.
+  struct Frame {
+    int segment = 1;
+    double z = 0;
+    std::function<int(int, int)> value;
+  };
+
+  std::string type = "BINARY";
+  int bits = 1;
+  std::vector<std::string> names{"Liver"};
+  std::vector<Frame> frames;
+  std::function<void(DcmDataset&)> edit = [](DcmDataset&) {};
+  E_TransferSyntax syntax = EXS_LittleEndianExplicit;
+};
+
+void write(const TestSegmentation& segmentation, const std::filesystem::path& path);
+
+}  // namespace palpate::io::internal
