@@ -20,7 +20,7 @@ inline QString ask_file_to_write(QWidget* parent, const QString& title, const QS
   dialog.setDefaultSuffix(suffix);
   dialog.selectFile(proposed);
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
-  const QString file = dialog.selectedFiles().first();
+  QString file = dialog.selectedFiles().first();
   if (!QFileInfo(file).suffix().isEmpty()) return file;
   // Qt 5 adds the suffix only where no dot is in the whole path, as there is in the folder "study 1.2", and has not
   // asked of this file.

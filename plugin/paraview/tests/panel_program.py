@@ -67,7 +67,7 @@ def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), lon
     if folder:
         environment["PALPATE_OPEN"] = folder
     try:
-        display = ["xvfb-run", "-a", "-s", f"-screen 0 {screen}x24"] if screen else []
+        display = ["xvfb-run", "-a", "-s", f"-screen 0 {screen}x24 -noreset"] if screen else []
         result = subprocess.run([*display, "paraview", *arguments], env=environment, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, timeout=longest_s)
     except subprocess.TimeoutExpired as late:

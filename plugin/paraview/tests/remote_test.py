@@ -13,6 +13,8 @@ import sys
 import time
 
 import panel_program
+from made_segmentation import write_segmentation
+from mixed_folder import set_headers
 from panel_program import ASKED, PLUGINS, PROGRAMS, SCRATCH
 
 # Scenario, ranks, and what is on this machine by the name of the server's folder.
@@ -75,29 +77,23 @@ def beating():
 
 
 def outlined():
-    """A scan and the segmentation of its liver in one folder; none where the shared structures are not here."""
-    shared = os.path.join(os.environ.get("PALPATE_SHARED_DATA", ""), "structures")
-    if not os.path.isdir(shared):
-        return None
-    folder = os.path.join(SCRATCH, "remote-outlined")
-    shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(os.path.join(shared, "dcmqi/ct-3slice"), folder)
-    shutil.copy(os.path.join(shared, "dcmqi/liver.dcm"), folder)
+    """A scan, and in its folder a segmentation and a label map."""
+    folder = panel_program.ball()
+    write_segmentation(os.path.join(folder, "liver.dcm"), folder)
     with open(os.path.join(folder, "box.mhd"), "w") as file:  # its voxels lie beside it
-        file.write("NDims = 3\nDimSize = 20 20 3\nElementType = MET_UCHAR\nOffset = -150 0 -133\n"
+        file.write("NDims = 3\nDimSize = 20 20 3\nElementType = MET_UCHAR\nOffset = -10 -10 -5\n"
                    "ElementSpacing = 1 1 5\nElementDataFile = box.raw\n")
     with open(os.path.join(folder, "box.raw"), "wb") as file:
         file.write(b"\1" * (20 * 20 * 3))
-    os.environ["PALPATE_FOREIGN"] = os.path.join(shared, "dcmqi/24x38x3/seg/label.seg")
+    other = set_headers(panel_program.phantom("foreign", "slab"), PatientName="OTHER", PatientID="OTHER",
+                        FrameOfReferenceUID="1.2.826.0.1.3680043.10.8.3")
+    os.environ["PALPATE_FOREIGN"] = write_segmentation(panel_program.scratch("foreign.dcm"), other, 2)
     return folder
 
 
 def run(scenario, ranks, here):
     scans = {"remote_frames": beating, "remote_structures": outlined}
     scan = scans.get(scenario, panel_program.ball)()
-    if not scan:
-        print(f"{scenario}: skipped: needs a shared folder that is not beside this checkout")
-        return True
     there = os.path.join(SCRATCH, "remote-there")
     local = os.path.join(SCRATCH, "remote-here")
     for folder in there, local:

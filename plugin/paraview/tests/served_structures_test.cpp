@@ -32,12 +32,12 @@ using ::testing::Not;
 /// Asked as a client asks, over its stream.
 SlicesAnswered ask(PalpateDicomReader& reader, const SlicesAsked& asked) {
   const vtkNew<PalpateScanSlices> there, here;
-  there->Asked() = asked;
+  there->asked() = asked;
   there->CopyFromObject(&reader);
   vtkClientServerStream stream;
   there->CopyToStream(&stream);
   here->CopyFromStream(&stream);
-  return here->Answered();
+  return here->answered();
 }
 
 TEST(ServedStructures, AreTheFilesOfTheStudyByteForByte) {

@@ -153,21 +153,21 @@ TEST(ServerMessages, WhatIsNoAnswerIsRefused) {
 TEST(ServerMessages, SlicesThatCannotBeHadAreRefused) {
   const vtkNew<PalpateScanSlices> slices;
   slices->CopyFromObject(nullptr);
-  expect_row("the server has not opened the scan", slices->Answered().error);
+  expect_row("the server has not opened the scan", slices->answered().error);
   const vtkNew<PalpateDicomReader> reader;
   reader->SetFileName(ball("slices").c_str());
   reader->Update();
-  slices->Asked() = {.what = SlicesAsked::What::hashes, .first = 14, .count = 9};
+  slices->asked() = {.what = SlicesAsked::What::hashes, .first = 14, .count = 9};
   slices->CopyFromObject(reader);
-  expect_row("the scan has no such slices", slices->Answered().error);
-  slices->Asked() = {.what = SlicesAsked::What::structure_pieces, .frame = 0, .count = 1};
+  expect_row("the scan has no such slices", slices->answered().error);
+  slices->asked() = {.what = SlicesAsked::What::structure_pieces, .frame = 0, .count = 1};
   slices->CopyFromObject(reader);
-  expect_row("the server has no such file of structures any more", slices->Answered().error);
+  expect_row("the server has no such file of structures any more", slices->answered().error);
   vtkClientServerStream stream;
   stream << vtkClientServerStream::Reply << 3 << vtkClientServerStream::End;
   slices->CopyFromStream(&stream);
   expect_row("the server runs another version of Palpate: it needs the version of this program",
-             slices->Answered().error);
+             slices->answered().error);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ MOVES = 60
 
 def slice_view(reader, mode):
     view = simple.CreateView("RenderView")
-    view.ViewSize, view.CameraParallelProjection = [300, 300], 1
+    view.ViewSize, view.CameraParallelProjection, view.UseFXAA = [300, 300], 1, 0
     shown = simple.Show(reader, view, "UniformGridRepresentation")
     shown.SetRepresentationType("Slice")
     shown.SliceMode = mode

@@ -35,6 +35,10 @@ void PanelParts::connect_session() {
     recordings_fold->set_open(true);
     recordings->open(file);
   });
+  // As soon as others had their turn.
+  next_turn.setSingleShot(true);
+  next_turn.setInterval(0);
+  QObject::connect(&next_turn, &QTimer::timeout, &dock, [this] { draw_stylus(); });
   QObject::connect(&touching, &SessionController::looked, &dock, [this](const SessionStatus& seen) { look(seen); });
   QObject::connect(&touching, &SessionController::connection_changed, &dock, [this] {
     modes->refresh();
@@ -65,7 +69,13 @@ void PanelParts::look(const SessionStatus& seen) {
   if (seen.connected && !seen.held.empty()) {
     curves->profile().touch_at(seen.proxy_mm, seen.probe_mm - seen.proxy_mm);
   }
-  views.show(seen);
+  draw_stylus();
+}
+
+void PanelParts::draw_stylus() {
+  if (leaving) return;
+  SCOPED_UNDO_EXCLUDE();
+  if (views.show(touching.last())) next_turn.start();
 }
 
 /// Scan, frame and scene: what the stylus has, whatever is looked at.

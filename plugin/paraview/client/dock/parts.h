@@ -5,6 +5,7 @@
 
 #include <QCoreApplication>
 #include <QDockWidget>
+#include <QTimer>
 
 #include <cstdint>
 #include <functional>
@@ -96,6 +97,7 @@ struct PanelParts {
   // connect_session.cpp
   void connect_session();
   void look(const SessionStatus& seen);
+  void draw_stylus();
   void name_felt();
   glm::dvec3 start_of(const device::Specification& stylus);
 
@@ -109,6 +111,7 @@ struct PanelParts {
   ReferenceLines crosshair;
   MarkViews drawn_marks;
   StylusViews views;
+  QTimer next_turn;  // of a picture that comes in turns
   ServerWatch servers;
   ServerStructures served;
   Fold* scan_fold = nullptr;

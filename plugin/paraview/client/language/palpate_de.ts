@@ -1213,6 +1213,10 @@
         <translation>ohne Beschreibung</translation>
     </message>
     <message>
+        <source>1 slice</source>
+        <translation>1 Schicht</translation>
+    </message>
+    <message>
         <source>%1 slices</source>
         <translation>%1 Schichten</translation>
     </message>

@@ -44,7 +44,7 @@ QIcon measure_icon(const QPalette& colors, Measure measure) {
   picture.fill(Qt::transparent);
   QPainter painter(&picture);
   painter.setRenderHint(QPainter::Antialiasing);
-  const QColor ink = colors.color(QPalette::ButtonText);
+  const QColor& ink = colors.color(QPalette::ButtonText);
   painter.setPen(QPen(ink, thick));
   painter.setBrush(ink);
   const QPoint left(edge, side - edge), right(side - edge, edge), across(side - edge, side - edge);

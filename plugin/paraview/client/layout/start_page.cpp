@@ -133,7 +133,7 @@ void StartPage::refresh_recent() {
   }
 }
 
-void StartPage::set_catalogue(std::shared_ptr<const io::Catalogue> catalogue) {
+void StartPage::set_catalogue(const std::shared_ptr<const io::Catalogue>& catalogue) {
   delete patients_;
   patients_ = nullptr;
   studies_.clear();

@@ -29,7 +29,7 @@ class StartPage : public QScrollArea {
   explicit StartPage(QWidget* parent = nullptr);
 
   /// The series of a folder, as cards; null: none.
-  void set_catalogue(std::shared_ptr<const io::Catalogue> catalogue);
+  void set_catalogue(const std::shared_ptr<const io::Catalogue>& catalogue);
   void set_picture(std::size_t series, const QImage& picture);
   /// What is going on, or went wrong.
   void tell(const QString& message, bool problem = false);

@@ -21,9 +21,10 @@ struct SaveButtons {
 /// `name`: of the buttons (palpate<name>Picture, palpate<name>Table) and, in small letters, of the file that is
 /// proposed. `writer`: what writes what is shown now, whatever is shown when the file has been named; it may throw.
 /// `tell` gets what went wrong.
-inline SaveButtons add_save_buttons(QBoxLayout& column, QWidget& parent, const QString& name,
-                                    std::function<std::function<void(const std::string& file)>(bool table)> writer,
-                                    std::function<void(const QString& problem)> tell) {
+inline SaveButtons add_save_buttons(
+    QBoxLayout& column, QWidget& parent, const QString& name,
+    const std::function<std::function<void(const std::string& file)>(bool table)>& writer,
+    const std::function<void(const QString& problem)>& tell) {
   const auto tr = [](const char* text) { return QCoreApplication::translate("SaveButtons", text); };
   SaveButtons buttons;
   auto* const row = new QHBoxLayout;

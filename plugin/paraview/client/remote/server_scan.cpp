@@ -100,13 +100,13 @@ void ServerScan::finish(const std::shared_ptr<const io::Volume>& volume, const Q
 bool ServerScan::ask(SlicesAsked asked, SlicesAnswered& answered) {
   vtkNew<PalpateScanSlices> slices;
   asked.frame = frame_;
-  slices->Asked() = asked;
+  slices->asked() = asked;
   vtkSMProxy& proxy = *reader_->getProxy();
   const unsigned run = run_;
   // What GatherInformation() returns of a remote server says nothing; an answer takes this away.
-  slices->Answered().error = say("does-not-answer");
+  slices->answered().error = say("does-not-answer");
   proxy.GetSession()->GatherInformation(vtkPVSession::DATA_SERVER_ROOT, slices, proxy.GetGlobalID());
-  answered = std::move(slices->Answered());
+  answered = std::move(slices->answered());
   if (run != run_) return false;  // given up meanwhile: the server went
   if (answered.error.empty()) return true;
   finish(nullptr, words(say("server-cannot-give-the-scan-voxels", answered.error)));

@@ -60,13 +60,13 @@ void ServerStructures::next(void (ServerStructures::*step)()) {
 
 bool ServerStructures::ask(const SlicesAsked& asked, SlicesAnswered& answered) {
   vtkNew<PalpateScanSlices> slices;
-  slices->Asked() = asked;
-  slices->Answered().error = say("does-not-answer");  // an answer takes this away
+  slices->asked() = asked;
+  slices->answered().error = say("does-not-answer");  // an answer takes this away
   vtkSMProxy& proxy = *reader_->getProxy();
   const unsigned run = run_;
   proxy.GetSession()->GatherInformation(vtkPVSession::DATA_SERVER_ROOT, slices, proxy.GetGlobalID());
   if (run != run_) return false;  // given up meanwhile: the server went
-  answered = std::move(slices->Answered());
+  answered = std::move(slices->answered());
   if (answered.error.empty()) return true;
   finish(words(say("server-cannot-give-the-structures", answered.error)));
   return false;

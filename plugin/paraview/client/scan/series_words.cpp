@@ -43,7 +43,9 @@ QString series_details(const io::Series& series) {
       named("sequence %1", details.sequence),
       named("contrast %1", details.contrast),
       slices_of(series),
-      slices > 0 ? translated("%1 slices").arg(slices) : QString(),
+      slices == 1  ? translated("1 slice")
+      : slices > 1 ? translated("%1 slices").arg(slices)
+                   : QString(),
       series.frames_per_position > 1 ? translated("%1 frames").arg(series.frames_per_position) : QString()};
   words.removeAll(QString());
   return words.join(QStringLiteral(" · "));

@@ -37,7 +37,11 @@ QImage thumbnail_of(const io::Series& series) {
     QImage image(columns, rows, QImage::Format_Grayscale8);
     for (int y = 0; y < rows; ++y) {
       for (int x = 0; x < columns; ++x) {
-        const double part = (values[static_cast<std::size_t>(y * columns + x)] - window.level) / window.width + 0.5;
+        const double part =
+            (values[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] -
+             window.level) /
+                window.width +
+            0.5;
         image.scanLine(y)[x] = static_cast<uchar>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
       }
     }

@@ -16,6 +16,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "plugin/paraview/client/stylus/mapping.h"
+#include "plugin/paraview/client/views/caster.h"
 #include "plugin/paraview/client/views/slice_overlay.h"
 #include "plugin/paraview/client/views/volume_pick.h"
 
@@ -24,7 +25,7 @@ namespace {
 
 constexpr qint64 shortest_ms = 30;
 constexpr qint64 rest_of = 2;       // times as long as a view took to draw it is left alone
-constexpr qint64 settled_ms = 400;  // after that long at rest the volume is drawn in full
+constexpr qint64 settled_ms = 200;  // after that long at rest the volume is drawn in full
 constexpr double moved_pixels = 0.5;
 constexpr double turned_part = 1e-4;  // 1 - cos of half the angle: 1.6 degrees
 
@@ -166,9 +167,9 @@ bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far)
   return true;
 }
 
-void StylusViews::show(const SessionStatus& look) {
+bool StylusViews::show(const SessionStatus& look) {
   std::erase_if(views_, [](const auto& one) { return !one->view; });
-  if (views_.empty()) return;
+  if (views_.empty()) return false;
   follow_scan();
   const qint64 now_ms = clock_.elapsed();
   // One view a look: the panel and the mouse have their turn between.
@@ -199,16 +200,19 @@ void StylusViews::show(const SessionStatus& look) {
         one.glyphs.hide();
       }
     }
-    one.coarse = moved && one.kind == ViewKind::volume;
-    if (one.coarse) {
+    const bool fast = moved && one.kind == ViewKind::volume;
+    if (fast) {
       one.view->getRenderViewProxy()->InteractiveRender();
+      one.coarse = true;
     } else {
-      one.view->forceRender();
+      one.coarse = !draw_in_turns(*one.client->GetRenderer(), [&] { one.view->forceRender(); });
     }
-    one.next_ms = clock_.elapsed() + std::max(shortest_ms, rest_of * (clock_.elapsed() - now_ms));
+    const bool has_turns = !fast && one.coarse;
+    one.next_ms = clock_.elapsed() + (has_turns ? 0 : std::max(shortest_ms, rest_of * (clock_.elapsed() - now_ms)));
     next_ = (next_ + turn + 1) % views_.size();
-    return;
+    return has_turns;
   }
+  return false;
 }
 
 }  // namespace palpate::plugin

@@ -31,8 +31,9 @@ class StylusViews {
   void set_views(const std::vector<ClinicalView>& views);
   /// The opacity of the volume rendering, which tells what it hides.
   void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
-  /// Draws the views again in which something has moved, but never so often that the program would stand still.
-  void show(const SessionStatus& look);
+  /// Draws the views again in which something has moved, but never so often that the program would stand still. True
+  /// where a picture in full comes in turns and is not whole: it goes on with the next call.
+  bool show(const SessionStatus& look);
   /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
   /// again.
   void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { pick_ = std::move(pick); }

@@ -77,7 +77,7 @@ std::vector<double> ValueProbe::shares() {
   if (!proxy_) return {};
   vtkSMProperty* const shares = proxy_->GetProperty("Shares");
   proxy_->UpdatePropertyInformation(shares);
-  const auto found = vtkSMPropertyHelper(shares).GetDoubleArray();
+  auto found = vtkSMPropertyHelper(shares).GetDoubleArray();
   return found;
 }
 

@@ -23,15 +23,16 @@ int code_of(const float* direction) {
   if (!(sum > 0)) return no_direction;
   float x = direction[0] / sum, y = direction[1] / sum;
   if (direction[2] < 0) std::tie(x, y) = folded(x, y);
-  const int column = static_cast<int>((x + 1) / 2 * (across - 1) + 0.5F);
-  const int row = static_cast<int>((y + 1) / 2 * (along - 1) + 0.5F);
+  const int column = static_cast<int>(std::lround((x + 1) / 2 * (across - 1)));
+  const int row = static_cast<int>(std::lround((y + 1) / 2 * (along - 1)));
   return row * across + column;
 }
 
 Direction direction_of(int code) {
   if (code >= across * along) return {0, 0, 0};
   float x = 2 * static_cast<float>(code % across) / (across - 1) - 1;
-  float y = 2 * static_cast<float>(code / across) / (along - 1) - 1;
+  const int row = code / across;
+  float y = 2 * static_cast<float>(row) / (along - 1) - 1;
   const float z = 1 - std::abs(x) - std::abs(y);
   if (z < 0) std::tie(x, y) = folded(x, y);
   const float length = std::sqrt(x * x + y * y + z * z);

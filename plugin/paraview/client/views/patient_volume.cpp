@@ -30,6 +30,7 @@
 #include <utility>
 
 #include "plugin/paraview/client/panel/latest_job.h"
+#include "plugin/paraview/client/views/castable.h"
 #include "plugin/paraview/client/views/crop_box.h"
 #include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/client/views/software_volume.h"
@@ -52,7 +53,7 @@ vtkSmartPointer<vtkImageData> body_of(vtkImageData& image) {
       body_mask([&](int i, int j, int k) { return values.GetComponent(at(i, j, k), 0); }, {size[0], size[1], size[2]},
                 {image.GetSpacing()[0], image.GetSpacing()[1], image.GetSpacing()[2]}, Rim::one_voxel);
   if (!body.left_something) return nullptr;
-  const auto cut = vtkSmartPointer<vtkImageData>::New();
+  auto cut = vtkSmartPointer<vtkImageData>::New();
   cut->CopyStructure(&image);
   const auto kept = vtkSmartPointer<vtkDataArray>::Take(values.NewInstance());
   kept->DeepCopy(&values);

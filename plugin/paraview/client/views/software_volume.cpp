@@ -3,16 +3,11 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
-#include <vtkDirectionEncoder.h>
-#include <vtkEncodedGradientEstimator.h>
 #include <vtkExtractVOI.h>
-#include <vtkFiniteDifferenceGradientEstimator.h>
-#include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkRenderer.h>
 #include <vtkVolume.h>
@@ -23,12 +18,10 @@
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
 
-#include <algorithm>
-#include <cstddef>
 #include <exception>
-#include <vector>
+#include <utility>
 
-#include "plugin/paraview/client/views/octahedron_directions.h"
+#include "plugin/paraview/client/views/caster.h"
 
 namespace palpate::plugin {
 namespace {
@@ -40,7 +33,7 @@ QByteArray renderer_name() {
   QOpenGLContext context;
   if (!context.create() || !context.makeCurrent(&surface)) return {};
   const GLubyte* const name = context.functions()->glGetString(GL_RENDERER);
-  const QByteArray copy(name ? reinterpret_cast<const char*>(name) : "");
+  QByteArray copy(name ? reinterpret_cast<const char*>(name) : "");
   context.doneCurrent();
   return copy;
 }
@@ -52,39 +45,13 @@ bool is_of_mesa(const QByteArray& name) {
 
 struct Cancelled : std::exception {};
 
-/// The same in a fraction of the time that VTK's own takes, which computes angles.
-class Directions : public vtkDirectionEncoder {
- public:
-  static Directions* New() { VTK_STANDARD_NEW_BODY(Directions); }
-
-  int GetEncodedDirection(float n[3]) override { return code_of(n); }
-  float* GetDecodedGradient(int value) override { return table_.data() + 3 * static_cast<std::ptrdiff_t>(value); }
-  int GetNumberOfEncodedDirections() override { return direction_codes; }
-  float* GetDecodedGradientTable() override { return table_.data(); }
-
- private:
-  std::vector<float> table_ = decoded_directions();
-};
-
-class Caster : public vtkFixedPointVolumeRayCastMapper {
- public:
-  static Caster* New() { VTK_STANDARD_NEW_BODY(Caster); }
-
- protected:
-  Caster() {
-    DirectionEncoder->Delete();
-    DirectionEncoder = Directions::New();
-    GradientEstimator->SetDirectionEncoder(DirectionEncoder);
-  }
-};
-
 vtkSmartPointer<vtkImageData> thinned(vtkImageData& image, int step) {
   vtkNew<vtkExtractVOI> thin;
   thin->SetInputData(&image);
   thin->SetVOI(image.GetExtent());
   thin->SetSampleRate(step, step, step);
   thin->Update();
-  const auto own = vtkSmartPointer<vtkImageData>::New();
+  auto own = vtkSmartPointer<vtkImageData>::New();
   own->ShallowCopy(thin->GetOutput());
   return own;
 }
@@ -99,19 +66,6 @@ void leave_if_cancelled(vtkObject* /*mapper*/, unsigned long /*event*/, void* ca
 bool draws_without_card() {
   static const bool without = is_of_mesa(renderer_name());
   return without;
-}
-
-bool can_be_cast(vtkImageData& image) {
-  vtkDataArray* const values = image.GetPointData()->GetScalars();
-  if (!values || values->GetNumberOfComponents() != 1) return false;
-  if (values->GetDataTypeSize() <= 2) return true;
-  // Of other numbers VTK makes 32 768 steps from the least to the greatest, and where they are flat it looks three
-  // voxels ahead, also of the coarse ones.
-  constexpr double most_range = 1e6;
-  constexpr int fewest_voxels = 8;
-  const int* const size = image.GetDimensions();
-  const double* const range = values->GetRange(0);
-  return range[1] - range[0] < most_range && std::min({size[0], size[1], size[2]}) >= fewest_voxels;
 }
 
 std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>()> preparing_to_cast(
@@ -152,7 +106,7 @@ void light_for_casting(vtkVolumeProperty& theirs, vtkVolumeProperty& ours) {
   ours.SetScalarOpacityUnitDistance(theirs.GetScalarOpacityUnitDistance());
   ours.SetInterpolationType(theirs.GetInterpolationType());
   ours.SetShade(theirs.GetShade());
-  // It takes the light at the eight voxels around a sample: outside of the skin there is none.
+  // It takes the light at the eight voxels around a sample: outside of the skin there is little.
   constexpr double lighter = 1.3;
   ours.SetAmbient(lighter * theirs.GetAmbient());
   ours.SetDiffuse(lighter * theirs.GetDiffuse());
@@ -161,7 +115,7 @@ void light_for_casting(vtkVolumeProperty& theirs, vtkVolumeProperty& ours) {
 }
 
 vtkSmartPointer<vtkMatrix4x4> place_of(vtkImageData& image) {
-  const auto place = vtkSmartPointer<vtkMatrix4x4>::New();
+  auto place = vtkSmartPointer<vtkMatrix4x4>::New();
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       place->SetElement(row, column, image.GetDirectionMatrix()->GetElement(row, column));

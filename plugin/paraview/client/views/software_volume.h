@@ -1,7 +1,7 @@
 #pragma once
 
 /// Drawing a volume without a graphics card. There ParaView's own volume rendering, which is written for one, takes
-/// seconds for a picture. VTK's ray caster for processors takes a tenth of that, once it has the gradients of all
+/// seconds for a picture. VTK's ray caster for processors takes a fraction of that, once it has the gradients of all
 /// voxels: they take seconds too, and are computed ahead, off the thread that paints.
 
 #include <vtkSmartPointer.h>
@@ -19,9 +19,6 @@ namespace palpate::plugin {
 
 /// Whether this program's pictures are drawn by the processor. Asked once, on the thread that paints.
 bool draws_without_card();
-
-/// Whether the ray caster draws such values: one number a voxel.
-bool can_be_cast(vtkImageData& image);
 
 /// Work for another thread, made on the one that paints: returns a mapper that has all that it needs for its first
 /// picture; null where it was cancelled. It draws every `step`-th voxel along each axis, and leaves the image's origin

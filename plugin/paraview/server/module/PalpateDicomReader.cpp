@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -33,6 +34,7 @@
 #include "plugin/paraview/common/display_image.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/paraview/common/slice_order.h"
+#include "plugin/paraview/server/module/quick_slices.h"
 #include "plugin/paraview/server/module/value_shares.h"
 
 using namespace palpate;
@@ -89,6 +91,7 @@ PalpateDicomReader::PalpateDicomReader()
       series_usable_(vtkSmartPointer<vtkIntArray>::New()),
       messages_(vtkSmartPointer<vtkStringArray>::New()) {
   SetNumberOfInputPorts(0);
+  plugin::quicken_slices();
 }
 
 PalpateDicomReader::~PalpateDicomReader() = default;
@@ -291,8 +294,8 @@ int PalpateDicomReader::RequestInformation(vtkInformation*, vtkInformationVector
   info.Set(CAN_PRODUCE_SUB_EXTENT(), 1);
   const int frames = scan_->series().frames_per_position;
   if (frames > 1) {
-    std::vector<double> times;
-    for (int frame = 0; frame < frames; ++frame) times.push_back(frame);
+    std::vector<double> times(static_cast<std::size_t>(frames));
+    std::iota(times.begin(), times.end(), 0);
     info.Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), frames);
     const std::array<double, 2> range{times.front(), times.back()};
     info.Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range.data(), 2);

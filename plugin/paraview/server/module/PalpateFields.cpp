@@ -113,7 +113,11 @@ int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vt
   if (image.GetNumberOfPoints() == 0) return 1;
   try {
     // The neighbors' voxels are read, and not passed on.
-    plugin::cut_to(own_part(image, *output->GetInformationObject(0)), result);
+    vtkInformation& asked = *output->GetInformationObject(0);
+    const std::array<int, 6> part = own_part(image, asked);
+    // Nor are the marks that tell theirs: nothing is marked in a rank's own part, and they take 2 bytes a voxel.
+    if (plugin::pieces_of(asked) > 1 && plugin::ghosts_of(asked) == 0) plugin::remove_ghost_marks(result);
+    plugin::cut_to(part, result);
     const auto volume = plugin::scan_of(image);
     plugin::FieldChoice choice{.gradient = make_gradient_,
                                .magnitude = make_magnitude_,

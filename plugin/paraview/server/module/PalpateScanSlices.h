@@ -22,10 +22,10 @@ class PALPATESERVER_EXPORT PalpateScanSlices : public vtkPVInformation {
   vtkTypeMacro(PalpateScanSlices, vtkPVInformation) void PrintSelf(ostream& os, vtkIndent indent) override;
 
 #ifndef __VTK_WRAP__
-  palpate::plugin::SlicesAsked& Asked() {
+  palpate::plugin::SlicesAsked& asked() {
     return *asked_;
   }
-  palpate::plugin::SlicesAnswered& Answered() {
+  palpate::plugin::SlicesAnswered& answered() {
     return *answered_;
   }
 #endif

@@ -1,5 +1,6 @@
 #include "plugin/paraview/server/module/pieces.h"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkImageData.h>
@@ -56,6 +57,12 @@ std::array<int, 6> own_extent(vtkImageData& image, int ghosts) {
   return own;
 }
 
+void remove_ghost_marks(vtkImageData& image) {
+  if (image.HasAnyBlankPoints() || image.HasAnyBlankCells()) return;  // these are marks of another kind
+  image.GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  image.GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+}
+
 void cut_to(const std::array<int, 6>& extent, vtkImageData& image) {
   std::array<int, 6> whole{};
   image.GetExtent(whole.data());
@@ -72,7 +79,12 @@ void cut_to(const std::array<int, 6>& extent, vtkImageData& image) {
     part = share_part(*scalars, first, points_until(extent[5] + 1) - first);
   }
   if (part) image.GetPointData()->SetScalars(nullptr);
-  image.Crop(extent.data());
+  // Cropping copies point by point and cell by cell, arrays or none.
+  if (part && image.GetPointData()->GetNumberOfArrays() == 0 && image.GetCellData()->GetNumberOfArrays() == 0) {
+    image.SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
+  } else {
+    image.Crop(extent.data());
+  }
   if (part) image.GetPointData()->SetScalars(part);
 }
 

@@ -8,9 +8,11 @@
 #include <vtkSMRenderViewProxy.h>
 
 #include <QAbstractEventDispatcher>
+#include <QCoreApplication>
 
 #include <ctime>
 #include <functional>
+#include <utility>
 
 namespace {
 
@@ -34,13 +36,14 @@ BusyWatch::BusyWatch() {
     if (busy_) end();
     busy_ = true;
     began_ms_ = 1e-6 * static_cast<double>(clock_.nsecsElapsed());
-    began_processor_ms_ = processor_ms();
+    event_began_ms_ = began_processor_ms_ = processor_ms();
     rendering_ms_ = 0;
   });
   connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, this, [this] {
     if (busy_) end();
     busy_ = false;
   });
+  QCoreApplication::instance()->installEventFilter(this);
   rendering_->SetClientData(this);
   rendering_->SetCallback(&BusyWatch::rendered);
   pqServerManagerModel& model = *pqApplicationCore::instance()->getServerManagerModel();
@@ -71,7 +74,18 @@ void BusyWatch::rendered(vtkObject*, unsigned long event, void* self, void*) {
   }
 }
 
+void BusyWatch::end_event() {
+  const double now_ms = processor_ms();
+  events_ms_.push_back(now_ms - std::exchange(event_began_ms_, now_ms));
+}
+
+bool BusyWatch::eventFilter(QObject*, QEvent*) {
+  if (busy_) end_event();
+  return false;
+}
+
 void BusyWatch::end() {
+  end_event();
   const double whole_ms = 1e-6 * static_cast<double>(clock_.nsecsElapsed()) - began_ms_;
   stretches_.push_back({began_ms_, whole_ms, processor_ms() - began_processor_ms_, rendering_ms_});
 }
@@ -80,6 +94,12 @@ double BusyWatch::longest_with_rendering_ms() const {
   double longest = 0;
   for (const Stretch& one : stretches_) longest = std::max(longest, one.took_ms);
   return longest;
+}
+
+std::vector<double> BusyWatch::events_ms() const {
+  std::vector<double> sorted = events_ms_;
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  return sorted;
 }
 
 std::vector<double> BusyWatch::without_rendering() const {

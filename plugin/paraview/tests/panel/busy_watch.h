@@ -30,15 +30,21 @@ class BusyWatch : public QObject {
     double rendering_ms = 0;  ///< of that
   };
   const std::vector<Stretch>& stretches() const { return stretches_; }
+  /// From each event to the next, of a processor, ms, most first: as long as nothing else could have had its turn.
+  std::vector<double> events_ms() const;
+  bool eventFilter(QObject* to, QEvent* event) override;
 
  private:
   static void rendered(vtkObject* window, unsigned long event, void* self, void*);
   void watch(pqRenderView& view);
   void end();
+  void end_event();
 
   QElapsedTimer clock_;
   double began_ms_ = 0, began_processor_ms_ = 0, render_began_ms_ = 0, rendering_ms_ = 0;
   bool busy_ = false;
   std::vector<Stretch> stretches_;
+  double event_began_ms_ = 0;
+  std::vector<double> events_ms_;
   vtkNew<vtkCallbackCommand> rendering_;
 };

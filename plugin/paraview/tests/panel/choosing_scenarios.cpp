@@ -128,7 +128,7 @@ void a_scan_is_chosen_in_the_center() {
   for (int row = 0; row < list.count(); ++row) {
     if (!list.item(row)->text().contains("★ Best to feel first: slices every 5.00 mm")) continue;
     ++marked;
-    expect(list.item(row)->text().startsWith("CT STD BRAIN 5MM, 512 x 512 x 28\n201"), "the panel marks the same one");
+    expect(list.item(row)->text().startsWith("CT STD BRAIN 5MM, 128 x 128 x 28\n201"), "the panel marks the same one");
   }
   expect(marked == 1, "one is the best");
   wait_ms(1500);

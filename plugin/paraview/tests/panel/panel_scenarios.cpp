@@ -7,6 +7,7 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QCursor>
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
@@ -24,6 +25,8 @@
 #include <stdexcept>
 
 #include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/views/caster.h"
+#include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/tests/panel/busy_watch.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
@@ -230,17 +233,52 @@ void main_thread() {
   feel();
   QWidget& sagittal = view("Sagittal");
   const QPoint from = proxy_in(sagittal);
+  // Not by a program of its own, whose start would keep this thread busy for longer than the panel does.
+  const auto point_at = [&](int x, int y) { QCursor::setPos(sagittal.mapToGlobal(from + QPoint(x, y))); };
+  const auto print_events = [](const BusyWatch& watch) {
+    const std::vector<double> events = watch.events_ms();
+    std::printf(
+        "main_thread: from an event to the next, of a processor, at most %.1f ms, one in a hundred %.1f ms or more\n",
+        events.at(0), events.at(events.size() / 100));
+  };
   for (const bool follow : {true, false}) {
     find<QCheckBox>("palpateFollow").setChecked(follow);
     const BusyWatch watch;
-    for (int n = 0; n < 60; ++n) move_pointer(sagittal, from + QPoint(10, n - 30));
+    for (int n = 0; n < 240; ++n) {
+      point_at(10, std::abs(n % 120 - 60) - 30);
+      wait_ms(30);
+    }
     const std::vector<double> stretches = watch.without_rendering();
     std::printf(
         "main_thread: probing, slices %s: %zu stretches of events; without rendering the longest took %.1f ms, one in "
         "a hundred %.1f ms or more; with ParaView's rendering the longest took %.1f ms\n",
         follow ? "follow" : "stay", stretches.size(), stretches.at(0), stretches.at(stretches.size() / 100),
         watch.longest_with_rendering_ms());
+    print_events(watch);
   }
+  const BusyWatch watch;
+  QElapsedTimer clock;
+  double full_s = 0, longest_s = 0;
+  bool had_rows_left = false;
+  // A hand that creeps on a little later has its next picture: the first counts.
+  const palpate::plugin::EventWatch drawn(
+      render_view("Volume").getRenderViewProxy()->GetRenderer(), vtkCommand::EndEvent, [&] {
+        const bool has_rows_left = caster_of_the_volume().has_rows_left();
+        if (std::exchange(had_rows_left, has_rows_left) && !has_rows_left && full_s == 0) {
+          full_s = 1e-3 * static_cast<double>(clock.elapsed());
+        }
+      });
+  constexpr int rests = 6, rest_ms = 2500;
+  for (int n = 0; n < rests; ++n) {
+    point_at(10, n % 2 == 0 ? 20 : -20);
+    clock.start();
+    full_s = 0;
+    wait_ms(rest_ms);
+    longest_s = std::max(longest_s, full_s > 0 ? full_s : 1e-3 * rest_ms);
+  }
+  std::printf("main_thread: coming to rest, the volume in full at most %.2f s after the pointer's last move:\n",
+              longest_s);
+  print_events(watch);
 }
 
 /// Whether something gray stands in the middle of a view on the screen. The light start page stands there before.

@@ -4,11 +4,15 @@
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <vtkAbstractVolumeMapper.h>
 #include <vtkCommand.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
+#include <vtkVolume.h>
+#include <vtkVolumeCollection.h>
 
 #include <QCoreApplication>
 #include <QDragEnterEvent>
@@ -26,6 +30,7 @@
 #include <stdexcept>
 
 #include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/views/caster.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/testing/test_clocks.h"
 
@@ -201,6 +206,16 @@ vtkRenderWindowInteractor& interactor(const char* name) {
 }
 
 }  // namespace
+
+palpate::plugin::Caster& caster_of_the_volume() {
+  vtkVolumeCollection& volumes = *render_view("Volume").getRenderViewProxy()->GetRenderer()->GetVolumes();
+  for (int n = 0; n < volumes.GetNumberOfItems(); ++n) {
+    auto* const volume = vtkVolume::SafeDownCast(volumes.GetItemAsObject(n));
+    if (volume->GetMapper()->GetClassName() == std::string("Caster"))
+      return static_cast<palpate::plugin::Caster&>(*volume->GetMapper());
+  }
+  throw std::runtime_error("the volume is cast by nothing of ours");
+}
 
 void press() {
   QWidget& sagittal = view("Sagittal");

@@ -14,8 +14,9 @@
 class pqPipelineSource;
 
 namespace palpate::plugin {
+class Caster;
 class SessionController;
-}
+}  // namespace palpate::plugin
 
 /// A scenario by its name.
 using Scenarios = std::map<std::string, void (*)()>;
@@ -45,6 +46,8 @@ const Scenarios& reading_scenarios();
 const Scenarios& tuning_scenarios();
 const Scenarios& volume_scenarios();
 
+/// What casts the volume's rays where there is no graphics card; throws where nothing of ours does.
+palpate::plugin::Caster& caster_of_the_volume();
 /// The scan's reader in the pipeline; throws where there is none.
 pqPipelineSource& reader();
 /// Its number, which is another for each reader; 0 where there is none.

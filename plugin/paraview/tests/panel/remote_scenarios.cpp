@@ -75,7 +75,8 @@ void choose(const char* button, const QString& path) {
   expect(chosen, std::string("a file dialog was opened by ") + button);
 }
 
-void open_on_server() {
+void open_folder() {
+  if (!find<QPushButton>("palpateOpen").isVisible()) click("palpateScanSectionFold");
   choose("palpateOpen", qEnvironmentVariable("PALPATE_REMOTE"));
 }
 
@@ -102,7 +103,7 @@ void wait_for_word(const char* word) {
 /// Felt from the copy on this machine; then ParaView leaves the server, and is used without one.
 void remote_probe() {
   connect_server();
-  open_on_server();
+  open_folder();
   wait_for_word("Felt from the copy on this machine, which is the same as the server's.");
   feel_remotely(true);
   save_screen("remote");
@@ -117,7 +118,7 @@ void remote_probe() {
   let_go();
   wait_for("ParaView has its built-in server again", [] { return active_server() && !active_server()->isRemote(); });
   wait_ms(1000);
-  choose("palpateOpen", qEnvironmentVariable("PALPATE_REMOTE"));
+  open_folder();
   feel_remotely(false);
 }
 
@@ -128,7 +129,7 @@ void remote_fetched() {
   const auto cancelling = QObject::connect(&progress, &QProgressBar::valueChanged, [&] {
     if (progress.format().startsWith("Fetching")) find<QPushButton>("palpateCancel").click();
   });
-  open_on_server();
+  open_folder();
   wait_for_word("Cancelled.");
   QObject::disconnect(cancelling);
   wait_for(
@@ -171,7 +172,7 @@ void state_is_loaded_again() {
 /// A folder of this machine has the same name and series, and other voxels; and a state brings it all back.
 void remote_different() {
   connect_server();
-  open_on_server();
+  open_folder();
   wait_for_word(
       "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
   feel_remotely(true);
@@ -189,7 +190,7 @@ void remote_different() {
 /// The server is killed in mid-contact. ParaView then asks whether to save its state, and ends itself with _exit(-1).
 void remote_killed() {
   connect_server();
-  open_on_server();
+  open_folder();
   wait_for_word("Felt from the copy on this machine, which is the same as the server's.");
   feel_remotely(true);
   QTimer looking;
@@ -224,7 +225,7 @@ void remote_killed() {
 /// What is to be known of a scan stands in the panel; ParaView's window of messages stays away.
 void remote_noted() {
   connect_server();
-  open_on_server();
+  open_folder();
   wait_for_word("Fetched from the server.");
   wait_ms(1000);
   save_screen("remote-noted");
@@ -239,7 +240,7 @@ void remote_noted() {
 /// files.
 void remote_frames() {
   connect_server();
-  open_on_server();
+  open_folder();
   wait_for_word("Fetched from the server.");
   scan_is_shown();
   auto& slider = find<QSlider>("palpateFrame");
@@ -278,7 +279,7 @@ void structures_come_back() {
 /// the session again of the server's files.
 void remote_structures() {
   connect_server();
-  open_on_server();
+  open_folder();
   wait_for_word("Fetched from the server.");
   scan_is_shown();
   click("palpateStructuresSectionFold");
@@ -319,7 +320,7 @@ void remote_structures() {
 
 void is_refused(const char* why) {
   connect_server();
-  open_on_server();
+  open_folder();
   wait_for("it is said what is wrong", [why] { return label("palpateMessage") == why; });
   expect(!find<QPushButton>("palpateConnect").isEnabled(), "there is nothing to connect to");
 }

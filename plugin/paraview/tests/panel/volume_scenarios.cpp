@@ -23,6 +23,7 @@
 #include <QAbstractButton>
 #include <QAction>
 #include <QComboBox>
+#include <QCursor>
 #include <QElapsedTimer>
 #include <QImage>
 #include <QObject>
@@ -39,6 +40,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/paraview/client/views/caster.h"
 #include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
@@ -295,6 +297,31 @@ void the_volume_lies_in_the_patient() {
   wait_for("it is drawn again", [] { return is_round(seen_in_the_middle()); });
 }
 
+/// Without a graphics card a picture in full takes long: it is cast in turns, and is in the end what it is at once.
+void a_picture_at_rest_comes_in_turns() {
+  feel();
+  vtkSMRenderViewProxy& volume = *render_view("Volume").getRenderViewProxy();
+  for (const double turned : {0.0, 20.0, 40.0}) {
+    views_rest();
+    int pictures = 0;
+    bool is_turned = false;
+    const palpate::plugin::EventWatch drawn(&renderer(), vtkCommand::EndEvent, [&] {
+      ++pictures;
+      if (!caster_of_the_volume().has_rows_left() || std::exchange(is_turned, true)) return;
+      volume.GetActiveCamera()->Azimuth(turned);
+    });
+    QCursor::setPos(QCursor::pos() + QPoint(6, 0));
+    // The coarse one of the move, the same once more while the rows are cast, and the one in full.
+    wait_for("the picture comes in turns", [&] { return pictures > 2 && is_turned; });
+    views_rest();
+    const QImage in_turns = view("Volume").grab().toImage();
+    volume.StillRender();
+    save_screen("in-turns");
+    expect(view("Volume").grab().toImage() == in_turns,
+           "the one that came in turns is the one that is drawn at once, of the camera as it is then");
+  }
+}
+
 /// Not a test but a measurement: how fast the volume turns, and how long it takes to be drawn in full.
 void the_volume_turns() {
   drop_folder(qEnvironmentVariable("PALPATE_DROP"));
@@ -336,6 +363,7 @@ const Scenarios& volume_scenarios() {
   static const Scenarios scenarios{{"the_table_is_cut_away", the_table_is_cut_away},
                                    {"the_volume_lies_in_the_patient", the_volume_lies_in_the_patient},
                                    {"the_volume_turns", the_volume_turns},
+                                   {"a_picture_at_rest_comes_in_turns", a_picture_at_rest_comes_in_turns},
                                    {"the_volume_is_drawn_seldom", the_volume_is_drawn_seldom},
                                    {"a_volume_without_hu_is_drawn", a_volume_without_hu_is_drawn},
                                    {"surfaces_are_seen_where_they_are_felt", surfaces_are_seen_where_they_are_felt}};
