@@ -89,6 +89,11 @@ void run_in_arithmetic(const SessionRun& run, Session& session, double rate_hz, 
 
 }  // namespace
 
+std::string in_words(const SessionRunResult& result, const std::filesystem::path& file) {
+  return fmt::format("{} ticks in {}; missed ticks {}, ticks lost {}", result.recorder.written, file.string(),
+                     result.missed, result.recorder.lost);
+}
+
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) {
   const double stable = stiffness_for(scene, stylus);
   if (stable < scene.stiffness_n_per_m) {
@@ -110,7 +115,6 @@ Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::
                      StructureFiles& files) {
   const modes::Scene scene = files.with_paths(modes::scene_from_json(record.scene, "the recording's scene"));
   device::Specification stylus;
-  stylus.workspace_half_extent = record.half_extent_m;
   stylus.maximum_force = record.maximum_force_n;
   Snapshot snapshot = snapshot_of(scene, prepare(scene, volume, record.half_extent_m, record.registered), stylus);
   snapshot.change_s = record.change_s;

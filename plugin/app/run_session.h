@@ -41,6 +41,9 @@ struct SessionRunResult {
 /// Records to the file (`<file>.partial` until the end). Throws what opening the stylus and the file throws.
 SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file);
 
+/// "2000 ticks in session.h5; missed ticks 3, ticks lost 0"
+std::string in_words(const SessionRunResult& result, const std::filesystem::path& file);
+
 /// The scene with its coupling no stiffer than the stylus renders stably (device/safety/stiffness.h). Says on stderr if
 /// that changes it.
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);

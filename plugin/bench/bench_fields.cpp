@@ -152,7 +152,7 @@ void tabulate_samples(const std::shared_ptr<const io::Volume>& volume, const std
   const double scale = io::default_gradient_scale_mm(volume->geometry);
   const io::GradientKernel kernel(volume, scale);
   CsvTable table("sample,microseconds");
-  std::vector<glm::vec3> brick(17 * 17 * 17);
+  std::vector<glm::vec3> brick(std::size_t{17} * 17 * 17);
   const glm::ivec3 middle = volume->geometry.dimensions / 3;
   const double fill = microseconds(50, [&](int n) { kernel.at_block({middle + n, glm::ivec3(17)}, brick); });
   table.add(fmt::format("filling a brick of 16x16x16 cells,{:.0f}", fill));

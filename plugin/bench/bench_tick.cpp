@@ -172,8 +172,13 @@ void tabulate_series(const Arguments& arguments, Rows& rows) {
     measure("surface + friction, busy neighbor", on(walk, surface_and_friction()));
     measure("three modes, busy neighbor", on(walk, three));
   }
-  rows.add(measure_ticks("surface + friction, at 1 kHz", on(walk, surface_and_friction()), walk.poses_m,
-                         std::min<std::size_t>(arguments.ticks, 10000), 1000));
+  const auto at_1_khz = [&](const std::string& what, const Snapshot& snapshot, Between between) {
+    rows.add(measure_ticks(what, snapshot, walk.poses_m, std::min<std::size_t>(arguments.ticks, 10000), 1000, between));
+  };
+  at_1_khz("surface + friction, at 1 kHz", on(walk, surface_and_friction()), Between::asleep);
+  at_1_khz("nothing to feel, at 1 kHz", on(walk, surfaces(0, false)), Between::asleep);
+  at_1_khz("surface + friction, awake at 1 kHz", on(walk, surface_and_friction()), Between::awake);
+  at_1_khz("nothing to feel, awake at 1 kHz", on(walk, surfaces(0, false)), Between::awake);
   fmt::print("\nGrowth with modes, and with primitives\n");
   for (int modes = 1; modes <= 8; ++modes) measure(fmt::format("{} surfaces", modes), on(walk, surfaces(modes, false)));
   for (int modes = 1; modes <= 8; modes *= 2) {

@@ -197,6 +197,7 @@ void count(const solver::Solution& solution, const solver::Reference* reference,
 
 std::vector<Row> run(const Extreme& extreme, const std::vector<Entrant>& entrants) {
   std::vector<Row> rows;
+  rows.reserve(entrants.size());
   for (const Entrant& entrant : entrants) rows.push_back({.solver = entrant.name, .refusal = {}});
   for (int seed = 0; seed < extreme.cases; ++seed) {
     const Problem problem = extreme.make(static_cast<std::uint64_t>(seed));

@@ -74,9 +74,9 @@ Slide slide(const std::shared_ptr<const io::Volume>& volume, int steps, const Pa
 
 Slide on_wall(const std::shared_ptr<const io::Volume>& volume) {
   const dvec3 along = glm::normalize(glm::cross(outward, dvec3(0.1, 1, 0.2)));
-  constexpr int steps = 1000;
+  constexpr int steps = 1000, middle = steps / 2;
   return slide(
-      volume, steps, [&](int n) { return (n - steps / 2) * step_mm * along - depth_mm * outward; },
+      volume, steps, [&](int n) { return (n - middle) * step_mm * along - depth_mm * outward; },
       [](const dvec3& p) { return glm::dot(p, outward); }, [](const dvec3&) { return outward; });
 }
 

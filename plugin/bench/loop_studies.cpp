@@ -156,6 +156,7 @@ void in_the_hand(const LoopStudyOptions& options, const std::filesystem::path& f
   if (folder.empty()) return;
   write_text(folder / "hand.csv", csv);
   std::vector<Chart> panels;
+  panels.reserve(scenes.size());
   for (const HandStudyRow& of : scenes) {
     panels.push_back(chart_of(rows, of, 0.5 * hand.stiffness_n_per_m.front(), hand.stiffness_n_per_m.back()));
   }

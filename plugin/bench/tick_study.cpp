@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -57,7 +58,7 @@ void pause_now_and_then(std::size_t tick) {
 }
 
 TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::span<const glm::dvec3> poses_m,
-                      std::size_t ticks, double rate_hz) {
+                      std::size_t ticks, double rate_hz, Between between) {
   TickRing ring(1024);
   Session session(snapshot, std::make_shared<WalkingStylus>(poses_m), &ring);
   TickRow row{.what = what, .ticks = ticks};
@@ -76,7 +77,14 @@ TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::sp
   };
   run_as_servo([&] {
     device::Metronome metronome(rate_hz > 0 ? 1 / rate_hz : 1e-3);
-    const auto pause = [&](std::size_t n) { rate_hz > 0 ? void(metronome.wait()) : pause_now_and_then(n); };
+    auto awake_until = std::chrono::steady_clock::now();
+    const auto pause = [&](std::size_t n) {
+      if (rate_hz <= 0) return pause_now_and_then(n);
+      if (between == Between::asleep) return void(metronome.wait());
+      awake_until += std::chrono::nanoseconds(std::llround(1e9 / rate_hz));
+      while (std::chrono::steady_clock::now() < awake_until) {
+      }
+    };
     for (std::size_t n = 0; n < ticks / 10; ++n) {
       session.tick();
       pause(n);

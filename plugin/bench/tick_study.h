@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -34,11 +35,13 @@ void run_as_servo(const std::function<void()>& work);
 /// does between its ticks, so that the worker that computes fields ahead gets its turn.
 void pause_now_and_then(std::size_t tick);
 
+enum class Between : std::uint8_t { asleep, awake };
+
 /// Runs ticks over the poses (device frame, m), there and back again, so that none jumps. The first tenth is not
-/// measured. With a rate (Hz) the ticks keep the clock's pace, and other work runs between them; 0: they run nearly
-/// back to back.
+/// measured. With a rate (Hz) the ticks keep the clock's pace: asleep between them as the servo is, so that other work
+/// runs and the caches are its own, or awake. 0: they run nearly back to back.
 TickRow measure_ticks(const std::string& what, const Snapshot& snapshot, std::span<const glm::dvec3> poses_m,
-                      std::size_t ticks, double rate_hz = 0);
+                      std::size_t ticks, double rate_hz = 0, Between between = Between::asleep);
 
 /// While this exists, another thread keeps a core and the memory busy.
 class BusyThread {

@@ -59,7 +59,7 @@ Felt felt(const device::AxisPush& push, bool yes) {
 }
 
 /// Milliseconds of the clock; of a stylus that is arithmetic, as fast as it goes.
-std::function<double()> pace_of(const StylusChoice& choice) {
+std::function<double()> ticks_for(const StylusChoice& choice) {
   if (choice.device == "simulated") {
     return [now = 0.0]() mutable { return now += 1e-3; };
   }
@@ -105,8 +105,6 @@ void write_settings(const DeviceCheck& check, const std::string& file, const dev
 void say_result(const device::AxisCheck& found) {
   if (found.fault != device::Fault::none) {
     put("\nThe force was taken away: {}. {}\n", device::name_of(found.fault), device::advice_for(found.fault));
-  } else if (found.ended) {
-    std::puts("\nEnded; nothing was written.");
   }
   for (int axis = 0; axis < 3; ++axis) {
     const char* what = "not felt: nothing was changed; hold the stylus more loosely, or check its power";
@@ -121,13 +119,16 @@ void say_result(const device::AxisCheck& found) {
 }  // namespace
 
 void check_device(const DeviceCheck& check) {
+  check_device(check, *make_stylus(check.stylus), ticks_for(check.stylus));
+}
+
+void check_device(const DeviceCheck& check, device::Stylus& stylus, const std::function<double()>& next_tick) {
   const device::DeviceType& type = type_of(check.stylus);
   const std::string kind(type.kind);
   if (!type.has_force) throw InputRefused(say("stylus-has-no-motors", std::string(type.name)));
   const std::string file = check.output.empty() ? kind + "-settings.json" : check.output;
   const bool writes = type.file != device::DeviceFile::none;
   if (writes && std::filesystem::exists(file)) throw InputRefused(say("settings-file-is-there", file));
-  const auto stylus = make_stylus(check.stylus);
   const Interruptible interruptible;
   put("{}: {}.\n", type.name, type.tested);
   if (!check.yes) {
@@ -135,19 +136,21 @@ void check_device(const DeviceCheck& check) {
     if (!answer) throw WrongUsage(say("needs-an-answer"));
     if (*answer != 'y') return;
   }
-  stylus->open();
+  stylus.open();
   const device::AxisCheck found = device::check_axes(
-      *stylus,
+      stylus,
       {.ready =
            [&](const device::AxisPush& push) { return !Interruptible::interrupted() && may_push(push, check.yes); },
        .felt = [&](const device::AxisPush& push) { return felt(push, check.yes); },
        .home = [&] { put("To home it: {}.\n", type.homing); }},
-      pace_of(check.stylus));
-  const device::Specification specification = stylus->specification();
-  stylus->close();
+      next_tick);
+  const device::Specification specification = stylus.specification();
+  stylus.close();
   say_result(found);
-  const bool whole = !found.ended && found.fault == device::Fault::none;
-  if (whole && writes) write_settings(check, file, found, specification);
+  if (found.ended || found.fault != device::Fault::none) {
+    throw InputRefused(say("check-was-not-finished", std::string(type.name)));
+  }
+  if (writes) write_settings(check, file, found, specification);
   if (!found.is_right()) throw InputRefused(say("not-every-push-was-felt", std::string(type.name)));
 }
 

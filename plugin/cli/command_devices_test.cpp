@@ -1,4 +1,5 @@
-// `palpate devices --check` on the fakes that a program can reach: libraries that it loads, a service on a socket.
+// `palpate devices`: on the fakes that a program can reach (libraries that it loads, a service on a socket), and its
+// check of the axes on every fake, in this process and in the fake's own time.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,10 +8,20 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <future>
+#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
+#include "device/safety/safety_filter.h"
+#include "device/testing/fake_rigs.h"
 #include "device/testing/haply_server.h"
+#include "plugin/app/errors.h"
+#include "plugin/cli/check_device.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin {
@@ -18,6 +29,7 @@ namespace {
 
 using namespace testing;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 nlohmann::json json_of(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -59,37 +71,132 @@ TEST_F(CommandDevices, ListsEachFakeAndHowItWasTested) {
   EXPECT_THAT(text, HasSubstr("A session holds one stylus at a time. Torque stays zero"));
 }
 
-/// The fakes' arms stand still: a push is not felt by the pose, and that is said; nothing is turned round.
-TEST_F(CommandDevices, PushesEachAxisAndWritesTheSettings) {
-  for (const std::string kind : {"haply", "touch", "force_dimension"}) {
-    const auto file = fresh_path(kind + ".json");
-    const Outcome outcome = palpate("devices --check " + kind + " --yes -o " + file.string());
-    EXPECT_EQ(outcome.exit, 1) << kind;
-    EXPECT_THAT(outcome.output, HasSubstr("Axis x: a push to the right with 0.2 N")) << kind;
-    EXPECT_THAT(outcome.output, HasSubstr("Axis z: a push towards you with 0.2 N")) << kind;
-    EXPECT_THAT(outcome.output, HasSubstr(": not every push was felt in the direction that was said; the result stands "
-                                          "above and in the settings file"))
-        << kind;
-    const auto settings = json_of(file);
+/// What `palpate devices --check` says and writes of a stylus whose time is its own.
+struct Checked {
+  std::string output;
+  std::string refusal;
+  std::filesystem::path file;
+};
+
+/// Milliseconds of the stylus' own time.
+std::function<double()> ticks_of(const device::FakeRig& rig) {
+  return [&rig] {
+    const double until = rig.now() + 1e-3;
+    while (rig.now() < until - 1e-9) rig.exchange();
+    return rig.now();
+  };
+}
+
+/// The answers are those of a person, a line each; without any of them nobody is asked.
+Checked check(const device::FakeRig& rig, const std::string& answers, const std::function<double()>& next_tick,
+              const std::string& settings = {}) {
+  static int files = 0;
+  Checked checked{.file = fresh_path(fmt::format("settings_{}.json", ++files))};
+  DeviceCheck wanted;
+  wanted.stylus.device = rig.type->kind;
+  wanted.stylus.settings = settings;
+  wanted.output = checked.file.string();
+  wanted.yes = answers.empty();
+  std::istringstream typed(answers);
+  std::streambuf* const terminal = std::cin.rdbuf(typed.rdbuf());
+  ::testing::internal::CaptureStdout();
+  try {
+    check_device(wanted, *rig.stylus, next_tick);
+  } catch (const InputRefused& refused) {
+    checked.refusal = refused.what();
+  }
+  std::cin.rdbuf(terminal);
+  std::cin.clear();
+  checked.output = ::testing::internal::GetCapturedStdout();
+  return checked;
+}
+
+constexpr const char* not_all_felt =
+    ": not every push was felt in the direction that was said; the result stands above and in the settings file";
+constexpr const char* not_finished = ": the check ended before every axis was pushed; nothing was written";
+
+TEST(CheckDevice, PushesEachAxisAndWritesTheSettings) {
+  for (const char* const kind : device::rig_kinds()) {
+    const device::FakeRig rig = device::make_rig(kind);
+    if (!rig.type->has_force) continue;
+    const Checked checked = check(rig, "", ticks_of(rig));
+    EXPECT_EQ(checked.refusal, "") << kind;
+    EXPECT_THAT(checked.output, HasSubstr("Axis x: a push to the right with 0.2 N")) << kind;
+    EXPECT_THAT(checked.output, HasSubstr("Axis y: a push up with 0.2 N")) << kind;
+    EXPECT_THAT(checked.output, HasSubstr("Axis z: a push towards you with 0.2 N")) << kind;
+    for (const char axis : {'x', 'y', 'z'}) {
+      EXPECT_THAT(checked.output, HasSubstr(fmt::format("Axis {}: as it should be.", axis))) << kind;
+    }
+    if (rig.is_arithmetic()) continue;  // it has no settings
+    const auto settings = json_of(checked.file);
     EXPECT_EQ(settings.at("force_signs"), nlohmann::json({1.0, 1.0, 1.0})) << kind;
-    EXPECT_GT(settings.at("maximum_force").get<double>(), 1) << kind;
+    EXPECT_EQ(settings.at("position_signs"), nlohmann::json({1.0, 1.0, 1.0})) << kind;
+    EXPECT_EQ(settings.at("maximum_force"), rig.stylus->specification().maximum_force) << kind;
+    EXPECT_EQ(settings.at("stiffness_limit"), rig.stylus->specification().stiffness_limit) << kind;
   }
 }
 
-TEST_F(CommandDevices, WhatTheHandAnswersTurnsAnAxisRound) {
-  const auto file = fresh_path("haply_hand.json");
-  const Outcome outcome = run_command("{ printf 'y\\n\\ny\\n\\no\\n\\ny\\n' | " + std::string(PALPATE_PROGRAM) +
-                                      " devices --check haply@049D -o " + file.string() + "; } 2>&1");
-  EXPECT_EQ(outcome.exit, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("Axis y: the force runs the other way: turned round."));
-  const auto settings = json_of(file);
+TEST(CheckDevice, WhatTheHandAnswersTurnsAnAxisRound) {
+  const device::FakeRig rig = device::make_rig("haply");
+  const Checked checked = check(rig, "y\n\ny\n\no\n\ny\n", ticks_of(rig));
+  EXPECT_THAT(checked.refusal, HasSubstr(not_all_felt));
+  EXPECT_THAT(checked.output, HasSubstr("Axis y: the position runs the other way: turned round."))
+      << "it moved as it was said, and the hand felt the opposite";
+  const auto settings = json_of(checked.file);
   EXPECT_EQ(settings.at("force_signs"), nlohmann::json({1.0, -1.0, 1.0}));
-  EXPECT_EQ(settings.at("address"), "049D");
-  // The file is one that the driver reads, and what is found is found on top of it.
-  const auto again = fresh_path("haply_hand_again.json");
-  run_command("{ printf 'y\\n\\ny\\n\\no\\n\\ny\\n' | " + std::string(PALPATE_PROGRAM) + " devices --check haply -o " +
-              again.string() + " --device-settings " + file.string() + "; } 2>&1");
-  EXPECT_EQ(json_of(again).at("force_signs"), nlohmann::json({1.0, 1.0, 1.0}));
+  EXPECT_EQ(settings.at("position_signs"), nlohmann::json({1.0, -1.0, 1.0}));
+  // What is found is found on top of the settings that the driver has read.
+  const device::FakeRig again = device::make_rig("haply");
+  const auto both = json_of(check(again, "y\n\ny\n\no\n\ny\n", ticks_of(again), checked.file.string()).file);
+  EXPECT_EQ(both.at("force_signs"), nlohmann::json({1.0, 1.0, 1.0}));
+  EXPECT_EQ(both.at("position_signs"), nlohmann::json({1.0, 1.0, 1.0}));
+}
+
+TEST(CheckDevice, AStylusThatIsLostIsSaidAndNothingIsWritten) {
+  const device::FakeRig rig = device::make_rig("haply");
+  const auto next_tick = [&, tick = ticks_of(rig), ticks = 0]() mutable {
+    if (++ticks == 500) rig.unplug();
+    return tick();
+  };
+  const Checked checked = check(rig, "", next_tick);
+  EXPECT_THAT(checked.output,
+              HasSubstr(fmt::format("The force was taken away: {}. {}", name_of(device::Fault::device_lost),
+                                    advice_for(device::Fault::device_lost))));
+  EXPECT_THAT(checked.refusal, HasSubstr(not_finished));
+  EXPECT_FALSE(std::filesystem::exists(checked.file));
+}
+
+TEST(CheckDevice, WhoEndsItGetsNoSettings) {
+  const device::FakeRig rig = device::make_rig("haply");
+  const Checked checked = check(rig, "y\n\ny\nq\n", ticks_of(rig));
+  EXPECT_THAT(checked.refusal, HasSubstr(not_finished));
+  EXPECT_THAT(checked.output, Not(HasSubstr("Axis z: a push")));
+  EXPECT_FALSE(std::filesystem::exists(checked.file));
+}
+
+/// On the computer's clock, however busy the machine is. These fakes' arms stand still: no push is felt by the pose,
+/// and nothing is turned round. Where an answer came too late, the force went, which is said, and nothing is written.
+TEST_F(CommandDevices, ChecksEachFakeOnTheComputersClock) {
+  const std::vector<std::string> kinds{"haply@049D", "touch", "force_dimension"};
+  std::vector<std::future<void>> checks;
+  for (const std::string& kind : kinds) {
+    checks.push_back(std::async(std::launch::async, [kind, file = fresh_path(kind + ".json")] {
+      const Outcome outcome = palpate("devices --check " + kind + " --yes -o " + file.string());
+      EXPECT_EQ(outcome.exit, 1) << kind;
+      EXPECT_THAT(outcome.output, HasSubstr("Axis x: a push to the right with 0.2 N")) << kind;
+      if (outcome.output.find("The force was taken away: ") != std::string::npos) {
+        EXPECT_THAT(outcome.output, HasSubstr(not_finished)) << kind;
+        EXPECT_FALSE(std::filesystem::exists(file)) << kind;
+        return;
+      }
+      EXPECT_THAT(outcome.output, HasSubstr(not_all_felt)) << kind;
+      const auto settings = json_of(file);
+      ASSERT_TRUE(settings.is_object()) << kind << ": " << outcome.output;
+      EXPECT_EQ(settings.value("force_signs", nlohmann::json()), nlohmann::json({1.0, 1.0, 1.0})) << kind;
+      EXPECT_EQ(settings.value("address", ""), kind == "haply@049D" ? "049D" : "");
+    }));
+  }
+  for (auto& one : checks) one.get();
 }
 
 TEST_F(CommandDevices, NothingMovesBeforeTheUserAgrees) {

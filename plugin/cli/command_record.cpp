@@ -24,8 +24,7 @@ void run(const RecordOptions& options) {
   }
   const ReadySession session = prepare_session(options.session, make_stylus(options.session.stylus));
   const SessionRunResult result = run_session(session.run, options.output);
-  put("{} ticks in {}; missed ticks {}, ticks lost {}\n", result.recorder.written, options.output.string(),
-      result.missed, result.recorder.lost);
+  put("{}\n", in_words(result, options.output));
   if (result.recorder.stopped) {
     throw InputRefused(result.recorder.why);
   }

@@ -10,7 +10,9 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "plugin/recording/recording.h"
 #include "plugin/testing/command_rig.h"
@@ -151,6 +153,64 @@ TEST(CommandSession, AChangedRecordingIsRefusedByReplay) {
               ticks[600].proxy_m[0] = nan;
             }),
             1);
+}
+
+/// What replay says of a recording that was changed at known ticks by known amounts, in words and as JSON.
+TEST(CommandSession, ReplayTellsWhereAndByHowMuchARecordingDiffers) {
+  const auto out = fresh_path("to change"), file = fresh_path("known.h5");
+  ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 1 -o '" + out.string() + "'").exit, 0);
+  Recording recording = read_recording(out / "recording.h5");
+  const std::size_t all = recording.ticks.size();
+  recording.ticks[300].proxy_m[0] += 3e-4;
+  recording.ticks[310].error_bound_m = 5e-4;
+  recording.ticks[400].sent_n[2] += 0.25;
+  recording.ticks.erase(recording.ticks.begin() + 600, recording.ticks.begin() + 650);
+  write_recording(recording, file);
+  const std::string command = "replay " + file.string() + " " + phantom().string();
+  const Outcome words = palpate(command);
+  EXPECT_EQ(words.exit, 0) << "less than the two bounds: " << words.output;
+  EXPECT_THAT(words.output,
+              AllOf(HasSubstr("600 ticks replayed: 3 differ, the first is tick 300: the proxy by at most 3.0e-04 m "
+                              "(certified bounds of the two together 5.0e-04 m), the force sent by at most 2.5e-01 N"),
+                    HasSubstr(std::to_string(all - 650) + " ticks come after some that were lost")));
+  const auto json = nlohmann::json::parse(palpate(command + " --json", false).output);
+  EXPECT_EQ(json["frames"], 600);
+  EXPECT_EQ(json["different"], 3);
+  EXPECT_EQ(json["first_different"], 300);
+  EXPECT_NEAR(json["largest_proxy_m"].get<double>(), 3e-4, 1e-9);
+  EXPECT_NEAR(json["largest_bound_m"].get<double>(), 5e-4, 1e-9);
+  EXPECT_NEAR(json["largest_force_n"].get<double>(), 0.25, 1e-9);
+  EXPECT_EQ(json["after_gap"], all - 650);
+}
+
+/// Against the same way with all its forces doubled every number of a comparison is known.
+TEST(CommandSession, ComparesWithAStrokeOfTwiceTheForce) {
+  const auto out = fresh_path("single"), file = fresh_path("double.h5");
+  ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 4 -o " + out.string()).exit, 0);
+  Recording recording = read_recording(out / "recording.h5");
+  for (TickRecord& tick : recording.ticks) {
+    for (double& newtons : tick.sent_n) newtons *= 2;
+  }
+  write_recording(recording, file);
+  const auto json = nlohmann::json::parse(
+      palpate("compare " + (out / "recording.h5").string() + " " + file.string() + " " + phantom().string() + " --json",
+              false)
+          .output);
+  const std::vector<double> along_mm = json["along_mm"], first_n = json["first_n"], second_n = json["second_n"];
+  ASSERT_GT(along_mm.size(), 10U);
+  std::size_t most = 0;
+  double sum_n = 0;
+  for (std::size_t n = 0; n < along_mm.size(); ++n) {
+    EXPECT_NEAR(second_n[n], 2 * first_n[n], 1e-12);
+    sum_n += first_n[n];
+    if (first_n[n] > first_n[most]) most = n;
+  }
+  EXPECT_GT(first_n[most], 0.1);
+  EXPECT_NEAR(json["largest_difference_n"].get<double>(), first_n[most], 1e-12);
+  EXPECT_EQ(json["largest_difference_at_mm"], along_mm[most]);
+  EXPECT_NEAR(json["mean_difference_n"].get<double>(), sum_n / static_cast<double>(along_mm.size()), 1e-12);
+  EXPECT_EQ(json["most_apart_mm"], 0);
+  EXPECT_THAT(json["apart_mm"], ::testing::Each(0));
 }
 
 TEST(CommandSession, AnotherScanIsNotTheOneThatWasFelt) {

@@ -97,6 +97,7 @@ inline constexpr MessageRow sessions[] = {
      {{"stylus-has-no-motors", "{}: it has no motors, and nothing to check; move it and look at its pose in the panel"},
       {"not-every-push-was-felt",
        "{}: not every push was felt in the direction that was said; the result stands above and in the settings file"},
+      {"check-was-not-finished", "{}: the check ended before every axis was pushed; nothing was written"},
       {"needs-an-answer", "the check needs an answer to each push; call it from a terminal, or with --yes"}}},
     {"nothing to do",
      "as it says",

@@ -25,7 +25,7 @@ say "palpate-paraview: ParaView loads it without any set-up"
 install ./packages/palpate-paraview_*.deb xvfb xauth libgl1-mesa-dri
 rm -f loaded.txt
 # The script writes loaded.txt and ends ParaView.
-xvfb-run -a -s "-screen 0 1366x768x24" timeout 300 env LIBGL_ALWAYS_SOFTWARE=1 paraview --script=/root/plugin_loads.py >paraview.log 2>&1 || true
+xvfb-run -a -s "-screen 0 1366x768x24 -noreset" timeout 300 env LIBGL_ALWAYS_SOFTWARE=1 paraview --script=/root/plugin_loads.py >paraview.log 2>&1 || true
 cat loaded.txt 2>/dev/null || { tail -n 40 paraview.log; exit 1; }
 grep -qx passed loaded.txt
 

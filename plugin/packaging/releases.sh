@@ -32,7 +32,7 @@ known_system=yes
 case "$(system_name)" in
   "debian 12"*)
     clang=14
-    test_packages+=("clang-tidy-$style" "clang-format-$style")
+    test_packages+=("clang-tidy-$style" "clang-format-$style" plastimatch) # plastimatch: reads and writes volumes by ITK, to compare
     paraview_packages+=(qtbase5-dev libqt5svg5-dev qttools5-dev qttools5-dev-tools libqt5opengl5-dev) ;;
   "debian 13"*)
     clang=19

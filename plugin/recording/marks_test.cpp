@@ -132,5 +132,26 @@ TEST(Marks, WhatLiesBetweenThemGoesWithThem) {
   EXPECT_EQ(free_mark_name(marks), "Mark 2") << "the name is free again";
 }
 
+/// A hand that moves by more than 2 mm while it presses draws a path; its points are 0.2 mm apart and more, and the
+/// last is where it let go.
+TEST(MarkPresses, TwoMillimetersTellAMarkFromAPath) {
+  for (const double moved_mm : {1.99, 2.01}) {
+    Hand hand;
+    hand.at({0, 0, 0}, true);
+    hand.at({0, moved_mm, 0}, true);
+    hand.at({0, 0.1, 0}, true);
+    const auto made = hand.at({9, 9, 9}, false);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(std::holds_alternative<MarkedPath>(*made), moved_mm > 2) << moved_mm;
+  }
+  Hand hand;
+  for (const double x : {0.0, 0.19, 0.21, 0.40, 3.0, 3.1}) hand.at({x, 0, 0}, true);
+  const auto made = hand.presses.finish();
+  ASSERT_TRUE(made && std::holds_alternative<MarkedPath>(*made));
+  std::vector<double> places;
+  for (const glm::dvec3& point : std::get<MarkedPath>(*made).points_mm) places.push_back(point.x);
+  EXPECT_EQ(places, (std::vector<double>{0, 0.21, 3, 3.1}));
+}
+
 }  // namespace
 }  // namespace palpate::plugin

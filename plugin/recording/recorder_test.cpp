@@ -215,6 +215,7 @@ TEST(Recorder, AfterACrashWhatWasFlushedCanBeRead) {
       }
     }
   }
+  close(ready[1]);  // so that a child that ends is not waited for
   char byte = 0;
   ASSERT_EQ(read(ready[0], &byte, 1), 1);
   kill(child, SIGKILL);
@@ -225,6 +226,26 @@ TEST(Recorder, AfterACrashWhatWasFlushedCanBeRead) {
   EXPECT_EQ(recording.ticks.size(), recording.shares.size());
   EXPECT_EQ(recording.scenes.size(), 1U);
   for (std::uint64_t n = 0; n < recording.ticks.size(); ++n) ASSERT_EQ(recording.ticks[n].index, n);
+}
+
+/// A second recorder goes on where the first one ended: no tick is in both files, and none is in neither.
+TEST(Recorder, TheNextOneGoesOnWhereTheFirstEnded) {
+  TickRing ring(1024);
+  push(ring, 0, 20);
+  const auto first_file = fresh_path("part 1.h5"), second_file = fresh_path("part 2.h5");
+  Recorder first(ring, first_file, header, {.first_tick = 7});
+  push(ring, 20, 30);
+  EXPECT_EQ(first.finish().written, 43U);
+  EXPECT_EQ(first.next(), 50U);
+  push(ring, 50, 25);
+  Recorder second(ring, second_file, header, {.first_tick = first.next()});
+  push(ring, 75, 5);
+  EXPECT_EQ(second.finish().written, 30U);
+  std::uint64_t next = 7;
+  for (const auto& file : {first_file, second_file}) {
+    for (const TickRecord& tick : read_recording(file).ticks) ASSERT_EQ(tick.index, next++);
+  }
+  EXPECT_EQ(next, 80U);
 }
 
 }  // namespace

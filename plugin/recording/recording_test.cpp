@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -159,6 +161,54 @@ TEST(Recording, RefusesWhatIsNotOneNamingTheFile) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("text.h5"));
   }
   EXPECT_THROW(read_recording(fresh_path("absent.h5")), std::runtime_error);
+}
+
+// HDF5 takes what does not match its checksum for half written, and would wait for its writer.
+TEST(Recording, IsReadOrRefusedAtOnceWhereverAByteIsDamaged) {
+  const auto whole = fresh_path("whole.h5"), damaged = fresh_path("damaged.h5");
+  write_recording(random_recording(30), whole);
+  std::ifstream input(whole, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(input), {}};
+  std::mt19937_64 random(11);
+  for (int n = 0; n < 300; ++n) {
+    std::string other = bytes;
+    // The header first, byte by byte.
+    const std::size_t at = n < 100 ? static_cast<std::size_t>(n) : random() % other.size();
+    other[at] = static_cast<char>(other[at] ^ (1U << (random() % 8)));
+    std::ofstream(damaged, std::ios::binary) << other;
+    const auto began = std::chrono::steady_clock::now();
+    try {
+      static_cast<void>(read_recording(damaged));
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("damaged.h5")) << at;
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5)) << at;
+  }
+}
+
+/// The same recording with a text of another kind: as many as given, or one whose length is not given.
+void put_text(const std::filesystem::path& file, const char* name, hsize_t count, std::size_t size) {
+  const hid_t input = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(input, 0);
+  ASSERT_GE(H5Ldelete(input, name, H5P_DEFAULT), 0);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  ASSERT_GE(H5Tset_size(type, size), 0);
+  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hid_t data = H5Dcreate2(input, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  ASSERT_GE(data, 0);
+  H5Dclose(data);
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Fclose(input);
+}
+
+TEST(Recording, OfTextsOfAnotherKindIsRefused) {
+  const auto file = fresh_path("texts.h5");
+  for (const auto& [count, size] : {std::pair<hsize_t, std::size_t>{100000, 16}, {0, 16}, {1, H5T_VARIABLE}}) {
+    write_recording(random_recording(3), file);
+    put_text(file, "device", count, size);
+    EXPECT_THROW(read_recording(file), std::runtime_error) << count;
+  }
 }
 
 }  // namespace

@@ -71,7 +71,8 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
 
 /// Infinity where only one of the two is a number: no difference is larger, and none after it makes it forgotten.
 double apart(const double (&recorded)[3], const double (&repeated)[3]) {
-  if (std::memcmp(recorded, repeated, sizeof recorded) == 0) {
+  // NaN is the same as NaN, so bits are compared.
+  if (std::memcmp(recorded, repeated, sizeof recorded) == 0) {  // NOLINT(bugprone-suspicious-memory-comparison)
     return 0;
   }
   const double distance = glm::length(vector_of(recorded) - vector_of(repeated));

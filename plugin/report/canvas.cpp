@@ -143,7 +143,7 @@ void Canvas::image(std::span<const std::array<unsigned char, 3>> pixels, int col
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const auto& [red, green, blue] = pixels[static_cast<std::size_t>(row) * columns + column];
-      unsigned char* pixel = data + static_cast<std::ptrdiff_t>(row) * stride + 4 * column;
+      unsigned char* pixel = data + static_cast<std::ptrdiff_t>(row) * stride + static_cast<std::ptrdiff_t>(4) * column;
       pixel[0] = blue;  // CAIRO_FORMAT_RGB24 on a little-endian machine
       pixel[1] = green;
       pixel[2] = red;

@@ -10,8 +10,8 @@
 #include <string>
 
 // Cairo's own names, declared here so that its header stays out of ours.
-using cairo_t = struct _cairo;
-using cairo_surface_t = struct _cairo_surface;
+using cairo_t = struct _cairo;                  // NOLINT(bugprone-reserved-identifier)
+using cairo_surface_t = struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
 
 namespace palpate::plugin {
 

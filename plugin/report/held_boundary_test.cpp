@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
 
@@ -77,6 +78,36 @@ TEST(HeldBoundary, SaysWhatAFaintBoundaryLacksAndThatNoiseMakesItLessKnown) {
 TEST(HeldBoundary, IsNoneWhereNothingHolds) {
   const PreparedScene nothing;
   EXPECT_FALSE(held_boundary({}, nothing, scene(), {}, {}));
+}
+
+/// Of each tick of a recording how well the boundary that holds the proxy is known there: nothing while a scene changes
+/// or where nothing holds; computed anew once the proxy has moved by more than a hand notices.
+TEST(HeldBoundary, IsKnownInEachTickAsWellAsAtItsPlace) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(20), testdata::make_geometry({.size = glm::ivec3(56)}), {.noise = 30}));
+  const PreparedScene felt = prepare(scene(), volume, glm::dvec3(0.1));
+  const auto known = known_to_of_ticks(felt, scene());
+  const auto told = [&](const glm::dvec3& place_mm, double force_n = 0.3, std::uint32_t mode = 1, double part = 1) {
+    TickRecord tick;
+    const glm::dvec3 at = felt.plan->workspace.to_device(place_mm);
+    for (int axis = 0; axis < 3; ++axis) tick.proxy_m[axis] = at[axis];
+    tick.change_part = part;
+    const PrimitiveRecord share{.mode = mode, .force_n = {0, 0, force_n}};
+    return known(tick, {&share, 1});
+  };
+  const auto wanted = [&](const glm::dvec3& place_mm) { return known_to_mm(felt, scene(), 1, place_mm).value(); };
+  const glm::dvec3 here(0, -20, 0), there = 20.0 * glm::normalize(glm::dvec3(0.4, -0.8, 0.3));
+  ASSERT_NE(wanted(here), wanted(there));
+  EXPECT_NEAR(told(here), wanted(here), 1e-9);
+  EXPECT_NEAR(told(there), wanted(there), 1e-9);
+  EXPECT_EQ(told(there + glm::dvec3(0.015, 0, 0)), told(there)) << "as good as the same place";
+  const glm::dvec3 aside = there + glm::dvec3(0.03, 0, 0);
+  EXPECT_NEAR(told(aside), wanted(aside), 1e-9);
+  EXPECT_NE(wanted(aside), wanted(there));
+  EXPECT_TRUE(std::isnan(told(here, 0.3, 1, 0.99))) << "the scene is on its way";
+  EXPECT_TRUE(std::isnan(told(here, 0.05))) << "not felt";
+  EXPECT_FALSE(std::isnan(told(here, 0.051)));
+  EXPECT_TRUE(std::isnan(told(here, 0.3, 0))) << "friction";
 }
 
 }  // namespace

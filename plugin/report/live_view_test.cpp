@@ -9,6 +9,7 @@
 
 #include "device/safety/safety_filter.h"
 #include "plugin/session/session.h"
+#include "plugin/session/tick_ring.h"
 #include "solver/solution.h"
 
 namespace palpate::plugin {
@@ -56,6 +57,39 @@ TEST(TissueName, IsTheScenesOrCtsOrTheValue) {
   EXPECT_EQ(tissue_name(scene, "", 10), "dark") << "the first that holds it";
   EXPECT_EQ(tissue_name(scene, "", 20), "bright");
   EXPECT_EQ(tissue_name(scene, "", 20.5), "value 20");
+}
+
+/// What is written over: of the newest tick, with the longest of the times since the line before, and all deadlines
+/// that were missed so far.
+TEST(LiveView, TellsTheNewestTickTheLongestTimeAndAllThatWasMissed) {
+  TickRing ring(64);
+  const modes::Scene scene;
+  const auto push = [&](double time_s, double us, std::uint32_t missed) {
+    TickRecord tick = record();
+    tick.time_s = time_s;
+    tick.value = -1000;
+    tick.stage_ns[3] = static_cast<std::uint32_t>(1e3 * us);
+    tick.missed = missed;
+    ring.push(tick, {});
+  };
+  ::testing::internal::CaptureStderr();
+  {
+    LiveView view(ring, scene, "HU");
+    view.show();  // nothing yet
+    push(1, 20, 2);
+    push(2, 90, 3);
+    push(3, 30, 0);
+    view.show();
+    push(4, 7, 10);
+    view.show();
+    view.show();  // nothing new
+  }
+  const auto line = [](double time_s, double us, std::uint64_t missed) {
+    TickRecord tick = record();
+    tick.time_s = time_s;
+    return "\r" + live_line(tick, "air", us, missed) + "\033[K";
+  };
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), line(3, 90, 5) + line(4, 7, 15) + "\r\033[K");
 }
 
 }  // namespace

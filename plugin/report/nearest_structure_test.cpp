@@ -57,5 +57,22 @@ TEST(NearestStructure, IsToldInWords) {
   EXPECT_EQ(distance_in_words(3, "liver"), "3.0 mm inside liver");
 }
 
+/// A margin is entered where the distance is less than it, and not where it is reached; of two that are entered alike
+/// deep the first is told.
+TEST(NearestStructure, AMarginEndsWhereItIsReached) {
+  const std::vector<std::size_t> all{0, 1, 2};
+  auto nearest = nearest_structure(tick_at(-0.1, -3, -9), three_structures(), all);
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->structure, 0U);
+  EXPECT_FALSE(nearest->within_margin);
+  nearest = nearest_structure(tick_at(-0.1, -2.999, -9), three_structures(), all);
+  EXPECT_EQ(nearest->structure, 1U);
+  EXPECT_EQ(nearest->distance_mm, -2.999);
+  nearest = nearest_structure(tick_at(-0.1, -2, -4), three_structures(), all);
+  EXPECT_EQ(nearest->structure, 1U);
+  nearest = nearest_structure(tick_at(4, -4, -9), three_structures(), all);
+  EXPECT_EQ(nearest->structure, 0U);
+}
+
 }  // namespace
 }  // namespace palpate::plugin

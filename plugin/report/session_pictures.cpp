@@ -37,8 +37,6 @@ Tracks tracks_of(const Recording& recording, const modes::Plan& plan) {
   return tracks;
 }
 
-/// The anatomical plane that the path leaves least, shown as radiologists hang it: axial from the feet, coronal from
-/// the front, sagittal from the left.
 SliceView view_of(const Tracks& tracks, const std::string& unit, const io::FieldSource& source) {
   const glm::dvec3 size = tracks.high - tracks.low;
   SliceView view;
@@ -78,26 +76,33 @@ SliceView view_of(const Tracks& tracks, const std::string& unit, const io::Field
   return view;
 }
 
-void write_slice(const Tracks& tracks, const SliceView& view, const io::FieldSource& source,
-                 const std::filesystem::path& file) {
+std::vector<ForceArrow> arrows_of(const Tracks& tracks) {
   std::vector<ForceArrow> arrows;
   glm::dvec3 last(std::numeric_limits<double>::infinity());
   for (std::size_t n = 0; n < tracks.proxy_mm.size(); n += 10) {
-    // One arrow every 2 mm of probe travel where something is felt: readable, and the holds do not pile up.
+    // So the holds do not pile up.
     if (glm::length(tracks.force_n[n]) > 0.05 && !(glm::distance(last, tracks.probe_mm[n]) < 1.0)) {
       arrows.push_back({.at_mm = tracks.proxy_mm[n], .force_n = tracks.force_n[n]});
       last = tracks.probe_mm[n];
     }
   }
+  return arrows;
+}
+
+void write_slice(const Tracks& tracks, const SliceView& view, const io::FieldSource& source,
+                 const std::filesystem::path& file) {
+  const std::vector<ForceArrow> arrows = arrows_of(tracks);
   const std::array shown{Track{"probe: the stylus's tip", tracks.probe_mm, colors::orange, 2},
                          Track{"proxy: what is felt there", tracks.proxy_mm, colors::sky, 2},
                          Track{"force on the hand", {}, colors::green, 2}};
   write_slice_png(source, view, shown, arrows, "Path of the stylus through the scan", file);
 }
 
-/// Force and value against depth: how far the probe is along the direction of pressing, from the first contact.
-void write_force_depth(const Recording& recording, const Tracks& tracks, const Summary& summary,
-                       const modes::Scene& scene, const std::string& unit, const std::filesystem::path& file) {
+}  // namespace
+
+std::array<Chart, 2> force_depth_charts(const Recording& recording, const Summary& summary, const modes::Scene& scene,
+                                        const modes::Plan& plan, const std::string& unit) {
+  const Tracks tracks = tracks_of(recording, plan);
   glm::dvec3 outward{0};
   for (const glm::dvec3& force : tracks.force_n) {
     outward += force;
@@ -130,16 +135,15 @@ void write_force_depth(const Recording& recording, const Tracks& tracks, const S
                        .color = boundary_colors[(named.size() - 1) % boundary_colors.size()]});
     }
   }
-  const std::array panels{Chart{"Force against depth", {"depth of the probe (mm)"}, {"force (N)"}, {in, out}, marks},
-                          Chart{"Value against depth",
-                                {"depth of the probe (mm)"},
-                                {unit.empty() ? "value" : fmt::format("value ({})", unit)},
-                                {value},
-                                marks}};
-  write_png(panels, file);
+  return {Chart{"Force against depth", {"depth of the probe (mm)"}, {"force (N)"}, {in, out}, marks},
+          Chart{"Value against depth",
+                {"depth of the probe (mm)"},
+                {unit.empty() ? "value" : fmt::format("value ({})", unit)},
+                {value},
+                marks}};
 }
 
-void write_force_time(const Recording& recording, const modes::Scene& scene, const std::filesystem::path& file) {
+Chart force_time_chart(const Recording& recording, const modes::Scene& scene) {
   std::vector<Curve> by_mode(scene.modes.size());
   Curve sent{.label = "sent to the device", .x = {}, .y = {}, .color = colors::black, .width = 1.6};
   std::size_t share = 0;
@@ -164,10 +168,10 @@ void write_force_time(const Recording& recording, const modes::Scene& scene, con
     by_mode[mode].color = boundary_colors[mode % boundary_colors.size()];
     chart.curves.push_back(by_mode[mode]);
   }
-  write_png(chart, file);
+  return chart;
 }
 
-void write_tick_time(const Recording& recording, const Summary& summary, const std::filesystem::path& file) {
+Chart tick_time_chart(const Recording& recording, const Summary& summary) {
   // Twenty bins a decade from 0.1 us to 10 ms.
   constexpr int bins = 100;
   Curve counts{
@@ -184,10 +188,17 @@ void write_tick_time(const Recording& recording, const Summary& summary, const s
   chart.marks = {{.at = summary.tick_us.median, .label = fmt::format("median {:.2f} us", summary.tick_us.median)},
                  {.at = summary.tick_us.p999, .label = fmt::format("99.9 % {:.2f} us", summary.tick_us.p999)},
                  {.at = 1000, .label = "1 ms: the tick's period", .color = colors::vermilion}};
-  write_png(chart, file);
+  return chart;
 }
 
-}  // namespace
+SliceView slice_view(const Recording& recording, const modes::Plan& plan, const std::string& unit,
+                     const io::FieldSource& source) {
+  return view_of(tracks_of(recording, plan), unit, source);
+}
+
+std::vector<ForceArrow> force_arrows(const Recording& recording, const modes::Plan& plan) {
+  return arrows_of(tracks_of(recording, plan));
+}
 
 std::vector<std::string> write_session_pictures(const Recording& recording, const Summary& summary,
                                                 const modes::Scene& scene, const modes::Plan& plan,
@@ -198,9 +209,9 @@ std::vector<std::string> write_session_pictures(const Recording& recording, cons
   }
   const Tracks tracks = tracks_of(recording, plan);
   write_slice(tracks, view_of(tracks, unit, source), source, folder / "slice.png");
-  write_force_depth(recording, tracks, summary, scene, unit, folder / "force-depth.png");
-  write_force_time(recording, scene, folder / "force-time.png");
-  write_tick_time(recording, summary, folder / "tick-time.png");
+  write_png(force_depth_charts(recording, summary, scene, plan, unit), folder / "force-depth.png");
+  write_png(force_time_chart(recording, scene), folder / "force-time.png");
+  write_png(tick_time_chart(recording, summary), folder / "tick-time.png");
   return {"slice.png", "force-depth.png", "force-time.png", "tick-time.png"};
 }
 

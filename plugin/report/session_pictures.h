@@ -2,6 +2,7 @@
 
 /// A session as pictures: where it was, what was felt, how long a tick took.
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -9,9 +10,26 @@
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
 #include "plugin/recording/recording.h"
+#include "plugin/report/chart.h"
+#include "plugin/report/slice_picture.h"
 #include "plugin/report/summary.h"
 
 namespace palpate::plugin {
+
+/// What force-depth.png shows: force and value against how far the probe is along the direction of pressing, from the
+/// first contact (mm).
+std::array<Chart, 2> force_depth_charts(const Recording& recording, const Summary& summary, const modes::Scene& scene,
+                                        const modes::Plan& plan, const std::string& unit);
+/// What force-time.png shows: the force sent, and each mode's share of it.
+Chart force_time_chart(const Recording& recording, const modes::Scene& scene);
+/// What tick-time.png shows: twenty bins a decade from 0.1 us to 10 ms.
+Chart tick_time_chart(const Recording& recording, const Summary& summary);
+/// The plane of slice.png: the anatomical one that the path leaves least, as radiologists hang it (axial from the feet,
+/// coronal from the front, sagittal from the left).
+SliceView slice_view(const Recording& recording, const modes::Plan& plan, const std::string& unit,
+                     const io::FieldSource& source);
+/// The arrows of slice.png: where something is felt, one every millimeter of the probe's travel.
+std::vector<ForceArrow> force_arrows(const Recording& recording, const modes::Plan& plan);
 
 /// Writes slice.png, force-depth.png, force-time.png and tick-time.png into the folder; returns their names. `unit` is
 /// the scan's. Throws std::runtime_error naming the file.

@@ -236,5 +236,41 @@ TEST(Summary, EachFaultIsToldOnceWithItsTimeAndAdvice) {
   EXPECT_EQ(made.json()["faults"].size(), 2U);
 }
 
+/// Contact chatters at its edge: what is interrupted for less than 50 ms is one hold.
+TEST(Summary, AnInterruptionOfFiftyMillisecondsEndsAHold) {
+  for (const int interrupted : {48, 51}) {
+    Made made;
+    for (int n = 0; n < 200; ++n) made.add(0, n < 100 || n >= 100 + interrupted ? 0.3 : 0.01);
+    EXPECT_EQ(made.summary().holds.size(), interrupted < 50 ? 1U : 2U) << interrupted;
+  }
+}
+
+/// How well a boundary is known, which frames were felt, and what put a structure there: in words and as JSON.
+TEST(Summary, FramesRegistrationsAndWhatIsKnownAreToldUnderTheirNames) {
+  Summary summary;
+  summary.holds = {{.mode = 0, .begin_s = 1, .end_s = 2.5, .peak_n = 0.5, .known_to_mm = 0.25}, {.mode = 2}};
+  summary.scan_frames = {{3, 17}, {5, 17}};
+  summary.approaches = {{.structure = 0, .distance_mm = -1, .time_s = 4}};
+  io::RigidMotion motion;
+  motion.shift = {1, -2, 30};
+  summary.registered = {{"aorta", "00000000000000ab", motion}};
+  modes::Scene scene = scene_of_two();
+  scene.structures = {{.name = "aorta"}};
+  EXPECT_THAT(to_text(summary, scene, "", ""),
+              AllOf(HasSubstr("\nframe     3 of 0 to 16\nframe     5 of 0 to 16\n"),
+                    HasSubstr("up to 0.50 N; known to +-0.25 mm\n"), HasSubstr("up to 0.00 N\n"),
+                    HasSubstr("  aorta was moved by 1.0, -2.0, 30.0 mm: the registration 00000000000000ab\n")));
+  const nlohmann::json told = nlohmann::json::parse(to_json(summary, scene));
+  EXPECT_EQ(told["scan_frames"], nlohmann::json({3, 5}));
+  EXPECT_EQ(told["holds"][0]["known_to_mm"], 0.25);
+  EXPECT_EQ(told["holds"][0]["begin_s"], 1);
+  EXPECT_EQ(told["holds"][0]["end_s"], 2.5);
+  EXPECT_FALSE(told["holds"][1].contains("known_to_mm"));
+  EXPECT_EQ(told["structures"]["aorta"]["registration"], "00000000000000ab");
+  EXPECT_EQ(told["structures"]["aorta"]["registered_by"], "1.0, -2.0, 30.0 mm");
+  summary.scan_frames = {{0, 1}};
+  EXPECT_THAT(to_text(summary, scene, "", ""), Not(HasSubstr("frame "))) << "a scan with one frame";
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -311,5 +311,26 @@ TEST(Tables, AReportsPointsAndLengthsAreTheMarks) {
   EXPECT_EQ(report.lengths[1].length_mm, 5);
 }
 
+/// What else a stroke's charts show: who pushes where, what tissue is crossed, and how far each axis reaches.
+TEST(Tables, AProfilesForceChartTellsWhoPushes) {
+  const std::vector<Chart> charts = charts_of(profile());
+  const std::vector<Curve>& curves = charts[0].curves;
+  ASSERT_EQ(curves.size(), 2U);
+  EXPECT_EQ(curves[0].y[0], 0);
+  EXPECT_TRUE(std::isnan(curves[0].y[1]));
+  EXPECT_EQ(curves[1].label, "bone (plane)");
+  EXPECT_EQ(curves[1].y[0], 0) << "from where the stretch before ends";
+  EXPECT_DOUBLE_EQ(curves[1].y[1], 1.3);
+  EXPECT_EQ(charts[0].y.label, "force (N)");
+  EXPECT_EQ(charts[1].y.label, "value (HU)");
+  EXPECT_EQ(charts[2].y.label, "distance (mm)");
+  EXPECT_EQ(charts[0].y.minimum, 0);
+  EXPECT_NEAR(charts[0].y.maximum.value(), 1.08 * 1.3, 1e-12);
+  EXPECT_NEAR(charts[2].y.maximum.value(), 1.08 * std::sqrt(7 * 7 + 15 * 15 + 21 * 21), 1e-9);
+  ASSERT_EQ(charts[1].bands.size(), 2U);
+  EXPECT_EQ(charts[1].bands[0].label, "flesh");
+  EXPECT_EQ(charts[1].bands[1].label, "chalk");
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -64,5 +64,21 @@ TEST(PathCsv, RefusesNamingFileAndLine) {
   EXPECT_THROW(read_path_csv("/no/such/path.csv"), std::runtime_error);
 }
 
+/// Each limit of a line reached from both sides.
+TEST(PathCsv, TakesWhatIsJustWithinItsLimits) {
+  const std::string head = "time_s,x_mm,y_mm,z_mm,buttons\n";
+  EXPECT_EQ(refusal(head + "0,1,2,3,65535\n1e-9,1,2,3,0\n"), "accepted");
+  EXPECT_THAT(refusal("-0.1,1,2,3\n1,1,2,3\n"), ::testing::HasSubstr("line 1: time_s -0.1"));
+  EXPECT_THAT(refusal("0,1,2,3\n2,1,2,3\n1,1,2,3\n"), ::testing::HasSubstr("line 3: time_s 1"));
+  for (const char* const wrong : {"inf", "-inf", "nan", "1x", "", "1 2"}) {
+    for (const char* const line : {"{},1,2,3", "5,{},2,3", "5,1,{},3", "5,1,2,{}"}) {
+      std::string text = line;
+      text.replace(text.find("{}"), 2, wrong);
+      EXPECT_THAT(refusal("0,1,2,3\n" + text + "\n"), ::testing::HasSubstr("line 2")) << text;
+    }
+  }
+  EXPECT_THAT(refusal("0,1,2,3\ntime_s,x_mm,y_mm,z_mm\n1,1,2,3\n"), ::testing::HasSubstr("line 2"));
+}
+
 }  // namespace
 }  // namespace palpate::plugin

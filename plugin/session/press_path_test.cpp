@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <vector>
 
+#include "device/simulated/simulated_hand.h"
 #include "plugin/testing/session_rig.h"
 
 namespace palpate::plugin {
@@ -49,6 +51,44 @@ TEST(PressPath, PressesWithThreeFifthsOfWhatTheBoundaryTakes) {
       EXPECT_NEAR(resting_n, 0.6 * strength_n, 0.1) << scale << " " << stiffness_n_per_m;
       EXPECT_NEAR(slid_n, 0.6 * strength_n, 0.1) << scale << " " << stiffness_n_per_m;
     }
+  }
+}
+
+/// On two boundaries, tilted against the stroke, every waypoint is known: the hand stops before the first, presses on
+/// it, slides along it to the patient's left, goes back, through the second, and out.
+TEST(PressPath, IsTheScriptThatItsNumbersSay) {
+  constexpr double strength_n = 1.5, tilt = 0.3, apart_mm = 10;
+  const modes::Scene scene = modes::scene_from_json(
+      R"({"version": 1, "modes": [{"type": "surface", "side": "both", "strength_n": {"of": "gradient_per_mm",
+          "nodes": [[20, 0], [60, 1.5]]}}]})",
+      "test");
+  const auto source = std::make_shared<testdata::AnalyticSource>(
+      testdata::make_slab({std::sin(tilt), 0, -std::cos(tilt)},
+                          std::vector<testdata::Layer>{{0, testdata::soft_tissue_hu}, {apart_mm, testdata::bone_hu}}),
+      0.2);
+  modes::Workspace workspace;
+  workspace.mm_per_m = 1500;
+  const modes::Plan plan = modes::make_plan(scene, source->available(), workspace);
+  const PressPath path = make_press_path(plan, *source, {3, 0, 10}, {3, 0, -20});
+  EXPECT_EQ(path.boundaries, std::vector<std::size_t>{0}) << "each once";
+  EXPECT_NEAR(path.contact_mm.z, 3 * std::tan(tilt), 0.5);
+  const double hand_mm_per_n = workspace.mm_per_m / device::HandModel{}.stiffness;
+  const double press_mm = 0.6 * strength_n * (hand_mm_per_n + workspace.mm_per_m / scene.stiffness_n_per_m);
+  const double through_mm = apart_mm / std::cos(tilt) + 2 + strength_n * hand_mm_per_n;
+  const double slid_mm = press_mm - 12 * std::tan(tilt);
+  struct Wanted {
+    double time_s, depth_mm, left_mm;
+  };
+  const std::vector<Wanted> wanted{{0, -8, 0},          {1, -8, 0},       {2, press_mm, 0},   {3, press_mm, 0},
+                                   {4.5, slid_mm, 12},  {6, press_mm, 0}, {6.5, press_mm, 0}, {9, through_mm, 0},
+                                   {10, through_mm, 0}, {11.5, -8, 0},    {12, -8, 0}};
+  ASSERT_EQ(path.hand.size(), wanted.size());
+  for (std::size_t n = 0; n < wanted.size(); ++n) {
+    const glm::dvec3 way = path.hand[n].position_mm - path.contact_mm;
+    EXPECT_EQ(path.hand[n].time_s, wanted[n].time_s);
+    EXPECT_NEAR(-way.z, wanted[n].depth_mm, 0.03 * std::abs(wanted[n].depth_mm) + 0.1) << n;
+    EXPECT_NEAR(way.x, wanted[n].left_mm, 1e-9) << n;
+    EXPECT_NEAR(way.y, 0, 1e-9) << n;
   }
 }
 

@@ -81,6 +81,7 @@ bool same_distances(const std::vector<LoadedStructure>& a, const std::vector<Loa
 std::shared_ptr<const io::FieldSource> with_structures(std::shared_ptr<const io::FieldSource> scan,
                                                        const std::vector<LoadedStructure>& structures) {
   std::vector<std::shared_ptr<const io::DistanceField>> distances;
+  distances.reserve(structures.size());
   for (const LoadedStructure& structure : structures) distances.push_back(structure.distance);
   return std::make_shared<const io::StructuredFields>(std::move(scan), std::move(distances));
 }

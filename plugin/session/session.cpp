@@ -239,7 +239,7 @@ modes::StepResult Session::step(const device::Reading& reading) noexcept {
   const Snapshot& from = leaving_->snapshot;
   const modes::SceneChange change{
       .from = {from.plan.get(), leaving_->source.get()}, .to = {to.plan.get(), setting_->source.get()}, .part = part_};
-  const modes::StepResult result = modes::step(change, reading.position, touch_, *setting_->changing_chain, *scratch_);
+  modes::StepResult result = modes::step(change, reading.position, touch_, *setting_->changing_chain, *scratch_);
   if (part_ >= 1) {
     // To be freed with the setting that it was a change from.
     leaving_->changing_chain.swap(setting_->changing_chain);

@@ -39,7 +39,7 @@ std::shared_ptr<const io::DistanceField> find(const io::Structure& structure, st
         one.motion != structure.motion) {
       continue;
     }
-    const auto distance = one.distance.lock();
+    auto distance = one.distance.lock();
     if (distance && same_place(one.scan, scan) && fits(*distance)) return distance;
   }
   return nullptr;

@@ -148,5 +148,19 @@ TEST(StrengthAhead, OfAPlateLeavesItsFarSideOut) {
   EXPECT_NEAR(near, first_break(press.stroke).peak_n, tolerance * near);
 }
 
+/// Beyond the scan there is nothing that could resist, whichever way a boundary acts and however strong it is.
+TEST(StrengthAhead, IsNothingOutsideTheScan) {
+  const modes::Scene both = modes::scene_from_json(
+      R"({"version": 1, "modes": [{"type": "surface", "side": "both", "strength_n": 1.5}]})", "both");
+  const modes::Plan plan = modes::make_plan(both, io::FieldSet::value | io::FieldSet::gradient, {});
+  io::Sample sample;
+  sample.gradient = {0, 0, 100};
+  sample.inside = true;
+  EXPECT_EQ(strength_against_n(plan.modes.at(0), sample, {0, 0, 1}), 1.5);
+  EXPECT_EQ(strength_against_n(plan.modes.at(0), sample, {0, 0, -1}), 1.5);
+  sample.inside = false;
+  EXPECT_EQ(strength_against_n(plan.modes.at(0), sample, {0, 0, 1}), 0);
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -27,7 +27,7 @@ bool is_hash(const std::string& file) {
 }
 
 std::string read_and_hash(const std::filesystem::path& file) {
-  const std::string unknown(digits, '0');
+  std::string unknown(digits, '0');
   std::ifstream input(file, std::ios::binary);
   if (!input) return unknown;
   const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);

@@ -98,7 +98,7 @@ std::string hashed_name(const std::string& name) {
 }
 
 Text place_by(io::Structure& structure, const io::RigidMotion& motion, const io::Volume& scan) {
-  const Text why_not = unfit_for(structure, scan);
+  Text why_not = unfit_for(structure, scan);
   if (!why_not.empty()) return why_not;
   structure.motion = motion;
   structure.frame_of_reference_uid = scan.frame_of_reference_uid;

@@ -126,5 +126,37 @@ TEST(StudyStructures, OfThePatientAreFeltInSilence) {
   EXPECT_EQ(said_of("", ""), "") << "nothing is said of who it is";
 }
 
+/// A structure's distances reach a millimeter beyond all that the scene makes of them, so that nothing ends abruptly;
+/// in steps, so that a margin that is dragged does not ask for new ones each time.
+TEST(StudyStructures, TheirDistancesReachBeyondAllThatIsMadeOfThem) {
+  const TestFolder folder;
+  write_contours(folder / "rt.dcm", "1.1", "7", "Doe^Jane");
+  const auto volume = std::make_shared<io::Volume>(*testing::registered_scan());
+  for (io::Vec3& position : volume->geometry.slice_positions) position.x = -40;
+  const modes::Scene plain = scene_of(folder / "rt.dcm");
+  const auto reach = [&](const auto& edit) {
+    modes::Scene scene = plain;
+    edit(scene);
+    return prepare(scene, volume, glm::dvec3(0.1)).structures.at(0).distance->reach_mm();
+  };
+  const auto gate = [](const std::string& of, std::vector<modes::Node> nodes) {
+    modes::Gate made;
+    made.of = modes::Datum::distance;
+    made.structure = of;
+    made.factor = modes::TransferFunction(std::move(nodes));
+    return made;
+  };
+  EXPECT_EQ(reach([](modes::Scene&) {}), 5) << "its edge, with the margin of 3 mm that a mode has by itself";
+  EXPECT_EQ(reach([](modes::Scene& scene) { scene.modes[0].level_mm = -6.5; }), 12);
+  EXPECT_EQ(reach([](modes::Scene& scene) { scene.structures[0].margin_mm = 7; }), 8) << "just enough";
+  EXPECT_EQ(reach([&](modes::Scene& scene) { scene.modes[0].gates = {gate("cube", {{-7.5, 0}, {2, 1}})}; }), 12);
+  const auto of_another = [&](modes::Scene& scene) {
+    scene.structures.push_back(scene.structures[0]);
+    scene.structures[1].name = "other";
+    scene.modes[0].gates = {gate("other", {{-7.5, 0}, {2, 1}})};
+  };
+  EXPECT_EQ(reach(of_another), 5);
+}
+
 }  // namespace
 }  // namespace palpate::plugin

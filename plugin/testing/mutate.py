@@ -5,8 +5,9 @@
     plugin/run mutate solver               a seeded sample of a folder's lines (any path below a module)
     plugin/run mutate io/fields --count 200 --seed 7 --seconds 3600
 
-Works in copies of the tree under build/mutate; the tree itself is not touched. Slips that cannot be seen since they
-change nothing are named, with the reason, in .ci/equivalent_mutants.
+Works in copies of the tree under build/mutate; the tree itself is not touched. A slip is judged by those of its module's
+test suites that run its line, nearest and quickest first; which those are is found once (some minutes a module) and kept.
+Slips that cannot be seen since they change nothing are named, with the reason, in .ci/equivalent_mutants.
 """
 
 import argparse
@@ -21,6 +22,8 @@ import sys
 import threading
 import time
 
+import reach
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "mutate"
 EQUIVALENT = ROOT / ".ci" / "equivalent_mutants"
@@ -33,6 +36,8 @@ MODULES = {
     "modes": ("modes_tests", "solver;io;modes;testdata"),
     "plugin": ("plugin_tests", "solver;io;device;modes;testdata;plugin"),
 }
+# Folders whose tests are a program of their own, which alone judges them.
+OWN_TESTS = {"io/archive/": "archive_tests", "io/results/": "archive_tests"}
 NOT_MUTATED = re.compile(r"(_test|_benchmark|_main)\.(cpp|h)$|/(testing|peers|fuzz|paraview|bench)/")
 SKIPPED_LINE = re.compile(r"^\s*(#|using |namespace|template|static_assert|friend |public:|private:|case |///|//|\*)")
 
@@ -66,6 +71,7 @@ SWAPS = [
     ("true for false", r"\bfalse\b", "true"),
 ]
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|\d+)(?![\w.])")
+ROOM = re.compile(r"^\s*[\w:<>]+ \w+\[$|\bstd::array<[\w:]+, $")  # an array's length: more of it changes nothing
 STATEMENT = re.compile(r"^\s+(?:[\w.\[\]>-]+ [+\-*/|&]?= .*|(?:\+\+|--)?[\w.:>-]+\([^;]*\)|(?:\+\+|--)[\w.>-]+);\s*$")
 
 
@@ -97,6 +103,8 @@ def slips_of(line, code):
         for match in re.finditer(pattern, code):
             found.append((name, line[: match.start()] + other + line[match.end() :]))
     for match in NUMBER.finditer(code):
+        if ROOM.search(code[: match.start()]):
+            continue
         number = match.group()
         other = "1" if float(number) == 0 else "2" if float(number) == 1 else None
         if other is None:
@@ -133,9 +141,13 @@ def git(*arguments):
     return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=True).stdout
 
 
+def is_mutated(name):
+    return name.split("/")[0] in MODULES and name.endswith((".cpp", ".h")) and not NOT_MUTATED.search(name)
+
+
 def sources(folder):
     files = git("ls-files", "-co", "--exclude-standard", folder).split()
-    return [f for f in files if f.endswith((".cpp", ".h")) and not NOT_MUTATED.search(f) and (ROOT / f).exists()]
+    return [f for f in files if is_mutated(f) and (ROOT / f).exists()]
 
 
 def changed_lines(since):
@@ -174,33 +186,56 @@ def equivalents():
     return keys
 
 
-class Bench:
-    """A copy of the tree with a build folder of its own."""
+def near_suites(path, suites):
+    """Those of the suites whose tests stand in the file's folder: most slips are seen there."""
+    near = reach.files_of_suites((ROOT / path).parent.glob("*_test.cpp"))
+    return [suite for suite in suites if near.keys() & set(suite.split("/"))]
 
-    def __init__(self, module, number):
-        self.target, modules = MODULES[module]
-        self.tree = WORK / f"{module}-{number}"
+
+def target_of(path):
+    """The program that tests a file, and the modules that it needs."""
+    target, modules = MODULES[path.split("/")[0]]
+    return next((own for folder, own in OWN_TESTS.items() if path.startswith(folder)), target), modules
+
+
+class Bench:
+    """A copy of the tree with a build folder of its own, and one with counters where tests are chosen by them."""
+
+    def __init__(self, target, modules, number):
+        self.target = target
+        self.tree = WORK / f"{target}-{number}"
         self.build = self.tree / "build"
         self.log = ""
-        files = git("ls-files", "-co", "--exclude-standard").split("\n")
-        for name in filter(None, files):
+        self.files = [name for name in git("ls-files", "-co", "--exclude-standard").split("\n") if name and (ROOT / name).is_file()]
+        for name in self.files:
             source, copy = ROOT / name, self.tree / name
-            if not source.is_file():
-                continue
             # Its contents decide, not its time: the last slip may have been left in the copy.
             if not copy.exists() or copy.read_bytes() != source.read_bytes():
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(source, copy)
         self.environment = {"CCACHE_BASEDIR": str(self.tree), "CCACHE_NOHASHDIR": "1"}
+        self.modules = modules
         # A slip may leave a variable unused: that is for the tests to see, not for the compiler.
-        self.run(["cmake", "--preset", "release", "-DPALPATE_TESTS=ON", "-DPALPATE_TOGETHER=OFF", "-DPALPATE_WERROR=OFF",
-                  f"-DPALPATE_MODULES={modules}"], 600)
+        self.configure("release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1")
         if self.make(3600) != 0:
-            sys.exit(f"mutate: {self.target} does not build without any slip:\n{self.log[-2000:]}")
-        began = time.time()
-        if self.test(1800) != 0:
-            sys.exit(f"mutate: {self.target} fails without any slip:\n{self.log[-2000:]}")
-        self.usual = time.time() - began
+            sys.exit(f"mutate: {target} does not build without any slip:\n{self.log[-2000:]}")
+        self.suites = reach.suites_of(self.build / "bin" / target)
+        self.reach = None
+
+    def configure(self, preset, *more):
+        if self.run(["cmake", "--preset", preset, "-DPALPATE_TESTS=ON", "-DPALPATE_TOGETHER=OFF", "-DPALPATE_WERROR=OFF",
+                     f"-DPALPATE_MODULES={self.modules}", *more], 600) != 0:
+            sys.exit(f"mutate: cmake failed:\n{self.log[-2000:]}")
+
+    def find_reach(self):
+        """Which suites run which lines, by a build with counters."""
+        core = [name for name in self.files if is_mutated(name)]
+        tests = [name for name in self.files if name.endswith("_test.cpp")]
+        self.configure("coverage")
+        counters = self.tree / "build" / "coverage"
+        if self.run(["ninja", "-C", str(counters), self.target], 7200) != 0:
+            sys.exit(f"mutate: {self.target} does not build with counters:\n{self.log[-2000:]}")
+        return reach.reach_of(self.tree, counters, self.target, set(core), tests, self.run, WORK / f"{self.target}.reach.json")
 
     def run(self, command, seconds, **more):
         environment = {**os.environ, **self.environment, **more}
@@ -220,11 +255,22 @@ class Bench:
     def make(self, seconds, **more):
         return self.run(["ninja", "-C", str(self.build), self.target], seconds, **more)
 
-    def test(self, seconds):
-        return self.run([str(self.build / "bin" / self.target), "--gtest_fail_fast", "--gtest_brief=1"], seconds)
+    def passes(self, suites):
+        """Whether these suites pass; a slip may also make them run for ever."""
+        usual = sum(self.reach.suites[suite]["seconds"] for suite in suites) if self.reach else 60
+        chosen = ":".join(f"{suite}.*" for suite in suites) + "-*.DISABLED_*"
+        return self.run([str(self.build / "bin" / self.target), "--gtest_fail_fast", "--gtest_brief=1",
+                         "--gtest_filter=" + chosen], 20 + 5 * usual) == 0
 
     def try_slip(self, mutant):
-        """seen, survived or not C++."""
+        """seen, survived (or not run: by no test) or not C++."""
+        near = near_suites(mutant.path, self.suites)
+        rounds = [near]
+        if self.reach:
+            running = self.reach.of(mutant.path, mutant.number)
+            if not running:
+                return "not run"
+            rounds = [[suite for suite in near if suite in running], [suite for suite in running if suite not in near]]
         path = self.tree / mutant.path
         original = path.read_text()
         lines = original.split("\n")
@@ -234,7 +280,7 @@ class Bench:
         try:
             if self.make(900, CCACHE_DISABLE="1") != 0:
                 return "not C++"
-            return "survived" if self.test(20 + 5 * self.usual) == 0 else "seen"
+            return "survived" if all(self.passes(suites) for suites in rounds if suites) else "seen"
         finally:
             path.write_text(original)
 
@@ -250,13 +296,11 @@ def work(benches, chosen, deadline, known):
                 mutant = waiting.get_nowait()
             except queue.Empty:
                 return
-            outcome = bench.try_slip(mutant)
-            if outcome == "survived" and mutant.key() in known:
-                outcome = "equivalent"
+            outcome = "equivalent" if mutant.key() in known else bench.try_slip(mutant)
             with lock:
                 results.append((mutant, outcome))
-                if outcome == "survived":
-                    print(f"survived: {mutant}", flush=True)
+                if outcome in ("survived", "not run"):
+                    print(f"{outcome}: {mutant}", flush=True)
 
     threads = [threading.Thread(target=serve, args=(bench,)) for bench in benches]
     for thread in threads:
@@ -273,9 +317,11 @@ def main():
     parser.add_argument("--since", help="commit that lines are changed since (default: where main was left, else HEAD~1)")
     parser.add_argument("--count", type=int, default=200, help="lines, one slip each (default 200)")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--seconds", type=float, default=1800, help="no new slip is begun after these (default 1800)")
+    parser.add_argument("--seconds", type=float, default=1800, help="no new slip of a test program is begun after these (default 1800)")
     parser.add_argument("--jobs", type=int, default=1, help="copies of the tree that work beside each other")
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
+    parser.add_argument("--near", action="store_true",
+                        help="only the tests of a slip's own folder: quick, and what survives may be seen by others")
     parser.add_argument("--list", action="store_true", help="only say which slips were chosen")
     options = parser.parse_args()
 
@@ -290,7 +336,7 @@ def main():
             head = git("rev-parse", "HEAD").strip()
             since = base.stdout.strip() if base.returncode == 0 and base.stdout.strip() != head else "HEAD~1"
         files = {path: lines for path, lines in changed_lines(since).items()
-                 if path.endswith((".cpp", ".h")) and not NOT_MUTATED.search(path) and (ROOT / path).exists()}
+                 if is_mutated(path) and (ROOT / path).exists()}
 
     generator = random.Random(options.seed)
     lines = [line for path in sorted(files) for line in mutants_by_line(path, files[path])]
@@ -301,19 +347,22 @@ def main():
         print("\n".join(map(str, chosen)))
         return
     known, total, began = equivalents(), {}, time.time()
-    for module in MODULES:
-        own = [mutant for mutant in chosen if mutant.path.split("/")[0] == module]
-        if not own:
-            continue
-        benches = [Bench(module, n) for n in range(max(1, options.jobs))]
-        print(f"{module}: its tests take {benches[0].usual:.1f} s", flush=True)
-        for mutant, outcome in work(benches, own, began + options.seconds, known):
+    for target, modules in sorted({target_of(mutant.path) for mutant in chosen}):
+        own = [mutant for mutant in chosen if target_of(mutant.path)[0] == target]
+        benches = [Bench(target, modules, n) for n in range(max(1, options.jobs))]
+        if not options.near:
+            found = benches[0].find_reach()
+            print(f"{target}: its suites take {sum(suite['seconds'] for suite in found.suites.values()):.0f} s", flush=True)
+            for bench in benches:
+                bench.reach = found
+        for mutant, outcome in work(benches, own, time.time() + options.seconds, known):
             total[outcome] = total.get(outcome, 0) + 1
-    seen, survived = total.get("seen", 0), total.get("survived", 0)
+    seen, survived = total.get("seen", 0), total.get("survived", 0) + total.get("not run", 0)
     tried = sum(total.values())
     score = seen / (seen + survived) if seen + survived else 1.0
-    print(f"{tried} of {len(chosen)} slips tried in {time.time() - began:.0f} s: {seen} seen, {survived} survived, "
-          f"{total.get('equivalent', 0)} known to change nothing, {total.get('not C++', 0)} not C++")
+    print(f"{tried} of {len(chosen)} slips tried in {time.time() - began:.0f} s: {seen} seen, {survived} survived "
+          f"({total.get('not run', 0)} of them run by no test), {total.get('equivalent', 0)} known to change nothing, "
+          f"{total.get('not C++', 0)} not C++")
     print(f"score {score:.3f}")
     sys.exit(1 if score < options.least else 0)
 

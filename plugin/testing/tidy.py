@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""clang-tidy over the product's files, as a build folder compiles them: plugin/run's stage `tidy`.
+
+    plugin/testing/tidy.py CLANG_TIDY BUILD_FOLDER [FILE...]
+
+Files that are compiled together are read together, because most of the time is what they include. clang's analyzer looks
+for paths through solver, modes and device; over DCMTK's, Qt's and VTK's headers it would take an hour. With FILE, a part
+of a path, only those.
+"""
+
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OURS = f"{re.escape(str(ROOT))}/(solver|io|modes|device|plugin|testdata)/.*\\.(h|cpp)"
+# haply_service: what it includes of Boost.Beast takes clang-tidy ten minutes.
+NOT_READ = re.compile(r"_(test|benchmark)\.cpp$|/tests?/|_tests\.dir|/testing/|/peers/|/fuzz/|PalpatePanelTest|palpate_fake|haply_service")
+
+
+def folder_of(path, build):
+    """The module of a file, also of one that CMake wrote to include several; None where it is not ours."""
+    if path.is_relative_to(build):
+        return path.relative_to(build).parts[0] if path.parent.name == "Unity" else None
+    return path.relative_to(ROOT).parts[0] if path.is_relative_to(ROOT) else None
+
+
+def name_of(path):
+    return "/" + path.relative_to(ROOT).as_posix()
+
+
+def options_of(folder, path):
+    # What is together is included as .cpp.
+    checks = ["-bugprone-suspicious-include"]
+    options = []
+    if folder in ("solver", "modes", "device"):
+        words = ["-analyzer-opt-analyze-headers"]
+        if "scene" in path.name:  # JSON's templates: shorter paths, or they take minutes
+            words += ["-analyzer-config", "mode=shallow"]
+        options = ["--extra-arg=-Wshadow", *(f"--extra-arg={part}" for word in words for part in ("-Xclang", word))]
+    else:
+        checks.append("-clang-analyzer-*")
+    if "paraview" in name_of(path):
+        checks.append("-cppcoreguidelines-virtual-class-destructor")  # of VTK's classes, which count their users
+    if "paraview_server" in name_of(path) or "paraview/server/" in name_of(path):
+        checks += ["-readability-identifier-naming", "-bugprone-parent-virtual-call"]  # VTK's names, and its way
+    return ["--checks=" + ",".join(checks), *options]
+
+
+def main():
+    program, build, *only = sys.argv[1:]
+    build = (ROOT / build).resolve()
+    paths = {pathlib.Path(entry["file"]).resolve() for entry in json.loads((build / "compile_commands.json").read_text())}
+    work = [(path, folder) for path in paths if (folder := folder_of(path, build)) and not NOT_READ.search(name_of(path))]
+    work = [(path, folder) for path, folder in work if not only or any(part in name_of(path) for part in only)]
+    if not work:
+        sys.exit("tidy.py: there is no file to read")
+    work.sort(key=lambda one: (one[0].parent.name != "Unity", str(one[0])))  # the long ones first
+
+    def look(one):
+        path, folder = one
+        began = time.monotonic()
+        command = [program, "--quiet", "-p", build, f"--header-filter={OURS}", *options_of(folder, path), path]
+        done = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        return path, done, time.monotonic() - began
+
+    failed = 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for number, (path, done, seconds) in enumerate(pool.map(look, work), 1):
+            print(f"[{number}/{len(work)}] {path.relative_to(ROOT)}: {seconds:.0f} s", flush=True)
+            if done.returncode != 0:
+                failed += 1
+                print(done.stdout, done.stderr, sep="\n", flush=True)
+    sys.exit(failed > 0)
+
+
+if __name__ == "__main__":
+    main()
