@@ -50,14 +50,14 @@ void copy_voxels(const Part& part, const std::array<int, 6>& extent, vtkDataArra
 
 vtkSmartPointer<vtkDataArray> array_of(const Part& part, const DisplayGrid& grid, const std::array<int, 6>& extent) {
   const auto length = [&](std::size_t axis) {
-    return static_cast<std::size_t>(extent[2 * axis + 1] - extent[2 * axis] + 1);
+    return static_cast<std::size_t>(extent[2 * axis + 1] - extent[2 * axis]) + 1;
   };
   const std::size_t count = length(0) * length(1) * length(2);
   const bool whole_slices = std::equal(extent.begin(), extent.begin() + 4, part.extent.begin());
   if (part.on_grid && whole_slices) {
     return share_voxels(part.volume, offset_in(part, extent[0], extent[2], extent[4]), count);
   }
-  const auto own = vtkSmartPointer<vtkDataArray>::Take(share_voxels(part.volume, 0, 0)->NewInstance());
+  auto own = vtkSmartPointer<vtkDataArray>::Take(share_voxels(part.volume, 0, 0)->NewInstance());
   own->SetNumberOfTuples(static_cast<vtkIdType>(count));
   if (part.on_grid) {
     copy_voxels(part, extent, *own);

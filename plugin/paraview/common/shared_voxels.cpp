@@ -94,7 +94,7 @@ vtkSmartPointer<vtkDataArray> share_part(vtkDataArray& array, std::size_t first,
         const std::less_equal<> not_behind;
         if (!not_behind(stored.data(), at) || !not_behind(at + bytes, stored.data() + stored.size())) return nullptr;
         const auto offset = static_cast<std::size_t>(at - stored.data()) / sizeof(voxels[0]);
-        const auto part = share_voxels(volume, offset + first, count);
+        auto part = share_voxels(volume, offset + first, count);
         part->SetName(array.GetName());
         return part;
       },

@@ -42,6 +42,7 @@ std::set<fs::path> structure_files_in(const std::string& path) {
 std::vector<ServedFile> find_served_files(const std::string& path) {
   const std::set<fs::path> files = structure_files_in(path);
   std::vector<ServedFile> served;
+  served.reserve(files.size());
   for (const fs::path& file : files) {
     served.push_back({.hash = hash_of_file(file), .path = fs::absolute(file), .bytes = fs::file_size(file)});
   }
