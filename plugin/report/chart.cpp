@@ -24,6 +24,20 @@ struct Scale {
   }
 };
 
+/// Where a logarithmic axis ends that holds a value: the logarithm of the next 1, 2 or 5 of a decade below it, or above
+/// it.
+double round_logarithm(double value, bool above) {
+  const double exact = std::log10(value);
+  const double decade = std::floor(exact + 1e-9);
+  double below = decade;
+  for (const double lead : {1.0, 2.0, 5.0, 10.0}) {
+    const double at = decade + std::log10(lead);
+    if (above && at >= exact - 1e-9) return at;
+    if (at <= exact + 1e-9) below = at;
+  }
+  return below;
+}
+
 Scale make_scale(const Axis& axis, std::span<const Curve> curves, bool along_x) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -45,8 +59,8 @@ Scale make_scale(const Axis& axis, std::span<const Curve> curves, bool along_x) 
   Scale scale;
   scale.logarithmic = axis.logarithmic;
   if (axis.logarithmic) {
-    scale.low = axis.minimum ? std::log10(*axis.minimum) : std::floor(std::log10(low));
-    scale.high = axis.maximum ? std::log10(*axis.maximum) : std::ceil(std::log10(high));
+    scale.low = axis.minimum ? std::log10(*axis.minimum) : round_logarithm(low, false);
+    scale.high = axis.maximum ? std::log10(*axis.maximum) : round_logarithm(high, true);
   } else {
     const double margin = along_x ? 0 : 0.05 * (high - low);
     scale.low = axis.minimum.value_or(low - margin);

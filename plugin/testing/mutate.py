@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Puts small slips into the core, one at a time, and tells which of them no test of their module sees.
+"""Puts small slips into the core, and tells which of them no test of their module sees.
 
     plugin/run mutate                      the lines changed since main (or since --since COMMIT)
     plugin/run mutate solver               a seeded sample of a folder's lines (any path below a module)
     plugin/run mutate io/fields --count 200 --seed 7 --seconds 3600
 
-Works in copies of the tree under build/mutate; the tree itself is not touched. A slip is judged by those of its module's
-test suites that run its line, nearest and quickest first; which those are is found once (some minutes a module) and kept.
-Slips that cannot be seen since they change nothing are named, with the reason, in .ci/equivalent_mutants.
+Works in a copy of the tree under build/mutate; the tree itself is not touched. All slips that can be are compiled into one
+program and chosen at run time (slip.h); the others are compiled one by one. A slip is judged by those of its module's test
+suites that run its place, nearest and quickest first. Slips that cannot be seen since they change nothing are named, with the
+reason, in .ci/equivalent_mutants.
 """
 
 import argparse
@@ -19,14 +20,18 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
-import reach
+from slips import NOT_MUTATED, slips_by_line
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "mutate"
 EQUIVALENT = ROOT / ".ci" / "equivalent_mutants"
+SLIP_H = ROOT / "plugin" / "testing" / "slip.h"
+LONGEST_SUITE_S = 900
+PLACES = 4096  # `most` in slip.h
 
 # A module's own tests, and what they need. The later ones are tested with all before them.
 MODULES = {
@@ -38,97 +43,14 @@ MODULES = {
 }
 # Folders whose tests are a program of their own, which alone judges them.
 OWN_TESTS = {"io/archive/": "archive_tests", "io/results/": "archive_tests"}
-NOT_MUTATED = re.compile(r"(_test|_benchmark|_main)\.(cpp|h)$|/(testing|peers|fuzz|paraview|bench)/")
-SKIPPED_LINE = re.compile(r"^\s*(#|using |namespace|template|static_assert|friend |public:|private:|case |///|//|\*)")
-
-# Each: a name, what is looked for in code without comments and strings, and what takes its place.
-SWAPS = [
-    ("plus for minus", r" \+ ", " - "),
-    ("minus for plus", r" - ", " + "),
-    ("times for over", r" \* ", " / "),
-    ("over for times", r" / ", " * "),
-    ("add for subtract", r" \+= ", " -= "),
-    ("subtract for add", r" -= ", " += "),
-    ("less for not more", r" < ", " <= "),
-    ("not more for less", r" <= ", " < "),
-    ("more for not less", r" > ", " >= "),
-    ("not less for more", r" >= ", " > "),
-    ("turned comparison", r" < ", " > "),
-    ("turned comparison", r" > ", " < "),
-    ("equal for different", r" == ", " != "),
-    ("different for equal", r" != ", " == "),
-    ("and for or", r" && ", " || "),
-    ("or for and", r" \|\| ", " && "),
-    ("least for most", r"\bstd::min\b", "std::max"),
-    ("most for least", r"\bstd::max\b", "std::min"),
-    ("no negation", r"(?<=[ (])!(?=[A-Za-z(])", ""),
-    ("other sign", r"(?<=[=(,?:] )-(?=[A-Za-z0-9(])|(?<=\()-(?=[A-Za-z(])|(?<=return )-(?=[A-Za-z0-9(])", ""),
-    ("y for x", r"\.x\b(?!\()", ".y"),
-    ("z for y", r"\.y\b(?!\()", ".z"),
-    ("x for z", r"\.z\b(?!\()", ".x"),
-    ("down for up", r"\+\+(?=[A-Za-z])", "--"),
-    ("false for true", r"\btrue\b", "false"),
-    ("true for false", r"\bfalse\b", "true"),
-]
-NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|\d+)(?![\w.])")
-ROOM = re.compile(r"^\s*[\w:<>]+ \w+\[$|\bstd::array<[\w:]+, $")  # an array's length: more of it changes nothing
-STATEMENT = re.compile(r"^\s+(?:[\w.\[\]>-]+ [+\-*/|&]?= .*|(?:\+\+|--)?[\w.:>-]+\([^;]*\)|(?:\+\+|--)[\w.>-]+);\s*$")
-
-
-def masked(text):
-    """The text with comments and strings blanked, place by place."""
-    pattern = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\''
-    return re.sub(pattern, lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.S)
-
-
-def closing(line, begin):
-    """Where the parenthesis that opens at `begin` closes, and its commas; None where that is on another line."""
-    depth, commas = 0, []
-    for at in range(begin, len(line)):
-        if line[at] in "([{":
-            depth += 1
-        elif line[at] in ")]}":
-            depth -= 1
-            if depth == 0:
-                return at, commas
-        elif line[at] == "," and depth == 1:
-            commas.append(at)
-    return None
-
-
-def slips_of(line, code):
-    """(name, line with the slip) for each slip that a line of code can have."""
-    found = []
-    for name, pattern, other in SWAPS:
-        for match in re.finditer(pattern, code):
-            found.append((name, line[: match.start()] + other + line[match.end() :]))
-    for match in NUMBER.finditer(code):
-        if ROOM.search(code[: match.start()]):
-            continue
-        number = match.group()
-        other = "1" if float(number) == 0 else "2" if float(number) == 1 else None
-        if other is None:
-            other = str(2 * float(number)) if re.search(r"[.e]", number) else str(2 * int(number))
-        elif "." in number:
-            other += ".0"
-        found.append(("another number", line[: match.start()] + other + line[match.end() :]))
-    for match in re.finditer(r"\bstd::clamp\(", code):
-        end = closing(code, match.end() - 1)
-        if end and len(end[1]) == 2:
-            found.append(("no clamp", line[: match.start()] + line[match.end() - 1 : end[1][0]] + line[end[0] :]))
-    for match in re.finditer(r"\bif \((?!constexpr)", code):
-        end = closing(code, match.end() - 1)
-        if end:
-            begin = match.end()
-            found.append(("no guard", line[:begin] + "false && (" + line[begin : end[0]] + ")" + line[end[0] :]))
-    if STATEMENT.match(code) and not re.match(r"^\s*(return|throw|const|auto|static|delete|break|continue)\b", code):
-        found.append(("statement left out", re.match(r"\s*", line).group() + ";"))
-    return found
 
 
 class Mutant:
-    def __init__(self, path, number, name, before, after):
-        self.path, self.number, self.name, self.before, self.after = path, number, name, before, after
+    def __init__(self, path, number, before, slip):
+        self.path, self.number, self.before = path, number, before
+        self.name, self.after, self.together = slip
+        self.place = None  # of its byte among those that tell what was run
+        self.marked = False  # it is compiled alone, but its line tells that it is run
 
     def key(self):
         return (self.path, self.before.strip(), self.after.strip())
@@ -163,17 +85,9 @@ def changed_lines(since):
 
 
 def mutants_by_line(path, wanted=None):
-    """A list of each line's mutants, lines without any left out."""
     text = (ROOT / path).read_text()
-    lines, codes = text.splitlines(), masked(text).splitlines()
-    result = []
-    for number, (line, code) in enumerate(zip(lines, codes), 1):
-        if (wanted is not None and number not in wanted) or SKIPPED_LINE.match(line):
-            continue
-        slips = [Mutant(path, number, name, line, after) for name, after in slips_of(line, code) if after != line]
-        if slips:
-            result.append(slips)
-    return result
+    lines = text.splitlines()
+    return [[Mutant(path, number, lines[number - 1], slip) for slip in slips] for number, slips in slips_by_line(text, wanted)]
 
 
 def equivalents():
@@ -186,61 +100,57 @@ def equivalents():
     return keys
 
 
-def near_suites(path, suites):
-    """Those of the suites whose tests stand in the file's folder: most slips are seen there."""
-    near = reach.files_of_suites((ROOT / path).parent.glob("*_test.cpp"))
-    return [suite for suite in suites if near.keys() & set(suite.split("/"))]
-
-
 def target_of(path):
     """The program that tests a file, and the modules that it needs."""
     target, modules = MODULES[path.split("/")[0]]
     return next((own for folder, own in OWN_TESTS.items() if path.startswith(folder)), target), modules
 
 
+def suites_near(path):
+    """The suites whose tests stand in the file's folder: most slips are seen there."""
+    return {suite for test in (ROOT / path).parent.glob("*_test.cpp")
+            for suite in re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\((\w+),", test.read_text(), flags=re.M)}
+
+
+def with_slips(path, mutants):
+    """The text of a file in which slips are chosen at run time, or only tell that their line is run."""
+    lines = (ROOT / path).read_text().split("\n")
+    for mutant in mutants:
+        line = f"slip::on(@); {mutant.before}" if mutant.marked else mutant.together
+        lines[mutant.number - 1] = line.replace("{@}", f"{{{mutant.place}}}").replace("on(@)", f"on({mutant.place})")
+    return "\n".join(lines)
+
+
 class Bench:
-    """A copy of the tree with a build folder of its own, and one with counters where tests are chosen by them."""
+    """A copy of the tree with a build of a test program in it."""
 
-    def __init__(self, target, modules, number):
-        self.target = target
-        self.tree = WORK / f"{target}-{number}"
-        self.build = self.tree / "build"
-        self.log = ""
-        self.files = [name for name in git("ls-files", "-co", "--exclude-standard").split("\n") if name and (ROOT / name).is_file()]
-        for name in self.files:
-            source, copy = ROOT / name, self.tree / name
-            # Its contents decide, not its time: the last slip may have been left in the copy.
-            if not copy.exists() or copy.read_bytes() != source.read_bytes():
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy(source, copy)
+    def __init__(self, target, modules):
+        self.target, self.tree = target, WORK / target
+        self.build, self.log = self.tree / "build", ""
+        self.program = self.build / "bin" / target
+        names = git("ls-files", "-co", "--exclude-standard").split("\n")
+        self.files = [name for name in names if name and (ROOT / name).is_file()]
         self.environment = {"CCACHE_BASEDIR": str(self.tree), "CCACHE_NOHASHDIR": "1"}
-        self.modules = modules
+        for name in self.files:
+            self.write(name, (ROOT / name).read_bytes())
         # A slip may leave a variable unused: that is for the tests to see, not for the compiler.
-        self.configure("release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1")
-        if self.make(3600) != 0:
-            sys.exit(f"mutate: {target} does not build without any slip:\n{self.log[-2000:]}")
-        self.suites = reach.suites_of(self.build / "bin" / target)
-        self.reach = None
-
-    def configure(self, preset, *more):
-        if self.run(["cmake", "--preset", preset, "-DPALPATE_TESTS=ON", "-DPALPATE_TOGETHER=OFF", "-DPALPATE_WERROR=OFF",
-                     f"-DPALPATE_MODULES={self.modules}", *more], 600) != 0:
+        flags = f"-w -Wno-narrowing -include {self.tree / SLIP_H.relative_to(ROOT)}"
+        if self.run(["cmake", "--preset", "release", "-DPALPATE_TESTS=ON", "-DPALPATE_TOGETHER=OFF", "-DPALPATE_WERROR=OFF",
+                     f"-DPALPATE_MODULES={modules}", "-DCMAKE_CXX_FLAGS_RELEASE=-O1", f"-DCMAKE_CXX_FLAGS={flags}"], 600) != 0:
             sys.exit(f"mutate: cmake failed:\n{self.log[-2000:]}")
 
-    def find_reach(self):
-        """Which suites run which lines, by a build with counters."""
-        core = [name for name in self.files if is_mutated(name)]
-        tests = [name for name in self.files if name.endswith("_test.cpp")]
-        self.configure("coverage")
-        counters = self.tree / "build" / "coverage"
-        if self.run(["ninja", "-C", str(counters), self.target], 7200) != 0:
-            sys.exit(f"mutate: {self.target} does not build with counters:\n{self.log[-2000:]}")
-        return reach.reach_of(self.tree, counters, self.target, set(core), tests, self.run, WORK / f"{self.target}.reach.json")
+    def write(self, name, data):
+        """Changes a file of the copy if its contents differ: its time would have all compiled again."""
+        copy = self.tree / name
+        if not copy.exists() or copy.read_bytes() != data:
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            copy.write_bytes(data)
+            shutil.copymode(ROOT / name, copy)
 
     def run(self, command, seconds, **more):
-        environment = {**os.environ, **self.environment, **more}
-        process = subprocess.Popen(command, cwd=self.tree, env=environment, stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, start_new_session=True)
+        """The exit code of a command in the copy; -1 where it took too long."""
+        process = subprocess.Popen(command, cwd=self.tree, env={**os.environ, **self.environment, **more},
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         try:
             out, _ = process.communicate(timeout=seconds)
             self.log = out.decode(errors="replace")
@@ -252,62 +162,132 @@ class Bench:
                 return -1
             raise
 
-    def make(self, seconds, **more):
-        return self.run(["ninja", "-C", str(self.build), self.target], seconds, **more)
+    def make(self, **more):
+        return self.run(["ninja", "-C", str(self.build), "-k", "0", self.target], 7200, **more) == 0
 
-    def passes(self, suites):
-        """Whether these suites pass; a slip may also make them run for ever."""
-        usual = sum(self.reach.suites[suite]["seconds"] for suite in suites) if self.reach else 60
+    def compile_together(self, mutants):
+        """Compiles all slips that can be into one program; of the others, only what tells that their line is run."""
+        for place, mutant in enumerate(mutants):
+            mutant.place = place
+            mutant.marked = mutant.together is None
+        left = list(mutants)
+        while True:
+            by_file = {}
+            for mutant in left:
+                by_file.setdefault(mutant.path, []).append(mutant)
+            for path in {mutant.path for mutant in mutants}:
+                self.write(path, with_slips(path, by_file.get(path, [])).encode())
+            if self.make():
+                break
+            named = set(re.findall(r"((?:solver|io|modes|device|plugin)/[\w./]+):(\d+)", self.log))
+            wrong = [mutant for mutant in left if (mutant.path, str(mutant.number)) in named]
+            if not wrong:  # an error without a line of a slip: all of the files that it names
+                files = {path for path, _ in named}
+                wrong = [mutant for mutant in left if mutant.path in files]
+                if not wrong:
+                    sys.exit(f"mutate: {self.target} does not build without any slip:\n{self.log[-2000:]}")
+                for mutant in wrong:
+                    mutant.marked = True
+            for mutant in wrong:
+                if mutant.marked:
+                    left.remove(mutant)
+                mutant.marked = True
+        for mutant in mutants:
+            if mutant not in left:
+                mutant.place, mutant.marked = None, True
+
+    def look_at_suites(self, jobs):
+        """How long each suite takes, and which places it runs."""
+        listed = subprocess.run([self.program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
+        suites = [line.split()[0].rstrip(".") for line in listed.splitlines()
+                  if line[:1].strip() and not line.startswith("Running")]
+        self.suites = {}
+
+        def look(suite):
+            with tempfile.NamedTemporaryFile() as places:
+                places.write(bytes(PLACES))
+                places.flush()
+                began = time.time()
+                if self.passes([suite], LONGEST_SUITE_S, PALPATE_SLIPS_RUN=places.name):
+                    self.suites[suite] = (time.time() - began, pathlib.Path(places.name).read_bytes())
+                else:
+                    print(f"{suite} fails without any slip, and is left out:\n{self.log[-800:]}", flush=True)
+
+        serve(look, [suite for suite in suites if not re.search(r"Shared|DISABLED_", suite)], jobs, time.time() + 7200)
+        print(f"{self.target}: {len(self.suites)} suites take {sum(seconds for seconds, _ in self.suites.values()):.0f} s", flush=True)
+
+    def passes(self, suites, seconds, **more):
         chosen = ":".join(f"{suite}.*" for suite in suites) + "-*.DISABLED_*"
-        return self.run([str(self.build / "bin" / self.target), "--gtest_fail_fast", "--gtest_brief=1",
-                         "--gtest_filter=" + chosen], 20 + 5 * usual) == 0
+        with tempfile.TemporaryDirectory() as folder:  # tests of two slips at once do not share files
+            return self.run([str(self.program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + chosen], seconds,
+                            TMPDIR=folder, TEST_TMPDIR=folder, **more) == 0
 
-    def try_slip(self, mutant):
-        """seen, survived (or not run: by no test) or not C++."""
-        near = near_suites(mutant.path, self.suites)
-        rounds = [near]
-        if self.reach:
-            running = self.reach.of(mutant.path, mutant.number)
-            if not running:
-                return "not run"
-            rounds = [[suite for suite in near if suite in running], [suite for suite in running if suite not in near]]
-        path = self.tree / mutant.path
-        original = path.read_text()
-        lines = original.split("\n")
-        assert lines[mutant.number - 1] == mutant.before
+    def judge(self, mutant, **more):
+        """seen, survived, or not run (by no test)."""
+        running = [suite for suite, (_, ran) in self.suites.items() if mutant.place is None or ran[mutant.place]]
+        if not running:
+            return "not run"
+        names = suites_near(mutant.path)
+        near = [suite for suite in running if names & set(suite.split("/"))]
+        far = sorted((suite for suite in running if suite not in near), key=lambda suite: self.suites[suite][0])
+        quick = [suite for suite in far if self.suites[suite][0] < 0.5]
+        for suites in (near, quick, [suite for suite in far if suite not in quick]):
+            usual = sum(self.suites[suite][0] for suite in suites)
+            if suites and not self.passes(suites, 20 + 5 * usual, **more):  # a slip may also make them run for ever
+                return "seen"
+        return "survived"
+
+    def judge_alone(self, mutant):
+        """The same of a slip that is compiled by itself; or not C++."""
+        lines = (ROOT / mutant.path).read_text().split("\n")
         lines[mutant.number - 1] = mutant.after
-        path.write_text("\n".join(lines))
+        before = (self.tree / mutant.path).read_bytes()
+        self.write(mutant.path, "\n".join(lines).encode())
         try:
-            if self.make(900, CCACHE_DISABLE="1") != 0:
-                return "not C++"
-            return "survived" if all(self.passes(suites) for suites in rounds if suites) else "seen"
+            return self.judge(mutant) if self.make(CCACHE_DISABLE="1") else "not C++"
         finally:
-            path.write_text(original)
+            self.write(mutant.path, before)
 
 
-def work(benches, chosen, deadline, known):
-    results, lock, waiting = [], threading.Lock(), queue.Queue()
-    for mutant in chosen:
-        waiting.put(mutant)
+def serve(function, items, jobs, deadline):
+    """Calls the function with each item, on several threads; none is begun after the deadline."""
+    waiting = queue.Queue()
+    for item in items:
+        waiting.put(item)
 
-    def serve(bench):
+    def work():
         while time.time() < deadline:
             try:
-                mutant = waiting.get_nowait()
+                function(waiting.get_nowait())
             except queue.Empty:
                 return
-            outcome = "equivalent" if mutant.key() in known else bench.try_slip(mutant)
-            with lock:
-                results.append((mutant, outcome))
-                if outcome in ("survived", "not run"):
-                    print(f"{outcome}: {mutant}", flush=True)
 
-    threads = [threading.Thread(target=serve, args=(bench,)) for bench in benches]
+    threads = [threading.Thread(target=work) for _ in range(jobs)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    return results
+
+
+def try_slips(bench, mutants, jobs, seconds):
+    """Says which slips survive, and returns how many had which outcome."""
+    total, lock = {}, threading.Lock()
+
+    def tell(mutant, outcome):
+        with lock:
+            total[outcome] = total.get(outcome, 0) + 1
+            if outcome in ("survived", "not run"):
+                print(f"{outcome}: {mutant}", flush=True)
+
+    bench.compile_together(mutants)
+    bench.look_at_suites(jobs)
+    alone = [mutant for mutant in mutants if mutant.marked]
+    together = [mutant for mutant in mutants if not mutant.marked]
+    print(f"{bench.target}: {len(together)} slips are chosen at run time, {len(alone)} are compiled alone", flush=True)
+    deadline = time.time() + seconds
+    serve(lambda mutant: tell(mutant, bench.judge(mutant, PALPATE_SLIP=str(mutant.place))), together, jobs, deadline)
+    serve(lambda mutant: tell(mutant, bench.judge_alone(mutant)), alone, 1, deadline)
+    return total
 
 
 def main():
@@ -318,10 +298,8 @@ def main():
     parser.add_argument("--count", type=int, default=200, help="lines, one slip each (default 200)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=1800, help="no new slip of a test program is begun after these (default 1800)")
-    parser.add_argument("--jobs", type=int, default=1, help="copies of the tree that work beside each other")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="slips that are judged beside each other")
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
-    parser.add_argument("--near", action="store_true",
-                        help="only the tests of a slip's own folder: quick, and what survives may be seen by others")
     parser.add_argument("--list", action="store_true", help="only say which slips were chosen")
     options = parser.parse_args()
 
@@ -341,27 +319,22 @@ def main():
     generator = random.Random(options.seed)
     lines = [line for path in sorted(files) for line in mutants_by_line(path, files[path])]
     generator.shuffle(lines)
-    chosen = [generator.choice(line) for line in lines[: options.count]]
+    chosen = [generator.choice(line) for line in lines[: min(options.count, PLACES)]]
     print(f"{len(lines)} lines can have a slip; {len(chosen)} are tried, seed {options.seed}", flush=True)
     if options.list:
         print("\n".join(map(str, chosen)))
         return
-    known, total, began = equivalents(), {}, time.time()
+    known, began = equivalents(), time.time()
+    total = {"equivalent": sum(mutant.key() in known for mutant in chosen)}
+    chosen_count, chosen = len(chosen), [mutant for mutant in chosen if mutant.key() not in known]
     for target, modules in sorted({target_of(mutant.path) for mutant in chosen}):
         own = [mutant for mutant in chosen if target_of(mutant.path)[0] == target]
-        benches = [Bench(target, modules, n) for n in range(max(1, options.jobs))]
-        if not options.near:
-            found = benches[0].find_reach()
-            print(f"{target}: its suites take {sum(suite['seconds'] for suite in found.suites.values()):.0f} s", flush=True)
-            for bench in benches:
-                bench.reach = found
-        for mutant, outcome in work(benches, own, time.time() + options.seconds, known):
-            total[outcome] = total.get(outcome, 0) + 1
+        for outcome, count in try_slips(Bench(target, modules), own, options.jobs, options.seconds).items():
+            total[outcome] = total.get(outcome, 0) + count
     seen, survived = total.get("seen", 0), total.get("survived", 0) + total.get("not run", 0)
-    tried = sum(total.values())
     score = seen / (seen + survived) if seen + survived else 1.0
-    print(f"{tried} of {len(chosen)} slips tried in {time.time() - began:.0f} s: {seen} seen, {survived} survived "
-          f"({total.get('not run', 0)} of them run by no test), {total.get('equivalent', 0)} known to change nothing, "
+    print(f"{sum(total.values())} of {chosen_count} slips tried in {time.time() - began:.0f} s: {seen} seen, {survived} survived "
+          f"({total.get('not run', 0)} of them run by no test), {total['equivalent']} known to change nothing, "
           f"{total.get('not C++', 0)} not C++")
     print(f"score {score:.3f}")
     sys.exit(1 if score < options.least else 0)
