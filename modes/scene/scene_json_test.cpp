@@ -204,6 +204,35 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
               StartsWith("mine.json: version: is given twice"));
 }
 
+TEST(SceneJson, a_list_of_numbers_stays_on_its_line) {
+  const std::string text = to_json(
+      scene_from_json(with_surface(R"("strength_n": {"of": "low", "nodes": [[0, 0], [1, 2], [5, 3]]})"), "mine.json"));
+  EXPECT_THAT(text, HasSubstr(R"([[0.0,0.0],[1.0,2.0],[5.0,3.0]])"));
+  EXPECT_THAT(text, HasSubstr("\n    {\n")) << "a mode begins a line";
+}
+
+/// Those who make a scene by themselves get no refusal of the text's reader.
+TEST(SceneJson, a_scene_that_a_program_made_is_checked_too) {
+  const auto refusal = [](const Scene& scene) -> std::string {
+    try {
+      validate(scene);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  Scene scene;
+  scene.modes.resize(1);
+  scene.modes[0].type = "pull";
+  EXPECT_THAT(refusal(scene), HasSubstr("modes[0].type"));
+  scene.modes.clear();
+  scene.structures = {{.name = "liver", .file = "a.dcm", .segment = "1"},
+                      {.name = "aorta", .file = "a.dcm", .segment = "2"}};
+  EXPECT_EQ(refusal(scene), "accepted");
+  scene.structures[1].name = "liver";
+  EXPECT_THAT(refusal(scene), HasSubstr("structures[1].name"));
+}
+
 /// A structure's file is found from the folder of the scene's file, from wherever the program was started.
 TEST(SceneJson, the_files_of_structures_are_beside_the_scene) {
   const io::FreshFolder folder = io::temporary_folder();
@@ -231,7 +260,12 @@ TEST(SceneJson, starting_scenes_are_found_by_name_and_are_the_files_of_the_folde
     ++files;
   }
   EXPECT_EQ(files, starting_scenes().size());
-  EXPECT_THROW(load_scene("no-such-scene"), std::invalid_argument);
+  try {
+    load_scene("no-such-scene");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    for (const std::string& name : starting_scenes()) EXPECT_THAT(error.what(), HasSubstr(name));
+  }
   EXPECT_THROW(load_scene("/"), std::invalid_argument);
 }
 

@@ -34,6 +34,7 @@ TEST(Hills, are_what_stands_out_of_its_valleys_and_holds_enough) {
   EXPECT_EQ(hills[0].end, hills[1].first);
   EXPECT_EQ(hills[1].end, curve.size()) << "the last bump holds too little to stand alone";
   EXPECT_EQ(internal::hills_of(curve, 0.01, 0.001).size(), 4U);
+  EXPECT_EQ(internal::hills_of(std::array{9.F, 1.F, 8.F, 0.F}, 0.15, 0.01).size(), 2U) << "one is at the beginning";
   EXPECT_TRUE(internal::hills_of({}, 0.1, 0.1).empty());
   EXPECT_EQ(internal::hills_of(std::array{1.F, 1.F, 1.F}, 0.1, 0.1).size(), 1U);
 }

@@ -39,6 +39,10 @@ TEST(Reach, is_the_slices_that_places_in_the_box_lie_between) {
   EXPECT_EQ(slices_within_reach(stack(101), workspace, {0.08, 0.04, 0.06}), (SliceRange{10, 91}));
   workspace.center_mm = {500, 0, 100};
   EXPECT_TRUE(none(slices_within_reach(stack(5), workspace, {0.08, 0.04, 0.06}))) << "beside the scan";
+  for (const Vec3& beside : {Vec3(500, 0, 4), Vec3(-500, 0, 4), Vec3(0, 500, 4), Vec3(0, -500, 4)}) {
+    workspace.center_mm = beside;
+    EXPECT_TRUE(none(slices_within_reach(stack(5), workspace, {0.08, 0.04, 0.06}))) << beside.x << ' ' << beside.y;
+  }
   workspace.center_mm = {0, 0, 0};
   EXPECT_EQ(slices_within_reach(stack(1), workspace, {0.08, 0.04, 0.06}), (SliceRange{0, 0}));
 }

@@ -147,13 +147,20 @@ def slips_of(line, code):
     return found
 
 
+def at_run_time(line):
+    """A constant of the compiler's becomes one of the program's, so that its value can be chosen."""
+    if line is None or not re.search(r"\bconstexpr\b.* = ", line):
+        return line
+    return re.sub(r"\bconstexpr\b", "const", re.sub(r"\bstatic constexpr\b", "static inline const", line))
+
+
 def slips_by_line(text, wanted=None):
     """(line number, its slips) of each line that can have one; only of the lines `wanted`, if these are given."""
     result = []
     for number, (line, code) in enumerate(zip(text.splitlines(), masked(text).splitlines()), 1):
         if (wanted is not None and number not in wanted) or SKIPPED_LINE.match(line):
             continue
-        slips = [slip for slip in slips_of(line, code) if slip[1] != line]
+        slips = [(name, after, at_run_time(together)) for name, after, together in slips_of(line, code) if after != line]
         if slips:
             result.append((number, slips))
     return result
