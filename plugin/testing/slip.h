@@ -1,8 +1,9 @@
 /** @file
  * @brief Slips that are compiled together and chosen at run time: what `plugin/run mutate` puts in front of every file.
  *
- * PALPATE_SLIP holds the number of the slip that acts, PALPATE_SLIPS_RUN the file whose byte n becomes 1 where the place of
- * slip n is run. An operator is swapped without knowing its operands: `a + b` is written `a + Plus{n} + b`, which binds alike.
+ * PALPATE_SLIP holds the number of the slip that acts, PALPATE_SLIPS_RUN the file whose byte n becomes 1 where the
+ * place of slip n is run. An operator is swapped without knowing its operands: `a + b` is written `a + Plus{n} + b`,
+ * which binds alike.
  */
 #pragma once
 #ifdef __cplusplus
@@ -43,24 +44,24 @@ inline bool on(int number) {
   return state.chosen == number;
 }
 
-#define PALPATE_SWAP(Name, op, other)                                                                                    \
-  struct Name {                                                                                                          \
-    int number;                                                                                                          \
-  };                                                                                                                     \
-  template <class L>                                                                                                     \
-  struct Left##Name {                                                                                                    \
-    L&& value;                                                                                                           \
-    int number;                                                                                                          \
-  };                                                                                                                     \
-  template <class L>                                                                                                     \
-  Left##Name<L> operator op(L&& left, Name tag) {                                                                        \
-    return {std::forward<L>(left), tag.number};                                                                          \
-  }                                                                                                                      \
-  template <class L, class R>                                                                                            \
-  auto operator op(Left##Name<L> left, R&& right)                                                                        \
-      -> std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))> {                                 \
-    if (on(left.number)) return std::forward<L>(left.value) other std::forward<R>(right);                                \
-    return std::forward<L>(left.value) op std::forward<R>(right);                                                        \
+#define PALPATE_SWAP(Name, op, other)                                                     \
+  struct Name {                                                                           \
+    int number;                                                                           \
+  };                                                                                      \
+  template <class L>                                                                      \
+  struct Left##Name {                                                                     \
+    L&& value;                                                                            \
+    int number;                                                                           \
+  };                                                                                      \
+  template <class L>                                                                      \
+  Left##Name<L> operator op(L&& left, Name tag) {                                         \
+    return {std::forward<L>(left), tag.number};                                           \
+  }                                                                                       \
+  template <class L, class R>                                                             \
+  auto operator op(Left##Name<L> left, R&& right)                                         \
+      ->std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))> {   \
+    if (on(left.number)) return std::forward<L>(left.value) other std::forward<R>(right); \
+    return std::forward<L>(left.value) op std::forward<R>(right);                         \
   }
 PALPATE_SWAP(Plus, +, -)
 PALPATE_SWAP(Minus, -, +)
@@ -76,18 +77,18 @@ PALPATE_SWAP(Equal, ==, !=)
 PALPATE_SWAP(Different, !=, ==)
 #undef PALPATE_SWAP
 
-#define PALPATE_SWAP_EXTREME(Name, function, other)                                                      \
-  struct Name {                                                                                          \
-    int number;                                                                                          \
-    template <class... A>                                                                                \
-    auto operator()(const A&... a) const -> std::decay_t<decltype(std::function(a...))> {                \
-      if (on(number)) return std::other(a...);                                                           \
-      return std::function(a...);                                                                        \
-    }                                                                                                    \
-    template <class T>                                                                                   \
-    T operator()(std::initializer_list<T> list) const {                                                  \
-      return on(number) ? std::other(list) : std::function(list);                                        \
-    }                                                                                                    \
+#define PALPATE_SWAP_EXTREME(Name, function, other)                                       \
+  struct Name {                                                                           \
+    int number;                                                                           \
+    template <class... A>                                                                 \
+    auto operator()(const A&... a) const -> std::decay_t<decltype(std::function(a...))> { \
+      if (on(number)) return std::other(a...);                                            \
+      return std::function(a...);                                                         \
+    }                                                                                     \
+    template <class T>                                                                    \
+    T operator()(std::initializer_list<T> list) const {                                   \
+      return on(number) ? std::other(list) : std::function(list);                         \
+    }                                                                                     \
   };
 PALPATE_SWAP_EXTREME(Min, min, max)
 PALPATE_SWAP_EXTREME(Max, max, min)
