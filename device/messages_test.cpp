@@ -366,8 +366,7 @@ TEST(MessagesOfStyluses, EachIsShown) {
   for (const auto& some : {provoke_threads(), provoke_devices(), provoke_styluses()}) {
     provoked.insert(provoked.end(), some.begin(), some.end());
   }
-  std::vector<NotShown> not_shown{{"touch-does-not-tell", "the stand-in of the maker's library does not fail there"},
-                                  {"touch-does-not-start", "the stand-in of the maker's library does not fail there"}};
+  std::vector<NotShown> not_shown;
   if (has_umockdev()) {
     const std::vector<Provoked> usb = provoke_usb();
     provoked.insert(provoked.end(), usb.begin(), usb.end());

@@ -176,5 +176,16 @@ TEST(Guardian, EndsOnceAndLeavesNothingOpen) {
   EXPECT_EQ(start_guardian({}), nullptr);
 }
 
+/// Ctrl-C in a terminal ends all processes of the session's group.
+TEST(Guardian, IsInAGroupOfItsOwn) {
+  const TestFiles files;
+  const std::string told = files.write("group", "");
+  start_guardian({.program = "/bin/sh", .kind = "-c", .address = "cut -d ' ' -f 5 /proc/$$/stat > " + told})->dismiss();
+  pid_t group = 0;
+  std::ifstream(told) >> group;
+  EXPECT_GT(group, 0);
+  EXPECT_NE(group, getpgrp());
+}
+
 }  // namespace
 }  // namespace palpate::device

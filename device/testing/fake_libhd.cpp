@@ -72,6 +72,10 @@ void hdEndFrame(unsigned) {
   state.in_frame = 0;
 }
 ErrorInfo hdGetError() {
+  if (state.sound_answers > 0) {
+    --state.sound_answers;
+    return {0, 0, 7};
+  }
   const ErrorInfo info = {state.unplugged != 0 ? 0x302U : state.error, 0, 7};
   return info;
 }

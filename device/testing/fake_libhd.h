@@ -8,6 +8,7 @@
 struct FakeHd {
   int present = 1;
   unsigned error = 0;              // of the next hdGetError
+  int sound_answers = 0;           // of hdGetError, before the error
   unsigned calibration = 0x5000;   // what hdCheckCalibration says
   unsigned after_update = 0x5000;  // and after hdUpdateCalibration
   double place_mm[3] = {0, 0, 0};

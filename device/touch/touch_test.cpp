@@ -119,6 +119,34 @@ TEST_F(Touch, CalibratesItselfWhereItCan) {
   EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; }));
 }
 
+/// Its home would move under the hand.
+TEST_F(Touch, IsNotCalibratedAnewOnceItPushed) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  hd->calibration = 0x5001;
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->state() == State::fault; }));
+  EXPECT_EQ(stylus->fault(), LinkFault::unhomed);
+  EXPECT_EQ(hd->calibration, 0x5001U);
+  EXPECT_EQ(acting(), Vec3(0));
+}
+
+TEST_F(Touch, AnErrorWhileItOpensIsSaidAndItIsClosed) {
+  const char* const failing[] = {"it does not tell what it can do", "its forces cannot be switched on",
+                                 "its servo loop does not start"};
+  for (int step = 0; step < 3; ++step) {
+    *hd = FakeHd{};
+    hd->error = 0x303;
+    hd->sound_answers = 1 + step;
+    expect_refusal([] { unthreaded()->open(); }, failing[step]);
+    hd->sound_answers = 1 + step;
+    expect_refusal([] { unthreaded()->open(); }, ": a fault of the fake");
+    EXPECT_EQ(hd->disabled, 2);
+    EXPECT_EQ(hd->running, 0);
+    EXPECT_EQ(hd->misuses, 0);
+  }
+}
+
 TEST_F(Touch, AForceThatNobodyRenewsEnds) {
   const auto stylus = unthreaded();
   stylus->open();
