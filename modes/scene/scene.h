@@ -74,7 +74,7 @@ struct Tissue {
   std::string name;
   double low = 0;       ///< scan's unit
   double high = 0;      ///< > low
-  double softness = 0;  ///< width of the soft end at low and high, scan's unit, >= 0
+  double softness = 0;  ///< width of the soft end at low and high, scan's unit, > 0
   std::string color;    ///< "#rrggbb", or empty
 };
 

@@ -16,7 +16,7 @@
 namespace palpate::modes {
 
 /// The datum of a sample; `structure` says whose distance. In the tick.
-double datum_of(const io::Sample& sample, Datum datum, std::size_t structure = 0) noexcept;
+double datum_of(const io::Sample& sample, Datum datum, std::size_t structure) noexcept;
 /// The field that a datum is part of.
 io::FieldSet field_of(Datum datum) noexcept;
 
