@@ -84,6 +84,23 @@ TEST(Plan, keeps_the_general_solver_only_where_some_tick_can_need_it) {
   EXPECT_FALSE(exact({mode("surface", 0), mode("follow")}, flow));  // what is left out needs no solver
 }
 
+TEST(Plan, says_what_its_modes_place_where_it_leaves_solvers_out) {
+  Mode both = mode("surface");
+  both.side = Side::both;
+  Scene scene = testing::scene_of({mode("surface"), both, mode("friction"), mode("friction"), mode("friction"),
+                                   mode("force", 1, DirectionField::gradient), mode("surface", 0)});
+  scene.solvers.descent = true;
+  const Plan plan = make_plan(scene, scan, {});
+  for (const char* solver : {"exact solver", "descent solver"}) {
+    ASSERT_NE(left_out(plan, solver), nullptr) << solver;
+    EXPECT_EQ(left_out(plan, solver)->why, "1 force + 2 plane + 3 point: always analytical (section 3.1)");
+  }
+  EXPECT_FALSE(plan.solvers.exact || plan.solvers.descent);
+  EXPECT_TRUE(plan.solvers.analytical);
+  EXPECT_EQ(left_out(plan_of({}), "exact solver")->why, "no primitive: always analytical (section 3.1)");
+  EXPECT_EQ(left_out(plan_of({}), "descent solver"), nullptr) << "the scene has it switched off";
+}
+
 TEST(Plan, without_the_analytical_solver_the_general_one_stays) {
   Scene scene = testing::scene_of({mode("surface")});
   scene.solvers.analytical = false;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -283,6 +284,32 @@ TEST(Suggest, keeps_the_strength_of_thin_and_faint_bone) {
     const double newtons = bone_strength_near(found, source, piece.center_mm, piece.radius_mm);
     EXPECT_GT(newtons, piece.least_part * defaults::bone_strength_n) << piece.radius_mm << " mm, " << piece.value;
   }
+}
+
+TEST(Suggest, looks_for_tissues_a_tenth_of_the_range_beyond_its_ends) {
+  const Suggestion found = suggest(scanned(cases()[0].phantom, testdata::Grid{}, 0));
+  const double tenth = 0.1 * (bone_hu - air_hu);
+  EXPECT_NEAR(found.edges.values.low, air_hu - tenth, 0.01 * tenth);
+  EXPECT_NEAR(found.edges.values.high, bone_hu + tenth, 0.01 * tenth);
+}
+
+/// Eight boundaries between nine layers, and a faint wall within the last of them.
+TEST(Suggest, finds_no_more_boundaries_than_there_are_colors) {
+  testdata::Phantom phantom;
+  phantom.background = 0;
+  for (int layer = 1; layer < 9; ++layer) {
+    phantom.bodies.push_back({testdata::HalfSpace{{0, 0, 1}, 32.0 - 5 * layer}, 100.0 * layer});
+  }
+  phantom.bodies.push_back({testdata::HalfSpace{{0, 0, 1}, -18}, 835});
+  phantom.bodies.push_back({testdata::HalfSpace{{0, 0, 1}, -22}, 800});
+  io::Volume volume = *scanned(phantom, testdata::Grid{}, 0);
+  volume.unit = "";
+  volume.modality = "MR";
+  const Suggestion found = suggest(std::make_shared<const io::Volume>(std::move(volume)));
+  ASSERT_EQ(found.boundaries.size(), 8U);
+  std::set<std::string> colors;
+  for (const FoundBoundary& boundary : found.boundaries) colors.insert(found.scene.modes[boundary.mode].color);
+  EXPECT_EQ(colors.size(), 8U);
 }
 
 TEST(Suggest, finds_nothing_where_there_is_nothing) {

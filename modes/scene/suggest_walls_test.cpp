@@ -14,6 +14,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "modes/scene/defaults.h"
+#include "modes/scene/faint_walls.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene_json.h"
 #include "modes/scene/suggest.h"
@@ -150,6 +151,36 @@ TEST(SuggestWalls, a_thin_plate_of_bone_has_its_strength_where_its_value_reaches
         EXPECT_NEAR(shown.place_mm, width, 0.8);
       }
     }
+  }
+}
+
+TEST(SuggestWalls, the_sides_of_one_are_together_the_tissue_that_it_is_within) {
+  // Soft tissue is the darkest here, and has no lower end.
+  testdata::Phantom phantom = with_plate(40, 40, 80, 2, bone_hu);
+  phantom.background = 40;
+  const Suggestion found = suggest(scanned(phantom, 2));
+  const auto wall = std::ranges::find_if(found.boundaries, [](const FoundBoundary& b) { return !b.within.empty(); });
+  ASSERT_NE(wall, found.boundaries.end());
+  const std::vector<Tissue>& tissues = found.scene.tissues;
+  EXPECT_EQ(wall->within, tissues[0].name);
+  EXPECT_TRUE(std::isinf(tissues[wall->low].low));
+  EXPECT_LT(tissues[wall->low].low, 0);
+  EXPECT_EQ(tissues[wall->low].high, tissues[wall->high].low);
+  EXPECT_EQ(tissues[wall->high].high, tissues[0].high);
+}
+
+/// The gradient of the faintest plate that is looked for, half a scale thick: the difference of two Gaussians.
+TEST(SuggestWalls, the_edges_of_a_plate_half_a_scale_thick_are_steep_enough) {
+  const auto volume = scanned(with_plate(soft_tissue_hu, soft_tissue_hu, bone_hu, 4, bone_hu), 0);
+  for (const double scale_mm : {1.5, 2.5}) {
+    const internal::ScanNoise noise(*volume, io::GradientKernel(volume, scale_mm), 1);
+    const double step = 3.5 * 0.005 * (noise.spread().high - noise.spread().low);
+    double steepest = 0;
+    for (double at = -4; at < 4; at += 0.001) {
+      const auto edge = [&](double place) { return std::exp(-0.5 * place * place) / std::sqrt(2 * M_PI) / scale_mm; };
+      steepest = std::max(steepest, step * (edge(at) - edge(at - 0.5)));
+    }
+    EXPECT_NEAR(internal::least_gradient_of_walls(noise, scale_mm), steepest, 0.03 * steepest);
   }
 }
 

@@ -110,6 +110,70 @@ TEST(SceneChange, to_another_time_frame_moves_the_proxy_from_one_wall_to_the_oth
   EXPECT_NEAR(ramp.proxy_after_mm.z, 1.5, 0.3);
 }
 
+/// The value rises down by 100 a mm, and has ripples that the gradient does not show: so the level of what is held is
+/// not the value.
+class Rippled final : public io::FieldSource {
+ public:
+  explicit Rippled(double more) : more_(more) {}
+  io::FieldSet available() const noexcept override { return io::FieldSet::value | io::FieldSet::gradient; }
+  io::Sample sample(const io::Vec3& p, io::FieldSet) const noexcept override {
+    return {.inside = true, .value = more_ - 100 * p.z + 20 * std::sin(3 * p.x), .gradient = {0, 0, -100}};
+  }
+
+ private:
+  double more_;
+};
+
+TEST(SceneChange, on_the_same_data_the_level_goes_on_and_on_other_data_it_begins_with_the_value) {
+  const Rippled before(0), after(40);
+  const Scene scene = scene_of({surface(TransferFunction({{0, 0}, {10, 2}}), Datum::value)});
+  for (const Rippled* to : {&before, &after}) {
+    testing::Hand hand(scene, before);
+    hand.stroke({0, 0, 2}, {0, 0, -2}, 1000);
+    hand.stroke({0, 0, -2}, {1.5, 0, -2}, 1000);
+    const HeldSurface held = hand.touch.contact.scan;
+    ASSERT_EQ(held.hold, HoldState::held);
+    ASSERT_GT(std::abs(held.level - held.value), 5) << "else this test shows nothing";
+    solver::Chain chain;
+    const auto scratch = std::make_unique<StepScratch>();
+    Touch touch = hand.touch;
+    const SceneOnData from{&hand.plan, &before};
+    step({.from = from, .to = {&hand.plan, to}, .part = 0}, hand.plan.workspace.to_device({1.5, 0, -2}), touch, chain,
+         *scratch);
+    EXPECT_EQ(touch.leaving.scan.held_level, held.held_level) << "what is left is left as it was";
+    const HeldSurface& now = touch.contact.scan;
+    if (to == &before) {
+      EXPECT_EQ(now.held_level, held.held_level);
+      EXPECT_NEAR(now.level, held.level, 1e-3);
+    } else {
+      EXPECT_EQ(now.level, after.sample(now.place_mm, {}).value);
+      EXPECT_EQ(now.held_level, now.level);
+    }
+  }
+}
+
+TEST(SceneChange, has_room_for_all_that_two_scenes_can_place) {
+  const Rippled source(0);
+  const auto walls = [](double strength_n) {
+    std::vector<Mode> modes(Scene::most_modes, surface(TransferFunction(strength_n), Datum::value, Side::both));
+    return scene_of(modes);
+  };
+  const Plan from = make_plan(walls(0.01), source.available(), {}), to = make_plan(walls(0.02), source.available(), {});
+  solver::Chain chain({.capacity = most_primitives});
+  Touch touch;
+  const auto scratch = std::make_unique<StepScratch>();
+  const StepResult result =
+      step({.from = {&from, &source}, .to = {&to, &source}, .part = 0.25}, Vec3(0), touch, chain, *scratch);
+  EXPECT_EQ(result.outcome, solver::Outcome::solved);
+  ASSERT_EQ(result.primitives.size(), 2 * 2 * Scene::most_modes);
+  ASSERT_EQ(result.shares.size(), result.primitives.size());
+  for (std::size_t n = 0; n < result.primitives.size(); ++n) {
+    const bool is_left = n >= 2 * Scene::most_modes;
+    EXPECT_EQ(result.mode_of[n], (n / 2 % Scene::most_modes) | (is_left ? of_scene_left : 0U)) << n;
+    EXPECT_DOUBLE_EQ(result.primitives[n].strength, is_left ? 0.75 * 0.01 : 0.25 * 0.02) << n;
+  }
+}
+
 TEST(Workspace, between_two_of_them_lies_a_similarity_and_the_ends_are_exact) {
   Workspace from, to;
   to.center_mm = {10, 20, 30};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include "modes/testing/test_rig.h"
@@ -171,6 +172,32 @@ TEST(HapticStep, the_same_path_gives_the_same_bits) {
   }
 }
 
+TEST(HapticStep, each_part_of_a_tick_is_timed_and_none_of_it_twice) {
+  const Ball ball;
+  Scene scene = skin();
+  scene.subdivision = {.step_mm = 0.1, .most = 8};
+  const Plan plan = make_plan(scene, ball.available(), {});
+  solver::Chain chain;
+  Touch touch;
+  const auto scratch = std::make_unique<StepScratch>();
+  StepTimes all;
+  for (int n = 0; n < 200; ++n) {
+    const std::uint64_t before = clock_count();
+    step(plan, ball, plan.workspace.to_device({0, 1, 23 - 0.03 * n}), touch, chain, *scratch);
+    const std::uint64_t after = clock_count();
+    const StepTimes& times = scratch->times;
+    EXPECT_LE(times.map + times.sample + times.modes + times.solve, after - before) << n;
+    all.map += times.map;
+    all.sample += times.sample;
+    all.modes += times.modes;
+    all.solve += times.solve;
+  }
+  EXPECT_GT(all.map, 0U);
+  EXPECT_GT(all.sample, 0U);
+  EXPECT_GT(all.modes, 0U);
+  EXPECT_GT(all.solve, 0U);
+}
+
 TEST(HapticStep, shares_balance_the_coupling_and_are_named_by_the_scene_mode_that_made_them) {
   const Ball ball;
   Scene scene = skin();
@@ -217,6 +244,7 @@ TEST(HapticStep, a_probe_or_a_field_that_is_not_finite_is_refused_and_the_force_
     EXPECT_EQ(hand.result.outcome, solver::Outcome::refused);
     EXPECT_EQ(hand.result.solver, solver::SolverKind::none);
     EXPECT_EQ(hand.result.iterations, 0);
+    EXPECT_EQ(hand.result.error_bound, 0);
     EXPECT_TRUE(hand.result.primitives.empty());
   }
   hand.move_to({0, 1, 18});

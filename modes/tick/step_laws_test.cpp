@@ -198,6 +198,7 @@ TEST(StepLaws, AHaltIsAsLongAsTheStepInThePatient) {
       const Vec3 halted_at = hand.touch.contact.scan.place_mm;
       const Vec3 was = hand.plan.workspace.to_patient(before.proxy_m);
       EXPECT_NEAR(glm::length(halted_at - was), scene.subdivision.proxy_step_mm, 1e-6) << seed;
+      EXPECT_EQ(hand.touch.contact.scan.level, shells.sample(halted_at, {}).value) << "there the level starts anew";
     }
   }
   EXPECT_GT(halted, 100);

@@ -160,6 +160,9 @@ TEST(StructureLaw, FrictionStandsWithItsWallWhereTheScanHasNone) {
     hand.move_to(21.0 * Vec3(std::sin(angle), std::cos(angle), 0));
     EXPECT_EQ(hand.result.solver, solver::SolverKind::analytical) << n;
     held += hand.result.hold == HoldState::held ? 1 : 0;
+    for (const solver::Primitive& primitive : hand.result.primitives) {
+      EXPECT_EQ(primitive.position, hand.result.anchor_m) << "of all that is placed";
+    }
   }
   EXPECT_GT(held, 50);
 }
@@ -246,6 +249,21 @@ TEST(StructurePlan, LeavesOutWhatNoModeReads) {
   EXPECT_TRUE(said);
   EXPECT_TRUE(plan.solvers.analytical);
   EXPECT_FALSE(plan.solvers.exact);
+}
+
+TEST(StructurePlan, DoesNotReadWhatOnlyModesThatAreLeftOutName) {
+  const BallSource source;
+  const Plan plan =
+      make_plan(scene_with(R"({"type": "keep_out", "structure": "liver", "strength_n": 1, "enabled": false},
+        {"type": "keep_in", "structure": "spleen", "strength_n": 1},
+        {"type": "friction", "strength_n": 0, "gates": [{"of": "distance_mm", "structure": "liver", "nodes": [[0, 1]]}]})"),
+                source.available(), {});
+  EXPECT_EQ(plan.structures, std::vector<std::size_t>{1});
+  ASSERT_EQ(plan.modes.size(), 1U);
+  EXPECT_EQ(plan.modes[0].structure, 0) << "the first that is read";
+  EXPECT_TRUE(std::ranges::any_of(plan.left_out, [](const LeftOut& left) {
+    return left.what == "structure \"liver\"" && left.why == "no mode reads it";
+  }));
 }
 
 TEST(StructureScene, KeepsItsText) {

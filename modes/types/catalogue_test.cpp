@@ -1,6 +1,8 @@
 // Every mode of the catalogue places what its equation says, where it says.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "modes/testing/test_rig.h"
@@ -16,7 +18,7 @@ using testing::scene_of;
 class Uniform : public io::FieldSource {
  public:
   explicit Uniform(const io::Sample& sample) : sample_(sample) {}
-  io::FieldSet available() const noexcept override { return static_cast<io::FieldSet>(31); }
+  io::FieldSet available() const noexcept override { return static_cast<io::FieldSet>(63); }
   io::Sample sample(const io::Vec3&, io::FieldSet) const noexcept override { return sample_; }
 
  private:
@@ -147,6 +149,55 @@ TEST(Catalogue, landmark_stands_at_its_own_place_also_outside_the_data) {
   }
   landmark.strength_n = TransferFunction(0.7);
   EXPECT_EQ(placed(landmark, io::Sample{}).size(), 1U);
+}
+
+/// At the edge all of its strength, and half a margin before it half. A fifth of it pushes: 0.4 N, half of what the
+/// coupling takes over 2 mm at the steepest. Where the distance has a ridge the push fades, and nothing else.
+TEST(Catalogue, keep_out_and_keep_in_push_as_far_as_the_distance_has_a_direction) {
+  for (const bool is_out : {true, false}) {
+    Scene scene = scene_of({mode_of(is_out ? "keep_out" : "keep_in", Datum::value, 100, 2)});
+    scene.structures = {{.name = "liver", .file = "a.dcm", .segment = "1"}};
+    scene.modes[0].structure = "liver";
+    scene.modes[0].margin_mm = 3;
+    scene.subdivision.most_halts = 0;  // each would place them anew, nearer to the balance
+    for (const auto& [way_mm, part] : {std::pair{-5.0, 1.0}, {0.0, 1.0}, {1.5, 0.5}, {0.75, 0.84375}}) {
+      for (const double length : {0.01, 0.25, 0.5, 1.0, 1.25, 3.0}) {
+        io::Sample sample = tissue;
+        sample.distance[0] = {.mm = is_out ? -way_mm : way_mm, .gradient = length * Vec3(0, 0.6, 0.8)};
+        const Uniform source(sample);
+        Hand hand(scene, source);
+        hand.move_to({1, 2, 3});
+        ASSERT_EQ(hand.result.primitives.size(), 2U);
+        const Vec3 away = is_out ? Vec3(0, -0.6, -0.8) : Vec3(0, 0.6, 0.8);
+        const double steady = length < 1 ? length : 1;
+        expect_primitive(hand.result.primitives[0], PrimitiveType::directed_force, 0.4 * part * steady, away);
+        expect_primitive(hand.result.primitives[1], PrimitiveType::plane, 1.6 * part, away);
+        EXPECT_EQ(hand.result.primitives[1].position, proxy);
+      }
+    }
+  }
+}
+
+TEST(PrimitiveList, takes_what_has_strength_as_strong_as_it_is_until_it_is_full) {
+  std::array<solver::Primitive, 3> room;
+  std::array<std::uint8_t, 3> mode_of{};
+  PrimitiveList list(room, mode_of);
+  for (const double none : {0.0, -1.0, std::nan("")}) list.add(solver::make_point(none, {}));
+  EXPECT_EQ(list.size(), 0U);
+  list.add(solver::make_point(0.7, {1, 2, 3}));
+  list.set_mode(5);
+  list.set_weight(0.5);
+  list.add(solver::make_point(0.6, {}));
+  list.set_weight(0);
+  list.add(solver::make_point(0.6, {}));
+  list.set_weight(2);
+  for (int n = 0; n < 3; ++n) list.add(solver::make_point(0.2 + n, {}));
+  EXPECT_EQ(list.size(), 3U);
+  EXPECT_EQ(room[0].strength, 0.7);
+  EXPECT_EQ(room[0].position, Vec3(1, 2, 3));
+  EXPECT_EQ(room[1].strength, 0.3);
+  EXPECT_EQ(room[2].strength, 0.4);
+  EXPECT_EQ(mode_of, (std::array<std::uint8_t, 3>{0, 5, 5}));
 }
 
 TEST(Catalogue, nothing_is_placed_where_a_field_is_zero_or_there_is_no_data) {
