@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -98,16 +101,21 @@ TEST(Stroke, ContactsAreStretchesOfOneSurface) {
   }
 }
 
-/// The slab with an end and with two structures, whose distances tell the place.
+/// The slab with an end and with two structures, whose distances tell the place; its values may be no numbers below a
+/// height.
 class EndingSlab final : public io::FieldSource {
  public:
-  io::FieldSet available() const noexcept override { return slab_.available() | io::FieldSet::distance; }
+  io::FieldSet available() const noexcept override {
+    return slab_.available() | io::FieldSet::distance | io::FieldSet::vector;
+  }
   io::Sample sample(const io::Vec3& at, io::FieldSet wanted) const noexcept override {
     if (at.z > 9) return {};
     io::Sample sample = slab_.sample(at, wanted);
     for (int n = 0; n < 2; ++n) sample.distance[static_cast<std::size_t>(n)].mm = at.x + (n + 1) * at.z;
+    if (at.z < broken_below_mm) sample.vector = io::Vec3(std::numeric_limits<double>::infinity(), 0, 0);
     return sample;
   }
+  double broken_below_mm = -std::numeric_limits<double>::infinity();
 
  private:
   testdata::AnalyticSource slab_{testdata::make_slab(glm::normalize(glm::dvec3(0.2, 0.1, -1)),
@@ -115,6 +123,23 @@ class EndingSlab final : public io::FieldSource {
                                                                 testdata::Layer{6, testdata::bone_hu}}),
                                  1.5};
 };
+
+TEST(Stroke, WhatCannotBeSolvedIsRefusedWithItsPlace) {
+  EndingSlab source;
+  source.broken_below_mm = 3;
+  const modes::Scene scene = modes::scene_from_json(
+      R"({"version": 1, "modes": [{"type": "force", "field": "vector", "strength_n": 0.5}]})", "force");
+  const modes::Plan plan = modes::make_plan(scene, source.available(), {});
+  try {
+    run_stroke(plan, source, {0, 0, 8}, {0, 0, 0}, 8);
+    FAIL() << "not refused";
+  } catch (const std::runtime_error& error) {
+    const std::string said = error.what();
+    const std::size_t at = said.find("0.000, 0.000, ");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_NEAR(std::stod(said.substr(at + 14)), 3, 0.1) << said;
+  }
+}
 
 /// Each point of a stroke in a reach that is turned, moved and scaled: even steps of a millisecond, the coupling's
 /// force in the patient, the scan at the proxy and at the probe, and who pushes most.
