@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "plugin/session/scan_values.h"
 #include "testdata/scan.h"
@@ -74,6 +77,23 @@ TEST(ScanHash, TellsEveryDifferenceThatIsFelt) {
                    voxels.begin() + static_cast<std::ptrdiff_t>(other.offset(0, 0, 3)),
                    voxels.begin() + static_cast<std::ptrdiff_t>(other.offset(0, 0, 5)));
   EXPECT_NE(hash_of(other), hash) << "the order of slices";
+}
+
+/// No two of these scans are felt alike.
+TEST(ScanHash, CountsEachNumberOfTheLatticeAndThePadding) {
+  io::Volume scan = ball();
+  scan.padding = {-2000, -1900};
+  std::vector<io::Volume> scans(8, scan);
+  scans[1].padding->first = -2001;
+  scans[2].padding->second = -1899;
+  scans[3].padding.reset();
+  scans[4].geometry.direction_i = {0, 0, 1};
+  scans[5].geometry.direction_j = {0, 0, 1};
+  scans[6].geometry.spacing_i = 1.25;
+  scans[7].geometry.spacing_j = 1.25;
+  std::set<std::string> hashes;
+  for (const io::Volume& one : scans) hashes.insert(hash_of(one));
+  EXPECT_EQ(hashes.size(), scans.size());
 }
 
 TEST(ScanHash, HasTheVectorsOfAVelocityField) {

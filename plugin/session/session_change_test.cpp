@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "plugin/session/session.h"
 #include "plugin/testing/session_rig.h"
@@ -82,8 +83,11 @@ TEST(SessionChange, WhatTheServoHasLeftIsFreed) {
   EXPECT_TRUE(old.expired());
 }
 
+/// The other one may be held somewhere else: that is no jump.
 TEST(SessionChange, AnotherStylusStartsFromZeroForce) {
-  const auto first = stylus(hold()), second = stylus(hold(-0.004));
+  std::vector<device::Waypoint> elsewhere = hold(-0.004);
+  for (device::Waypoint& point : elsewhere) point.position.x = 0.06;
+  const auto first = stylus(hold()), second = stylus(elsewhere);
   Session session(snapshot("ct-skin-and-bone", slab()), first);
   Watched watched;
   tick(session, 1500, watched);
@@ -99,6 +103,7 @@ TEST(SessionChange, AnotherStylusStartsFromZeroForce) {
   tick(session, 2000, watched);
   EXPECT_GT(glm::length(watched.last_n), 0.5);
   EXPECT_LT(watched.largest_step_n, 0.2 * slew_n);
+  EXPECT_EQ(session.fault(), device::Fault::none);
 }
 
 /// What may be sent is what the stylus held now can take, from the tick that it is taken in, in both directions.
