@@ -122,6 +122,15 @@ TEST(HaplyService, ComesBackByConnectingAgain) {
   EXPECT_EQ(bench.server.sessions(), 2);
 }
 
+TEST(HaplyService, TellsItsVersion) {
+  FakeHaply service;
+  service.version = {3, 1};
+  const HaplyServer server(service);
+  const auto link = open_haply_service({.host = "127.0.0.1", .port = server.port()});
+  EXPECT_EQ(link->version().major, 3);
+  EXPECT_EQ(link->version().minor, 1);
+}
+
 TEST(HaplyService, IsFoundWithItsSettings) {
   HaplyServer server;
   setenv("PALPATE_HAPLY", ("127.0.0.1:" + std::to_string(server.port())).c_str(), 1);

@@ -196,6 +196,40 @@ TEST(Haply, TellsWhatChangesWhatIsFelt) {
   EXPECT_THAT(describe(devices[0]), ::testing::HasSubstr("force gate 0.30"));
 }
 
+TEST(Haply, ReadsAllThatTheInventoryTells) {
+  const auto devices = haply_inventory(
+      R"({"inverse3": [{"device_id": "04A1", "config": {"type": "inverse3x", "handedness": "left",
+          "gravity_compensation": {"enabled": true}, "torque_scaling": {"enabled": false},
+          "filters": {"force_gate": {"gain": 0.25}, "damping": {"scalar": 0.5}}}},
+          {"device_id": "04A2", "config": {"type": "minverse", "handedness": "right",
+          "gravity_compensation": {"enabled": false}, "torque_scaling": {"enabled": true}}}]})");
+  ASSERT_EQ(devices.size(), 2U);
+  EXPECT_EQ(devices[0].id, "04A1");
+  EXPECT_EQ(devices[0].type, "inverse3x");
+  EXPECT_EQ(devices[0].handedness, "left");
+  EXPECT_TRUE(devices[0].gravity_compensated);
+  EXPECT_FALSE(devices[0].torque_scaled);
+  EXPECT_EQ(devices[0].force_gate, 0.25);
+  EXPECT_EQ(devices[0].damping, 0.5);
+  EXPECT_EQ(devices[1].handedness, "right");
+  EXPECT_FALSE(devices[1].gravity_compensated);
+  EXPECT_TRUE(devices[1].torque_scaled);
+  EXPECT_EQ(devices[1].force_gate, 0);
+}
+
+TEST(Haply, AnArmWithoutAGripIsNotTurned) {
+  Bench bench;
+  bench.service.has_grip = false;
+  bench.service.place = {0.01, 0.02, 0.03};
+  bench.stylus->open();
+  EXPECT_EQ(bench.stylus->specification().orientation_axes, 0);
+  bench.run(0.05);
+  const Reading reading = bench.stylus->read();
+  EXPECT_LT(glm::distance(reading.position, Vec3(0.01, 0.03, -0.02)), 1e-12);
+  EXPECT_EQ(reading.orientation, glm::dquat(1, 0, 0, 0));
+  EXPECT_EQ(reading.buttons, 0U);
+}
+
 TEST(Haply, KnowsTheSmallArm) {
   Bench bench;
   bench.service.type = "minverse";

@@ -1,6 +1,7 @@
 #include "device/link/realtime.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -57,6 +58,35 @@ TEST(Realtime, SaysWhatIsRefusedAndGoesOn) {
   int status = 1;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
+}
+
+/// Where the system allows it, the thread gets the priority that is meant, and nothing is said to be refused.
+TEST(Realtime, TakesThePriorityThatItIsAllowed) {
+  const pid_t child = fork();
+  if (child == 0) {
+    sched_param parameters{};
+    parameters.sched_priority = 50;
+    const bool allowed = sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
+    parameters.sched_priority = 0;
+    sched_setscheduler(0, SCHED_OTHER, &parameters);
+    const RealtimeStatus status = become_realtime();
+    sched_getparam(0, &parameters);
+    const bool taken = sched_getscheduler(0) == SCHED_FIFO && parameters.sched_priority == 50;
+    const bool all = status.scheduled && status.memory_locked;
+    _exit(status.scheduled == allowed && taken == allowed && status.advice.empty() == all ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
+/// By the two clocks, of which one stands still in a sleep.
+TEST(Realtime, TheTimeAsleepIsWhatOneClockLacks) {
+  timespec boot{}, awake{};
+  clock_gettime(CLOCK_BOOTTIME, &boot);
+  clock_gettime(CLOCK_MONOTONIC, &awake);
+  const double asleep_s = static_cast<double>(boot.tv_sec - awake.tv_sec);
+  EXPECT_NEAR(time_asleep(), asleep_s, 1.1);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "device/safety/guardian.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -14,7 +16,14 @@
 #include <string>
 #include <thread>
 
+#include "device/falcon/falcon.h"
+#include "device/force_dimension/force_dimension.h"
+#include "device/haply/haply.h"
+#include "device/link/realtime.h"
+#include "device/safety/zero_force.h"
 #include "device/testing/test_files.h"
+#include "device/touch/touch.h"
+#include "device/wooden_haptics/wooden_haptics.h"
 
 namespace palpate::device {
 namespace {
@@ -153,6 +162,12 @@ long open_files() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator()) - 1;
 }
 
+/// The count of exchanges, where this process shares one.
+bool has_shared_memory() {
+  std::ifstream maps("/proc/self/maps");
+  return std::string(std::istreambuf_iterator<char>(maps), {}).find("palpate-beat") != std::string::npos;
+}
+
 TEST(Guardian, EndsOnceAndLeavesNothingOpen) {
   const long before = open_files();
   for (const bool lost : {false, true}) {
@@ -161,6 +176,10 @@ TEST(Guardian, EndsOnceAndLeavesNothingOpen) {
       auto guardian = start_guardian({.program = program, .kind = "-", .address = "-"});
       EXPECT_EQ(open_files(), before + 1) << "the pipe's end";
       guardian->beat(true);
+      siginfo_t ended{};
+      if (program == std::string("/bin/true")) {
+        waitid(P_PID, static_cast<id_t>(guardian->pid()), &ended, WEXITED | WNOWAIT);
+      }
       lost ? guardian->hand_over() : guardian->dismiss();
       EXPECT_EQ(open_files(), before);
       // The number of the pipe's end is taken by another file, which a second end must leave alone.
@@ -173,7 +192,20 @@ TEST(Guardian, EndsOnceAndLeavesNothingOpen) {
   }
   EXPECT_ANY_THROW(start_guardian({.program = "/absent", .kind = "falcon", .address = ""}));
   EXPECT_EQ(open_files(), before);
+  EXPECT_FALSE(has_shared_memory());
   EXPECT_EQ(start_guardian({}), nullptr);
+}
+
+TEST(Guardian, OneThatCannotBeStartedLeavesNoMemory) {
+  const auto fail_often = [] {
+    for (int n = 0; n < 20; ++n) {
+      EXPECT_ANY_THROW(start_guardian({.program = "/absent", .kind = "falcon", .address = ""}));
+    }
+    return mallinfo2().uordblks;
+  };
+  fail_often();  // what is kept for the next time is there from now on
+  const std::size_t before = fail_often();
+  EXPECT_LT(fail_often(), before + 20 * 64);
 }
 
 /// Ctrl-C in a terminal ends all processes of the session's group.
@@ -185,6 +217,68 @@ TEST(Guardian, IsInAGroupOfItsOwn) {
   std::ifstream(told) >> group;
   EXPECT_GT(group, 0);
   EXPECT_NE(group, getpgrp());
+}
+
+/// In place of the guardian, a program that notes what it is told and stays until its input ends.
+class NotedGuardian {
+ public:
+  NotedGuardian() {
+    const std::string program =
+        files_.write("guardian", "#!/bin/sh\necho \"$1 $2\" > '" + told_ + "'\nwhile read line; do :; done\n");
+    chmod(program.c_str(), 0755);
+    setenv("PALPATE_GUARDIAN", program.c_str(), 1);
+  }
+  NotedGuardian(const NotedGuardian&) = delete;
+  NotedGuardian& operator=(const NotedGuardian&) = delete;
+  ~NotedGuardian() { unsetenv("PALPATE_GUARDIAN"); }
+
+  /// Of a stylus that is not there.
+  std::string told_by(const std::unique_ptr<Stylus>& stylus) const {
+    files_.write("told", "");
+    EXPECT_ANY_THROW(stylus->open());
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a guardian of nothing is left";
+    std::ifstream told(told_);
+    return {std::istreambuf_iterator<char>(told), {}};
+  }
+
+ private:
+  TestFiles files_;
+  std::string told_ = files_.write("told", "");
+};
+
+/// Each kind tells its guardian its own name and which device to look after; a stylus that is not there leaves none.
+TEST(Guardian, IsToldWhichDeviceItIsAndEndsWithARefusal) {
+  setenv("PALPATE_LIBHD", "/absent/libHD.so", 1);
+  setenv("PALPATE_LIBDRD", "/absent/libdrd.so", 1);
+  WoodenHapticsSettings arm = wooden_haptics_preset("2015");
+  arm.address = "/dev/hidraw999";
+  const NotedGuardian noted;
+  for (const bool guarded : {true, false}) {
+    const auto only_then = [&](const char* told) { return guarded ? std::string(told) + "\n" : std::string(); };
+    arm.guarded = guarded;
+    EXPECT_EQ(noted.told_by(make_wooden_haptics(arm)), only_then("wooden_haptics /dev/hidraw999"));
+    EXPECT_EQ(noted.told_by(make_falcon({.address = "999:999", .guarded = guarded})), only_then("falcon 999:999"));
+    EXPECT_EQ(noted.told_by(make_haply({.address = "049D", .port = 1, .guarded = guarded})),
+              only_then("haply 049D@localhost:1"));
+    EXPECT_EQ(noted.told_by(make_touch({.address = "Left", .guarded = guarded})), only_then("touch Left"));
+    EXPECT_EQ(noted.told_by(make_force_dimension({.address = "1234", .guarded = guarded})),
+              only_then("force_dimension 1234"));
+  }
+  unsetenv("PALPATE_LIBHD");
+  unsetenv("PALPATE_LIBDRD");
+}
+
+/// The session that is ending may need the processor to let go of its device.
+TEST(Guardian, WaitsBetweenTwoTries) {
+  const auto processor_time = [] {
+    timespec used{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  };
+  const double before = processor_time(), begun = monotonic_time();
+  EXPECT_FALSE(send_zero_force("wooden_haptics", "/absent", 0.1));
+  EXPECT_GE(monotonic_time() - begun, 0.1);
+  EXPECT_LT(processor_time() - before, 0.02);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "device/safety/stay_awake.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -88,7 +89,23 @@ TEST_F(StayAwakeTest, LeavesNothingOpen) {
 
 TEST_F(StayAwakeTest, WithoutTheProgramTheSessionGoesOn) {
   setenv("PATH", "/absent", 1);
-  EXPECT_EQ(stay_awake("Novint Falcon"), nullptr);
+  const auto fail_often = [] {
+    for (int n = 0; n < 20; ++n) EXPECT_EQ(stay_awake("Novint Falcon"), nullptr);
+    return mallinfo2().uordblks;
+  };
+  fail_often();  // what is kept for the next time is there from now on
+  const std::size_t before = fail_often();
+  EXPECT_LT(fail_often(), before + 20 * 64) << "memory is left";
+}
+
+/// What holds the system awake ends with its input: that is this process's, and ends with it however it dies.
+TEST_F(StayAwakeTest, ReadsWhatThisProcessHolds) {
+  const std::string program = files_.write("systemd-inhibit", "#!/bin/sh\nreadlink /proc/$$/fd/0 >'" + said_ + "'\n");
+  chmod(program.c_str(), 0755);
+  const auto held = stay_awake("Novint Falcon");
+  const std::string input = asked();
+  EXPECT_EQ(input.rfind("pipe:", 0), 0U) << input;
+  EXPECT_NE(input, std::filesystem::read_symlink("/proc/self/fd/0").string() + "\n");
 }
 
 }  // namespace

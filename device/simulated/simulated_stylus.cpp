@@ -89,7 +89,6 @@ void SimulatedStylus::open() {
 }
 
 void SimulatedStylus::close() noexcept {
-  forces_.fill(Vec3(0));
   acting_force_ = Vec3(0);
   state_.store(State::disconnected, std::memory_order_relaxed);
 }

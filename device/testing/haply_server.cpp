@@ -66,8 +66,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
       });
       return;
     }
-    response_.result(request_.target() == "/version" ? http::status::ok : http::status::not_found);
-    {
+    // RFC 9112, 3.2: a request without a host is refused.
+    if (request_.find(http::field::host) == request_.end()) {
+      response_.result(http::status::bad_request);
+    } else {
+      response_.result(request_.target() == "/version" ? http::status::ok : http::status::not_found);
+    }
+    if (response_.result() == http::status::ok) {
       const std::lock_guard hold(shared_.lock);
       const HaplyVersion version = shared_.service.version;
       response_.body() = nlohmann::json{
@@ -98,8 +103,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
   void hear() {
     if (shared_.stalls) return wait();
+    // Its messages are text: others end the session.
     socket_.async_read(buffer_, [self = shared_from_this()](auto error, std::size_t) {
-      if (!error) self->answer();
+      if (!error && self->socket_.got_text()) self->answer();
     });
   }
   void answer() {

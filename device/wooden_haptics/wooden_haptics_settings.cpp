@@ -35,7 +35,6 @@ WoodenHapticsSettings read(SettingsReader& reader) {
   reader.take("home_counts", s.home_counts);
   reader.take("current_limit", s.current_limit);
   take_common(reader, s);
-  reader.finish();
   check(s);
   return s;
 }

@@ -70,6 +70,13 @@ TEST(WoodenHapticsSettings, DefaultsAreThoseOfThePublishedArm) {
   const WoodenHapticsSettings s;
   EXPECT_EQ(s.capstan_diameter, (std::array{0.010, 0.010, 0.010}));
   EXPECT_EQ(s.body_diameter, (std::array{0.160, 0.120, 0.120}));
+  EXPECT_EQ(s.base_height, 0.080);
+  EXPECT_EQ(s.lower_length, 0.205);
+  EXPECT_EQ(s.upper_length, 0.245);
+  EXPECT_EQ(s.origin, (std::array{0.220, 0.0, 0.080}));
+  EXPECT_EQ(s.workspace_radius, 0.100);
+  EXPECT_EQ(s.continuous_current, 1);
+  EXPECT_EQ(s.stiffness_limit, 1000);
   EXPECT_EQ(s.counts_per_turn, (std::array{2000, 2000, 2000}));
   EXPECT_EQ(s.torque_constant, (std::array{0.0259, 0.0259, 0.0259}));
   EXPECT_EQ(s.encoder_sign, (std::array{1, 1, 1}));
