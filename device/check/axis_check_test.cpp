@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
+#include <vector>
 
 #include "device/falcon/falcon_driver.h"
 #include "device/testing/fake_falcon_link.h"
@@ -154,6 +155,27 @@ TEST(AxisCheck, PushesOnlyWhatCanBePushed) {
     EXPECT_EQ(!asked.axes.empty(), can) << name_of(state);
     EXPECT_EQ(stylus.strongest > 0, can) << name_of(state);
   }
+}
+
+/// A rest, the push and the fall, of which the hand feels the last half of the push at its full force.
+TEST(AxisCheck, EachPushLastsAsLongAsItSays) {
+  StayingStylus stylus(State::idle);
+  double begun = 0;
+  std::vector<double> lasted;
+  const AxisHand hand{.ready =
+                          [&](const AxisPush&) {
+                            begun = stylus.time;
+                            return true;
+                          },
+                      .felt =
+                          [&](const AxisPush&) {
+                            lasted.push_back(stylus.time - begun);
+                            return Felt::nothing;
+                          },
+                      .home = [] {}};
+  check_axes(stylus, hand, [&] { return stylus.time; });
+  ASSERT_EQ(lasted.size(), 3U);
+  for (const double s : lasted) EXPECT_NEAR(s, 0.2 + 1.2 + 0.1, 0.01);
 }
 
 }  // namespace

@@ -175,5 +175,30 @@ TEST(FalconDriver, WorksWithItsOwnThread) {
   EXPECT_FALSE(fake.falcon.is_pushing());
 }
 
+/// A Falcon that has lost its home in the hand is not believed again before it is opened anew: no force, a red light.
+TEST(FalconDriver, AFaultIsKeptWhateverItRepliesAfterwards) {
+  FakeFalconBench bench;
+  FakeFalconLink link(bench);
+  FalconProtocol protocol({});
+  protocol.connect(link);
+  const auto flags = [](unsigned bits) { return static_cast<char>(0x41 + bits); };
+  std::array<std::uint8_t, 64> command{};
+  const auto exchange = [&](unsigned homed_legs) {
+    const std::string reply = std::string("<") + "AAAAAAAAAAAA" + flags(homed_legs) + "A>";
+    protocol.receive({reinterpret_cast<const std::uint8_t*>(reply.data()), reply.size()}, bench.time += 1e-3);
+    const std::size_t size = protocol.step(Vec3(0, 2, 0), bench.time, command);
+    return std::string(command.begin(), command.begin() + static_cast<std::ptrdiff_t>(size));
+  };
+  const std::string none = std::string("<AAAAAAAAAAAA") + flags(1 + 8) + "A>";  // the homing bit and the red light
+  EXPECT_EQ(exchange(0), none);
+  EXPECT_NE(exchange(0x70), none);
+  EXPECT_EQ(protocol.status().state, State::idle);
+  EXPECT_EQ(exchange(0x30), none);
+  EXPECT_EQ(protocol.status().fault, LinkFault::unhomed);
+  EXPECT_EQ(exchange(0x70), none);
+  EXPECT_EQ(protocol.status().state, State::fault);
+  EXPECT_EQ(protocol.status().fault, LinkFault::unhomed);
+}
+
 }  // namespace
 }  // namespace palpate::device

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "device/device_type.h"
@@ -113,6 +114,54 @@ TEST(FalconSettings, WrongOnesAreRefusedByName) {
   EXPECT_THAT(refusal(R"({"motor_gain": 0})"), ::testing::HasSubstr("the motor gain must be above zero"));
   EXPECT_THAT(refusal(R"({"maximum_force": 13})"), ::testing::HasSubstr("the largest force lies between 0 and 12 N"));
   EXPECT_EQ(refusal(R"({"motor_gain": 9000, "maximum_force": 4})"), "");
+}
+
+using Requests = std::vector<std::pair<int, int>>;
+
+/// Notes FTDI's vendor requests on their way.
+class NotedFalconLink final : public FalconLink {
+ public:
+  NotedFalconLink(FakeFalconBench& bench, Requests& requests) : link_(bench), requests_(requests) {}
+  double now() noexcept override { return link_.now(); }
+  std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept override {
+    return link_.receive(packet, timeout);
+  }
+  bool send(std::span<const std::uint8_t> packet) noexcept override { return link_.send(packet); }
+  bool flush(double timeout) noexcept override { return link_.flush(timeout); }
+  bool lost() const noexcept override { return link_.lost(); }
+  bool control(std::uint8_t request, std::uint16_t value) noexcept override {
+    requests_.emplace_back(request, value);
+    return link_.control(request, value);
+  }
+
+ private:
+  FakeFalconLink link_;
+  Requests& requests_;
+};
+
+/// The serial chip is set as libnifalcon sets it, by libftdi's numbers: reset 0, modem 1, flow control 2, baud 3, data
+/// bits 4, latency 9.
+TEST(FalconDriver, SetsItsSerialChipAsLibnifalconDoes) {
+  const Requests purge{{0, 1}, {0, 2}};
+  const Requests run{{9, 1}, {3, 0x0002}, {0, 1}, {0, 2}};
+  const Requests greet{{9, 16}, {3, 0x4138}, {4, 8}, {2, 0}, {1, 0x0200}, {1, 0x0100}, {1, 0x0101}};
+  const Requests upload{{1, 0x0100}, {3, 0x0015}};
+  for (const bool loaded : {true, false}) {
+    FakeFalconOptions options;
+    options.firmware_loaded = loaded;
+    options.image = some_image();
+    FakeFalconBench bench(options);
+    Requests made;
+    NotedFalconLink link(bench, made);
+    connect_falcon(link, write_image(options.image));
+    Requests wanted = purge;
+    const auto add = [&](const Requests& more) { wanted.insert(wanted.end(), more.begin(), more.end()); };
+    add(run);
+    if (!loaded) {
+      for (const Requests& more : {purge, greet, upload, run}) add(more);
+    }
+    EXPECT_EQ(made, wanted);
+  }
 }
 
 }  // namespace

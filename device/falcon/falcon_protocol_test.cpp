@@ -135,5 +135,17 @@ TEST(FalconReplies, SurvivesAnyBytes) {
   EXPECT_GT(replies.garbled_bytes(), 290'000U);
 }
 
+/// Every byte that is no part of a reply is counted, once.
+TEST(FalconReplies, CountsWhatIsGarbled) {
+  FalconReplies replies;
+  replies.feed(bytes("xy>"));
+  EXPECT_EQ(replies.garbled_bytes(), 3U);
+  replies.feed(bytes("<AAAA"));
+  EXPECT_EQ(replies.garbled_bytes(), 3U) << "it may become one";
+  EXPECT_TRUE(replies.feed(reply_packet(1, 2, 3)));
+  EXPECT_EQ(replies.garbled_bytes(), 8U);
+  EXPECT_EQ(replies.received(), 1U);
+}
+
 }  // namespace
 }  // namespace palpate::device

@@ -9,8 +9,10 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "device/device_type.h"
 #include "device/force_dimension/force_dimension_driver.h"
 #include "device/testing/fake_libdrd.h"
+#include "device/testing/test_files.h"
 
 namespace palpate::device {
 namespace {
@@ -184,6 +186,69 @@ TEST_F(ForceDimension, IsFoundWithItsSerialNumber) {
   EXPECT_EQ(found[0].address, "1234");
   setenv("PALPATE_LIBDRD", "/absent/libdrd.so", 1);
   EXPECT_TRUE(find_force_dimension().empty());
+}
+
+/// Half the edge of a cube in what the maker says that each model reaches: an omega 160 mm across and 110 mm deep, a
+/// delta 400 by 260, a sigma 190 by 130, a lambda 240 by 170.
+TEST_F(ForceDimension, TellsHowFarItsModelReaches) {
+  const struct {
+    int type;
+    double half_extent_mm;
+  } models[] = {{33, 55},  {34, 55},  {35, 55},  {36, 55},  {37, 55}, {63, 100}, {206, 65}, {104, 65},
+                {105, 65}, {203, 80}, {108, 80}, {109, 80}, {60, 40}, {1, 40},   {9999, 40}};
+  for (const auto& model : models) {
+    drd->type = model.type;
+    const auto stylus = unthreaded();
+    stylus->open();
+    EXPECT_EQ(stylus->specification().workspace_half_extent, Vec3(1e-3 * model.half_extent_mm)) << model.type;
+  }
+}
+
+TEST_F(ForceDimension, IsAskedTwiceAMillisecond) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  const double begun = time;
+  for (int n = 0; n < 1000; ++n) stylus->service(1);
+  EXPECT_NEAR(time - begun, 0.5, 1e-3);
+}
+
+/// Opened anew it has failed at nothing yet: twenty calls in a row have to fail, two in an exchange, and its status is
+/// looked at with each twentieth pose.
+TEST_F(ForceDimension, OpenedAnewItCountsFromTheBeginning) {
+  const auto stylus = unthreaded();
+  for (int n = 0; n < 2; ++n) {
+    stylus->open();
+    push(*stylus, Vec3(0), 33);
+    drd->failing = 1;
+    push(*stylus, Vec3(0), 7);
+    drd->failing = 0;
+    stylus->open();
+    drd->failing = 1;
+    push(*stylus, Vec3(0), 10);
+    EXPECT_EQ(stylus->fault(), LinkFault::none) << n;
+    push(*stylus, Vec3(0), 1);
+    EXPECT_EQ(stylus->fault(), LinkFault::unplugged) << n;
+    drd->failing = 0;
+    stylus->open();
+    drd->in_error = 1;
+    push(*stylus, Vec3(0), 19);
+    EXPECT_EQ(stylus->fault(), LinkFault::none) << n;
+    push(*stylus, Vec3(0), 1);
+    EXPECT_EQ(stylus->fault(), LinkFault::own_safety) << n;
+    drd->in_error = 0;
+  }
+}
+
+TEST_F(ForceDimension, ItsSettingsFileLetsItFindItsHome) {
+  const TestFiles files;
+  for (const bool may : {false, true}) {
+    drd->homed = 0;
+    const std::string json = std::string(R"({"guarded": false, "may_home": )") + (may ? "true}" : "false}");
+    const auto stylus = find_device_type("force_dimension")->make({.settings = files.write("omega.json", json)});
+    may ? stylus->open() : expect_refusal([&] { stylus->open(); }, "the arm has no home yet");
+    stylus->close();
+    EXPECT_EQ(drd->auto_inits, may ? 1 : 0);
+  }
 }
 
 }  // namespace

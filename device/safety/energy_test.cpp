@@ -155,6 +155,27 @@ TEST(Energy, DampsInProportionUpToItsMost) {
   }
 }
 
+/// Wherever the hand is when the first pose comes, it has not moved there.
+TEST(Energy, TheFirstPoseIsNoMotion) {
+  EnergyState state;
+  const Vec3 back(-1, 0, 0);
+  for (int n = 1; n <= 50; ++n) {
+    const Reading reading{n * 1e-3, {0.05, 0, 0}, 0, true};
+    ASSERT_EQ(damp_ringing({}, reading, back, state), back) << n;
+  }
+  EXPECT_EQ(state.generated, 0);
+}
+
+/// As the design has them: more damping would ring by itself.
+TEST(Energy, HasTheLimitsOfTheDesign) {
+  const EnergyLimits limits;
+  EXPECT_EQ(limits.corner, 20);
+  EXPECT_EQ(limits.memory, 0.1);
+  EXPECT_EQ(limits.tolerated, 10e-6);
+  EXPECT_EQ(limits.full_damping, 50e-6);
+  EXPECT_EQ(limits.most_damping, 3);
+}
+
 TEST(Energy, SurvivesWhatIsNotANumber) {
   EnergyState state;
   const double nan = std::numeric_limits<double>::quiet_NaN();

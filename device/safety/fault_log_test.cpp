@@ -60,6 +60,18 @@ struct Recorded {
   }
 };
 
+/// At 1 kHz, 0.1 s beside the tick of the fault itself.
+TEST(FaultLog, GoesOnForATenthOfASecondAfterAFault) {
+  Recorded one;
+  one.record(500, Fault::none);
+  one.record(100, Fault::device_lost);
+  EXPECT_FALSE(one.log.stopped());
+  one.record(1, Fault::device_lost);
+  EXPECT_TRUE(one.log.stopped());
+  one.record(1, Fault::device_lost);
+  EXPECT_EQ(one.log.ticks().size(), 601U);
+}
+
 TEST(FaultLog, AFaultThatIsStillLatchedIsRecordedOnce) {
   Recorded one;
   one.record(500, Fault::none);

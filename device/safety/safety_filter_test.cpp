@@ -254,6 +254,30 @@ TEST(SafetyFilter, GivesExactlyNothingWhileHoming) {
   EXPECT_EQ(session.run(0.6).force, Vec3(0, 1, 0));
 }
 
+/// How fast the hand was before is nothing that a device knows once it is homed.
+TEST(SafetyFilter, TheSpeedOfBeforeHomingIsForgotten) {
+  Session session;
+  session.activate();
+  for (int i = 0; i < 50; ++i) {
+    session.input.reading.position.x += 0.9 * tick;
+    session.step();
+  }
+  ASSERT_NEAR(session.result.speed, 0.9, 0.01);
+  session.input.device = State::homing;
+  EXPECT_EQ(session.step().speed, 0);
+  session.input.device = State::idle;
+  EXPECT_EQ(session.step().speed, 0);
+}
+
+/// Of a single step of the pose, a third shows as speed: 1 / (1 + 2) for a tick of 1 ms and a low pass of 2 ms.
+TEST(SafetyFilter, AStepOfThePoseIsNoFault) {
+  Session session;
+  session.activate();
+  session.input.reading.position.x += 2.4e-3;
+  EXPECT_NEAR(session.step().speed, 0.8, 1e-9);
+  EXPECT_EQ(session.result.fault, Fault::none);
+}
+
 TEST(SafetyFilter, ALateTickIsAFaultAndNeverAStep) {
   Session session(Vec3(0));
   session.activate();

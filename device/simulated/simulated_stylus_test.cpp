@@ -314,6 +314,19 @@ TEST(SimulatedStylus, StopsAtTheEndOfItsArm) {
   EXPECT_NEAR(stylus.read().position.x, 0.08, 1e-9);
 }
 
+/// A quarter of the way in a quarter of the time, or a tenth (10/64 - 15/256 + 6/1024) where it starts from rest.
+TEST(SimulatedStylus, FollowsItsPathAsItIsAskedTo) {
+  const Waypoint path[] = {{0, {0, 0, 0}}, {1, {0.02, 0, 0}}};
+  for (const PathInterpolation how : {PathInterpolation::linear, PathInterpolation::minimum_jerk}) {
+    SimulatedStylus stylus(without_tremor());
+    stylus.follow(path, how);
+    stylus.open();
+    for (int i = 0; i < 250; ++i) stylus.write_force(Vec3(0));
+    const double share = how == PathInterpolation::linear ? 0.25 : 0.103515625;
+    EXPECT_NEAR(stylus.body().position.x, share * 0.02, 0.5e-3);
+  }
+}
+
 TEST(SimulatedStylus, FaultsOnDemand) {
   SimulatedStylus stylus(without_tremor());
   const Waypoint path[] = {{0, {0, 0, 0}}, {1, {0.05, 0, 0}}};

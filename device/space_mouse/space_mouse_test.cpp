@@ -122,5 +122,26 @@ TEST(SpaceMouse, KnowsPucksFromTheMakersOtherDevices) {
   EXPECT_FALSE(is_space_mouse(0x046d, 0xc52b)) << "a mouse";
 }
 
+/// Deflection, place and buttons are told anew; how many poses there have been is counted on.
+TEST(SpaceMouse, ConnectedAgainItIsAtRest) {
+  FakeHidBench bench;
+  FakeSpaceMouse puck(false);
+  FakeHidLink link(puck, bench);
+  SpaceMouseProtocol protocol{SpaceMouseSettings{}};
+  protocol.connect(link);
+  const std::array<std::uint8_t, 7> right{1, 0x5e, 0x01}, button{3, 1};
+  protocol.receive(right, bench.time);
+  protocol.receive(std::span(button).first(3), bench.time);
+  protocol.step(Vec3(0), 0.02, {});
+  ASSERT_GT(protocol.status().position.x, 0);
+  const std::uint64_t before = protocol.status().news;
+  protocol.connect(link);
+  EXPECT_EQ(protocol.status().news, before);
+  protocol.step(Vec3(0), bench.time + 0.02, {});
+  EXPECT_EQ(protocol.status().position, Vec3(0));
+  EXPECT_EQ(protocol.status().buttons, 0U);
+  EXPECT_EQ(protocol.status().news, before + 1);
+}
+
 }  // namespace
 }  // namespace palpate::device

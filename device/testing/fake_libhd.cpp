@@ -24,7 +24,8 @@ bool by_hand = false;
 
 void call_back() {
   if (state.stalled != 0 || callback == nullptr || state.running == 0) return;
-  callback(callback_data);
+  // HD_CALLBACK_CONTINUE is 1; whoever returns anything else is not called again.
+  if (callback(callback_data) != 1) callback = nullptr;
   state.callbacks = state.callbacks + 1;
 }
 
@@ -95,13 +96,13 @@ void hdGetDoublev(unsigned what, double* values) {
       for (int i = 0; i < 16; ++i) values[i] = state.transform[i];
       break;
     case 0x2603:
-      *values = 3.3;
+      *values = state.force_newtons;
       break;
     case 0x2604:
-      *values = 0.88;
+      *values = state.continuous_newtons;
       break;
     case 0x2602:
-      *values = 0.5;  // N/mm
+      *values = state.stiffness_newtons_per_mm;
       break;
     case 0x2551: {
       const double box[6] = {-80, -60, -35, 80, 60, 35};
@@ -144,11 +145,13 @@ void hdSetSchedulerRate(unsigned long) {}
 unsigned long hdScheduleAsynchronous(unsigned (*function)(void*), void* data, unsigned short) {
   callback = function;
   callback_data = data;
+  state.scheduled = state.scheduled + 1;
   return 1;
 }
 void hdUnschedule(unsigned long) {
   if (state.running != 0) state.misuses = state.misuses + 1;
   callback = nullptr;
+  state.scheduled = state.scheduled - 1;
 }
 
 }  // extern "C"

@@ -25,4 +25,7 @@ struct FakeHd {
   char named[64] = {};
   int unplugged = 0;  // no force arrives any more, and the library tells of it
   int torques = 0;    // anything set but a force
+  int scheduled = 0;  // callbacks that are still scheduled
+  // What it says of itself.
+  double force_newtons = 3.3, continuous_newtons = 0.88, stiffness_newtons_per_mm = 0.5;
 };

@@ -11,7 +11,10 @@
 #include <string>
 #include <thread>
 
+#include "device/device_type.h"
+#include "device/link/realtime.h"
 #include "device/testing/fake_libhd.h"
+#include "device/testing/test_files.h"
 #include "device/touch/touch_driver.h"
 
 namespace palpate::device {
@@ -99,6 +102,24 @@ TEST_F(Touch, TellsItsModelsLimits) {
   EXPECT_DOUBLE_EQ(can.continuous_force, 0.88);
   EXPECT_DOUBLE_EQ(can.stiffness_limit, 500) << "the library's 0.5 N/mm is below the model's 700 N/m";
   EXPECT_LT(glm::distance(can.workspace_half_extent, Vec3(0.080, 0.060, 0.035)), 1e-12);
+}
+
+/// Where the library tells nothing of its device, its model's public figures hold; and no motor lasts at more than its
+/// largest force.
+TEST_F(Touch, WhatTheLibraryDoesNotTellIsTheModels) {
+  hd->force_newtons = hd->continuous_newtons = hd->stiffness_newtons_per_mm = 0;
+  const auto silent = unthreaded();
+  silent->open();
+  EXPECT_DOUBLE_EQ(silent->specification().maximum_force, 3.3);
+  EXPECT_DOUBLE_EQ(silent->specification().continuous_force, 3.3 / 4);
+  EXPECT_DOUBLE_EQ(silent->specification().stiffness_limit, 700) << "an Omni's";
+  silent->close();
+  hd->force_newtons = 2;
+  hd->continuous_newtons = 5;
+  const auto weak = unthreaded();
+  weak->open();
+  EXPECT_DOUBLE_EQ(weak->specification().maximum_force, 2);
+  EXPECT_DOUBLE_EQ(weak->specification().continuous_force, 2);
 }
 
 TEST_F(Touch, PushesNothingBeforeItIsCalibrated) {
@@ -240,6 +261,86 @@ TEST_F(Touch, TheTransformTurnsTheStylus) {
   ASSERT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; }));
   comes(*stylus, Vec3(0), [] { return false; });
   EXPECT_LT(glm::distance(stylus->read().orientation * Vec3(1, 0, 0), Vec3(0, 1, 0)), 1e-12);
+}
+
+/// Its home is looked at in the first round of each connection, however many rounds there were before.
+TEST_F(Touch, OpenedAnewItIsReadyInTheFirstRound) {
+  const auto stylus = unthreaded();
+  for (int n = 0; n < 2; ++n) {
+    stylus->open();
+    EXPECT_EQ(stylus->state(), State::homing);
+    pass(1e-3);
+    stylus->service(0);
+    EXPECT_EQ(stylus->state(), State::idle);
+    comes(*stylus, Vec3(0), [&] { return hd->callbacks % 100 == 42; });
+    stylus->close();
+  }
+}
+
+/// Neither the fault nor the pose nor the buttons of before are left.
+TEST_F(Touch, OpenedAnewAfterAFaultItIsAsNew) {
+  hd->place_mm[0] = 10;
+  hd->buttons = 1;
+  const auto stylus = unthreaded();
+  stylus->open();
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  hd->error = 0x302;
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->fault() == LinkFault::unplugged; }));
+  hd->error = 0;
+  hd->buttons = 0;
+  hd->calibration = hd->after_update = 0x5002;
+  stylus->open();
+  EXPECT_FALSE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->state() != State::homing; }));
+  EXPECT_EQ(stylus->read().position, Vec3(0)) << "it does not know yet where it is";
+  EXPECT_EQ(stylus->read().buttons, 0U);
+  hd->calibration = 0x5000;
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  EXPECT_EQ(stylus->fault(), LinkFault::none);
+}
+
+TEST_F(Touch, ADriverThatIsDroppedLetsGoOfItsDevice) {
+  auto driver = std::make_unique<TouchDriver>(TouchSettings{}, DriverClock{&impatient_now, &pass});
+  driver->connect();
+  EXPECT_EQ(hd->running, 1);
+  driver.reset();
+  EXPECT_EQ(hd->running, 0);
+  EXPECT_EQ(hd->disabled, 1);
+  EXPECT_EQ(hd->scheduled, 0);
+  EXPECT_EQ(hd->misuses, 0);
+}
+
+/// The guardian's five zeros come from the library's own thread. They take as long as they take, and no longer than a
+/// tenth of a second where none arrives; nothing stays scheduled.
+TEST_F(Touch, TheGuardiansZerosTakeNoLongerThanTheyMust) {
+  function_of_library<void (*)(bool)>("fake_hd_by_hand")(false);
+  for (const bool arrives : {true, false}) {
+    *hd = FakeHd{};
+    hd->force[1] = 1;
+    hd->sound_answers = arrives ? 0 : 1;
+    hd->error = arrives ? 0 : 0x302;
+    const double begun = monotonic_time();
+    EXPECT_EQ(send_zeros_to_touch("Left"), arrives);
+    ASSERT_EQ(monotonic_time() - begun < 0.1, arrives);
+    EXPECT_EQ(acting(), Vec3(0));
+    EXPECT_GE(hd->callbacks, 5);
+    EXPECT_STREQ(hd->named, "Left");
+    EXPECT_EQ(hd->running, 0);
+    EXPECT_EQ(hd->scheduled, 0);
+    EXPECT_EQ(hd->disabled, 1);
+    EXPECT_EQ(hd->misuses, 0);
+  }
+}
+
+/// What is named beside a settings file is meant, and what is not is as the file has it.
+TEST_F(Touch, AnAddressThatIsChosenGoesBeforeTheSettings) {
+  const TestFiles files;
+  const std::string settings = files.write("touch.json", R"({"address": "Right", "guarded": false})");
+  for (const std::string chosen : {"Left", ""}) {
+    const auto stylus = find_device_type("touch")->make({.address = chosen, .settings = settings});
+    stylus->open();
+    stylus->close();
+    EXPECT_STREQ(hd->named, chosen.empty() ? "Right" : "Left");
+  }
 }
 
 }  // namespace

@@ -7,14 +7,19 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "device/device_type.h"
+#include "device/testing/test_files.h"
 #include "device/testing/wooden_haptics_bench.h"
 
 namespace palpate::device {
@@ -127,6 +132,88 @@ TEST(WoodenHapticsDriver, MotorsAreNotHeatedForLong) {
   bench.run(15, Vec3(0, 5, 0));
   EXPECT_LT(strongest(), 1010) << "for long, to the continuous current";
   EXPECT_GT(strongest(), 900);
+}
+
+/// A link on which nobody speaks; it keeps what it is sent.
+class MuteLink final : public Link {
+ public:
+  double now() noexcept override { return time_; }
+  std::size_t receive(std::span<std::uint8_t> /*packet*/, double timeout) noexcept override {
+    time_ += timeout;
+    return 0;
+  }
+  bool send(std::span<const std::uint8_t> packet) noexcept override {
+    sent.emplace_back(packet.begin(), packet.end());
+    return true;
+  }
+  bool flush(double /*timeout*/) noexcept override { return true; }
+  bool lost() const noexcept override { return false; }
+
+  std::vector<std::vector<std::uint8_t>> sent;
+
+ private:
+  double time_ = 0;
+};
+
+/// A firmware that waits is offered zeros every 10 ms of a second: three times a report of 14 bytes, then one of 8.
+TEST(WoodenHapticsDriver, OffersZerosOfBothLengthsToAFirmwareThatWaits) {
+  MuteLink link;
+  WoodenHapticsProtocol protocol(wooden_haptics_preset("2015"));
+  EXPECT_ANY_THROW(protocol.connect(link));
+  EXPECT_NEAR(static_cast<double>(link.sent.size()), 95, 6);
+  for (std::size_t n = 0; n < link.sent.size(); ++n) {
+    EXPECT_EQ(link.sent[n], std::vector<std::uint8_t>(n % 4 == 3 ? 8 : 14)) << n;
+  }
+}
+
+/// Its counters began anew, and its button was down: that it is up now does not mean that it was pressed since.
+TEST(WoodenHapticsDriver, AButtonThatWasDownWhenItWasUnpluggedHomesNothing) {
+  Bench bench;
+  bench.home();
+  bench.arm.faults.button_pressed = true;
+  bench.run(0.05);
+  ASSERT_EQ(bench.stylus->state(), State::homing);
+  bench.bench.unplugged = true;
+  bench.run(0.01);
+  bench.stylus->close();
+  bench.bench.unplugged = false;
+  bench.arm.faults.button_pressed = false;
+  bench.stylus->open();
+  bench.run(0.1, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->state(), State::homing);
+  EXPECT_FALSE(bench.is_pushing());
+}
+
+/// Where an arm of another kind was refused, the home that it would have had is not that of the arm that comes next.
+TEST(WoodenHapticsDriver, AnArmThatWasRefusedLeavesNothingBehind) {
+  FakeWoodenHapticsOptions options, other_options;
+  other_options.report_size = 8;
+  other_options.arm = arm_with_home_at(Vec3(0), 8);
+  FakeWoodenHaptics arm(options), other(other_options);
+  FakeHidBench bench;
+  FakeWoodenHaptics* plugged_in = &other;
+  LinkStylusOptions link_options;
+  link_options.threaded = false;
+  const auto stylus = make_wooden_haptics_on(
+      options.arm, [&] { return std::make_unique<FakeHidLink>(*plugged_in, bench); }, link_options);
+  EXPECT_ANY_THROW(stylus->open());
+  plugged_in = &arm;
+  stylus->open();
+  for (const double end = bench.time + 0.5; bench.time < end;) stylus->service(0.2e-3);
+  ASSERT_EQ(stylus->state(), State::idle);
+  EXPECT_LT(glm::distance(stylus->read().position, arm.hand().body().position), 0.2e-3);
+}
+
+/// Straight to the arm's node: a report's number and zeros in each of the three lengths.
+TEST(WoodenHapticsDriver, TheGuardiansZerosHaveTheLengthOfEachFirmware) {
+  const auto send_zeros = find_device_type("wooden_haptics")->send_zeros;
+  const TestFiles files;
+  const std::string node = files.write("node", "");
+  EXPECT_TRUE(send_zeros(node, false));
+  std::ifstream stream(node, std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), std::string(15 + 9 + 65, '\0'));
+  EXPECT_FALSE(send_zeros("/dev/full", false)) << "it takes nothing";
+  EXPECT_FALSE(send_zeros("/absent", false));
 }
 
 }  // namespace
