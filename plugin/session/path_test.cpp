@@ -61,7 +61,12 @@ TEST(PathCsv, RefusesNamingFileAndLine) {
   EXPECT_THAT(refusal("0,1,2,3,4\n"), ::testing::HasSubstr("line 1"));
   EXPECT_THAT(refusal("0,1,2,3\n"), ::testing::HasSubstr("at least two points"));
   EXPECT_THAT(refusal(""), ::testing::HasSubstr("at least two points"));
-  EXPECT_THROW(read_path_csv("/no/such/path.csv"), std::runtime_error);
+  try {
+    read_path_csv("/no/such/path.csv");
+    FAIL() << "read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "cannot open the path file /no/such/path.csv; check its name, and that you may read it");
+  }
 }
 
 /// Each limit of a line reached from both sides.

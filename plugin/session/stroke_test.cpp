@@ -124,6 +124,16 @@ class EndingSlab final : public io::FieldSource {
                                  1.5};
 };
 
+TEST(Stroke, WithoutAPointTellsNoStrength) {
+  const EndingSlab source;
+  const modes::Plan plan = modes::make_plan(modes::load_scene("ct-skin-and-bone"), source.available(), {});
+  std::array<Contact, 1> contacts{Contact{.first = 0, .last = 0, .peak_n = 1}};
+  const double before = contacts[0].strength_n;
+  add_strengths(contacts, {}, plan, source);
+  EXPECT_EQ(contacts[0].strength_n, before);
+  EXPECT_TRUE(contacts_of({}, plan, met_n).empty());
+}
+
 TEST(Stroke, WhatCannotBeSolvedIsRefusedWithItsPlace) {
   EndingSlab source;
   source.broken_below_mm = 3;

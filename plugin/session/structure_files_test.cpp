@@ -57,6 +57,20 @@ TEST(StructureFiles, AreFoundWhereverTheyWentMeanwhile) {
   }
 }
 
+TEST(StructureFiles, OfSeveralInAFolderEachIsFound) {
+  const io::internal::TestFolder folder;
+  modes::Scene scene;
+  for (const char* const name : {"liver", "aorta", "spleen"}) {
+    testing::write_contours(folder / "before" / name, "1.1", name, "Doe^Jane");
+    scene.structures.push_back({.name = name, .file = folder / "before" / name, .segment = "Cube"});
+  }
+  const modes::Scene recorded = without_paths(scene);
+  fs::rename(folder / "before", folder / "after");
+  const modes::Scene again = StructureFiles({folder.path()}).with_paths(recorded);
+  ASSERT_EQ(again.structures.size(), 3U);
+  for (const modes::SceneStructure& found : again.structures) EXPECT_EQ(found.file, folder / "after" / found.name);
+}
+
 // A scene that names a file of a server is felt from its copy, and recorded by what is in it.
 TEST(StructureFiles, OfAServerAreReadFromTheirCopies) {
   const fs::path folder = fs::path(::testing::TempDir()) / "fetched_structures";

@@ -91,6 +91,28 @@ std::string said_of(const std::string& id, const std::string& name) {
   return said;
 }
 
+/// One that a scene has is not added again, and another of the same name gets the next number.
+TEST(StudyStructures, HaveANameOfTheirOwnInAScene) {
+  modes::Scene scene;
+  scene.structures = {{.name = "mine", .file = "/s/a.dcm", .segment = "Liver"},
+                      {.name = "other", .file = "/s/a.dcm", .segment = "Aorta", .segment_number = 4}};
+  const auto named = [&](const std::string& file, int number, const std::string& name) {
+    io::Structure structure;
+    structure.file = file;
+    structure.number = number;
+    structure.name = name;
+    return name_in_scene(scene, structure);
+  };
+  EXPECT_EQ(named("/s/a.dcm", 3, "Liver"), "mine");
+  EXPECT_EQ(named("/s/a.dcm", 4, "anything"), "other") << "its number counts";
+  EXPECT_EQ(named("/s/b.dcm", 3, "Liver"), "Liver");
+  EXPECT_EQ(named("/s/c.dcm", 3, "Liver"), "Liver 2");
+  EXPECT_EQ(named("/s/d.dcm", 3, "Liver"), "Liver 3");
+  EXPECT_EQ(named("/s/d.dcm", 3, "Liver"), "Liver 3") << "it is there already";
+  EXPECT_EQ(named("/s/d.dcm", 5, ""), "structure");
+  EXPECT_EQ(scene.structures.size(), 6U);
+}
+
 TEST(StudyStructures, OfAnotherPatientAreRefused) {
   constexpr const char* another =
       "rt.dcm was outlined on another patient than the scan's: choose one that was outlined on this study";
