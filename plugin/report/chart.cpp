@@ -99,8 +99,8 @@ std::vector<double> ticks_of(const Scale& scale, double apart) {
 }
 
 std::string tick_label(const Scale& scale, double value) {
-  if (scale.logarithmic && (value < 1e-3 || value > 9999)) return fmt::format("{:.0e}", value);
-  return fmt::format("{:.4g}", std::abs(value) < 1e-12 * (scale.high - scale.low) ? 0.0 : value);
+  if (scale.logarithmic && (value < 1e-3 || value > 99999)) return fmt::format("{:.0e}", value);
+  return fmt::format("{:.5g}", std::abs(value) < 1e-12 * (scale.high - scale.low) ? 0.0 : value);
 }
 
 void draw_curve(Canvas& canvas, const Curve& curve, const Scale& x, const Scale& y) {
