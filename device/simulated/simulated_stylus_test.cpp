@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "device/safety/stiffness.h"
-
 namespace palpate::device {
 namespace {
 
@@ -196,54 +194,6 @@ TEST(SimulatedStylus, TremorHasItsSizeAndItsBand) {
   EXPECT_NE(Tremor(hand)(0.1), tremor(0.1));
 }
 
-/// Presses on a wall of the given stiffness (N/m) at y = 0 and returns how far it still moves after two seconds, m.
-double ringing(const SimulatedDevice& device, double stiffness) {
-  SimulatedStylus stylus(device);
-  const Waypoint path[] = {{0, {0, 0.005, 0}}, {0.5, {0, -0.002, 0}}};
-  stylus.follow(path);
-  stylus.open();
-  double lowest = 1;
-  double highest = -1;
-  for (int i = 0; i < 3000; ++i) {
-    const double y = stylus.read().position.y;
-    stylus.write_force(Vec3(0, y < 0 ? -stiffness * y : 0, 0));
-    if (i >= 2500) {
-      lowest = std::min(lowest, stylus.body().position.y);
-      highest = std::max(highest, stylus.body().position.y);
-    }
-  }
-  return highest - lowest;
-}
-
-TEST(SimulatedStylus, AWallOfTheDefaultStiffnessIsQuiet) {
-  EXPECT_LT(ringing(without_tremor(), 400), 1e-9);
-  EXPECT_LT(ringing(SimulatedDevice{}, 400), 0.15e-3) << "tremor alone";
-}
-
-TEST(SimulatedStylus, RingsAboveTheLinearBoundWithoutFriction) {
-  // Colgate and Schenkel with the hand's damping: (0.3 + 4) / (0.5 ms + 0.5 ms) = 4300 N/m.
-  SimulatedDevice device = without_tremor();
-  device.position_step = 0;
-  device.arm.coulomb_friction = 0;
-  EXPECT_LT(ringing(device, 0.85 * 4300), 1e-5);
-  EXPECT_GT(ringing(device, 1.15 * 4300), 0.2e-3);
-}
-
-TEST(SimulatedStylus, FrictionQuietensWallsUpToItsOwnBound) {
-  // Diolaiti et al.: 2 x 0.06 N / 0.02 mm = 6000 N/m near rest; found here with tremor between 7000 and 8500 N/m.
-  EXPECT_LT(ringing(SimulatedDevice{}, 5900), 0.05e-3);
-  EXPECT_GT(ringing(SimulatedDevice{}, 8500), 0.2e-3);
-}
-
-TEST(SimulatedStylus, AdvisesAStiffnessBelowEveryBound) {
-  const double advised = SimulatedStylus().specification().stiffness_limit;
-  EXPECT_GT(advised, 2000);
-  EXPECT_LT(advised, 3000);
-  SimulatedDevice frictionless;
-  frictionless.arm.coulomb_friction = 0;
-  EXPECT_DOUBLE_EQ(SimulatedStylus(frictionless).specification().stiffness_limit, 300) << "b / (T/2 + t_d) alone";
-}
-
 TEST(SimulatedStylus, RepeatsBitForBit) {
   const Waypoint path[] = {{0, {0, 0.01, 0}}, {1, {0.02, -0.01, 0.01}}};
   std::vector<Vec3> runs[2];
@@ -368,31 +318,6 @@ TEST(SimulatedStylus, RefusesWhatNoDeviceCanBe) {
   device = {};
   device.rate = 0;
   EXPECT_THROW(SimulatedStylus{device}, std::invalid_argument);
-}
-
-TEST(HandPath, MinimumJerkStartsAndEndsAtRest) {
-  const Waypoint path[] = {{1, {0, 0, 0}, 2}, {3, {1, 0, 0}}};
-  check_path(path);
-  const auto x = [&](double t) { return point_on(path, PathInterpolation::minimum_jerk, t).position.x; };
-  EXPECT_EQ(x(0), 0);
-  EXPECT_EQ(x(3), 1);
-  EXPECT_EQ(x(9), 1);
-  EXPECT_DOUBLE_EQ(x(2), 0.5);
-  EXPECT_NEAR((x(1.01) - x(1)) / 0.01, 0, 1e-3);
-  EXPECT_NEAR((x(2.001) - x(1.999)) / 0.002, 1.875 / 2, 1e-5) << "peak speed is 15/8 of the mean";
-  EXPECT_DOUBLE_EQ(point_on(path, PathInterpolation::linear, 1.5).position.x, 0.25);
-  EXPECT_EQ(point_on(path, PathInterpolation::linear, 1.5).buttons, 2U);
-}
-
-TEST(HandPath, RefusesTimesThatDoNotIncrease) {
-  const Waypoint path[] = {{0, {0, 0, 0}}, {1, {0, 0, 0}}, {1, {0, 0, 0}}};
-  try {
-    check_path(path);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "waypoint 3 of the hand's path is not later than the one before it");
-  }
-  EXPECT_THROW(check_path({}), std::invalid_argument);
 }
 
 TEST(SimulatedStylus, OpenedAnewAndStalledItTellsNoPoseOfBefore) {
