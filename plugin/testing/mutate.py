@@ -3,7 +3,8 @@
 
     plugin/run mutate                      the lines changed since main (or since --since COMMIT)
     plugin/run mutate solver               a seeded sample of a folder's lines (any path below a module)
-    plugin/run mutate io/fields --count 200 --seed 7 --seconds 3600
+    plugin/run mutate io/fields --count 200 --seed 7 --seconds 3600 | tee told
+    plugin/run mutate io/fields --count 200 --seed 7 --again told       only what survived there, after tests were written
 
 Works in a copy of the tree under build/mutate; the tree itself is not touched. All slips that can be are compiled into one
 program and chosen at run time (slip.h); the others are compiled one by one. A slip is judged by those of its module's test
@@ -61,6 +62,12 @@ class Mutant:
 
 def git(*arguments):
     return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+
+
+def survivors_told(file):
+    """The keys of the slips that survived in a run whose output is in a file. The line numbers there are of no account."""
+    told = re.findall(r"^(?:survived|not run): ([^:\n]+):\d+: .*\n    - (.*)\n    \+ ?(.*)$", pathlib.Path(file).read_text(), flags=re.M)
+    return {(path, before.strip(), after.strip()) for path, before, after in told}
 
 
 def is_mutated(name):
@@ -300,6 +307,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=1800, help="no new slip of a test program is begun after these (default 1800)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="slips that are judged beside each other")
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
+    parser.add_argument("--again", metavar="FILE", help="only those that survived in the run that printed this file")
     parser.add_argument("--list", action="store_true", help="only say which slips were chosen")
     options = parser.parse_args()
 
@@ -320,6 +328,9 @@ def main():
     lines = [line for path in sorted(files) for line in mutants_by_line(path, files[path])]
     generator.shuffle(lines)
     chosen = [generator.choice(line) for line in lines[: min(options.count, PLACES)]]
+    if options.again:
+        told = survivors_told(options.again)
+        chosen = [mutant for mutant in chosen if mutant.key() in told]
     print(f"{len(lines)} lines can have a slip; {len(chosen)} are tried, seed {options.seed}", flush=True)
     if options.list:
         print("\n".join(map(str, chosen)))
