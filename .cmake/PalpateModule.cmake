@@ -134,14 +134,12 @@ function(palpate_module name)
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/palpate)
 endfunction()
 
-# palpate_test_code(<target>): how tests are compiled for a sanitizer. Their own code is not optimized, and what nearly every test
-# includes is parsed once for all of them; what they test is optimized as ever. g++ 12 gives false warnings then: elsewhere
-# tests are compiled as everything is.
+# palpate_test_code(<target>): how tests are compiled. What nearly every test includes is parsed once for all of them, and their own
+# code is hardly optimized: most of a build's time is theirs. What they test is optimized as ever.
 function(palpate_test_code target)
-  if(NOT PALPATE_SANITIZE)
-    return()
-  endif()
-  set(options -O0 "SHELL:-Xclang -fno-pch-timestamp") # the latter for ccache
+  set(gnu $<CXX_COMPILER_ID:GNU>)
+  set(options -O0 "$<${gnu}:-Wno-restrict;-Wno-maybe-uninitialized>" # false of code that is not optimized: GCC's bug 105651
+    "$<$<NOT:${gnu}>:SHELL:-Xclang -fno-pch-timestamp>") # for ccache
   if(NOT TARGET palpate_test_headers)
     # A program, because a library's code is another (position-independent in another way).
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cpp CONTENT "int main() {}\n")
@@ -157,20 +155,22 @@ function(palpate_test_code target)
 endfunction()
 
 # palpate_tests(<name> SOURCES <file>... [LINK <library>...] [SECONDS <limit>]): GoogleTest cases of a folder, one CTest
-# entry each. One that hangs is ended after SECONDS (20), six times as many under a sanitizer. Suites named Shared* need
-# the real series in PALPATE_SHARED_DATA: their entries begin with `shared.`, and `plugin/run test shared` runs them.
+# entry for each suite. A test that hangs is ended after SECONDS (20), three times as many under a sanitizer. Suites named Shared*
+# need the real series in PALPATE_SHARED_DATA: their entries begin with `shared.`, and `plugin/run test shared` runs them.
 function(palpate_tests name)
   if(NOT PALPATE_TESTS)
     return()
   endif()
   cmake_parse_arguments(ARG "" "SECONDS" "SOURCES;LINK" ${ARGN})
   find_package(GTest REQUIRED)
-  include(GoogleTest)
+  if(NOT TARGET palpate_test_limit)
+    add_library(palpate_test_limit OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/solver/text/testing/test_limit.cpp)
+    target_link_libraries(palpate_test_limit PRIVATE palpate_compile_options GTest::gtest)
+  endif()
   add_executable(${name}_tests ${ARG_SOURCES})
-  target_link_libraries(${name}_tests PRIVATE palpate_compile_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name}_tests PRIVATE palpate_compile_options palpate_test_limit ${ARG_LINK} GTest::gmock GTest::gtest_main)
   palpate_together(${name}_tests)
   palpate_test_code(${name}_tests)
-  target_compile_options(${name}_tests PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>) # false of strings: GCC's bug 105651
   # Real series are never copied into the project.
   target_compile_definitions(${name}_tests PRIVATE PALPATE_SHARED_DATA="${PALPATE_SHARED_DATA}")
   set(seconds 20)
@@ -178,13 +178,12 @@ function(palpate_tests name)
     set(seconds ${ARG_SECONDS})
   endif()
   if(PALPATE_SANITIZE)
-    math(EXPR seconds "6 * ${seconds}")
+    math(EXPR seconds "3 * ${seconds}")
   endif()
-  # What is disabled is no test: a test runs it in a process of its own.
-  gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. TEST_FILTER "-*Shared*:*.DISABLED_*" DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT ${seconds})
-  gtest_discover_tests(${name}_tests TEST_PREFIX shared.${name}. TEST_FILTER "*Shared*" TEST_LIST ${name}_shared_tests
-    DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
+  # Which suites there are is asked when ctest begins: the program is not built yet.
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake CONTENT
+"set(program $<TARGET_FILE:${name}_tests>)\nset(prefix ${name}.)\nset(seconds ${seconds})\ninclude(${PROJECT_SOURCE_DIR}/.cmake/TestSuites.cmake)\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
 endfunction()
 
 # palpate_benchmarks(<name> SOURCES <file>... [LINK <library>...]): Google Benchmark cases, built but never timed by tests.

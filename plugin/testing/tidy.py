@@ -5,22 +5,59 @@
 
 Files that are compiled together are read together, because most of the time is what they include. clang's analyzer looks
 for paths through solver, modes and device; over DCMTK's, Qt's and VTK's headers it would take an hour. With FILE, a part
-of a path, only those.
+of a path, only those. What was found good is not read again until it or something that it includes changes: what was read
+and its contents' hashes stand in PALPATE_TIDY_CACHE (default ~/.cache/palpate/tidy).
 """
 
 import concurrent.futures
+import functools
+import hashlib
 import json
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OURS = f"{re.escape(str(ROOT))}/(solver|io|modes|device|plugin|testdata)/.*\\.(h|cpp)"
 # haply_service: what it includes of Boost.Beast takes clang-tidy ten minutes.
 NOT_READ = re.compile(r"_(test|benchmark)\.cpp$|/tests?/|_tests\.dir|/testing/|/peers/|/fuzz/|PalpatePanelTest|palpate_fake|haply_service")
+
+
+CACHE = pathlib.Path(os.environ.get("PALPATE_TIDY_CACHE") or pathlib.Path.home() / ".cache" / "palpate" / "tidy")
+
+
+def from_root(text):
+    """The same wherever the tree lies."""
+    return text.replace(str(ROOT), "")
+
+
+@functools.cache
+def hash_of(path):
+    try:
+        return hashlib.sha256(from_root(pathlib.Path(path).read_text(errors="surrogateescape")).encode(errors="surrogateescape")).hexdigest()
+    except OSError:
+        return None
+
+
+def is_known_good(record):
+    """Whether all that was read when it was found good is as it was then."""
+    try:
+        return all(hash_of(path.replace("@", str(ROOT), 1)) == hash for path, hash in json.loads(record.read_text()).items())
+    except (OSError, ValueError):
+        return False
+
+
+def keep(record, dependencies):
+    """Notes what was read: a list that the compiler wrote for make."""
+    paths = dependencies.read_text().split(":", 1)[1].replace("\\\n", " ").split()
+    record.parent.mkdir(parents=True, exist_ok=True)
+    new = record.with_suffix(f".{os.getpid()}")
+    new.write_text(json.dumps({path.replace(str(ROOT), "@", 1): hash_of(path) for path in paths}))
+    new.replace(record)
 
 
 def folder_of(path, build):
@@ -55,27 +92,42 @@ def options_of(folder, path):
 def main():
     program, build, *only = sys.argv[1:]
     build = (ROOT / build).resolve()
-    paths = {pathlib.Path(entry["file"]).resolve() for entry in json.loads((build / "compile_commands.json").read_text())}
-    work = [(path, folder) for path in paths if (folder := folder_of(path, build)) and not NOT_READ.search(name_of(path))]
+    entries = {pathlib.Path(entry["file"]).resolve(): entry["command"] for entry in json.loads((build / "compile_commands.json").read_text())}
+    work = [(path, folder) for path in entries if (folder := folder_of(path, build)) and not NOT_READ.search(name_of(path))]
     work = [(path, folder) for path, folder in work if not only or any(part in name_of(path) for part in only)]
     if not work:
         sys.exit("tidy.py: there is no file to read")
     work.sort(key=lambda one: (one[0].parent.name != "Unity", str(one[0])))  # the long ones first
+    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    rules = version + (ROOT / ".clang-tidy").read_text()
 
     def look(one):
         path, folder = one
         began = time.monotonic()
-        command = [program, "--quiet", "-p", build, f"--header-filter={OURS}", *options_of(folder, path), path]
-        done = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        options = [f"--header-filter={OURS}", *options_of(folder, path)]
+        asked = from_root("\0".join([rules, name_of(path), entries[path], *options]))
+        record = CACHE / hashlib.sha256(asked.encode()).hexdigest()
+        if is_known_good(record):
+            return path, None, 0
+        with tempfile.TemporaryDirectory() as folder:
+            read = pathlib.Path(folder) / "read"
+            command = [program, "--quiet", "-p", build, *options, f"--extra-arg=-Wp,-MD,{read}", path]
+            done = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            if done.returncode == 0 and read.exists():
+                keep(record, read)
         return path, done, time.monotonic() - began
 
-    failed = 0
+    failed = good = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for number, (path, done, seconds) in enumerate(pool.map(look, work), 1):
+            if done is None:
+                good += 1
+                continue
             print(f"[{number}/{len(work)}] {path.relative_to(ROOT)}: {seconds:.0f} s", flush=True)
             if done.returncode != 0:
                 failed += 1
                 print(done.stdout, done.stderr, sep="\n", flush=True)
+    print(f"{len(work)} read: {good} of them as they were when found good, {failed} with findings")
     sys.exit(failed > 0)
 
 

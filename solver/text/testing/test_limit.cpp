@@ -1,0 +1,72 @@
+/// Ends a program of tests whose test hangs: linked into every one. A test may take PALPATE_TEST_SECONDS (20) of a
+/// machine that has nothing else to do, and longer by as much as more threads want to run than there are processors.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+namespace {
+
+double limit = 20;       // s
+std::time_t begun = 0;   // s, of the test that runs
+char running[256] = "";  // its name
+
+std::time_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec;
+}
+
+/// How many threads want to run for each processor, at least 1. Uses what a signal handler may.
+double crowd() {
+  char text[16] = "";
+  const int file = open("/proc/loadavg", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 1;
+  const ssize_t size = read(file, text, sizeof text - 1);
+  close(file);
+  return size > 0 ? std::max(1.0, std::strtod(text, nullptr) / static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN))) : 1;
+}
+
+void say(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(EXIT_FAILURE);
+}
+
+void look(int) {
+  const double left = limit * crowd() - static_cast<double>(now() - begun);
+  if (left > 0) {
+    alarm(static_cast<unsigned>(left) + 1);
+    return;
+  }
+  say("ended: it takes too long: ");
+  say(running);
+  say("\n");
+  _exit(EXIT_FAILURE);
+}
+
+class Limit : public testing::EmptyTestEventListener {
+  void OnTestStart(const testing::TestInfo& test) override {
+    std::strncpy(running, (std::string(test.test_suite_name()) + "." + test.name()).c_str(), sizeof running - 1);
+    begun = now();
+    alarm(static_cast<unsigned>(limit) + 1);
+  }
+  void OnTestEnd(const testing::TestInfo&) override { alarm(0); }
+};
+
+const bool there = [] {
+  if (const char* seconds = std::getenv("PALPATE_TEST_SECONDS")) limit = std::atof(seconds);
+  if (limit <= 0) return false;
+  struct sigaction action {};
+  action.sa_handler = look;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGALRM, &action, nullptr);
+  testing::UnitTest::GetInstance()->listeners().Append(new Limit);
+  return true;
+}();
+
+}  // namespace
