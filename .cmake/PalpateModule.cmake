@@ -155,7 +155,7 @@ function(palpate_test_code target)
 endfunction()
 
 # palpate_tests(<name> SOURCES <file>... [LINK <library>...] [SECONDS <limit>]): GoogleTest cases of a folder, one CTest
-# entry for each suite. A test that hangs is ended after SECONDS (20), three times as many under a sanitizer. Suites named Shared*
+# entry for each suite. A test that hangs is ended after SECONDS (20), six times as many under a sanitizer. Suites named Shared*
 # need the real series in PALPATE_SHARED_DATA: their entries begin with `shared.`, and `plugin/run test shared` runs them.
 function(palpate_tests name)
   if(NOT PALPATE_TESTS)
@@ -178,7 +178,7 @@ function(palpate_tests name)
     set(seconds ${ARG_SECONDS})
   endif()
   if(PALPATE_SANITIZE)
-    math(EXPR seconds "3 * ${seconds}")
+    math(EXPR seconds "6 * ${seconds}")
   endif()
   # Which suites there are is asked when ctest begins: the program is not built yet.
   file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake CONTENT

@@ -17,6 +17,7 @@ function(palpate_suite suite tests)
   set(name "${prefix}${suite}")
   if(suite MATCHES "Shared")
     set(name "shared.${name}")
+    set(seconds 600) # whole series
   endif()
   add_test("${name}" "${program}" "--gtest_filter=${suite}.*")
   # CTest's own limit is for a program that cannot end itself. What has more tests begins first.
