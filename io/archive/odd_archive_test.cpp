@@ -194,7 +194,12 @@ TEST(OddArchive, ThatSendsUnderAnotherTitleIsTurnedAway) {
   EXPECT_TRUE(says(odd.refused_fetch(),
                    "STRANGER{} when it sent, and was turned away: --called has to be its AE title and --calling the "
                    "one it sends to"));
-  EXPECT_EQ(odd.process().read_line(), "stranger 3") << "an A-ASSOCIATE-RJ";
+  EXPECT_EQ(odd.process().read_line(), "stranger 3 for 3")
+      << "an A-ASSOCIATE-RJ: the caller is not known (PS3.8 9.3.4)";
+  OddArchive misdials("misdials");
+  misdials.archive().uses_get = false;
+  EXPECT_TRUE(says(misdials.refused_fetch(), "ODD called us SOMEONE when it sent, and was turned away"));
+  EXPECT_EQ(misdials.process().read_line(), "stranger 3 for 7") << "the called one is not known";
 }
 
 TEST(OddArchive, ThatSendsAnotherStudyIsNotBelieved) {

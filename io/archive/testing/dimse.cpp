@@ -89,7 +89,8 @@ std::uint32_t store(int socket, int context, const std::string& instance, const 
   int id = 0;
   Elements answer = parse_implicit(read_part(socket, id));
   const std::uint32_t status = number(answer.at(0x00000900), 0, 2, false);
-  std::printf("stored %04X\n", status);
+  std::printf("stored %04X to %u of %s %s\n", status, number(answer.at(0x00000120), 0, 2, false),
+              uid_of(answer.at(0x00000002)).c_str(), uid_of(answer.at(0x00001000)).c_str());
   std::fflush(stdout);
   return status;
 }

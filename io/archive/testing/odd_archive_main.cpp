@@ -1,6 +1,7 @@
 // An archive that misbehaves, for tests: `odd_archive BEHAVIOR [PORT]`. It speaks DICOM's upper layer (PS3.8) byte by
 // byte and knows nothing of DCMTK, so that it can do what no library would. Prints its own port, then serves one
-// connection after the other until its input ends. PORT is where a C-MOVE's images go.
+// connection after the other until its input ends. PORT is where a C-MOVE's images go. One that `tells` behaves, and
+// prints what it is asked.
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -18,6 +19,7 @@
 #include <utility>
 
 #include "io/archive/testing/dimse.h"
+#include "io/archive/testing/telling.h"
 #include "io/archive/testing/upper_layer.h"
 
 namespace palpate::io::testing {
@@ -50,7 +52,7 @@ void drip(int socket, int context, const std::string& study) {
 
 /// Connects to the store service on a port of this machine, under an AE title, and asks for an association. -1: nobody
 /// listens there.
-int call(int port, std::string calling) {
+int call(int port, std::string calling, std::string called = "PALPATE") {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -61,21 +63,52 @@ int call(int port, std::string calling) {
     return -1;
   }
   const std::string context = std::string("\1\0\0\0", 4) + item(0x30, ct_image) + item(0x40, "1.2.840.10008.1.2.1");
-  std::string called = "PALPATE";
+  const std::string echo =
+      std::string("\3\0\0\0", 4) + item(0x30, "1.2.840.10008.1.1") + item(0x40, "1.2.840.10008.1.2.1");
   called.resize(16, ' ');
   calling.resize(16, ' ');
   write_pdu(socket, 1,
             std::string("\0\1\0\0", 4) + called + calling + std::string(32, '\0') +
-                item(0x10, "1.2.840.10008.3.1.1.1") + item(0x20, context) +
+                item(0x10, "1.2.840.10008.3.1.1.1") + item(0x20, context) + item(0x20, echo) +
                 item(0x50, item(0x51, big(16384, 4)) + item(0x52, "1.2.3.4")));
   return socket;
 }
 
-/// What the store service says to someone whom it does not know: 3 rejects.
-void call_as_stranger(int port) {
-  const int socket = call(port, "STRANGER");
+/// What the store service says to someone whom it does not know, or who does not know it: 3 rejects, and why.
+void call_as_stranger(int port, bool knows_us) {
+  const int socket = knows_us ? call(port, "STRANGER") : call(port, "ODD", "SOMEONE");
   if (socket < 0) return;
-  std::printf("stranger %d\n", read_pdu(socket).type);
+  const Pdu answer = read_pdu(socket);
+  std::printf("stranger %d for %d\n", answer.type, answer.body.at(3));
+  std::fflush(stdout);
+  close(socket);
+}
+
+/// Talks to the store service as an archive does, and prints what it answers: to an echo, to an image of another
+/// class than the first context's, and to a release or, in its place, to a question that it has no answer to.
+void talk(int port, const std::string& study, bool asks) {
+  const int socket = call(port, "ODD");
+  if (socket < 0) return;
+  read_pdu(socket);
+  int context = 0;
+  const auto answer = [&] { tell_command(parse_implicit(read_part(socket, context)), {}); };
+  write_message(socket, 3,
+                element(0x00000002, even("1.2.840.10008.1.1")) + element(0x00000100, little(0x30, 2)) +
+                    element(0x00000110, little(5, 2)) + element(0x00000800, little(0x0101, 2)),
+                {});
+  answer();
+  write_message(socket, 1, store_command("1.2.3.4"), image("1.2.3.4", study, "1.2.3.1"));
+  answer();
+  if (asks) {
+    write_message(socket, 1,
+                  element(0x00000002, even(ct_image)) + element(0x00000100, little(0x20, 2)) +
+                      element(0x00000110, little(6, 2)) + element(0x00000700, little(0, 2)) +
+                      element(0x00000800, little(0, 2)),
+                  field(0x00080052, "CS", "STUDY "));
+  } else {
+    write_pdu(socket, 5, std::string(4, '\0'));
+  }
+  std::printf("ends with %d\n", read_pdu(socket).type);
   std::fflush(stdout);
   close(socket);
 }
@@ -97,7 +130,8 @@ void send_slowly(int port, const std::string& study) {
 
 class Serving {
  public:
-  Serving(int socket, std::string behavior, int port) : socket_(socket), behavior_(std::move(behavior)), port_(port) {}
+  Serving(int socket, std::string behavior, int port)
+      : socket_(socket), behavior_(std::move(behavior)), port_(port), tells_(behavior_.starts_with("tells")) {}
 
   void serve() {
     if (behavior_ == "not-dicom") {
@@ -110,8 +144,15 @@ class Serving {
     if (behavior_ == "wrong-calling") return reject(3);
     if (behavior_ == "wrong-called") return reject(7);
     if (behavior_ == "busy") return write_pdu(socket_, 3, std::string("\0\2\3\1", 4));
+    if (tells_) tell_association(request.body);
     contexts_ = accept(socket_, request.body, behavior_ != "offers-nothing");
     while (true) answer(read_request());
+  }
+  /// What ended it: the peer's release (5) or abort (7), or its connection (0).
+  void tell_end(int type) const {
+    if (!tells_) return;
+    std::printf("ended by %d\n", type);
+    std::fflush(stdout);
   }
 
  private:
@@ -129,6 +170,7 @@ class Serving {
       const std::string dataset = read_part(socket_, request.context, pause);
       if (request.field != 1) request.keys = parse_explicit(dataset);
     }
+    if (tells_) tell_command(command, request.keys);
     return request;
   }
 
@@ -155,11 +197,17 @@ class Serving {
     if (behavior_ == "garbage") return respond(socket_, request, 0xFF00, std::string(5, '\7') + std::string(5, '\xFF'));
     if (behavior_ == "refuses-find") return respond(socket_, request, 0xA700);
     const std::string study = request.keys.contains(0x0020000D) ? uid_of(request.keys.at(0x0020000D)) : std::string();
+    if (behavior_ == "tells-of-series" && uid_of(request.keys.at(0x00080052)).starts_with("STUDY")) {
+      return respond(socket_, request, 0);
+    }
+    if (behavior_ == "tells-of-other") return echo(request);
+    if (behavior_ == "tells-late") throw Gone(read_pdu(socket_).type);
+    if (behavior_ == "tells-and-errs") return write_message(socket_, request.context, "nonsense", {});
     const bool all = behavior_ == "endless-find";
-    const std::string match = field(0x00080005, "CS", "ISO_IR 100") + field(0x00080052, "CS", "STUDY ") +
-                              field(0x00100010, "PN", "M\xFCller^Zo\xEB ") +
-                              field(0x0020000D, "UI", even(study.empty() ? "1.2.3" : study)) +
-                              field(0x00201208, "IS", behavior_ == "grows" ? "9 " : "2 ");
+    const std::string match =
+        field(0x00080005, "CS", "ISO_IR 100") + field(0x00080052, "CS", "STUDY ") +
+        field(0x00100010, "PN", "M\xFCller^Zo\xEB ") + field(0x0020000D, "UI", even(study.empty() ? "1.2.3" : study)) +
+        field(0x0020000E, "UI", even("1.2.3.1")) + field(0x00201208, "IS", behavior_ == "grows" ? "9 " : "2 ");
     if (behavior_ == "huge-answer") {
       write_pdu(socket_, 4,
                 pdv(request.context, true, true,
@@ -229,7 +277,11 @@ class Serving {
 
   void move(const Request& request) {
     if (behavior_ == "unknown-destination") return respond(socket_, request, 0xA801);
-    if (behavior_ == "stranger") call_as_stranger(port_);
+    if (behavior_ == "stranger" || behavior_ == "misdials") call_as_stranger(port_, behavior_ == "stranger");
+    if (behavior_ == "tells-all" || behavior_ == "tells-and-asks") {
+      talk(port_, uid_of(request.keys.at(0x0020000D)), behavior_ == "tells-and-asks");
+      return respond(socket_, request, 0, {}, 1);
+    }
     if (behavior_ == "sends-slowly") {
       send_slowly(port_, uid_of(request.keys.at(0x0020000D)));
       return respond(socket_, request, 0, {}, 1);
@@ -240,6 +292,7 @@ class Serving {
   int socket_;
   std::string behavior_;
   int port_;
+  bool tells_;
   std::map<int, std::string> contexts_;
 };
 
@@ -250,9 +303,12 @@ void serve_all(int listening, const std::string& behavior, int port) {
     if (ready[1].revents != 0) return;
     const int socket = accept4(listening, nullptr, nullptr, SOCK_CLOEXEC);
     if (socket < 0) continue;
+    Serving serving(socket, behavior, port);
     try {
-      Serving(socket, behavior, port).serve();
-    } catch (const std::exception&) {  // the peer is gone, or sent what cannot be read
+      serving.serve();
+    } catch (const Gone& gone) {
+      serving.tell_end(gone.type);
+    } catch (const std::exception&) {  // it sent what cannot be read
     }
     close(socket);
   }

@@ -110,9 +110,9 @@ std::string read_part(int socket, int& context, std::chrono::microseconds pause)
     const Pdu pdu = read_pdu(socket);
     if (pdu.type == 5) {
       write_pdu(socket, 6, std::string(4, '\0'));
-      throw Gone();
+      throw Gone(pdu.type);
     }
-    if (pdu.type != 4) throw Gone();
+    if (pdu.type != 4) throw Gone(pdu.type);
     context = static_cast<unsigned char>(pdu.body.at(4));
     part += pdu.body.substr(6);
     if ((pdu.body.at(5) & 2) != 0) return part;

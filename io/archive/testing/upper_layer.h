@@ -14,7 +14,8 @@
 namespace palpate::io::testing {
 
 struct Gone : std::runtime_error {
-  Gone() : std::runtime_error("the peer is gone") {}
+  explicit Gone(int pdu = 0) : std::runtime_error("the peer is gone"), type(pdu) {}
+  int type;  ///< of the PDU that said so; 0: none did
 };
 
 struct Pdu {
