@@ -230,26 +230,36 @@ struct Mosaic {
   }
 };
 
-/// Both ways that slices can be counted.
+/// Both ways that slices can be counted, on planes across each axis of the patient and on oblique ones.
 TEST(GeneratedTruthWithJudgement, MosaicIsTakenApart) {
-  const Mosaic mosaic;
-  for (const double sense : {1.0, -1.0}) {
-    const TestFolder folder;
-    mosaic.write_to(folder / "mosaic.dcm", sense);
-    const Catalogue found = internal::find_in(folder);
-    ASSERT_EQ(found.series.size(), 1U);
-    const Volume volume = load(found.series[0]);
-    const Geometry& g = volume.geometry;
-    ASSERT_EQ(g.dimensions, glm::ivec3(6, 4, 5));
-    // The position is that of an image as large as the mosaic about the first slice's middle.
-    const Vec3 first = mosaic.corner + 0.5 * (18 - 6) * 2.0 * mosaic.along_i + 0.5 * (12 - 4) * 2.5 * mosaic.along_j;
-    for (int k = 0; k < 5; ++k) {
-      const int tile = sense > 0 ? k : 4 - k;  // slices ascend along i x j
-      expect_near(g.slice_positions[static_cast<std::size_t>(k)], first + 3.0 * sense * tile * mosaic.normal, 1e-9,
-                  "position");
-      for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 6; ++i) {
-          ASSERT_EQ(volume.value_at(i, j, k), Mosaic::value(i, j, tile)) << i << ' ' << j << ' ' << k;
+  const std::array<std::pair<Vec3, Vec3>, 5> planes{{{{1, 0.2, 0}, {-0.2, 1, 0}},
+                                                     {{0, 1, 0}, {0, 0, -1}},
+                                                     {{1, 0, 0}, {0, 0, -1}},
+                                                     {{0.2, 1, 0.1}, {0.1, 0.08, -1}},
+                                                     {{1, 0.3, -0.2}, {0.1, 0.2, 0.8}}}};
+  for (const auto& [along_i, along_j] : planes) {
+    for (const double sense : {1.0, -1.0}) {
+      Mosaic mosaic;
+      mosaic.along_i = glm::normalize(along_i);
+      mosaic.along_j = glm::normalize(along_j);
+      mosaic.normal = glm::cross(mosaic.along_i, mosaic.along_j);
+      const TestFolder folder;
+      mosaic.write_to(folder / "mosaic.dcm", sense);
+      const Catalogue found = internal::find_in(folder);
+      ASSERT_EQ(found.series.size(), 1U);
+      const Volume volume = load(found.series[0]);
+      const Geometry& g = volume.geometry;
+      ASSERT_EQ(g.dimensions, glm::ivec3(6, 4, 5));
+      // The position is that of an image as large as the mosaic about the first slice's middle.
+      const Vec3 first = mosaic.corner + 0.5 * (18 - 6) * 2.0 * mosaic.along_i + 0.5 * (12 - 4) * 2.5 * mosaic.along_j;
+      for (int k = 0; k < 5; ++k) {
+        const int tile = sense > 0 ? k : 4 - k;  // slices ascend along i x j
+        expect_near(g.slice_positions[static_cast<std::size_t>(k)], first + 3.0 * sense * tile * mosaic.normal, 1e-9,
+                    "position");
+        for (int j = 0; j < 4; ++j) {
+          for (int i = 0; i < 6; ++i) {
+            ASSERT_EQ(volume.value_at(i, j, k), Mosaic::value(i, j, tile)) << i << ' ' << j << ' ' << k;
+          }
         }
       }
     }
