@@ -79,6 +79,14 @@ TEST(OutlineShapes, AreAsFarApartAsMostPlanesAre) {
   EXPECT_DOUBLE_EQ(stack_of(contours).step_mm, 3);
 }
 
+TEST(OutlineShapes, OfMoreThanFourThousandPlanesAreRefused) {
+  std::vector<Contour> contours;
+  for (int k = 0; k < 4096; ++k) contours.push_back(upright_box(9, 9, 0.5 * k));
+  EXPECT_EQ(stack_of(contours).planes.size(), 4096U);
+  contours.push_back(upright_box(9, 9, -1));
+  EXPECT_THROW(stack_of(contours), DicomError);
+}
+
 TEST(OutlineShapes, ThatNoLatticeHoldsAreRefused) {
   std::vector<Contour> far_apart{upright_box(10, 10, 0), upright_box(10, 10, 2)};
   for (Vec3& point : far_apart[1]) point += Vec3(40000, 30000, 0);

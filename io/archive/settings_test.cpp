@@ -1,0 +1,88 @@
+// What an archive's settings may be: at their limits, and character by character.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "io/archive/archive.h"
+
+namespace palpate::io {
+namespace {
+
+Archive sound_archive() {
+  return {.name = "a", .host = "h", .port = 104, .called = "CALLED", .calling = "US"};
+}
+
+bool may_be_set(const Archive& archive) {
+  try {
+    check(archive);
+  } catch (const ArchiveError&) {
+    return false;
+  }
+  return true;
+}
+
+TEST(SettingsLimits, NumbersAreWithinTheirEnds) {
+  for (const auto& [port, fits] : {std::pair{-1, false}, {0, false}, {1, true}, {65535, true}, {65536, false}}) {
+    for (int Archive::*const which : {&Archive::port, &Archive::listen_port}) {
+      Archive archive = sound_archive();
+      archive.*which = port;
+      EXPECT_EQ(may_be_set(archive), fits) << port;
+    }
+  }
+  for (const auto& [silence, fits] : {std::pair{-1, false}, {0, false}, {1, true}, {3600, true}, {3601, false}}) {
+    Archive archive = sound_archive();
+    archive.silence_s = silence;
+    EXPECT_EQ(may_be_set(archive), fits) << silence;
+  }
+}
+
+// PS3.5 6.2, AE: 16 characters of the default repertoire but for the backslash and what controls; not of spaces alone.
+TEST(SettingsLimits, TitlesAreOfPrintableCharacters) {
+  for (std::string Archive::*const which : {&Archive::called, &Archive::calling}) {
+    Archive archive = sound_archive();
+    for (int c = 1; c < 256; ++c) {
+      archive.*which = std::string("A") + static_cast<char>(c) + "B";
+      EXPECT_EQ(may_be_set(archive), c >= 32 && c <= 126 && c != '\\') << c;
+    }
+    for (const std::string& good : {std::string(16, 'A'), std::string("A"), std::string(" A "), std::string("A B")}) {
+      archive.*which = good;
+      EXPECT_TRUE(may_be_set(archive)) << good;
+    }
+    for (const std::string& bad : {std::string(17, 'A'), std::string(), std::string(" "), std::string(16, ' ')}) {
+      archive.*which = bad;
+      EXPECT_FALSE(may_be_set(archive)) << bad;
+    }
+  }
+}
+
+TEST(SettingsLimits, AHostIsPrintableAndNotLong) {
+  Archive archive = sound_archive();
+  for (const std::string& good : {std::string("127.0.0.1"), std::string(64, 'a')}) {
+    archive.host = good;
+    EXPECT_TRUE(may_be_set(archive)) << good;
+  }
+  for (const std::string& bad : {std::string(), std::string("a\nb"), std::string(65, 'a')}) {
+    archive.host = bad;
+    EXPECT_FALSE(may_be_set(archive)) << bad;
+  }
+}
+
+// With TLS: an authority always; a certificate and its key together, and not without them where images come by C-MOVE.
+TEST(SettingsLimits, TlsNeedsWhatItUses) {
+  for (int bits = 0; bits < 32; ++bits) {
+    Archive archive = sound_archive();
+    archive.tls.used = (bits & 1) != 0;
+    if ((bits & 2) != 0) archive.tls.authorities = "ca.pem";
+    if ((bits & 4) != 0) archive.tls.certificate = "own.pem";
+    if ((bits & 8) != 0) archive.tls.key = "own.key";
+    archive.uses_get = (bits & 16) != 0;
+    const bool has_certificate = (bits & 4) != 0, has_key = (bits & 8) != 0;
+    const bool fits =
+        !archive.tls.used || ((bits & 2) != 0 && has_certificate == has_key && (archive.uses_get || has_certificate));
+    EXPECT_EQ(may_be_set(archive), fits) << bits;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::io
