@@ -157,7 +157,10 @@ TEST(FindFiles, FolderBelowThatMayNotBeReadIsNamed) {
   std::filesystem::permissions(folder / "locked", std::filesystem::perms::none);
   constexpr uid_t nobody = 65534;
   const bool is_root = ::geteuid() == 0;
-  if (is_root) {
+  if (is_root) {  // who may read all
+    std::filesystem::permissions(folder.path().parent_path(),
+                                 std::filesystem::perms::group_exec | std::filesystem::perms::others_exec,
+                                 std::filesystem::perm_options::add);
     ASSERT_EQ(::seteuid(nobody), 0);
   }
   const Catalogue found = find_in(folder);

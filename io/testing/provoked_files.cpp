@@ -49,6 +49,9 @@ std::string of_a_locked_folder() {
   constexpr uid_t nobody = 65534;
   const bool is_root = ::geteuid() == 0;
   fs::permissions(folder.path(), fs::perms::none);
+  if (is_root) {  // as whom the way there need not be open to others
+    fs::permissions(folder.path().parent_path(), fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
+  }
   if (is_root && ::seteuid(nobody) != 0) return "cannot become another user";
   const std::string said = said_when([&] { find_series(std::array{folder.path()}); });
   if (is_root && ::seteuid(0) != 0) return "cannot become root again";
