@@ -164,5 +164,24 @@ TEST(DistanceAllAround, IsKeptAlongALongBody) {
   }
 }
 
+// Near the surface, where it changes over to the coarse lattice, and there: on a lattice that is oblique and no cube's.
+TEST(DistanceAllAround, HasTheGradientOfItsValue) {
+  const Rod rod;
+  const auto field = distance_of(rod.mask);
+  std::mt19937 random(3);
+  std::normal_distribution<double> aside(0, 6);
+  constexpr double h = 1e-5;
+  for (int n = 0; n < 600; ++n) {
+    const double x = aside(random), y = aside(random), z = aside(random);
+    const Vec3 at = rod.begin + (n / 600.0) * (rod.end - rod.begin) + Vec3(x, y, z);
+    const Vec3 gradient = field->sample(at).gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 step(0);
+      step[axis] = h;
+      ASSERT_NEAR(gradient[axis], (field->sample(at + step).mm - field->sample(at - step).mm) / (2 * h), 3e-3) << n;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io

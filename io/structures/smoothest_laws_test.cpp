@@ -143,5 +143,23 @@ TEST(SmoothestLaws, AreRoundWhereABallFits) {
   }
 }
 
+// Half-way between two sides the distance has a kink, which is no roughness: the sides stay where they are.
+TEST(SmoothestLaws, LeaveBothSidesOfAPlateWhereTheyAre) {
+  for (const double half : {1.4, 2.1, 3.2}) {
+    const Vec3 spacing(1, 0.9, 1.1), middle = 16.2 * spacing, normal = glm::normalize(Vec3(0.2, 0.5, 0.9));
+    const auto distance = [&](const Vec3& at) { return half - std::abs(glm::dot(normal, at - middle)); };
+    const LooseBounds loose(8, {4, 4, 4}, distance, spacing, 7);
+    const std::vector<float> f = smoothest(loose.bounds);
+    double squares = 0, count = 0;
+    loose.for_each(f, [&](const Vec3& at, std::size_t, double found) {
+      if (std::abs(distance(at)) > 1 || glm::length(at / spacing - 16.2) > 9) return;
+      squares += (found - distance(at)) * (found - distance(at));
+      count += 1;
+    });
+    EXPECT_GT(count, 300);
+    EXPECT_LT(std::sqrt(squares / count), 0.2) << half;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io
