@@ -72,6 +72,10 @@ TEST(ModalityTables, ThatEndEarlyAreDamaged) {
   EXPECT_EQ(refusal_of_table({8, 0, 8, std::vector<Uint16>(4, 1)}), "none");
   EXPECT_EQ(refusal_of_table({8, 0, 8, std::vector<Uint16>(3, 1)}), damaged);
   EXPECT_EQ(refusal_of_table({8, 0, 9, std::vector<Uint16>(4, 1)}), damaged);
+  const TestFolder folder;
+  write_stack(folder.path(), 2,
+              [](int, TestImage& image) { image.edit = [](DcmDataset& d) { group(d, DCM_ModalityLUTSequence); }; });
+  EXPECT_EQ(find_in(folder).skipped.at(0).reason, damaged) << "without a descriptor";
 }
 
 TEST(LoadedScan, IsOfItsPatient) {
