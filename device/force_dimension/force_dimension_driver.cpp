@@ -79,7 +79,7 @@ void ForceDimensionDriver::choose() {
   }
   if (matching == 1) return;
   if (matching > 1) {
-    drd_->close(id_);
+    drd_->close(std::exchange(id_, char{-1}));
     throw which_of("Force Dimension", static_cast<std::size_t>(matching));
   }
   throw Refusal(

@@ -176,7 +176,6 @@ class HaplyService final : public HaplyLink {
       const double begun = monotonic_time();
       double left = timeout;
       while (!until() && !lost_ && left > 0) {
-        context_.restart();
         context_.run_one_for(microseconds(left));
         left = timeout - (monotonic_time() - begun);
       }

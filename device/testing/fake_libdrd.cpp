@@ -53,7 +53,9 @@ const char* dhdErrorGetLastStr() {
   return "a fault of the fake";
 }
 int drdOpenID(char id) {
-  return id < state.devices ? id : -1;
+  if (id >= state.devices) return -1;
+  state.opened = state.opened + 1;
+  return id;
 }
 int drdClose(char) {
   state.closed = state.closed + 1;
@@ -107,12 +109,10 @@ int dhdGetPosition(double* x, double* y, double* z, char) {
   return result();
 }
 int dhdGetOrientationFrame(double matrix[3][3], char) {
-  // A quarter turn about its z, which is up: x goes to y.
-  const double turned[3][3] = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) matrix[row][column] = turned[row][column];
+    for (int column = 0; column < 3; ++column) matrix[row][column] = state.frame[row][column];
   }
-  return 0;
+  return state.frame_fails != 0 ? -1 : 0;
 }
 bool dhdHasWrist(char) {
   return state.has_wrist != 0;
@@ -122,9 +122,10 @@ unsigned dhdGetButtonMask(char) {
 }
 int dhdGetStatus(int status[17], char) {
   for (int i = 0; i < 17; ++i) status[i] = 0;
-  status[5] = state.forces_on;
+  status[5] = state.forces_on != 0 && state.no_force == 0 ? 1 : 0;
   status[9] = state.in_error;
-  return 0;
+  state.status_reads = state.status_reads + 1;
+  return state.status_fails != 0 ? -1 : 0;
 }
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz, double grip,
                                         char) {

@@ -30,4 +30,9 @@ struct FakeDrd {
   int has_wrist = 0;
   int unplugged = 0;  // nothing arrives any more; what the device does then is its firmware's
   int torques = 0;    // commands with a torque or a grip's force
+  int opened = 0;
+  double frame[3][3] = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};  // of its wrist: a quarter turn about its z, x goes to y
+  int frame_fails = 0, status_fails = 0;
+  int status_reads = 0;
+  int no_force = 0;  // of its status: the user has switched the forces off
 };

@@ -65,7 +65,9 @@ void hdDisableDevice(unsigned) {
   if (state.running != 0) state.misuses = state.misuses + 1;
   state.disabled = state.disabled + 1;
 }
-void hdMakeCurrentDevice(unsigned) {}
+void hdMakeCurrentDevice(unsigned device) {
+  state.made_current = device;
+}
 void hdBeginFrame(unsigned) {
   state.in_frame = 1;
 }
@@ -104,11 +106,9 @@ void hdGetDoublev(unsigned what, double* values) {
     case 0x2602:
       *values = state.stiffness_newtons_per_mm;
       break;
-    case 0x2551: {
-      const double box[6] = {-80, -60, -35, 80, 60, 35};
-      for (int i = 0; i < 6; ++i) values[i] = box[i];
+    case 0x2551:
+      for (int i = 0; i < 6; ++i) values[i] = state.box_mm[i];
       break;
-    }
     default:
       state.misuses = state.misuses + 1;
   }
@@ -117,7 +117,7 @@ void hdGetIntegerv(unsigned what, int* values) {
   *values = what == 0x2000 ? state.buttons : 4;
 }
 const char* hdGetString(unsigned) {
-  return "PHANToM Omni";
+  return state.model[0] != 0 ? state.model : nullptr;
 }
 void hdSetDoublev(unsigned what, const double* values) {
   must_be_in_frame();
@@ -128,7 +128,9 @@ void hdSetDoublev(unsigned what, const double* values) {
 unsigned hdCheckCalibration() {
   return state.calibration;
 }
-void hdUpdateCalibration(unsigned) {
+void hdUpdateCalibration(unsigned style) {
+  state.style = style;
+  state.updates = state.updates + 1;
   state.calibration = state.after_update;
 }
 void hdStartScheduler() {
@@ -141,8 +143,11 @@ void hdStopScheduler() {
   if (scheduler.joinable()) scheduler.join();
   state.running = 0;
 }
-void hdSetSchedulerRate(unsigned long) {}
-unsigned long hdScheduleAsynchronous(unsigned (*function)(void*), void* data, unsigned short) {
+void hdSetSchedulerRate(unsigned long hz) {
+  state.rate_hz = hz;
+}
+unsigned long hdScheduleAsynchronous(unsigned (*function)(void*), void* data, unsigned short priority) {
+  state.priority = priority;
   callback = function;
   callback_data = data;
   state.scheduled = state.scheduled + 1;

@@ -28,4 +28,11 @@ struct FakeHd {
   int scheduled = 0;  // callbacks that are still scheduled
   // What it says of itself.
   double force_newtons = 3.3, continuous_newtons = 0.88, stiffness_newtons_per_mm = 0.5;
+  double box_mm[6] = {-80, -60, -35, 80, 60, 35};  // lowest x, y, z, highest x, y, z
+  char model[64] = "PHANToM Omni";                 // empty: it does not say
+  // What it was told.
+  unsigned long rate_hz = 0;
+  int priority = -1;
+  unsigned made_current = 0, style = 0;
+  int updates = 0;  // of the calibration
 };

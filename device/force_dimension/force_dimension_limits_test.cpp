@@ -1,0 +1,298 @@
+/// A Force Dimension arm's limits, each reached, and that every device that is opened is closed.
+
+#include <dlfcn.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <random>
+#include <string>
+
+#include "device/force_dimension/force_dimension.h"
+#include "device/force_dimension/force_dimension_driver.h"
+#include "device/testing/fake_libdrd.h"
+
+namespace palpate::device {
+namespace {
+
+struct Disconnecting {
+  void operator()(ForceDimensionDriver* driver) const {
+    driver->disconnect();
+    delete driver;
+  }
+};
+using ConnectedDriver = std::unique_ptr<ForceDimensionDriver, Disconnecting>;
+
+class ForceDimensionLimits : public ::testing::Test {
+ protected:
+  ForceDimensionLimits() {
+    setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
+    void* const library = dlopen(PALPATE_FAKE_LIBDRD, RTLD_NOW | RTLD_NODELETE);
+    drd = reinterpret_cast<FakeDrd* (*)()>(dlsym(library, "fake_drd"))();
+    *drd = FakeDrd{};
+    set_clock = reinterpret_cast<void (*)(double (*)())>(dlsym(library, "fake_drd_set_clock"));
+    set_clock([] { return time; });
+  }
+  ~ForceDimensionLimits() override {
+    set_clock(nullptr);
+    unsetenv("PALPATE_LIBDRD");
+  }
+  static double now() noexcept { return time; }
+  static void pass(double seconds) noexcept { time += seconds; }
+  static ConnectedDriver connected(const ForceDimensionSettings& settings = {}) {
+    ConnectedDriver driver(new ForceDimensionDriver(settings, {&now, &pass}));
+    driver->connect();
+    return driver;
+  }
+  static std::string refusal(const std::function<void()>& run) {
+    try {
+      run();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  void put(const Vec3& theirs) const {
+    for (int i = 0; i < 3; ++i) drd->place[i] = theirs[i];
+  }
+
+  FakeDrd* drd = nullptr;
+  void (*set_clock)(double (*)()) = nullptr;
+  inline static double time = 0;  // s
+};
+
+/// Theirs: x towards the user, y right, z up.
+TEST_F(ForceDimensionLimits, AnyPoseAndForceChangeFrames) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto driver = connected({.maximum_force = 3});
+  for (int n = 0; n < 200; ++n) {
+    const Vec3 theirs = 0.2 * Vec3(uniform(random), uniform(random), uniform(random));
+    put(theirs);
+    drd->buttons = random() % 16;
+    driver->take(1);
+    EXPECT_EQ(driver->status().position, Vec3(theirs.y, theirs.z, theirs.x));
+    EXPECT_EQ(driver->status().buttons, drd->buttons);
+    EXPECT_EQ(driver->status().news, static_cast<std::uint64_t>(n) + 1);
+    const Vec3 force = 4.0 * Vec3(uniform(random), uniform(random), uniform(random));
+    driver->give(force);
+    const Vec3 given(drd->force[1], drd->force[2], drd->force[0]);
+    EXPECT_LT(glm::distance(given, force * std::min(1.0, 3 / glm::length(force))), 1e-12);
+  }
+  EXPECT_EQ(drd->torques, 0);
+}
+
+/// Both sides of a rotation change their frame: it turns our vectors as it turns theirs. A frame that cannot be read
+/// leaves the stylus as it was turned, and an arm without a wrist is not turned.
+TEST_F(ForceDimensionLimits, AnyFrameTurnsTheStylus) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  const auto ours = [](const Vec3& theirs) { return Vec3(theirs.y, theirs.z, theirs.x); };
+  for (const bool has_wrist : {true, false}) {
+    drd->has_wrist = has_wrist ? 1 : 0;
+    const auto driver = connected();
+    for (int n = 0; n < 50; ++n) {
+      const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+      const glm::dquat turn = glm::normalize(glm::dquat(w, x, y, z));
+      const glm::dmat3 matrix = glm::mat3_cast(turn);
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) drd->frame[row][column] = matrix[column][row];
+      }
+      driver->take(1);
+      const glm::dquat told = driver->status().orientation;
+      EXPECT_NEAR(glm::length(told), 1, 1e-12);
+      for (const Vec3& v : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+        EXPECT_LT(glm::distance(told * ours(v), has_wrist ? ours(turn * v) : ours(v)), 1e-12);
+      }
+      drd->frame_fails = 1;
+      drd->frame[0][0] += 1;
+      driver->take(1);
+      EXPECT_EQ(driver->status().orientation, told);
+      drd->frame_fails = 0;
+    }
+  }
+}
+
+TEST_F(ForceDimensionLimits, NoArmReachesFartherThanAMetre) {
+  for (const double reach : {0.999, 1.001, HUGE_VAL, std::nan("")}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 place(0);
+      place[axis] = -reach;
+      put(place);
+      const auto driver = connected();
+      driver->take(1);
+      EXPECT_EQ(driver->status().fault, reach < 1 ? LinkFault::none : LinkFault::unreachable_pose);
+      EXPECT_EQ(driver->status().state, reach < 1 ? State::idle : State::fault);
+      put(Vec3(0));
+      driver->take(1);
+      EXPECT_EQ(driver->status().state, reach < 1 ? State::idle : State::fault) << "it is kept";
+      driver->give(Vec3(0, 1, 0));
+      EXPECT_EQ(drd->force[2], reach < 1 ? 1 : 0);
+    }
+  }
+}
+
+/// The settings' force, else the arm's own, but 12 N at most.
+TEST_F(ForceDimensionLimits, TheLargestForceIsTheLeastThatIsSaid) {
+  const struct {
+    double set, told, largest;
+  } cases[] = {{0, 8, 8}, {0, 12, 12}, {0, 20, 12}, {0, 0.5, 0.5}, {0, 0, 12}, {0, -1, 12}, {0.5, 8, 0.5}, {15, 8, 15}};
+  for (const auto& one : cases) {
+    drd->max_force = one.told;
+    const auto driver = connected({.maximum_force = one.set});
+    Specification told;
+    driver->describe(told);
+    EXPECT_EQ(told.maximum_force, one.largest);
+    EXPECT_EQ(told.continuous_force, one.largest);
+    EXPECT_EQ(drd->told_max_force, one.largest);
+    driver->take(1);
+    driver->give(Vec3(0, 100, 0));
+    EXPECT_DOUBLE_EQ(drd->force[2], one.largest);
+  }
+  EXPECT_EQ(make_force_dimension({.maximum_force = 0.5})->specification().maximum_force, 0.5);
+}
+
+/// Twenty calls in a row that fail are a device that is gone; nineteen are not, whatever failed before them.
+TEST_F(ForceDimensionLimits, TwentyErrorsInARowAreAnUnplugging) {
+  const auto driver = connected();
+  for (int round = 0; round < 3; ++round) {
+    drd->failing = 1;
+    for (int n = 0; n < 19; ++n) driver->take(1);
+    EXPECT_FALSE(driver->lost());
+    drd->failing = 0;
+    driver->take(1);
+  }
+  drd->failing = 1;
+  for (int n = 0; n < 20; ++n) {
+    EXPECT_FALSE(driver->lost());
+    n % 2 == 0 ? driver->take(1) : driver->give(Vec3(0));
+  }
+  EXPECT_TRUE(driver->lost());
+}
+
+/// Its status is looked at with every twentieth pose: a lost home, an error or a force that the user has switched off
+/// ends the session; a status that cannot be read tells nothing.
+TEST_F(ForceDimensionLimits, ItsStatusIsBelieved) {
+  const struct {
+    int FakeDrd::*what;
+    int value;
+    LinkFault fault;
+  } cases[] = {{&FakeDrd::homed, 0, LinkFault::unhomed},
+               {&FakeDrd::in_error, 1, LinkFault::own_safety},
+               {&FakeDrd::in_error, -3, LinkFault::own_safety},
+               {&FakeDrd::no_force, 1, LinkFault::own_safety},
+               {&FakeDrd::has_wrist, 1, LinkFault::none}};
+  for (const bool readable : {true, false}) {
+    for (const auto& one : cases) {
+      *drd = FakeDrd{};
+      const auto driver = connected();
+      drd->*one.what = one.value;
+      drd->status_fails = readable ? 0 : 1;
+      for (int n = 1; n < 20; ++n) driver->take(1);
+      EXPECT_EQ(drd->status_reads, 0);
+      EXPECT_EQ(driver->status().state, State::idle);
+      driver->take(1);
+      const LinkFault fault = readable || one.fault == LinkFault::unhomed ? one.fault : LinkFault::none;
+      EXPECT_EQ(driver->status().fault, fault);
+      EXPECT_EQ(driver->status().state, fault == LinkFault::none ? State::idle : State::fault);
+    }
+  }
+}
+
+/// It is asked again half a millisecond after it was last due, or now where that is past, and waited for no longer than
+/// the caller has.
+TEST_F(ForceDimensionLimits, IsAskedEveryHalfMillisecond) {
+  const auto driver = connected();
+  const auto waited = [&](double most) {
+    const double before = time;
+    driver->take(most);
+    return time - before;
+  };
+  EXPECT_EQ(waited(1), 0) << "at once";
+  EXPECT_NEAR(waited(1), 0.5e-3, 1e-12);
+  pass(0.2e-3);
+  EXPECT_NEAR(waited(1), 0.3e-3, 1e-12);
+  pass(0.1);
+  EXPECT_EQ(waited(1), 0);
+  EXPECT_EQ(waited(1), 0) << "what was missed is not made up for, but for one";
+  EXPECT_NEAR(waited(0.1e-3), 0.1e-3, 1e-12);
+}
+
+/// Whatever comes of it, each device that was opened is closed again, but for the one that is held.
+TEST_F(ForceDimensionLimits, OpensAndClosesInPairs) {
+  drd->devices = 3;  // 1234, 1235, 1236
+  const auto held = [&] { return drd->opened - drd->closed; };
+  for (const char* const serial : {"1234", "1235", "1236"}) {
+    auto driver = connected({.address = serial});
+    EXPECT_EQ(held(), 1) << serial;
+    driver->disconnect();
+    EXPECT_EQ(held(), 0);
+    driver->disconnect();
+    EXPECT_EQ(held(), 0) << "twice is once";
+  }
+  EXPECT_THAT(refusal([] { connected(); }), ::testing::HasSubstr("there are 3"));
+  EXPECT_THAT(refusal([] { connected({.address = "7"}); }), ::testing::HasSubstr("not found"));
+  EXPECT_EQ(held(), 0);
+  drd->homed = 0;
+  EXPECT_NE(refusal([] { connected({.address = "1235"}); }), "");
+  EXPECT_EQ(held(), 0);
+  const auto found = find_force_dimension();
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(held(), 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(found[i].kind, "force_dimension");
+    EXPECT_EQ(found[i].name, "omega.3");
+    EXPECT_EQ(found[i].address, std::to_string(1234 + i));
+    EXPECT_TRUE(found[i].accessible);
+    EXPECT_EQ(found[i].note, "it has no home yet: to find it the arm moves by itself");
+  }
+  drd->homed = 1;
+  EXPECT_EQ(find_force_dimension().at(0).note, "");
+  const int stopped = drd->stopped;
+  EXPECT_TRUE(stop_force_dimension("1236"));
+  EXPECT_EQ(drd->stopped, stopped + 1);
+  EXPECT_FALSE(stop_force_dimension("7"));
+  EXPECT_EQ(drd->stopped, stopped + 1);
+  EXPECT_TRUE(stop_force_dimension(""));
+  EXPECT_EQ(drd->stopped, stopped + 4);
+  EXPECT_EQ(held(), 0);
+}
+
+/// Looking for devices opens them, which one that is held does not bear: it is told as it is.
+TEST_F(ForceDimensionLimits, OneThatIsHeldIsNotOpenedByASearch) {
+  auto driver = connected();
+  const int opened = drd->opened;
+  const auto found = find_force_dimension();
+  EXPECT_EQ(drd->opened, opened);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].note, "held by this session");
+  EXPECT_TRUE(found[0].accessible);
+  driver->disconnect();
+  EXPECT_EQ(find_force_dimension().at(0).note, "");
+}
+
+/// Connected anew: at rest, no fault, not lost; poses are counted on.
+TEST_F(ForceDimensionLimits, ConnectedAnewItKnowsNothingOfBefore) {
+  const auto driver = connected();
+  put({0.01, 0.02, 0.03});
+  drd->buttons = 3;
+  driver->take(1);
+  drd->failing = 1;
+  for (int n = 0; n < 20; ++n) driver->take(1);
+  ASSERT_TRUE(driver->lost());
+  drd->failing = 0;
+  driver->disconnect();
+  driver->connect();
+  EXPECT_FALSE(driver->lost());
+  EXPECT_EQ(driver->status().state, State::homing);
+  EXPECT_EQ(driver->status().fault, LinkFault::none);
+  EXPECT_EQ(driver->status().position, Vec3(0));
+  EXPECT_EQ(driver->status().buttons, 0U);
+  EXPECT_EQ(driver->status().news, 1U);
+}
+
+}  // namespace
+}  // namespace palpate::device

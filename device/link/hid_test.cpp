@@ -1,0 +1,205 @@
+/// HID devices among the test's own, against what hidapi says of its functions.
+
+#include "device/link/hid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "device/space_mouse/space_mouse.h"
+#include "device/testing/fake_hidapi.h"
+#include "device/testing/test_files.h"
+#include "device/wooden_haptics/wooden_haptics.h"
+
+namespace palpate::device {
+namespace {
+
+std::string hid_refusal(const std::function<void()>& open) {
+  try {
+    open();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class Hid : public ::testing::Test {
+ protected:
+  /// A node that this user may open.
+  FakeHidNode puck(const std::string& file = "hidraw0") const {
+    return {0x046d, 0xc626, 0x0001, 0x0008, files.write(file, ""), L"SpaceNavigator"};
+  }
+  FakeHidNode arm(const std::string& file = "hidraw1") const {
+    return {0x1234, 0x0006, 0xffab, 0x0200, files.write(file, ""), L"WoodenHaptics"};
+  }
+
+  TestFiles files;
+  FakeHidApi hid;
+};
+
+/// A kind is told by all of vendor, product, usage page and usage: with any of them off by one it is another device.
+TEST_F(Hid, AKindIsToldByAllThatADeviceSaysOfItself) {
+  FakeHidNode teensy = arm("hidraw2");
+  teensy.vendor = 0x16c0;
+  teensy.product = 0x0486;
+  for (const FakeHidNode& known : {puck(), arm(), teensy}) {
+    const bool is_puck = known.name == L"SpaceNavigator";
+    hid.nodes = {known};
+    EXPECT_EQ(find_hid_devices("space_mouse").size(), is_puck ? 1U : 0U);
+    EXPECT_EQ(find_hid_devices("wooden_haptics").size(), is_puck ? 0U : 1U);
+    for (const auto part : {&FakeHidNode::vendor, &FakeHidNode::product, &FakeHidNode::page, &FakeHidNode::usage}) {
+      for (const int by : {-2, -1, 2}) {
+        FakeHidNode other = known;
+        other.*part = static_cast<std::uint16_t>(other.*part + by);
+        if (is_puck && part == &FakeHidNode::product && by != -2) continue;  // 0xc625 and 0xc628 are pucks, too
+        hid.nodes = {other};
+        EXPECT_TRUE(find_hid_devices("space_mouse").empty());
+        EXPECT_TRUE(find_hid_devices("wooden_haptics").empty());
+      }
+    }
+  }
+  EXPECT_EQ(hid.lists, 0);
+}
+
+TEST_F(Hid, ListsEachNodeOnceWithItsNameAndWhetherItMayBeOpened) {
+  FakeHidNode odd = arm("hidraw4");
+  odd.name = L"Arm\u00e9 \x1f~\x7f";
+  FakeHidNode mute = arm("hidraw5");
+  mute.name = L"";
+  FakeHidNode locked = arm();
+  locked.path = "/absent/hidraw9";
+  hid.nodes = {arm(), puck(), arm(), odd, mute, locked, odd};
+  const auto found = find_hid_devices("wooden_haptics");
+  ASSERT_EQ(found.size(), 4U);
+  const char* const names[] = {"WoodenHaptics", "Arm? ?~?", "", "WoodenHaptics"};
+  const std::string paths[] = {arm().path, odd.path, mute.path, locked.path};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(found[i].kind, "wooden_haptics");
+    EXPECT_EQ(found[i].name, names[i]);
+    EXPECT_EQ(found[i].address, paths[i]);
+    EXPECT_EQ(found[i].accessible, i < 3);
+    EXPECT_THAT(found[i].note, ::testing::HasSubstr(i < 3 ? "make sure that it is one" : "udev"));
+  }
+  EXPECT_EQ(find_hid_devices("space_mouse").at(0).note, "");
+  EXPECT_EQ(hid.lists, 0);
+  hid.starts = false;
+  EXPECT_TRUE(find_hid_devices("wooden_haptics").empty());
+}
+
+TEST_F(Hid, OpensTheOneThatIsMeantOrSaysWhyNot) {
+  hid.nodes = {puck("hidraw0"), puck("hidraw1"), arm("hidraw2")};
+  open_hid("space_mouse", hid.nodes[1].path);
+  EXPECT_EQ(hid.opened, hid.nodes[1].path);
+  open_hid("wooden_haptics", "");
+  EXPECT_EQ(hid.opened, hid.nodes[2].path);
+  EXPECT_EQ(hid.handles, 0) << "closed with the link";
+  using ::testing::StartsWith;
+  EXPECT_THAT(hid_refusal([] { open_hid("space_mouse", ""); }), StartsWith("SpaceMouse: there are 2; name"));
+  EXPECT_THAT(hid_refusal([] { open_hid("space_mouse", "/dev/hidraw7"); }),
+              StartsWith("SpaceMouse at /dev/hidraw7: not found"));
+  hid.nodes[2].opens = false;
+  EXPECT_EQ(hid_refusal([] { open_hid("wooden_haptics", ""); }),
+            "WoodenHaptics: cannot be opened: a fault of the f?ke?; does another program hold it?");
+  hid.nodes[2].path = "/absent";
+  EXPECT_THAT(hid_refusal([] { open_hid("wooden_haptics", "/absent"); }),
+              StartsWith("WoodenHaptics at /absent: permission denied; type: sudo cp "));
+  hid.nodes.clear();
+  EXPECT_THAT(hid_refusal([] { open_hid("wooden_haptics", ""); }), StartsWith("WoodenHaptics: not found"));
+}
+
+/// Reports come whole; hidapi waits by the millisecond, and so no shorter than it is told to.
+TEST_F(Hid, ReceivesWhatComesAndWaitsNoShorterThanItIsTold) {
+  std::mt19937 random(1);
+  hid.nodes = {arm()};
+  const auto link = open_hid("wooden_haptics", "");
+  std::array<std::uint8_t, 64> packet{};
+  for (const std::size_t size : {1U, 8U, 14U, 64U}) {
+    std::vector<std::uint8_t> report(size);
+    for (auto& byte : report) byte = static_cast<std::uint8_t>(random());
+    hid.input.push_back({report});
+    ASSERT_EQ(link->receive(packet, 0), size);
+    EXPECT_TRUE(std::equal(report.begin(), report.end(), packet.begin()));
+  }
+  hid.waits_ms.clear();
+  for (const double wait_s : {0.0, 0.2e-3, 1e-3, 1.1e-3, 0.0495, 2.0}) EXPECT_EQ(link->receive(packet, wait_s), 0U);
+  EXPECT_EQ(hid.waits_ms, (std::vector<int>{0, 1, 1, 2, 50, 2000}));
+  EXPECT_FALSE(link->lost()) << "nothing came";
+}
+
+/// A read that a signal broke off is no unplugging, whatever failed before; any other failure is one, for good.
+TEST_F(Hid, IsLostWhereAReadFails) {
+  hid.nodes = {arm()};
+  const auto link = open_hid("wooden_haptics", "");
+  std::array<std::uint8_t, 64> packet{};
+  const std::vector<std::uint8_t> report(14, 7);
+  for (int n = 0; n < 30; ++n) {
+    hid.input.push_back({{}, EINTR});
+    errno = EIO;
+    EXPECT_EQ(link->receive(packet, 0), 0U);
+    EXPECT_FALSE(link->lost());
+    EXPECT_TRUE(link->send(report));
+  }
+  EXPECT_TRUE(link->flush(0));
+  hid.input.push_back({{}, EIO});
+  EXPECT_EQ(link->receive(packet, 0), 0U);
+  EXPECT_TRUE(link->lost());
+  EXPECT_FALSE(link->flush(0));
+  EXPECT_FALSE(link->send(report));
+  const std::size_t asked = hid.waits_ms.size();
+  hid.input.push_back({report});
+  EXPECT_EQ(link->receive(packet, 0), 0U) << "it stays so";
+  EXPECT_EQ(hid.waits_ms.size(), asked);
+  EXPECT_EQ(hid.written.size(), 30U);
+}
+
+/// hidapi reports a device that is gone without saying why: a read that fails with errno as it was before is one, too.
+TEST_F(Hid, IsLostThoughAnEarlierCallWasBrokenOff) {
+  hid.nodes = {arm()};
+  const auto link = open_hid("wooden_haptics", "");
+  std::array<std::uint8_t, 64> packet{};
+  hid.input.push_back({.failed = FakeHidInput::without_errno});
+  errno = EINTR;
+  EXPECT_EQ(link->receive(packet, 0), 0U);
+  EXPECT_TRUE(link->lost());
+}
+
+/// A report is written behind the number 0. One that does not fit is not; a write that fails is told and survived.
+TEST_F(Hid, WritesReportsBehindTheirNumber) {
+  hid.nodes = {arm()};
+  const auto link = open_hid("wooden_haptics", "");
+  for (const std::size_t size : {0U, 1U, 14U, 64U}) {
+    std::vector<std::uint8_t> report(size);
+    for (std::size_t i = 0; i < size; ++i) report[i] = static_cast<std::uint8_t>(i + 1);
+    EXPECT_TRUE(link->send(report));
+    report.insert(report.begin(), 0);
+    EXPECT_EQ(hid.written.back(), report);
+  }
+  EXPECT_FALSE(link->send(std::vector<std::uint8_t>(65)));
+  hid.takes = false;
+  EXPECT_FALSE(link->send(std::vector<std::uint8_t>(14)));
+  EXPECT_FALSE(link->lost());
+  hid.takes = true;
+  EXPECT_TRUE(link->send(std::vector<std::uint8_t>(14)));
+}
+
+/// One by the settings' address, and only with one: other devices have its ids.
+TEST_F(Hid, AnArmHasToBeNamed) {
+  WoodenHapticsSettings settings = wooden_haptics_preset("2015");
+  EXPECT_THAT(hid_refusal([&] { make_wooden_haptics(settings); }), ::testing::HasSubstr("name its address"));
+  settings.guarded = false;
+  settings.address = "/dev/hidraw3";
+  EXPECT_THAT(hid_refusal([&] { make_wooden_haptics(settings)->open(); }),
+              ::testing::StartsWith("WoodenHaptics at /dev/hidraw3: not found"));
+  EXPECT_THAT(hid_refusal([] { make_space_mouse({.address = "/dev/hidraw4"})->open(); }),
+              ::testing::StartsWith("SpaceMouse at /dev/hidraw4: not found"));
+}
+
+}  // namespace
+}  // namespace palpate::device

@@ -1,0 +1,252 @@
+/// Every key of every kind's settings file sets what it is named after, and each limit is refused beyond itself.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "device/device_type.h"
+#include "device/falcon/falcon.h"
+#include "device/force_dimension/force_dimension.h"
+#include "device/haply/haply.h"
+#include "device/haply/haply_service.h"
+#include "device/settings_file.h"
+#include "device/testing/test_files.h"
+#include "device/touch/touch.h"
+#include "device/wooden_haptics/wooden_haptics.h"
+
+namespace palpate::device {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string file_of(const Json& json) {
+  static const TestFiles files;
+  return files.write("settings.json", json.dump());
+}
+
+std::string refusal_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Values that no default has.
+const Json common{{"address", "one of many"}, {"maximum_force", 4.25},        {"stiffness_limit", 321.5},
+                  {"guarded", false},         {"position_signs", {1, -1, 1}}, {"force_signs", {-1, 1, -1}}};
+
+Json with(Json more) {
+  Json json = common;
+  json.update(more);
+  return json;
+}
+
+template <typename Settings>
+void expect_common(const Settings& settings) {
+  EXPECT_EQ(settings.address, "one of many");
+  EXPECT_EQ(settings.maximum_force, 4.25);
+  EXPECT_EQ(settings.stiffness_limit, 321.5);
+  EXPECT_FALSE(settings.guarded);
+  EXPECT_EQ(settings.signs.position, Vec3(1, -1, 1));
+  EXPECT_EQ(settings.signs.force, Vec3(-1, 1, -1));
+}
+
+/// A file without keys is that of a device as it comes: guarded, and with its axes as they are.
+template <typename Settings>
+void expect_defaults(const Settings& settings, const Settings& defaults) {
+  EXPECT_EQ(settings.address, "");
+  EXPECT_EQ(settings.maximum_force, defaults.maximum_force);
+  EXPECT_EQ(settings.stiffness_limit, defaults.stiffness_limit);
+  EXPECT_TRUE(settings.guarded);
+  EXPECT_EQ(settings.signs.position, Vec3(1));
+  EXPECT_EQ(settings.signs.force, Vec3(1));
+}
+
+TEST(Settings, EveryKeyOfEveryKindIsRead) {
+  const FalconSettings falcon = read_falcon(file_of(with({{"firmware_file", "novint.bin"}, {"motor_gain", 1234.5}})));
+  expect_common(falcon);
+  EXPECT_EQ(falcon.firmware_file, "novint.bin");
+  EXPECT_EQ(falcon.motor_gain, 1234.5);
+  const HaplySettings haply = read_haply(file_of(with({{"host", "there"}, {"port", 1234}, {"preset", "mine"}})));
+  expect_common(haply);
+  EXPECT_EQ(haply.host, "there");
+  EXPECT_EQ(haply.port, 1234);
+  EXPECT_EQ(haply.preset, "mine");
+  const ForceDimensionSettings omega = read_force_dimension(file_of(with({{"may_home", true}})));
+  expect_common(omega);
+  EXPECT_TRUE(omega.may_home);
+  expect_common(read_touch(file_of(common)));
+  const WoodenHapticsSettings arm = read_wooden_haptics(file_of(
+      with({{"preset", "2015"}, {"continuous_current", 0.75}, {"short_reports", true}, {"stylus_button", true}})));
+  expect_common(arm);
+  EXPECT_EQ(arm.preset, "2015");
+  EXPECT_EQ(arm.continuous_current, 0.75);
+  EXPECT_TRUE(arm.short_reports);
+  EXPECT_TRUE(arm.stylus_button);
+}
+
+TEST(Settings, AKeyThatIsAbsentKeepsItsDefault) {
+  const std::string empty = file_of(Json::object());
+  expect_defaults(read_falcon(empty), {.maximum_force = 8, .stiffness_limit = 1000});
+  EXPECT_EQ(read_falcon(empty).motor_gain, 10000);
+  expect_defaults(read_haply(empty), {.maximum_force = 3, .stiffness_limit = 400});
+  EXPECT_EQ(read_haply(empty).preset, "arm_front_centered");
+  expect_defaults(read_touch(empty), {.maximum_force = 0, .stiffness_limit = 0});
+  expect_defaults(read_force_dimension(empty), {.maximum_force = 0, .stiffness_limit = 1500});
+  EXPECT_FALSE(read_force_dimension(empty).may_home);
+}
+
+/// A key that no kind has, a value of another type, a sign that is none, no object, no JSON and no file: each is
+/// refused by every kind, in its name and with the file's.
+TEST(Settings, WhatIsNoSettingIsRefusedByEveryKind) {
+  const std::pair<const char*, std::function<void(const std::string&)>> kinds[] = {
+      {"Novint Falcon", read_falcon},
+      {"Haply", read_haply},
+      {"3D Systems Touch", read_touch},
+      {"Force Dimension", read_force_dimension},
+      {"WoodenHaptics", read_wooden_haptics}};
+  const std::pair<Json, const char*> wrong[] = {
+      {{{"color", 3}}, "'color' is not a setting"},
+      {{{"maximum_force", "much"}}, "'maximum_force' is not what it should be: \"much\""},
+      {{{"guarded", 3}}, "'guarded' is not what it should be"},
+      {{{"position_signs", {1, 0, 1}}}, "'position_signs' is not three times 1 or -1"},
+      {{{"force_signs", {1, 1, 0.5}}}, "'force_signs' is not three times 1 or -1"},
+      {{{"force_signs", {-2, 1, 1}}}, "'force_signs' is not three times 1 or -1"},
+      {{{"force_signs", {1, 1}}}, "'force_signs' is not"},
+      {Json::array(), "it is not a JSON object"}};
+  for (const auto& [name, read] : kinds) {
+    for (const auto& [json, why] : wrong) {
+      Json settings = json;
+      if (settings.is_object() && name == std::string("WoodenHaptics")) settings["preset"] = "2015";
+      const std::string file = file_of(settings);
+      const std::string said = refusal_of([&, &read = read] { read(file); });
+      EXPECT_THAT(said, ::testing::StartsWith(std::string(name) + ": " + file + ": ")) << why;
+      EXPECT_THAT(said, ::testing::HasSubstr(why));
+    }
+    EXPECT_EQ(refusal_of([&, &read = read] { read("/absent.json"); }),
+              std::string(name) + ": /absent.json cannot be read; name the file of its settings");
+    const TestFiles files;
+    EXPECT_NE(refusal_of([&, &read = read] { read(files.write("half.json", "{\"address\": ")); }), "");
+  }
+}
+
+/// Each number at its limit and just beyond.
+TEST(Settings, EachLimitIsReached) {
+  const auto falcon = [](const char* key, double value) {
+    return refusal_of([&] { read_falcon(file_of({{key, value}})); }).empty();
+  };
+  const auto arm = [](const Json& json) {
+    Json settings{{"preset", "2015"}};
+    settings.update(json);
+    return refusal_of([&] { read_wooden_haptics(file_of(settings)); }).empty();
+  };
+  for (const char* const key : {"motor_gain", "maximum_force", "stiffness_limit"}) {
+    EXPECT_TRUE(falcon(key, 1e-9)) << key;
+    EXPECT_FALSE(falcon(key, 0)) << key;
+    EXPECT_FALSE(falcon(key, -1)) << key;
+  }
+  EXPECT_TRUE(falcon("maximum_force", 12));
+  EXPECT_FALSE(falcon("maximum_force", 12.01));
+  const std::pair<const char*, double> most[] = {
+      {"workspace_radius", 1}, {"current_limit", 3}, {"maximum_force", 20}, {"stiffness_limit", 1e9}};
+  for (const auto& [key, value] : most) {
+    EXPECT_TRUE(arm({{key, value}})) << key;
+    EXPECT_EQ(arm({{key, value + 0.01}}), value == 1e9) << key;
+    EXPECT_FALSE(arm({{key, 0}})) << key;
+  }
+  for (const char* const key :
+       {"workspace_radius", "maximum_force", "stiffness_limit", "lower_length", "upper_length"}) {
+    EXPECT_TRUE(arm({{key, 1e-9}})) << key;
+    EXPECT_FALSE(arm({{key, -1e-9}})) << key;
+  }
+  EXPECT_TRUE(arm({{"current_limit", 1.5}, {"continuous_current", 1.5}}));
+  EXPECT_FALSE(arm({{"current_limit", 1.5}, {"continuous_current", 1.51}}));
+  EXPECT_TRUE(arm({{"continuous_current", 1e-9}}));
+  EXPECT_FALSE(arm({{"continuous_current", 0}}));
+  const std::pair<const char*, double> least[] = {
+      {"capstan_diameter", 1e-9}, {"torque_constant", 1e-9}, {"counts_per_turn", 1}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto of_axis = [&](const char* key, Json values, const Json& value) {
+      values[axis] = value;
+      return arm({{key, values}});
+    };
+    for (const auto& [key, value] : least) {
+      const Json usual = key == std::string("capstan_diameter")  ? Json{0.01, 0.01, 0.01}
+                         : key == std::string("torque_constant") ? Json{0.03, 0.03, 0.03}
+                                                                 : Json{2000, 2000, 2000};
+      EXPECT_TRUE(of_axis(key, usual, value)) << key << axis;
+      EXPECT_FALSE(of_axis(key, usual, 0)) << key << axis;
+    }
+    EXPECT_TRUE(of_axis("body_diameter", {0.1, 0.1, 0.1}, 0.0101));
+    EXPECT_FALSE(of_axis("body_diameter", {0.1, 0.1, 0.1}, 0.01)) << "no larger than its capstan";
+    for (const int sign : {1, -1}) EXPECT_TRUE(of_axis("encoder_sign", {1, 1, 1}, sign));
+    for (const int sign : {0, 2, -2}) EXPECT_FALSE(of_axis("encoder_sign", {1, 1, 1}, sign));
+    for (const int counts : {-32768, 32767}) EXPECT_TRUE(of_axis("home_counts", {0, 0, 0}, counts));
+    for (const int counts : {-32769, 32768}) EXPECT_FALSE(of_axis("home_counts", {0, 0, 0}, counts));
+  }
+}
+
+/// What is chosen beside a settings file goes before it; without one the kind's defaults hold.
+TEST(Settings, WhatIsChosenGoesBeforeTheFile) {
+  struct Noted {
+    std::string address, firmware_file;
+    int other = 0;
+  };
+  static Noted made;
+  const auto make = +[](const Noted& settings) {
+    made = settings;
+    return std::unique_ptr<Stylus>();
+  };
+  const auto read = +[](const std::string& file) { return Noted{"of " + file, "its own", 2}; };
+  const struct {
+    DeviceChoice choice;
+    Noted wanted;
+  } cases[] = {{{}, {"default", "none", 1}},
+               {{.address = "A"}, {"A", "none", 1}},
+               {{.firmware = "F"}, {"default", "F", 1}},
+               {{.settings = "S"}, {"of S", "its own", 2}},
+               {{.address = "A", .settings = "S"}, {"A", "its own", 2}},
+               {{.firmware = "F", .settings = "S"}, {"of S", "F", 2}}};
+  for (const auto& one : cases) {
+    make_with_settings<Noted>(one.choice, read, make, {"default", "none", 1});
+    EXPECT_EQ(made.address, one.wanted.address);
+    EXPECT_EQ(made.firmware_file, one.wanted.firmware_file);
+    EXPECT_EQ(made.other, one.wanted.other);
+  }
+}
+
+/// "HOST:PORT"; what is none leaves the service where it usually is.
+TEST(Settings, TheHaplysServiceIsWhereTheEnvironmentSays) {
+  const struct {
+    const char* named;
+    const char* host;
+    int port;
+  } places[] = {{"there:1", "there", 1},
+                {"there:65535", "there", 65535},
+                {"::1:4000", "::1", 4000},
+                {"there:0", "localhost", 10001},
+                {"there:65536", "localhost", 10001},
+                {":4000", "localhost", 10001},
+                {"there", "localhost", 10001},
+                {"there:4000x", "localhost", 10001},
+                {"there:", "localhost", 10001},
+                {"there:-1", "localhost", 10001},
+                {"", "localhost", 10001}};
+  for (const auto& place : places) {
+    setenv("PALPATE_HAPLY", place.named, 1);
+    EXPECT_EQ(haply_defaults().host, place.host) << place.named;
+    EXPECT_EQ(haply_defaults().port, place.port) << place.named;
+    EXPECT_EQ(read_haply(file_of(Json::object())).port, place.port);
+  }
+  unsetenv("PALPATE_HAPLY");
+  EXPECT_EQ(haply_defaults().port, 10001);
+}
+
+}  // namespace
+}  // namespace palpate::device
