@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -150,6 +153,35 @@ TEST(SimulatedLimits, EachStopHolds) {
       stop[axis] = side * arm.half_extent[axis];
       EXPECT_EQ(body.position, stop);
       EXPECT_EQ(body.velocity, Vec3(0));
+    }
+  }
+}
+
+/// S. Vigna's splitmix64, between 0 and 1 by its upper 53 bits.
+double next_splitmix(std::uint64_t& state) {
+  std::uint64_t z = state += 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  return std::ldexp(static_cast<double>((z ^ (z >> 31U)) >> 11U), -53);
+}
+
+/// The same everywhere: five sines for each axis, one in each fifth of the band, each with a phase of its own, of equal
+/// amplitudes that add up to the tremor's mean square.
+TEST(SimulatedLimits, TheTremorIsThatOfItsSeed) {
+  for (const std::uint64_t seed : {1U, 7U, 123456789U}) {
+    const HandModel hand{.tremor_rms = 0.08e-3, .tremor_lowest = 7, .tremor_highest = 13, .tremor_seed = seed};
+    const Tremor tremor(hand);
+    for (const double time : {0.0, 0.123, 4.5, 700.0}) {
+      std::uint64_t random = seed;
+      Vec3 wanted(0);
+      for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < 5; ++i) {
+          const double hz = 7 + (i + next_splitmix(random)) * 6 / 5,
+                       phase = 2 * std::numbers::pi * next_splitmix(random);
+          wanted[axis] += 0.08e-3 * std::sqrt(2.0 / 5) * std::sin(2 * std::numbers::pi * hz * time + phase);
+        }
+      }
+      EXPECT_LT(glm::distance(tremor(time), wanted), 1e-14) << seed << " " << time;
     }
   }
 }

@@ -86,9 +86,10 @@ TEST_F(TouchLimits, WhatTheLibraryTellsIsBelieved) {
   }
 }
 
-/// A box of less than 1 cm or of more than 1 m is none that a hand works in.
+/// A box that does not reach farther than 1 cm, or reaches 1 m, is none that a hand works in.
 TEST_F(TouchLimits, ABoxThatCannotBeIsNotBelieved) {
-  for (const auto& [edge_mm, half_m] : {std::pair{9.9, 0.05}, {10.1, 0.0101}, {999.0, 0.999}, {1001.0, 0.05}}) {
+  for (const auto& [edge_mm, half_m] :
+       {std::pair{9.9, 0.05}, {10.0, 0.05}, {10.1, 0.0101}, {999.0, 0.999}, {1000.0, 0.05}}) {
     for (int axis = 0; axis < 3; ++axis) {
       hd->box_mm[axis] = -edge_mm;
       hd->box_mm[axis + 3] = edge_mm;
@@ -172,6 +173,18 @@ TEST_F(TouchLimits, AForceEndsAfterTwentyRoundsOrAPause) {
     EXPECT_EQ(acting(), pause < 0.1 ? force : Vec3(0)) << "given before the pause";
     round();
     EXPECT_EQ(acting(), pause < 0.1 ? force : Vec3(0));
+  }
+}
+
+/// However long ago an earlier round was, the first one is no pause.
+TEST_F(TouchLimits, AForceThatIsGivenBeforeTheFirstRoundActsInIt) {
+  for (int connection = 0; connection < 2; ++connection) {
+    pass(5);
+    TouchDriver driver({}, {&now, &pass});
+    driver.connect();
+    driver.give(Vec3(0, 1, 0));
+    round();
+    EXPECT_EQ(acting(), Vec3(0, 1, 0));
   }
 }
 

@@ -172,8 +172,10 @@ TEST(WoodenHapticsExchange, AHomeIsKeptWhereItIsKnown) {
         ReportingLink link;
         // The bodies cannot turn half round.
         link.reports = {report_of(could_be ? std::array{0, 0, 5900} : std::array{20000, 20000, 20000})};
+        const std::uint64_t news = arm.protocol.status().news;
         arm.protocol.connect(link);
         EXPECT_EQ(arm.state(), ready && !lost && could_be ? State::idle : State::homing);
+        EXPECT_EQ(arm.protocol.status().news, news + (could_be || !ready || lost ? 1 : 0)) << "poses are counted on";
         EXPECT_EQ(arm.protocol.status().buttons, 0U);
         arm.now = link.time;
         arm.report({0, 0, 5900});
@@ -181,6 +183,21 @@ TEST(WoodenHapticsExchange, AHomeIsKeptWhereItIsKnown) {
       }
     }
   }
+}
+
+/// One of another kind that was refused was in its home pose, which the arm that comes next need not be.
+TEST(WoodenHapticsExchange, ARefusedArmLeavesNoHome) {
+  Arm arm;
+  ReportingLink link;
+  link.reports = {report_of({1, 2, 3}, 0, 8)};
+  EXPECT_ANY_THROW(arm.protocol.connect(link));
+  link.reports = {report_of({0, 0, 6000})};
+  arm.protocol.connect(link);
+  EXPECT_EQ(arm.state(), State::homing);
+  arm.now = link.time;
+  for (int n = 0; n < 10; ++n) arm.report({0, 0, 6000});
+  EXPECT_EQ(arm.state(), State::homing);
+  EXPECT_EQ(arm.answer(Vec3(0, 1, 0)), std::vector<int>(7, 0));
 }
 
 /// Impossible poses take the force away at once; after 80 ms of them they are a fault.

@@ -17,14 +17,14 @@
 namespace palpate::modes {
 namespace {
 
-struct Case {
+struct StartingCase {
   std::string scene, mode;
   double outer, inner;  ///< HU
   double strength_n;    ///< 0: not felt
 };
 
 /// The largest force of one mode of the scene alone on a slow way through a slab's boundary at the origin.
-double yields_n(const Case& boundary) {
+double yields_n(const StartingCase& boundary) {
   Scene scene = load_scene(boundary.scene);
   bool has_mode = false;
   for (Mode& mode : scene.modes) {
@@ -48,18 +48,18 @@ double yields_n(const Case& boundary) {
 }
 
 TEST(StartingScenes, let_the_boundaries_of_their_part_of_the_body_be_felt) {
-  const std::vector<Case> cases{{"ct-chest", "skin and lung surface", -1000, -100, 1.0},
-                                {"ct-chest", "skin and lung surface", -850, 40, 1.0},
-                                {"ct-chest", "bone", 40, 350, 2.5},
-                                {"ct-abdomen", "skin", -1000, -100, 1.0},
-                                {"ct-abdomen", "organs in fat", -100, 50, 0.7},
-                                {"ct-abdomen", "organs in fat", -1000, -100, 0},
-                                {"ct-abdomen", "skin", -100, 50, 0},
-                                {"ct-abdomen", "bone", 40, 500, 2.5},
-                                {"ct-spine", "bone", 40, 350, 2.5},
-                                {"ct-spine", "skin", -1000, -100, 0.5},
-                                {"ct-spine", "bone", 40, 120, 0}};
-  for (const Case& boundary : cases) {
+  const std::vector<StartingCase> cases{{"ct-chest", "skin and lung surface", -1000, -100, 1.0},
+                                        {"ct-chest", "skin and lung surface", -850, 40, 1.0},
+                                        {"ct-chest", "bone", 40, 350, 2.5},
+                                        {"ct-abdomen", "skin", -1000, -100, 1.0},
+                                        {"ct-abdomen", "organs in fat", -100, 50, 0.7},
+                                        {"ct-abdomen", "organs in fat", -1000, -100, 0},
+                                        {"ct-abdomen", "skin", -100, 50, 0},
+                                        {"ct-abdomen", "bone", 40, 500, 2.5},
+                                        {"ct-spine", "bone", 40, 350, 2.5},
+                                        {"ct-spine", "skin", -1000, -100, 0.5},
+                                        {"ct-spine", "bone", 40, 120, 0}};
+  for (const StartingCase& boundary : cases) {
     SCOPED_TRACE(boundary.scene + ", " + boundary.mode + ": " + std::to_string(boundary.outer) + " to " +
                  std::to_string(boundary.inner) + " HU");
     EXPECT_NEAR(yields_n(boundary), boundary.strength_n, 0.1 * boundary.strength_n + 0.02);
