@@ -102,7 +102,6 @@ Specification falcon_specification(const FalconSettings& settings) {
   specification.maximum_force = settings.maximum_force;
   specification.continuous_force = settings.maximum_force / 2;
   specification.stiffness_limit = settings.stiffness_limit;
-  specification.rate = 1000;
   return specification;
 }
 

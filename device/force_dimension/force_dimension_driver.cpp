@@ -218,7 +218,6 @@ std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettin
   specification.maximum_force = settings.maximum_force > 0 ? settings.maximum_force : most_newtons;
   specification.continuous_force = specification.maximum_force;
   specification.stiffness_limit = settings.stiffness_limit;
-  specification.rate = 1000;
   return std::make_unique<LinkStylus>(specification, std::make_unique<ForceDimensionDriver>(settings, clock), options);
 }
 

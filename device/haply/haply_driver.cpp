@@ -328,7 +328,6 @@ std::unique_ptr<LinkStylus> make_haply_on(const HaplySettings& settings, LinkMak
   specification.maximum_force = settings.maximum_force;
   specification.continuous_force = settings.maximum_force / 2;
   specification.stiffness_limit = settings.stiffness_limit;
-  specification.rate = 1000;
   return std::make_unique<LinkStylus>(specification, std::make_unique<HaplyProtocol>(settings), std::move(make_link),
                                       options);
 }

@@ -93,7 +93,6 @@ std::unique_ptr<LinkStylus> make_space_mouse_on(const SpaceMouseSettings& settin
   specification.force_axes = 0;
   specification.workspace_half_extent = settings.half_extent;
   specification.position_resolution = settings.speed / settings.full_deflection * 1e-3;
-  specification.rate = 1000;
   return std::make_unique<LinkStylus>(specification, std::make_unique<SpaceMouseProtocol>(settings),
                                       std::move(make_link), options);
 }

@@ -25,7 +25,7 @@ constexpr unsigned force_output = 0x4000, max_force_clamping = 0x4001, force_ram
 // Calibration.
 constexpr unsigned calibrated = 0x5000, needs_update = 0x5001;
 // Of a callback; of an error.
-constexpr unsigned callback_done = 0, callback_continue = 1;
+constexpr unsigned callback_continue = 1;
 constexpr unsigned success = 0, warm_motors = 0x200, exceeded_force = 0x201, force_impulse = 0x202;
 
 }  // namespace hd

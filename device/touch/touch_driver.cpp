@@ -83,7 +83,6 @@ void TouchDriver::read_model() {
     described_.workspace_half_extent[axis] = reach > 0.01 && reach < 1 ? reach : 0.05;
   }
   described_.position_resolution = 0.055e-3;
-  described_.rate = 1000;
 }
 
 void TouchDriver::connect() {
@@ -245,7 +244,6 @@ std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const
   specification.maximum_force = settings.maximum_force > 0 ? settings.maximum_force : 3.3;
   specification.continuous_force = specification.maximum_force / 4;
   specification.stiffness_limit = settings.stiffness_limit > 0 ? settings.stiffness_limit : 400;
-  specification.rate = 1000;
   return std::make_unique<LinkStylus>(specification, std::make_unique<TouchDriver>(settings, clock), options);
 }
 

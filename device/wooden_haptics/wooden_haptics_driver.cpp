@@ -173,7 +173,6 @@ std::unique_ptr<LinkStylus> make_wooden_haptics_on(const WoodenHapticsSettings& 
   specification.maximum_force = settings.maximum_force;
   specification.continuous_force = settings.maximum_force / 2;
   specification.stiffness_limit = settings.stiffness_limit;
-  specification.rate = 1000;
   return std::make_unique<LinkStylus>(specification, std::make_unique<WoodenHapticsProtocol>(settings),
                                       std::move(make_link), options);
 }
