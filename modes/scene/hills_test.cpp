@@ -107,8 +107,10 @@ TEST(Hills, AreTheSameFromEitherSideAndAtAnySize) {
     const auto highest = static_cast<std::size_t>(std::max_element(curve.begin(), curve.end()) - curve.begin());
     EXPECT_EQ(std::count(tops.begin(), tops.end(), highest), 1);
     std::vector<float> larger = curve;
-    for (float& count : larger) count *= 8;
-    EXPECT_EQ(tops_of(hills_of(larger, prominence, 0)), tops);
+    for (const float size : {0x1p3F, 0x1p-30F}) {
+      std::transform(curve.begin(), curve.end(), larger.begin(), [size](float count) { return size * count; });
+      EXPECT_EQ(tops_of(hills_of(larger, prominence, 0)), tops);
+    }
     std::reverse(curve.begin(), curve.end());
     for (std::size_t& top : tops) top = curve.size() - 1 - top;
     std::reverse(tops.begin(), tops.end());

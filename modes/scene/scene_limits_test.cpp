@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -273,6 +274,63 @@ TEST(SceneLimits, ASolverIsLeft) {
     });
     EXPECT_EQ(said, on == 0 ? "solvers: all are switched off" : "");
   }
+}
+
+/// A filter that cannot be is refused under its own key.
+TEST(SceneLimits, AFilterIsChecked) {
+  const std::string said =
+      said_of([](Scene& scene) { scene.filter = {.type = io::FilterType::gaussian, .sigma_mm = -1}; });
+  EXPECT_EQ(said.rfind("filter.", 0), 0U) << said;
+}
+
+TEST(SceneLimits, AScanIsReadAsItSays) {
+  const io::FieldOptions options =
+      field_options({.value = io::ValueMethod::trilinear, .gradient = io::GradientMethod::central_differences});
+  EXPECT_EQ(options.value, io::ValueMethod::trilinear);
+  EXPECT_EQ(options.gradient, io::GradientMethod::central_differences);
+  EXPECT_EQ(field_options({}).value, io::ValueMethod::cubic);
+  EXPECT_EQ(field_options({}).gradient, io::GradientMethod::gaussian);
+}
+
+/// Fitted, an uneven box that is turned any way, about its middle or another place, lies within the device's reach and
+/// touches an end of it; not fitted, it is as large as it is said to be.
+TEST(SceneLimits, AScanIsFittedIntoTheDevicesReach) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(1, 300);
+  for (int n = 0; n < 300; ++n) {
+    Vec3 axes[2], low, size, half_m;
+    for (int i = 0; i < 3; ++i) {
+      axes[0][i] = normal(random);
+      axes[1][i] = normal(random);
+      low[i] = 100 * normal(random);
+      size[i] = uniform(random);
+      half_m[i] = 1e-3 * uniform(random);
+    }
+    const Vec3 x = glm::normalize(axes[0]), y = glm::normalize(axes[1] - glm::dot(axes[1], x) * x);
+    WorkspaceSettings settings{.rotation = {x, y, glm::cross(x, y)}, .scale = 1.75, .fit = n % 3 != 0};
+    if (n % 2 == 0) settings.center_mm = low + 0.3 * size;
+    const Workspace placed = place_workspace(settings, low, low + size, half_m);
+    EXPECT_EQ(placed.rotation, settings.rotation);
+    const Vec3 center = n % 2 == 0 ? low + 0.3 * size : low + 0.5 * size;
+    EXPECT_LT(glm::distance(placed.center_mm, center), 1e-9);
+    if (!settings.fit) {
+      EXPECT_DOUBLE_EQ(placed.mm_per_m, 1750);
+      continue;
+    }
+    double farthest = 0;  // of the device's reach along an axis
+    for (const double i : {0.0, 1.0}) {
+      for (const double j : {0.0, 1.0}) {
+        for (const double k : {0.0, 1.0}) {
+          const Vec3 corner = placed.to_device(low + Vec3(i, j, k) * size);
+          for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(corner[axis]) / half_m[axis]);
+        }
+      }
+    }
+    EXPECT_NEAR(farthest, 1, 1e-9);
+  }
+  // A scan of a few hundredths of a millimetre in a hand's reach of a metre.
+  EXPECT_NEAR(place_workspace({.fit = true}, Vec3(0), Vec3(0.04), Vec3(1)).mm_per_m, 0.02, 1e-12);
 }
 
 /// What a scene is before anything is said, as the documents have it.
