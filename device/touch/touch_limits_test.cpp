@@ -11,6 +11,7 @@
 #include <random>
 #include <string>
 
+#include "device/link/realtime.h"
 #include "device/testing/fake_libhd.h"
 #include "device/touch/touch.h"
 #include "device/touch/touch_driver.h"
@@ -140,6 +141,18 @@ TEST_F(TouchLimits, APoseIsTakenOnce) {
     if (rounds > 0) {
       EXPECT_DOUBLE_EQ(driver.status().position.x, 1e-3 * rounds);
     }
+  }
+}
+
+/// Where no round comes it is waited for, and no pose is told.
+TEST_F(TouchLimits, ARoundIsWaitedForAsLongAsItIsTold) {
+  TouchDriver driver({}, {&now, &pass});
+  driver.connect();
+  for (const double wait_s : {0.005, 0.02}) {
+    const double begun = monotonic_time();
+    driver.take(wait_s);
+    EXPECT_GE(monotonic_time() - begun, 0.99 * wait_s);
+    EXPECT_EQ(driver.status().news, 0U);
   }
 }
 

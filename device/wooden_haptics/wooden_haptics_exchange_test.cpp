@@ -42,6 +42,7 @@ class ReportingLink final : public Link {
   }
   bool send(std::span<const std::uint8_t> packet) noexcept override {
     sizes.push_back(packet.size());
+    pushing += std::any_of(packet.begin(), packet.end(), [](std::uint8_t byte) { return byte != 0; }) ? 1 : 0;
     return true;
   }
   bool flush(double /*timeout*/) noexcept override { return true; }
@@ -50,6 +51,7 @@ class ReportingLink final : public Link {
   double time = 100;
   std::deque<std::vector<std::uint8_t>> reports;  ///< the last one again and again
   std::vector<std::size_t> sizes;
+  int pushing = 0;  ///< packets that were not zeros
 };
 
 struct Arm {
@@ -177,6 +179,7 @@ TEST(WoodenHapticsExchange, AHomeIsKeptWhereItIsKnown) {
         EXPECT_EQ(arm.state(), ready && !lost && could_be ? State::idle : State::homing);
         EXPECT_EQ(arm.protocol.status().news, news + (could_be || !ready || lost ? 1 : 0)) << "poses are counted on";
         EXPECT_EQ(arm.protocol.status().buttons, 0U);
+        EXPECT_EQ(link.pushing, 0) << "nobody has asked for a force yet";
         arm.now = link.time;
         arm.report({0, 0, 5900});
         EXPECT_EQ(arm.state(), ready && !lost ? State::idle : State::homing);
