@@ -25,7 +25,8 @@ io::FieldSet without(io::FieldSet set, io::FieldSet taken) {
 }  // namespace
 
 Text why_not_felt(const modes::Scene& scene, const io::Volume& volume) {
-  const io::FieldSet available = io::fields_of(volume);
+  // Distances are of the scene's own structures, whatever the scan.
+  const io::FieldSet available = io::fields_of(volume) | io::FieldSet::distance;
   io::FieldSet missing = io::FieldSet::none;
   for (const modes::Mode& mode : scene.modes) {
     if (!mode.enabled || !modes::find_mode_type(mode.type)) continue;
