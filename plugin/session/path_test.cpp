@@ -1,10 +1,15 @@
 #include "plugin/session/path.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <random>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "io/archive/testing/says.h"
 #include "plugin/testing/test_files.h"
@@ -83,6 +88,63 @@ TEST(PathCsv, TakesWhatIsJustWithinItsLimits) {
     }
   }
   EXPECT_THAT(refusal("0,1,2,3\ntime_s,x_mm,y_mm,z_mm\n1,1,2,3\n"), ::testing::HasSubstr("line 2"));
+}
+
+/// Whatever the numbers, the spaces, the comments and the line ends of a table, it reads back to the last bit; and what
+/// is wrong is named by its line.
+TEST(PathCsv, ReadsBackWhatWasWritten) {
+  std::mt19937_64 random(3);
+  const auto one_of = [&](const std::vector<std::string>& all) { return all[random() % all.size()]; };
+  for (int table = 0; table < 100; ++table) {
+    const bool with_buttons = table % 2 == 0;
+    const std::string end = one_of({"\n", "\r\n"});
+    std::string text = with_buttons     ? "time_s,x_mm,y_mm,z_mm,buttons" + end
+                       : table % 3 == 0 ? " time_s,x_mm,y_mm,z_mm" + end
+                                        : "";
+    std::vector<PathPoint> wanted;
+    std::vector<std::size_t> lines;  // of each point, from 1
+    std::uniform_real_distribution<double> number(-200, 200), step(1e-3, 2);
+    double time_s = table % 5 == 0 ? 0 : step(random);
+    const std::size_t points = 2 + random() % 9;
+    std::string spoiled = text;
+    const std::size_t bad = random() % points;
+    for (std::size_t n = 0; n < points; ++n, time_s += step(random)) {
+      if (!text.empty()) {
+        for (auto more = random() % 3; more > 0; --more) {
+          const std::string between = one_of({"# 1,2,3,4", "", "   \t", "  # x"}) + end;
+          text += between;
+          spoiled += between;
+        }
+      }
+      const PathPoint point{time_s,
+                            {number(random), number(random), number(random)},
+                            with_buttons ? static_cast<std::uint32_t>(random() % 65536) : 0};
+      std::string line;
+      for (const double cell : {point.time_s, point.position_mm.x, point.position_mm.y, point.position_mm.z}) {
+        line += (line.empty() ? "" : ",") + one_of({"", " ", "\t "}) + fmt::format("{}", cell) + one_of({"", "  "});
+      }
+      if (with_buttons) line += fmt::format(", {}", point.buttons);
+      wanted.push_back(point);
+      lines.push_back(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
+      text += line + end;
+      spoiled += (n == bad ? line + ",1" : line) + end;
+    }
+    const std::vector<PathPoint> read = read_path_csv(write("random.csv", text));
+    ASSERT_EQ(read.size(), wanted.size()) << text;
+    for (std::size_t n = 0; n < read.size(); ++n) {
+      ASSERT_EQ(read[n].time_s, wanted[n].time_s);
+      ASSERT_EQ(read[n].position_mm, wanted[n].position_mm);
+      ASSERT_EQ(read[n].buttons, wanted[n].buttons);
+    }
+    const auto file = write("spoiled.csv", spoiled);
+    try {
+      read_path_csv(file);
+      FAIL() << spoiled;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), fmt::format("{}, line {}: not four finite numbers; expected time_s,x_mm,y_mm,z_mm",
+                                          file.string(), lines[bad]));
+    }
+  }
 }
 
 }  // namespace

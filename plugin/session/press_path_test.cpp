@@ -7,9 +7,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "device/simulated/simulated_hand.h"
+#include "plugin/session/stroke.h"
 #include "plugin/testing/session_rig.h"
 
 namespace palpate::plugin {
@@ -89,6 +93,79 @@ TEST(PressPath, IsTheScriptThatItsNumbersSay) {
     EXPECT_NEAR(-way.z, wanted[n].depth_mm, 0.03 * std::abs(wanted[n].depth_mm) + 0.1) << n;
     EXPECT_NEAR(way.x, wanted[n].left_mm, 1e-9) << n;
     EXPECT_NEAR(way.y, 0, 1e-9) << n;
+  }
+}
+
+struct Pressed {
+  modes::Plan plan;
+  std::shared_ptr<const io::FieldSource> source;
+};
+
+/// A surface that takes so much, on a phantom.
+Pressed pressed_on(const testdata::Phantom& phantom, double strength_n) {
+  modes::Scene scene =
+      modes::scene_from_json(R"({"version": 1, "modes": [{"type": "surface", "strength_n": 1}]})", "test");
+  scene.modes[0].strength_of = modes::Datum::gradient_magnitude;
+  scene.modes[0].strength_n = modes::TransferFunction({{20, 0}, {60, strength_n}});
+  const auto source = std::make_shared<testdata::AnalyticSource>(phantom, 0.2);
+  return {modes::make_plan(scene, source->available(), {}), source};
+}
+
+/// Whichever way it presses, it slides across that way, 12 mm to the patient's left as far as that goes across; along
+/// the patient's left or right it slides towards the head.
+TEST(PressPath, SlidesAcrossItsWayToTheLeft) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> normal;
+  std::vector<glm::dvec3> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  for (const double x : {-0.91, -0.89, 0.89, 0.91}) ways.push_back({x, std::sqrt(1 - x * x), 0});
+  for (int n = 0; n < 8; ++n)
+    ways.push_back(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))));
+  for (const glm::dvec3& inward : ways) {
+    const Pressed on =
+        pressed_on(testdata::make_slab(inward, std::vector<testdata::Layer>{{0, testdata::soft_tissue_hu}}), 1.2);
+    const PressPath path = make_press_path(on.plan, *on.source, -6.0 * inward, 3.0 * inward);
+    EXPECT_LT(glm::distance(path.inward, inward), 1e-12);
+    EXPECT_LT(glm::length(path.contact_mm), 1);
+    const glm::dvec3 side = std::abs(inward.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 across = glm::normalize(glm::cross(glm::cross(inward, side), inward));
+    const glm::dvec3 slid = path.hand.at(4).position_mm - path.hand.at(3).position_mm;
+    // On a flat boundary the slide is as deep as the press, to a tick of the stroke.
+    const double deeper_mm = glm::dot(slid, inward);
+    EXPECT_LT(std::abs(deeper_mm), 0.051);
+    EXPECT_LT(glm::distance(slid - deeper_mm * inward, 12.0 * across), 1e-6)
+        << inward.x << " " << inward.y << " " << inward.z;
+    EXPECT_GE(glm::dot(slid, side), 0);
+  }
+}
+
+/// Where the boundary ends beside the way, the slide goes on as deep as the press.
+TEST(PressPath, SlidesOnWhereTheBoundaryEnds) {
+  const Pressed on = pressed_on(testdata::make_sphere(8), 1.2);
+  const PressPath path = make_press_path(on.plan, *on.source, {0, 0, 16}, {0, 0, -1});
+  EXPECT_NEAR(path.contact_mm.z, 8, 0.5);
+  EXPECT_LT(glm::distance(path.hand.at(4).position_mm - path.hand.at(3).position_mm, glm::dvec3(12, 0, 0)), 1e-9);
+}
+
+/// A boundary is met where it takes more than 0.05 N: at that point of a stroke of 50 mm/s.
+TEST(PressPath, MeetsWhatTakesMoreThanATwentiethOfANewton) {
+  const auto slab_below = testdata::make_slab({0, 0, -1}, std::vector<testdata::Layer>{{0, testdata::soft_tissue_hu}});
+  for (const double strength_n : {0.06, 0.09, 1.0}) {
+    const Pressed on = pressed_on(slab_below, strength_n);
+    const PressPath path = make_press_path(on.plan, *on.source, {1, 2, 7}, {1, 2, -7});
+    const std::vector<StrokePoint> stroke = run_stroke(on.plan, *on.source, {1, 2, 7}, {1, 2, -7}, 50);
+    const auto met =
+        std::ranges::find_if(stroke, [](const StrokePoint& one) { return glm::length(one.force_n) > 0.05; });
+    ASSERT_NE(met, stroke.end());
+    EXPECT_EQ(path.contact_mm, met->position_mm) << strength_n;
+  }
+  try {
+    const Pressed on = pressed_on(slab_below, 0.04);
+    make_press_path(on.plan, *on.source, {1, 2, 7}, {-1.25, 2, -7});
+    FAIL() << "met";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "nothing can be felt with this scene between 1.0, 2.0, 7.0 and -1.2, 2.0, -7.0 mm: choose another "
+                 "stroke with --from and --to, or another scene");
   }
 }
 

@@ -12,7 +12,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
+#include <random>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -151,6 +153,63 @@ TEST(RegisteredStructure, ItsMotionIsToldInMillimetersAndDegrees) {
     std::array<char, 80> words{};
     std::snprintf(words.data(), words.size(), "1.0, -2.3, 300.0 mm, turned by %.2f degrees", degrees);
     EXPECT_EQ(in_words(motion), words.data());
+  }
+}
+
+/// A turn is told from a hundredth of a degree on, as it is rounded; also a half turn, whose cosine rounding takes
+/// below -1.
+TEST(RegisteredStructure, ItsTurnIsToldFromAHundredthOfADegreeOn) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 300; ++n) {
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    io::RigidMotion motion;
+    for (int column = 0; column < 3; ++column) {  // a half turn: 2 a a^T - 1
+      for (int row = 0; row < 3; ++row)
+        motion.turn[column][row] = 2 * axis[column] * axis[row] - (row == column ? 1 : 0);
+    }
+    ASSERT_EQ(in_words(motion), "0.0, 0.0, 0.0 mm, turned by 180.00 degrees");
+  }
+  for (const auto& [degrees, words] : {std::pair{0.0, ""},
+                                       {0.0048, ""},
+                                       {0.0052, ", turned by 0.01 degrees"},
+                                       {0.0098, ", turned by 0.01 degrees"},
+                                       {0.0152, ", turned by 0.02 degrees"}}) {
+    const double cosine = std::cos(degrees * M_PI / 180), sine = std::sin(degrees * M_PI / 180);
+    io::RigidMotion motion;
+    motion.turn = glm::dmat3({cosine, 0, -sine}, {0, 1, 0}, {sine, 0, cosine});
+    EXPECT_EQ(in_words(motion), std::string("0.0, 0.0, 0.0 mm") + words) << degrees;
+  }
+}
+
+/// No voxel at all is no value that does not fit, and zeros of either kind stay.
+TEST(ScanValues, OfNoVoxelsAreNone) {
+  const io::Volume none = scan_values(stored(std::vector<std::uint16_t>(), 2, 1, {0, 0, 0}));
+  EXPECT_EQ(none.slope, 1);
+  EXPECT_EQ(none.intercept, 0);
+  EXPECT_FALSE(none.padding);
+}
+
+/// The same of words without a sign, and of floats, which stay floats.
+TEST(ScanValues, OfEveryKindOfVoxelAreTheStoredOnesRescaled) {
+  std::mt19937 random(4);
+  for (const auto& [slope, intercept] : {std::pair{1.0, -1024.0}, {3.0, 0.0}, {-2.0, 7.0}, {0.25, -0.5}, {1.0, 0.0}}) {
+    std::vector<std::uint16_t> words(60);
+    std::vector<float> floats(60);
+    for (std::size_t n = 0; n < words.size(); ++n) {
+      words[n] = static_cast<std::uint16_t>(random() % 10000);
+      floats[n] = static_cast<float>(words[n]) / 8;
+    }
+    const io::Volume of_words = scan_values(stored(words, slope, intercept, {5, 4, 3}));
+    const io::Volume of_floats = scan_values(stored(floats, slope, intercept, {5, 4, 3}));
+    for (std::size_t n = 0; n < words.size(); ++n) {
+      const int i = static_cast<int>(n) % 5, j = static_cast<int>(n) / 5 % 4, k = static_cast<int>(n) / 20;
+      ASSERT_EQ(of_words.value_at(i, j, k), slope * words[n] + intercept);
+      ASSERT_EQ(of_floats.value_at(i, j, k), slope * static_cast<double>(floats[n]) + intercept);
+    }
+    EXPECT_TRUE(std::holds_alternative<std::vector<float>>(of_floats.voxels));
+    const bool is_whole = slope == std::floor(slope) && intercept == std::floor(intercept);
+    EXPECT_EQ(std::holds_alternative<std::vector<float>>(of_words.voxels), !is_whole);
   }
 }
 

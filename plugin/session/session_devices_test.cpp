@@ -22,7 +22,7 @@ namespace palpate::plugin {
 namespace {
 
 /// From 8 mm above the ball to 6 mm into it, and back.
-const std::vector<device::Waypoint> press{
+const std::vector<device::Waypoint> press_on_ball{
     {0, {0, 0, 0}}, {1.5, {0, -0.014, 0}}, {2.5, {0, -0.014, 0}}, {3.5, {0, 0, 0}}};
 
 struct Felt {
@@ -46,7 +46,7 @@ class SessionOnDevices : public ::testing::TestWithParam<const char*> {
   }
 
   Felt record(const std::filesystem::path& file) {
-    const device::FakeRig rig = device::make_rig(GetParam(), press);
+    const device::FakeRig rig = device::make_rig(GetParam(), press_on_ball);
     const device::Specification specification = rig.stylus->specification();
     scene_.stiffness_n_per_m = stiffness_for(scene_, specification);
     const std::string hash = hash_of(*volume_);

@@ -19,7 +19,7 @@ namespace {
 using testdata::AnalyticSource;
 
 /// A slab of soft tissue below z = 0 of the patient, bone from 10 mm on; the patient's head end is up.
-std::shared_ptr<const AnalyticSource> slab() {
+std::shared_ptr<const AnalyticSource> plain_slab() {
   const std::vector<testdata::Layer> layers{{.depth = 0, .value = testdata::soft_tissue_hu},
                                             {.depth = 10, .value = testdata::bone_hu}};
   return std::make_shared<AnalyticSource>(testdata::make_slab({0, 0, -1}, layers), 1.5);
@@ -31,14 +31,15 @@ std::shared_ptr<const modes::Plan> plan_of(const char* scene) {
 }
 
 /// Down on to the skin, through it to the bone, and up again.
-const std::vector<device::Waypoint> press{
+const std::vector<device::Waypoint> press_way{
     {.time = 0, .position = {0, 0.02, 0}},   {.time = 1, .position = {0, 0.02, 0}},
     {.time = 2, .position = {0, -0.003, 0}}, {.time = 2.5, .position = {0, -0.003, 0}},
     {.time = 4, .position = {0, -0.018, 0}}, {.time = 4.5, .position = {0, -0.018, 0}},
     {.time = 5.5, .position = {0, 0.02, 0}}, {.time = 6, .position = {0, 0.02, 0}}};
 
 std::vector<TickRecord> run(device::Stylus& stylus, std::size_t count) {
-  Session session(plan_of("ct-skin-and-bone"), slab(), stylus, limits_for(modes::Limits{}, stylus.specification()));
+  Session session(plan_of("ct-skin-and-bone"), plain_slab(), stylus,
+                  limits_for(modes::Limits{}, stylus.specification()));
   std::vector<TickRecord> ticks;
   for (std::size_t n = 0; n < count; ++n) {
     ticks.push_back(session.tick());
@@ -50,7 +51,7 @@ std::vector<TickRecord> press_once(std::uint64_t seed) {
   device::SimulatedDevice model;
   model.hand.tremor_seed = seed;
   device::SimulatedStylus stylus(model);
-  stylus.follow(press);
+  stylus.follow(press_way);
   return run(stylus, 6000);
 }
 
@@ -77,9 +78,9 @@ TEST(Session, SkinThenBoneThenNothing) {
 /// the balance of the shares.
 TEST(Session, EveryNumberOfItsRecordIsWhatItIsCalled) {
   device::SimulatedStylus stylus;
-  stylus.follow(press);
+  stylus.follow(press_way);
   const auto plan = plan_of("ct-skin-and-bone");
-  const auto source = slab();
+  const auto source = plain_slab();
   Session session(plan, source, stylus, limits_for(modes::Limits{}, stylus.specification()));
   const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
   int held = 0;
@@ -173,8 +174,9 @@ TEST(Session, TheWindTunnelsTicksShowTheSolver) {
 
 TEST(Session, APoseThatIsNotANumberLetsGo) {
   device::SimulatedStylus stylus;
-  stylus.follow(press);
-  Session session(plan_of("ct-skin-and-bone"), slab(), stylus, limits_for(modes::Limits{}, stylus.specification()));
+  stylus.follow(press_way);
+  Session session(plan_of("ct-skin-and-bone"), plain_slab(), stylus,
+                  limits_for(modes::Limits{}, stylus.specification()));
   for (int n = 0; n < 2400; ++n) {
     session.tick();
   }
@@ -189,7 +191,7 @@ TEST(Session, APoseThatIsNotANumberLetsGo) {
 
 TEST(Session, ClosesTheStylusWithoutForce) {
   device::SimulatedStylus stylus;
-  stylus.follow(press);
+  stylus.follow(press_way);
   { run(stylus, 2400); }
   EXPECT_EQ(stylus.state(), device::State::disconnected);
 }

@@ -20,7 +20,7 @@ namespace {
 using namespace testing;
 
 /// A ball of soft tissue with a core of bone, as voxels with bricks computed in the background.
-std::shared_ptr<const io::FieldSource> ball() {
+std::shared_ptr<const io::FieldSource> ball_with_core() {
   testdata::Phantom phantom = testdata::make_sphere(25);
   phantom.bodies.push_back(testdata::make_sphere(15, testdata::bone_hu).bodies.front());
   const auto volume =
@@ -40,8 +40,8 @@ TEST(SessionTrap, NothingIsCaughtInASessionInWhichEverythingHappens) {
   const auto file = fresh_path("trap.h5");
   Recorder recorder(ring, file, {});
   const auto held = stylus(through_the_ball());
-  Session session(snapshot("ct-skin-and-bone", ball()), held, &ring);
-  const std::shared_ptr<const io::FieldSource> others[] = {ball(), slab(), ball()};
+  Session session(snapshot("ct-skin-and-bone", ball_with_core()), held, &ring);
+  const std::shared_ptr<const io::FieldSource> others[] = {ball_with_core(), slab(), ball_with_core()};
   std::atomic<bool> done{false};
   // The controlling thread: it goes by the ticks that it sees, not by the clock.
   std::thread commander([&] {
