@@ -13,7 +13,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// Leaves the ticks of these scenes, and their shares.
+/// Leaves the ticks of these scenes, and their shares: all that is looked at here.
 std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>& epochs) {
   std::vector<PrimitiveRecord> shares;
   std::size_t kept = 0, share = 0;
@@ -22,9 +22,6 @@ std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>
     if (epochs.count(tick.scene_epoch) > 0) {
       shares.insert(shares.end(), recording.shares.begin() + static_cast<std::ptrdiff_t>(share),
                     recording.shares.begin() + static_cast<std::ptrdiff_t>(next));
-      if (!recording.known_to_mm.empty()) {
-        recording.known_to_mm[kept] = recording.known_to_mm[static_cast<std::size_t>(&tick - recording.ticks.data())];
-      }
       recording.ticks[kept++] = tick;
     }
     share = next;
@@ -32,7 +29,6 @@ std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>
   const std::size_t left_out = recording.ticks.size() - kept;
   recording.ticks.resize(kept);
   recording.shares = std::move(shares);
-  if (!recording.known_to_mm.empty()) recording.known_to_mm.resize(kept);
   return left_out;
 }
 

@@ -9,7 +9,6 @@
 namespace palpate::plugin {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr auto between_batches = std::chrono::milliseconds(20);
 constexpr auto between_flushes = std::chrono::seconds(1);
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
@@ -78,7 +77,7 @@ RecorderStatus Recorder::finish() {
 }
 
 void Recorder::run() {
-  Clock::time_point flushed = Clock::now();
+  auto flushed = options_.now();
   bool ending = false;
   try {
     // Once more after the end was asked for: until nothing is left.
@@ -88,9 +87,9 @@ void Recorder::run() {
         stop(say("less-than-mib-are-left-on", options_.spare_bytes >> 20U, file_.string()));
         return;
       }
-      if (Clock::now() - flushed >= between_flushes) {
+      if (options_.now() - flushed >= between_flushes) {
         writer_.flush();
-        flushed = Clock::now();
+        flushed = options_.now();
       }
       std::unique_lock lock(mutex_);
       progress_.notify_all();

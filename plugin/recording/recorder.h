@@ -6,6 +6,7 @@
 /// ends but the session goes on; what was flushed (once a second) stays readable.
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -34,6 +35,8 @@ struct RecorderOptions {
   std::uint64_t most_behind = 250;
   /// Called by the recording thread before each batch is written. Tests use it to make a disk slow.
   std::function<void()> before_write;
+  /// The clock that tells when to flush. Tests set another.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
 /// How precisely the place of the boundary that holds the proxy is known in a tick with these shares, mm

@@ -63,7 +63,6 @@ void append_rows(Table& table, const void* rows, std::size_t count) {
 }
 
 Handle create(const std::filesystem::path& file) {
-  hdf5::silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "create-the-file");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "create-the-file");
   return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create-it-there"};
@@ -88,7 +87,6 @@ struct RecordingWriter::File {
   void forget() noexcept {
     for (Table* table : {&ticks, &shares, &known_to, &events}) {
       table->data.forget();
-      table->type.forget();
     }
     file.forget();
   }

@@ -50,13 +50,12 @@ class RecordedStylus final : public device::Stylus {
   void open() override {}
   void close() noexcept override {}
   device::Reading read() noexcept override { return poses_->read(); }
-  void write_force(const device::Vec3& force) noexcept override { force_ = force; }
+  void write_force(const device::Vec3& /*force*/) noexcept override {}
   device::State state() const noexcept override { return poses_->state(); }
 
  private:
   std::optional<device::ReplayStylus>& poses_;
   device::Specification specification_;
-  device::Vec3 force_{0};
 };
 
 template <typename Record>

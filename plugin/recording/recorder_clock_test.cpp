@@ -1,0 +1,214 @@
+/// When a recorder flushes, waits, ends and counts: by a clock and a disk that the test holds in its hands.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "plugin/recording/recorder.h"
+#include "plugin/testing/test_files.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::fresh_path;
+
+void push_ticks(TickRing& ring, std::uint64_t count) {
+  for (std::uint64_t n = 0; n < count; ++n) {
+    TickRecord tick;
+    tick.index = ring.written();
+    ring.push(tick, {});
+  }
+}
+
+/// Time that goes on only when a test says so.
+struct HeldClock {
+  std::atomic<std::int64_t> ms{5000};
+  std::function<std::chrono::steady_clock::time_point()> now() {
+    return [this] { return std::chrono::steady_clock::time_point(std::chrono::milliseconds(ms)); };
+  }
+};
+
+/// A disk that answers only when a test says so.
+struct HeldDisk {
+  std::atomic<bool> answers{true};
+  std::function<void()> before_write() {
+    return [this] {
+      while (!answers) std::this_thread::yield();
+    };
+  }
+};
+
+void await_written(const Recorder& recorder, std::uint64_t ticks) {
+  while (recorder.status().written < ticks) std::this_thread::yield();
+}
+
+/// Once a second and not before: what a crash would leave are the ticks until the last flush. What follows a batch is
+/// over when the next batch is written.
+TEST(RecorderClock, FlushesOnceASecond) {
+  const auto file = fresh_path("flushed.h5");
+  const std::filesystem::path partial = file.string() + ".partial";
+  TickRing ring(1024);
+  HeldClock clock;
+  Recorder recorder(ring, file, {}, {.now = clock.now()});
+  recorder.note(SceneRecord{}, [](const TickRecord& tick, auto) { return static_cast<double>(tick.index) + 0.5; });
+  std::uint64_t ticks = 0;
+  const auto write_one = [&] {
+    push_ticks(ring, 1);
+    await_written(recorder, ++ticks);
+  };
+  const auto left_by_a_crash = [&] {  // a copy: HDF5 would look into the writer's own memory
+    const auto left = fresh_path("left.h5");
+    std::filesystem::copy_file(partial, left);
+    return read_recording(left).ticks.size();
+  };
+  write_one();
+  write_one();
+  EXPECT_EQ(left_by_a_crash(), 0U);
+  clock.ms += 999;
+  write_one();
+  write_one();
+  EXPECT_EQ(left_by_a_crash(), 0U);
+  clock.ms += 1;
+  write_one();
+  write_one();
+  const std::size_t first = left_by_a_crash();
+  EXPECT_GE(first, 4U);
+  clock.ms += 999;
+  write_one();
+  write_one();
+  EXPECT_EQ(left_by_a_crash(), first) << "a second after the last one";
+  clock.ms += 1;
+  write_one();
+  write_one();
+  EXPECT_GE(left_by_a_crash(), first + 2);
+  recorder.finish();
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.ticks.size(), ticks);
+  ASSERT_EQ(recording.known_to_mm.size(), ticks);
+  for (std::uint64_t n = 0; n < ticks; ++n) {
+    EXPECT_EQ(recording.ticks[n].index, n);
+    EXPECT_EQ(recording.known_to_mm[n], static_cast<double>(n) + 0.5) << "each batch its own";
+  }
+}
+
+/// Who is faster than the clock waits until half of the ring is free, and not where it is free already.
+TEST(RecorderClock, WaitsForHalfOfTheRing) {
+  TickRing ring(64);
+  HeldDisk disk;
+  disk.answers = false;
+  Recorder recorder(ring, fresh_path("room.h5"), {}, {.before_write = disk.before_write()});
+  push_ticks(ring, 31);
+  EXPECT_EQ(recorder.backlog(), 31U);
+  recorder.wait_for_room();  // returns, although the disk does not answer
+  push_ticks(ring, 1);
+  EXPECT_EQ(recorder.backlog(), 32U);
+  std::uint64_t left = 64;
+  std::thread waiting([&] {
+    recorder.wait_for_room();
+    left = recorder.backlog();
+  });
+  disk.answers = true;
+  waiting.join();
+  EXPECT_LT(left, 32U);
+  EXPECT_EQ(recorder.finish().written, 32U);
+}
+
+/// A recording that has stopped keeps nobody waiting, says why, and counts all that came after as lost.
+TEST(RecorderClock, WhatHasStoppedKeepsNobodyWaiting) {
+  const auto file = fresh_path("stopped.h5");
+  TickRing ring(64);
+  Recorder recorder(ring, file, {}, {.spare_bytes = std::uintmax_t{3} << 60U});
+  push_ticks(ring, 5);
+  while (!recorder.status().stopped) std::this_thread::yield();
+  push_ticks(ring, 60);
+  recorder.wait_for_room();
+  const RecorderStatus status = recorder.finish();
+  EXPECT_TRUE(status.stopped);
+  EXPECT_EQ(static_cast<std::string>(status.why),
+            "less than 3298534883328 MiB are left on the disk of " + file.string());
+  EXPECT_EQ(status.written + status.lost, 65U);
+  EXPECT_GE(status.lost, 60U);
+  const Recording recording = read_recording(file);
+  EXPECT_TRUE(recording.complete);
+  EXPECT_EQ(recording.ticks.size(), status.written);
+}
+
+/// While the disk does not answer, the ring goes round: what is overwritten is a gap, with its first tick and length,
+/// and the rest is written.
+TEST(RecorderClock, WhatTheRingCouldNotHoldIsOneGap) {
+  const auto file = fresh_path("gap.h5");
+  TickRing ring(64);
+  HeldDisk disk;
+  disk.answers = false;
+  Recorder recorder(ring, file, {}, {.before_write = disk.before_write()});
+  push_ticks(ring, 64 + 37);
+  disk.answers = true;
+  // The first batch may have been asked for when fewer were there; all others are not yet lost.
+  const RecorderStatus status = recorder.finish();
+  EXPECT_EQ(status.lost, 37U);
+  EXPECT_EQ(status.written, 64U);
+  EXPECT_FALSE(status.stopped);
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.ticks.size(), 64U);
+  EXPECT_EQ(recording.ticks.front().index, 37U);
+  EXPECT_EQ(recording.ticks.back().index, 100U);
+  std::uint64_t next = 0;
+  for (const Gap& gap : recording.gaps) {
+    EXPECT_EQ(gap.first_tick, next);
+    next += gap.ticks;
+  }
+  EXPECT_EQ(next, 37U);
+}
+
+/// What is known of a tick is asked of its own scene, and only while it is not far behind: to the tick.
+TEST(RecorderClock, ATickAsFarBehindAsAllowedIsStillAsked) {
+  const auto file = fresh_path("behind.h5");
+  TickRing ring(256);
+  HeldDisk disk;
+  disk.answers = false;
+  Recorder recorder(ring, file, {}, {.most_behind = 10, .before_write = disk.before_write()});
+  recorder.note(SceneRecord{.epoch = 0},
+                [](const TickRecord& tick, auto) { return 1000.0 + static_cast<double>(tick.index); });
+  push_ticks(ring, 30);
+  disk.answers = true;
+  recorder.finish();
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.known_to_mm.size(), 30U);
+  for (std::size_t n = 0; n < 30; ++n) {
+    if (n < 20) {
+      EXPECT_TRUE(std::isnan(recording.known_to_mm[n])) << n;
+    } else {
+      EXPECT_EQ(recording.known_to_mm[n], 1000.0 + static_cast<double>(n)) << n;
+    }
+  }
+}
+
+/// More than a batch at once is written in several, in order.
+TEST(RecorderClock, ABacklogOfManyBatchesIsWrittenInOrder) {
+  const auto file = fresh_path("batches.h5");
+  TickRing ring(1U << 14U);
+  HeldDisk disk;
+  disk.answers = false;
+  std::atomic<int> batches{0};
+  const auto hold = disk.before_write();
+  Recorder recorder(ring, file, {}, {.before_write = [&] {
+                      hold();
+                      ++batches;
+                    }});
+  push_ticks(ring, 3 * 4096 + 5);
+  disk.answers = true;
+  EXPECT_EQ(recorder.finish().written, 3 * 4096U + 5);
+  EXPECT_GE(batches.load(), 4) << "no more than 4096 in each";
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.ticks.size(), 3 * 4096U + 5);
+  for (std::uint64_t n = 0; n < recording.ticks.size(); ++n) ASSERT_EQ(recording.ticks[n].index, n);
+}
+
+}  // namespace
+}  // namespace palpate::plugin

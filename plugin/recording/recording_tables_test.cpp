@@ -1,0 +1,449 @@
+/// A recording's file as a program with HDF5 and nothing else sees it: written in parts, flushed, left, cut and
+/// damaged.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "plugin/recording/recording.h"
+#include "plugin/recording/recording_rows.h"
+#include "plugin/recording/recording_writer.h"
+#include "plugin/testing/test_files.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::fresh_path;
+
+/// Any numbers in all that a tick and its shares hold.
+Recording any_numbers(std::mt19937_64& random, std::size_t ticks) {
+  Recording recording;
+  recording.header = {
+      .palpate_version = "9.8.7", .device = "über", .scan_hash = "0123456789abcdef", .seed = 0.1, .rate_hz = 1e3 / 7};
+  for (std::size_t n = 0; n < ticks; ++n) {
+    TickRecord tick;
+    std::vector<unsigned char> bytes(sizeof tick);
+    for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(random());
+    std::memcpy(static_cast<void*>(&tick), bytes.data(), sizeof tick);
+    tick.share_count = static_cast<std::uint32_t>(random() % 4);
+    for (std::uint32_t share = 0; share < tick.share_count; ++share) {
+      recording.shares.push_back({.tick = random(),
+                                  .mode = share,
+                                  .type = 2,
+                                  .strength_n = std::ldexp(1, static_cast<int>(random() % 90)),
+                                  .force_n = {1, 2, 3}});
+    }
+    recording.ticks.push_back(tick);
+    recording.known_to_mm.push_back(static_cast<double>(random() % 1000) / 7);
+  }
+  return recording;
+}
+
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// In whatever parts it is appended, and wherever it is flushed, the file holds the same.
+TEST(RecordingTables, GrowInAnyParts) {
+  std::mt19937_64 random(1);
+  for (int n = 0; n < 6; ++n) {
+    const Recording whole = any_numbers(random, 2600);
+    const auto file = fresh_path("parts.h5");
+    RecordingWriter writer(file, whole.header);
+    EXPECT_EQ(writer.partial(), file.string() + ".partial");
+    std::size_t share = 0;
+    for (std::size_t begin = 0; begin < whole.ticks.size();) {
+      const std::size_t count = std::min<std::size_t>(random() % 1500, whole.ticks.size() - begin);
+      std::size_t shares = 0;
+      for (std::size_t of = begin; of < begin + count; ++of) shares += whole.ticks[of].share_count;
+      writer.append(std::span(whole.ticks).subspan(begin, count), std::span(whole.shares).subspan(share, shares),
+                    std::span(whole.known_to_mm).subspan(begin, count));
+      if (random() % 3 == 0) writer.flush();
+      begin += count;
+      share += shares;
+    }
+    EXPECT_FALSE(fs::exists(file));
+    writer.finish();
+    EXPECT_TRUE(fs::exists(file));
+    EXPECT_FALSE(fs::exists(writer.partial()));
+    const Recording read = read_recording(file);
+    EXPECT_TRUE(read.complete);
+    EXPECT_TRUE(same_bytes(read.ticks, whole.ticks));
+    EXPECT_TRUE(same_bytes(read.shares, whole.shares));
+    EXPECT_TRUE(same_bytes(read.known_to_mm, whole.known_to_mm));
+    EXPECT_EQ(read.header.palpate_version, whole.header.palpate_version);
+    EXPECT_EQ(read.header.device, whole.header.device);
+    EXPECT_EQ(read.header.scan_hash, whole.header.scan_hash);
+    EXPECT_EQ(read.header.seed, whole.header.seed) << "to the last bit";
+    EXPECT_EQ(read.header.rate_hz, whole.header.rate_hz);
+  }
+}
+
+/// What was appended before a flush is there when the writer dies after it: ticks, shares, what is known, and events.
+TEST(RecordingTables, WhatWasFlushedSurvives) {
+  std::mt19937_64 random(2);
+  const Recording whole = any_numbers(random, 40);
+  const auto file = fresh_path("flushed.h5"), left = fresh_path("left.h5");
+  RecordingWriter writer(file, whole.header);
+  writer.append(SceneRecord{.epoch = 4, .scene = "{}", .scan_hash = "x"});
+  writer.append(StylusRecord{.epoch = 2, .name = "falcon"});
+  writer.append(Gap{.first_tick = 7, .ticks = 3});
+  writer.append(whole.ticks, whole.shares, whole.known_to_mm);
+  writer.flush();
+  fs::copy_file(writer.partial(), left);
+  const Recording read = read_recording(left);
+  EXPECT_FALSE(read.complete);
+  EXPECT_TRUE(same_bytes(read.ticks, whole.ticks));
+  EXPECT_TRUE(same_bytes(read.shares, whole.shares));
+  EXPECT_TRUE(same_bytes(read.known_to_mm, whole.known_to_mm));
+  ASSERT_EQ(read.scenes.size(), 1U);
+  EXPECT_EQ(read.scenes[0].epoch, 4U);
+  ASSERT_EQ(read.styluses.size(), 1U);
+  EXPECT_EQ(read.styluses[0].name, "falcon");
+  ASSERT_EQ(read.gaps.size(), 1U);
+  EXPECT_EQ(read.gaps[0].ticks, 3U);
+}
+
+/// After a failure the file stays as it was flushed last: closing writes nothing more.
+TEST(RecordingTables, WhatIsAbandonedStaysAsItWasFlushed) {
+  std::mt19937_64 random(6);
+  const Recording whole = any_numbers(random, 40), more = any_numbers(random, 2500);
+  const auto file = fresh_path("abandoned.h5"), left = fresh_path("left.h5");
+  {
+    RecordingWriter writer(file, whole.header);
+    writer.append(whole.ticks, whole.shares, whole.known_to_mm);
+    writer.flush();
+    writer.append(more.ticks, more.shares, more.known_to_mm);
+    writer.abandon();
+    writer.abandon();  // once is enough, twice does no harm
+  }
+  EXPECT_FALSE(fs::exists(file));
+  fs::copy_file(file.string() + ".partial", left);
+  const Recording read = read_recording(left);
+  EXPECT_FALSE(read.complete);
+  ASSERT_GE(read.ticks.size(), whole.ticks.size());
+  EXPECT_LT(read.ticks.size(), whole.ticks.size() + more.ticks.size());
+  EXPECT_EQ(std::memcmp(read.ticks.data(), whole.ticks.data(), whole.ticks.size() * sizeof(TickRecord)), 0);
+  // What is finished has nothing left to abandon.
+  const auto other = fresh_path("finished.h5");  // the abandoned file is still open
+  RecordingWriter writer(other, whole.header);
+  writer.finish();
+  writer.abandon();
+  EXPECT_TRUE(read_recording(other).complete);
+}
+
+/// Of ticks whose shares are cut off, only those count that have them all.
+TEST(RecordingTables, ATickWithoutAllItsSharesIsLeftOut) {
+  std::mt19937_64 random(3);
+  for (int n = 0; n < 20; ++n) {
+    Recording recording = any_numbers(random, 30);
+    const Recording whole = recording;
+    recording.shares.resize(random() % (recording.shares.size() + 1));
+    recording.known_to_mm.resize(random() % 31);
+    std::size_t ticks = 0, shares = 0;
+    while (ticks < 30 && shares + whole.ticks[ticks].share_count <= recording.shares.size())
+      shares += whole.ticks[ticks++].share_count;
+    const auto file = fresh_path("cut.h5");
+    write_recording(recording, file);
+    const Recording read = read_recording(file);
+    ASSERT_EQ(read.ticks.size(), ticks);
+    ASSERT_EQ(read.shares.size(), shares);
+    ASSERT_EQ(read.known_to_mm.size(), ticks);
+    for (std::size_t of = 0; of < ticks; ++of) {
+      if (of < recording.known_to_mm.size()) {
+        EXPECT_EQ(read.known_to_mm[of], whole.known_to_mm[of]);
+      } else {
+        EXPECT_TRUE(std::isnan(read.known_to_mm[of])) << "not known";
+      }
+    }
+  }
+}
+
+/// Every table is shuffled and packed, in chunks that fit into HDF5's cache of 1 MiB for each table.
+TEST(RecordingTables, ArePackedInChunksThatHdf5Holds) {
+  std::mt19937_64 random(4);
+  const auto file = fresh_path("packed.h5");
+  Recording still = any_numbers(random, 1);
+  still.ticks.assign(20000, still.ticks.front());
+  still.shares.clear();
+  still.known_to_mm.clear();
+  for (std::size_t n = 0; n < still.ticks.size(); ++n) {
+    still.ticks[n].index = n;
+    still.ticks[n].share_count = 0;
+  }
+  write_recording(still, file);
+  EXPECT_LT(fs::file_size(file), 20000 * sizeof(TickRecord) / 20) << "columns that hardly change take little room";
+  const hid_t input = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(input, 0);
+  for (const char* const name : {"frames", "shares", "known_to_mm", "events"}) {
+    const hid_t data = H5Dopen2(input, name, H5P_DEFAULT), type = H5Dget_type(data), made = H5Dget_create_plist(data);
+    hsize_t rows = 0;
+    EXPECT_EQ(H5Pget_chunk(made, 1, &rows), 1) << name;
+    EXPECT_LE(rows * H5Tget_size(type), 1U << 20U) << name;
+    EXPECT_GE(rows, 1000U) << name << ": a second";
+    EXPECT_EQ(H5Pget_nfilters(made), 2) << name;
+    std::vector<H5Z_filter_t> filters;
+    for (unsigned n = 0; n < 2; ++n)
+      filters.push_back(H5Pget_filter2(made, n, nullptr, nullptr, nullptr, 0, nullptr, nullptr));
+    EXPECT_EQ(filters, (std::vector<H5Z_filter_t>{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE})) << name;
+    H5Pclose(made);
+    H5Tclose(type);
+    H5Dclose(data);
+  }
+  for (const char* const name : {"palpate_version", "device", "scan_hash", "seed", "rate_hz"}) {
+    const hid_t data = H5Dopen2(input, name, H5P_DEFAULT), type = H5Dget_type(data);
+    EXPECT_EQ(H5Tget_class(type), H5T_STRING) << name;
+    EXPECT_EQ(H5Tget_cset(type), H5T_CSET_UTF8) << name;
+    H5Tclose(type);
+    H5Dclose(data);
+  }
+  H5Fclose(input);
+}
+
+/// Texts of every length, also none.
+TEST(RecordingTables, TextsOfEveryLengthReadBack) {
+  for (const std::size_t length : {0U, 1U, 2U, 16U, 70000U}) {
+    Recording recording;
+    recording.header.palpate_version = std::string(length, 'v');
+    recording.header.device = std::string(length, 'd');
+    recording.header.scan_hash = std::string(length, 'h');
+    const auto file = fresh_path("texts.h5");
+    write_recording(recording, file);
+    const Recording read = read_recording(file);
+    EXPECT_EQ(read.header.palpate_version, recording.header.palpate_version);
+    EXPECT_EQ(read.header.device, recording.header.device);
+    EXPECT_EQ(read.header.scan_hash, recording.header.scan_hash);
+    EXPECT_EQ(read.header.scene, "");
+    EXPECT_TRUE(read.scenes.empty());
+  }
+  // A header's scene alone is a scene of the header's scan.
+  Recording recording;
+  recording.header.scene = "{\"a\": 1}";
+  recording.header.scan_hash = "f00";
+  const auto file = fresh_path("scene.h5");
+  write_recording(recording, file);
+  const Recording read = read_recording(file);
+  EXPECT_EQ(read.header.scene, recording.header.scene);
+  ASSERT_EQ(read.scenes.size(), 1U);
+  EXPECT_EQ(read.scenes[0].scene, recording.header.scene);
+  EXPECT_EQ(read.scenes[0].scan_hash, "f00");
+  EXPECT_EQ(read.scenes[0].epoch, 0U);
+}
+
+std::string why_unread(const fs::path& file) {
+  try {
+    read_recording(file);
+    return "read";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+/// Another program's HDF5 file, in which one dataset is of another kind.
+template <typename Make>
+fs::path with_version(const Make& make) {
+  const auto file = fresh_path("other.h5");
+  write_recording({}, file);
+  const hid_t output = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(output, "palpate_version", H5P_DEFAULT);
+  const auto [type, space] = make();
+  const hid_t data = H5Dcreate2(output, "palpate_version", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  EXPECT_GE(data, 0);
+  H5Dclose(data);
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Fclose(output);
+  return file;
+}
+
+/// What is no recording is refused by what is wrong with it; and HDF5 itself says nothing, in any thread.
+TEST(RecordingTables, WhatIsNoRecordingIsRefusedInWordsOfOurs) {
+  const auto text = [](hid_t size) {
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, static_cast<std::size_t>(size));
+    return type;
+  };
+  const auto cannot = [](const fs::path& file, const std::string& what) {
+    return "cannot read the recording " + file.string() + ": HDF5 cannot " + what;
+  };
+  const auto plain = fresh_path("plain.h5"), empty = fresh_path("nothing.h5"), absent = fresh_path("absent.h5");
+  std::ofstream(plain) << "not HDF5";
+  H5Fclose(H5Fcreate(empty.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  const auto number = with_version([] { return std::pair(H5Tcopy(H5T_NATIVE_INT), H5Screate(H5S_SCALAR)); });
+  EXPECT_EQ(why_unread(number), cannot(number, "read what is in it"));
+  const auto variable = with_version([] {
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, H5T_VARIABLE);
+    return std::pair(type, H5Screate(H5S_SCALAR));
+  });
+  EXPECT_EQ(why_unread(variable), cannot(variable, "read what is in it"));
+  const auto several = with_version([&] {
+    const hsize_t two = 2;
+    return std::pair(text(4), H5Screate_simple(1, &two, nullptr));
+  });
+  EXPECT_EQ(why_unread(several), cannot(several, "read what is in it"));
+  const auto one = with_version([&] { return std::pair(text(4), H5Screate(H5S_SCALAR)); });
+  EXPECT_EQ(why_unread(one), "read");
+  /// What HDF5 says on the way, told to say all that it can.
+  const auto said_by_hdf5 = [](const auto& step) {
+    H5Eset_auto2(H5E_DEFAULT, reinterpret_cast<H5E_auto2_t>(H5Eprint2), nullptr);
+    ::testing::internal::CaptureStderr();
+    step();
+    return ::testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(
+      said_by_hdf5([&] { EXPECT_EQ(why_unread(plain), cannot(plain, "open it (is it a recording of Palpate's?)")); }),
+      "");
+  EXPECT_EQ(
+      said_by_hdf5([&] { EXPECT_EQ(why_unread(absent), cannot(absent, "open it (is it a recording of Palpate's?)")); }),
+      "");
+  EXPECT_EQ(said_by_hdf5([&] { EXPECT_EQ(why_unread(empty), cannot(empty, "find what a recording holds")); }), "");
+  const auto nowhere = fresh_path("no_such_folder") / "r.h5";
+  EXPECT_EQ(said_by_hdf5([&] {
+              try {
+                RecordingWriter(nowhere, {});
+                ADD_FAILURE() << "written";
+              } catch (const std::runtime_error& error) {
+                EXPECT_EQ(error.what(),
+                          "cannot write the recording " + nowhere.string() +
+                              ": HDF5 cannot create the file (does its folder exist, and may you write there?)");
+              }
+            }),
+            "");
+}
+
+/// Lines of older versions lack what came later; of other kinds there may be lines, too; and the last may be cut.
+TEST(RecordingTables, OlderEventsAreReadWithWhatWasTrueThen) {
+  Recording recording;
+  read_events(
+      "{\"kind\":\"scene\",\"epoch\":3,\"scan_hash\":\"h\",\"half_extent_m\":[1,2,4],\"maximum_force_n\":5,\"scene\":"
+      "\"s\"}\n"
+      "{\"kind\":\"something new\",\"epoch\":3}\n"
+      "{\"kind\":\"gap\",\"first_frame\":17,\"frames\":4}\n"
+      "{\"kind\":\"gap\",\"first_fra",
+      recording);
+  ASSERT_EQ(recording.scenes.size(), 1U);
+  EXPECT_EQ(recording.scenes[0].epoch, 3U);
+  EXPECT_EQ(recording.scenes[0].half_extent_m, glm::dvec3(1, 2, 4));
+  EXPECT_EQ(recording.scenes[0].maximum_force_n, 5);
+  EXPECT_EQ(recording.scenes[0].change_s, 0.5);
+  EXPECT_TRUE(recording.scenes[0].structures.empty());
+  EXPECT_TRUE(recording.scenes[0].registered.empty());
+  EXPECT_FALSE(recording.scenes[0].frame);
+  EXPECT_TRUE(recording.styluses.empty());
+  ASSERT_EQ(recording.gaps.size(), 1U);
+  EXPECT_EQ(recording.gaps[0].first_tick, 17U);
+  EXPECT_EQ(recording.gaps[0].ticks, 4U);
+  for (const std::string& line : {to_line(SceneRecord{}), to_line(StylusRecord{}), to_line(Gap{})}) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
+    EXPECT_EQ(line.back(), '\n');
+  }
+  EXPECT_ANY_THROW(read_events("no JSON\n", recording));
+  EXPECT_ANY_THROW(read_events("{\"kind\":\"stylus\"}\n", recording));
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// A table has a column for each structure of any scene, in the order in which they come, and a tick's distance where
+/// its scene has it; numbers read back to the last bit.
+TEST(RecordingTables, ATableHasAColumnForEachStructureOfAnyScene) {
+  std::mt19937_64 random(5);
+  Recording recording;
+  const std::vector<std::vector<std::string>> structures{
+      {"liver", "a \"b\""}, {}, {"aorta", "liver"}, {"1", "2", "3", "4", "5", "6", "7", "aorta"}};
+  const std::vector<std::string> columns{"liver", "a \"b\"", "aorta", "1", "2", "3", "4", "5", "6", "7"};
+  for (std::uint32_t n = 0; n < 4; ++n) {
+    recording.scenes.push_back({.epoch = 2 * n, .structures = structures[n]});
+    if (n % 2 == 0) recording.scenes.back().frame = ScanFrame{static_cast<int>(n) + 3, 9};
+  }
+  for (std::uint32_t n = 0; n < 10; ++n) {  // 8 and 9: of no scene that is known
+    TickRecord tick;
+    tick.scene_epoch = n;
+    for (double& mm : tick.distance_mm) mm = static_cast<double>(random()) / 7e15;
+    const bool is_known = n < 8 && n % 2 == 0;  // a session tells nothing after the scene's last
+    for (std::size_t at = is_known ? structures[n / 2].size() : 8; at < 8; ++at) tick.distance_mm[at] = std::nan("");
+    recording.ticks.push_back(tick);
+  }
+  const auto file = fresh_path("structures.csv");
+  write_csv(recording, file);
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> names = cells_of(line);
+  const auto first = static_cast<std::size_t>(std::ranges::find(names, "\"distance_mm liver\"") - names.begin());
+  ASSERT_EQ(names.size(), first + columns.size());
+  EXPECT_EQ(names[first - 1], "scan_frame");
+  EXPECT_EQ(names[first - 2], "known_to_mm");
+  EXPECT_EQ(names[first + 1], "\"distance_mm a \"\"b\"\"\"");
+  EXPECT_EQ(names.back(), "\"distance_mm 7\"");
+  for (const TickRecord& tick : recording.ticks) {
+    ASSERT_TRUE(std::getline(stream, line));
+    const std::vector<std::string> cells = cells_of(line);
+    ASSERT_EQ(cells.size(), names.size());
+    const bool is_known = tick.scene_epoch < 8 && tick.scene_epoch % 2 == 0;
+    const std::size_t scene = tick.scene_epoch / 2;
+    EXPECT_EQ(cells[first - 1], is_known && scene % 2 == 0 ? std::to_string(scene + 3) : "");
+    EXPECT_EQ(cells[first - 2], "nan") << "not recorded";
+    for (std::size_t n = 0; n < columns.size(); ++n) {
+      std::size_t at = 8;
+      if (is_known) {
+        const auto found = std::ranges::find(structures[scene], columns[n]);
+        if (found != structures[scene].end()) at = static_cast<std::size_t>(found - structures[scene].begin());
+      }
+      if (at == 8) {
+        EXPECT_EQ(cells[first + n], "nan");
+      } else {
+        EXPECT_EQ(std::stod(cells[first + n]), tick.distance_mm[at]) << tick.scene_epoch << columns[n];
+      }
+    }
+  }
+  EXPECT_FALSE(std::getline(stream, line));
+  const auto nowhere = fresh_path("no_such_folder") / "r.csv";
+  try {
+    write_csv(recording, nowhere);
+    FAIL() << "written";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()).find("cannot write " + nowhere.string() + ": "), 0U) << error.what();
+  }
+}
+
+/// What was felt of a series, and by which registrations: each once, in the order in which it came.
+TEST(RecordingTables, FramesAndRegistrationsAreToldOnce) {
+  Recording recording;
+  EXPECT_TRUE(scan_frames_of(recording).empty());
+  EXPECT_TRUE(registered_of(recording).empty());
+  const auto registered = [](const std::string& name, double x) {
+    RegisteredStructure one{.structure = name, .file_hash = "h", .motion = {}};
+    one.motion.shift.x = x;
+    return one;
+  };
+  recording.scenes = {{.registered = {registered("a", 1), registered("b", 1)}, .frame = ScanFrame{5, 8}},
+                      {.registered = {registered("b", 1), registered("a", 2)}},
+                      {.registered = {registered("a", 1)}, .frame = ScanFrame{0, 8}},
+                      {.frame = ScanFrame{5, 8}},
+                      {.frame = ScanFrame{5, 9}}};
+  EXPECT_EQ(scan_frames_of(recording), (std::vector<ScanFrame>{{5, 8}, {0, 8}, {5, 9}}));
+  EXPECT_EQ(registered_of(recording),
+            (std::vector<RegisteredStructure>{registered("a", 1), registered("b", 1), registered("a", 2)}));
+}
+
+}  // namespace
+}  // namespace palpate::plugin
