@@ -25,7 +25,7 @@ import tempfile
 import threading
 import time
 
-from slips import NOT_MUTATED, slips_by_line
+from slips import NOT_MUTATED, masked, slips_by_line
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "mutate"
@@ -119,11 +119,20 @@ def suites_near(path):
             for suite in re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\((\w+),", test.read_text(), flags=re.M)}
 
 
+def begins_statement(lines, number):
+    """Whether a statement begins on a line: what stands in front of the line of another would change that one."""
+    before = next((line for line in reversed(masked("\n".join(lines[: number - 1])).split("\n")) if line.strip()), ";")
+    return before.rstrip().endswith((";", "{", "}"))
+
+
 def with_slips(path, mutants):
     """The text of a file in which slips are chosen at run time, or only tell that their line is run."""
     lines = (ROOT / path).read_text().split("\n")
     for mutant in mutants:
         line = f"slip::on(@); {mutant.before}" if mutant.marked else mutant.together
+        if mutant.marked and not begins_statement(lines, mutant.number):
+            mutant.place, mutant.marked = None, True  # its suites are not told: all judge it
+            continue
         lines[mutant.number - 1] = line.replace("{@}", f"{{{mutant.place}}}").replace("on(@)", f"on({mutant.place})")
     return "\n".join(lines)
 
