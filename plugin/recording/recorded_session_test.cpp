@@ -10,6 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "modes/scene/scene_json.h"
@@ -74,6 +75,25 @@ Recording three_stretches() {
     recording.known_to_mm.push_back(n);
   }
   return recording;
+}
+
+std::string refusal_of(Recording recording) {
+  try {
+    RecordedSession(std::move(recording), felt_scan());
+  } catch (const std::exception& refusal) {
+    return refusal.what();
+  }
+  return "none";
+}
+
+TEST(RecordedSession, SaysOfAnEmptyRecordingAndOfOneOnAnotherScanWhichItIs) {
+  EXPECT_EQ(refusal_of({}), "the recording is empty: no tick of it was written");
+  Recording elsewhere = three_stretches();
+  elsewhere.header.scan_hash = "that one";
+  for (SceneRecord& scene : elsewhere.scenes) scene.scan_hash = "another";
+  const std::string said = refusal_of(std::move(elsewhere));
+  EXPECT_NE(said.find("that one"), std::string::npos) << said;
+  EXPECT_NE(said.find(hash_of(felt_scan())), std::string::npos) << said;
 }
 
 TEST(RecordedSession, EachTickOfTheScanHasItsOwnTimeSharesAndPlaceInThePatient) {

@@ -65,6 +65,18 @@ TEST(Recorder, WritesEveryTickInOrderWithWhatTheSessionWasGiven) {
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".partial"));
 }
 
+TEST(Recorder, ThatIsDroppedLeavesAWholeRecording) {
+  const auto file = fresh_path("dropped.h5");
+  TickRing ring(1024);
+  {
+    Recorder recorder(ring, file, header);
+    push(ring, 0, 300);
+  }
+  const Recording recording = read_recording(file);
+  EXPECT_TRUE(recording.complete);
+  EXPECT_EQ(recording.ticks.size(), 300U);
+}
+
 /// Each tick is asked of with its own shares, of the scene that it felt; one that is over is let go of.
 TEST(Recorder, EachTickHasWhatIsKnownOfItsBoundary) {
   const auto file = fresh_path("known.h5");
