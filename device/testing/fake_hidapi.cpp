@@ -18,9 +18,11 @@ namespace {
 
 palpate::device::FakeHidApi* hid = nullptr;
 
+/// Loaded with the program: a test may leave no file to be opened later.
+void* const library = dlopen("libhidapi-hidraw.so.0", RTLD_NOW);
+
 template <typename Function>
 Function real_hid(const char* name) {
-  static void* const library = dlopen("libhidapi-hidraw.so.0", RTLD_NOW);
   return reinterpret_cast<Function>(dlsym(library, name));
 }
 

@@ -27,9 +27,11 @@ std::list<libusb_device> listed;      // as long as the bus is there
 std::list<libusb_transfer*> pending;  // submitted
 std::list<libusb_transfer*> cancelled;
 
+/// Loaded with the program: a test may leave no file to be opened later.
+void* const library = dlopen("libusb-1.0.so.0", RTLD_NOW);
+
 template <typename Function>
 Function real(const char* name) {
-  static void* const library = dlopen("libusb-1.0.so.0", RTLD_NOW);
   return reinterpret_cast<Function>(dlsym(library, name));
 }
 
