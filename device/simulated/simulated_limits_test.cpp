@@ -65,13 +65,13 @@ TEST(SimulatedLimits, EachNumberHasItsLeast) {
 /// 100 to 20000 Hz, and a force that is on its way for at most 60 ticks.
 TEST(SimulatedLimits, RateAndDelayHaveTheirMost) {
   for (const auto& [rate, taken] : {std::pair{99.9, false}, {100.0, true}, {20000.0, true}, {20000.1, false}}) {
-    EXPECT_EQ(is_taken([&](SimulatedDevice& d) { d.rate = rate; }), taken) << rate;
+    EXPECT_EQ(is_taken([value = rate](SimulatedDevice& d) { d.rate = value; }), taken) << rate;
   }
   for (const double rate : {500.0, 1000.0, 8000.0}) {
     for (const auto& [ticks, taken] : {std::pair{60.0, true}, {60.1, false}}) {
-      EXPECT_EQ(is_taken([&](SimulatedDevice& d) {
+      EXPECT_EQ(is_taken([rate, delay = ticks / rate](SimulatedDevice& d) {
                   d.rate = rate;
-                  d.delay = ticks / rate;
+                  d.delay = delay;
                 }),
                 taken)
           << ticks;

@@ -29,7 +29,7 @@ TEST(StructuresOfPatients, IdsAndNamesAreHashedAsEverywhere) {
   EXPECT_EQ(hashed_id(""), "");
   EXPECT_EQ(hashed_name(""), "");
   EXPECT_EQ(hashed_name("^^^"), "") << "no letter";
-  for (const std::string id : {"7", " 7", "A-12^b", "xxh3", std::string(300, 'x').c_str()}) {
+  for (const std::string& id : std::vector<std::string>{"7", " 7", "A-12^b", "xxh3", std::string(300, 'x')}) {
     EXPECT_EQ(hashed_id(id), marked_hash(id));
     EXPECT_EQ(hashed_id(hashed_id(id)), hashed_id(id));
   }
