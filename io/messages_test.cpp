@@ -15,7 +15,7 @@
 #include "io/fresh_folder.h"
 #include "io/series.h"
 #include "io/testing/provoked_scans.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 
 namespace palpate::io {
 namespace {
@@ -60,7 +60,7 @@ TEST(MessagesOfSeries, EachIsShown) {
   }
   for (const Provoked& one : testing::provoke_archives()) provoked.push_back(one);
   std::vector<NotShown> not_shown{{"archive-holds-too-many-files", "a million files take a minute"}};
-  if (testdata::is_sanitized) {
+  if (is_sanitized) {
     not_shown.push_back({"needs-more-memory-than-there", "sanitizers end a program that asks for too much"});
   }
   expect_all_shown({messages::series}, provoked, not_shown, PALPATE_SOURCES);

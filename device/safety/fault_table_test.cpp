@@ -13,6 +13,7 @@
 
 #include "device/safety/safety_filter.h"
 #include "device/testing/fake_rigs.h"
+#include "solver/text/testing/sanitized.h"
 
 namespace palpate::device {
 namespace {
@@ -210,8 +211,12 @@ void play(const std::string& kind, const Case& one) {
 
 TEST(FaultTable, EveryFaultEndsWithoutForce) {
   std::printf("%-22s %-29s %-10s %-13s %s\n", "device", "fault", "force for", "state", "cause");
+  std::size_t turn = 0;
   for (const char* const kind : rig_kinds()) {
-    for (const Case& one : cases()) play(kind, one);
+    for (const Case& one : cases()) {
+      // Under sanitizers a third of them, each fault on some device and each device with some fault.
+      if (!is_sanitized || turn++ % 3 == 0) play(kind, one);
+    }
   }
   std::puts("SIGINT, SIGTERM and SIGKILL: the guardian sends the zeros; tests device.usb.* and GuardianOfProcess.*");
 }

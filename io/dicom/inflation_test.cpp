@@ -13,8 +13,8 @@
 #include "io/structures/segment_frames.h"
 #include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
+#include "solver/text/testing/sanitized.h"
 #include "solver/text/testing/shown.h"
-#include "testdata/sanitized.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -91,7 +91,7 @@ TEST(Inflation, ABombIsRefusedBeforeItIsInflated) {
   EXPECT_EQ(found.skipped[0].reason, "damaged: its " + std::to_string(size) +
                                          " bytes are said to inflate to 3625 MiB; if that is right, export it "
                                          "uncompressed");
-  if (testdata::is_sanitized) return;
+  if (is_sanitized) return;
   EXPECT_LT(peak_mib() - before, 64);
 }
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <numbers>
 
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::io {
@@ -94,7 +94,7 @@ TEST(Gradient, OfASphereIsRadialAtTheDefaultScale) {
                                 {"fine", fine, 0.5, 0.7, 0.03},        {"thick", thick, 6, 6.5, 0.2}};
   for (const Case& c : cases) {
     const double scale = default_gradient_scale_mm(testdata::make_geometry(c.grid));
-    if (testdata::is_sanitized && &c - cases.data() > 1) break;  // a minute of the same code
+    if (is_sanitized && &c - cases.data() > 1) break;  // a minute of the same code
     const Errors clean = errors_on_sphere(c.grid, 20, scale, 0);
     const Errors noisy = errors_on_sphere(c.grid, 20, scale, 20);
     EXPECT_LT(clean.degrees, c.degrees) << c.name;

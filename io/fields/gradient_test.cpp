@@ -14,7 +14,7 @@
 #include <random>
 
 #include "io/errors.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::io {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/fields/volume_fields.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::io {
@@ -80,7 +80,7 @@ Agreement agreement(const std::vector<Layer>& layers, double boundary_mm, double
 TEST(LowHigh, are_the_tissues_on_both_sides_of_a_flat_boundary) {
   for (const Grid& grid : grids()) {
     for (const double noise : {20.0, 0.0}) {
-      if (testdata::is_sanitized && noise == 0) continue;
+      if (is_sanitized && noise == 0) continue;
       const Agreement skin = agreement({{0, 40}}, 0, -1000, 40, grid, noise);
       EXPECT_GT(skin.voxels, 500);
       EXPECT_GT(skin.within_tenth, 0.99);

@@ -14,6 +14,7 @@
 #include "io/structures/contour_planes.h"
 #include "io/structures/fraction_edges.h"
 #include "io/structures/label_planes.h"
+#include "solver/text/testing/sanitized.h"
 
 namespace palpate::io {
 namespace {
@@ -98,6 +99,7 @@ struct BallGoal {
 TEST(DistanceField, IsAsTrueToABallAsItsGoals) {
   for (const BallGoal& goal : {BallGoal{20, 1, 0.12, 1.6}, {20, 3, 0.40, 3}, {20, 5, 0.95, 6}, {3, 1, 0.35, 13}}) {
     const Vec3 center(0.31, -0.17, 0.23 * goal.slices);
+    if (is_sanitized && goal.slices != 5) continue;
     const auto field =
         distance_of(labels_of(ball(goal.radius, center), goal.radius + 3 + 3 * goal.slices, {1, 1, goal.slices}));
     for (const Vec3& direction : directions(2000)) {
@@ -178,6 +180,7 @@ std::pair<double, double> errors_of(const Mask& mask, double radius, const Vec3&
 TEST(DistanceField, OfFractionsIsTruerThanThatOfTheVoxelsInside) {
   for (const double radius : {3.0, 12.0}) {
     for (const double slices : {1.0, 2.0}) {
+      if (is_sanitized && (radius > 5 || slices == 1)) continue;
       const Vec3 center(0.31, -0.17, 0.23 * slices), spacing(1, 1, slices);
       const double extent = radius + 3 + 3 * slices;
       for (const Mask& mask :

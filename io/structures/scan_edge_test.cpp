@@ -16,7 +16,7 @@
 
 #include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::io {
@@ -81,7 +81,7 @@ std::vector<Lattice> lattices() {
       {"oblique", oblique({.size = {32, 35, 26}, .spacing = {1, 0.9, 1.3}}), 0.13},
       {"tilted", oblique({.size = {32, 36, 22}, .spacing = {1.1, 0.9, 1.7}, .tilt_degrees = 18}), 0.25},
       {"uneven slices", {.size = {35, 35, 20}, .spacing = {0.9, 0.9, 1.6}, .uneven_mm = 0.3}, 0.45}};
-  all.resize(static_cast<std::size_t>(testdata::repeats(5, 1)));
+  all.resize(static_cast<std::size_t>(repeats(5, 1)));
   return all;
 }
 

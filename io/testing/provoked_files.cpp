@@ -16,7 +16,7 @@
 #include "io/series.h"
 #include "io/testing/provoked_scans.h"
 #include "io/testing/test_coders.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 
 namespace palpate::io::testing {
 namespace {
@@ -175,7 +175,7 @@ std::vector<Provoked> provoke_series(const Series& series) {
       {"does-not-fit-the-volume",
        of_a_stack_and([](DcmDataset& d) { put(d, DCM_ImageOrientationPatient, std::string("1\\0\\0\\0\\0\\-1")); })},
   };
-  if (!testdata::is_sanitized) provoked.push_back({"needs-more-memory-than-there", of_too_large_a_scan()});
+  if (!is_sanitized) provoked.push_back({"needs-more-memory-than-there", of_too_large_a_scan()});
   return provoked;
 }
 

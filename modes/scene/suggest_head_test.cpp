@@ -13,8 +13,8 @@
 #include "io/series.h"
 #include "modes/scene/suggest.h"
 #include "modes/testing/test_rig.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/invesalius.h"
-#include "testdata/sanitized.h"
 
 namespace palpate::modes {
 namespace {
@@ -79,7 +79,7 @@ TEST(SuggestHead, offers_skin_and_skull_as_two_boundaries_each_felt_without_the_
                                 io::default_gradient_scale_mm(head->geometry));
   const io::VolumeFields truth = truth_of(head);
   const Vec3 inward(0, 1, 0);  // to the back: the rays meet the forehead above the sinuses
-  for (int ray = 0; ray < testdata::repeats(20, 2); ++ray) {
+  for (int ray = 0; ray < repeats(20, 2); ++ray) {
     const double x = -20.0 + 10.0 * (ray % 5), z = 35.0 + 5.0 * (ray / 5);
     SCOPED_TRACE(::testing::Message() << "L " << x << " H " << z << " mm");
     const Vec3 from(x, -110, z);
@@ -97,7 +97,7 @@ TEST(SharedSuggestHead, offers_the_scalp_and_the_surface_of_the_brain_of_an_mr) 
   if (!std::filesystem::exists(folder)) {
     GTEST_SKIP() << "needs the shared MR head, a real brain to be suggested boundaries of, which is not at " << folder;
   }
-  if (testdata::is_sanitized) {
+  if (is_sanitized) {
     GTEST_SKIP() << "under sanitizers the CT head stands for both: this one takes a minute, and runs the same code";
   }
   const io::Catalogue catalogue = io::find_series(std::array{folder});

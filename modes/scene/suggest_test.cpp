@@ -16,7 +16,7 @@
 #include "modes/scene/hills.h"
 #include "modes/scene/scene_json.h"
 #include "modes/testing/test_rig.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::modes {
@@ -110,7 +110,7 @@ TEST(Suggest, finds_the_tissues_and_the_boundaries_of_every_phantom_and_no_other
   for (const Case& phantom : cases()) {
     for (const double noise : {20.0, 0.0}) {
       for (const testdata::Grid& grid : {oblique, testdata::Grid{}}) {
-        if (testdata::is_sanitized && !(noise > 0 && grid.tilt_degrees > 0)) {
+        if (is_sanitized && !(noise > 0 && grid.tilt_degrees > 0)) {
           continue;  // the other three show no other memory
         }
         SCOPED_TRACE(::testing::Message() << phantom.name << ", noise " << noise << ", tilt " << grid.tilt_degrees);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "modes/scene/workspace.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::modes::testing {
@@ -38,7 +38,7 @@ inline Vec3 across(const Vec3& direction) {
   return glm::normalize(glm::cross(direction, std::abs(direction.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
 }
 
-inline constexpr int spots_of_each = testdata::repeats(60, 21);
+inline constexpr int spots_of_each = repeats(60, 21);
 
 inline Body slab() {
   const Vec3 inward = glm::normalize(Vec3(0.3, 1, 0.4));
@@ -112,7 +112,7 @@ inline std::vector<NamedGrid> samplings() {
   thick.size = {64, 64, 16};
   testdata::Grid tilted;
   tilted.tilt_degrees = 20;
-  if (testdata::is_sanitized) {
+  if (is_sanitized) {
     return {{"thick", thick}, {"tilted", tilted}};
   }
   return {{"straight", straight}, {"thick", thick}, {"oblique", rotated(straight, {1, 2, 3}, 40)}, {"tilted", tilted}};

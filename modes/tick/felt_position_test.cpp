@@ -16,7 +16,7 @@
 #include "io/fields/volume_fields.h"
 #include "modes/testing/scanned_bodies.h"
 #include "modes/testing/test_rig.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 
 namespace palpate::modes {
 namespace {
@@ -159,7 +159,7 @@ FeltAndIdeal of_a_ball_in_thick_slices(double radius, const Vec3& shift_mm) {
 // (0.156 mm) outside the line from edge to edge. An edge as wide as a voxel is sampled too coarsely within the slice as
 // well: a flat wall along the voxels is found to 0.05 of one. Together that is more than a tenth.
 TEST(FeltPosition, of_a_ball_in_thick_slices_is_nearly_what_the_sampling_theorem_gives) {
-  if (testdata::is_sanitized) {
+  if (is_sanitized) {
     GTEST_SKIP() << "numbers only, and slow: the other builds hold them";
   }
   const FeltAndIdeal small = of_a_ball_in_thick_slices(20, Vec3(0));

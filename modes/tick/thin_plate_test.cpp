@@ -11,7 +11,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "modes/testing/test_rig.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::modes {
@@ -102,7 +102,7 @@ TEST(ThinPlate, takes_what_is_shown_of_it_at_every_speed) {
   std::mt19937 random(18);
   for (const Plate& plate : plates) {
     for (const double tilt : {0.0, 15.0, 30.0, 45.0}) {
-      for (int place = 0; place < testdata::repeats(3, 1); ++place) {
+      for (int place = 0; place < repeats(3, 1); ++place) {
         SCOPED_TRACE(::testing::Message() << plate.outer << ", " << plate.plate << ", " << plate.inner << " HU, noise "
                                           << plate.noise << ", " << tilt << " degrees");
         expect_felt_as_shown(plate, scan(plate, tilt, random));

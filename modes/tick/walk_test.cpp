@@ -21,7 +21,7 @@
 #include "io/load.h"
 #include "io/series.h"
 #include "modes/testing/test_rig.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
 namespace palpate::modes {
@@ -29,7 +29,7 @@ namespace {
 
 int ticks() {
   const char* wanted = std::getenv("PALPATE_WALK_TICKS");
-  return wanted != nullptr ? std::max(1, std::atoi(wanted)) : testdata::repeats(2000, 200);
+  return wanted != nullptr ? std::max(1, std::atoi(wanted)) : repeats(2000, 200);
 }
 
 Mode mode_of(const char* type, double strength_n) {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/testing/test_files.h"
-#include "testdata/sanitized.h"
+#include "solver/text/testing/sanitized.h"
 
 namespace palpate::plugin {
 namespace {
@@ -29,7 +29,7 @@ void expect_sound(const SoakResult& result) {
   EXPECT_GT(result.largest_n, 0.5) << "something has to be felt";
 }
 
-constexpr double minutes = testdata::is_sanitized ? 0.25 : 1;
+constexpr double minutes = is_sanitized ? 0.25 : 1;
 
 TEST(Soak, AMinuteOfProbing) {
   const SoakResult result =

@@ -3,7 +3,7 @@
 /// Builds with sanitizers are ten to thirty times slower. Tests that repeat a thing for the sake of its numbers repeat
 /// it less often there: the numbers are those of every other build, and a slip of memory shows at the first time.
 
-namespace palpate::testdata {
+namespace palpate {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool is_sanitized = true;
@@ -22,4 +22,4 @@ constexpr int repeats(int many, int few) {
   return is_sanitized ? few : many;
 }
 
-}  // namespace palpate::testdata
+}  // namespace palpate
