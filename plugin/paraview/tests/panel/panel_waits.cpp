@@ -90,18 +90,20 @@ QImage picture_of(QWidget& view) {
       .toImage();
 }
 
-bool is_yellow(const QColor& color) {
-  return color.red() > 120 && color.green() > 0.7 * color.red() && color.blue() < 0.45 * color.red();
+bool is_yellow(QRgb color) {
+  return qRed(color) > 120 && qGreen(color) > 0.7 * qRed(color) && qBlue(color) < 0.45 * qRed(color);
 }
 
 /// In each pixel, how many yellow ones are above it and to its left.
-std::vector<std::vector<int>> yellow_before(const QImage& picture) {
+std::vector<std::vector<int>> yellow_before(const QImage& seen) {
+  const QImage picture = seen.convertToFormat(QImage::Format_RGB32);
   const auto rows = static_cast<std::size_t>(picture.height()), columns = static_cast<std::size_t>(picture.width());
   std::vector<std::vector<int>> sums(rows + 1, std::vector<int>(columns + 1));
   for (std::size_t y = 0; y < rows; ++y) {
+    const auto* const row = reinterpret_cast<const QRgb*>(picture.constScanLine(static_cast<int>(y)));
     int in_row = 0;
     for (std::size_t x = 0; x < columns; ++x) {
-      in_row += is_yellow(picture.pixelColor(static_cast<int>(x), static_cast<int>(y))) ? 1 : 0;
+      in_row += is_yellow(row[x]) ? 1 : 0;
       sums[y + 1][x + 1] = sums[y][x + 1] + in_row;
     }
   }
