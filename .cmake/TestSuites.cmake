@@ -23,7 +23,7 @@ function(palpate_suite suite tests)
   # CTest's own limit is for a program that cannot end itself. What takes longest begins first, then what has more tests.
   math(EXPR longest "600 + 10 * ${seconds}")
   set(cost ${tests})
-  if(suite MATCHES "^(archive|CheckDevice|CommandSession|DistanceField|FaultTable|Hostile|LiveSession|ScanEdge|Soak|StudyStructures|Suggest.*)$")
+  if(suite MATCHES "^(archive|CheckDevice|CommandSession|DistanceField|EachDevice/FaultTable|Hostile|LiveSession|ScanEdge|Soak|StudyStructures|Suggest.*)$")
     math(EXPR cost "1000 + ${tests}")
   endif()
   set_tests_properties("${name}" PROPERTIES TIMEOUT ${longest} COST ${cost} ENVIRONMENT "PALPATE_TEST_SECONDS=${seconds}")
