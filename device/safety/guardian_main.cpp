@@ -14,15 +14,15 @@
 #include "device/link/realtime.h"
 #include "device/messages.h"
 #include "device/safety/guardian.h"
+#include "device/safety/guardian_watch.h"
 #include "device/safety/zero_force.h"
 
 namespace {
 
 using palpate::device::GuardianBeat;
+using palpate::device::GuardianWatch;
 
 constexpr int beat_descriptor = 3;
-constexpr int look_every_ms = 20;
-constexpr int looks_until_stopped = 10;   // 0.2 s: a device takes a force that is older for no force of ours
 constexpr double wait_for_device = 60.0;  // s
 
 void tell(bool stopped, const char* kind, bool zeroed, double begun) {
@@ -38,32 +38,11 @@ const GuardianBeat* session_beat() {
   return memory == MAP_FAILED ? nullptr : static_cast<const GuardianBeat*>(memory);
 }
 
-/// Notices a session that pushes and stands still.
-class Watch {
- public:
-  explicit Watch(const GuardianBeat* beat) : beat_(beat) {}
-  /// Every look_every_ms; true whenever the session has stood still for looks_until_stopped more looks.
-  bool stopped() {
-    if (beat_ == nullptr) return false;
-    const auto count = beat_->count.load(std::memory_order_relaxed);
-    const bool still = count == count_ && beat_->pushing.load(std::memory_order_relaxed) != 0;
-    count_ = count;
-    looks_ = still ? looks_ + 1 : 0;
-    return looks_ > 0 && looks_ % looks_until_stopped == 0;
-  }
-  bool stopped_just_now() const { return looks_ == looks_until_stopped; }
-
- private:
-  const GuardianBeat* beat_;
-  std::uint32_t count_ = 0;
-  int looks_ = 0;
-};
-
 /// Takes the force from a session that stands still: once, or until the device can be reached.
 class Taker {
  public:
   Taker(const char* kind, const char* address) : kind_(kind), address_(address) {}
-  void take_from(const Watch& watch) {
+  void take_from(const GuardianWatch& watch) {
     if (watch.stopped_just_now()) zeroed_ = told_ = false;
     if (zeroed_) return;
     const double begun = palpate::device::monotonic_time();
@@ -80,11 +59,11 @@ class Taker {
 
 /// 'q', 'w', or 0 for the end of the pipe.
 char wait_for_word(const char* kind, const char* address) {
-  Watch watch(session_beat());
+  GuardianWatch watch(session_beat());
   Taker taker(kind, address);
   for (;;) {
     pollfd input{STDIN_FILENO, POLLIN, 0};
-    const int ready = poll(&input, 1, look_every_ms);
+    const int ready = poll(&input, 1, GuardianWatch::look_every_ms);
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) {
       if (watch.stopped()) taker.take_from(watch);

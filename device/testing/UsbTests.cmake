@@ -21,7 +21,7 @@ else()
   add_executable(device_umockdev testing/umockdev_main.cpp testing/umockdev_falcon.cpp
     testing/umockdev_hid.cpp)
   target_include_directories(device_umockdev SYSTEM PRIVATE ${umockdev_INCLUDE_DIRS})
-  target_link_libraries(device_umockdev PRIVATE palpate_undisturbed palpate_fake_devices palpate_compile_options
+  target_link_libraries(device_umockdev PRIVATE palpate_fake_devices palpate_compile_options
     ${umockdev_LINK_LIBRARIES})
 endif()
 

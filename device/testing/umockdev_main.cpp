@@ -11,7 +11,6 @@
 #include "device/testing/play.h"
 #include "device/testing/umockdev_falcon.h"
 #include "device/testing/umockdev_hid.h"
-#include "device/testing/undisturbed.h"
 
 namespace {
 
@@ -41,9 +40,7 @@ int main(int count, char** arguments) {
   make_thread_realtime(65);
   try {
     Play play({.kind = arguments[2], .name = arguments[3], .address = "/dev/hidraw0"});
-    const StallMeter meter;
-    return judged(play.falcon ? run_on<UmockdevFalcon>(play, arguments[1]) : run_on<UmockdevHid>(play, arguments[1]),
-                  meter, arguments);
+    return play.falcon ? run_on<UmockdevFalcon>(play, arguments[1]) : run_on<UmockdevHid>(play, arguments[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "device_umockdev: %s\n", error.what());
     return 2;

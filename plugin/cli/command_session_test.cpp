@@ -11,7 +11,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "plugin/recording/recording.h"
@@ -239,6 +238,15 @@ TEST(CommandSession, RecordKeepsTheClocksPaceAndItsRecordingReplays) {
       << "nothing is overwritten";
 }
 
+/// In a recording that is still being written; none where it is not there yet, or is read in the middle of a flush.
+std::size_t flushed_ticks(const std::string& partial) {
+  try {
+    return read_recording(partial).ticks.size();
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
 TEST(CommandSession, InterruptedItEndsInGoodOrderAndKilledItLeavesAReadableFile) {
   for (const int signal : {SIGINT, SIGKILL}) {
     const auto file = fresh_path("signal.h5");
@@ -250,8 +258,7 @@ TEST(CommandSession, InterruptedItEndsInGoodOrderAndKilledItLeavesAReadableFile)
       _exit(127);
     }
     const std::string partial = file.string() + ".partial";
-    for (int n = 0; n < 400 && !std::filesystem::exists(partial); ++n) usleep(25000);
-    usleep(2500000);
+    while (flushed_ticks(partial) <= 800) usleep(25000);
     kill(child, signal);
     int status = 0;
     waitpid(child, &status, 0);

@@ -95,7 +95,7 @@ TEST(Recorder, EachTickHasWhatIsKnownOfItsBoundary) {
     const PrimitiveRecord share{.tick = n};
     ring.push(tick, {&share, 1});
   }
-  for (int n = 0; n < 1000 && recorder.backlog() > 0; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (recorder.backlog() > 0) std::this_thread::yield();
   EXPECT_EQ(first_scan.use_count(), 1) << "no tick of it comes any more";
   EXPECT_GT(second_scan.use_count(), 1);
   recorder.finish();
@@ -111,7 +111,7 @@ TEST(Recorder, WhatItReachesTooLateIsRecordedWithoutTheFieldsBeingAsked) {
   int asked = 0;
   std::atomic<bool> pushed{false};
   const auto wait = [&pushed] {
-    while (!pushed) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (!pushed) std::this_thread::yield();
   };
   Recorder recorder(ring, file, header, {.most_behind = 100, .before_write = wait});
   recorder.note(SceneRecord{.epoch = 0}, [&asked](const TickRecord&, auto) {
@@ -131,17 +131,19 @@ TEST(Recorder, WhatItReachesTooLateIsRecordedWithoutTheFieldsBeingAsked) {
 TEST(Recorder, ASlowDiskLosesNothingWithinTheBacklogAndMarksWhatItLosesBeyond) {
   const auto file = fresh_path("slow.h5");
   TickRing ring(1024);
-  std::atomic<bool> held{true};
+  std::atomic<bool> held{true}, waits{false};
   Recorder recorder(ring, file, header, {.before_write = [&] {
-                      while (held) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                      waits = true;
+                      while (held) std::this_thread::yield();
                     }});
   push(ring, 0, 1024);  // all that the ring holds, while the disk does not answer
   held = false;
-  while (recorder.status().written < 1024) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (recorder.status().written < 1024) std::this_thread::yield();
   EXPECT_EQ(recorder.status().lost, 0U);
   held = true;
+  waits = false;
   push(ring, 1024, 10);
-  std::this_thread::sleep_for(std::chrono::milliseconds(60));  // the batch of ten waits for the disk
+  while (!waits) std::this_thread::yield();  // the batch of ten waits for the disk
   push(ring, 1034, 3000);
   held = false;
   const RecorderStatus status = recorder.finish();
@@ -196,7 +198,6 @@ TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
         tick.force_n[1] = tick.value / 3;
         ring.push(tick, {});
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     const RecorderStatus status = recorder.finish();
     _exit(status.stopped && status.lost > 0 && status.why.find("disk full") != std::string::npos ? 0 : 1);
@@ -210,31 +211,37 @@ TEST(Recorder, ADiskThatRefusesEndsTheRecordingAndNotTheSession) {
   for (std::uint64_t n = 0; n < recording.ticks.size(); ++n) ASSERT_EQ(recording.ticks[n].index, n);
 }
 
+/// A process whose clock flushes after each batch, and that is killed when it begins the batch after 25000 ticks.
 TEST(Recorder, AfterACrashWhatWasFlushedCanBeRead) {
   const auto file = fresh_path("crash.h5");
-  int ready[2];
-  ASSERT_EQ(pipe(ready), 0);
+  constexpr std::uint64_t flushed = 25000;
   const pid_t child = fork();
   if (child == 0) {
     TickRing ring(1U << 14U);
-    Recorder recorder(ring, file, header);
+    std::atomic<bool> all{false};
+    std::chrono::steady_clock::time_point time;
+    Recorder recorder(ring, file, header,
+                      {.before_write =
+                           [&] {
+                             if (all) kill(getpid(), SIGKILL);
+                           },
+                       .now = [&] { return time += std::chrono::seconds(2); }});
     recorder.note(SceneRecord{.epoch = 0, .scene = "{}", .scan_hash = "x"});
-    for (std::uint64_t n = 0;; n += 50) {
+    for (std::uint64_t n = 0; n < flushed; n += 50) {
+      recorder.wait_for_room();
       push(ring, n, 50);
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      if (n == 25000) {
-        [[maybe_unused]] const auto sent = write(ready[1], "x", 1);
-      }
     }
+    while (recorder.status().written < flushed) std::this_thread::yield();
+    all = true;
+    push(ring, flushed, 50);
+    for (;;) pause();
   }
-  close(ready[1]);  // so that a child that ends is not waited for
-  char byte = 0;
-  ASSERT_EQ(read(ready[0], &byte, 1), 1);
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
   const Recording recording = read_recording(file.string() + ".partial");
   EXPECT_FALSE(recording.complete);
-  EXPECT_GT(recording.ticks.size(), 5000U) << "two and a half seconds, flushed every second";
+  EXPECT_EQ(recording.ticks.size(), flushed);
   EXPECT_EQ(recording.ticks.size(), recording.shares.size());
   EXPECT_EQ(recording.scenes.size(), 1U);
   for (std::uint64_t n = 0; n < recording.ticks.size(); ++n) ASSERT_EQ(recording.ticks[n].index, n);

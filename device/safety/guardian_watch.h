@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+
+#include "device/safety/guardian.h"
+
+namespace palpate::device {
+
+/// Notices a session that pushes and stands still. A function of what it sees at its looks: who looks keeps the time.
+class GuardianWatch {
+ public:
+  static constexpr int look_every_ms = 20;
+  /// 0.2 s: a device takes a force that is older for no force of ours.
+  static constexpr int looks_until_stopped = 10;
+
+  /// `beat`: what the session shares; null where it shares nothing, which is never told to have stopped.
+  explicit GuardianWatch(const GuardianBeat* beat) : beat_(beat) {}
+  /// To be called every look_every_ms. True whenever the session has stood still for looks_until_stopped more looks.
+  bool stopped() {
+    if (beat_ == nullptr) return false;
+    const auto count = beat_->count.load(std::memory_order_relaxed);
+    const bool still = count == count_ && beat_->pushing.load(std::memory_order_relaxed) != 0;
+    count_ = count;
+    looks_ = still ? looks_ + 1 : 0;
+    return looks_ > 0 && looks_ % looks_until_stopped == 0;
+  }
+  /// The first time since the session went on.
+  bool stopped_just_now() const { return looks_ == looks_until_stopped; }
+
+ private:
+  const GuardianBeat* beat_;
+  std::uint32_t count_ = 0;
+  int looks_ = 0;
+};
+
+}  // namespace palpate::device
