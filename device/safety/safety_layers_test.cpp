@@ -239,6 +239,35 @@ TEST(SafetyLayers, ALateTickAloneIsAFault) {
   EXPECT_EQ(session.step(0.1001).fault, Fault::tick_late);
 }
 
+/// A limit is the most that is allowed: what is as late, as old or as fast as its limit is no fault, and a hair more
+/// is. All times are multiples of powers of two, so that sums and differences are exact.
+TEST(SafetyLayers, WhatIsAtItsLimitIsAllowed) {
+  constexpr double limit = 0.125, hair = 0x1p-20;
+  constexpr Stall stalls[] = {{Fault::tick_late, &SafetyLimits::stall_time, nullptr},
+                              {Fault::device_silent, &SafetyLimits::stall_time, &Session::new_pose},
+                              {Fault::force_stale, &SafetyLimits::stall_time, &Session::new_force},
+                              {Fault::commander_silent, &SafetyLimits::heartbeat_time, &Session::alive}};
+  for (const double over : {0.0, hair}) {
+    for (const Stall& stall : stalls) {
+      Session session;
+      arm(session.state);
+      session.step(0);
+      session.limits.*stall.limit = limit;
+      if (stall.what != nullptr) session.*stall.what = false;
+      const int ticks = stall.what != nullptr ? 128 : 1;
+      for (int n = 1; n < ticks; ++n) EXPECT_EQ(session.step(limit / ticks).fault, Fault::none);
+      EXPECT_EQ(session.step(limit / ticks + over).fault, over > 0 ? stall.fault : Fault::none) << name_of(stall.fault);
+    }
+    Session session;
+    arm(session.state);
+    session.step(0);
+    session.limits.speed = 1;
+    session.limits.speed_filter_time = 0x1p-10;  // as long as the tick: half of a step of speed shows
+    session.input.reading.position.y = (2 + over) * 0x1p-10;
+    EXPECT_EQ(session.step(0x1p-10).fault, over > 0 ? Fault::speed_exceeded : Fault::none);
+  }
+}
+
 TEST(SafetyLayers, TheSpeedAloneAlongAnyDirection) {
   std::mt19937 random(4);
   for (int n = 0; n < 50; ++n) {
@@ -313,6 +342,27 @@ TEST(SafetyLayers, WhatIsNotANumberEndsTheForceAtOnce) {
         EXPECT_LT(glm::length(session.step().force), 1e-4) << "ramped and slewed from zero";
       }
     }
+  }
+}
+
+/// So does a limit of the device that is not a number. When it is one again the force stays away, and comes back from
+/// zero when the fault was cleared and the filter armed.
+TEST(SafetyLayers, ADeviceLimitThatIsNotANumberEndsTheForceAtOnce) {
+  Session session;
+  session.push(Vec3(1, 2, 3));
+  session.limits.fall_time = 100;
+  session.limits.ramp_time = 0.1;
+  const double before = session.limits.device_force;
+  session.limits.device_force = std::nan("");
+  const SafetyResult result = session.step();
+  EXPECT_EQ(result.force, Vec3(0));
+  EXPECT_EQ(result.fault, Fault::force_not_finite);
+  session.limits.device_force = before;
+  for (int n = 0; n < 10; ++n) EXPECT_EQ(session.step().force, Vec3(0));
+  clear_fault(session.state);
+  EXPECT_TRUE(arm(session.state));
+  for (int n = 0; n <= 100; ++n) {
+    EXPECT_LT(glm::distance(session.step().force, n * tick / 0.1 * session.input.force), 1e-9) << n;
   }
 }
 
