@@ -12,9 +12,9 @@ namespace {
 
 /// One leg: first joint, second link and the parallelogram's tilt, radians.
 struct Leg {
-  double first = 0;
-  double second = 0;
-  double tilt = 0;
+  double first;
+  double second;
+  double tilt;
 };
 
 std::optional<Leg> solve_leg(const FalconGeometry& g, int index, const Vec3& position) noexcept {
@@ -27,9 +27,8 @@ std::optional<Leg> solve_leg(const FalconGeometry& g, int index, const Vec3& pos
 
   const double cosine = (across + g.end_offset_across) / g.shin;
   if (!(std::abs(cosine) < 1) || !(out > 0)) return std::nullopt;
-  Leg leg;
-  leg.tilt = std::acos(cosine);
-  const double reach = g.shin_start + g.shin_end + g.shin * std::sin(leg.tilt);
+  const double tilt = std::acos(cosine);
+  const double reach = g.shin_start + g.shin_end + g.shin * std::sin(tilt);
   // A two-link arm in its plane, along = thigh cos(first) + reach cos(second), in the half-angle tangent of `first`.
   const double common = out * out + along * along + g.thigh * g.thigh - reach * reach;
   const double l0 = common - 2 * along * g.thigh;
@@ -38,9 +37,9 @@ std::optional<Leg> solve_leg(const FalconGeometry& g, int index, const Vec3& pos
   const double discriminant = l1 * l1 - 4 * l0 * l2;
   if (!(discriminant > 0)) return std::nullopt;
   // The root (-l1 - sqrt) / (2 l2), turned round so that nothing cancels: l1 < 0 in front of the body.
-  leg.first = 2 * std::atan(2 * l0 / (std::sqrt(discriminant) - l1));
-  leg.second = std::atan2(out - g.thigh * std::sin(leg.first), along - g.thigh * std::cos(leg.first));
-  return leg;
+  const double first = 2 * std::atan(2 * l0 / (std::sqrt(discriminant) - l1));
+  const double second = std::atan2(out - g.thigh * std::sin(first), along - g.thigh * std::cos(first));
+  return Leg{first, second, tilt};
 }
 
 }  // namespace

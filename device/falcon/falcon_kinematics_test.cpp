@@ -123,6 +123,24 @@ TEST(FalconKinematics, TorquesDoTheForcesWork) {
   for (int leg = 0; leg < 3; ++leg) EXPECT_NEAR(pull[leg], 0.0247, 0.5e-3);
 }
 
+TEST(FalconKinematics, TheReachItselfIsReached) {
+  // Powers of two, of which the distance from the center is exact.
+  FalconGeometry exact;
+  exact.center = 0.125;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double distance : {0.03125, -0.03125}) {
+      Vec3 position(0, 0, exact.center);
+      position[axis] += distance;
+      const auto angles = falcon_angles(exact, position);
+      ASSERT_TRUE(angles);
+      exact.reach = 0.03125;
+      EXPECT_EQ(falcon_position(exact, *angles, position), position);
+      exact.reach = std::nextafter(0.03125, 0);
+      EXPECT_FALSE(falcon_position(exact, *angles, position));
+    }
+  }
+}
+
 TEST(FalconKinematics, WhatCannotBeReachedIsNothingNotNaN) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Vec3& far : {Vec3(0.2, 0, 0.12), Vec3(0, 0, 0.3), Vec3(0, 0, -0.12), Vec3(nan, 0, 0.12), Vec3(0, nan, 0.1),
