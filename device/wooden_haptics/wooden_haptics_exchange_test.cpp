@@ -8,6 +8,7 @@
 #include <deque>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "device/wooden_haptics/wooden_haptics_driver.h"
@@ -141,6 +142,18 @@ TEST(WoodenHapticsExchange, ASilentFirmwareIsBegunWith) {
   EXPECT_EQ(arm.answer(Vec3(1)), std::vector<int>(7, 0));
 }
 
+/// Ten milliseconds are enough, and a hair less is not. From zero on, of which differences are exact.
+TEST(WoodenHapticsExchange, SilenceLastsTenMilliseconds) {
+  constexpr double enough = 10 * ms;
+  for (const double silence : {enough, std::nextafter(enough, 0.0)}) {
+    Arm arm;
+    arm.now = 0;
+    EXPECT_TRUE(arm.answer().empty());
+    arm.now = silence;
+    EXPECT_EQ(arm.answer().empty(), silence < enough);
+  }
+}
+
 /// A second for its first report, and no longer.
 TEST(WoodenHapticsExchange, ItsFirstReportIsWaitedForASecond) {
   for (const bool comes : {true, false}) {
@@ -227,27 +240,31 @@ TEST(WoodenHapticsExchange, APoseThatCannotBeGetsNoForce) {
   EXPECT_FALSE(pushes());
 }
 
-/// The motors may give their limit for three of four seconds, and then what they last at; all three are shrunk by one
+/// Each motor may give its limit for three of four seconds, and then what it lasts at; all three are shrunk by one
 /// factor.
 TEST(WoodenHapticsExchange, TheMotorsAreNotWarmedBeyondWhatTheyBear) {
   WoodenHapticsSettings settings = wooden_haptics_preset("2015");
   settings.maximum_force = 20;
-  Arm arm(settings);
-  arm.calibrate();
-  const Vec3 force(0, 15, 5);
-  std::vector<int> first;
-  for (int n = 0; n < 10'000; ++n) {
-    arm.report({0, 0, 6000});
-    const std::vector<int> words = arm.answer(force);
-    const int largest = std::max({std::abs(words[0]), std::abs(words[1]), std::abs(words[2])});
-    if (n == 0) first = words;
-    if (n < 2900) {
-      ASSERT_NEAR(largest, 2000, 1) << n;
+  // In its home pose the base pushes sideways, the upper body up and the lower one towards the user.
+  const std::pair<std::size_t, Vec3> motors[] = {{0, {15, 5, 2}}, {1, {2, 5, 15}}, {2, {0, 15, 5}}};
+  for (const auto& [motor, force] : motors) {
+    Arm arm(settings);
+    arm.calibrate();
+    std::vector<int> first;
+    for (int n = 0; n < 10'000; ++n) {
+      arm.report({0, 0, 6000});
+      const std::vector<int> words = arm.answer(force);
+      const int largest = std::max({std::abs(words[0]), std::abs(words[1]), std::abs(words[2])});
+      ASSERT_EQ(std::abs(words[motor]), largest);
+      if (n == 0) first = words;
+      if (n < 2900) {
+        ASSERT_NEAR(largest, 2000, 1) << n;
+      }
+      if (n > 9000) {
+        ASSERT_NEAR(largest, 1000, 5) << n;
+      }
+      for (std::size_t i = 0; i < 3; ++i) ASSERT_NEAR(words[i] * 2000.0, first[i] * static_cast<double>(largest), 4000);
     }
-    if (n > 9000) {
-      ASSERT_NEAR(largest, 1000, 5) << n;
-    }
-    for (std::size_t i = 0; i < 3; ++i) ASSERT_NEAR(words[i] * 2000.0, first[i] * static_cast<double>(largest), 4000);
   }
 }
 

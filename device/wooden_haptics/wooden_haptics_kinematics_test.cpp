@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -118,6 +119,22 @@ TEST(WoodenHapticsKinematics, CurrentsKeepTheirLimitAndDirection) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(wooden_haptics_currents(settings, Vec3(nan, 1, 1)), (std::array<int, 3>{}));
   EXPECT_EQ(wooden_haptics_currents(settings, Vec3(1e308, 0, 0)), (std::array<int, 3>{}));
+}
+
+/// A current is a word of 16 bits in its packet: one beyond them would come out with the other sign.
+TEST(WoodenHapticsKinematics, CurrentsFitTheirWords) {
+  WoodenHapticsSettings settings = wooden_haptics_preset("2015");
+  for (const double limit : {3.0, 32.0, 33.0, 65.0, 100.0, 1e5}) {
+    settings.current_limit = limit;
+    for (const double torque : {1e6, -1e6}) {
+      const auto currents = wooden_haptics_currents(settings, Vec3(torque));
+      const auto small = wooden_haptics_currents(settings, Vec3(torque) * 1e-8);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(static_cast<std::int16_t>(currents[axis]), currents[axis]) << limit;
+        EXPECT_GT(static_cast<long>(currents[axis]) * small[axis], 0) << "no sign may change";
+      }
+    }
+  }
 }
 
 }  // namespace
