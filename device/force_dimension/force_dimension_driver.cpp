@@ -164,7 +164,7 @@ void ForceDimensionDriver::take(double timeout) noexcept {
   status_.position = to_device_frame(place);
   status_.buttons = drd_->get_button_mask(id_);
   if (has_wrist_) {
-    double rows[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double rows[3][3]{};
     if (drd_->get_orientation_frame(rows, id_) >= 0) {
       // Columns are the stylus' axes; both sides of the rotation change their frame.
       glm::dmat3 turned;

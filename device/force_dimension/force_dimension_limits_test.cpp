@@ -261,6 +261,32 @@ TEST_F(ForceDimensionLimits, OpensAndClosesInPairs) {
   EXPECT_EQ(held(), 0);
 }
 
+/// Whoever could not be connected to needs no disconnecting: it is stopped and closed, and can be tried again.
+TEST_F(ForceDimensionLimits, OneThatCannotBeBroughtUpIsStoppedAndClosed) {
+  const struct {
+    bool may_home;
+    int homed, homing_fails, failing;
+  } cases[] = {{false, 0, 0, 0}, {true, 0, 1, 0}, {false, 1, 0, 1}};
+  for (const auto& one : cases) {
+    *drd = FakeDrd{};
+    drd->homed = one.homed;
+    drd->homing_fails = one.homing_fails;
+    drd->failing = one.failing;
+    ForceDimensionDriver driver({.may_home = one.may_home}, {&now, &pass});
+    EXPECT_NE(refusal([&] { driver.connect(); }), "");
+    EXPECT_EQ(drd->opened, 1);
+    EXPECT_EQ(drd->stopped, 1);
+    EXPECT_EQ(drd->closed, 1);
+    EXPECT_EQ(drd->forces_on, 0);
+    drd->homed = 1;
+    drd->failing = 0;
+    driver.connect();
+    driver.disconnect();
+    EXPECT_EQ(drd->opened, 2);
+    EXPECT_EQ(drd->closed, 2);
+  }
+}
+
 /// Looking for devices opens them, which one that is held does not bear: it is told as it is.
 TEST_F(ForceDimensionLimits, OneThatIsHeldIsNotOpenedByASearch) {
   auto driver = connected();
