@@ -200,6 +200,24 @@ TEST(LinkStylusLayers, OpenedAnewItKnowsNothingOfBefore) {
   EXPECT_EQ(bench.force, Vec3(0, 8, 0));
 }
 
+/// Poses that came while the device was connected are none of the exchanges': no reading is fresh of them, and they are
+/// not counted for the device's rate.
+TEST(LinkStylusLayers, WhatCameBeforeItWasOpenIsNoNews) {
+  LinkBench bench;
+  bench.first_news = 40;
+  bench.speaks = false;
+  const auto stylus = unthreaded(bench);
+  for (int round = 0; round < 2; ++round) {
+    stylus->service(exchange_s);
+    EXPECT_FALSE(stylus->read().fresh);
+    EXPECT_EQ(fault_of(bench, *stylus, 29, 0.26), LinkFault::slow) << "within the first quarter of a second";
+    stylus->close();
+    bench.first_news += 1000;
+    bench.speaks = false;
+    stylus->open();
+  }
+}
+
 /// A stylus that is closed gives zeros until the device has sent two poses after the first of them, or for 50 ms; then
 /// what was given is waited for.
 TEST(LinkStylusLayers, ClosingGivesZerosUntilTheDeviceHasTakenThem) {

@@ -3,6 +3,7 @@
 /// A LinkStylus whose device and time are the test's.
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct LinkBench {
   std::atomic<bool> lost{false};
   std::atomic<int> takes{0};
   std::atomic<bool> speaks{true};  ///< sends poses
+  std::uint64_t first_news = 0;    ///< poses that have come when it is connected
   State state = State::idle;
   LinkFault fault = LinkFault::none;  ///< that the device tells
   Vec3 position{0};
@@ -30,6 +32,7 @@ class LinkBenchDriver final : public Driver {
   explicit LinkBenchDriver(LinkBench& bench) : bench_(bench) {}
   void connect() override {
     status_ = {.state = bench_.state};
+    status_.news = bench_.first_news;
     ++bench_.open;
   }
   void disconnect() noexcept override { --bench_.open; }
