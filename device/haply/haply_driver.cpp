@@ -22,11 +22,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double inventory_time = 2.0;  // s in which the service sends its first message
-constexpr double answer_time = 0.020;   // s after which a message without an answer is sent again
-constexpr double noticeable = 0.1;      // N: a force that the service must tell back
-constexpr int unheeded_at_most = 100;   // answers
-constexpr double farthest = 1.0;        // m: no arm reaches farther
+constexpr double answer_time = 0.020;  // s after which a message without an answer is sent again
+constexpr double noticeable = 0.1;     // N: a force that the service must tell back
+constexpr int unheeded_at_most = 100;  // answers
+constexpr double farthest = 1.0;       // m: no arm reaches farther
 
 /// Null where there is none.
 const Json* at(const Json& json, const char* key) {
@@ -215,7 +214,7 @@ void HaplyProtocol::connect(Link& link) {
   const double start = link.now();
   std::vector<HaplyDevice> devices;
   bool told = false;
-  while (!told && !link.lost() && link.now() - start < inventory_time) {
+  while (!told && !link.lost() && link.now() - start < haply_patience) {
     const std::size_t size = link.receive(packet, 0.01);
     const std::string_view message(reinterpret_cast<const char*>(packet.data()), size);
     told = size > 0 && message.find("\"inverse3\"") != std::string_view::npos;

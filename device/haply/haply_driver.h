@@ -12,6 +12,9 @@
 
 namespace palpate::device {
 
+/// s that the service has for each answer while a link to it is opened, and then for its first message.
+constexpr double haply_patience = 2.0;
+
 /// Of the service, as GET /version tells it.
 struct HaplyVersion {
   int major = 0;  ///< 0: it did not tell

@@ -147,6 +147,19 @@ TEST(HaplyLimits, AMessageWithoutAnAnswerIsSentAgainAfterItsTime) {
   EXPECT_TRUE(session.step(Vec3(1, 0, 0)).is_null());
 }
 
+/// Twenty milliseconds are enough, and a hair less is not. From zero on, of which differences are exact.
+TEST(HaplyLimits, AnAnswerIsWaitedForTwentyMilliseconds) {
+  constexpr double enough = 0.020;
+  for (const double waited : {enough, std::nextafter(enough, 0.0)}) {
+    Session session;
+    session.answer(arm_at(Vec3(0)));
+    session.service.time = 0;
+    EXPECT_FALSE(session.step().is_null());
+    session.service.time = waited;
+    EXPECT_EQ(session.step().is_null(), waited < enough);
+  }
+}
+
 /// A hundred answers in a row that tell of less than a tenth of what was sent; the other spelling is then tried for a
 /// hundred more. A force of less than 0.1 N tells nothing.
 TEST(HaplyLimits, AForceThatIsNotHeededIsNoticedAfterAHundredAnswers) {

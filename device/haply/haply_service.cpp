@@ -86,14 +86,13 @@ std::string http_get(const std::string& host, int port, const char* target, doub
 class HaplyService final : public HaplyLink {
  public:
   explicit HaplyService(const HaplySettings& settings) : socket_(context_) {
-    constexpr double patience = 2.0;  // s
     const std::string where = settings.host + ":" + std::to_string(settings.port);
-    version_ = parse_haply_version(http_get(settings.host, settings.port, "/version", patience));
+    version_ = parse_haply_version(http_get(settings.host, settings.port, "/version", haply_patience));
     tcp::resolver resolver(context_);
     beast::error_code error;
     const auto ends = resolver.resolve(settings.host, std::to_string(settings.port), error);
     if (!error) {
-      error = result_of(context_, patience, [&](auto done) {
+      error = result_of(context_, haply_patience, [&](auto done) {
         beast::get_lowest_layer(socket_).async_connect(ends,
                                                        [done](beast::error_code e, const tcp::endpoint&) { done(e); });
       });
@@ -101,7 +100,7 @@ class HaplyService final : public HaplyLink {
     if (!error) {
       // A force that waits for the next one to fill a segment comes 40 ms late.
       beast::get_lowest_layer(socket_).socket().set_option(tcp::no_delay(true), error);
-      error = result_of(context_, patience, [&](auto done) { socket_.async_handshake(where, "/", done); });
+      error = result_of(context_, haply_patience, [&](auto done) { socket_.async_handshake(where, "/", done); });
     }
     if (error) {
       throw Refusal(say("haply-its-service-does-not-answer", where, error.message()));
