@@ -14,9 +14,9 @@ namespace palpate::device {
 
 /// One push. Device frame: axis 0 is to the right, 1 up, 2 towards the user.
 struct AxisPush {
-  int axis = 0;
-  double force = 0.2;  ///< N, along the axis
-  double moved = 0;    ///< m along the axis, by the pose; known after the push
+  int axis;
+  double force;      ///< N, along the axis
+  double moved = 0;  ///< m along the axis, by the pose; known after the push
 };
 
 /// What the hand felt of a push.

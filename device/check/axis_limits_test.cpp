@@ -72,8 +72,9 @@ TEST(AxisLimits, TheSignsAreOfWhatWasFeltAndMoved) {
 TEST(AxisLimits, APoseThatIsRightSaysWhatWasFelt) {
   for (const double mm : {-2.0, -0.301, -0.299, 0.0, 0.299, 0.301, 2.0}) {
     const Felt felt = std::abs(mm) < 0.3 ? Felt::nothing : mm > 0 ? Felt::as_said : Felt::opposite;
-    EXPECT_EQ(felt_by_pose({.moved = 1e-3 * mm}), felt) << mm;
-    EXPECT_EQ(felt_by_pose({.moved = 1e-3 * mm}, 1e-3) == Felt::nothing, std::abs(mm) < 1);
+    const AxisPush push{.axis = 1, .force = 0.2, .moved = 1e-3 * mm};
+    EXPECT_EQ(felt_by_pose(push), felt) << mm;
+    EXPECT_EQ(felt_by_pose(push, 1e-3) == Felt::nothing, std::abs(mm) < 1);
   }
 }
 

@@ -27,13 +27,12 @@ namespace {
 constexpr int beat_descriptor = 3;  // of the guardian
 
 struct SharedMemory {
-  int descriptor = -1;
+  int descriptor;
   GuardianBeat* beat = nullptr;
 };
 
 SharedMemory share_beat() {
-  SharedMemory shared;
-  shared.descriptor = memfd_create("palpate-beat", MFD_CLOEXEC);
+  SharedMemory shared{.descriptor = memfd_create("palpate-beat", MFD_CLOEXEC)};
   if (shared.descriptor < 0 || ftruncate(shared.descriptor, sizeof(GuardianBeat)) != 0) return shared;
   void* const memory = mmap(nullptr, sizeof(GuardianBeat), PROT_READ | PROT_WRITE, MAP_SHARED, shared.descriptor, 0);
   if (memory != MAP_FAILED) shared.beat = new (memory) GuardianBeat;
