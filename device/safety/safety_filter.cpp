@@ -16,6 +16,16 @@ void latch(SafetyState& state, Fault fault) {
   state.armed = false;
 }
 
+/// Each a number, and none negative.
+bool are_limits(const SafetyLimits& limits) {
+  for (const double limit : {limits.force, limits.device_force, limits.slew, limits.slew_time, limits.ramp_time,
+                             limits.fall_time, limits.speed, limits.speed_filter_time, limits.force_age,
+                             limits.pose_age, limits.stall_time, limits.heartbeat_time}) {
+    if (!(limit >= 0)) return false;
+  }
+  return true;
+}
+
 void fall_at_once(SafetyState& state) {
   state.gain = 0;
   state.slewed_force = Vec3(0);
@@ -42,7 +52,7 @@ bool can_push(State device) {
 
 Fault find_fault(const SafetyLimits& limits, const SafetyInput& input, const SafetyState& state) {
   if (!can_push(input.device) && input.device != State::homing) return Fault::device_lost;
-  // Written so that a time or a limit that is not a number is a fault, too.
+  // Written so that a time that is not a number is a fault, too.
   if (!(input.time - state.time <= limits.stall_time)) return Fault::tick_late;
   if (!(input.time - state.pose_time <= limits.stall_time)) return Fault::device_silent;
   if (!(input.time - input.force_time <= limits.stall_time)) return Fault::force_stale;
@@ -122,6 +132,12 @@ SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, 
     state.started = true;
     state.time = state.pose_time = input.time;
   }
+  if (!are_limits(limits)) {
+    latch(state, Fault::force_not_finite);
+    fall_at_once(state);
+    state.time = input.time;
+    return {.state = state_of(input, state), .fault = state.fault};
+  }
   const bool pose_is_finite = is_finite(input.reading.position);
   const bool force_is_finite = is_finite(input.force);
   if (!pose_is_finite || !force_is_finite) {
@@ -158,7 +174,7 @@ SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, 
   const Vec3 ramped = state.gain * state.slewed_force;
   result.force = clamp_length(ramped, limits.device_force);
   result.clamped = result.clamped || result.force != ramped;
-  if (!is_finite(result.force)) {  // only limits that are not numbers lead here
+  if (!is_finite(ramped)) {  // only limits of 1e307 or more lead here
     latch(state, Fault::force_not_finite);
     fall_at_once(state);
     result.force = Vec3(0);

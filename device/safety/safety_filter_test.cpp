@@ -307,21 +307,6 @@ TEST(SafetyFilter, DisarmingLetsTheForceFall) {
   EXPECT_EQ(session.result.state, State::idle);
 }
 
-TEST(SafetyFilter, LimitsThatAreNoNumbersGiveNoForce) {
-  for (double SafetyLimits::*limit : {&SafetyLimits::force, &SafetyLimits::slew, &SafetyLimits::speed,
-                                      &SafetyLimits::device_force, &SafetyLimits::ramp_time}) {
-    Session session;
-    session.limits.*limit = nan;
-    session.step();
-    arm(session.state);
-    for (int i = 0; i < 100; ++i) {
-      const Vec3 force = session.step().force;
-      ASSERT_TRUE(std::isfinite(force.y));
-      ASSERT_LE(glm::length(force), 3);
-    }
-  }
-}
-
 /// The law that matters most, against anything: whatever comes in, what goes out is a number, within the force limit
 /// and changes no faster than slew and ramps allow, except to fall to zero.
 TEST(SafetyFilter, HoldsItsLimitsAgainstAnything) {

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include "device/safety/safety_filter.h"
+#include "device/vectors.h"
 
 namespace palpate::device {
 namespace {
@@ -345,24 +347,54 @@ TEST(SafetyLayers, WhatIsNotANumberEndsTheForceAtOnce) {
   }
 }
 
-/// So does a limit of the device that is not a number. When it is one again the force stays away, and comes back from
-/// zero when the fault was cleared and the filter armed.
-TEST(SafetyLayers, ADeviceLimitThatIsNotANumberEndsTheForceAtOnce) {
-  Session session;
-  session.push(Vec3(1, 2, 3));
-  session.limits.fall_time = 100;
-  session.limits.ramp_time = 0.1;
-  const double before = session.limits.device_force;
-  session.limits.device_force = std::nan("");
-  const SafetyResult result = session.step();
-  EXPECT_EQ(result.force, Vec3(0));
-  EXPECT_EQ(result.fault, Fault::force_not_finite);
-  session.limits.device_force = before;
-  for (int n = 0; n < 10; ++n) EXPECT_EQ(session.step().force, Vec3(0));
-  clear_fault(session.state);
-  EXPECT_TRUE(arm(session.state));
-  for (int n = 0; n <= 100; ++n) {
-    EXPECT_LT(glm::distance(session.step().force, n * tick / 0.1 * session.input.force), 1e-9) << n;
+/// So does any limit that is no limit. When it is one again the force stays away, and comes back from zero when the
+/// fault was cleared and the filter armed.
+TEST(SafetyLayers, ALimitThatIsNotANumberOrNegativeEndsTheForceAtOnce) {
+  for (double SafetyLimits::*limit :
+       {&SafetyLimits::force, &SafetyLimits::device_force, &SafetyLimits::slew, &SafetyLimits::slew_time,
+        &SafetyLimits::ramp_time, &SafetyLimits::fall_time, &SafetyLimits::speed, &SafetyLimits::speed_filter_time,
+        &SafetyLimits::force_age, &SafetyLimits::pose_age, &SafetyLimits::stall_time, &SafetyLimits::heartbeat_time}) {
+    for (const double no_limit : {std::nan(""), -1e-9}) {
+      Session session;
+      session.push(Vec3(1, 2, 3));
+      session.limits.fall_time = 100;
+      session.limits.ramp_time = 0.1;
+      const SafetyLimits before = session.limits;
+      session.limits.*limit = no_limit;
+      session.input.force = Vec3(3, 2, 1);
+      const SafetyResult result = session.step();
+      EXPECT_EQ(result.force, Vec3(0));
+      EXPECT_EQ(result.fault, Fault::force_not_finite);
+      session.limits = before;
+      for (int n = 0; n < 10; ++n) EXPECT_EQ(session.step().force, Vec3(0));
+      clear_fault(session.state);
+      EXPECT_TRUE(arm(session.state));
+      for (int n = 0; n <= 100; ++n) {
+        EXPECT_LT(glm::distance(session.step().force, n * tick / 0.1 * session.input.force), 1e-9) << n;
+      }
+    }
+  }
+}
+
+/// Where limits limit nothing, forces whose difference is no number end in a fault, from which the force comes back.
+TEST(SafetyLayers, WithHugeLimitsAForceIsStillANumber) {
+  for (const double huge : {1.7e308, std::numeric_limits<double>::infinity()}) {
+    Session session;
+    session.push(Vec3(1, 2, 3));
+    session.limits.force = session.limits.device_force = session.limits.slew = huge;
+    for (const double x : {1.7e308, -1.7e308}) {
+      session.input.force = Vec3(x, 0, 0);
+      for (int n = 0; n < 10; ++n) EXPECT_TRUE(is_finite(session.step(1).force));
+    }
+    EXPECT_EQ(session.step(1).force, Vec3(0));
+    EXPECT_EQ(session.state.fault, Fault::force_not_finite);
+    session.input.force = Vec3(0, 1, 0);
+    session.step(1);
+    clear_fault(session.state);
+    arm(session.state);
+    session.limits = SafetyLimits{};
+    for (int n = 0; n < 1000; ++n) session.step();
+    EXPECT_EQ(session.step().force, Vec3(0, 1, 0));
   }
 }
 
