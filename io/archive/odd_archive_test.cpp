@@ -2,10 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <chrono>
-#include <csignal>
 #include <string>
 
 #include "io/archive/archive.h"
@@ -16,6 +14,7 @@
 #include "io/archive/testing/odd_archive.h"
 #include "io/archive/testing/says.h"
 #include "io/errors.h"
+#include "io/testing/short_files.h"
 
 namespace palpate::io {
 namespace {
@@ -24,6 +23,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::OddArchive;
 using testing::says;
+using testing::ShortFiles;
 
 TEST(OddArchive, ThatBehavesIsFetchedFrom) {
   OddArchive odd("good");
@@ -145,27 +145,6 @@ TEST(OddArchive, ThatAlsoSendsAnotherStudyIsToldOf) {
   EXPECT_TRUE(
       says(fetched.warnings.front(), "archive {} also sent {} objects that were not asked for; they were not kept"));
 }
-
-/// While it lives, no file of this process can be longer.
-class ShortFiles {
- public:
-  explicit ShortFiles(rlim_t bytes) {
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit shorter{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &shorter);
-  }
-  ShortFiles(const ShortFiles&) = delete;
-  ShortFiles& operator=(const ShortFiles&) = delete;
-  ~ShortFiles() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
 
 // A file of 3 GB that is refused in its midst, and one so small that it waits in a buffer until it is closed.
 TEST(OddArchive, MeetsAFullDisk) {

@@ -89,6 +89,21 @@ TEST(RecordingColumns, ATableHasAColumnForEachStructureOfAnyScene) {
   }
 }
 
+/// A table for which there is no room is refused, whether it is small or larger than any buffer.
+TEST(RecordingColumns, ATableOnAFullDiskIsRefused) {
+  for (const std::size_t ticks : {1U, 20000U}) {
+    Recording recording;
+    recording.ticks.resize(ticks);
+    try {
+      write_csv(recording, "/dev/full");
+      FAIL() << "written";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(),
+                   "cannot write /dev/full: cannot write to file: No space left on device (is the disk full?)");
+    }
+  }
+}
+
 /// What was felt of a series, and by which registrations: each once, in the order in which it came.
 TEST(RecordingColumns, FramesAndRegistrationsAreToldOnce) {
   Recording recording;

@@ -1,4 +1,4 @@
-#include <fmt/os.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
@@ -7,6 +7,7 @@
 
 #include "plugin/messages/messages.h"
 #include "plugin/recording/recording.h"
+#include "plugin/recording/table_file.h"
 
 namespace palpate::plugin {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <std::size_t count, typename T>
-void print_all(fmt::ostream& out, const T (&values)[count]) {
+void print_all(TableFile& out, const T (&values)[count]) {
   for (const T& value : values) {
     out.print(",{}", value);
   }
@@ -54,7 +55,7 @@ std::string quoted(const std::string& name) {
 }  // namespace
 
 void write_csv(const Recording& recording, const std::filesystem::path& file) try {
-  fmt::ostream out = fmt::output_file(file.string());
+  TableFile out(file);
   out.print("index,time_s,dt_s,pose_time_s,heartbeat_s");
   for (const char* vector : {"probe_m", "proxy_m", "force_n", "sent_n"}) {
     out.print(",{0}_x,{0}_y,{0}_z", vector);

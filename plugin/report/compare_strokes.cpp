@@ -1,6 +1,6 @@
 #include "plugin/report/compare_strokes.h"
 
-#include <fmt/os.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "plugin/messages/messages.h"
+#include "plugin/recording/table_file.h"
 
 namespace palpate::plugin {
 namespace {
@@ -138,7 +139,7 @@ std::vector<Chart> charts_of(const Comparison& comparison, const std::string& fi
 }
 
 void write_csv(const Comparison& comparison, const std::filesystem::path& file) try {
-  fmt::ostream out = fmt::output_file(file.string());
+  TableFile out(file);
   out.print("along_mm,first_n,second_n,apart_mm\n");
   for (std::size_t n = 0; n < comparison.along_mm.size(); ++n) {
     out.print("{},{},{},{}\n", comparison.along_mm[n], comparison.first_n[n], comparison.second_n[n],

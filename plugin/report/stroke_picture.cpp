@@ -1,6 +1,6 @@
 #include "plugin/report/stroke_picture.h"
 
-#include <fmt/os.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "plugin/messages/messages.h"
+#include "plugin/recording/table_file.h"
 #include "plugin/report/held_boundary.h"
 #include "plugin/report/live_view.h"
 #include "plugin/report/summary.h"
@@ -202,7 +203,7 @@ std::vector<Chart> charts_of(const Profile& profile) {
 }
 
 void write_csv(const Profile& profile, const std::filesystem::path& file) try {
-  fmt::ostream out = fmt::output_file(file.string());
+  TableFile out(file);
   out.print(
       "depth_mm,probe_x_mm,probe_y_mm,probe_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,"
       "force_n,value_at_probe,value_at_proxy,tissue,boundary,primitive,solver,error_bound_m,known_to_mm\n");

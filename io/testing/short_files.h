@@ -1,0 +1,32 @@
+#pragma once
+
+/// A disk without room, for tests.
+
+#include <sys/resource.h>
+
+#include <csignal>
+
+namespace palpate::io::testing {
+
+/// While it lives, no file of this process can be longer.
+class ShortFiles {
+ public:
+  explicit ShortFiles(rlim_t bytes) {
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit shorter{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &shorter);
+  }
+  ShortFiles(const ShortFiles&) = delete;
+  ShortFiles& operator=(const ShortFiles&) = delete;
+  ~ShortFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+}  // namespace palpate::io::testing
