@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -144,13 +145,16 @@ TEST(MarkPresses, TwoMillimetersTellAMarkFromAPath) {
     ASSERT_TRUE(made);
     EXPECT_EQ(std::holds_alternative<MarkedPath>(*made), moved_mm > 2) << moved_mm;
   }
-  Hand hand;
-  for (const double x : {0.0, 0.19, 0.21, 0.40, 3.0, 3.1}) hand.at({x, 0, 0}, true);
-  const auto made = hand.presses.finish();
-  ASSERT_TRUE(made && std::holds_alternative<MarkedPath>(*made));
-  std::vector<double> places;
-  for (const glm::dvec3& point : std::get<MarkedPath>(*made).points_mm) places.push_back(point.x);
-  EXPECT_EQ(places, (std::vector<double>{0, 0.21, 3, 3.1}));
+  const auto points_of = [](std::initializer_list<double> way) {
+    Hand hand;
+    for (const double x : way) hand.at({x, 0, 0}, true);
+    const auto made = hand.presses.finish();
+    std::vector<double> places;
+    for (const glm::dvec3& point : std::get<MarkedPath>(made.value()).points_mm) places.push_back(point.x);
+    return places;
+  };
+  EXPECT_EQ(points_of({0.0, 0.19, 0.21, 0.40, 3.0, 3.1}), (std::vector<double>{0, 0.21, 3, 3.1}));
+  EXPECT_EQ(points_of({0.0, 0.2, 0.3, 3.0}), (std::vector<double>{0, 0.2, 3})) << "0.2 mm is a step";
 }
 
 }  // namespace

@@ -51,18 +51,18 @@ RecordedSession::RecordedSession(Recording recording, const io::Volume& volume) 
   for (const TickRecord& tick : recording_.ticks) {
     first_share_.push_back(share);
     share += tick.share_count;
-    if (settings_.count(tick.scene_epoch) > 0) continue;
+    const auto [known, is_new] = settings_.try_emplace(tick.scene_epoch);
+    if (!is_new) continue;
     const SceneRecord& record = *std::find_if(recording_.scenes.begin(), recording_.scenes.end(),
                                               [&](const auto& r) { return r.epoch == tick.scene_epoch; });
-    Setting setting;
+    Setting& setting = known->second;
     setting.scene = modes::scene_from_json(record.scene, "the recording's scene");
     const auto plan = plan_for(setting.scene, volume, record.half_extent_m);
     setting.workspace = plan->workspace;
     setting.structures = plan->structures;
     // What is left while a change is on its way is what the tick before felt.
-    setting.before = settings_.empty() ? setting.workspace : settings_.at(last).workspace;
+    setting.before = settings_.at(last).workspace;
     last = tick.scene_epoch;
-    settings_.emplace(last, std::move(setting));
   }
 }
 

@@ -67,7 +67,7 @@ RecorderStatus Recorder::finish() {
     ending_ = true;
     end_ = ring_.written();
   }
-  progress_.notify_all();
+  progress_.notify_all();  // or else it rests to the end of its 20 ms
   if (thread_.joinable()) {
     thread_.join();
     const std::lock_guard lock(mutex_);
@@ -98,7 +98,6 @@ void Recorder::run() {
     }
     writer_.finish();
   } catch (const std::exception& error) {
-    writer_.abandon();
     stop(say("what-was-written-before", error.what(), writer_.partial().string()));
   }
 }

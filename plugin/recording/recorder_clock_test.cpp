@@ -7,9 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <future>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "io/testing/file_bytes.h"
 #include "plugin/recording/recorder.h"
 #include "plugin/testing/test_files.h"
 
@@ -122,6 +125,68 @@ TEST(RecorderClock, FlushesOnceASecond) {
     EXPECT_EQ(recording.ticks[n].index, n);
     EXPECT_EQ(recording.known_to_mm[n], static_cast<double>(n) + 0.5) << "each batch its own";
   }
+}
+
+/// A recording that fails ends with what was flushed last, to the byte, and says where that is.
+TEST(RecorderClock, AFailureLeavesWhatWasFlushed) {
+  const auto file = fresh_path("failed.h5"), left = fresh_path("left.h5");
+  const std::filesystem::path partial = file.string() + ".partial";
+  TickRing ring(1024);
+  HeldClock clock;
+  std::atomic<bool> fails{false};
+  std::string flushed;
+  {
+    Recorder recorder(ring, file, {},
+                      {.before_write =
+                           [&] {
+                             if (!fails) return;
+                             flushed = io::internal::bytes_of(partial);
+                             throw std::runtime_error("the disk is gone");
+                           },
+                       .now = clock.now()});
+    std::uint64_t ticks = 0;
+    const auto write_one = [&] {
+      push_ticks(ring, 1);
+      await_written(recorder, ++ticks);
+    };
+    write_one();
+    clock.ms += 1000;
+    write_one();
+    write_one();  // a flush is over, after the first or the second
+    write_one();
+    fails = true;
+    push_ticks(ring, 1);
+    const RecorderStatus status = recorder.finish();
+    EXPECT_TRUE(status.stopped);
+    EXPECT_EQ(status.written, 4U);
+    EXPECT_EQ(status.lost, 1U);
+    const std::string why = status.why;
+    EXPECT_NE(why.find("the disk is gone"), std::string::npos) << why;
+    EXPECT_NE(why.find(partial.string()), std::string::npos) << why;
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_EQ(io::internal::bytes_of(partial), flushed);
+  std::filesystem::copy_file(partial, left);
+  const Recording recording = read_recording(left);
+  EXPECT_FALSE(recording.complete);
+  EXPECT_GE(recording.ticks.size(), 1U);
+  EXPECT_LT(recording.ticks.size(), 4U) << "the last was not flushed";
+}
+
+/// While there is nothing to write it rests: five rounds of 20 ms can take longer, and never half of that.
+TEST(RecorderClock, RestsWhileThereIsNothingToWrite) {
+  using Clock = std::chrono::steady_clock;
+  TickRing ring(64);
+  std::promise<Clock::duration> rested;
+  int looks = 0;
+  Clock::time_point first;
+  Recorder recorder(ring, fresh_path("idle.h5"), {}, {.now = [&] {
+                      if (++looks == 2) first = Clock::now();  // once a round, and once before
+                      if (looks == 7) rested.set_value(Clock::now() - first);
+                      return Clock::time_point();
+                    }});
+  EXPECT_GE(rested.get_future().get(), std::chrono::milliseconds(50));
+  recorder.finish();
 }
 
 /// Who is faster than the clock waits until half of the ring is free, and not where it is free already.

@@ -89,7 +89,6 @@ void write_recording(const Recording& recording, const std::filesystem::path& fi
     writer.append(recording.ticks, recording.shares, recording.known_to_mm);
     writer.finish();
   } catch (...) {
-    writer.abandon();
     std::error_code ignored;
     std::filesystem::remove(writer.partial(), ignored);
     throw;

@@ -9,11 +9,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "io/testing/file_bytes.h"
+#include "io/testing/short_files.h"
 #include "plugin/recording/recording.h"
 #include "plugin/recording/recording_rows.h"
 #include "plugin/recording/recording_writer.h"
@@ -115,32 +118,86 @@ TEST(RecordingTables, WhatWasFlushedSurvives) {
   EXPECT_EQ(read.gaps[0].ticks, 3U);
 }
 
-/// After a failure the file stays as it was flushed last: closing writes nothing more.
-TEST(RecordingTables, WhatIsAbandonedStaysAsItWasFlushed) {
+/// What is not finished stays as it was flushed last, to the byte: the writer that goes writes nothing more.
+TEST(RecordingTables, WhatIsNotFinishedStaysAsItWasFlushed) {
   std::mt19937_64 random(6);
-  const Recording whole = any_numbers(random, 40), more = any_numbers(random, 2500);
-  const auto file = fresh_path("abandoned.h5"), left = fresh_path("left.h5");
+  const Recording whole = any_numbers(random, 40);
+  for (const std::size_t count : {40U, 2500U}) {  // the second is more than HDF5 keeps for itself
+    const Recording more = any_numbers(random, count);
+    const auto file = fresh_path("unfinished" + std::to_string(count)), left = fresh_path("left.h5");
+    std::string flushed;
+    {
+      RecordingWriter writer(file, whole.header);
+      writer.append(whole.ticks, whole.shares, whole.known_to_mm);
+      writer.flush();
+      flushed = io::internal::bytes_of(writer.partial());
+      writer.append(more.ticks, more.shares, more.known_to_mm);
+      writer.append(Gap{.first_tick = 7, .ticks = 3});
+    }
+    EXPECT_FALSE(fs::exists(file));
+    fs::copy_file(file.string() + ".partial", left);
+    if (count == 40) {
+      EXPECT_EQ(io::internal::bytes_of(left), flushed);
+    }
+    const Recording read = read_recording(left);
+    EXPECT_FALSE(read.complete);
+    ASSERT_GE(read.ticks.size(), whole.ticks.size());
+    EXPECT_LT(read.ticks.size(), whole.ticks.size() + more.ticks.size());
+    EXPECT_EQ(std::memcmp(read.ticks.data(), whole.ticks.data(), whole.ticks.size() * sizeof(TickRecord)), 0);
+  }
+}
+
+/// What is finished is closed: a copy is whole while the writer is still there.
+TEST(RecordingTables, WhatIsFinishedIsClosed) {
+  std::mt19937_64 random(7);
+  const Recording whole = any_numbers(random, 40);
+  const auto file = fresh_path("finished.h5"), copy = fresh_path("copy.h5");
+  RecordingWriter writer(file, whole.header);
+  writer.append(whole.ticks, whole.shares, whole.known_to_mm);
+  writer.finish();
+  fs::copy_file(file, copy);  // HDF5 would look into the writer's own memory
+  const Recording read = read_recording(copy);
+  EXPECT_TRUE(read.complete);
+  EXPECT_TRUE(same_bytes(read.ticks, whole.ticks));
+}
+
+std::string why_unwritten(const std::function<void()>& write) {
+  try {
+    write();
+    return "written";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+/// A recording gets its name only when all of it is on the disk. Where there is no room for the rest it says so, and
+/// what was flushed stays; what was to be written at once leaves nothing.
+TEST(RecordingTables, OnAFullDiskARecordingGetsNoName) {
+  std::mt19937_64 random(8);
+  const Recording whole = any_numbers(random, 40), more = any_numbers(random, 500);
+  const auto file = fresh_path("full.h5"), left = fresh_path("left.h5"), at_once = fresh_path("at_once.h5");
+  const auto full = [](const fs::path& of) {
+    return "cannot write the recording " + of.string() + ": HDF5 cannot write (is the disk full?)";
+  };
+  std::string said, said_at_once;
   {
     RecordingWriter writer(file, whole.header);
     writer.append(whole.ticks, whole.shares, whole.known_to_mm);
     writer.flush();
     writer.append(more.ticks, more.shares, more.known_to_mm);
-    writer.abandon();
-    writer.abandon();  // once is enough, twice does no harm
+    const io::testing::ShortFiles disk(fs::file_size(writer.partial()));
+    said = why_unwritten([&] { writer.finish(); });
+    said_at_once = why_unwritten([&] { write_recording(more, at_once); });
   }
+  EXPECT_EQ(said, full(file));
   EXPECT_FALSE(fs::exists(file));
   fs::copy_file(file.string() + ".partial", left);
   const Recording read = read_recording(left);
   EXPECT_FALSE(read.complete);
-  ASSERT_GE(read.ticks.size(), whole.ticks.size());
-  EXPECT_LT(read.ticks.size(), whole.ticks.size() + more.ticks.size());
-  EXPECT_EQ(std::memcmp(read.ticks.data(), whole.ticks.data(), whole.ticks.size() * sizeof(TickRecord)), 0);
-  // What is finished has nothing left to abandon.
-  const auto other = fresh_path("finished.h5");  // the abandoned file is still open
-  RecordingWriter writer(other, whole.header);
-  writer.finish();
-  writer.abandon();
-  EXPECT_TRUE(read_recording(other).complete);
+  EXPECT_TRUE(same_bytes(read.ticks, whole.ticks));
+  EXPECT_EQ(said_at_once, full(at_once));
+  EXPECT_FALSE(fs::exists(at_once));
+  EXPECT_FALSE(fs::exists(at_once.string() + ".partial"));
 }
 
 /// Of ticks whose shares are cut off, only those count that have them all.

@@ -115,7 +115,9 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, const RecordingHead
   naming(file_, [&] { open_ = std::make_unique<File>(partial_, header); });
 }
 
-RecordingWriter::~RecordingWriter() = default;
+RecordingWriter::~RecordingWriter() {
+  if (open_) open_->forget();
+}
 
 void RecordingWriter::append(std::span<const TickRecord> ticks, std::span<const PrimitiveRecord> shares,
                              std::span<const double> known_to_mm) {
@@ -159,13 +161,6 @@ void RecordingWriter::finish() {
     H5garbage_collect();
     std::filesystem::rename(partial_, file_);
   });
-}
-
-void RecordingWriter::abandon() noexcept {
-  if (open_) {
-    open_->forget();
-    open_.reset();
-  }
 }
 
 }  // namespace palpate::plugin

@@ -10,14 +10,14 @@
 
 namespace palpate::plugin {
 
-/// Writes to `<file>.partial`. Every function throws std::runtime_error that names the file; after that only abandon()
-/// and the destructor may be called.
+/// Writes to `<file>.partial`. Every function throws std::runtime_error that names the file; after that only the
+/// destructor may be called.
 class RecordingWriter {
  public:
   RecordingWriter(std::filesystem::path file, const RecordingHeader& header);
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
-  /// Closes. `<file>.partial` stays unless finish() gave it its name or it was removed.
+  /// Without finish(), leaves `<file>.partial` as it was when it was last flushed.
   ~RecordingWriter();
 
   /// Appends whole ticks with all their shares, and for each tick how precisely the boundary is known
@@ -31,8 +31,6 @@ class RecordingWriter {
   void flush();
   /// Closes the file properly and gives it its name.
   void finish();
-  /// After a failure: leaves the file as it was when it was last flushed.
-  void abandon() noexcept;
   /// Where it is written until it is finished.
   const std::filesystem::path& partial() const noexcept { return partial_; }
 

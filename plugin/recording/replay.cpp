@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
@@ -39,12 +38,9 @@ Poses poses_of(std::span<const TickRecord> ticks) {
 /// leaves the others where they are.
 class RecordedStylus final : public device::Stylus {
  public:
-  RecordedStylus(std::optional<device::ReplayStylus>& poses, const StylusRecord& record, double rate_hz)
-      : poses_(poses) {
-    specification_.name = record.name;
+  RecordedStylus(std::optional<device::ReplayStylus>& poses, const StylusRecord& record) : poses_(poses) {
     specification_.force_axes = record.force_axes;
     specification_.maximum_force = record.maximum_force_n;
-    specification_.rate = rate_hz;
   }
   device::Specification specification() const override { return specification_; }
   void open() override {}
@@ -68,12 +64,9 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
   return *found;
 }
 
-/// Infinity where only one of the two is a number: no difference is larger, and none after it makes it forgotten.
+/// Infinity where one of the two is no number: no difference is larger, and none after it makes it forgotten. A session
+/// repeats numbers alone.
 double apart(const double (&recorded)[3], const double (&repeated)[3]) {
-  // NaN is the same as NaN, so bits are compared.
-  if (std::memcmp(recorded, repeated, sizeof recorded) == 0) {  // NOLINT(bugprone-suspicious-memory-comparison)
-    return 0;
-  }
   const double distance = glm::length(vector_of(recorded) - vector_of(repeated));
   return std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance;
 }
@@ -96,7 +89,7 @@ void compare(const TickRecord& recorded, const TickRecord& repeated, Replay& res
 
 struct Replayer::Progress {
   std::shared_ptr<device::Stylus> stylus(std::uint32_t epoch) {
-    return std::make_shared<RecordedStylus>(poses, find_epoch(styluses, epoch, "stylus"), rate_hz);
+    return std::make_shared<RecordedStylus>(poses, find_epoch(styluses, epoch, "stylus"));
   }
   Snapshot snapshot(std::uint32_t epoch) const { return make_snapshot(find_epoch(scenes, epoch, "scene")); }
   void repeat_commands(std::span<const TickRecord> coming);
@@ -105,7 +98,6 @@ struct Replayer::Progress {
   Replay result;
   std::vector<SceneRecord> scenes;
   std::vector<StylusRecord> styluses;
-  double rate_hz = 1000;
   std::uint64_t next = 0;  ///< index of the tick that comes next, unless some were lost
   std::uint32_t scene_epoch = 0;
   std::uint32_t stylus_epoch = 0;
@@ -148,7 +140,6 @@ void Replayer::feed(const Recording& part) {
   Progress& progress = *progress_;
   progress.scenes.insert(progress.scenes.end(), part.scenes.begin(), part.scenes.end());
   progress.styluses.insert(progress.styluses.end(), part.styluses.begin(), part.styluses.end());
-  progress.rate_hz = part.header.rate_hz;
   std::size_t unbroken = 0;
   while (unbroken < part.ticks.size() && part.ticks[unbroken].index == progress.next + unbroken) {
     ++unbroken;

@@ -91,20 +91,27 @@ TEST(ReplayParts, AreRepeatedAsOneWhereverTheyAreCut) {
   EXPECT_EQ(at_once.ticks, 2000U);
   EXPECT_EQ(at_once.different, 0U) << at_once.first_different.value_or(0);
   std::mt19937 random(3);
-  for (int n = 0; n < 4; ++n) {
-    // The first cuts lie between the command for another stylus and the tick that has it.
-    std::vector<std::size_t> cuts{0, n == 0 ? 710U : random() % 2000, n == 1 ? 1505U : random() % 2000, random() % 2000,
-                                  2000};
-    std::ranges::sort(cuts);
+  // Twice between the command for another stylus and the tick that has it, and before and after a change of scene.
+  std::vector<std::vector<std::size_t>> all_cuts{{0, 500, 710, 1505, 2000}, {0, 450, 650, 1050, 1280, 1400, 2000}};
+  for (int n = 0; n < 3; ++n) {
+    all_cuts.push_back({0, random() % 2000, random() % 2000, random() % 2000, 2000});
+    std::ranges::sort(all_cuts.back());
+  }
+  for (const std::vector<std::size_t>& cuts : all_cuts) {
     std::vector<std::weak_ptr<const io::FieldSource>> sources;
     Replayer replayer([&](const SceneRecord& record) {
       Snapshot made = snapshot_again(record);
       sources.push_back(made.source);
       return made;
     });
-    for (std::size_t cut = 1; cut < cuts.size(); ++cut) replayer.feed(part_of(whole, cuts[cut - 1], cuts[cut]));
+    for (std::size_t cut = 1; cut < cuts.size(); ++cut) {
+      replayer.feed(part_of(whole, cuts[cut - 1], cuts[cut]));
+      if (cuts[cut] == 0) continue;
+      const bool is_changing = whole.ticks[cuts[cut] - 1].change_part < 1;
+      EXPECT_EQ(std::ranges::count_if(sources, [](const auto& one) { return !one.expired(); }), is_changing ? 2 : 1)
+          << "of a change both scans, else the last alone: at " << cuts[cut];
+    }
     expect_equal(replayer.result(), at_once);
-    EXPECT_EQ(std::ranges::count_if(sources, [](const auto& one) { return !one.expired(); }), 1) << "the last alone";
   }
 }
 

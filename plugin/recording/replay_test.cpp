@@ -96,6 +96,7 @@ TEST(Replay, AnEventfulSessionIsTheSameToTheLastBit) {
   EXPECT_EQ(result.ticks, 8000U);
   EXPECT_EQ(result.different, 0U) << "first: " << result.first_different.value_or(0);
   EXPECT_EQ(result.largest_force_n, 0);
+  EXPECT_EQ(result.largest_proxy_m, 0);
 }
 
 TEST(Replay, FindsTheTickThatDiffers) {
