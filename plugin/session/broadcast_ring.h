@@ -35,7 +35,7 @@ class BroadcastRing {
     std::array<std::uint64_t, words> bits;
     std::memcpy(bits.data(), &item, sizeof(T));
     Slot& slot = slots_[n & (capacity_ - 1)];
-    for (std::size_t i = 0; i < words; ++i) slot[i].store(bits[i], std::memory_order_relaxed);
+    for (std::size_t i = 0; auto& word : slot) word.store(bits[i++], std::memory_order_relaxed);
     written_.store(n + 1, std::memory_order_release);
   }
 
@@ -52,7 +52,7 @@ class BroadcastRing {
   bool read(std::uint64_t n, T& item) const noexcept {
     std::array<std::uint64_t, words> bits;
     const Slot& slot = slots_[n & (capacity_ - 1)];
-    for (std::size_t i = 0; i < words; ++i) bits[i] = slot[i].load(std::memory_order_relaxed);
+    for (std::size_t i = 0; const auto& word : slot) bits[i++] = word.load(std::memory_order_relaxed);
     std::atomic_thread_fence(std::memory_order_acquire);
     if (begun_.load(std::memory_order_relaxed) > n + capacity_) return false;
     std::memcpy(static_cast<void*>(&item), bits.data(), sizeof(T));

@@ -34,8 +34,9 @@ bool parse(std::string_view line, std::span<double> numbers) {
       return false;
     }
     const std::string_view cell = trim(line.substr(0, comma));
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), numbers[n]);
-    if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(numbers[n])) {
+    const char* const cell_end = cell.data() + cell.size();
+    const auto [end, error] = std::from_chars(cell.data(), cell_end, numbers[n]);
+    if (error != std::errc{} || end != cell_end || !std::isfinite(numbers[n])) {
       return false;
     }
     line = last ? "" : line.substr(comma + 1);
@@ -63,13 +64,14 @@ std::vector<PathPoint> read_path_csv(const std::filesystem::path& file) {
     if (!parse(content, std::span(cells).first(with_buttons ? 5 : 4))) {
       throw Refusal(say("line-not-four-finite-numbers", file.string(), number, header));
     }
-    if (cells[4] < 0 || cells[4] > most_buttons || cells[4] != std::floor(cells[4])) {
-      throw Refusal(say("line-buttons-is-no-bit-mask", file.string(), number, fmt::format("{}", cells[4])));
+    const auto& [time_s, x_mm, y_mm, z_mm, buttons] = cells;
+    if (buttons < 0 || buttons > most_buttons || buttons != std::floor(buttons)) {
+      throw Refusal(say("line-buttons-is-no-bit-mask", file.string(), number, fmt::format("{}", buttons)));
     }
-    if (cells[0] < 0 || (!path.empty() && cells[0] <= path.back().time_s)) {
-      throw Refusal(say("line-time-s-does-not-come-after", file.string(), number, fmt::format("{}", cells[0])));
+    if (time_s < 0 || (!path.empty() && time_s <= path.back().time_s)) {
+      throw Refusal(say("line-time-s-does-not-come-after", file.string(), number, fmt::format("{}", time_s)));
     }
-    path.push_back({cells[0], {cells[1], cells[2], cells[3]}, static_cast<std::uint32_t>(cells[4])});
+    path.push_back({time_s, {x_mm, y_mm, z_mm}, static_cast<std::uint32_t>(buttons)});
   }
   if (path.size() < 2) {
     throw Refusal(say("path-needs-at-least-two-points", file.string(), header));

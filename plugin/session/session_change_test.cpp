@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <vector>
 
 #include "plugin/session/session.h"
@@ -107,6 +108,34 @@ TEST(SessionChange, AnotherStylusStartsFromZeroForce) {
 }
 
 /// What may be sent is what the stylus held now can take, from the tick that it is taken in, in both directions.
+/// From the tick in which another stylus is taken, the session does to the bit what one does that begins with it then:
+/// whatever was pressed with the stylus before.
+TEST(SessionChange, WithAnotherStylusItIsAsOneThatBeginsWithIt) {
+  Snapshot felt = snapshot("ct-skin-and-bone", slab());
+  felt.limits.slew = 5;  // N/s: what a force leaves behind would be felt for a tenth of a second
+  const std::vector<device::Waypoint> pressed{{.time = 0, .position = {0, 0.004, 0}},
+                                              {.time = 0.2, .position = {0, -0.003, 0}},
+                                              {.time = 100, .position = {0, -0.003, 0}}};
+  for (const double before_y_m : {-0.004, 0.02}) {
+    Session session(felt, stylus(hold(before_y_m)));
+    std::unique_ptr<Session> fresh;
+    double strongest_n = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Beat beat{.time_s = 1e-3 * n, .heartbeat_s = 1e-3 * n};
+      if (n == 1000) session.change_stylus(stylus(pressed, 5));
+      const TickRecord& tick = session.tick(beat);
+      if (tick.stylus_epoch == 0) continue;
+      if (!fresh) fresh = std::make_unique<Session>(felt, stylus(pressed, 5));
+      const TickRecord& as_new = fresh->tick(beat);
+      ASSERT_EQ(vector_of(tick.sent_n), vector_of(as_new.sent_n)) << n;
+      ASSERT_EQ(vector_of(tick.proxy_m), vector_of(as_new.proxy_m)) << n;
+      ASSERT_EQ(tick.safety, as_new.safety) << n;
+      strongest_n = std::max(strongest_n, glm::length(vector_of(tick.sent_n)));
+    }
+    EXPECT_GT(strongest_n, 0.5);
+  }
+}
+
 TEST(SessionChange, EachStylusHasItsOwnForceLimit) {
   const auto held = [](double maximum_n) {
     device::SimulatedDevice model;

@@ -31,7 +31,6 @@ double strength_ahead_n(const modes::ActiveMode& mode, const modes::Plan& plan, 
     const double way = n * step_mm;
     if ((way - reached_mm) * n_per_mm > std::max(lets_go * most_n, step_mm * n_per_mm) && most_n > 0) break;
     const double strength = strength_against_n(mode, source.sample(place_mm + way * inward, plan.fields), inward);
-    if (!(strength > 0)) continue;
     if (way + strength / n_per_mm >= farthest_probe_mm) {
       farthest_probe_mm = way + strength / n_per_mm;
       reached_mm = way;

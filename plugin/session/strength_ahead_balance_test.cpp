@@ -125,6 +125,20 @@ TEST(StrengthAheadBalance, AGentleFallIsNoBreakThrough) {
   }
 }
 
+/// Where the strength has fallen to nothing without a jump, the proxy is free and goes on with the probe: what lies
+/// behind, however far, counts as what lies before the first wall does.
+TEST(StrengthAheadBalance, BehindAGentleFallToNothingAllCounts) {
+  std::mt19937 random(4);
+  for (int n = 0; n < 100; ++n) {
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const double k = between(0.4, 1.2), fall = between(0.5, 0.9) * k, free_mm = between(0.5, 1.2);
+    const double first_n = fall * free_mm, wall_mm = between(free_mm + 0.2, 2.8), wall_n = first_n * between(1.1, 2);
+    const double strongest =
+        ahead([&](double w) { return w >= wall_mm ? wall_n : std::max(0.0, first_n - fall * w); }, k);
+    ASSERT_NEAR(strongest, wall_n, 1e-9) << "free from " << free_mm << " mm on, a wall at " << wall_mm;
+  }
+}
+
 /// Which way a surface resists, of a rise of the scan's own values or of a structure's distance along the push. Across
 /// the push there is no rise.
 TEST(StrengthAheadBalance, ResistsOnItsOwnSide) {

@@ -71,6 +71,47 @@ TEST(StructureFiles, OfSeveralInAFolderEachIsFound) {
   for (const modes::SceneStructure& found : again.structures) EXPECT_EQ(found.file, folder / "after" / found.name);
 }
 
+// A path may hold a patient's name: whatever its length and its letters, none but a hash is left as it is.
+TEST(StructureFiles, NoneButAHashIsLeftAsItIs) {
+  const std::string hash = "0123456789abcdef";
+  EXPECT_EQ(without_paths(scene_of(hash)).structures[0].file, hash);
+  for (std::size_t at = 0; at < hash.size(); ++at) {
+    for (const char letter : {'g', 'z', '.', ' ', '_', '-', '/'}) {
+      std::string path = hash;
+      path[at] = letter;
+      EXPECT_EQ(without_paths(scene_of(path)).structures[0].file, "0000000000000000") << path;
+    }
+  }
+  for (const std::string& path : {hash.substr(1), hash + "0"}) {
+    EXPECT_EQ(without_paths(scene_of(path)).structures[0].file, "0000000000000000") << path;
+  }
+}
+
+// What is said of a server's structure names its file as the server does: the copy here has another name.
+TEST(StructureFiles, OfAServerAreNamedAsThere) {
+  const io::internal::TestFolder folder;
+  testing::write_contours(folder / "copy", "1.1", "7", "Doe^Jane");
+  set_fetched_files({{"/there/study/rt.dcm", folder / "copy"}});
+  const modes::Scene scene = testing::scene_of("/there/study/rt.dcm");
+  const auto elsewhere = std::make_shared<io::Volume>(*testing::registered_scan());
+  for (io::Vec3& position : elsewhere->geometry.slice_positions) position.x = 14;  // 4 mm beside the cube
+  const auto of_another = std::make_shared<io::Volume>(*elsewhere);
+  of_another->patient_id = "8";
+  of_another->patient_name = "Roe^Jim";
+  std::string said;
+  const PreparedScene prepared = prepare(scene, elsewhere, glm::dvec3(0.1));
+  for (const Text& warning : prepared.structures.at(0).warnings) said += warning;
+  try {
+    prepare(scene, of_another, glm::dvec3(0.1));
+    ADD_FAILURE() << "taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("rt.dcm"), std::string::npos) << error.what();
+  }
+  set_fetched_files({});
+  EXPECT_NE(said.find("rt.dcm"), std::string::npos) << said;
+  EXPECT_EQ(said.find("copy"), std::string::npos) << said;
+}
+
 // A scene that names a file of a server is felt from its copy, and recorded by what is in it.
 TEST(StructureFiles, OfAServerAreReadFromTheirCopies) {
   const fs::path folder = fs::path(::testing::TempDir()) / "fetched_structures";
