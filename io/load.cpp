@@ -123,13 +123,13 @@ void describe_values(const Reading& whole, Storage storage, Volume& volume) {
 std::vector<std::size_t> read_slices(const Reading& reading, const std::string& name, const LoadOptions& options,
                                      Volume& volume) {
   std::vector<std::size_t> failed;
-  std::set<Text> oddities;
+  std::set<Text> left_out, oddities;
   std::mutex noting;
   const auto note_failure = [&](std::size_t k, const char* why) {
     const std::lock_guard lock(noting);
     failed.push_back(k);
     const auto& file = reading.source.file_of(reading.frame.slices[k]);
-    volume.warnings.push_back(say("left-out", file.path.filename().string(), why));
+    left_out.insert(say("left-out", file.path.filename().string(), why));
   };
   const auto note_oddity = [&](const Text& what) {
     const std::lock_guard lock(noting);
@@ -140,14 +140,13 @@ std::vector<std::size_t> read_slices(const Reading& reading, const std::string& 
       units.size(),
       [&](std::size_t u) { internal::read_unit(reading, units[u], volume.voxels, note_failure, note_oddity); },
       options.progress, options.threads);
-  std::vector<Text>& warnings = volume.warnings;
   if (failed.size() == reading.frame.slices.size()) {
-    throw DicomError(say("series-cannot-be-read", name, warnings.front()));
+    throw DicomError(say("series-cannot-be-read", name, *left_out.begin()));
   }
   std::sort(failed.begin(), failed.end());
-  std::sort(warnings.begin(), warnings.end());
-  warnings.erase(std::unique(warnings.begin(), warnings.end()), warnings.end());
-  warnings.insert(warnings.end(), oddities.begin(), oddities.end());
+  for (const auto& of_slices : {left_out, oddities}) {
+    volume.warnings.insert(volume.warnings.end(), of_slices.begin(), of_slices.end());
+  }
   return failed;
 }
 

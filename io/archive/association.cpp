@@ -157,11 +157,8 @@ Association::Association(const Archive& archive, const std::vector<Proposal>& pr
     const Text words = is(asked, DULC_ASSOCIATIONREJECTED) ? refusal_words(archive, parameters)
                        : transport_->names_other           ? other_machine_words(archive)
                                                            : connection_words(archive, asked);
-    if (association_ != nullptr) {
-      ASC_destroyAssociation(&association_);
-    } else {
-      ASC_destroyAssociationParameters(&parameters);
-    }
+    if (association_ == nullptr) ASC_destroyAssociationParameters(&parameters);  // else they go with it
+    ASC_destroyAssociation(&association_);
     ASC_dropNetwork(&network_);
     throw ArchiveError(words);
   }

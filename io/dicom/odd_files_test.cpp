@@ -95,7 +95,7 @@ TEST(OddFiles, ValuesOfOddLengthAreRead) {
 TEST(OddFiles, CompressedPixelsWithoutTheirEndMarkAreRead) {
   register_encoders();
   for (const E_TransferSyntax syntax : {EXS_RLELossless, EXS_JPEGProcess14SV1}) {
-    for (const std::uintmax_t cut : {4U, 8U}) {
+    for (const std::uintmax_t cut : {0U, 4U, 8U}) {
       const TestFolder folder;
       write_stack(folder.path(), 3, [&](int, TestImage& image) { image.syntax = syntax; });
       for (const auto& entry : fs::directory_iterator(folder.path())) {
@@ -105,8 +105,8 @@ TEST(OddFiles, CompressedPixelsWithoutTheirEndMarkAreRead) {
       ASSERT_THAT(found.series, SizeIs(1));
       EXPECT_THAT(found.skipped, SizeIs(0));
       EXPECT_TRUE(found.series[0].usable);
-      EXPECT_THAT(found.series[0].warnings,
-                  Contains("its compressed pixels have no end mark; they are read as they are"));
+      const char* const said = "its compressed pixels have no end mark; they are read as they are";
+      EXPECT_THAT(found.series[0].warnings, Contains(said).Times(cut == 0 ? 0 : 1));
       EXPECT_EQ(load(found.series[0]).value_at(3, 2, 1), 132);
     }
     const TestFolder folder;

@@ -101,10 +101,10 @@ std::vector<Class> by_place(const Stack& stack, const std::vector<Slice>& slices
   return by_value(slices, place_of, [](const auto&, std::size_t n) { return stack_name(n); });
 }
 
-// In this order, a new stack begins where the slices turn back.
-std::vector<Class> runs(const Stack& stack, std::vector<Slice> slices,
-                        const std::function<bool(const Slice&, const Slice&)>& before) {
-  std::stable_sort(slices.begin(), slices.end(), before);
+// In the order of their keys, a new stack begins where the slices turn back.
+template <typename Key>
+std::vector<Class> runs(const Stack& stack, std::vector<Slice> slices, const Key& key_of) {
+  std::ranges::stable_sort(slices, {}, key_of);
   std::vector<Class> classes;
   double last = 0;
   int sense = 0;
@@ -146,16 +146,11 @@ std::vector<Class> by_time(const Stack& stack, const std::vector<Slice>& slices,
   auto classes = by_value(slices, value_of, [](const auto&, std::size_t n) { return stack_name(n); });
   measure(stack, classes);
   if (std::ranges::all_of(classes, [](const Class& c) { return c.lattice.heights.size() >= 3; })) return classes;
-  return runs(stack, slices, [&](const Slice& a, const Slice& b) {
-    return std::tuple(value_of(a), stack.file(a).instance_number) <
-           std::tuple(value_of(b), stack.file(b).instance_number);
-  });
+  return runs(stack, slices, [&](const Slice& s) { return std::tuple(value_of(s), stack.file(s).instance_number); });
 }
 
 std::vector<Class> by_number(const Stack& stack, const std::vector<Slice>& slices) {
-  return runs(stack, slices, [&](const Slice& a, const Slice& b) {
-    return stack.file(a).instance_number < stack.file(b).instance_number;
-  });
+  return runs(stack, slices, [&](const Slice& s) { return stack.file(s).instance_number; });
 }
 
 std::vector<Class> by_folder(const Stack& stack, const std::vector<Slice>& slices) {
@@ -322,8 +317,6 @@ double usual_thickness(const SeriesSource& source, const std::vector<Slice>& sli
 }  // namespace
 
 PartedStack part_stack(const SeriesSource& source, std::vector<Slice> slices) {
-  PartedStack result;
-  if (slices.empty()) return result;
   const Placement reference = *source.plane_of(slices.front()).placement;
   const Stack stack{source, reference, same_place_mm(reference), usual_thickness(source, slices),
                     source.file_of(slices.front()).modality == "CT"};
@@ -331,6 +324,7 @@ PartedStack part_stack(const SeriesSource& source, std::vector<Slice> slices) {
   std::vector<std::string> undecided;
   part(stack, {std::move(slices), "", true}, 0, parts, undecided);
 
+  PartedStack result;
   std::vector<const Part*> first_of_volume;
   for (const Part& one : parts) {
     const auto like =

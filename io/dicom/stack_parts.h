@@ -23,9 +23,9 @@ struct PartedStack {
   std::vector<Text> doubts;  ///< what a user should check, where the headers do not decide it
 };
 
-/// Images of one orientation and size -> the stacks they make up. Images that a label tells apart (side of the body,
-/// place in the plane, file, kind of image, kernel, echo, b-value, time, acquisition, order of times or numbers) are
-/// parts where each of them is an even stack by itself and their extents overlap, but not their slices.
+/// Images of one orientation and size, at least one -> the stacks they make up. Images that a label tells apart (side
+/// of the body, place in the plane, file, kind of image, kernel, echo, b-value, time, acquisition, order of times or
+/// numbers) are parts where each of them is an even stack by itself and their extents overlap, but not their slices.
 ///
 /// A label that may also number the passes of one interleaved acquisition (acquisition, trigger time, times and order)
 /// makes parts only of what cannot be such passes: of neighbors that overlap by their SliceThickness, and of steps that

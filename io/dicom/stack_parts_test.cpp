@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/dicom/frames.h"
@@ -181,6 +182,26 @@ TEST(StackParts, FramesOfOneVolumeLieNearlyAtTheSamePlaces) {
   EXPECT_EQ(volumes(1.1, 1.1), 2);
   EXPECT_EQ(volumes(0.5, 1.1), 2);
   EXPECT_EQ(volumes(1.1, 0.5), 2);
+}
+
+// Which labels tell frames of one volume apart where a head has moved between them, and which tell volumes.
+TEST(StackParts, KindsAndTimesMayBeFramesSidesAndKernelsAreNot) {
+  const std::vector<std::pair<Label, bool>> labels{{Label::laterality, false},  {Label::image_type, false},
+                                                   {Label::kernel, false},      {Label::echo_time, true},
+                                                   {Label::b_value, true},      {Label::velocity_encoding, true},
+                                                   {Label::time_point, true},   {Label::diffusion_direction, true},
+                                                   {Label::trigger_time, true}, {Label::acquisition, true}};
+  ASSERT_EQ(labels.size(), label_count);
+  for (const auto& [label, may_be_frames] : labels) {
+    Images images;
+    for (int n = 0; n < 10; ++n) {
+      images.add(4.0 * n, label, "1");
+      images.add(4.0 * n + 0.7, label, "2");
+    }
+    const PartedStack parted = images.parted();
+    ASSERT_THAT(parted.parts, SizeIs(2)) << static_cast<int>(label);
+    EXPECT_EQ(parted.parts[0].volume == parted.parts[1].volume, may_be_frames) << static_cast<int>(label);
+  }
 }
 
 /// Eight slices of a short echo, and the first `others` of them of a long one as well.

@@ -144,6 +144,11 @@ TEST(Nifti, ValuesAreScaled) {
     expect_all(
         only_volume(folder / "a.nii"), [&](int a, int b, int c) { return ras_to_lps * place_of(oblique(), a, b, c); },
         value);
+    header.put<std::int16_t>(70, 16).put<std::int16_t>(72, 32);  // floating point, scaled as it is read
+    write_bytes(folder / "a.nii", header.bytes() + voxels<float>());
+    expect_all(
+        only_volume(folder / "a.nii"), [&](int a, int b, int c) { return ras_to_lps * place_of(oblique(), a, b, c); },
+        value);
   }
 }
 

@@ -61,14 +61,14 @@ Line line_through(const ScanValues& scan, const Vec3& place, const Vec3& way, do
   return line;
 }
 
-/// Where the edge around its steepest place ends on one side (`by` is 1 or -1): where it is flat, or in the valley
-/// before another edge, which may be `taken` already.
-std::size_t end_of(const Line& line, const std::vector<bool>& taken, std::size_t steepest, int by) {
+/// Where the edge around its steepest place ends on the way to the line's first or last place: where it is flat, or in
+/// the valley before another edge, which may be `taken` already.
+std::size_t end_of(const Line& line, const std::vector<bool>& taken, std::size_t steepest, std::size_t outermost) {
   const double sign = line.slope[steepest] > 0 ? 1 : -1;
   const double most = sign * line.slope[steepest];
   std::size_t lowest = steepest;
-  for (std::size_t n = steepest; by > 0 ? n + 1 < line.size() : n > 0;) {
-    n = by > 0 ? n + 1 : n - 1;
+  for (std::size_t n = steepest; n != outermost;) {
+    n = n < outermost ? n + 1 : n - 1;
     if (taken[n]) return lowest;
     const double slope = sign * line.slope[n], least = sign * line.slope[lowest];
     if (slope < least) lowest = n;
@@ -127,7 +127,7 @@ std::vector<Edge> edges_of(const Line& line, double within_mm) {
   std::vector<Edge> edges;
   for (const std::size_t n : steepest) {
     if (taken[n]) continue;
-    const std::size_t begin = end_of(line, taken, n, -1), end = end_of(line, taken, n, 1);
+    const std::size_t begin = end_of(line, taken, n, 0), end = end_of(line, taken, n, line.size() - 1);
     for (std::size_t of_it = begin; of_it <= end; ++of_it) taken[of_it] = true;
     // A shoulder of an edge, or cut off by the end of the scan.
     const double most = std::abs(line.slope[n]);

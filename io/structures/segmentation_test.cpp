@@ -8,6 +8,8 @@
 
 #include <array>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "io/errors.h"
 #include "io/testing/test_coders.h"
@@ -19,6 +21,7 @@ namespace {
 
 using internal::group;
 using internal::put;
+using internal::succeed;
 using internal::TestFolder;
 using internal::TestImage;
 using ::testing::HasSubstr;
@@ -71,6 +74,24 @@ TEST(Segmentations, AreReadInAnyOrderSparseAndOverlapping) {
   EXPECT_DOUBLE_EQ(measure(liver).box_low_mm.z, 0);
   EXPECT_DOUBLE_EQ(measure(liver).box_high_mm.z, 6);
   EXPECT_NEAR(measure(liver).centroid_mm.z, 10.0 / 3, 1e-12);
+}
+
+// By its label; where it has none, by what its code means; else by its number.
+TEST(Segmentations, EachSegmentHasAName) {
+  const TestFolder folder;
+  TestSegmentation segmentation{.names = {"Liver", "", ""}, .frames = {{1, 0, box}, {2, 0, box}, {3, 0, box}}};
+  segmentation.edit = [](DcmDataset& dataset) {
+    for (const unsigned long n : {0UL, 1UL}) {
+      DcmItem *segment = nullptr, *code = nullptr;
+      succeed(dataset.findAndGetSequenceItem(DCM_SegmentSequence, segment, static_cast<signed long>(n)));
+      succeed(segment->findOrCreateSequenceItem(DCM_SegmentedPropertyTypeCodeSequence, code, -2));
+      succeed(code->putAndInsertString(DCM_CodeMeaning, "Spleen"));
+    }
+  };
+  write(segmentation, folder / "seg.dcm");
+  std::vector<std::string> names;
+  for (const Structure& structure : structures_in(folder).structures) names.push_back(structure.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"Liver", "Spleen", "segment 3"}));
 }
 
 TEST(Segmentations, OfFractionsHaveTheirEdgeAtHalf) {
