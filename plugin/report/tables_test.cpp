@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -330,6 +331,21 @@ TEST(Tables, AProfilesForceChartTellsWhoPushes) {
   ASSERT_EQ(charts[1].bands.size(), 2U);
   EXPECT_EQ(charts[1].bands[0].label, "flesh");
   EXPECT_EQ(charts[1].bands[1].label, "chalk");
+}
+
+/// A table for which there is no room is refused: what waits in a buffer, too.
+TEST(Tables, OnAFullDiskAreRefused) {
+  const auto refusal_of = [](const auto& table) -> std::string {
+    try {
+      write_csv(table, "/dev/full");
+      return "written";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  const std::string refused = "/dev/full: the table cannot be written: cannot write to file: No space left on device";
+  EXPECT_EQ(refusal_of(profile()), refused);
+  EXPECT_EQ(refusal_of(comparison()), refused);
 }
 
 }  // namespace
