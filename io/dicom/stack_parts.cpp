@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "io/dicom/frames.h"
 #include "io/dicom/lattice.h"
@@ -101,10 +101,13 @@ std::vector<Class> by_place(const Stack& stack, const std::vector<Slice>& slices
   return by_value(slices, place_of, [](const auto&, std::size_t n) { return stack_name(n); });
 }
 
-// In the order of their keys, a new stack begins where the slices turn back.
-template <typename Key>
-std::vector<Class> runs(const Stack& stack, std::vector<Slice> slices, const Key& key_of) {
-  std::ranges::stable_sort(slices, {}, key_of);
+/// A time, and the number of the image.
+using Turn = std::pair<std::string, double>;
+
+// In the order of their turns, a new stack begins where the slices turn back.
+std::vector<Class> runs(const Stack& stack, std::vector<Slice> slices,
+                        const std::function<Turn(const Slice&)>& turn_of) {
+  std::ranges::stable_sort(slices, {}, turn_of);
   std::vector<Class> classes;
   double last = 0;
   int sense = 0;
@@ -146,11 +149,11 @@ std::vector<Class> by_time(const Stack& stack, const std::vector<Slice>& slices,
   auto classes = by_value(slices, value_of, [](const auto&, std::size_t n) { return stack_name(n); });
   measure(stack, classes);
   if (std::ranges::all_of(classes, [](const Class& c) { return c.lattice.heights.size() >= 3; })) return classes;
-  return runs(stack, slices, [&](const Slice& s) { return std::tuple(value_of(s), stack.file(s).instance_number); });
+  return runs(stack, slices, [&](const Slice& s) { return Turn(value_of(s), stack.file(s).instance_number); });
 }
 
 std::vector<Class> by_number(const Stack& stack, const std::vector<Slice>& slices) {
-  return runs(stack, slices, [&](const Slice& s) { return stack.file(s).instance_number; });
+  return runs(stack, slices, [&](const Slice& s) { return Turn("", stack.file(s).instance_number); });
 }
 
 std::vector<Class> by_folder(const Stack& stack, const std::vector<Slice>& slices) {
