@@ -207,7 +207,6 @@ void HaplyProtocol::connect(Link& link) {
     vector_key_ = is_old ? "values" : "vector";
   }
   switched_key_ = false;
-  in_flight_ = unheeded_ = 0;
   sent_force_ = Vec3(0);
   acting_.reset();
   std::vector<std::uint8_t> packet(packet_size());

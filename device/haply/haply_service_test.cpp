@@ -110,6 +110,24 @@ TEST(HaplyService, WhateverItDoesEndsWithoutForceAndNoTickWaits) {
   }
 }
 
+/// The guardian's zeros are zeros for as long as another session's force acts, which the service adds to its own.
+TEST(HaplyService, ZerosAreSentUntilNoForceActs) {
+  for (const bool other_acts : {false, true}) {
+    FakeHaply service;
+    const std::string force =
+        R"({"inverse3": [{"commands": {"set_cursor_force": {"vector": {"x": 0, "y": 0.03, "z": 0}}}}]})";
+    if (other_acts) service.answer(99, force, 1e12);  // it ends when the service does
+    service.largest_n = 0;
+    service.messages = 0;
+    HaplyServer server(service);
+    EXPECT_EQ(send_zeros_to_haply("049D@127.0.0.1:" + std::to_string(server.port())), !other_acts);
+    server.with([&](FakeHaply& told) {
+      EXPECT_EQ(told.largest_n, 0);
+      EXPECT_GE(told.messages, other_acts ? 10 : 1);
+    });
+  }
+}
+
 TEST(HaplyService, ComesBackByConnectingAgain) {
   Bench bench;
   bench.stylus->open();

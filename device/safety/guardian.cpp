@@ -99,17 +99,16 @@ std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
 namespace {
 
 std::string running_program() {
-  std::array<char, 4096> self{};
-  const ssize_t length = readlink("/proc/self/exe", self.data(), self.size() - 1);
-  return {self.data(), length > 0 ? static_cast<std::size_t>(length) : 0};
+  std::error_code failed;
+  return std::filesystem::read_symlink("/proc/self/exe", failed);
 }
 
 /// Of the file that this code was loaded from: the program, or the plug-in in another's.
 std::string own_file() {
   Dl_info info{};
-  const bool found = dladdr(reinterpret_cast<const void*>(&guardian_program), &info) != 0 && info.dli_fname != nullptr;
+  dladdr(reinterpret_cast<const void*>(&guardian_program), &info);
   std::error_code failed;
-  const auto file = std::filesystem::weakly_canonical(found ? info.dli_fname : "", failed);
+  const auto file = std::filesystem::weakly_canonical(info.dli_fname != nullptr ? info.dli_fname : "", failed);
   return failed ? std::string() : file.string();
 }
 

@@ -71,6 +71,25 @@ TEST_F(StayAwakeTest, ASessionWithMotorsAsksTheSystemNotToSleep) {
   EXPECT_FALSE(has_children()) << "the system may sleep as soon as the stylus is closed";
 }
 
+TEST_F(StayAwakeTest, ASessionThatDoesNotSayAsksNothing) {
+  FakeFalconBench bench;
+  const auto stylus = make_falcon_on({}, [&] { return std::make_unique<FakeFalconLink>(bench); }, {.threaded = false});
+  stylus->open();
+  EXPECT_FALSE(has_children());
+}
+
+/// A program that waits for something else than its input is ended all the same.
+TEST_F(StayAwakeTest, OneThatDoesNotHearIsEnded) {
+  const TestFiles files;
+  const std::string deaf = files.write("systemd-inhibit", "#!/bin/sh\nexec sleep 1000\n");
+  chmod(deaf.c_str(), 0755);
+  setenv("PATH", (std::filesystem::path(deaf).parent_path().string() + ":" + before_).c_str(), 1);
+  auto held = stay_awake("Novint Falcon");
+  ASSERT_NE(held, nullptr);
+  held.reset();
+  EXPECT_FALSE(has_children());
+}
+
 TEST_F(StayAwakeTest, LeavesNothingOpen) {
   const auto open_files = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());

@@ -18,6 +18,7 @@ TEST(ReplayStylus, ReturnsEachReadingOnceThenTheLastNotFresh) {
   EXPECT_EQ(stylus.state(), State::disconnected);
   for (int pass = 0; pass < 2; ++pass) {
     stylus.open();
+    EXPECT_EQ(stylus.last_force(), Vec3(0));
     for (const Reading& expected : readings) {
       EXPECT_FALSE(stylus.finished());
       const Reading got = stylus.read();
@@ -32,8 +33,9 @@ TEST(ReplayStylus, ReturnsEachReadingOnceThenTheLastNotFresh) {
     EXPECT_TRUE(stylus.finished());
     EXPECT_EQ(stylus.read().position, Vec3(7, 8, 9));
     EXPECT_FALSE(stylus.read().fresh);
-    stylus.close();
+    if (pass == 1) stylus.close();  // opened anew without that it begins anew, too
   }
+  EXPECT_EQ(stylus.last_force(), Vec3(0));
 }
 
 TEST(ReplayStylus, RefusesAnEmptyRecording) {

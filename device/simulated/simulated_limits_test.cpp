@@ -265,6 +265,7 @@ TEST(SimulatedLimits, OneThatIsNotOpenStandsStill) {
 /// A hand's buttons are those of the waypoint that it comes from, and of the last one for ever.
 TEST(SimulatedLimits, ButtonsAreThoseOfTheWaypointBefore) {
   SimulatedStylus stylus(steady());
+  EXPECT_EQ(Waypoint{}.buttons, 0U) << "where none is named";
   const Waypoint path[] = {{0, Vec3(0), 1}, {0.0105, Vec3(0), 2}, {0.0205, Vec3(0), 4}};
   stylus.follow(path);
   stylus.open();

@@ -298,6 +298,8 @@ TEST(SimulatedStylus, FaultsOnDemand) {
   EXPECT_EQ(stylus.acting_force(), Vec3(0, 1, 0)) << "a stalled device holds its last force";
 
   stylus.inject(SimulatedFault::unplugged);
+  stylus.write_force(Vec3(0, 1, 0));
+  EXPECT_EQ(stylus.acting_force(), Vec3(0)) << "from the next force on, though no pose was read that tells of it";
   EXPECT_FALSE(tick(Vec3(0, 1, 0)).fresh);
   EXPECT_EQ(stylus.state(), State::fault);
   EXPECT_EQ(stylus.acting_force(), Vec3(0));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace palpate::device {
 
@@ -67,6 +68,7 @@ std::string FakeHaply::answer(int session, const std::string& text, double now) 
     }
   }
   commands_[session] = command;
+  largest_n = std::max(largest_n, glm::length(command.force));
   const bool is_nonsense = garbles || (garbles_every > 0 && messages % garbles_every == 0);
   std::string said = is_nonsense ? "{\"inverse3\": nonsense" : state(now);
   if (halves) said.resize(said.size() / 2);

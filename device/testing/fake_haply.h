@@ -32,6 +32,7 @@ struct FakeHaply {
   nlohmann::json first_message;
   int messages = 0;
   int torques = 0;                                        ///< commands other than a force
+  double largest_n = 0;                                   ///< of the forces that it was told
   std::vector<std::pair<double, std::string>> to_client;  ///< in the same process: when, what
 
   /// What the service sends to a new session.

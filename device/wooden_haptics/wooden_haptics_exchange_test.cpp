@@ -216,6 +216,29 @@ TEST(WoodenHapticsExchange, ARefusedArmLeavesNoHome) {
   EXPECT_EQ(arm.answer(Vec3(0, 1, 0)), std::vector<int>(7, 0));
 }
 
+/// However the settings came about.
+TEST(WoodenHapticsExchange, SettingsThatNoArmHasAreRefused) {
+  WoodenHapticsSettings settings = wooden_haptics_preset("2015");
+  EXPECT_NE(make_wooden_haptics_on(settings, {}, {}), nullptr);
+  settings.workspace_radius = 0;
+  EXPECT_THROW(make_wooden_haptics_on(settings, {}, {}), std::runtime_error);
+}
+
+/// Of a pose, told by its distance from the origin in radii of the workspace.
+TEST(WoodenHapticsExchange, ItReachesThreeRadii) {
+  WoodenHapticsSettings settings = wooden_haptics_preset("2015");
+  const double away = glm::length(wooden_haptics_position(settings, wooden_haptics_angles(settings, {0, 0, 6000})));
+  for (const double radii : {2.99, 3.01}) {
+    settings.workspace_radius = away / radii;
+    Arm arm(settings);
+    arm.report({7, 8, 9}, 1);
+    arm.answer();
+    const std::uint64_t before = arm.protocol.status().news;
+    arm.report({0, 0, 6000});
+    EXPECT_EQ(arm.protocol.status().news - before, radii < 3 ? 1U : 0U);
+  }
+}
+
 /// Impossible poses take the force away at once; after 80 ms of them they are a fault.
 TEST(WoodenHapticsExchange, APoseThatCannotBeGetsNoForce) {
   Arm arm;

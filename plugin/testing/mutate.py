@@ -4,7 +4,7 @@
     plugin/run mutate                      the lines changed since main (or since --since COMMIT)
     plugin/run mutate solver               a seeded sample of a folder's lines (any path below a module)
     plugin/run mutate io/fields --count 200 --seed 7 --seconds 3600 | tee told
-    plugin/run mutate io/fields --count 200 --seed 7 --again told       only what survived there, after tests were written
+    plugin/run mutate io/fields --again told       only what survived there, after tests were written
 
 Works in a copy of the tree under build/mutate; the tree itself is not touched. All slips that can be are compiled into one
 program and chosen at run time (slip.h); the others are compiled one by one. A slip is judged by those of its module's test
@@ -336,11 +336,13 @@ def main():
 
     generator = random.Random(options.seed)
     lines = [line for path in sorted(files) for line in mutants_by_line(path, files[path])]
-    generator.shuffle(lines)
-    chosen = [generator.choice(line) for line in lines[: min(options.count, PLACES)]]
     if options.again:
+        # Of all lines: those that have changed since would have the seed choose others.
         told = survivors_told(options.again)
-        chosen = [mutant for mutant in chosen if mutant.key() in told]
+        chosen = list({mutant.key(): mutant for line in lines for mutant in line if mutant.key() in told}.values())
+    else:
+        generator.shuffle(lines)
+        chosen = [generator.choice(line) for line in lines[: min(options.count, PLACES)]]
     print(f"{len(lines)} lines can have a slip; {len(chosen)} are tried, seed {options.seed}", flush=True)
     if options.list:
         print("\n".join(map(str, chosen)))
