@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 #include <vector>
 
 #include "solver/exact/local.h"
@@ -114,6 +116,99 @@ TEST(Columns, WhatIsMetAndWhatIsLockedIsLeftOut) {
       expect_the_same(crowd, fine(Random(seed).normal_vector(2e-3)));
       crowd.walk.active = {};
     }
+  }
+}
+
+/// What add_far() does with these, sorted by kind, where nothing is locked.
+struct Far {
+  Sums sums;
+  std::vector<Vec3> forces;
+  std::vector<std::uint32_t> near;
+
+  Far(const std::vector<Placed>& placed, const FineVec3& z, double coarseness, double touch)
+      : forces(placed.size()), near(placed.size() + 1) {
+    Columns columns;
+    columns.fit(placed.size());
+    columns.take(placed);
+    near.resize(add_far(columns, z, {}, coarseness, touch, sums, forces, near));
+  }
+};
+
+Placed placed_at(PrimitiveType type, const Vec3& offset, const Vec3& direction = Vec3{0}) {
+  return {.type = type, .strength = 2, .offset = fine(offset), .direction = direction};
+}
+
+/// Where the leading doubles of z and of a position are the same, what is behind them tells the way.
+TEST(Columns, TheLastDigitsOfAPlaceCount) {
+  Random random(3);
+  for (int n = 0; n < 200; ++n) {
+    const Vec3 place = random.normal_vector(1e-2);
+    const Vec3 own = random.normal_vector(1e-19), of_z = random.normal_vector(1e-19), q = random.unit_vector();
+    const Vec3 miss = own - of_z, across = miss - q * glm::dot(q, miss);
+    if (glm::length(across) < 0.5 * glm::length(miss)) continue;
+    FineVec3 z = fine(place);
+    z.x.lo = of_z.x, z.y.lo = of_z.y, z.z.lo = of_z.z;
+    for (const auto& [type, way] : {std::pair(PrimitiveType::line, across), std::pair(PrimitiveType::point, miss)}) {
+      std::vector<Placed> one{placed_at(type, place, q)};
+      one[0].offset.x.lo = own.x, one[0].offset.y.lo = own.y, one[0].offset.z.lo = own.z;
+      const Far far(one, z, 0, 0);
+      ASSERT_TRUE(far.near.empty());
+      EXPECT_LT(glm::length(far.forces[0] - 2.0 * glm::normalize(way)), 1e-12) << n;
+    }
+  }
+}
+
+/// Side by side is what lies farther from z than may be wrong, than what counts as met, and as far as its own place
+/// asks for: each by the rule of its kind. What is wrong of the sum is what is wrong of each.
+TEST(Columns, WhatIsFarEnoughIsLookedAtSideBySide) {
+  Random random(4);
+  std::size_t near = 0, all = 0;
+  for (int n = 0; n < 300; ++n) {
+    const double touch = random.log_uniform(1e-6, 1e-2), coarseness = random.log_uniform(1e-4, 0.3);
+    const Vec3 z = random.normal_vector(1e-2);
+    std::vector<Placed> placed;
+    for (const PrimitiveType type : {PrimitiveType::plane, PrimitiveType::line, PrimitiveType::point}) {
+      for (int k = 0; k < 30; ++k) {
+        placed.push_back(placed_at(type, random.normal_vector(1e-2), random.unit_vector()));
+        if (type == PrimitiveType::point) placed.back().direction = Vec3{0};
+      }
+    }
+    const Far far(placed, fine(z), coarseness, touch);
+    std::vector<std::uint32_t> expected;
+    double noise = 0;
+    bool is_close_call = false;
+    for (std::uint32_t i = 0; i < placed.size(); ++i) {
+      const Placed& one = placed[i];
+      const Vec3 e = one.offset.hi() - z, q = one.direction;
+      const double size = size_of(one.offset) + size_of(fine(z));
+      const double distance = std::abs(e.x) + std::abs(e.y) + std::abs(e.z);
+      const double length =
+          one.type == PrimitiveType::plane ? std::abs(glm::dot(q, e)) : glm::length(e - q * glm::dot(q, e));
+      const double least = one.type == PrimitiveType::plane
+                               ? std::max(0x1p-30 * size, 0x1p-50 * size + touch + coarseness * size)
+                               : std::max(0.25 * distance, 0x1p-47 * distance + touch + coarseness * size);
+      is_close_call = is_close_call || std::abs(length - least) < 1e-9 * size;
+      if (length <= least) {
+        expected.push_back(i);
+      } else if (one.type != PrimitiveType::plane) {
+        noise += 0x1p-49 * distance * one.strength / length;
+      }
+    }
+    if (is_close_call) continue;
+    EXPECT_EQ(far.near, expected);
+    EXPECT_NEAR(far.sums.noise, noise, 1e-9 * noise);
+    near += expected.size();
+    all += placed.size();
+  }
+  EXPECT_GT(near, all / 20);
+  EXPECT_LT(near, all / 2);
+}
+
+/// Whose square is no number that a double holds well is left to those that scale.
+TEST(Columns, TheLargestAndTheSmallestAreNotLookedAtSideBySide) {
+  for (const double away : {1e-145, 1e-120, 1e120, 1e145}) {
+    const Far far({placed_at(PrimitiveType::point, Vec3{away, 0, 0})}, fine(Vec3{0}), 0, 0);
+    EXPECT_EQ(far.near.size(), away < 1e-140 || away > 1e140 ? 1U : 0U) << away;
   }
 }
 

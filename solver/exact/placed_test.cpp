@@ -48,6 +48,15 @@ void for_vectors_of(double size, const Check& check) {
   for (int n = 0; n < 50; ++n) check(size * random.unit_vector());
 }
 
+TEST(Placed, LengthsAreExactAtAnySize) {
+  Random random(2);
+  for (int exponent = -300; exponent <= 300; ++exponent) {
+    const double size = std::pow(10, exponent);
+    const Vec3 unit = random.unit_vector();
+    EXPECT_NEAR(length_of(unit * size) / size, glm::length(unit), 2e-15) << exponent;
+  }
+}
+
 TEST(Placed, DirectionsOfAnyLengthMeanTheSame) {
   for (const double size : sizes) {
     for_vectors_of(size, [&](const Vec3& v) {
