@@ -10,6 +10,8 @@ import subprocess
 import sys
 import time
 
+import patience
+
 PROGRAMS, PLUGINS, SCRATCH = sys.argv[1:4]
 
 
@@ -80,14 +82,18 @@ class ParaView:
         return found.stdout.split()[-1] if found.stdout else None
 
     def right_edge(self):
-        shell = subprocess.run(["xdotool", "getwindowgeometry", "--shell", self.window()], capture_output=True, text=True)
+        """0 while no window is shown, as between the first and the one that stays."""
+        window = self.window()
+        if not window:
+            return 0
+        shell = subprocess.run(["xdotool", "getwindowgeometry", "--shell", window], capture_output=True, text=True)
         words = dict(line.split("=") for line in shell.stdout.split())
-        return int(words["X"]) + int(words["WIDTH"])
+        return int(words["X"]) + int(words["WIDTH"]) if words else 0
 
     def settled(self, name, shown, seconds=120):
         """The screen once it no longer changes and `shown` holds of it."""
-        until, last = time.monotonic() + seconds, None
-        while time.monotonic() < until:
+        waited, last = patience.Patience(seconds), None
+        while not waited.is_over():
             if self.program.poll() is not None:
                 self.log.seek(0)
                 raise AssertionError("ParaView ended by itself:\n" + self.log.read()[-3000:])

@@ -11,6 +11,8 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ET
 
+import patience
+
 PROGRAMS, PLUGINS, TEST_PLUGIN, SCRATCH = (os.path.abspath(name) for name in sys.argv[1:5])
 ASKED = sys.argv[5:]
 LONGEST_S = 560  # a busy machine; on a quiet one a quarter of a minute
@@ -68,10 +70,9 @@ def run(scenario, folder=None, arguments=(), plugins=(PLUGINS, TEST_PLUGIN), lon
         environment["PALPATE_OPEN"] = folder
     try:
         display = ["xvfb-run", "-a", "-s", f"-screen 0 {screen}x24 -noreset"] if screen else []
-        result = subprocess.run([*display, "paraview", *arguments], env=environment, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, text=True, timeout=longest_s)
+        result = patience.run([*display, "paraview", *arguments], longest_s, env=environment)
     except subprocess.TimeoutExpired as late:
-        print(f"{scenario}: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}", flush=True)
+        print(f"{scenario}: FAILED: the program did not end:\n{late.output[-2000:]}", flush=True)
         return False
     lines = [line for line in result.stdout.splitlines() if line.startswith(scenario)]
     if said is not None:

@@ -13,6 +13,7 @@ import sys
 import time
 
 import panel_program
+import patience
 from made_segmentation import write_segmentation
 from mixed_folder import set_headers
 from panel_program import ASKED, PLUGINS, PROGRAMS, SCRATCH
@@ -124,11 +125,9 @@ def run(scenario, ranks, here):
                        PALPATE_SERVER_PID=str(process), PALPATE_REMOTE=remote, PALPATE_RECORDING=recording)
     environment.pop("PALPATE_OPEN", None)
     try:
-        result = subprocess.run(["paraview"], cwd=local, env=environment, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, text=True,
-                                timeout=int(os.environ.get("PALPATE_PATIENCE", "560")))
+        result = patience.run(["paraview"], int(os.environ.get("PALPATE_PATIENCE", "560")), cwd=local, env=environment)
     except subprocess.TimeoutExpired as late:
-        print(f"{scenario}, {ranks} ranks: FAILED: the program did not end:\n{(late.stdout or b'').decode()[-2000:]}")
+        print(f"{scenario}, {ranks} ranks: FAILED: the program did not end:\n{late.output[-2000:]}")
         return False
     finally:
         server.send_signal(signal.SIGTERM)

@@ -2,9 +2,9 @@
 
 import json
 import os
-import subprocess
 import sys
 
+import patience
 from palpate_test import (PLUGIN, PROGRAMS, SCRATCH, core_info, expect, expect_all_near, expect_near, fetch, main,
                           open_series, phantom, run)
 from paraview import servermanager, simple, smtrace
@@ -77,7 +77,8 @@ def a_trace_does_the_same_again():
                    f"simple.LoadPlugin({PLUGIN!r}, remote=True, ns=globals())\n{trace}\n"
                    f"sys.argv[1:] = {[PROGRAMS, PLUGIN, SCRATCH]!r}\nsys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})\n"
                    f"import state_test\njson.dump(state_test.results(), open({out!r}, 'w'))\n")
-    subprocess.run(["pvpython", "--force-offscreen-rendering", script], check=True, timeout=120)
+    done = patience.run(["pvpython", "--force-offscreen-rendering", script], 120)
+    assert done.returncode == 0, done.stdout[-3000:]
     with open(out) as file:
         expect_same(json.load(file), wanted, "after the trace")
 

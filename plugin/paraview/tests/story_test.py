@@ -4,8 +4,8 @@ Arguments as in panel_program.py.
 """
 
 import os
-import subprocess
 
+import patience
 from panel_program import PLUGINS, SCRATCH, TEST_PLUGIN, ball, main, run, scratch
 
 MOST_LEFT_BYTES = 170000  # a round; a third of the phantom's voxels
@@ -51,8 +51,7 @@ def traced_and_replayed():
     script = scratch("story-replay.py")
     with open(script, "w") as file:
         file.write(REPLAY.format(plugin=server, trace=scratch("story-trace.py"), out=scratch("story-replayed")))
-    done = subprocess.run(["pvpython", "--force-offscreen-rendering", script], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=150)
+    done = patience.run(["pvpython", "--force-offscreen-rendering", script], 150)
     if done.returncode != 0:
         print(f"traced: FAILED: the trace does not run in pvpython:\n{done.stdout[:1500]}\n...\n{done.stdout[-1500:]}")
         return False

@@ -15,6 +15,8 @@ import sys
 import time
 import traceback
 
+import patience
+
 INSIDE = os.environ.get("PALPATE_VIEWS_TEST")
 PROGRAMS, PLUGINS, SCRATCH = json.loads(INSIDE) if INSIDE else sys.argv[1:4]
 FOLDER, RESULT = os.path.join(SCRATCH, "views-wedge"), os.path.join(SCRATCH, "views.txt")
@@ -144,10 +146,10 @@ def expect_the_marker_agrees(view):
 
 def check():
     from paraview import servermanager
-    until = time.monotonic() + 90
+    waited = patience.Patience(90)
     views = {}
     while len(views) < 4 or "" in views["Axial"].letters():
-        expect(time.monotonic() < until, f"the scan is not shown: views {sorted(views)}")
+        expect(not waited.is_over(), f"the scan is not shown: views {sorted(views)}")
         run_events(1)
         proxies = servermanager.ProxyManager().GetProxiesInGroup("views")
         views = {key[0]: View(proxy.SMProxy) for key, proxy in proxies.items() if key[0] in ("Axial", "Coronal", "Sagittal", "Volume")}
@@ -180,9 +182,9 @@ def outside():
     subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "phantom", *PHANTOM, "-o", FOLDER], check=True)
     os.makedirs(os.path.join(SCRATCH, "views-home"))
     environment = dict(os.environ, PALPATE_OPEN=FOLDER, PV_PLUGIN_CONFIG_FILE=PLUGINS, LIBGL_ALWAYS_SOFTWARE="1",
+                       PYTHONPATH=os.path.dirname(os.path.abspath(__file__)),
                        HOME=os.path.join(SCRATCH, "views-home"), PALPATE_VIEWS_TEST=json.dumps([PROGRAMS, PLUGINS, SCRATCH]))
-    done = subprocess.run(["paraview", f"--script={os.path.abspath(__file__)}"], env=environment, timeout=240,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = patience.run(["paraview", f"--script={os.path.abspath(__file__)}"], 240, env=environment)
     print(done.stdout[-3000:])
     told = open(RESULT).read() if os.path.exists(RESULT) else f"ParaView ended with {done.returncode}"
     print(told)

@@ -1,15 +1,15 @@
 /// Ends a program of tests whose test hangs: linked into every one. A test may take PALPATE_TEST_SECONDS (20) of a
 /// machine that has nothing else to do, and longer by as much as more threads want to run than there are processors.
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+
+#include "solver/text/testing/crowd.h"
 
 namespace {
 
@@ -23,22 +23,12 @@ std::time_t now() {
   return time.tv_sec;
 }
 
-/// How many threads want to run for each processor, at least 1. Uses what a signal handler may.
-double crowd() {
-  char text[16] = "";
-  const int file = open("/proc/loadavg", O_RDONLY | O_CLOEXEC);
-  if (file < 0) return 1;
-  const ssize_t size = read(file, text, sizeof text - 1);
-  close(file);
-  return size > 0 ? std::max(1.0, std::strtod(text, nullptr) / static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN))) : 1;
-}
-
 void say(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(EXIT_FAILURE);
 }
 
 void look(int) {
-  const double left = limit * crowd() - static_cast<double>(now() - begun);
+  const double left = limit * palpate::crowd() - static_cast<double>(now() - begun);
   if (left > 0) {
     alarm(static_cast<unsigned>(left) + 1);
     return;

@@ -49,8 +49,8 @@ QWidget& main_window() {
 void xdotool(const QStringList& arguments) {
   QProcess process;
   process.start(QStringLiteral("xdotool"), arguments);
-  constexpr int longest_ms = 120000;
-  const bool ended = QTest::qWaitFor([&] { return process.state() == QProcess::NotRunning; }, longest_ms);
+  constexpr int longest = 120;  // s
+  const bool ended = comes_true([&] { return process.state() == QProcess::NotRunning; }, longest);
   expect(ended && process.exitStatus() == QProcess::NormalExit && process.exitCode() == 0, "xdotool works");
   QTest::qWait(80);
 }

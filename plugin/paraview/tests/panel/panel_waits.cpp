@@ -5,6 +5,7 @@
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
 
+#include <QElapsedTimer>
 #include <QGuiApplication>
 #include <QImage>
 #include <QPixmap>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
+#include "solver/text/testing/crowd.h"
 
 void expect(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error("it does not hold that " + what);
@@ -33,7 +35,11 @@ void wait_ms(int ms) {
 }
 
 bool comes_true(const std::function<bool()>& holds, int seconds) {
-  return QTest::qWaitFor(holds, seconds * 1000);
+  QElapsedTimer waited;
+  for (waited.start(); !QTest::qWaitFor(holds, 500);) {
+    if (static_cast<double>(waited.elapsed()) > 1000 * seconds * palpate::crowd()) return false;
+  }
+  return true;
 }
 
 void handle_events(int times) {
