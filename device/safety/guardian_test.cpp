@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -25,6 +26,7 @@
 #include "device/testing/test_files.h"
 #include "device/touch/touch.h"
 #include "device/wooden_haptics/wooden_haptics.h"
+#include "solver/text/testing/shown.h"
 
 namespace palpate::device {
 namespace {
@@ -80,6 +82,25 @@ TEST(Guardian, IsFoundBesideTheTests) {
   EXPECT_NE(guardian_program().find("palpate-guardian"), std::string::npos);
 }
 
+// Not a test of its own: what it prints is looked at below.
+TEST(Guardian, DISABLED_IsTold) {
+  std::puts(guardian_program().c_str());
+}
+
+/// As the plug-in's in ParaView: the program that runs, here the dynamic loader, is nowhere near.
+TEST(Guardian, IsFoundBesideWhatItWasLoadedFromWhateverProgramRuns) {
+  std::string loader;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; loader.empty() && std::getline(maps, line);) {
+    if (line.find("/ld-linux") != std::string::npos) loader = line.substr(line.find('/'));
+  }
+  ASSERT_FALSE(loader.empty());
+  const std::string said =
+      palpate::testing::output_of(loader + " " + std::filesystem::read_symlink("/proc/self/exe").string() +
+                                  " --gtest_also_run_disabled_tests --gtest_filter=Guardian.DISABLED_IsTold");
+  EXPECT_NE(said.find("\n" + guardian_program() + "\n"), std::string::npos) << said;
+}
+
 TEST(Guardian, IsFoundOfABuildByItsProgramsAndByThePluginInParaView) {
   const Places build{"build/bin/palpate-guardian"};
   EXPECT_EQ(build.found_by("build/bin/palpate", "build/bin/palpate"), "build/bin/palpate-guardian");
@@ -121,7 +142,7 @@ TEST(Guardian, TheEnvironmentNamesItOrSaysThatThereIsNone) {
 /// Looks that are 20 ms apart or more see no session stand still for ten looks that beats within 0.2 s. On a machine
 /// that keeps this test waiting for longer, its session does stand still.
 TEST(Guardian, SendsZerosWhereASessionStandsStillWhileItPushes) {
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   Node node;
   ASSERT_TRUE(node.guardian);
   double longest = 0;  // s between two beats
@@ -137,7 +158,7 @@ TEST(Guardian, SendsZerosWhereASessionStandsStillWhileItPushes) {
   }
   EXPECT_GT(written(node.path), 0U);
   node.guardian->dismiss();
-  EXPECT_NE(testing::internal::GetCapturedStderr().find(
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find(
                 "palpate-guardian: the session stands still while it pushes; zero force was sent"),
             std::string::npos);
 }

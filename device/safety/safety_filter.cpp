@@ -135,7 +135,6 @@ SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, 
   if (!are_limits(limits)) {
     latch(state, Fault::force_not_finite);
     fall_at_once(state);
-    state.time = input.time;
     return {.state = state_of(input, state), .fault = state.fault};
   }
   const bool pose_is_finite = is_finite(input.reading.position);
