@@ -1,4 +1,5 @@
 """Limits of time that are those of a machine with nothing else to do, and longer by as much as it is busy."""
+
 import os
 import subprocess
 import time
@@ -27,8 +28,7 @@ def run(command, seconds, **more):
             try:
                 said, _ = process.communicate(timeout=2)
                 return subprocess.CompletedProcess(command, process.returncode, said)
-            except subprocess.TimeoutExpired:
+            except subprocess.TimeoutExpired as late:
                 if patience.is_over():
-                    process.kill()
-                    said, _ = process.communicate()
-                    raise subprocess.TimeoutExpired(command, seconds, said)
+                    process.kill()  # and not to the end of what it says: a program that it has started may go on
+                    raise subprocess.TimeoutExpired(command, seconds, (late.output or b"").decode(errors="replace"))
