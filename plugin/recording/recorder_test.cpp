@@ -95,8 +95,7 @@ TEST(Recorder, EachTickHasWhatIsKnownOfItsBoundary) {
     const PrimitiveRecord share{.tick = n};
     ring.push(tick, {&share, 1});
   }
-  while (recorder.backlog() > 0) std::this_thread::yield();
-  EXPECT_EQ(first_scan.use_count(), 1) << "no tick of it comes any more";
+  while (first_scan.use_count() > 1) std::this_thread::yield();  // no tick of it comes any more
   EXPECT_GT(second_scan.use_count(), 1);
   recorder.finish();
   const Recording recording = read_recording(file);
