@@ -180,7 +180,7 @@ void choose_solvers(const Scene& scene, const std::vector<Footprint>& footprints
 
 /// The mode in the form for the tick; its structures are added to `index`.
 ActiveMode activate(const Scene& scene, const Mode& mode, std::size_t scene_index, const Footprint& footprint,
-                    StructureIndex& index) {
+                    double mm_per_m, StructureIndex& index) {
   return {.type = find_mode_type(mode.type),
           .scene_index = scene_index,
           .co_located = footprint.co_located,
@@ -191,7 +191,7 @@ ActiveMode activate(const Scene& scene, const Mode& mode, std::size_t scene_inde
           .structure = footprint.structure,
           .level_mm = mode.level_mm,
           .margin_mm = mode.margin_mm,
-          .push_share = push_share(mode, scene.stiffness_n_per_m),
+          .push_share = push_share(mode, scene.stiffness_n_per_m, mm_per_m),
           .shape = mode.shape,
           .position_mm = mode.position_mm,
           .direction = glm::normalize(mode.direction)};
@@ -258,7 +258,7 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
     const std::vector<std::size_t> structures_before = plan.structures;
     StructureIndex index(scene, plan.structures);
     if (!mode.structure.empty()) footprint.structure = static_cast<int>(index(mode.structure));
-    const ActiveMode active = activate(scene, mode, i, footprint, index);
+    const ActiveMode active = activate(scene, mode, i, footprint, workspace.mm_per_m, index);
     const io::FieldSet reads = type.reads(mode) | active.strength.reads();
     if (auto left_out = why_left_out(mode, i, without(reads, available))) {
       plan.left_out.push_back(std::move(*left_out));

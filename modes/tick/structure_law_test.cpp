@@ -211,6 +211,28 @@ TEST(StructureLaw, KeepOutPushesAHandThatRests) {
   }
 }
 
+// A push that is read at the old proxy and rises faster than the coupling would swing from one tick to the next.
+TEST(StructureLaw, KeepOutDoesNotRingWhateverTheWorkspaceScaleAndTheStiffness) {
+  const BallSource source;
+  for (const double scale : {0.2, 1.0, 3.0, 10.0}) {
+    for (const double stiffness : {50.0, 400.0, 2000.0}) {
+      Scene scene = scene_with(R"({"type": "keep_out", "structure": "liver", "margin_mm": 5, "strength_n": 2})");
+      scene.stiffness_n_per_m = stiffness;
+      scene.subdivision.most_halts = 0;  // a proxy that moves in short steps would hide it
+      Workspace workspace;
+      workspace.mm_per_m = 1000 * scale;
+      Hand hand(scene, source, workspace);
+      // It begins where the strength rises most steeply: a hand that comes from outside is held by the plane.
+      for (int n = 0; n < 500; ++n) hand.move_to({22.5, 0, 0});
+      const double settled = hand.force().x;
+      for (int n = 0; n < 50; ++n) {
+        hand.move_to({22.5, 0, 0});
+        EXPECT_NEAR(hand.force().x, settled, 1e-6) << scale << ", " << stiffness << " N/m, tick " << n;
+      }
+    }
+  }
+}
+
 TEST(StructureLaw, KeepInHoldsBeforeTheWayOut) {
   const BallSource source;
   Hand hand(scene_with(R"({"type": "keep_in", "structure": "liver", "margin_mm": 4, "strength_n": 2})"), source);

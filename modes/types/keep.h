@@ -5,7 +5,8 @@
 /// Two primitives share the strength. A plane resists going nearer, as a surface does; a directed force pushes back by
 /// itself. Both rise over the margin, once differentiable, and stay at their most beyond the edge: the force is bounded
 /// by the strength, continuous, and zero outside the margin. A force is read at the old proxy, so one that rises as
-/// fast as the coupling is stiff would ring: it is held to half of that, and the plane takes the rest.
+/// fast as the coupling is stiff would ring: it is held to half of that, and the plane takes the rest. The margin is
+/// one of the patient and the coupling one of the hand, so the workspace's scale counts.
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -21,14 +22,14 @@ inline double keep_part(double way_mm, double margin_mm) noexcept {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// The share of the strength that pushes by itself.
-inline double push_share(const Mode& mode, double stiffness_n_per_m) {
+/// The share of the strength that pushes by itself. `mm_per_m`: mm of patient for one m of hand.
+inline double push_share(const Mode& mode, double stiffness_n_per_m, double mm_per_m) {
   constexpr double steepest = 1.5;  // of keep_part, per margin
   double most_n = mode.strength_n.maximum();
   for (const Gate& gate : mode.gates) {
     most_n *= gate.factor.maximum();
   }
-  const double bearable_n = 0.5 * stiffness_n_per_m * 1e-3 * mode.margin_mm / steepest;
+  const double bearable_n = 0.5 * stiffness_n_per_m / mm_per_m * mode.margin_mm / steepest;
   return most_n > 0 ? std::min(0.5, bearable_n / most_n) : 0.0;
 }
 
