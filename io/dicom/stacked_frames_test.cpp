@@ -7,6 +7,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "io/load.h"
 #include "io/testing/test_image.h"
@@ -96,6 +99,28 @@ TEST(StackedFrames, FramesThatFollowInTimeAreNoStack) {
   EXPECT_THAT(found.series, IsEmpty());
   ASSERT_THAT(found.skipped, SizeIs(1));
   EXPECT_EQ(found.skipped[0].reason, "several frames without a position for each, nor a spacing between them");
+}
+
+// Whatever attribute frames follow one another by (PS3.3 C.7.6.6.1.1): those of places and none make a stack, any other
+// does not, also where a spacing is said.
+TEST(StackedFrames, AreAStackWhereTheirIncrementIsAPlace) {
+  const std::vector<std::pair<std::optional<DcmTagKey>, bool>> pointers{
+      {std::nullopt, true},           {DCM_SpacingBetweenSlices, true},
+      {DCM_SliceVector, true},        {DCM_GridFrameOffsetVector, true},
+      {DCM_RepetitionTime, false},    {DCM_FrameTime, false},
+      {DCM_FrameTimeVector, false},   {DCM_TimeSlotVector, false},
+      {DCM_EnergyWindowVector, false}};
+  for (const auto& [pointer, is_stack] : pointers) {
+    const TestFolder folder;
+    TestImage image;
+    image.edit = [&, to = pointer](DcmDataset& d) {
+      put_frames(d, 3);
+      put(d, DCM_SpacingBetweenSlices, std::string("2"));
+      if (to) succeed(d.putAndInsertTagKey(DCM_FrameIncrementPointer, *to));
+    };
+    write(image, folder / "a.dcm");
+    EXPECT_EQ(find_in(folder).series.size(), is_stack ? 1U : 0U) << (pointer ? pointer->toString() : "none");
+  }
 }
 
 void make_dose(DcmDataset& d, const std::string& offsets, int frames) {
