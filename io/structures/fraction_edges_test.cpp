@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -102,6 +103,44 @@ TEST(EdgeOfProbability, IsWhereHalfIsReached) {
   }
   EXPECT_GT(told, 500);
   EXPECT_GT(untold, 100);
+}
+
+/// With one more voxel on each side, like the one beside it.
+Mask continued(const Mask& mask) {
+  Mask larger = mask;
+  larger.geometry.dimensions += 2;
+  larger.size = larger.geometry.dimensions;
+  larger.occupancy.clear();
+  for (int k = -1; k <= mask.size.z; ++k) {
+    for (int j = -1; j <= mask.size.y; ++j) {
+      for (int i = -1; i <= mask.size.x; ++i) {
+        const glm::ivec3 in = glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), mask.size - 1);
+        larger.occupancy.push_back(mask.occupancy[mask.offset(in.x, in.y, in.z)]);
+      }
+    }
+  }
+  return larger;
+}
+
+// A structure that runs out of the scan goes on as it ends: the scan's end does not tilt its edge.
+TEST(EdgeOfFractions, IsTheSameAtTheEndOfTheScanAsIfItWentOn) {
+  std::mt19937 random(7);
+  int told = 0;
+  for (int n = 0; n < 200; ++n) {
+    for (const Mask::Fractions fractions : {Mask::Fractions::occupancy, Mask::Fractions::probability}) {
+      const Mask mask = Neighborhood(random, fractions).mask;
+      const Mask larger = continued(mask);
+      for (int at = 0; at < 27; ++at) {
+        const int i = at % 3, j = at / 3 % 3, k = at / 9;
+        const float found = edge_distance(mask, i, j, k), wanted = edge_distance(larger, i + 1, j + 1, k + 1);
+        ASSERT_EQ(std::isnan(found), std::isnan(wanted)) << n << ' ' << at;
+        if (std::isnan(found)) continue;
+        ASSERT_FLOAT_EQ(found, wanted) << n << ' ' << at;
+        ++told;
+      }
+    }
+  }
+  EXPECT_GT(told, 2000);
 }
 
 }  // namespace

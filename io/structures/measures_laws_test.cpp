@@ -150,6 +150,41 @@ TEST(MeasuresLaws, OfContoursAreThoseOfTheirPolygonsWithoutTheirHoles) {
   }
 }
 
+/// Squares in each other, drawn either way round and in any order: every second one is a hole.
+TEST(MeasuresLaws, IslandsNestToAnyDepth) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    OddLattice lattice(seed);
+    const Vec3 u = lattice.geometry.direction_i, v = lattice.geometry.direction_j, n = glm::cross(u, v);
+    const double step = lattice.between(1, 5);
+    const Vec3 first = 100.0 * lattice.unit();
+    std::vector<Contour> contours;
+    Vec3 moment(0);
+    double area = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int squares = 1 + lattice.any(7);
+      double x = 0, y = 0, half = 40;
+      for (int depth = 0; depth < squares; ++depth) {
+        const auto point = [&](double i, double j) {
+          return first + (x + i * half) * u + (y + j * half) * v + k * step * n;
+        };
+        Contour square{point(-1, -1), point(1, -1), point(1, 1), point(-1, 1)};
+        if (lattice.any(2) == 0) std::reverse(square.begin(), square.end());
+        const double signed_area = (depth % 2 == 0 ? 4 : -4) * half * half;
+        area += signed_area;
+        moment += signed_area * point(0, 0);
+        contours.insert(contours.begin() + lattice.any(static_cast<int>(contours.size()) + 1), std::move(square));
+        const double smaller = half * lattice.between(0.5, 0.8);
+        x += lattice.between(-0.9, 0.9) * (half - smaller);
+        y += lattice.between(-0.9, 0.9) * (half - smaller);
+        half = smaller;
+      }
+    }
+    const StructureMeasures measures = measures_of(contours);
+    EXPECT_NEAR(measures.volume_mm3, area * step, 1e-6) << seed;
+    EXPECT_LT(glm::distance(measures.centroid_mm, moment / area), 1e-7) << seed;
+  }
+}
+
 /// A box around one voxel of the lattice, or around a place up to a voxel beyond it, is not off; beyond that it is.
 TEST(MeasuresLaws, ABoxIsOffWhereAllOfItIsMoreThanAVoxelBeyondTheScan) {
   for (unsigned seed = 0; seed < 40; ++seed) {

@@ -180,6 +180,29 @@ TEST(Registrations, ThatDisagreeAreRefusedInWords) {
             "the registrations a.dcm and b.dcm put it on different places: take one of them away");
 }
 
+/// A turn about one of the patient's axes through the origin.
+Matrix turned_about(int axis, double angle) {
+  Matrix matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  const auto a = static_cast<std::size_t>((axis + 1) % 3), b = static_cast<std::size_t>((axis + 2) % 3);
+  matrix[5 * a] = matrix[5 * b] = std::cos(angle);
+  matrix[4 * a + b] = -std::sin(angle);
+  matrix[4 * b + a] = std::sin(angle);
+  return matrix;
+}
+
+// They agree if no point within a meter is moved apart by more than a tenth of a millimeter: an angle of 1e-4.
+TEST(Registrations, ThatDifferByAnAngleDisagreeWhereItShowsWithinAMeter) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const auto& [angle, agree] :
+         {std::pair{5e-5, true}, {-5e-5, true}, {2e-4, false}, {-2e-4, false}, {0.01, false}, {0.5, false}}) {
+      const TestFolder folder;
+      write(folder / "a.dcm", "1.1", {{"1.2", {in_digits(turned_about(axis, 0))}}});
+      write(folder / "b.dcm", "1.1", {{"1.2", {in_digits(turned_about(axis, angle))}}});
+      EXPECT_EQ(joined_in(folder, "1.2", "1.1").motion.has_value(), agree) << axis << ' ' << angle;
+    }
+  }
+}
+
 // A square of 20 mm in two planes, and its edge.
 TEST(Registrations, MoveContoursAndWhatIsFeltOfThem) {
   const TestFolder folder;
