@@ -247,6 +247,25 @@ TEST(Filtered, BilateralIsTheMeanOfWhatIsNearAndAlike) {
   }
 }
 
+/// Of noise alone nearly the mean of the 15 x 15 voxels around is left: that has a fifteenth of the noise, and that of
+/// a smaller square more.
+TEST(Filtered, NonLocalMeansTakesWhatIsAlikeFromSevenVoxelsAround) {
+  testdata::Grid grid;
+  grid.size = {96, 96, 1};
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0, 20);
+  const auto raw = painted(testdata::make_geometry(grid), [&](const Vec3&) { return normal(random); });
+  const auto smooth = filtered(raw, {.type = FilterType::non_local_means, .sigma_value = 20});
+  double before = 0, after = 0;
+  for (int j = 10; j < 86; ++j) {
+    for (int i = 10; i < 86; ++i) {
+      before += at(*raw, i, j, 0) * at(*raw, i, j, 0);
+      after += at(*smooth, i, j, 0) * at(*smooth, i, j, 0);
+    }
+  }
+  EXPECT_LT(std::sqrt(after / before), 0.1);
+}
+
 /// However far apart the values are, and however small what is taken for noise.
 TEST(Filtered, NonLocalMeansKeepsValuesThatAreFarApart) {
   testdata::Grid grid;
