@@ -1,9 +1,13 @@
 // Fetch from a real archive, by move and by get: what comes, where it lies, and within which limits.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "io/archive/fetch.h"
 #include "io/archive/testing/orthanc_test_case.h"
@@ -60,6 +64,38 @@ TEST_F(OrthancTest, FetchesAStudyByGet) {
   expect_same(ct, folder("by-get"));
 }
 
+/// What is told while several come is of all of them, and what has come says what it is.
+TEST_F(OrthancTest, FetchesSeveralSeriesAndTellsOfAllOfThem) {
+  for (const bool uses_get : {false, true}) {
+    Archive way = archive();
+    way.uses_get = uses_get;
+    std::vector<FetchProgress> told;
+    const Fetched fetched =
+        fetch(way, {uid_of(ct), uid_of(brain), uid_of(compressed)}, folder(uses_get ? "several-get" : "several-move"),
+              {}, [&](const FetchProgress& progress) {
+                told.push_back(progress);
+                return true;
+              });
+    std::set<int> expected;
+    for (const FetchProgress& one : told) expected.insert(one.expected);
+    expected.erase(-1);  // as long as the archive is asked
+    EXPECT_THAT(expected, ::testing::ElementsAre(4 + 20 + 4));
+    EXPECT_EQ(told.back().files, 28U);
+    std::map<std::string, std::string> study_of;
+    for (const FetchedSeries& series : fetched.series) {
+      study_of[series.uid] = series.study_uid;
+      for (const auto& [uid, one] : instances(series.folder)) {
+        EXPECT_EQ(one.series, series.uid);
+        EXPECT_EQ(one.study, series.study_uid);
+      }
+    }
+    EXPECT_EQ(study_of.size(), 3U);
+    for (const std::string& name : {ct, brain, compressed}) {
+      EXPECT_EQ(study_of[uid_of(name)], instances(made_series() / name).begin()->second.study) << name;
+    }
+  }
+}
+
 TEST_F(OrthancTest, FetchesCompressedImagesAsTheyAre) {
   for (const bool uses_get : {false, true}) {
     Archive way = archive();
@@ -104,13 +140,13 @@ TEST_F(OrthancTest, LeavesNothingOfACanceledFetch) {
 TEST_F(OrthancTest, StaysUnderItsLimits) {
   FetchLimits few;
   few.files = 3;
-  EXPECT_TRUE(says(refusal([&] { fetch(archive(), {uid_of(brain)}, folder("few"), few); }),
-                   "more than {} files came: fetch series by series, or allow more with --most-files"));
+  EXPECT_EQ(refusal([&] { fetch(archive(), {uid_of(brain)}, folder("few"), few); }),
+            "more than 3 files came: fetch series by series, or allow more with --most-files");
   EXPECT_FALSE(fs::exists(folder("few")));
   FetchLimits small;
   small.bytes = 1U << 20U;
-  EXPECT_TRUE(says(refusal([&] { fetch(archive(), {uid_of(brain)}, folder("small"), small); }),
-                   "more than {} MiB came: fetch series by series, or allow more with --most-mib"));
+  EXPECT_EQ(refusal([&] { fetch(archive(), {uid_of(brain)}, folder("small"), small); }),
+            "more than 1 MiB came: fetch series by series, or allow more with --most-mib");
   EXPECT_FALSE(fs::exists(folder("small")));
 }
 

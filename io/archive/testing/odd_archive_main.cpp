@@ -9,7 +9,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -201,6 +203,7 @@ class Serving {
       return respond(socket_, request, 0);
     }
     if (behavior_ == "tells-of-other") return echo(request);
+    if (behavior_ == "several") return find_several(request);
     if (behavior_ == "tells-late") throw Gone(read_pdu(socket_).type);
     if (behavior_ == "tells-and-errs") return write_message(socket_, request.context, "nonsense", {});
     const bool all = behavior_ == "endless-find";
@@ -226,6 +229,29 @@ class Serving {
         std::fflush(stdout);
         return respond(socket_, request, 0xFE00);
       }
+    }
+    respond(socket_, request, 0);
+  }
+
+  /// Three of each level, in no order; what it says of one is its own.
+  void find_several(const Request& request) {
+    struct One {
+      const char *date, *number, *images, *description;
+    };
+    constexpr std::array all{One{"20210301", "20", "5 ", "Localizer "}, One{"20240115", "1 ", "7 ", "Thin slices "},
+                             One{"20231231", "3 ", "40", "Thick slices"}};
+    const bool is_study = uid_of(request.keys.at(0x00080052)).starts_with("STUDY");
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const std::string last = std::string(1, '.').append(std::to_string(n + 1));
+      const std::string study = is_study ? std::string("1.2.3").append(last) : uid_of(request.keys.at(0x0020000D));
+      std::string match = is_study ? field(0x00080020, "DA", all[n].date) : std::string();
+      match +=
+          field(is_study ? 0x00081030 : 0x0008103E, "LO", all[n].description) + field(0x0020000D, "UI", even(study));
+      if (!is_study) {
+        match += field(0x0020000E, "UI", even(study + last)) + field(0x00200011, "IS", all[n].number) +
+                 field(0x00201209, "IS", all[n].images);
+      }
+      respond(socket_, request, 0xFF00, match);
     }
     respond(socket_, request, 0);
   }
