@@ -6,6 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -161,6 +165,45 @@ TEST(Packed, ABombIsRefusedEarly) {
             "an archive of which more than 256 MiB would come out: unpack it yourself");
   EXPECT_LT(std::clock() - begin, 5 * CLOCKS_PER_SEC);
   EXPECT_EQ(temporary.entries(), 0);
+}
+
+/// A header of a tar file (POSIX.1-1988) whose one entry is said to have so many bytes, in binary as GNU tar writes
+/// sizes beyond 8 GiB.
+std::string tar_header(std::uint64_t bytes) {
+  std::string header(512, '\0');
+  const auto put = [&](std::size_t at, const std::string& text) { header.replace(at, text.size(), text); };
+  put(0, "a.dcm");
+  put(100, "0000644");
+  put(124, "\x80");
+  for (std::size_t n = 0; n < 8; ++n) header[135 - n] = static_cast<char>(bytes >> (8 * n) & 0xFFU);
+  put(148, "        ");
+  put(156, "0");
+  put(257, std::string("ustar\0", 6) + "00");
+  unsigned sum = 0;
+  for (const char c : header) sum += static_cast<unsigned char>(c);
+  std::array<char, 16> octal{};
+  std::snprintf(octal.data(), octal.size(), "%06o", sum);
+  put(148, std::string(octal.data(), 7));
+  return header;
+}
+
+// Of a large archive, half of what the disk has free, and 64 GiB at most.
+TEST(Packed, ComesOutToNoMoreThanHalfOfTheDisksRoom) {
+  const TestFolder folder;
+  write_bytes(folder / "large.tar", tar_header(std::uint64_t{1} << 40U));
+  fs::resize_file(folder / "large.tar", std::uintmax_t{2} << 30U);  // a hole
+  const auto allowed_mib = [] {
+    return std::min(static_cast<double>(fs::space(fs::temp_directory_path()).available) / 2, 64.0 * (1U << 30U)) /
+           (1U << 20U);
+  };
+  const double before = allowed_mib();
+  const std::string said = refusal_of(folder / "large.tar");
+  const double after = allowed_mib();
+  unsigned long mib = 0;
+  ASSERT_EQ(std::sscanf(said.c_str(), "an archive of which more than %lu MiB", &mib), 1) << said;
+  constexpr double others_write_mib = 1024;  // meanwhile
+  EXPECT_GE(static_cast<double>(mib), std::min(before, after) - others_write_mib);
+  EXPECT_LE(static_cast<double>(mib), std::max(before, after) + others_write_mib);
 }
 
 TEST(Packed, IsRefusedInWords) {
