@@ -186,7 +186,8 @@ Volume read_frame(const Reading& whole, const std::string& name, const LoadOptio
   try {
     volume.voxels = allocate(storage, size * part.slices.size(), options.threads);
   } catch (const std::bad_alloc&) {
-    throw DicomError(say("needs-more-memory-than-there", name, size * part.slices.size() >> 19));
+    const std::size_t bytes = storage == Storage::as_float ? sizeof(float) : sizeof(std::int16_t);
+    throw DicomError(say("needs-more-memory-than-there", name, bytes * size * part.slices.size() >> 20));
   }
   describe_values(whole, storage, volume);
   const std::vector<std::size_t> failed = read_slices(reading, name, options, volume);

@@ -70,12 +70,15 @@ void put_slice(const VoxelFile& file, int n, std::span<const std::uint8_t> raw, 
 }
 
 Volume::Voxels allocate(Number number, std::size_t count, const std::string& name) {
+  const bool is_unsigned = number == Number::u8 || number == Number::u16;
+  const bool is_short = is_unsigned || number == Number::i8 || number == Number::i16;
   try {
-    if (number == Number::u8 || number == Number::u16) return std::vector<std::uint16_t>(count);
-    if (number == Number::i8 || number == Number::i16) return std::vector<std::int16_t>(count);
+    if (is_unsigned) return std::vector<std::uint16_t>(count);
+    if (is_short) return std::vector<std::int16_t>(count);
     return std::vector<float>(count);
   } catch (const std::bad_alloc&) {
-    throw DicomError(say("needs-more-memory-than-there", name, count >> 18));
+    const std::size_t bytes = is_short ? sizeof(std::int16_t) : sizeof(float);
+    throw DicomError(say("needs-more-memory-than-there", name, bytes * count >> 20));
   }
 }
 
