@@ -11,6 +11,7 @@
 
 #include "solver/certify.h"
 #include "solver/chain.h"
+#include "solver/testing/problems.h"
 
 namespace palpate::solver {
 namespace {
@@ -172,6 +173,62 @@ TEST(ChainLaws, AWarmStartSparesIterations) {
     cold_iterations += b.solution.iterations;
   }
   EXPECT_LT(warm_iterations, cold_iterations);
+}
+
+/// Whichever solvers are on: what is given for an answer is as near to the exact proxy as its bound says, also where
+/// there are more places of constraints than the analytical solver has room for.
+TEST(ChainLaws, NoAnswerIsFartherFromTheProxyThanItsBound) {
+  int answers = 0, others = 0;
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+      const Problem problem = make_problem(family, seed, seed % 3 == 0 ? 10 + seed : 0);
+      std::vector<Vec3> forces(problem.primitives.size());
+      ExactScratch scratch(forces.size());
+      const Solution exact = solve_exact(problem.balance(), forces, scratch);
+      if (exact.outcome != Outcome::solved) continue;
+      for (const ChainOptions& options :
+           {ChainOptions{.exact = false}, ChainOptions{.analytical = false}, ChainOptions{}}) {
+        Chain chain(options);
+        const Solution solution = answer_of(chain, problem.balance()).solution;
+        if (solution.outcome != Outcome::solved && solution.outcome != Outcome::capped) {
+          ++others;
+          continue;
+        }
+        ++answers;
+        EXPECT_LE(glm::distance(solution.proxy, exact.proxy), solution.error_bound + exact.error_bound)
+            << name_of(family) << " " << seed;
+      }
+    }
+  }
+  EXPECT_GT(answers, 600);
+  EXPECT_GT(others, 100) << "the analytical solver alone cannot solve all of them";
+}
+
+/// Few balances need many iterations. Of those, a chain with a cap of one gives the answer that the exact solver gives
+/// with that cap.
+TEST(ChainLaws, TheExactSolverKeepsToTheCapThatIsSet) {
+  int met = 0;
+  for (const Family family : {Family::near_parallel, Family::tiny, Family::many}) {
+    for (std::uint64_t seed = 0; seed < 600; ++seed) {
+      const Problem problem = make_problem(family, seed);
+      const auto alone = [&problem](int cap) {
+        ChainAnswer answer{{}, std::vector<Vec3>(problem.primitives.size())};
+        ExactScratch scratch(problem.primitives.size());
+        answer.solution = solve_exact(problem.balance(), answer.forces, scratch, Start::cold, {.max_iterations = cap});
+        return answer;
+      };
+      const ChainAnswer whole = alone(400), cut = alone(1);
+      if (cut.solution.iterations == whole.solution.iterations) continue;
+      ++met;
+      Chain chain({.analytical = false, .exact_options = {.max_iterations = 1}});
+      const ChainAnswer answer = answer_of(chain, problem.balance());
+      EXPECT_EQ(answer.solution.iterations, cut.solution.iterations) << name_of(family) << " " << seed;
+      EXPECT_EQ(answer.solution.outcome, cut.solution.outcome) << name_of(family) << " " << seed;
+      EXPECT_EQ(answer.solution.proxy, cut.solution.proxy) << name_of(family) << " " << seed;
+      EXPECT_EQ(answer.forces, cut.forces) << name_of(family) << " " << seed;
+    }
+  }
+  EXPECT_GE(met, 10) << "else no cap was met";
 }
 
 TEST(ChainLaws, ItsMemoryIsThatOfItsCapacity) {
