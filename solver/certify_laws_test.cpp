@@ -77,6 +77,12 @@ Known make_known(std::uint64_t seed) {
   return known;
 }
 
+/// The bound that the residual and the slack of a certificate give, m.
+double law_of(const Certificate& certificate) {
+  const double r = certificate.residual;
+  return (r + std::sqrt(r * r + 4 * stiffness * certificate.slack)) / (2 * stiffness);
+}
+
 // Rounding of a constructed balance: coordinates of 0.1 m and forces of 10 N over k.
 constexpr double rounding = 1e-15;
 
@@ -139,6 +145,33 @@ TEST(CertifyLaws, SlackAloneGivesTheDistanceExactly) {
       const Certificate certificate = certify({stiffness, probe, held, primitives}, guess, forces);
       EXPECT_GE(certificate.error_bound, d - rounding) << name_of(primitive.type) << " " << seed;
       EXPECT_LE(certificate.error_bound, d * (1 + 1e-6) + rounding) << name_of(primitive.type) << " " << seed;
+      EXPECT_NEAR(law_of(certificate), d, 1e-6 * d + rounding) << name_of(primitive.type) << " " << seed;
+    }
+  }
+}
+
+/// The residual and the slack are those of the bound, wherever it was evaluated: the way to that place comes on top.
+TEST(CertifyLaws, TheBoundIsNotBelowTheLawOfItsResidualAndSlack) {
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    const Known known = make_known(seed);
+    Random random(seed + 2000000);
+    for (const double size : {5e-3, 1e-4, 1e-6}) {
+      const Certificate certificate = certify(known.balance(), known.proxy + random.unit_vector() * size, known.forces);
+      EXPECT_GE(certificate.error_bound, law_of(certificate) * (1 - 1e-9)) << seed;
+    }
+  }
+}
+
+/// In a balance whose directions are well apart, data within 4 ulp have their proxy within nanometers: the bound for
+/// the most favorable of them is not below the distance to the known proxy either.
+TEST(CertifyLaws, RoundingOfTheDataExplainsNoDistanceThatCanBeFelt) {
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    const Known known = make_known(seed);
+    Random random(seed + 3000000);
+    for (const double size : {5e-3, 1e-3, 1e-4, 1e-5}) {
+      const Certificate certificate = certify(known.balance(), known.proxy + random.unit_vector() * size, known.forces);
+      EXPECT_GE(certificate.backward_bound, 0.999 * size) << seed;
+      EXPECT_LE(certificate.backward_bound, certificate.error_bound * (1 + 1e-9)) << seed;
     }
   }
 }
