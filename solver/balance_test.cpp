@@ -131,6 +131,9 @@ TEST(Balance, DescriptionIsASentence) {
   EXPECT_EQ(describe({2, Field::strength, Flaw::negative, -1}), "primitive 2: strength is negative (-1)");
   EXPECT_EQ(describe({Rejection::whole_balance, Field::stiffness, Flaw::not_positive, 0}),
             "stiffness is not positive (0)");
+  EXPECT_EQ(describe({1, Field::strength, Flaw::incompatible, 0.25}),
+            "primitive 1: has infinite strength, but no point meets it together with the other hard constraints: it "
+            "stays 0.25 m away (tolerance: 1e-12 of the largest distance between probe and constraints)");
 }
 
 }  // namespace
