@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 #include "modes/scene/scene_json.h"
 #include "modes/testing/test_rig.h"
@@ -271,6 +273,32 @@ TEST(StructurePlan, LeavesOutWhatNoModeReads) {
   EXPECT_TRUE(said);
   EXPECT_TRUE(plan.solvers.analytical);
   EXPECT_FALSE(plan.solvers.exact);
+}
+
+/// Walls of one structure push along one direction; those of two can meet at any angle.
+TEST(StructurePlan, KeepsTheGeneralSolverWhereWallsOfTwoStructuresCanMeet) {
+  const auto needs_exact = [](std::string modes, const std::string& more) {
+    modes.append(", ").append(more);
+    return make_plan(scene_with(modes), BallSource().available(), {}).solvers.exact;
+  };
+  const std::string liver = R"({"type": "surface", "structure": "liver", "strength_n": 1})";
+  const std::string spleen = R"({"type": "surface", "structure": "spleen", "strength_n": 1})";
+  const std::string out_of_liver = R"({"type": "keep_out", "structure": "liver", "strength_n": 1})";
+  const std::string in_spleen = R"({"type": "keep_in", "structure": "spleen", "strength_n": 1})";
+  const std::string scan = R"({"type": "surface", "strength_n": 1})";
+  const std::string friction = R"({"type": "friction", "strength_n": 1, "gates":
+    [{"of": "distance_mm", "structure": "spleen", "nodes": [[0, 0], [1, 1]]}]})";
+  for (const auto& [one, other, needed] : {std::tuple{liver, spleen, true},
+                                           {out_of_liver, spleen, true},
+                                           {out_of_liver, in_spleen, true},
+                                           {liver, scan, true},
+                                           {liver, out_of_liver, false},
+                                           {spleen, in_spleen, false},
+                                           {liver, friction, false},
+                                           {scan, friction, false}}) {
+    EXPECT_EQ(needs_exact(one, other), needed) << one << other;
+    EXPECT_EQ(needs_exact(other, one), needed) << other << one;
+  }
 }
 
 TEST(StructurePlan, DoesNotReadWhatOnlyModesThatAreLeftOutName) {
