@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
+#include <memory>
+#include <vector>
 
 #include "modes/testing/test_rig.h"
 #include "testdata/analytic.h"
@@ -110,6 +113,29 @@ TEST(SceneChange, to_another_time_frame_moves_the_proxy_from_one_wall_to_the_oth
   EXPECT_NEAR(ramp.proxy_after_mm.z, 1.5, 0.3);
 }
 
+/// Each change of a session is as the first one was.
+TEST(SceneChange, of_time_frames_one_after_the_other_moves_the_proxy_from_wall_to_wall) {
+  solver::Chain chain;
+  Touch touch;
+  const auto scratch = std::make_unique<StepScratch>();
+  const testdata::AnalyticSource frames[]{slab_at(0), slab_at(0.8), slab_at(1.6), slab_at(2.4)};
+  const Plan plan = make_plan(skin(2), frames[0].available(), {});
+  const auto at = [&](double depth_mm) { return plan.workspace.to_device({0, 0, depth_mm}); };
+  for (int i = 0; i <= 2000; ++i) step(plan, frames[0], at(-3 + 7 * i / 2000.0), touch, chain, *scratch);
+  Vec3 force = touch.force_n;
+  for (std::size_t next = 1; next < std::size(frames); ++next) {
+    for (int i = 0; i <= 2 * ramp_ticks; ++i) {
+      const double part = static_cast<double>(i) / ramp_ticks;
+      const SceneChange change{.from = {&plan, &frames[next - 1]}, .to = {&plan, &frames[next]}, .part = part};
+      const StepResult result = part <= 1 ? step(change, at(4), touch, chain, *scratch)
+                                          : step(plan, frames[next], at(4), touch, chain, *scratch);
+      EXPECT_LE(glm::length(result.force_n - force), 0.05) << "to frame " << next << ", tick " << i;
+      force = result.force_n;
+    }
+    EXPECT_NEAR(plan.workspace.to_patient(touch.proxy_m).z, 0.8 * static_cast<double>(next), 0.1) << next;
+  }
+}
+
 /// The value rises down by 100 a mm, and has ripples that the gradient does not show: so the level of what is held is
 /// not the value.
 class Rippled final : public io::FieldSource {
@@ -148,6 +174,29 @@ TEST(SceneChange, on_the_same_data_the_level_goes_on_and_on_other_data_it_begins
     } else {
       EXPECT_EQ(now.level, after.sample(now.place_mm, {}).value);
       EXPECT_EQ(now.held_level, now.level);
+    }
+  }
+}
+
+/// Nor is the second or the third, though the level of the wall that is pressed is not the value there.
+TEST(SceneChange, to_the_same_scene_is_not_felt_however_often_it_comes) {
+  const Rippled source(0);
+  testing::Hand hand(scene_of({surface(TransferFunction({{0, 0}, {10, 2}}), Datum::value)}), source);
+  hand.stroke({0, 0, 2}, {0, 0, -2}, 1000);
+  hand.stroke({0, 0, -2}, {1.5, 0, -2}, 1000);
+  for (int i = 0; i < 100; ++i) hand.move_to({1.5, 0, -2});
+  const Vec3 probe = hand.plan.workspace.to_device({1.5, 0, -2}), force = hand.result.force_n;
+  ASSERT_GT(glm::length(force), 0.5);
+  solver::Chain chain({.capacity = most_primitives});
+  const auto scratch = std::make_unique<StepScratch>();
+  const SceneOnData same{&hand.plan, &source};
+  for (int change = 0; change < 3; ++change) {
+    for (int i = 1; i <= 2 * ramp_ticks; ++i) {
+      const double part = static_cast<double>(i) / ramp_ticks;
+      const StepResult result = part <= 1
+                                    ? step({.from = same, .to = same, .part = part}, probe, hand.touch, chain, *scratch)
+                                    : step(hand.plan, source, probe, hand.touch, chain, *scratch);
+      ASSERT_LE(glm::distance(result.force_n, force), 1e-9) << "change " << change << ", tick " << i;
     }
   }
 }
