@@ -109,5 +109,27 @@ TEST(Reach, leaves_slices_out_of_a_plan_and_says_so) {
   EXPECT_EQ(plan_of(4.1).slices, (SliceRange{30, 71}));
 }
 
+/// The proxy is nowhere farther from the probe than strength / stiffness. Slices that it can reach are kept, and none
+/// that are more than a centimeter farther away.
+TEST(Reach, is_as_far_beyond_the_box_as_the_coupling_lets_the_proxy_be) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> strength(0.1, 3), logarithm(std::log(100), std::log(2000));
+  for (int n = 0; n < 200; ++n) {
+    const double most_n = strength(random), k = std::exp(logarithm(random));
+    Scene scene = testing::scene_of({testing::surface(TransferFunction(most_n), Datum::value)});
+    scene.stiffness_n_per_m = k;
+    Workspace workspace;
+    workspace.center_mm = {0, 0, 201};
+    Plan plan = make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, workspace);
+    leave_out_slices(stack(201), {0.08, 0.02, 0.06}, plan);
+    const double reach_mm = 20 + 1000 * most_n / k;  // up and down from the center, of slices every 2 mm
+    const auto slice_at = [](double z) { return std::clamp(static_cast<int>(std::floor(z / 2)), 0, 200); };
+    EXPECT_LE(plan.slices.first, slice_at(201 - reach_mm)) << most_n << " N, " << k << " N/m";
+    EXPECT_GE(plan.slices.first, slice_at(201 - reach_mm - 10)) << most_n << " N, " << k << " N/m";
+    EXPECT_GE(plan.slices.last, slice_at(201 + reach_mm)) << most_n << " N, " << k << " N/m";
+    EXPECT_LE(plan.slices.last, slice_at(201 + reach_mm + 10) + 1) << most_n << " N, " << k << " N/m";
+  }
+}
+
 }  // namespace
 }  // namespace palpate::modes
