@@ -77,11 +77,20 @@ TEST(FeltStrength, IsTheSumOfTheSamplesStrengthsToTheLastBit) {
 }
 
 TEST(FeltStrength, IsOfTheModesThatHoldAtTheScansOwnBoundaries) {
-  const Scene scene = load_scene("ct-skin-and-bone");
-  const Plan plan = make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, {});
-  std::vector<std::string> names;
-  for (const ActiveMode* mode : holding_modes(plan)) names.push_back(scene.modes[mode->scene_index].name);
-  EXPECT_EQ(names, (std::vector<std::string>{"skin", "bone"}));
+  Scene scene = load_scene("ct-skin-and-bone");
+  const auto names = [&scene] {
+    const Plan plan = make_plan(scene, io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::distance, {});
+    std::vector<std::string> names;
+    for (const ActiveMode* mode : holding_modes(plan)) names.push_back(scene.modes[mode->scene_index].name);
+    return names;
+  };
+  EXPECT_EQ(names(), (std::vector<std::string>{"skin", "bone"}));
+  // What holds at the edge of a structure is felt there, and not wherever the scan has a boundary.
+  scene.structures = {{.name = "liver", .file = "seg.dcm", .segment = "Liver"}};
+  for (const char* type : {"surface", "keep_out", "keep_in"}) {
+    scene.modes.push_back({.type = type, .name = type, .strength_n = TransferFunction(1.0), .structure = "liver"});
+  }
+  EXPECT_EQ(names(), (std::vector<std::string>{"skin", "bone"}));
 }
 
 }  // namespace
