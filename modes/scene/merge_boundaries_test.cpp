@@ -8,7 +8,10 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io/fields/volume_fields.h"
 #include "modes/testing/test_rig.h"
@@ -56,6 +59,35 @@ TEST(MergeBoundaries, bone_at_air_is_one_unless_no_level_is_between) {
     // A quarter of the way to dense bone at 2400 HU is -112 HU, 0.75 of that to 160 HU.
     EXPECT_EQ(boundaries.size(), dense < 1000 ? 1U : 2U);
   }
+}
+
+/// However often each of its parts occurs: nearer to either tissue than that, the tissue's own spread would be felt.
+TEST(MergeBoundaries, a_merged_boundary_lies_well_between_the_tissues_of_each_of_its_parts) {
+  std::mt19937 random(1);
+  const auto between = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int merged = 0, near_an_end = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const bool to_bone = n % 2 == 0;
+    const double fainter = to_bone ? between(160, 400) : between(-150, -30);
+    const double denser = to_bone ? between(fainter + 100, 2000) : between(0, 140);
+    Suggestion suggestion = of_tissues({{"air", -950}, {"the fainter", fainter}, {"the denser", denser}});
+    std::vector<FoundBoundary> boundaries{
+        {.low = 0, .high = 1, .middle = 0.5 * (fainter - 950), .share = between(0.01, 0.5)},
+        {.low = 0, .high = 2, .middle = 0.5 * (denser - 950), .share = between(0.01, 0.5)}};
+    internal::merge_boundaries(boundaries, suggestion);
+    if (boundaries.size() > 1) continue;
+    ++merged;
+    for (const double high : {fainter, denser}) {
+      const double part = (boundaries[0].middle + 950) / (high + 950);
+      EXPECT_GE(part, 0.25 - 1e-12) << fainter << ", " << denser;
+      EXPECT_LE(part, 0.7 + 1e-12) << fainter << ", " << denser;
+      near_an_end += part > 0.69 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(merged, 500);
+  EXPECT_GT(near_an_end, 10);
 }
 
 TEST(MergeBoundaries, two_kinds_of_bone_in_tissue_stay_two) {
