@@ -12,6 +12,9 @@ TEST(BoundaryNames, are_a_clinicians_words_for_a_ct) {
   EXPECT_EQ(boundary_names(head, true), (Names{"Skin", "Bone", "Bone at air", "Soft tissue"}));
   const std::vector<NamedPair> chest{{-1000, -850}, {-850, 40}, {-1000, -100}, {900, 3000}, {200, 1200}};
   EXPECT_EQ(boundary_names(chest, true), (Names{"Lung or foam", "Lung surface", "Skin", "Metal", "Dense bone"}));
+  // A rib that touches the lung has no soft tissue in between either.
+  const std::vector<NamedPair> rib{{-850, 700}, {40, 700}};
+  EXPECT_EQ(boundary_names(rib, true), (Names{"Bone at air", "Bone"}));
 }
 
 TEST(BoundaryNames, that_would_be_shared_tell_the_denser_tissue_and_then_the_other) {

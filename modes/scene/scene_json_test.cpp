@@ -94,8 +94,10 @@ TEST(SceneJson, every_key_comes_back) {
       {"type": "surface", "enabled": true, "from": "air", "to": "fat", "strength_n": 1.2},
       {"type": "surface", "enabled": true, "structure": "liver", "level_mm": 2, "side": "leaving", "strength_n": 1.3},
       {"type": "keep_out", "enabled": true, "margin_mm": 7,
-       "strength_n": {"of": "distance_mm", "structure": "liver", "nodes": [[11, 1], [12, 2]]}, "structure": "aorta"},
-      {"type": "keep_in", "enabled": true, "structure": "liver", "margin_mm": 8, "strength_n": 1.4},
+       "strength_n": {"of": "distance_mm", "structure": "liver", "nodes": [[11, 1], [12, 2]]}, "structure": "aorta",
+       "gates": [{"of": "distance_mm", "structure": "liver", "nodes": [[2, 1], [3, 0]]}]},
+      {"type": "keep_in", "enabled": true, "structure": "liver", "margin_mm": 8, "strength_n": 1.4,
+       "gates": [{"of": "value", "nodes": [[0, 0], [1, 0.75]]}]},
       {"type": "force", "enabled": true, "field": "gradient", "strength_n": {"of": "vector", "nodes": [[13, 0.5]]}},
       {"type": "follow", "enabled": true, "field": "vector", "strength_n": 1.5},
       {"type": "friction", "enabled": true, "strength_n": 1.6},
@@ -167,6 +169,8 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
   EXPECT_THAT(
       error_of(with_surface(R"("strength_n": {"nodes": [[0, -2]]})")),
       StartsWith("mine.json: modes[1].strength_n.nodes[0][1]: -2 is negative; a strength is in newtons, 0 or more"));
+  EXPECT_THAT(error_of(with_surface(R"("strength_n": 1, "gates": [{"of": "value", "nodes": [[0, 1], [1, -2]]}])")),
+              StartsWith("mine.json: modes[1].gates[0].nodes[1][1]: -2 is negative; a gate is a factor, 0 or more"));
   EXPECT_THAT(error_of(with_surface(R"("strength_n": -0.5)")),
               StartsWith("mine.json: modes[1].strength_n: -0.5 is negative"));
   EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": [[1, 0], [0, 1]]})")),

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "modes/scene/scene_json.h"
 
 namespace palpate::modes {
@@ -30,6 +34,23 @@ TEST(StartingScene, goes_by_the_description_where_the_part_says_nothing) {
   EXPECT_EQ(offered("CT", "", "LWS 1.0 B60s"), "ct-spine");
   EXPECT_EQ(offered("CT", "", "ABDOMEN THORAX"), "ct-abdomen") << "the first of two";
   EXPECT_EQ(offered("CT", "HEAD", "abdomen"), "ct-skin-and-bone") << "BodyPartExamined goes first";
+}
+
+/// The words of a description say the same in German and in English.
+TEST(StartingScene, is_the_same_for_a_part_in_either_language) {
+  const std::pair<const char*, std::vector<const char*>> parts[] = {
+      {"ct-chest", {"Chest", "Lung", "Lunge", "Thorax", "thoracic"}},
+      {"ct-abdomen", {"Abdomen", "Bauch", "Liver", "Leber", "Pelvis"}},
+      {"ct-spine",
+       {"Spine", "C-Spine", "CSPINE", "TSPINE", "LSPINE", "SSPINE", "lumbar", "HWS", "BWS", "LWS", "Wirbel",
+        "vertebra"}},
+      {"ct-skin-and-bone", {"Head", "Kopf", "Skull", "Brain", "cranium"}}};
+  for (const auto& [scene, words] : parts) {
+    for (const std::string word : words) {
+      EXPECT_EQ(offered("CT", "", word + " 1.0"), scene) << word;
+      EXPECT_EQ(offered("CT", word, ""), scene) << word;
+    }
+  }
 }
 
 /// "ct-chest ct-bone | mr-brain": those that suit, and the others.

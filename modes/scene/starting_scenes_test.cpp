@@ -1,5 +1,5 @@
 // What each starting scene for a part of the body is for, on slabs of its tissues: the boundary is felt from outside,
-// with the strength that the scene gives it.
+// the wall of a vessel from inside, with the strength that the scene gives it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,9 @@ TEST(StartingScenes, let_the_boundaries_of_their_part_of_the_body_be_felt) {
                                         {"ct-abdomen", "bone", 40, 500, 2.5},
                                         {"ct-spine", "bone", 40, 350, 2.5},
                                         {"ct-spine", "skin", -1000, -100, 0.5},
-                                        {"ct-spine", "bone", 40, 120, 0}};
+                                        {"ct-spine", "bone", 40, 120, 0},
+                                        {"ct-vessels", "wall", 300, 40, 1.0},
+                                        {"ct-vessels", "wall", 40, 300, 0}};
   for (const StartingCase& boundary : cases) {
     SCOPED_TRACE(boundary.scene + ", " + boundary.mode + ": " + std::to_string(boundary.outer) + " to " +
                  std::to_string(boundary.inner) + " HU");
