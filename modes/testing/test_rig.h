@@ -47,6 +47,16 @@ class Hand {
   std::unique_ptr<StepScratch> scratch_ = std::make_unique<StepScratch>();
 };
 
+/// What one tick hands to the next, of a hand that works in another workspace.
+inline Touch seen_in(const Workspace& workspace, Touch touch) {
+  const auto there = [&](const Vec3& here_m) { return workspace.to_device(touch.workspace.to_patient(here_m)); };
+  touch.probe_m = there(touch.probe_m);
+  touch.proxy_m = there(touch.proxy_m);
+  touch.force_n = workspace.direction_to_device(touch.workspace.direction_to_patient(touch.force_n));
+  touch.workspace = workspace;
+  return touch;
+}
+
 inline Mode surface(const TransferFunction& strength, Datum of = Datum::gradient_magnitude,
                     Side side = Side::entering) {
   Mode mode;

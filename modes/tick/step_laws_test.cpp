@@ -103,16 +103,6 @@ struct Met {
   }
 };
 
-/// What one tick hands to the next, of a hand that works in another workspace.
-Touch seen_in(const Workspace& workspace, Touch touch) {
-  const auto there = [&](const Vec3& here_m) { return workspace.to_device(touch.workspace.to_patient(here_m)); };
-  touch.probe_m = there(touch.probe_m);
-  touch.proxy_m = there(touch.proxy_m);
-  touch.force_n = workspace.direction_to_device(touch.workspace.direction_to_patient(touch.force_n));
-  touch.workspace = workspace;
-  return touch;
-}
-
 /// Turned, moved and scaled, with a stiffness that makes a mm of patient as hard as before, everything in the patient
 /// is as it was: proxy, force, halts and sub-steps.
 TEST(StepLaws, TheWorkspaceDoesNotMatter) {
@@ -126,7 +116,7 @@ TEST(StepLaws, TheWorkspaceDoesNotMatter) {
     scaled.stiffness_n_per_m *= workspace.mm_per_m / Workspace{}.mm_per_m;
     Hand plain(scene, shells), mapped(scaled, shells, workspace);
     for (const Vec3& probe : path_mm(seed)) {
-      mapped.touch = seen_in(workspace, plain.touch);
+      mapped.touch = testing::seen_in(workspace, plain.touch);
       plain.move_to(probe);
       mapped.move_to(probe);
       ASSERT_LT(glm::length(plain.proxy_mm() - mapped.proxy_mm()), same_mm) << seed;
