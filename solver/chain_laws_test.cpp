@@ -147,6 +147,22 @@ TEST(ChainLaws, ForgottenItIsAsFresh) {
   EXPECT_EQ(after.solution.iterations, anew.solution.iterations);
 }
 
+/// Whatever was solved before, the same balance included.
+TEST(ChainLaws, ForgottenItIsAsFreshForEveryBalance) {
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+      const Problem problem = make_problem(family, seed);
+      Chain chain({.analytical = false}), fresh({.analytical = false});
+      answer_of(chain, problem.balance());
+      chain.forget();
+      const ChainAnswer after = answer_of(chain, problem.balance()), anew = answer_of(fresh, problem.balance());
+      EXPECT_EQ(after.solution.proxy, anew.solution.proxy) << name_of(family) << " " << seed;
+      EXPECT_EQ(after.solution.iterations, anew.solution.iterations) << name_of(family) << " " << seed;
+      EXPECT_EQ(after.forces, anew.forces) << name_of(family) << " " << seed;
+    }
+  }
+}
+
 TEST(ChainLaws, WithoutAWarmStartNothingIsRemembered) {
   const EachKind scene;
   EachKind other;
