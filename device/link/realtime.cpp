@@ -17,10 +17,14 @@ namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
 
-std::int64_t now_ns() noexcept {
+std::int64_t clock_ns(clockid_t clock) noexcept {
   timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
+  clock_gettime(clock, &time);
   return time.tv_sec * second + time.tv_nsec;
+}
+
+std::int64_t now_ns() noexcept {
+  return clock_ns(CLOCK_MONOTONIC);
 }
 
 }  // namespace
@@ -70,9 +74,11 @@ double monotonic_time() noexcept {
 }
 
 double time_asleep() noexcept {
-  timespec boot{};
-  clock_gettime(CLOCK_BOOTTIME, &boot);
-  return static_cast<double>(boot.tv_sec * second + boot.tv_nsec - now_ns()) * 1e-9;
+  return time_asleep_by(clock_ns);
+}
+
+double time_asleep_by(std::int64_t (*read_ns)(clockid_t)) noexcept {
+  return static_cast<double>(read_ns(CLOCK_BOOTTIME) - read_ns(CLOCK_MONOTONIC)) * 1e-9;
 }
 
 }  // namespace palpate::device

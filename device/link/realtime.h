@@ -2,6 +2,8 @@
 
 /// What a servo thread asks of the operating system, and how well its deadlines were met.
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <string>
 
@@ -47,5 +49,7 @@ double monotonic_time() noexcept;
 
 /// s that the machine has slept since it was started. CLOCK_MONOTONIC stands still then, so no age shows it.
 double time_asleep() noexcept;
+/// The same from any readings: ns of CLOCK_BOOTTIME and of CLOCK_MONOTONIC, by the clock's id.
+double time_asleep_by(std::int64_t (*read_ns)(clockid_t)) noexcept;
 
 }  // namespace palpate::device

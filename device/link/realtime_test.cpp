@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <ctime>
+#include <random>
 #include <stdexcept>
 
 namespace palpate::device {
@@ -87,6 +89,25 @@ TEST(Realtime, TheTimeAsleepIsWhatOneClockLacks) {
   clock_gettime(CLOCK_MONOTONIC, &awake);
   const double asleep_s = static_cast<double>(boot.tv_sec - awake.tv_sec);
   EXPECT_NEAR(time_asleep(), asleep_s, 1.1);
+}
+
+/// The clocks of a machine that sleeps and wakes: one counts what it was awake, the other the sleeps, too. Each sleep
+/// makes the time asleep longer by what it lasted, and nothing else does.
+TEST(Realtime, TheTimeAsleepGrowsByEachSleep) {
+  static std::int64_t awake_ns, slept_ns;
+  awake_ns = slept_ns = 0;
+  const auto clock_ns = [](clockid_t clock) { return clock == CLOCK_BOOTTIME ? awake_ns + slept_ns : awake_ns; };
+  std::mt19937_64 random(1);
+  double before = time_asleep_by(clock_ns);
+  EXPECT_EQ(before, 0);
+  for (int n = 0; n < 200; ++n) {
+    awake_ns += static_cast<std::int64_t>(random() % 3'600'000'000'000);
+    EXPECT_EQ(time_asleep_by(clock_ns), before);
+    const auto sleep_ns = static_cast<std::int64_t>(random() % 36'000'000'000'000);
+    slept_ns += sleep_ns;
+    EXPECT_NEAR(time_asleep_by(clock_ns) - before, static_cast<double>(sleep_ns) * 1e-9, 1e-6);
+    before = time_asleep_by(clock_ns);
+  }
 }
 
 }  // namespace
