@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -94,6 +95,30 @@ TEST(SafetyLayers, ALateTickIsNoStepWithTheDefaultLimits) {
     EXPECT_EQ(result.fault, Fault::none);
     EXPECT_GT(result.force.z, 0.5);
     EXPECT_LE(result.force.z, 2.0 + 1e-12) << late;
+  }
+}
+
+/// However late a tick comes, the gain moves no farther than in 10 ms: a fiftieth of the force in a ramp of half a
+/// second, and a fifth in a fall of 50 ms.
+TEST(SafetyLayers, ALateTickIsNoStepOfTheGain) {
+  std::mt19937 random(4);
+  for (int n = 0; n < 300; ++n) {
+    const double late = std::uniform_real_distribution<double>(0.011, 0.099)(random);
+    const int after = static_cast<int>(random() % 30);  // ticks of the ramp, or of the fall
+    for (const bool falls : {false, true}) {
+      FilterSession session;
+      session.limits = {};
+      session.input.force = any_force(random, 0.5, 3);
+      session.step();
+      arm(session.state);
+      for (int ms = 0; ms < (falls ? 600 : after); ++ms) session.step();
+      if (falls) disarm(session.state);
+      for (int ms = 0; ms < (falls ? after : 0); ++ms) session.step();
+      const double before = session.step().gain;
+      const SafetyResult result = session.step(late);
+      EXPECT_EQ(result.fault, Fault::none);
+      ASSERT_LE(std::abs(result.gain - before), (falls ? 1.0 / 5 : 1.0 / 50) + 1e-9) << late;
+    }
   }
 }
 
