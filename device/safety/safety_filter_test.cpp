@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace palpate::device {
 namespace {
@@ -367,6 +368,20 @@ TEST(SafetyFilter, IsAPureFunction) {
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(one.gain, other.gain);
   EXPECT_EQ(one.slewed_force, other.slewed_force);
+}
+
+/// Summaries, last-fault.csv and `palpate devices` name a fault by these words.
+TEST(SafetyFilter, EveryFaultHasItsOwnName) {
+  const std::pair<Fault, const char*> names[] = {{Fault::none, "none"},
+                                                 {Fault::pose_not_finite, "pose not finite"},
+                                                 {Fault::force_not_finite, "force not finite"},
+                                                 {Fault::device_lost, "device lost"},
+                                                 {Fault::device_silent, "device silent"},
+                                                 {Fault::force_stale, "force stale"},
+                                                 {Fault::tick_late, "tick late"},
+                                                 {Fault::speed_exceeded, "speed exceeded"},
+                                                 {Fault::commander_silent, "commander silent"}};
+  for (const auto& [fault, name] : names) EXPECT_STREQ(name_of(fault), name);
 }
 
 TEST(SafetyFilter, TellsWhatToDoAboutEveryFault) {

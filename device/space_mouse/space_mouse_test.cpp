@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <map>
 #include <memory>
 
 #include "device/space_mouse/space_mouse_driver.h"
@@ -120,6 +121,30 @@ TEST(SpaceMouse, KnowsPucksFromTheMakersOtherDevices) {
   EXPECT_TRUE(is_space_mouse(0x256f, 0xc635));
   EXPECT_FALSE(is_space_mouse(0x256f, 0xc650)) << "a keyboard pad";
   EXPECT_FALSE(is_space_mouse(0x046d, 0xc52b)) << "a mouse";
+}
+
+/// By the makers' names, as lists of USB ids have them; every other product of both is none.
+TEST(SpaceMouse, EveryPuckIsFoundAndNothingElse) {
+  const std::map<unsigned, const char*> logitech{
+      {0xc603, "SpaceMouse Plus XT"}, {0xc605, "CADman"},         {0xc606, "SpaceMouse Classic"},
+      {0xc621, "SpaceBall 5000"},     {0xc623, "SpaceTraveler"},  {0xc625, "SpacePilot"},
+      {0xc626, "SpaceNavigator"},     {0xc627, "SpaceExplorer"},  {0xc628, "SpaceNavigator for Notebooks"},
+      {0xc629, "SpacePilot Pro"},     {0xc62b, "SpaceMouse Pro"}, {0xc640, "nulooq"}};
+  const std::map<unsigned, const char*> connexion{{0xc62e, "SpaceMouse Wireless, cable"},
+                                                  {0xc62f, "SpaceMouse Wireless, receiver"},
+                                                  {0xc631, "SpaceMouse Pro Wireless, cable"},
+                                                  {0xc632, "SpaceMouse Pro Wireless, receiver"},
+                                                  {0xc633, "SpaceMouse Enterprise"},
+                                                  {0xc635, "SpaceMouse Compact"},
+                                                  {0xc636, "SpaceMouse Module"},
+                                                  {0xc638, "SpaceMouse Pro Wireless, Bluetooth"},
+                                                  {0xc63a, "SpaceMouse Wireless, Bluetooth"},
+                                                  {0xc652, "Universal Receiver"}};
+  for (unsigned product = 0; product < 0x10000; ++product) {
+    ASSERT_EQ(is_space_mouse(0x046d, product), logitech.contains(product)) << std::hex << product;
+    ASSERT_EQ(is_space_mouse(0x256f, product), connexion.contains(product)) << std::hex << product;
+    ASSERT_FALSE(is_space_mouse(0x1234, product));
+  }
 }
 
 /// Deflection, place and buttons are told anew; how many poses there have been is counted on.
