@@ -9,16 +9,23 @@
 namespace palpate::plugin {
 namespace {
 
-/// The first and the last column of a canvas that holds red.
-std::pair<int, int> columns_in_red(const Canvas& canvas) {
+/// The first and the last column of a canvas that holds red, or row.
+std::pair<int, int> lines_in_red(const Canvas& canvas, bool of_columns) {
   const auto pixels = canvas.pixels();
-  std::pair<int, int> found{canvas.width(), -1};
+  std::pair<int, int> found{std::max(canvas.width(), canvas.height()), -1};
   for (std::size_t n = 0; 4 * n < pixels.size(); ++n) {
     if (pixels[4 * n] > 100 || pixels[4 * n + 1] > 100 || pixels[4 * n + 2] < 200) continue;
-    const int column = static_cast<int>(n) % canvas.width();
-    found = {std::min(found.first, column), std::max(found.second, column)};
+    const int pixel = static_cast<int>(n);
+    const int line = of_columns ? pixel % canvas.width() : pixel / canvas.width();
+    found = {std::min(found.first, line), std::max(found.second, line)};
   }
   return found;
+}
+std::pair<int, int> columns_in_red(const Canvas& canvas) {
+  return lines_in_red(canvas, true);
+}
+std::pair<int, int> rows_in_red(const Canvas& canvas) {
+  return lines_in_red(canvas, false);
 }
 
 /// A logarithmic axis ends at the next 1, 2 or 5 of a decade, and each value is where its logarithm is between them.
@@ -44,6 +51,26 @@ TEST(Chart, ALogarithmicAxisEndsAtTheNextRoundNumber) {
     const auto [first, last] = columns_in_red(canvas);
     EXPECT_NEAR(first, column_of(c.low), 3) << c.low;
     EXPECT_NEAR(last, column_of(c.high), 3) << c.high;
+  }
+}
+
+/// A larger value stands higher: each disc is where its value is between the bottom of the axes and their top.
+TEST(Chart, LargerValuesStandHigher) {
+  constexpr int width = 400, height = 300;
+  const ChartStyle style;
+  const double low_end = height - style.bottom, high_end = style.top;
+  for (const bool logarithmic : {false, true}) {
+    for (const double part : {0.1, 0.3, 0.5, 0.8, 0.95}) {
+      Canvas canvas(width, height, colors::white);
+      Chart chart;
+      chart.x = {.minimum = 0, .maximum = 2};
+      chart.y = {.logarithmic = logarithmic, .minimum = 1, .maximum = 100};
+      const double value = logarithmic ? std::pow(100, part) : 1 + 99 * part;
+      chart.curves.push_back({.x = {1}, .y = {value}, .color = {1, 0, 0}, .style = Curve::Style::points, .width = 4});
+      draw(canvas, std::span(&chart, 1), style);
+      const auto [first, last] = rows_in_red(canvas);
+      EXPECT_NEAR(0.5 * (first + last), low_end + part * (high_end - low_end), 2) << part;
+    }
   }
 }
 
