@@ -16,6 +16,7 @@
 
 #include "io/archive/testing/orthanc.h"
 #include "io/archive/testing/says.h"
+#include "io/testing/test_image.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin {
@@ -285,6 +286,40 @@ TEST_F(CommandOrthanc, FromTheArchiveAndBack) {
   const Outcome refused = run("send --archive here " + text.string());
   EXPECT_EQ(refused.exit, 1);
   EXPECT_TRUE(says(refused.output, "{} of {} files were not sent"));
+}
+
+/// A study of 1.5 MiB whose every text is another: each is told as what it is, in the text and in the JSON, and a MiB
+/// is a MiB.
+TEST_F(CommandOrthanc, TellsEachTextAndSizeAsWhatItIs) {
+  const fs::path study = fresh_path("told_study");
+  fs::create_directories(study);
+  io::internal::write_stack(study, 12, [](int, io::internal::TestImage& image) {
+    image.columns = image.rows = 256;
+    image.edit = [](DcmDataset& d) {
+      using io::internal::put;
+      put(d, DCM_PatientName, "Plastic^Head");
+      put(d, DCM_PatientID, "P-77");
+      put(d, DCM_StudyDate, "20260104");
+      put(d, DCM_StudyDescription, "PHANTOMS");
+    };
+  });
+  ASSERT_EQ(json("send " + study.string() + " --json")["sent"], 12);
+  const Json found = json("find --json")["studies"].at(0);
+  const std::string uid = found["study_uid"];
+  EXPECT_THAT(found["patient"].get<std::string>(), HasSubstr("Plastic"));
+  EXPECT_EQ(found["patient_id"], "P-77");
+  EXPECT_EQ(found["date"], "20260104");
+  EXPECT_EQ(found["description"], "PHANTOMS");
+  EXPECT_THAT(run("find").output, HasSubstr(found["patient"].get<std::string>() +
+                                            "  P-77  20260104  \"PHANTOMS\"\n   study " + uid + "\n"));
+
+  const fs::path folder = fresh_path("told_fetched");
+  EXPECT_EQ(run("fetch " + uid + " --most-mib 1 -o " + folder.string()).exit, 1);
+  EXPECT_EQ(json("fetch " + uid + " --most-mib 2 -o " + folder.string() + " --json")["images"], 12);
+  ASSERT_EQ(run("fetch " + uid).exit, 0);
+  EXPECT_EQ(json("archive list --json")["fetched"]["bytes"].get<std::size_t>() >> 20U, 1U);
+  EXPECT_THAT(run("archive list").output, HasSubstr("1 series fetched and not deleted yet, 1 MiB, in "));
+  EXPECT_THAT(run("archive empty").output, HasSubstr("1 series deleted, 1 MiB\n"));
 }
 
 TEST_F(CommandOrthanc, CtrlCLeavesNothingHalfWritten) {

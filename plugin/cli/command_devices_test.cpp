@@ -12,9 +12,11 @@
 #include <future>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/safety/safety_filter.h"
@@ -69,6 +71,38 @@ TEST_F(CommandDevices, ListsEachFakeAndHowItWasTested) {
     EXPECT_THAT(text, HasSubstr(line));
   }
   EXPECT_THAT(text, HasSubstr("A session holds one stylus at a time. Torque stays zero"));
+}
+
+/// The text tells of each stylus what the JSON does: whether it may be opened, and what takes its force away when the
+/// program dies.
+TEST_F(CommandDevices, TheTextTellsWhatTheJsonDoes) {
+  const auto json = nlohmann::json::parse(palpate("devices --json", false).output);
+  const std::string text = palpate("devices").output;
+  std::map<std::string, nlohmann::json> kinds;
+  for (const auto& kind : json.at("kinds")) kinds[kind.at("kind").get<std::string>()] = kind;
+  int listed = 0;
+  for (const auto& one : json.at("devices")) {
+    const auto& kind = kinds.at(one.at("kind").get<std::string>());
+    const std::string head = fmt::format("{}  {}\n  '{}'\n", one.at("kind").get<std::string>(),
+                                         one.at("address").get<std::string>(), one.at("name").get<std::string>());
+    const std::size_t begin = text.find(head);
+    if (one.at("kind") == "simulated") continue;
+    ASSERT_NE(begin, std::string::npos) << head;
+    // Its lines are indented; the next stylus is not.
+    std::istringstream lines(text.substr(begin + head.size()));
+    std::string about;
+    for (std::string line; std::getline(lines, line) && line.starts_with("  ");) about += line + "\n";
+    EXPECT_EQ(about.find("PERMISSION DENIED") == std::string::npos, one.at("accessible").get<bool>()) << about;
+    const auto has_line = [&](const std::string& words, const char* key) {
+      const auto told = kind.at(key).get<std::string>();
+      EXPECT_EQ(about.find(words + told + "\n") != std::string::npos, !told.empty()) << about;
+    };
+    has_line("  without the program: ", "watchdog");
+    has_line("  to home: ", "homing");
+    has_line("  needs: ", "needs");
+    ++listed;
+  }
+  EXPECT_GE(listed, 3);
 }
 
 /// What `palpate devices --check` says and writes of a stylus whose time is its own.
@@ -150,6 +184,38 @@ TEST(CheckDevice, WhatTheHandAnswersTurnsAnAxisRound) {
   const auto both = json_of(check(again, "y\n\ny\n\no\n\ny\n", ticks_of(again), checked.file.string()).file);
   EXPECT_EQ(both.at("force_signs"), nlohmann::json({1.0, 1.0, 1.0}));
   EXPECT_EQ(both.at("position_signs"), nlohmann::json({1.0, 1.0, 1.0}));
+}
+
+/// A stylus whose height is told upside down.
+class UpsideDown : public device::Stylus {
+ public:
+  explicit UpsideDown(std::shared_ptr<device::Stylus> real) : real_(std::move(real)) {}
+  device::Specification specification() const override { return real_->specification(); }
+  void open() override { real_->open(); }
+  void close() noexcept override { real_->close(); }
+  device::Reading read() noexcept override {
+    device::Reading reading = real_->read();
+    reading.position.y = -reading.position.y;
+    return reading;
+  }
+  void write_force(const device::Vec3& force) noexcept override { real_->write_force(force); }
+  device::State state() const noexcept override { return real_->state(); }
+
+ private:
+  std::shared_ptr<device::Stylus> real_;
+};
+
+/// The person is told which way the stylus says that it moved: along the push, or against it where an axis is turned.
+TEST(CheckDevice, SaysWhichWayTheStylusMoved) {
+  for (const bool turned : {false, true}) {
+    device::FakeRig rig = device::make_rig("haply");
+    const auto next_tick = [ticks = ticks_of(rig)] { return ticks(); };
+    if (turned) rig.stylus = std::make_shared<UpsideDown>(rig.stylus);
+    const std::string output = check(rig, "", next_tick).output;
+    EXPECT_THAT(output, ::testing::ContainsRegex("The stylus says that it moved [0-9.]+ mm to the right\\."));
+    EXPECT_THAT(output, ::testing::ContainsRegex(turned ? "moved [0-9.]+ mm against up\\." : "moved [0-9.]+ mm up\\."));
+    EXPECT_THAT(output, ::testing::ContainsRegex("moved [0-9.]+ mm towards you\\."));
+  }
 }
 
 TEST(CheckDevice, AStylusThatIsLostIsSaidAndNothingIsWritten) {

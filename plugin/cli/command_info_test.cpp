@@ -155,6 +155,21 @@ TEST(CommandInfo, ShowsWhoseScanItIsOnRequestOnly) {
   EXPECT_THAT(palpate("info --patient " + scan.string()).output, HasSubstr("PLASTIC"));
 }
 
+/// Name, id and day of the study, each where it is said to be: by them a person checks that it is the right patient.
+TEST(CommandInfo, NamesThePatientTheIdAndTheStudysDay) {
+  const fs::path scan = fresh_path("whose");
+  fs::create_directories(scan);
+  io::internal::write_stack(scan, 5, [](int, io::internal::TestImage& image) {
+    image.edit = [](DcmDataset& d) {
+      io::internal::put(d, DCM_PatientName, "Plastic^Head");
+      io::internal::put(d, DCM_PatientID, "P-77");
+      io::internal::put(d, DCM_StudyDate, "20260104");
+    };
+  });
+  EXPECT_THAT(palpate("info --patient " + scan.string()).output,
+              ::testing::ContainsRegex("\n   patient Plastic.Head, id P-77, study of 2026-?01-?04\n"));
+}
+
 TEST(SeriesOption, NothingToUseIsRefusedWithAReason) {
   const fs::path folder = fresh_path("no_images");
   fs::create_directory(folder);

@@ -252,6 +252,21 @@ TEST(CommandStructures, TellsWhatARegistrationMoves) {
   EXPECT_EQ(json[0].at("parts")[0].at("frame_of_reference_uid"), "1.2");
 }
 
+/// Contours have a color and no code.
+TEST(CommandStructures, TellsAColorAsTheColor) {
+  const fs::path file = fresh_path("colored") / "rt.dcm";
+  testing::write_contours(file, "1.2", "7", "Doe^Jane");
+  DcmFileFormat contours;
+  io::internal::succeed(contours.loadFile(file.c_str()));
+  DcmItem* drawn = nullptr;
+  io::internal::succeed(contours.getDataset()->findOrCreateSequenceItem(DCM_ROIContourSequence, drawn, 0));
+  io::internal::succeed(drawn->putAndInsertString(DCM_ROIDisplayColor, "255\\0\\128"));
+  io::internal::succeed(contours.saveFile(file.c_str()));
+  const Json json = Json::parse(palpate("structures --json " + file.string(), false).output).at("structures").at(0);
+  EXPECT_EQ(json.at("color"), "#ff0080");
+  EXPECT_EQ(json.at("code"), "");
+}
+
 // Two label maps of 4 mm each: one in the middle of the scan, and one 500 mm beside it.
 TEST(CommandStructures, SaysWhichLieOffTheScan) {
   const fs::path folder = fresh_path("off");
