@@ -43,6 +43,27 @@ std::shared_ptr<const io::Volume> small_ball() {
       testdata::scan(testdata::make_sphere(20), testdata::make_geometry({.size = {50, 46, 42}})));
 }
 
+/// A deadline is missed or is a tick: what the session tells of is what its ticks have counted.
+TEST(RunSession, TheMissedTicksAreThoseThatTheTicksCount) {
+  const auto volume = small_ball();
+  const auto held = testing::stylus(testing::hold());
+  const modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  const auto file = testing::fresh_path("missed.h5");
+  const SessionRunResult result =
+      run_session({.scene = scene,
+                   .felt = prepare(scene, volume, held->specification().workspace_half_extent),
+                   .scan_hash = "hash",
+                   .stylus = held,
+                   .seconds = 0.3},
+                  file);
+  const Recording recording = read_recording(file);
+  EXPECT_EQ(result.recorder.written, recording.ticks.size());
+  if (result.recorder.lost > 0) return;  // with them, what they counted
+  std::uint64_t missed = 0;
+  for (const TickRecord& tick : recording.ticks) missed += tick.missed;
+  EXPECT_EQ(result.missed, missed);
+}
+
 modes::Scene limited_scene() {
   return modes::scene_from_json(
       R"({"version": 1, "stiffness_n_per_m": 321, "workspace": {"fit": true}, "modes": [{"type": "surface",

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
 
@@ -186,6 +187,25 @@ TEST(CompareStrokes, AStrongerBoundaryShowsWhereItIs) {
   EXPECT_NEAR(std::abs(comparison.second_n[at] - comparison.first_n[at]), comparison.largest_difference_n, 1e-12);
   for (std::size_t n = 1; n < comparison.along_mm.size(); ++n)
     ASSERT_GT(comparison.along_mm[n], comparison.along_mm[n - 1]);
+}
+
+/// Also of ways of different lengths: the mean is that of the rows, and they are the first recording's steps.
+TEST(CompareStrokes, TheMeanDifferenceIsThatOfTheRows) {
+  const auto volume = ball(25);
+  Recording half = record(volume, {.strength_n = 0.4});
+  half.ticks.resize(half.ticks.size() / 3);
+  const RecordedSession part(half, *volume), whole(record(volume, {.strength_n = 1.2}), *volume);
+  for (const bool swapped : {false, true}) {
+    const Comparison comparison = swapped ? compare_strokes(whole, part) : compare_strokes(part, whole);
+    const double most = comparison.largest_difference_n;
+    double sum = 0;
+    for (std::size_t n = 0; n < comparison.first_n.size(); ++n) {
+      sum += std::abs(comparison.second_n[n] - comparison.first_n[n]);
+    }
+    EXPECT_NEAR(comparison.mean_difference_n, sum / static_cast<double>(comparison.along_mm.size()), 1e-9);
+    EXPECT_GT(comparison.mean_difference_n, 0);
+    EXPECT_LT(comparison.mean_difference_n, most);
+  }
 }
 
 TEST(CompareStrokes, TellsWhereTheWaysAreNotTheSame) {

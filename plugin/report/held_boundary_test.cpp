@@ -9,6 +9,7 @@
 
 #include "modes/scene/scene_json.h"
 #include "modes/tick/haptic_step.h"
+#include "plugin/report/summary.h"
 #include "solver/chain.h"
 #include "testdata/scan.h"
 
@@ -78,6 +79,24 @@ TEST(HeldBoundary, SaysWhatAFaintBoundaryLacksAndThatNoiseMakesItLessKnown) {
 TEST(HeldBoundary, IsNoneWhereNothingHolds) {
   const PreparedScene nothing;
   EXPECT_FALSE(held_boundary({}, nothing, scene(), {}, {}));
+}
+
+/// The scan says how well its own boundaries are known. It says nothing of an edge that a person has outlined, also
+/// where that lies on a boundary of the scan.
+TEST(HeldBoundary, OfAnOutlinedEdgeTheScanSaysNothing) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(20), testdata::make_geometry({.size = glm::ivec3(56)}), {.noise = 30}));
+  const PreparedScene felt = prepare(scene(), volume, glm::dvec3(0.1));
+  const glm::dvec3 edge_mm(0, -20, 0);
+  for (const bool outlined : {false, true}) {
+    modes::Scene told = scene();
+    if (outlined) told.modes[1].structure = "liver";
+    EXPECT_EQ(known_to_mm(felt, told, 1, edge_mm).has_value(), !outlined);
+    Summary summary;
+    summary.holds = {{.mode = 1, .contact_mm = edge_mm}};
+    add_uncertainty(summary, told, *felt.source, volume->geometry);
+    EXPECT_EQ(summary.holds[0].known_to_mm.has_value(), !outlined);
+  }
 }
 
 /// Of each tick of a recording how well the boundary that holds the proxy is known there: nothing while a scene changes
