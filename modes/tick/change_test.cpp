@@ -191,7 +191,7 @@ TEST(SceneChange, to_the_same_scene_is_not_felt_however_often_it_comes) {
   const auto scratch = std::make_unique<StepScratch>();
   const SceneOnData same{&hand.plan, &source};
   for (int change = 0; change < 3; ++change) {
-    for (int i = 0; i <= 2 * ramp_ticks; ++i) {
+    for (int i = 1; i <= 2 * ramp_ticks; ++i) {
       const double part = static_cast<double>(i) / ramp_ticks;
       const StepResult result = part <= 1
                                     ? step({.from = same, .to = same, .part = part}, probe, hand.touch, chain, *scratch)

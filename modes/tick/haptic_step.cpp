@@ -189,10 +189,7 @@ void sub_step(const SubStepInput& setting, const Vec3& probe_m, Touch& touch, so
   const bool solved = solve(setting, probe_m, std::span(scratch.shares).first(list.size()), chain, touch, result);
   scratch.watch.lap(scratch.times.solve);
   if (solved) {
-    // What has no weight yet has placed nothing: its contact stays as it is.
-    if (setting.part > 0) {
-      result.hold = update_holds(to, *setting.to.plan, result, touch.proxy_m, touch.contact);
-    }
+    result.hold = update_holds(to, *setting.to.plan, result, touch.proxy_m, touch.contact);
     if (from) {
       update_holds(*from, *setting.from.plan, result, touch.proxy_m, touch.leaving);
     }
