@@ -37,8 +37,8 @@ TEST(ArchiveSettings, AreReadAsTheyWereWritten) {
   setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
   std::mt19937 random(1);
   for (int n = 0; n < 40; ++n) {
-    std::vector<io::Archive> archives;
-    for (int one = 0; one < n % 5; ++one) archives.push_back(any_archive(random));
+    std::vector<io::Archive> archives(static_cast<std::size_t>(n % 5));
+    for (io::Archive& archive : archives) archive = any_archive(random);
     write_archives(archives);
     EXPECT_EQ(read_archives(), archives);
   }

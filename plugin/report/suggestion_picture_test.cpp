@@ -43,7 +43,7 @@ TEST(SuggestionPicture, SlicesHangAsRadiologistsHangThem) {
     ball.bodies.front().shape = testdata::Ball{.center = center_mm, .radius = 6};
     const auto volume =
         std::make_shared<const io::Volume>(testdata::scan(ball, testdata::make_geometry({.size = glm::ivec3(60)})));
-    const auto file = testing::fresh_path("suggestion.png");
+    auto file = testing::fresh_path("suggestion.png");
     write_suggestion_png(suggestion, volume, file);
     return file;
   };
