@@ -368,9 +368,8 @@ bool Search::walk_apart() {
 Solution Search::run(Start start) {
   // The first look is at these, and not at those of an earlier balance.
   for (std::size_t i = 0; i < placed_.size(); ++i) {
-    if (placed_[i].type != PrimitiveType::directed_force) {
-      walk_.forces[i] = start == Start::warm ? forces_[i] : Vec3{0};
-    }
+    if (placed_[i].type == PrimitiveType::directed_force) continue;
+    walk_.forces[i] = start == Start::warm ? forces_[i] : Vec3{0};
   }
   while (!walk_as_given(start) && !walk_apart() && hard_strength_ > 0 && hard_strength_ < 1e60) {
     hard_strength_ *= 0x1p30;

@@ -179,12 +179,21 @@ Vec3 into_both_walls(double angle) {
   return {21.2 * std::cos(angle), 21.2 * std::sin(angle), -16.9};
 }
 
-TEST(TwoStructures, WallsThatHoldTogetherAreNotWorkedThrough) {
-  for (const Scene& scene : scenes_with_both_walls()) {
-    BowlWithFloor source;
-    testing::Hand hand(scene, source);
+/// A hand that came from the middle and presses on both.
+struct HandOnBothWalls {
+  explicit HandOnBothWalls(const Scene& scene) : hand(scene, source) {
     source.read(hand.plan.structures);
     hand.stroke({0, 0, 0}, into_both_walls(0), 3000);
+  }
+
+  BowlWithFloor source;
+  testing::Hand hand;
+};
+
+TEST(TwoStructures, WallsThatHoldTogetherAreNotWorkedThrough) {
+  for (const Scene& scene : scenes_with_both_walls()) {
+    HandOnBothWalls both(scene);
+    testing::Hand& hand = both.hand;
     for (int n = 0; n < 3000; ++n) {  // nine times round
       hand.move_to(into_both_walls(0.02 * n));
       ASSERT_EQ(hand.result.hold, HoldState::held) << n;
@@ -198,10 +207,8 @@ TEST(TwoStructures, WallsThatHoldTogetherAreNotWorkedThrough) {
 /// back.
 TEST(TwoStructures, EachPlaneStandsAtItsOwnWall) {
   for (const Scene& scene : scenes_with_both_walls()) {
-    BowlWithFloor source;
-    testing::Hand hand(scene, source);
-    source.read(hand.plan.structures);
-    hand.stroke({0, 0, 0}, into_both_walls(0), 3000);
+    HandOnBothWalls both(scene);
+    testing::Hand& hand = both.hand;
     int held = 0;
     for (int n = 0; n < 300; ++n) {
       hand.move_to(into_both_walls(0.05 * n));
