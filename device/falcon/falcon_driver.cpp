@@ -58,9 +58,11 @@ void FalconProtocol::take(const FalconReply& reply, double now) noexcept {
   const std::optional<Vec3> position = falcon_position(settings_.geometry, angles, robot_position_);
   if (!position) {
     if (doubt_.lasts(now)) fail(LinkFault::unreachable_pose);
+    status_.doubtful = true;
     return;
   }
   doubt_.ends(now);
+  status_.doubtful = false;
   robot_position_ = *position;
   status_.position = *position - Vec3(0, 0, settings_.geometry.center);
   status_.state = State::idle;
@@ -79,7 +81,8 @@ std::size_t FalconProtocol::step(const Vec3& force, double now, std::span<std::u
   if (asked_again_ && command_due_ && now - replied_ < surplus_time) return 0;
   asked_again_ = !command_due_;
   // A command that is repeated for want of a reply carries no force: nobody knows where the grip is.
-  const bool may_push = command_due_ && status_.state == State::idle && !doubt_.is_doubtful();
+  const bool may_push = command_due_ && status_.state == State::idle;
+  status_.withheld = !may_push;
   FalconCommand command;
   command.lights = status_.state == State::idle ? falcon_green : falcon_red;
   if (may_push) {

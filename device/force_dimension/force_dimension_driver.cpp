@@ -195,10 +195,13 @@ void ForceDimensionDriver::judge_status() noexcept {
   status_.fault = LinkFault::own_safety;
 }
 
-void ForceDimensionDriver::give(const Vec3& force) noexcept {
+ForceAnswer ForceDimensionDriver::give(const Vec3& force) noexcept {
   const bool may_push = status_.state == State::idle;
   const Vec3 theirs = may_push ? to_their_frame(clamp_length(force, maximum_force_)) : Vec3(0);
-  note(drd_->set_force_and_torque_and_gripper_force(theirs.x, theirs.y, theirs.z, 0, 0, 0, 0, id_));
+  const int result = drd_->set_force_and_torque_and_gripper_force(theirs.x, theirs.y, theirs.z, 0, 0, 0, 0, id_);
+  note(result);
+  if (result < 0) return ForceAnswer::refused;
+  return may_push ? ForceAnswer::taken : ForceAnswer::withheld;
 }
 
 void ForceDimensionDriver::describe(Specification& specification) const {

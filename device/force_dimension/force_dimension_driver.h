@@ -22,7 +22,7 @@ class ForceDimensionDriver final : public Driver {
   void disconnect() noexcept override;
   double now() noexcept override;
   void take(double timeout) noexcept override;
-  void give(const Vec3& force) noexcept override;
+  ForceAnswer give(const Vec3& force) noexcept override;
   void flush(double /*timeout*/) noexcept override {}
   bool lost() const noexcept override { return lost_; }
   const ProtocolStatus& status() const noexcept override { return status_; }

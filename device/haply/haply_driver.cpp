@@ -303,6 +303,7 @@ std::size_t HaplyProtocol::step(const Vec3& force, double now, std::span<std::ui
   // message older.
   if (in_flight_ > 0 && now - sent_ < answer_time) return 0;
   const bool may_push = in_flight_ == 0 && status_.state == State::idle;
+  status_.withheld = !may_push;
   sent_force_ = may_push ? to_service_frame(clamp_length(force, settings_.maximum_force)) : Vec3(0);
   TextInto text(packet);
   text.add("{\"inverse3\":[{\"device_id\":\"").add(device_.id);

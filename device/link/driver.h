@@ -8,6 +8,14 @@
 
 namespace palpate::device {
 
+/// A device's answer to a force. It is judged apart from its poses: a device that refuses forces may send good poses.
+enum class ForceAnswer : std::uint8_t {
+  taken,     ///< the device or its wire took it; two poses later the device has it
+  waiting,   ///< nothing could be handed over yet: what lies on the device is what was given before
+  withheld,  ///< the driver gave a zero in its place
+  refused    ///< the device refused it: what lies on the device is not known
+};
+
 /// Used by one thread at a time. Only connect() throws.
 class Driver {
  public:
@@ -25,7 +33,7 @@ class Driver {
   /// Takes the newest pose into status(), waiting for one at most `timeout` s.
   virtual void take(double timeout) noexcept = 0;
   /// Hands a force (N) to the device without waiting for it to act.
-  virtual void give(const Vec3& force) noexcept = 0;
+  virtual ForceAnswer give(const Vec3& force) noexcept = 0;
   /// Waits at most `timeout` s until what was given has left.
   virtual void flush(double timeout) noexcept = 0;
   /// Whether the device is gone; it stays so until it is connected again.

@@ -43,6 +43,7 @@ constexpr std::uint64_t fewest_in_window = 30;
 // away, so a session that goes on after that is in this fault.
 constexpr double longest_gap = 0.2;
 constexpr double shortest_sleep = 0.1;  // s: of a machine that was suspended
+constexpr double zeros_time = 0.050;    // s: in which a device that is closed takes a zero, or its guardian is to
 
 }  // namespace
 
@@ -75,8 +76,10 @@ void LinkStylus::open() {
   asleep_ = options_.asleep();
   news_ = window_news_ = driver_->status().news;
   load_ = {};
+  loss_told_ = false;
+  given_.start(opened_);
   force_.store(Vec3(0));
-  force_.load();
+  wanted_ = force_.load();
   reading_.store({});
   fault_.store(LinkFault::none, std::memory_order_relaxed);
   state_.store(driver_->status().state, std::memory_order_relaxed);
@@ -90,7 +93,7 @@ void LinkStylus::run() noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     if (driver_->lost()) {
       // Nothing to wait for any more: a link that is gone returns at once.
-      fail(LinkFault::unplugged);
+      exchange(0, false);
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     } else {
       exchange(1e-3, false);
@@ -105,21 +108,26 @@ void LinkStylus::close() noexcept {
     thread_.join();
   }
   send_zeros();
-  const bool lost = driver_->lost();
   driver_->disconnect();
   connected_ = false;
-  if (guardian_) lost ? guardian_->hand_over() : guardian_->dismiss();
+  if (guardian_) needs_guardian() ? guardian_->hand_over() : guardian_->dismiss();
   guardian_.reset();
   awake_.reset();
   state_.store(State::disconnected, std::memory_order_relaxed);
 }
 
 void LinkStylus::send_zeros() noexcept {
-  // Two poses after the first zero: the device has taken it, not only the wire.
   const double start = driver_->now();
-  const std::uint64_t enough = driver_->status().news + 3;
-  while (!driver_->lost() && driver_->now() - start < 0.050 && driver_->status().news < enough) exchange(1e-3, true);
+  bool taken = false;
+  while (!taken && !driver_->lost() && driver_->now() - start < zeros_time) {
+    exchange(1e-3, true);
+    taken = given_.on_device() == OnDevice::zero_taken;
+  }
   driver_->flush(0.020);
+}
+
+bool LinkStylus::needs_guardian() const noexcept {
+  return specification_.force_axes > 0 && given_.on_device() != OnDevice::zero_taken;
 }
 
 void LinkStylus::service(double timeout) noexcept {
@@ -130,7 +138,14 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
   driver_->take(timeout);
   const double now = driver_->now();
   const ProtocolStatus& status = driver_->status();
-  if (driver_->lost()) fail(LinkFault::unplugged);
+  if (driver_->lost()) {
+    fail(LinkFault::unplugged);
+    given_.doubt();
+    // After this one there is no beat: a guardian that sees a force stand still takes it away when the device is back.
+    if (guardian_ && !loss_told_) guardian_->beat(given_.on_device());
+    loss_told_ = true;
+    return;
+  }
   judge_clocks(now);  // before the device: what this process slept through is not its fault
   if (status.news != news_) {
     news_ = status.news;
@@ -139,24 +154,36 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
         {now - opened_, options_.signs.position * status.position, status.buttons, true, status.orientation});
   }
   if (status.state == State::fault) fail(status.fault);
-  if (now - news_time_ > driver_->longest_silence()) fail(LinkFault::silent);
+  if (now - news_time_ > driver_->longest_silence()) {
+    fail(LinkFault::silent);
+    given_.doubt();
+  }
   judge_rate(now);
 
-  const Vec3 force = force_for(now, closing);
-  driver_->give(options_.signs.force * force);
-  if (guardian_) guardian_->beat(force != Vec3(0));
+  give(now, closing);
   exchange_time_ = now;
   if (fault() == LinkFault::none) state_.store(driver_->status().state, std::memory_order_relaxed);
 }
 
-Vec3 LinkStylus::force_for(double now, bool closing) noexcept {
-  if (force_.has_news()) force_time_ = now;
-  const Vec3 newest = force_.load();
-  const bool may_push = !closing && fault() == LinkFault::none && now - force_time_ <= options_.force_age;
+bool LinkStylus::withholds(double now, bool closing) const noexcept {
+  return closing || fault() != LinkFault::none || now - force_time_ > options_.force_age;
+}
+
+void LinkStylus::give(double now, bool closing) noexcept {
+  const std::uint64_t news = driver_->status().news;
+  // With a doubtful pose no new force is taken: the last one stays until it is too old.
+  if (!driver_->status().doubtful) {
+    if (force_.has_news()) force_time_ = now;
+    wanted_ = force_.load();
+  }
   const SustainedLimit limit{specification_.continuous_force, specification_.maximum_force};
-  const Vec3 force = may_push ? clamp_length(newest, load_.allowed(limit)) : Vec3(0);
+  const Vec3 force = given_.next(clamp_length(wanted_, load_.allowed(limit)), withholds(now, closing), now);
   load_.add(limit, glm::length(force), now - exchange_time_);
-  return force;
+  // Before the force is given: a program that is stopped in between is one that pushes.
+  const OnDevice on_device = given_.while_giving(force, news);
+  if (guardian_) guardian_->beat(on_device);
+  given_.answered(driver_->give(options_.signs.force * force), force, news, now);
+  if (given_.refused_for(now) > ceiling::refusal_s) fail(LinkFault::forces_refused);
 }
 
 void LinkStylus::judge_rate(double now) noexcept {

@@ -1,7 +1,8 @@
 #pragma once
 
 /// The stylus that every driver is: a thread of its own drives the device, and the servo tick only swaps values with
-/// it, wait-free. The thread is also the first watchdog: a force that is not renewed becomes zero there.
+/// it, wait-free. The thread is also the first watchdog: a force that is not renewed becomes zero there. It is the last
+/// layer before the device (given_force.h).
 
 #include <atomic>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "device/axis_signs.h"
 #include "device/link/driver.h"
+#include "device/link/given_force.h"
 #include "device/link/latest.h"
 #include "device/link/packet_driver.h"
 #include "device/link/realtime.h"
@@ -20,9 +22,9 @@
 namespace palpate::device {
 
 struct LinkStylusOptions {
-  bool threaded = true;      ///< false: the owner of the stylus calls service()
-  double force_age = 0.020;  ///< s: a force that write_force() does not renew becomes zero
-  int priority = 60;         ///< SCHED_FIFO of the thread, above the servo's; where not allowed it goes without
+  bool threaded = true;                          ///< false: the owner of the stylus calls service()
+  double force_age = ceiling::link_force_age_s;  ///< s: a force that write_force() does not renew becomes zero
+  int priority = 60;  ///< SCHED_FIFO of the thread, above the servo's; where not allowed it goes without
   GuardianSettings guardian;
   AxisSigns signs;
   bool stays_awake = false;                   ///< the machine is asked not to sleep while the stylus is open
@@ -47,6 +49,8 @@ class LinkStylus final : public Stylus {
   State state() const noexcept override { return state_.load(std::memory_order_relaxed); }
 
   LinkFault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
+  /// Of the exchanging thread; after close(): what was left on the device.
+  OnDevice on_device() const noexcept { return given_.on_device(); }
   /// One exchange, waiting for packets at most `timeout` s. Only without a thread.
   void service(double timeout) noexcept;
 
@@ -55,9 +59,11 @@ class LinkStylus final : public Stylus {
   void exchange(double timeout, bool closing) noexcept;
   void judge_rate(double now) noexcept;
   void judge_clocks(double now) noexcept;
-  Vec3 force_for(double now, bool closing) noexcept;
+  void give(double now, bool closing) noexcept;
+  bool withholds(double now, bool closing) const noexcept;
   void fail(LinkFault fault) noexcept;
   void send_zeros() noexcept;
+  bool needs_guardian() const noexcept;
 
   Specification specification_;
   std::unique_ptr<Driver> driver_;
@@ -82,7 +88,10 @@ class LinkStylus final : public Stylus {
   std::uint64_t news_ = 0;
   double window_start_ = 0;
   std::uint64_t window_news_ = 0;
+  Vec3 wanted_{0};          // N: the newest force asked for
+  bool loss_told_ = false;  // to the guardian
   SustainedLoad load_;
+  GivenForce given_;
   // The servo's.
   Reading last_reading_;
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -14,19 +15,28 @@ namespace {
 
 constexpr double exchange_s = 1e-3;
 
-/// The force stays as long as it is young enough, goes in the exchange in which it is not, and comes back.
+/// The force stays as long as it is young enough, falls at the slew ceiling in the exchange in which it is not, and
+/// comes back.
 TEST(LinkStylusLayers, AForceThatIsNotRenewedEndsAtItsAge) {
+  const Vec3 force(1, -2, 0.5);
   for (const double age : {0.020, 0.0075}) {
     LinkBench bench;
     const auto stylus = unthreaded(bench, {.force_age = age + 0.1 * exchange_s});
     for (int round = 0; round < 2; ++round) {
-      stylus->write_force(Vec3(1, -2, 0.5));
-      stylus->service(exchange_s);
-      EXPECT_EQ(bench.force, Vec3(1, -2, 0.5));
+      for (int n = 0; n < 300; ++n) {
+        stylus->write_force(force);
+        stylus->service(exchange_s);
+      }
+      EXPECT_EQ(bench.force, force);
+      double before = glm::length(force);
       for (int n = 1; n <= 60; ++n) {
         stylus->service(exchange_s);
-        EXPECT_EQ(bench.force, n * exchange_s < age + 0.05 * exchange_s ? Vec3(1, -2, 0.5) : Vec3(0)) << n;
+        const bool is_young = n * exchange_s < age + 0.05 * exchange_s;
+        const double wanted = is_young ? before : std::max(0.0, before - ceiling::slew_n_per_s * exchange_s);
+        EXPECT_NEAR(glm::length(bench.force), wanted, 1e-9) << n;
+        before = glm::length(bench.force);
       }
+      EXPECT_EQ(bench.force, Vec3(0));
     }
     EXPECT_EQ(stylus->fault(), LinkFault::none);
   }
@@ -52,8 +62,10 @@ TEST(LinkStylusLayers, TurnsEachAxisByItsOwnSign) {
   LinkBench bench;
   const auto stylus = unthreaded(bench, {.signs = {.position = {1, -1, 1}, .force = {-1, 1, -1}}});
   bench.position = Vec3(0.01, 0.02, 0.03);
-  stylus->write_force(Vec3(1, 2, 3));
-  stylus->service(exchange_s);
+  for (int n = 0; n < 5; ++n) {
+    stylus->write_force(Vec3(1, 2, 3));
+    stylus->service(exchange_s);
+  }
   EXPECT_EQ(stylus->read().position, Vec3(0.01, -0.02, 0.03));
   EXPECT_EQ(bench.force, Vec3(-1, 2, -3));
 }

@@ -32,9 +32,10 @@ void PacketDriver::take(double timeout) noexcept {
   }
 }
 
-void PacketDriver::give(const Vec3& force) noexcept {
+ForceAnswer PacketDriver::give(const Vec3& force) noexcept {
   const std::size_t due = protocol_->step(force, link_->now(), packet_);
-  if (due > 0) link_->send(std::span(packet_).first(due));
+  if (due == 0 || !link_->send(std::span(packet_).first(due))) return ForceAnswer::waiting;
+  return protocol_->status().withheld ? ForceAnswer::withheld : ForceAnswer::taken;
 }
 
 }  // namespace palpate::device

@@ -23,7 +23,7 @@ class PacketDriver final : public Driver {
   void disconnect() noexcept override;
   double now() noexcept override { return link_->now(); }
   void take(double timeout) noexcept override;
-  void give(const Vec3& force) noexcept override;
+  ForceAnswer give(const Vec3& force) noexcept override;
   void flush(double timeout) noexcept override { link_->flush(timeout); }
   bool lost() const noexcept override { return link_->lost(); }
   const ProtocolStatus& status() const noexcept override { return protocol_->status(); }

@@ -33,6 +33,10 @@ struct ProtocolStatus {
   std::uint32_t buttons = 0;
   std::uint64_t news = 0;  ///< how many poses there have been
   glm::dquat orientation{1, 0, 0, 0};
+  /// The last poses could not be. The link holds the last force for LinkStylusOptions::force_age, lets it fall to zero,
+  /// and ramps it up when the doubt ends.
+  bool doubtful = false;
+  bool withheld = false;  ///< Protocol::step() made a packet of zeros in place of the force that it was asked for
 };
 
 class Protocol {

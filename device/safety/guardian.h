@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "device/safety/on_device.h"
+
 namespace palpate::device {
 
 struct GuardianSettings {
@@ -21,8 +23,8 @@ struct GuardianSettings {
 
 /// Lies in memory that session and guardian share.
 struct GuardianBeat {
-  std::atomic<std::uint32_t> count{0};    ///< exchanges with the device
-  std::atomic<std::uint32_t> pushing{0};  ///< 1: the last of them carried a force
+  std::atomic<std::uint32_t> count{0};                    ///< exchanges with the device
+  std::atomic<OnDevice> on_device{OnDevice::zero_taken};  ///< at the last of them; before the first: nothing was given
 };
 
 class Guardian {
@@ -37,9 +39,10 @@ class Guardian {
   /// The device was lost, perhaps with its force on. The guardian goes on by itself for a minute, and sends zeros as
   /// soon as the device is back.
   void hand_over() noexcept { end('w'); }
-  /// After each exchange with the device. Wait-free.
-  void beat(bool pushing) noexcept {
-    shared_->pushing.store(pushing ? 1 : 0, std::memory_order_relaxed);
+  /// In each exchange with the device, before a force is given to it. After a device is lost there is no more beat.
+  /// Wait-free.
+  void beat(OnDevice on_device) noexcept {
+    shared_->on_device.store(on_device, std::memory_order_relaxed);
     shared_->count.fetch_add(1, std::memory_order_relaxed);
   }
   int pid() const noexcept { return pid_; }

@@ -66,16 +66,17 @@ TEST(GuardianEnd, CountsExchangesWhereTheGuardianLooks) {
   const std::string told = files.write("told", "");
   const auto guardian =
       start_guardian({.program = "/bin/sh", .kind = "-c", .address = "read word; od -An -tu4 <&3 > " + told + "; cat"});
-  guardian->beat(true);
-  guardian->beat(false);
-  guardian->beat(true);
+  guardian->beat(OnDevice::pushing);
+  guardian->beat(OnDevice::zero_taken);
+  guardian->beat(OnDevice::unknown);
   guardian->dismiss();
-  unsigned count = 0, pushing = 0;
-  std::ifstream(told) >> count >> pushing;
+  unsigned count = 0, on_device = 0;
+  std::ifstream(told) >> count >> on_device;
   EXPECT_EQ(count, 3U);
-  EXPECT_EQ(pushing, 1U);
+  EXPECT_EQ(on_device, static_cast<unsigned>(OnDevice::unknown));
   const GuardianBeat fresh;
-  EXPECT_EQ(fresh.count.load() + fresh.pushing.load(), 0U);
+  EXPECT_EQ(fresh.count.load(), 0U);
+  EXPECT_EQ(fresh.on_device.load(), OnDevice::zero_taken) << "nothing was given yet";
 }
 
 /// A kind that nobody knows, and one without motors, has nobody to send zeros to: that is said at once.

@@ -147,7 +147,7 @@ TEST(Guardian, SendsZerosWhereASessionStandsStillWhileItPushes) {
   ASSERT_TRUE(node.guardian);
   double longest = 0;  // s between two beats
   for (double begun = monotonic_time(), before = begun; before - begun < 0.5;) {
-    node.guardian->beat(true);
+    node.guardian->beat(OnDevice::pushing);
     std::this_thread::sleep_for(milliseconds(10));
     const double now = monotonic_time();
     longest = std::max(longest, now - before);
@@ -165,7 +165,7 @@ TEST(Guardian, SendsZerosWhereASessionStandsStillWhileItPushes) {
 
 TEST(Guardian, LeavesADeviceAloneThatWasClosed) {
   Node node;
-  node.guardian->beat(false);
+  node.guardian->beat(OnDevice::zero_taken);
   node.guardian->dismiss();  // returns when it has ended
   EXPECT_EQ(size_of(node.path), 0U);
 }
@@ -196,7 +196,7 @@ TEST(Guardian, EndsOnceAndLeavesNothingOpen) {
     for (const char* const program : {"/bin/cat", "/bin/true"}) {
       auto guardian = start_guardian({.program = program, .kind = "-", .address = "-"});
       EXPECT_EQ(open_files(), before + 1) << "the pipe's end";
-      guardian->beat(true);
+      guardian->beat(OnDevice::pushing);
       siginfo_t ended{};
       if (program == std::string("/bin/true")) {
         waitid(P_PID, static_cast<id_t>(guardian->pid()), &ended, WEXITED | WNOWAIT);

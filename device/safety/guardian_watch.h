@@ -6,7 +6,8 @@
 
 namespace palpate::device {
 
-/// Notices a session that pushes and stands still. A function of what it sees at its looks: who looks keeps the time.
+/// Notices a session that stands still while a force may lie on the device (OnDevice::unknown counts as a force). A
+/// function of what it sees at its looks: who looks keeps the time.
 class GuardianWatch {
  public:
   static constexpr int look_every_ms = 20;
@@ -19,7 +20,7 @@ class GuardianWatch {
   bool stopped() {
     if (beat_ == nullptr) return false;
     const auto count = beat_->count.load(std::memory_order_relaxed);
-    const bool still = count == count_ && beat_->pushing.load(std::memory_order_relaxed) != 0;
+    const bool still = count == count_ && beat_->on_device.load(std::memory_order_relaxed) != OnDevice::zero_taken;
     count_ = count;
     looks_ = still ? looks_ + 1 : 0;
     return looks_ > 0 && looks_ % looks_until_stopped == 0;

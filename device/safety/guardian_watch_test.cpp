@@ -11,7 +11,7 @@ struct WatchedSession {
   GuardianWatch watch{&beat};
 
   void exchange(bool pushing) {
-    beat.pushing = pushing ? 1 : 0;
+    beat.on_device = pushing ? OnDevice::pushing : OnDevice::zero_taken;
     ++beat.count;
   }
 };

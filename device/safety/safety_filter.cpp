@@ -65,8 +65,7 @@ void move_gain(const SafetyLimits& limits, double elapsed, SafetyState& state) {
   if (state.armed) {
     state.gain = std::min(1.0, state.gain + elapsed / limits.ramp_time);
   } else {
-    const double time = state.fault == Fault::commander_silent ? limits.ramp_time : limits.fall_time;
-    state.gain = std::max(0.0, state.gain - elapsed / time);
+    state.gain = std::max(0.0, state.gain - elapsed / limits.fall_time);
   }
 }
 
@@ -168,8 +167,12 @@ SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, 
   const Vec3 change = clamp_length(clamped - state.slewed_force, limits.slew * slew_time);
   result.clamped = clamped != wanted;
   result.slewed = change != clamped - state.slewed_force;
-  state.slewed_force = result.slewed ? state.slewed_force + change : clamped;
+  const Vec3 slewed = result.slewed ? state.slewed_force + change : clamped;
+  // A fall never grows, wherever the hand goes meanwhile.
+  state.slewed_force = state.armed ? slewed : clamp_length(slewed, glm::length(state.slewed_force));
   move_gain(limits, elapsed, state);
+  // What an old pose or force took away comes back along the ramp.
+  if (!fresh && state.slewed_force == Vec3(0)) state.gain = 0;
   const Vec3 ramped = state.gain * state.slewed_force;
   result.force = clamp_length(ramped, limits.device_force);
   result.clamped = result.clamped || result.force != ramped;

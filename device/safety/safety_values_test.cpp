@@ -20,7 +20,7 @@ namespace {
 TEST(SafetyValues, LimitsAreAsDocumented) {
   const SafetyLimits limits;
   EXPECT_EQ(limits.force, 3);
-  EXPECT_EQ(limits.device_force, 1e9);
+  EXPECT_EQ(limits.device_force, 12);
   EXPECT_EQ(limits.slew, 1000);
   EXPECT_EQ(limits.slew_time, 0.002);
   EXPECT_EQ(limits.ramp_time, 0.5);

@@ -20,8 +20,10 @@ struct LinkBench {
   std::uint64_t first_news = 0;    ///< poses that have come when it is connected
   State state = State::idle;
   LinkFault fault = LinkFault::none;  ///< that the device tells
+  bool doubtful = false;
+  ForceAnswer answer = ForceAnswer::taken;
   Vec3 position{0};
-  Vec3 force{0};
+  Vec3 force{0};             ///< N: that lies on the device
   std::vector<Vec3> forces;  ///< all that were given
   int flushes = 0;
   int open = 0;
@@ -43,13 +45,16 @@ class LinkBenchDriver final : public Driver {
     bench_.time = bench_.time + timeout;
     status_.state = bench_.state;
     status_.fault = bench_.fault;
+    status_.doubtful = bench_.doubtful;
     if (!bench_.speaks) return;
     status_.position = bench_.position;
     ++status_.news;
   }
-  void give(const Vec3& force) noexcept override {
-    bench_.force = force;
-    bench_.forces.push_back(force);
+  ForceAnswer give(const Vec3& force) noexcept override {
+    if (bench_.answer == ForceAnswer::waiting || bench_.answer == ForceAnswer::refused) return bench_.answer;
+    bench_.force = bench_.answer == ForceAnswer::withheld ? Vec3(0) : force;
+    bench_.forces.push_back(bench_.force);
+    return bench_.answer;
   }
   void flush(double /*timeout*/) noexcept override { ++bench_.flushes; }
   bool lost() const noexcept override { return bench_.lost; }

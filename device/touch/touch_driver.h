@@ -25,7 +25,10 @@ class TouchDriver final : public Driver {
   void disconnect() noexcept override;
   double now() noexcept override;
   void take(double timeout) noexcept override;
-  void give(const Vec3& force) noexcept override { force_.store(force); }
+  ForceAnswer give(const Vec3& force) noexcept override {
+    force_.store(force);
+    return ForceAnswer::taken;
+  }
   void flush(double timeout) noexcept override;
   bool lost() const noexcept override { return lost_; }
   const ProtocolStatus& status() const noexcept override { return status_; }

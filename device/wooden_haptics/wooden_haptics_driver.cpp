@@ -126,9 +126,11 @@ void WoodenHapticsProtocol::take(const std::array<int, 3>& counts, double now) n
   const Vec3 position = wooden_haptics_position(settings_, angles);
   if (!could_be(angles) || glm::length(position) > reach_in_radii * settings_.workspace_radius) {
     if (doubt_.lasts(now)) fail(LinkFault::unreachable_pose);
+    status_.doubtful = true;
     return;
   }
   doubt_.ends(now);
+  status_.doubtful = false;
   ++status_.news;
   angles_ = angles;
   status_.position = position;
@@ -149,12 +151,12 @@ std::size_t WoodenHapticsProtocol::step(const Vec3& force, double now, std::span
   // Before the first report its length is not known: both kinds of firmware are offered theirs in turn.
   const std::size_t size = report_size_ != 0 ? report_size_ : (starts_++ % 4 == 3 ? report_2016 : report_hid);
   std::fill(packet.begin(), packet.begin() + static_cast<std::ptrdiff_t>(size), std::uint8_t{0});
+  status_.withheld = !reply_due_ || button_ || status_.state != State::idle;
   if (reply_due_ && button_) {
     put_word(packet, 3, set_encoders);
     for (std::size_t i = 0; i < 3; ++i) put_word(packet, 4 + i, settings_.home_counts[i]);
   } else if (reply_due_ && status_.state == State::idle) {
-    const Vec3 wanted = doubt_.is_doubtful() ? Vec3(0) : clamp_length(force, settings_.maximum_force);
-    const Vec3 torques = wooden_haptics_torques(settings_, angles_, wanted);
+    const Vec3 torques = wooden_haptics_torques(settings_, angles_, clamp_length(force, settings_.maximum_force));
     const std::array<int, 3> currents = within_load(wooden_haptics_currents(settings_, torques), now - sent_);
     for (std::size_t i = 0; i < 3; ++i) put_word(packet, i, currents[i]);
   }

@@ -1,0 +1,45 @@
+#pragma once
+
+/// The last layer before a device: what was given to it, and what may be given next. It owns three laws. What lies on
+/// the device is known, or the worst is assumed. No force changes faster than the slew ceiling. Every zero that was put
+/// in for any reason (a late servo, a doubtful pose, a device that refused or did not answer) is followed by a ramp.
+
+#include "device/link/driver.h"
+#include "device/safety/on_device.h"
+#include "device/safety/safety_limits.h"
+
+namespace palpate::device {
+
+class GivenForce {
+ public:
+  /// The device may still hold the force of a program that ended before.
+  void start(double now) noexcept;
+  /// N: to be given now. `wanted`: what was asked for; `withheld`: a zero is put in in its place.
+  Vec3 next(const Vec3& wanted, bool withheld, double now) noexcept;
+  /// What lies on the device if the force of next() reaches it. `news`: poses so far (ProtocolStatus::news).
+  OnDevice while_giving(const Vec3& force, std::uint64_t news) noexcept;
+  /// How the device answered the force of next().
+  void answered(ForceAnswer answer, const Vec3& force, std::uint64_t news, double now) noexcept;
+  /// The device is gone or silent.
+  void doubt() noexcept;
+  OnDevice on_device() const noexcept { return on_device_; }
+  /// s for which the device has refused every force.
+  double refused_for(double now) const noexcept { return refuses_ ? now - taken_time_ : 0; }
+  /// N
+  const Vec3& given() const noexcept { return given_; }
+
+ private:
+  void restart() noexcept;
+
+  OnDevice on_device_ = OnDevice::unknown;
+  Vec3 given_{0};          // N
+  double given_time_ = 0;  // s
+  double gain_ = 1;
+  double time_ = 0;  // s: of the last next()
+  bool zero_given_ = false;
+  std::uint64_t zero_news_ = 0;  // poses when the first zero in a row was given
+  bool refuses_ = false;
+  double taken_time_ = 0;  // s: when the device last did not refuse
+};
+
+}  // namespace palpate::device
