@@ -111,6 +111,11 @@ inline constexpr MessageRow styluses[] = {
       {"touch-does-not-tell", "it does not tell what it can do"},
       {"touch-has-no-forces", "its forces cannot be switched on"},
       {"touch-does-not-start", "its servo loop does not start"}}},
+    {"a model that is calibrated by hand",
+     "as it says",
+     {{"touch-has-to-be-reset-by-hand",
+       "3D Systems Touch: this model takes the position in which it is reset for its zero; put its links at right "
+       "angles, then allow it in its settings file: may_reset_encoders, true"}}},
     {"the maker's library says so; no arm moves by itself unless allowed",
      "as it says",
      {{"force-dimension-not-found",

@@ -73,17 +73,17 @@ std::optional<glm::dmat3> falcon_jacobian(const FalconGeometry& geometry, const 
   return jacobian;
 }
 
-std::optional<Vec3> falcon_position(const FalconGeometry& geometry, const Vec3& angles, const Vec3& start) noexcept {
+namespace {
+
+/// The position of these angles by Newton's method from `start`, on any branch and at any distance.
+std::optional<Vec3> newton(const FalconGeometry& geometry, const Vec3& angles, const Vec3& start) noexcept {
   constexpr double close_enough = 1e-11;  // rad: 1e-12 m
   Vec3 position = start;
   std::optional<Vec3> reached = falcon_angles(geometry, position);
   if (!reached || !is_finite(angles)) return std::nullopt;
   for (int iteration = 0; iteration < 30; ++iteration) {
     const Vec3 error = angles - *reached;
-    if (glm::dot(error, error) < close_enough * close_enough) {
-      const bool in_reach = glm::length(position - Vec3(0, 0, geometry.center)) <= geometry.reach;
-      return in_reach ? std::optional(position) : std::nullopt;
-    }
+    if (glm::dot(error, error) < close_enough * close_enough) return position;
     const std::optional<glm::dmat3> jacobian = falcon_jacobian(geometry, position);
     if (!jacobian || !(std::abs(glm::determinant(*jacobian)) > 1e-9)) return std::nullopt;
     Vec3 step = glm::inverse(*jacobian) * error;
@@ -97,6 +97,26 @@ std::optional<Vec3> falcon_position(const FalconGeometry& geometry, const Vec3& 
       moved = true;
     }
     if (!moved) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Angles mean two positions that a singularity separates, and the arms cannot pass it. Within the vendor's cube the
+/// determinant is negative everywhere.
+bool is_on_its_branch(const FalconGeometry& geometry, const Vec3& position) noexcept {
+  const std::optional<glm::dmat3> jacobian = falcon_jacobian(geometry, position);
+  return jacobian && glm::determinant(*jacobian) < 0;
+}
+
+}  // namespace
+
+std::optional<Vec3> falcon_position(const FalconGeometry& geometry, const Vec3& angles, const Vec3& start) noexcept {
+  const Vec3 middle(0, 0, geometry.center);
+  for (const Vec3& from : {start, middle}) {
+    const std::optional<Vec3> found = newton(geometry, angles, from);
+    if (found && is_on_its_branch(geometry, *found)) {
+      return glm::length(*found - middle) <= geometry.reach ? found : std::nullopt;
+    }
   }
   return std::nullopt;
 }

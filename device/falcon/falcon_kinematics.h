@@ -40,8 +40,8 @@ std::optional<Vec3> falcon_angles(const FalconGeometry& geometry, const Vec3& po
 /// where they are stretched out and the Jacobian is singular.
 std::optional<glm::dmat3> falcon_jacobian(const FalconGeometry& geometry, const Vec3& position) noexcept;
 
-/// The position of joint angles by Newton's method from a nearby position, to 1e-11 rad; nothing where there is none
-/// within the reach.
+/// The position of joint angles by Newton's method from a nearby position, and if that fails from the middle, to 1e-11
+/// rad. Nothing where there is none within the reach, or none on this side of the singularity at its edge.
 std::optional<Vec3> falcon_position(const FalconGeometry& geometry, const Vec3& angles, const Vec3& start) noexcept;
 
 /// N m on the three arms for a force (N) on the grip at a position: J^-T F.

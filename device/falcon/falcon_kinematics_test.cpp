@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <random>
 
@@ -43,6 +45,49 @@ TEST(FalconKinematics, ForwardOfInverseIsTheIdentity) {
     const auto again = falcon_position(geometry, *angles, Vec3(0, 0, 0.11));
     ASSERT_TRUE(again) << position.x << " " << position.y << " " << position.z;
     ASSERT_LT(glm::length(*again - position), 1e-9);
+  }
+}
+
+/// From any pose to any other: all of the vendor's cube, and but for a few near the singularity at its edge all of the
+/// reach. What is found is the pose itself, and never the other one that the same angles have beyond the singularity.
+TEST(FalconKinematics, APoseIsFoundFromAnyOther) {
+  const auto on_its_branch = [](const Vec3& position) {
+    const auto jacobian = falcon_jacobian(geometry, position);
+    return jacobian && glm::determinant(*jacobian) < 0;
+  };
+  const auto in_cube = [](std::mt19937& random) { return random_position(random, 0.1); };
+  const auto in_reach = [](std::mt19937& random) {
+    for (;;) {
+      const Vec3 position = random_position(random, 2 * geometry.reach);
+      if (glm::length(position - Vec3(0, 0, geometry.center)) < geometry.reach) return position;
+    }
+  };
+  const struct {
+    const char* name;
+    Vec3 (*draw)(std::mt19937&);
+    double most_missed;
+  } regions[] = {{"the cube of 10 cm", in_cube, 0}, {"the reach", in_reach, 0.005}};
+  for (const auto& region : regions) {
+    std::mt19937 random(1);
+    int tried = 0, missed = 0, others = 0, beyond = 0;
+    while (tried < 100'000) {
+      const Vec3 start = region.draw(random), position = region.draw(random);
+      const auto angles = falcon_angles(geometry, position);
+      if (!angles || !falcon_angles(geometry, start)) continue;
+      if (!on_its_branch(position)) {
+        ++beyond;
+        continue;
+      }
+      ++tried;
+      const auto found = falcon_position(geometry, *angles, start);
+      missed += found ? 0 : 1;
+      others += found && glm::distance(*found, position) > 1e-6 ? 1 : 0;
+    }
+    std::printf("%s: of 100000 poses from another %d not found, %d another found; %d beyond the singularity\n",
+                region.name, missed, others, beyond);
+    EXPECT_LE(missed, region.most_missed * tried) << region.name;
+    EXPECT_EQ(others, 0) << region.name;
+    EXPECT_EQ(beyond == 0, region.most_missed == 0) << region.name;
   }
 }
 

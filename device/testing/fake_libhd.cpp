@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <thread>
 
@@ -21,6 +22,24 @@ void* callback_data = nullptr;
 std::atomic<bool> stop{false};
 std::thread scheduler;
 bool by_hand = false;
+bool is_initialized = false;  // in this process
+
+constexpr int deepest = 64;
+thread_local unsigned errors[deepest];
+thread_local int depth = 0;
+
+void put_error(unsigned code) {
+  if (depth < deepest) errors[depth++] = code;
+}
+
+void called(const char* name) {
+  if (state.error == 0 || std::strcmp(name, state.failing_call) != 0) return;
+  if (state.sound_calls > 0) {
+    state.sound_calls = state.sound_calls - 1;
+  } else {
+    put_error(state.error);
+  }
+}
 
 void call_back() {
   if (state.stalled != 0 || callback == nullptr || state.running == 0) return;
@@ -55,15 +74,21 @@ void fake_hd_call() {
 }
 unsigned hdInitDevice(const char* name) {
   if (name != nullptr) std::strncpy(state.named, name, sizeof state.named - 1);
-  if (state.present == 0) {
-    state.error = 0x302;
+  if (state.present == 0 || is_initialized) {
+    put_error(is_initialized ? 0x301 : 0x302);
     return 0xffffffffU;
   }
+  is_initialized = true;
+  for (const unsigned code : state.at_init) {
+    if (code != 0) put_error(code);
+  }
+  called("hdInitDevice");
   return 7;
 }
 void hdDisableDevice(unsigned) {
   if (state.running != 0) state.misuses = state.misuses + 1;
   state.disabled = state.disabled + 1;
+  is_initialized = false;
 }
 void hdMakeCurrentDevice(unsigned device) {
   state.made_current = device;
@@ -73,22 +98,21 @@ void hdBeginFrame(unsigned) {
 }
 void hdEndFrame(unsigned) {
   state.in_frame = 0;
+  if (state.unplugged != 0) put_error(0x302);
+  called("hdEndFrame");
 }
 ErrorInfo hdGetError() {
-  if (state.sound_answers > 0) {
-    --state.sound_answers;
-    return {0, 0, 7};
-  }
-  const ErrorInfo info = {state.unplugged != 0 ? 0x302U : state.error, 0, 7};
-  return info;
+  return {depth > 0 ? errors[--depth] : 0, 0, 7};
 }
 const char* hdGetErrorString(unsigned) {
   return "a fault of the fake";
 }
 void hdEnable(unsigned what) {
   state.enabled |= 1 << (what - 0x4000);
+  called("hdEnable");
 }
 void hdGetDoublev(unsigned what, double* values) {
+  called("hdGetDoublev");
   switch (what) {
     case 0x2050:
       must_be_in_frame();
@@ -114,13 +138,15 @@ void hdGetDoublev(unsigned what, double* values) {
   }
 }
 void hdGetIntegerv(unsigned what, int* values) {
-  *values = what == 0x2000 ? state.buttons : 4;
+  called("hdGetIntegerv");
+  *values = what == 0x2000 ? state.buttons : state.styles;
 }
 const char* hdGetString(unsigned) {
   return state.model[0] != 0 ? state.model : nullptr;
 }
 void hdSetDoublev(unsigned what, const double* values) {
   must_be_in_frame();
+  called("hdSetDoublev");
   if (what != 0x2700) state.torques = state.torques + 1;
   if (what != 0x2700 || state.unplugged != 0) return;
   for (int i = 0; i < 3; ++i) state.force[i] = values[i];
@@ -132,10 +158,15 @@ void hdUpdateCalibration(unsigned style) {
   state.style = style;
   state.updates = state.updates + 1;
   state.calibration = state.after_update;
+  state.update_force = std::hypot(state.force[0], state.force[1], state.force[2]);
+  // A device takes one style at a time, and one that it has.
+  if ((style & (style - 1)) != 0 || (static_cast<int>(style) & state.styles) == 0) put_error(0x101);
+  called("hdUpdateCalibration");
 }
 void hdStartScheduler() {
   state.running = 1;
   stop = false;
+  called("hdStartScheduler");
   if (!by_hand) scheduler = std::thread(run);
 }
 void hdStopScheduler() {

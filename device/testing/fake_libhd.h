@@ -1,14 +1,20 @@
 #pragma once
 
-/// A library of libHD.so's C interface with one device behind it and a scheduler of 1 kHz. Plain C data, since it is
+/// A library of libHD.so's C interface with one device behind it and a scheduler of 1 kHz. As its manual has it, each
+/// thread has a stack of errors, of which hdGetError() takes the newest, and a device that is initialized is not
+/// initialized again before it is disabled (HD_DEVICE_ALREADY_INITIATED). Plain C data, since it is
 /// reached through dlsym: `struct FakeHd* fake_hd(void)`; `void fake_hd_by_hand(bool)` takes the scheduler's thread
 /// away, and `void fake_hd_call(void)` is then one of its rounds. In a file that processes share where $PALPATE_FAKE_HD
 /// names one.
 
 struct FakeHd {
   int present = 1;
-  unsigned error = 0;              // of the next hdGetError
-  int sound_answers = 0;           // of hdGetError, before the error
+  // One call fails at a time: each call of this name puts the error on the stack, after so many that succeed.
+  unsigned error = 0;
+  char failing_call[32] = "hdEndFrame";
+  int sound_calls = 0;
+  unsigned at_init[4] = {};        // put on the stack by hdInitDevice, the last on top; 0: none
+  int styles = 4;                  // of calibration: encoder reset 1, automatic 2, inkwell 4
   unsigned calibration = 0x5000;   // what hdCheckCalibration says
   unsigned after_update = 0x5000;  // and after hdUpdateCalibration
   double place_mm[3] = {0, 0, 0};
@@ -34,5 +40,6 @@ struct FakeHd {
   unsigned long rate_hz = 0;
   int priority = -1;
   unsigned made_current = 0, style = 0;
-  int updates = 0;  // of the calibration
+  int updates = 0;          // of the calibration
+  double update_force = 0;  // N, that acted while it was updated last
 };

@@ -41,4 +41,35 @@ HdLibrary::HdLibrary() : library("3D Systems Touch", files(), advice) {
   library.find("hdUnschedule", unschedule);
 }
 
+hd::Gravity hd::gravity_of(unsigned code) noexcept {
+  if (code == success) return Gravity::none;
+  if (code == exceeded_force || code == force_impulse) return Gravity::force_clamped;
+  return (code & ~0xffU) == warm_motors ? Gravity::force_taken_away : Gravity::device_failed;
+}
+
+unsigned HdLibrary::drain_errors() const noexcept {
+  constexpr int most = 256;  // a stack that fills faster than it is emptied must not hold the caller
+  unsigned gravest = hd::success;
+  for (int i = 0; i < most; ++i) {
+    const unsigned code = get_error().code;
+    if (code == hd::success) break;
+    if (hd::gravity_of(code) > hd::gravity_of(gravest)) gravest = code;
+  }
+  return gravest;
+}
+
+std::string HdLibrary::words_for(unsigned code) const {
+  const char* const text = get_error_string(code);
+  return text != nullptr ? text : std::to_string(code);
+}
+
+unsigned HdLibrary::open_device(const std::string& name, unsigned& error) const noexcept {
+  drain_errors();  // those of an earlier device are not this one's
+  const unsigned device = init_device(name.empty() ? nullptr : name.c_str());
+  error = drain_errors();
+  const bool has_failed = hd::gravity_of(error) == hd::Gravity::device_failed;
+  if (device != hd::invalid_device && has_failed) disable_device(device);
+  return has_failed ? hd::invalid_device : device;
+}
+
 }  // namespace palpate::device

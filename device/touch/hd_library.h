@@ -2,6 +2,8 @@
 
 /// The functions of libHD.so that are used, with its C types and numbers.
 
+#include <string>
+
 #include "device/link/shared_library.h"
 
 namespace palpate::device {
@@ -22,11 +24,16 @@ constexpr unsigned current_force = 0x2700, model_type = 0x2501, usable_workspace
 constexpr unsigned nominal_stiffness = 0x2602, nominal_force = 0x2603, nominal_continuous_force = 0x2604;
 // What is switched on.
 constexpr unsigned force_output = 0x4000, max_force_clamping = 0x4001, force_ramping = 0x4002;
-// Calibration.
+// Calibration: what hdCheckCalibration() says, and the styles, of which a device has one or several.
 constexpr unsigned calibrated = 0x5000, needs_update = 0x5001;
+constexpr unsigned encoder_reset = 1, automatic = 2, inkwell = 4;
 // Of a callback; of an error.
 constexpr unsigned callback_continue = 1;
 constexpr unsigned success = 0, warm_motors = 0x200, exceeded_force = 0x201, force_impulse = 0x202;
+
+/// How grave an error is. 0x2xx are of the force alone: the device is there and takes commands.
+enum class Gravity : unsigned char { none, force_clamped, force_taken_away, device_failed };
+Gravity gravity_of(unsigned code) noexcept;
 
 }  // namespace hd
 
@@ -54,6 +61,14 @@ struct HdLibrary {
   void (*set_scheduler_rate)(unsigned long hz) = nullptr;
   unsigned long (*schedule_asynchronous)(hd::Callback callback, void* data, unsigned short priority) = nullptr;
   void (*unschedule)(unsigned long handle) = nullptr;
+
+  /// Empties the library's stack of errors, which keeps one for each call that failed. Returns the gravest, and of
+  /// equally grave ones the newest; hd::success where there is none.
+  unsigned drain_errors() const noexcept;
+  std::string words_for(unsigned code) const;
+  /// Initializes the device of this name; empty: the default one. Returns hd::invalid_device and says why in `error`
+  /// where it failed, and then leaves nothing initialized. Warnings of its force are no failure.
+  unsigned open_device(const std::string& name, unsigned& error) const noexcept;
 };
 
 }  // namespace palpate::device

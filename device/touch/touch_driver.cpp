@@ -50,10 +50,9 @@ TouchDriver::~TouchDriver() {
 }
 
 void TouchDriver::throw_error(const Text& what) {
-  const hd::ErrorInfo error = hd_->get_error();
-  if (error.code == hd::success) return;
-  const char* const text = hd_->get_error_string(error.code);
-  const std::string reason = text != nullptr ? text : std::to_string(error.code);
+  const unsigned error = hd_->drain_errors();
+  if (hd::gravity_of(error) != hd::Gravity::device_failed) return;
+  const std::string reason = hd_->words_for(error);
   disconnect();
   throw Refusal(say("touch-refuses", what, reason));
 }
@@ -85,6 +84,23 @@ void TouchDriver::read_model() {
   described_.position_resolution = 0.055e-3;
 }
 
+// As the maker's own example chooses: automatic before the inkwell, and the encoders' reset only after asking, because
+// it takes wherever the arm is for its reset position.
+void TouchDriver::choose_calibration() {
+  int styles = 0;
+  hd_->get_integers(hd::calibration_style, &styles);
+  throw_error(say("touch-does-not-tell"));
+  const auto has = [&](unsigned style) { return (static_cast<unsigned>(styles) & style) != 0; };
+  style_ = has(hd::automatic) ? hd::automatic : has(hd::inkwell) ? hd::inkwell : hd::encoder_reset;
+  if (style_ != hd::encoder_reset || hd_->check_calibration() == hd::calibrated) return;
+  if (!settings_.may_reset_encoders) {
+    disconnect();
+    throw Refusal(say("touch-has-to-be-reset-by-hand"));
+  }
+  hd_->update_calibration(hd::encoder_reset);
+  throw_error(say("touch-does-not-tell"));
+}
+
 void TouchDriver::connect() {
   if (!hd_) hd_ = std::make_unique<HdLibrary>();
   const std::uint64_t news = status_.news;
@@ -92,15 +108,14 @@ void TouchDriver::connect() {
   status_.news = news;
   status_.state = State::homing;
   lost_ = false;
-  device_ = hd_->init_device(settings_.address.empty() ? nullptr : settings_.address.c_str());
-  const hd::ErrorInfo error = hd_->get_error();
-  if (device_ == hd::invalid_device || error.code != hd::success) {
-    const char* const text = hd_->get_error_string(error.code);
-    device_ = hd::invalid_device;
-    throw Refusal(say("touch-cannot-be-opened", text != nullptr ? text : "unknown"));
+  unsigned error = hd::success;
+  device_ = hd_->open_device(settings_.address, error);
+  if (device_ == hd::invalid_device) {
+    throw Refusal(say("touch-cannot-be-opened", error == hd::success ? "no reason given" : hd_->words_for(error)));
   }
   hd_->make_current_device(device_);
   read_model();
+  choose_calibration();
   hd_->enable(hd::force_output);
   hd_->enable(hd::max_force_clamping);
   hd_->enable(hd::force_ramping);
@@ -110,7 +125,7 @@ void TouchDriver::connect() {
   called_ = clock_.now();
   calibrating_ = 0;
   calibration_ = hd::needs_update;
-  was_calibrated_ = false;
+  was_calibrated_ = pushed_ = false;
   hd_->set_scheduler_rate(1000);
   scheduled_ = hd_->schedule_asynchronous(&TouchDriver::on_schedule, this, top_priority);
   hd_->start_scheduler();
@@ -152,27 +167,34 @@ TouchDriver::Sample TouchDriver::exchange() noexcept {
       renewed ? 0 : (stood_still ? callbacks_without_force : std::min(unrenewed_ + 1, callbacks_without_force));
   const Vec3 newest = force_.load();
   hd_->begin_frame(device_);
-  if (calibrating_++ % calibration_every == 0) {
-    calibration_ = hd_->check_calibration();
-    // An arm that pushed loses its home: it is not set anew under the hand.
-    if (calibration_ == hd::needs_update && !was_calibrated_) {
-      int style = 0;
-      hd_->get_integers(hd::calibration_style, &style);
-      hd_->update_calibration(static_cast<unsigned>(style));
-      calibration_ = hd_->check_calibration();
-    }
-    was_calibrated_ = was_calibrated_ || calibration_ == hd::calibrated;
-  }
+  const bool is_pushing = pushed_ || (unrenewed_ < callbacks_without_force && newest != Vec3(0));
+  if (calibrating_++ % calibration_every == 0) look_at_calibration(is_pushing);
   hd_->get_doubles(hd::position, &sample.position_mm.x);
   hd_->get_doubles(hd::transform, sample.transform);
   hd_->get_integers(hd::buttons, &sample.buttons);
   const bool may_push = calibration_ == hd::calibrated && unrenewed_ < callbacks_without_force;
   const Vec3 force = may_push ? clamp_length(newest, maximum_force_) : Vec3(0);
   hd_->set_doubles(hd::current_force, &force.x);
+  pushed_ = force != Vec3(0);
   hd_->end_frame(device_);
-  sample.error = hd_->get_error().code;
+  sample.error = hd_->drain_errors();
   sample.calibration = calibration_;
   return sample;
+}
+
+void TouchDriver::look_at_calibration(bool is_pushing) noexcept {
+  calibration_ = hd_->check_calibration();
+  // One that is automatic gathers better figures while the arm moves. Taking them moves every pose a little: never
+  // under a force, and until then the former ones hold.
+  const bool refines_itself = was_calibrated_ && style_ == hd::automatic && calibration_ == hd::needs_update;
+  // Any other arm that pushed and has to be calibrated has lost its home: it is not set anew under the hand.
+  const bool may_update = style_ != hd::encoder_reset && (refines_itself ? !is_pushing : !was_calibrated_);
+  if (calibration_ == hd::needs_update && may_update) {
+    hd_->update_calibration(style_);
+    calibration_ = hd_->check_calibration();
+  }
+  if (refines_itself && calibration_ == hd::needs_update) calibration_ = hd::calibrated;
+  was_calibrated_ = was_calibrated_ || calibration_ == hd::calibrated;
 }
 
 void TouchDriver::take(double timeout) noexcept {
@@ -189,18 +211,15 @@ void TouchDriver::take(double timeout) noexcept {
 
 void TouchDriver::follow(const Sample& sample) noexcept {
   if (status_.state == State::fault || lost_) return;
-  switch (sample.error) {
-    case hd::success:
-    case hd::exceeded_force:  // it was clamped
-    case hd::force_impulse:
+  switch (hd::gravity_of(sample.error)) {
+    case hd::Gravity::none:
+    case hd::Gravity::force_clamped:
       break;
-    case hd::warm_motors:
-    case 0x203:  // moved too fast
-    case 0x204:  // the force does not reach it
+    case hd::Gravity::force_taken_away:
       status_.state = State::fault;
       status_.fault = LinkFault::own_safety;
       return;
-    default:
+    case hd::Gravity::device_failed:
       lost_ = true;
       return;
   }
@@ -269,7 +288,8 @@ struct Zeros {
     zeros.hd.begin_frame(zeros.device);
     zeros.hd.set_doubles(hd::current_force, &zero.x);
     zeros.hd.end_frame(zeros.device);
-    if (zeros.hd.get_error().code == hd::success) ++zeros.sent;
+    // Motors that are warm take a zero as others do.
+    if (hd::gravity_of(zeros.hd.drain_errors()) != hd::Gravity::device_failed) ++zeros.sent;
     return hd::callback_continue;
   }
 };
@@ -279,8 +299,9 @@ struct Zeros {
 bool send_zeros_to_touch(const std::string& address) {
   constexpr int enough = 5, longest_ms = 100;
   const HdLibrary hd;
-  const unsigned device = hd.init_device(address.empty() ? nullptr : address.c_str());
-  if (device == hd::invalid_device || hd.get_error().code != hd::success) return false;
+  unsigned error = hd::success;
+  const unsigned device = hd.open_device(address, error);
+  if (device == hd::invalid_device) return false;
   hd.make_current_device(device);
   Zeros zeros{hd, device};
   const unsigned long scheduled = hd.schedule_asynchronous(&Zeros::send, &zeros, top_priority);

@@ -48,6 +48,8 @@ class TouchDriver final : public Driver {
   Sample exchange() noexcept;
   void read_model();
   void follow(const Sample& sample) noexcept;
+  void choose_calibration();
+  void look_at_calibration(bool is_pushing) noexcept;
   void throw_error(const Text& what);
 
   TouchSettings settings_;
@@ -68,8 +70,10 @@ class TouchDriver final : public Driver {
   double called_ = 0;    // s: of the last callback
   int unrenewed_ = 0;    // callbacks since a force came
   int calibrating_ = 0;  // callbacks since the calibration was looked at
+  unsigned style_ = 0;   // of its calibration
   unsigned calibration_ = hd::needs_update;
   bool was_calibrated_ = false;
+  bool pushed_ = false;  // in the last callback
 };
 
 /// The same stylus as make_touch()'s, with other options.

@@ -217,7 +217,7 @@ TEST_F(TouchLimits, LooksAtItsHomeEveryHundredRounds) {
     EXPECT_EQ(driver.status().state, n <= 200 ? State::homing : State::idle) << n;
   }
   EXPECT_EQ(hd->updates, 2);
-  EXPECT_EQ(hd->style, 4U) << "as hdGetIntegerv says";
+  EXPECT_EQ(hd->style, 4U) << "the inkwell's, which is all that it has";
 }
 
 /// In metres, wherever it is, up to one.
@@ -264,7 +264,7 @@ TEST_F(TouchLimits, TheGuardianNeedsFiveZeros) {
   of_library<void (*)(bool)>("fake_hd_by_hand")(false);
   for (const int zeros : {4, 5}) {
     *hd = FakeHd{};
-    hd->sound_answers = 1 + zeros;
+    hd->sound_calls = zeros;
     hd->error = 0x302;
     EXPECT_EQ(send_zeros_to_touch(""), zeros == 5) << zeros;
     EXPECT_EQ(hd->priority, 65535);

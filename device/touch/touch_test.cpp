@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
@@ -142,30 +143,128 @@ TEST_F(Touch, CalibratesItselfWhereItCan) {
 
 /// Its home would move under the hand.
 TEST_F(Touch, IsNotCalibratedAnewOnceItPushed) {
+  for (const int styles : {1, 4, 1 | 4}) {
+    *hd = FakeHd{};
+    hd->styles = styles;
+    const auto stylus = unthreaded();
+    stylus->open();
+    ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+    hd->calibration = 0x5001;
+    EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->state() == State::fault; }));
+    EXPECT_EQ(stylus->fault(), LinkFault::unhomed);
+    EXPECT_EQ(hd->calibration, 0x5001U);
+    EXPECT_EQ(acting(), Vec3(0));
+  }
+}
+
+/// An automatic calibration gathers figures as the arm moves, and says so: no fault, and nothing is taken over as long
+/// as it pushes.
+TEST_F(Touch, AnAutomaticCalibrationRefinesItselfWhileNothingPushes) {
+  hd->styles = 2 | 4;
   const auto stylus = unthreaded();
   stylus->open();
   ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
   hd->calibration = 0x5001;
-  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->state() == State::fault; }));
-  EXPECT_EQ(stylus->fault(), LinkFault::unhomed);
-  EXPECT_EQ(hd->calibration, 0x5001U);
-  EXPECT_EQ(acting(), Vec3(0));
+  EXPECT_FALSE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->state() != State::idle || hd->updates > 0; }));
+  EXPECT_EQ(acting(), Vec3(0, 1, 0)) << "it goes on as it was";
+  EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return hd->updates == 1; }));
+  EXPECT_EQ(hd->update_force, 0) << "N, that acted meanwhile";
+  EXPECT_EQ(hd->style, 2U);
+  EXPECT_EQ(stylus->fault(), LinkFault::none);
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  hd->calibration = 0x5002;
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->fault() == LinkFault::unhomed; })) << "that is lost";
 }
 
+/// One style of those that the device has: automatic before inkwell before a reset of its encoders.
+TEST_F(Touch, IsCalibratedByOneStyle) {
+  for (int styles = 1; styles < 8; ++styles) {
+    *hd = FakeHd{};
+    hd->styles = styles;
+    hd->calibration = 0x5001;
+    const auto stylus = unthreaded({.may_reset_encoders = true});
+    stylus->open();
+    EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; })) << styles;
+    EXPECT_EQ(hd->style, (styles & 2) != 0 ? 2U : (styles & 4) != 0 ? 4U : 1U) << styles;
+    EXPECT_EQ(hd->updates, 1) << styles;
+  }
+}
+
+/// A reset takes any place of the arm for its zero: nobody's arm is reset before it was allowed.
+TEST_F(Touch, ItsEncodersAreResetOnlyWhenTheyMay) {
+  hd->styles = 1;
+  hd->calibration = 0x5002;
+  expect_refusal([] { unthreaded()->open(); },
+                 "3D Systems Touch: this model takes the position in which it is reset for its zero; put its links at "
+                 "right angles, then allow it in its settings file: may_reset_encoders, true");
+  EXPECT_EQ(hd->updates, 0);
+  EXPECT_EQ(hd->disabled, 1);
+  unthreaded({.may_reset_encoders = true})->open();
+  EXPECT_EQ(hd->updates, 1);
+  EXPECT_EQ(hd->style, 1U);
+  EXPECT_EQ(hd->running, 0) << "before its servo loop runs; the stylus of this line is gone";
+  unthreaded()->open();
+  EXPECT_EQ(hd->updates, 1) << "it has its zero";
+}
+
+/// Whatever call it is that fails: its reason is said, and nothing stays initialized, so that it can be opened again.
 TEST_F(Touch, AnErrorWhileItOpensIsSaidAndItIsClosed) {
-  const char* const failing[] = {"it does not tell what it can do", "its forces cannot be switched on",
-                                 "its servo loop does not start"};
-  for (int step = 0; step < 3; ++step) {
+  const struct {
+    const char* call;
+    const char* why;
+  } failing[] = {{"hdInitDevice", "it cannot be opened: a fault of the fake"},
+                 {"hdGetDoublev", "it does not tell what it can do: a fault of the fake"},
+                 {"hdGetIntegerv", "it does not tell what it can do: a fault of the fake"},
+                 {"hdEnable", "its forces cannot be switched on: a fault of the fake"},
+                 {"hdStartScheduler", "its servo loop does not start: a fault of the fake"}};
+  for (const auto& one : failing) {
     *hd = FakeHd{};
     hd->error = 0x303;
-    hd->sound_answers = 1 + step;
-    expect_refusal([] { unthreaded()->open(); }, failing[step]);
-    hd->sound_answers = 1 + step;
-    expect_refusal([] { unthreaded()->open(); }, ": a fault of the fake");
-    EXPECT_EQ(hd->disabled, 2);
-    EXPECT_EQ(hd->running, 0);
-    EXPECT_EQ(hd->misuses, 0);
+    std::strncpy(hd->failing_call, one.call, sizeof hd->failing_call - 1);
+    for (const int times : {1, 2}) {
+      expect_refusal([] { unthreaded()->open(); }, one.why);
+      EXPECT_EQ(hd->disabled, times) << one.call;
+      EXPECT_EQ(hd->running, 0);
+      EXPECT_EQ(hd->misuses, 0);
+    }
+    hd->error = 0;
+    const auto stylus = unthreaded();
+    stylus->open();
+    EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); })) << one.call;
   }
+}
+
+/// Warnings of the force (0x2xx) say nothing against a device, how many there are and wherever they lie on the stack;
+/// an error beneath them does, and so does one above them.
+TEST_F(Touch, WarningsAtItsInitializationArePassedOver) {
+  for (const unsigned warning : {0x200U, 0x201U, 0x202U, 0x203U, 0x204U}) {
+    *hd = FakeHd{};
+    for (unsigned& one : hd->at_init) one = warning;
+    const auto stylus = unthreaded();
+    stylus->open();
+    EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); })) << warning;
+    EXPECT_EQ(stylus->fault(), LinkFault::none) << "the warning is not kept for the first round";
+    stylus->close();
+    EXPECT_EQ(hd->disabled, 1);
+    for (const int place : {0, 3}) {
+      hd->at_init[place] = 0x302;
+      const int disabled = hd->disabled;
+      expect_refusal([] { unthreaded()->open(); }, "it cannot be opened: a fault of the fake");
+      EXPECT_EQ(hd->disabled, disabled + 1) << "what was initialized is not left so";
+      hd->at_init[place] = warning;
+    }
+  }
+}
+
+/// One round may fail in several ways: the gravest counts, wherever it lies on the stack.
+TEST_F(Touch, OfSeveralErrorsTheGravestCounts) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  hd->error = 0x200;  // it lies above the one of the unplugging
+  hd->unplugged = 1;
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->fault() != LinkFault::none; }));
+  EXPECT_EQ(stylus->fault(), LinkFault::unplugged);
 }
 
 TEST_F(Touch, AForceThatNobodyRenewsEnds) {
@@ -316,7 +415,6 @@ TEST_F(Touch, TheGuardiansZerosTakeNoLongerThanTheyMust) {
   for (const bool arrives : {true, false}) {
     *hd = FakeHd{};
     hd->force[1] = 1;
-    hd->sound_answers = arrives ? 0 : 1;
     hd->error = arrives ? 0 : 0x302;
     const double begun = monotonic_time();
     EXPECT_EQ(send_zeros_to_touch("Left"), arrives);
@@ -328,6 +426,28 @@ TEST_F(Touch, TheGuardiansZerosTakeNoLongerThanTheyMust) {
     EXPECT_EQ(hd->scheduled, 0);
     EXPECT_EQ(hd->disabled, 1);
     EXPECT_EQ(hd->misuses, 0);
+  }
+}
+
+/// The guardian comes when something went wrong: a warning on the stack keeps no zero from the device, and a device
+/// that it could not open is left as it was found, so that the next try is as good as the first.
+TEST_F(Touch, TheGuardiansZerosAreSentInSpiteOfWarnings) {
+  function_of_library<void (*)(bool)>("fake_hd_by_hand")(false);
+  for (const unsigned warning : {0x200U, 0x201U, 0x202U, 0x203U, 0x204U}) {
+    *hd = FakeHd{};
+    hd->force[1] = 1;
+    hd->error = hd->at_init[0] = hd->at_init[1] = warning;
+    EXPECT_TRUE(send_zeros_to_touch("")) << warning;
+    EXPECT_EQ(acting(), Vec3(0)) << warning;
+    EXPECT_EQ(hd->disabled, 1);
+    hd->force[1] = 1;
+    hd->error = 0;
+    hd->at_init[2] = 0x302;
+    EXPECT_FALSE(send_zeros_to_touch("")) << warning;
+    EXPECT_EQ(hd->disabled, 2);
+    hd->at_init[2] = 0;
+    EXPECT_TRUE(send_zeros_to_touch("")) << "a second try is not refused for the first";
+    EXPECT_EQ(acting(), Vec3(0));
   }
 }
 
