@@ -5,22 +5,16 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "solver/testing/problems.h"
+#include "solver/testing/values.h"
 
 namespace palpate::solver {
 namespace {
 
 constexpr double k = 400;  // N/m
-constexpr double mm = 1e-3;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-const Vec3 x{1, 0, 0};
-const Vec3 y{0, 1, 0};
-const Vec3 z{0, 0, 1};
-const Vec3 o{0};
 
 struct Answer {
   Solution solution;

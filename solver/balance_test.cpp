@@ -7,12 +7,13 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/testing/values.h"
+
 namespace palpate::solver {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<Rejection> check(const Primitive& flawed) {
@@ -116,7 +117,6 @@ TEST(Balance, WhatIsNotReadMayBeAnything) {
 }
 
 TEST(Balance, StiffnessAndProbeHaveToBeUsable) {
-  const Vec3 o{0};
   EXPECT_EQ(validate({0, o, o, {}})->flaw, Flaw::not_positive);
   EXPECT_EQ(validate({-400, o, o, {}})->flaw, Flaw::not_positive);
   EXPECT_EQ(validate({nan, o, o, {}})->flaw, Flaw::not_finite);

@@ -6,16 +6,14 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <vector>
 
 #include "solver/analytical.h"
 #include "solver/testing/problems.h"
+#include "solver/testing/values.h"
 
 namespace palpate::solver {
 namespace {
-
-constexpr double mm = 1e-3;
 
 TEST(Certify, IsTightForAFreeProxy) {
   const std::array primitives{make_directed_force(0.4, {1, 0, 0})};
@@ -42,7 +40,6 @@ TEST(Certify, ForcesOutsideTheirBodiesCountAsTheNearestInside) {
 }
 
 TEST(Certify, HardConstraintsThatAreNotMet) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   // One can be settled on, which costs the way there: the proxy is 1 mm away.
   const std::array plane{make_plane(infinity, Vec3{0}, {0, 1, 0})};
   const std::array forces{Vec3{0}, Vec3{0}};

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <vector>
 
 #include "solver/certify.h"
 #include "solver/chain.h"
 #include "solver/testing/problems.h"
+#include "solver/testing/values.h"
 
 namespace palpate::solver {
 namespace {
@@ -118,7 +118,6 @@ TEST(ChainLaws, DescentStartsAnewFromAnotherPreviousProxy) {
 
 /// A refusal is not an answer to be repeated, nor are the forces before it a start.
 TEST(ChainLaws, AfterARefusalOfTheSolversTheNextBalanceStartsCold) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   EachKind apart;
   apart.primitives[2] = make_point(infinity, Vec3{0});
   apart.primitives[3] = make_point(infinity, {1e-3, 0, 0});

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "solver/testing/problems.h"
+#include "solver/testing/values.h"
 
 namespace {
 
@@ -47,8 +48,6 @@ void operator delete[](void* memory, std::size_t) noexcept {
 
 namespace palpate::solver {
 namespace {
-
-constexpr double mm = 1e-3;
 
 SolverKind solver_of(const ChainOptions& options, std::span<const Primitive> primitives) {
   Chain chain(options);

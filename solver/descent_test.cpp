@@ -5,12 +5,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
+
+#include "solver/testing/values.h"
 
 namespace palpate::solver {
 namespace {
-
-constexpr double mm = 1e-3;
 
 TEST(Descent, StepsAreOfTheLengthGiven) {  // equation (22)
   const Balance balance{400, {10 * mm, 0, 0}, Vec3{0}, {}};
@@ -60,7 +59,7 @@ TEST(Descent, BoundIsTrueOfAProxyHeldByAPlane) {
 }
 
 TEST(Descent, HardConstraintsAreNotItsBusiness) {
-  const std::array primitives{make_plane(std::numeric_limits<double>::infinity(), Vec3{0}, {0, 1, 0})};
+  const std::array primitives{make_plane(infinity, Vec3{0}, {0, 1, 0})};
   std::array<Vec3, 1> forces;
   EXPECT_EQ(solve_descent({400, Vec3{0}, Vec3{0}, primitives}, {}, forces).outcome, Outcome::unsuitable);
 }

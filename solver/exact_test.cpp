@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <iterator>
-#include <limits>
 #include <vector>
 
 #include "solver/analytical.h"
 #include "solver/certify.h"
 #include "solver/testing/problems.h"
+#include "solver/testing/values.h"
 
 namespace palpate::solver {
 namespace {
@@ -90,12 +90,6 @@ struct HardCase {
   double apart;  // m
 };
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-const Vec3 x{1, 0, 0};
-const Vec3 y{0, 1, 0};
-const Vec3 z{0, 0, 1};
-const Vec3 o{0};
-
 std::vector<HardCase> hard_cases(double gap) {
   return {
       {{make_point(infinity, o), make_point(infinity, x * gap)}, gap},
@@ -131,8 +125,8 @@ TEST(Exact, OfManyPrimitivesAnswersInTheirOrder) {
     const Solution solution = solve_exact(problem.balance(), forces, scratch);
     ASSERT_EQ(solution.outcome, Outcome::solved);
     EXPECT_LT(certify(problem.balance(), solution.proxy, forces).error_bound, 1e-14);
-    problem.primitives[40] = make_point(std::numeric_limits<double>::infinity(), {0.001, 0, 0});
-    problem.primitives[90] = make_plane(std::numeric_limits<double>::infinity(), {0.002, 0, 0}, {1, 0, 0});
+    problem.primitives[40] = make_point(infinity, {0.001, 0, 0});
+    problem.primitives[90] = make_plane(infinity, {0.002, 0, 0}, {1, 0, 0});
     const Solution refused = solve_exact(problem.balance(), forces, scratch);
     ASSERT_EQ(refused.outcome, Outcome::refused);
     EXPECT_THAT(refused.rejection->primitive, ::testing::AnyOf(40U, 90U));

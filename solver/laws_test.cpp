@@ -18,6 +18,7 @@
 #include "solver/exact.h"
 #include "solver/testing/problems.h"
 #include "solver/testing/reference.h"
+#include "solver/testing/values.h"
 
 namespace palpate::solver {
 namespace {
@@ -41,7 +42,7 @@ void expect_of_all(std::span<const Family> families, std::uint64_t each, const L
   }
 }
 
-struct Answer {
+struct ExactAnswer {
   Solution solution;
   std::vector<Vec3> forces;
   double promise = 0;
@@ -49,9 +50,9 @@ struct Answer {
   double bound() const { return solution.error_bound; }
 };
 
-Answer solve(const Problem& problem) {
+ExactAnswer exact_answer_to(const Problem& problem) {
   static ExactScratch scratch(128);
-  Answer answer;
+  ExactAnswer answer;
   answer.forces.resize(problem.primitives.size());
   const Balance balance = problem.balance();
   answer.solution = solve_exact(balance, answer.forces, scratch);
@@ -60,7 +61,7 @@ Answer solve(const Problem& problem) {
 }
 
 // Two answers to what is the same balance but for rounding.
-void expect_same(const Answer& a, const Answer& b, const Vec3& apart) {
+void expect_same(const ExactAnswer& a, const ExactAnswer& b, const Vec3& apart) {
   ASSERT_EQ(a.solution.outcome, Outcome::solved);
   ASSERT_EQ(b.solution.outcome, Outcome::solved);
   EXPECT_LE(glm::length(apart), 4 * (a.promise + b.promise));
@@ -72,7 +73,7 @@ constexpr Family well_conditioned[] = {Family::allowed, Family::oblique, Family:
 
 TEST(Laws, EveryBalanceIsSolvedAndNoCapIsHit) {
   expect_of_all(all_families, cases(40000), [&](const Problem& problem, std::uint64_t) {
-    const Answer answer = solve(problem);
+    const ExactAnswer answer = exact_answer_to(problem);
     ASSERT_EQ(answer.solution.outcome, Outcome::solved)
         << "of " << problem.primitives.size() << ", bound " << answer.bound();
     ASSERT_TRUE(std::isfinite(answer.bound()));
@@ -88,7 +89,7 @@ TEST(Laws, NoBoundIsBelowTheTrueErrorAndTheAccuracyIsThatPromised) {
       const Problem problem = make_problem(family, seed);
       const Balance balance = problem.balance();
       const Reference reference = solve_reference(balance);
-      const Answer exact = solve(problem);
+      const ExactAnswer exact = exact_answer_to(problem);
       const double error = distance_to(reference, balance, exact.solution.proxy);
       EXPECT_LE(error, exact.bound() + reference.radius) << name_of(family) << " " << seed;
       ++tried;
@@ -112,12 +113,12 @@ TEST(Laws, NoBoundIsBelowTheTrueErrorAndTheAccuracyIsThatPromised) {
 
 TEST(Laws, OrderDoesNotMatter) {
   expect_of_all(well_conditioned, cases(10000), [&](Problem problem, std::uint64_t seed) {
-    const Answer forwards = solve(problem);
+    const ExactAnswer forwards = exact_answer_to(problem);
     Random random(seed);
     for (std::size_t i = problem.primitives.size(); i > 1; --i) {
       std::swap(problem.primitives[i - 1], problem.primitives[random.below(i)]);
     }
-    const Answer shuffled = solve(problem);
+    const ExactAnswer shuffled = exact_answer_to(problem);
     expect_same(forwards, shuffled, forwards.solution.proxy - shuffled.solution.proxy);
   });
 }
@@ -134,7 +135,7 @@ TEST(Laws, ARigidMotionMovesTheProxyAlong) {
   // Turned and rounded, what was orthogonal is no longer, but by an ulp: 'allowed' stays well-conditioned all the
   // same.
   expect_of_all(well_conditioned, cases(10000), [&](Problem problem, std::uint64_t seed) {
-    const Answer here = solve(problem);
+    const ExactAnswer here = exact_answer_to(problem);
     Random random(seed);
     Motion motion;
     motion.axis[0] = random.unit_vector();
@@ -147,26 +148,26 @@ TEST(Laws, ARigidMotionMovesTheProxyAlong) {
       primitive.position = motion.move(primitive.position);
       primitive.direction = motion.turn(primitive.direction);
     }
-    const Answer there = solve(problem);
+    const ExactAnswer there = exact_answer_to(problem);
     expect_same(here, there, motion.move(here.solution.proxy) - there.solution.proxy);
   });
 }
 
 TEST(Laws, StiffnessAndStrengthsTogetherDoNotMatter) {
   expect_of_all(all_families, cases(10000), [&](Problem problem, std::uint64_t) {
-    const Answer weak = solve(problem);
+    const ExactAnswer weak = exact_answer_to(problem);
     problem.stiffness *= 8;  // a power of two, so that the balance is the same to the last bit
     for (Primitive& primitive : problem.primitives) {
       primitive.strength *= 8;
     }
-    const Answer strong = solve(problem);
+    const ExactAnswer strong = exact_answer_to(problem);
     expect_same(weak, strong, weak.solution.proxy - strong.solution.proxy);
   });
 }
 
 TEST(Laws, APrimitiveMayBeSplitIntoTwoHalves) {
   expect_of_all(well_conditioned, cases(10000), [&](Problem problem, std::uint64_t seed) {
-    const Answer whole = solve(problem);
+    const ExactAnswer whole = exact_answer_to(problem);
     if (problem.primitives.empty()) {
       return;
     }
@@ -175,18 +176,18 @@ TEST(Laws, APrimitiveMayBeSplitIntoTwoHalves) {
     half.strength /= 2;
     const Primitive other = half;
     problem.primitives.push_back(other);
-    const Answer halves = solve(problem);
+    const ExactAnswer halves = exact_answer_to(problem);
     expect_same(whole, halves, whole.solution.proxy - halves.solution.proxy);
   });
 }
 
 TEST(Laws, TheProxyMovesNoFasterThanTheProbe) {
   expect_of_all(all_families, cases(10000), [&](Problem problem, std::uint64_t seed) {
-    const Answer before = solve(problem);
+    const ExactAnswer before = exact_answer_to(problem);
     const Vec3 probe = problem.probe;
     Random random(seed);
     problem.probe += random.unit_vector() * random.log_uniform(1e-9, 1e-2);
-    const Answer after = solve(problem);
+    const ExactAnswer after = exact_answer_to(problem);
     const double moved = glm::length(after.solution.proxy - before.solution.proxy);
     const double probe_moved = glm::length(problem.probe - probe) * (1 + 1e-14);
     EXPECT_LE(moved, probe_moved + before.bound() + after.bound());
@@ -240,7 +241,6 @@ TEST(Laws, TheWorkIsWhatItWas) {
 
 // Puts one thing wrong; returns what has to be said about it.
 Rejection spoil(Problem& problem, Random& random) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t i = random.below(problem.primitives.size());
   Primitive& primitive = problem.primitives[i];

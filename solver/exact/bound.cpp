@@ -11,7 +11,6 @@ namespace palpate::solver::internal {
 
 namespace {
 
-constexpr double unit_roundoff = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Keeps bounds above zero where products of tiny numbers underflow.

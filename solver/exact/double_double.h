@@ -10,6 +10,9 @@ namespace palpate::solver::internal {
 
 using Vec3 = glm::dvec3;
 
+/// The most by which a double's rounding changes it, relative to its size.
+inline constexpr double unit_roundoff = 0x1p-53;
+
 struct DoubleDouble {
   double hi;
   double lo;

@@ -6,14 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "solver/exact/testing/quad.h"
+
 namespace palpate::solver::internal {
 namespace {
-
-__extension__ typedef __float128 Quad;  // NOLINT(modernize-use-using)
-
-Quad quad(const DoubleDouble& a) {
-  return Quad(a.hi) + Quad(a.lo);
-}
 
 /// Of all 53 digits, in a range of some 30 powers of two.
 class AnyDouble {

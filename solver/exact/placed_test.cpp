@@ -5,16 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "solver/exact/testing/quad.h"
 #include "solver/testing/problems.h"
 
 namespace palpate::solver::internal {
 namespace {
-
-__extension__ typedef __float128 Quad;  // NOLINT(modernize-use-using)
-
-Quad quad(const DoubleDouble& a) {
-  return Quad(a.hi) + Quad(a.lo);
-}
 
 struct QuadVector {
   Quad x, y, z;

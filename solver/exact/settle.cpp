@@ -10,10 +10,8 @@ namespace palpate::solver::internal {
 
 namespace {
 
-constexpr double unit_roundoff = 0x1p-53;
-
 // Below this sine two directions count as parallel: what is left of their angle is left to the slack of the law.
-constexpr double independent = 0x1p-44;
+constexpr double parallel_sine = 0x1p-44;
 
 // The few primitives that may hold a proxy, placed: more of them add no more than tightness.
 struct Holding {
@@ -53,7 +51,7 @@ bool lock_best(const Holding& holding, ActiveSet& active) {
     } else if (count == 0) {
       size = 3;
     }
-    if (size > best_size && size > independent) {
+    if (size > best_size && size > parallel_sine) {
       best_size = size;
       best = i;
     }
@@ -75,7 +73,7 @@ bool meets_another_line(const Holding& holding, const ActiveSet& active, std::ui
   for (other = 0; other < holding.count; ++other) {
     const Placed& placed = holding.placed[other];
     if (placed.type == PrimitiveType::line && other != active.locked[0] && same(placed.offset, line.offset) &&
-        length_of(glm::cross(placed.direction, line.direction)) > independent) {
+        length_of(glm::cross(placed.direction, line.direction)) > parallel_sine) {
       return true;
     }
   }

@@ -8,7 +8,6 @@ namespace palpate::solver::internal {
 
 namespace {
 
-constexpr double unit_roundoff = 0x1p-53;
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
 // Where along a way the energy is least: between these.
