@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "solver/testing/values.h"
 
@@ -13,8 +12,6 @@ namespace palpate::solver {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<Rejection> check(const Primitive& flawed) {
   const std::array primitives{make_plane(1, {0, 0, 0}, {1, 0, 0}), flawed};

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -241,7 +240,6 @@ TEST(Laws, TheWorkIsWhatItWas) {
 
 // Puts one thing wrong; returns what has to be said about it.
 Rejection spoil(Problem& problem, Random& random) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t i = random.below(problem.primitives.size());
   Primitive& primitive = problem.primitives[i];
   const bool has_position = primitive.type != PrimitiveType::directed_force;

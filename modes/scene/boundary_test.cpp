@@ -3,13 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
+
+#include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Boundary, a_tissue_is_whole_within_its_limits_half_at_them_and_nothing_beyond_their_softness) {
   for (const double low : {100.0, -infinity}) {

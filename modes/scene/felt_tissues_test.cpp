@@ -11,6 +11,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "modes/scene/felt_strength.h"
+#include "solver/text/testing/not_finite.h"
 #include "testdata/scan.h"
 
 namespace palpate::modes {
@@ -44,7 +45,6 @@ class RandomScene {
     Scene scene;
     scene.name = "random";
     scene.sampling.value = chance(0.5) ? io::ValueMethod::cubic : io::ValueMethod::trilinear;
-    const double infinity = std::numeric_limits<double>::infinity();
     const double first = between(-800, -300), second = between(200, 700);
     scene.tissues = {{"air", -infinity, first, between(0, 200)},
                      {"soft", first, second, between(0, 200)},

@@ -8,14 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "modes/messages.h"
 #include "modes/scene/number_text.h"
+#include "modes/scene/refuse.h"
 
 namespace palpate::modes {
-
-[[noreturn]] inline void refuse(const std::string& path, const Text& why) {
-  throw InvalidInput(at_place(path, why));
-}
 
 /// A value and the path to it.
 struct At {

@@ -7,16 +7,12 @@
 #include <set>
 #include <stdexcept>
 
-#include "modes/messages.h"
 #include "modes/scene/number_text.h"
+#include "modes/scene/refuse.h"
 #include "modes/types/mode_type.h"
 
 namespace palpate::modes {
 namespace {
-
-[[noreturn]] void refuse(const std::string& path, const Text& why) {
-  throw InvalidInput(at_place(path, why));
-}
 
 void check_positive(const std::string& path, double value, const std::string& unit) {
   if (!(value > 0) || !std::isfinite(value)) {

@@ -5,12 +5,12 @@
 
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "io/fresh_folder.h"
+#include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes {
 namespace {
@@ -217,8 +217,6 @@ TEST(SceneJson, a_list_of_numbers_stays_on_its_line) {
   EXPECT_THAT(text, HasSubstr(R"([[0.0,0.0],[1.0,2.0],[5.0,3.0]])"));
   EXPECT_THAT(text, HasSubstr("\n    {\n")) << "a mode begins a line";
 }
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 
 /// A sound scene that has everything that is checked.
 Scene made_by_a_program() {

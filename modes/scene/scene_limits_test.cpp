@@ -6,13 +6,13 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "modes/scene/scene.h"
+#include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes {
 namespace {
@@ -48,9 +48,6 @@ void expect_path(const std::string& said, const std::string& path) {
   EXPECT_EQ(said.rfind(path + ": ", 0), 0U) << said << "\nis not of " << path;
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
-
 TEST(SceneLimits, AFullSceneIsTaken) {
   EXPECT_EQ(said_of([](Scene&) {}), "");
 }
@@ -73,7 +70,7 @@ TEST(SceneLimits, EachSizeIsAboveZero) {
   for (const auto& [path, set] : sizes) {
     const auto said = [&, &set = set](double value) { return said_of([&](Scene& scene) { set(scene, value); }); };
     for (const double value : {1e-300, 1e-9, 1.0, 1e300}) EXPECT_EQ(said(value), "") << path << " " << value;
-    for (const double value : {0.0, -1e-300, -1.0, nan, inf, -inf}) expect_path(said(value), path);
+    for (const double value : {0.0, -1e-300, -1.0, nan, infinity, -infinity}) expect_path(said(value), path);
   }
 }
 
@@ -138,7 +135,7 @@ TEST(SceneLimits, APlaceIsFinite) {
       {"modes[0].level_mm", [](Scene& s, const Vec3& v) { s.modes[0].level_mm = v.x + v.y + v.z; }}};
   for (const auto& [path, set] : places) {
     for (int axis = 0; axis < 3; ++axis) {
-      for (const double value : {nan, inf, -inf, 1e100}) {
+      for (const double value : {nan, infinity, -infinity, 1e100}) {
         Vec3 v(1, 2, 3);
         v[axis] = value;
         const std::string said = said_of([&, &set = set](Scene& scene) { set(scene, v); });
@@ -170,10 +167,20 @@ TEST(SceneLimits, ATissueIsARangeWithSoftEnds) {
   const struct {
     double low, high, softness;
     const char* path;
-  } tissues[] = {{0, 1, 1, ""},           {0, 1, 1e-12, ""},        {0, 1, 1.0001, ".softness"}, {0, 1, 0, ".softness"},
-                 {0, 1, -1, ".softness"}, {0, 1, nan, ".softness"}, {1, 1, 1, ".low"},           {2, 1, 1, ".low"},
-                 {nan, 1, 1, ".low"},     {0, nan, 1, ".low"},      {-inf, 1, 50, ""},           {0, inf, 50, ""},
-                 {-inf, inf, 50, ""},     {inf, inf, 1, ".low"}};
+  } tissues[] = {{0, 1, 1, ""},
+                 {0, 1, 1e-12, ""},
+                 {0, 1, 1.0001, ".softness"},
+                 {0, 1, 0, ".softness"},
+                 {0, 1, -1, ".softness"},
+                 {0, 1, nan, ".softness"},
+                 {1, 1, 1, ".low"},
+                 {2, 1, 1, ".low"},
+                 {nan, 1, 1, ".low"},
+                 {0, nan, 1, ".low"},
+                 {-infinity, 1, 50, ""},
+                 {0, infinity, 50, ""},
+                 {-infinity, infinity, 50, ""},
+                 {infinity, infinity, 1, ".low"}};
   for (std::size_t which = 0; which < 2; ++which) {
     for (const auto& one : tissues) {
       const std::string said = said_of([&](Scene& scene) {

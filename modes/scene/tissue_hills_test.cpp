@@ -4,17 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "modes/scene/faint_walls.h"
+#include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes::internal {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Edges {
  public:

@@ -18,6 +18,9 @@ inline solver::ChainOptions chain_options(const SolverSwitches& switches) {
   return options;
 }
 
+/// Of the spring between hand and proxy, where a scene names no other.
+inline constexpr double stiffness_n_per_mm = 0.4;
+
 /// Steps with probe positions of patient space; mm and N along patient axes.
 class Hand {
  public:
@@ -57,12 +60,17 @@ inline Touch seen_in(const Workspace& workspace, Touch touch) {
   return touch;
 }
 
-inline Mode surface(const TransferFunction& strength, Datum of = Datum::gradient_magnitude,
-                    Side side = Side::entering) {
+inline Mode mode_of(const char* type, const TransferFunction& strength, Datum of = Datum::value) {
   Mode mode;
-  mode.type = "surface";
+  mode.type = type;
   mode.strength_of = of;
   mode.strength_n = strength;
+  return mode;
+}
+
+inline Mode surface(const TransferFunction& strength, Datum of = Datum::gradient_magnitude,
+                    Side side = Side::entering) {
+  Mode mode = mode_of("surface", strength, of);
   mode.side = side;
   return mode;
 }
@@ -71,6 +79,13 @@ inline Scene scene_of(std::vector<Mode> modes, int most_sub_steps = 1) {
   Scene scene;
   scene.modes = std::move(modes);
   scene.subdivision.most = most_sub_steps;
+  return scene;
+}
+
+/// The hand's moves are not divided at boundaries.
+inline Scene tick_by_tick(const Mode& mode) {
+  Scene scene = scene_of({mode});
+  scene.subdivision.most_halts = 0;
   return scene;
 }
 

@@ -13,10 +13,10 @@ namespace palpate::modes {
 namespace {
 
 // The experiment of Creep: s = 3 N, k = 400 N/m, pushed by 1.39 N, 60 s at 1 kHz; noise of 0.02 mm rms on each axis.
-constexpr double strength_n = 3.0;
+constexpr double wall_strength_n = 3.0;
 constexpr double push_n = 1.39;
 constexpr double push_mm = push_n / 400.0 * 1000.0;
-constexpr int ticks = 60000;
+constexpr int creep_ticks = 60000;
 
 struct Wall {
   const char* name;
@@ -38,7 +38,8 @@ Creep hold(const Wall& wall, double speed_mm_per_ms, double noise_mm) {
   const testdata::AnalyticSource source(phantom_of(wall), 1.0);
   // The strength switches on at the mid-value of the edge: the felt radius is the wall's.
   testing::Hand hand(
-      testing::scene_of({testing::surface(TransferFunction({{-490, 0}, {-470, strength_n}}), Datum::value)}), source);
+      testing::scene_of({testing::surface(TransferFunction({{-490, 0}, {-470, wall_strength_n}}), Datum::value)}),
+      source);
   const double outward = wall.concave ? -1.0 : 1.0;
   const double pressed_radius = wall.radius_mm - outward * push_mm;
   hand.stroke({0, 0, wall.radius_mm + outward * 5}, {0, 0, pressed_radius}, 2000);
@@ -46,7 +47,7 @@ Creep hold(const Wall& wall, double speed_mm_per_ms, double noise_mm) {
   std::normal_distribution<double> noise(0, noise_mm);
   Creep creep;
   double angle = 0, sum = 0;
-  for (int tick = 1; tick <= ticks; ++tick) {
+  for (int tick = 1; tick <= creep_ticks; ++tick) {
     angle += speed_mm_per_ms / wall.radius_mm;
     const Vec3 radial{std::sin(angle), 0, std::cos(angle)};
     const double x = noise(random), y = noise(random), z = noise(random);  // in this order with every compiler

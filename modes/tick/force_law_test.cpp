@@ -18,9 +18,9 @@ using testdata::AnalyticSource;
 using testdata::Layer;
 using testing::Hand;
 using testing::scene_of;
+using testing::stiffness_n_per_mm;
 using testing::surface;
 
-constexpr double k = 400.0;
 // Oblique to patient's and device's axes: no component is zero by luck.
 const Vec3 inward = glm::normalize(Vec3(0.3, 0.8, -0.52));
 
@@ -32,7 +32,8 @@ AnalyticSource skin_slab() {
 /// the pull. depths in mm along `inward`; strength in N.
 double balance_mm(const io::FieldSource& source, const Strength& strength, double probe_mm, double from_mm) {
   const auto pull_left = [&](double p) {
-    return p / 1000 * k + strength(source.sample(p * inward, source.available())) - probe_mm / 1000 * k;
+    return p * stiffness_n_per_mm + strength(source.sample(p * inward, source.available())) -
+           probe_mm * stiffness_n_per_mm;
   };
   if (pull_left(from_mm) >= 0) {
     return from_mm;
@@ -66,7 +67,7 @@ TEST(ForceLaw, pressing_on_a_rising_strength_follows_the_quasi_static_balance_wi
       }
       const double proxy = glm::dot(hand.proxy_mm(), inward);
       EXPECT_NEAR(proxy, expected, speed + 1e-9) << "probe at " << probe << ", speed " << speed;
-      EXPECT_NEAR(glm::length(hand.force()), k * (probe - proxy) / 1000, 1e-9);
+      EXPECT_NEAR(glm::length(hand.force()), stiffness_n_per_mm * (probe - proxy), 1e-9);
     }
     EXPECT_GT(glm::length(hand.force()), 2.0) << speed;
   }
@@ -79,7 +80,7 @@ TEST(ForceLaw, a_boundary_is_felt_at_its_mid_value_where_the_strength_switches_o
   hand.stroke(-5.0 * inward, 3.0 * inward, 4000);
   // -480 HU is half-way from -1000 to 40; the edge's slope there is 415 HU/mm.
   EXPECT_NEAR(glm::dot(hand.proxy_mm(), inward), 0.0, 1.0 / 415 + 8.0 / 4000);
-  EXPECT_NEAR(glm::dot(hand.force(), -inward), 3e-3 * k, (1.0 / 415 + 8.0 / 4000) * 1e-3 * k);
+  EXPECT_NEAR(glm::dot(hand.force(), -inward), 3 * stiffness_n_per_mm, (1.0 / 415 + 8.0 / 4000) * stiffness_n_per_mm);
 }
 
 TEST(ForceLaw, increments_are_exact_while_held_on_a_flat_slab) {
@@ -102,7 +103,7 @@ TEST(ForceLaw, increments_are_exact_while_held_on_a_flat_slab) {
       const double depth = std::clamp(glm::dot(offset, inward), -2.5, 1.0);
       offset += (depth - glm::dot(offset, inward)) * inward;
       hand.move_to(probe + offset);
-      const Vec3 expected = force - inward * (glm::dot(offset, inward) * 1e-3 * k);
+      const Vec3 expected = force - inward * (glm::dot(offset, inward) * stiffness_n_per_mm);
       EXPECT_LE(glm::length(hand.force() - expected), 1e-9) << i;
     }
   }

@@ -10,17 +10,17 @@
 namespace palpate::modes {
 namespace {
 
-const Vec3 uphill{0, 0, 10};  // per mm
+const Vec3 rise{0, 0, 10};  // per mm
 
 /// Followed to the origin, where the value is 100, and then with this hold.
 HeldSurface begun(HoldState before, HoldState hold) {
   HeldSurface surface;
   surface.hold = HoldState::none;
   surface.level = surface.value = 7;  // of another place: forgotten
-  follow_level(100, uphill, {50, 60, 70}, surface);
+  follow_level(100, rise, {50, 60, 70}, surface);
   EXPECT_EQ(surface.level, 100);
   surface.hold = before;
-  follow_level(100, uphill, {0, 0, 0}, surface);
+  follow_level(100, rise, {0, 0, 0}, surface);
   surface.level = 100;
   surface.hold = hold;
   return surface;
@@ -30,25 +30,25 @@ TEST(Level, straight_across_is_the_value_unless_the_surface_holds) {
   for (const HoldState hold : {HoldState::lifted, HoldState::yielding}) {
     HeldSurface surface = begun(hold, hold);
     for (int n = 1; n <= 4; ++n) {  // a slope of 40 where the smoothed one says 10
-      follow_level(100 + 40 * 0.2 * n, uphill, {0, 0, 0.2 * n}, surface);
+      follow_level(100 + 40 * 0.2 * n, rise, {0, 0, 0.2 * n}, surface);
       EXPECT_NEAR(surface.level, 100 + 8 * n, 1e-12);
     }
   }
   HeldSurface held = begun(HoldState::lifted, HoldState::held);
-  follow_level(108, uphill, {0, 0, 0.2}, held);
+  follow_level(108, rise, {0, 0, 0.2}, held);
   EXPECT_DOUBLE_EQ(held.level, 102) << "the smoothed slope";
-  follow_level(111, 3.0 * uphill, {0, 0, 0.3}, held);  // the mean of both slopes; 1 mm along, it is drawn by 1
+  follow_level(111, 3.0 * rise, {0, 0, 0.3}, held);  // the mean of both slopes; 1 mm along, it is drawn by 1
   EXPECT_NEAR(held.level, 104 + -std::expm1(-0.1 / 20) * (111 - 6 - 104), 1e-12);
 }
 
 TEST(Level, along_a_surface_that_yields_is_not_drawn_to_the_value) {
   HeldSurface surface = begun(HoldState::yielding, HoldState::yielding);
   for (int n = 1; n <= 10; ++n) {
-    follow_level(100 + 3 * n, uphill, {0.5 * n, 0, 0}, surface);
+    follow_level(100 + 3 * n, rise, {0.5 * n, 0, 0}, surface);
     EXPECT_EQ(surface.level, 100);
   }
   surface.hold = HoldState::lifted;
-  follow_level(104, uphill, {6, 0, 0}, surface);
+  follow_level(104, rise, {6, 0, 0}, surface);
   EXPECT_NEAR(surface.level, 100 - std::expm1(-1.0 / 20) * 4, 1e-12) << "once it is lifted, it is";
 }
 
@@ -56,19 +56,19 @@ TEST(Level, along_a_surface_that_yields_is_not_drawn_to_the_value) {
 TEST(Level, of_a_surface_that_holds_returns_to_the_value_with_its_first_offset) {
   for (const double step_mm : {0.1, 1.0, 5.0}) {
     HeldSurface surface = begun(HoldState::lifted, HoldState::held);
-    follow_level(97, uphill, {1, 0, 0}, surface);
+    follow_level(97, rise, {1, 0, 0}, surface);
     EXPECT_DOUBLE_EQ(surface.level, 100) << "3 above the value from here on";
     for (double way = step_mm; way < 60.01; way += step_mm) {
-      follow_level(102, uphill, {1 + way, 0, 0}, surface);
+      follow_level(102, rise, {1 + way, 0, 0}, surface);
       ASSERT_NEAR(surface.level, 105 - 5 * std::exp(-way / 20), 1e-9) << step_mm << ' ' << way;
     }
     const double level = surface.level;
     surface.hold = HoldState::lifted;
     const double x = surface.place_mm.x + 2;
-    follow_level(102, uphill, {x, 0, 0}, surface);
+    follow_level(102, rise, {x, 0, 0}, surface);
     EXPECT_NEAR(surface.level, level - std::expm1(-2.0 / 20) * (102 - level), 1e-12) << "without the offset again";
     surface.hold = HoldState::held;
-    follow_level(90, uphill, {x + 1, 0, 0}, surface);
+    follow_level(90, rise, {x + 1, 0, 0}, surface);
     EXPECT_DOUBLE_EQ(surface.offset, surface.level - 90) << "a new hold has its own";
   }
 }
@@ -76,8 +76,8 @@ TEST(Level, of_a_surface_that_holds_returns_to_the_value_with_its_first_offset) 
 TEST(Level, is_drawn_no_faster_than_to_what_is_a_millimeter_away) {
   for (const double far : {1000.0, -1000.0}) {
     HeldSurface surface = begun(HoldState::lifted, HoldState::held);
-    follow_level(100, uphill, {1, 0, 0}, surface);
-    follow_level(100 + far, uphill, {2, 0, 0}, surface);
+    follow_level(100, rise, {1, 0, 0}, surface);
+    follow_level(100 + far, rise, {2, 0, 0}, surface);
     EXPECT_NEAR(surface.level, 100 - std::expm1(-1.0 / 20) * std::copysign(10, far), 1e-12);
   }
 }

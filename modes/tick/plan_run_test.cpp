@@ -17,6 +17,7 @@ namespace palpate::modes {
 namespace {
 
 using io::FieldSet;
+using testing::mode_of;
 
 /// Counts what is asked of a scan's fields.
 class Counted : public io::FieldSource {
@@ -46,13 +47,6 @@ class Counted : public io::FieldSource {
   std::shared_ptr<const io::Volume> volume_;
   io::VolumeFields fields_;
 };
-
-Mode mode_of(const char* type, const TransferFunction& strength) {
-  Mode mode;
-  mode.type = type;
-  mode.strength_n = strength;
-  return mode;
-}
 
 std::shared_ptr<const io::Volume> ball() {
   return std::make_shared<const io::Volume>(testdata::scan(testdata::make_sphere(20), testdata::make_geometry({})));

@@ -21,7 +21,6 @@ namespace {
 
 using namespace testing;
 
-constexpr double k = 0.4;  // N/mm
 constexpr double rounding = 1e-5;
 
 /// cm/s: along an axis, faster to one side, and around it.
@@ -66,7 +65,7 @@ Mode by_speed(const char* type, const Spot& spot) {
   return mode;
 }
 
-void on_all(const std::function<void(const Spot& spot, const io::VolumeFields& source)>& test) {
+void at_each_spot(const std::function<void(const Spot& spot, const io::VolumeFields& source)>& test) {
   for (const Body& body : {slab(), sphere(), tube(), wedge()}) {
     for (const NamedGrid& sampling : samplings()) {
       SCOPED_TRACE(body.name + ", " + sampling.name);
@@ -76,12 +75,6 @@ void on_all(const std::function<void(const Spot& spot, const io::VolumeFields& s
       }
     }
   }
-}
-
-Scene tick_by_tick(const Mode& mode) {
-  Scene scene = scene_of({mode});
-  scene.subdivision.most_halts = 0;
-  return scene;
 }
 
 void expect_nothing_in_the_thinner(const Mode& mode, const Spot& spot, const io::VolumeFields& source) {
@@ -95,7 +88,7 @@ TEST(ScannedFlow, follow_is_free_along_the_flow_and_resists_across_it_by_its_spe
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1, 1);
   int slid = 0, stuck = 0;
-  on_all([&](const Spot& spot, const io::VolumeFields& source) {
+  at_each_spot([&](const Spot& spot, const io::VolumeFields& source) {
     const Mode mode = by_speed("follow", spot);
     Hand hand(tick_by_tick(mode), source);
     hand.move_to(spot.at);
@@ -103,7 +96,7 @@ TEST(ScannedFlow, follow_is_free_along_the_flow_and_resists_across_it_by_its_spe
     const Vec3 moved = 1.7 * Vec3(x, y, z);
     hand.move_to(spot.at + moved);
     const Vec3 flow = flow_at(spot.at), q = glm::normalize(flow);
-    const Vec3 pull = -k * (moved - q * glm::dot(q, moved));
+    const Vec3 pull = -stiffness_n_per_mm * (moved - q * glm::dot(q, moved));
     const double strength = 0.01 * glm::length(flow);
     (glm::length(pull) > strength ? slid : stuck) += 1;
     EXPECT_LE(glm::length(hand.force() - pull * std::min(1.0, strength / glm::length(pull))), rounding);
@@ -114,7 +107,7 @@ TEST(ScannedFlow, follow_is_free_along_the_flow_and_resists_across_it_by_its_spe
 }
 
 TEST(ScannedFlow, force_pushes_along_the_flow_by_its_speed) {
-  on_all([](const Spot& spot, const io::VolumeFields& source) {
+  at_each_spot([](const Spot& spot, const io::VolumeFields& source) {
     const Mode mode = by_speed("force", spot);
     Hand hand(tick_by_tick(mode), source);
     hand.move_to(spot.at);

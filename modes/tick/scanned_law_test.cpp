@@ -27,7 +27,6 @@ namespace {
 
 using namespace testing;
 
-constexpr double k = 0.4;           // N/mm
 constexpr double strength_n = 0.5;  // wherever a mode acts
 constexpr io::FieldSet fields = io::FieldSet::value | io::FieldSet::gradient | io::FieldSet::tube;
 
@@ -58,12 +57,6 @@ Mode at_boundary(const char* type, const Spot& spot, double scale_mm) {
   return mode;
 }
 
-Scene tick_by_tick(const Mode& mode) {
-  Scene scene = scene_of({mode});
-  scene.subdivision.most_halts = 0;
-  return scene;
-}
-
 Vec3 at_most(const Vec3& force, double most) {
   const double length = glm::length(force);
   return length > most ? force * (most / length) : force;
@@ -71,13 +64,13 @@ Vec3 at_most(const Vec3& force, double most) {
 
 // The primitives' laws: what a probe feels that is `d` mm from where they stand.
 Vec3 point_law(const Vec3& d) {
-  return at_most(-k * d, strength_n);
+  return at_most(-stiffness_n_per_mm * d, strength_n);
 }
 Vec3 line_law(const Vec3& d, const Vec3& q) {
-  return at_most(-k * (d - q * glm::dot(q, d)), strength_n);
+  return at_most(-stiffness_n_per_mm * (d - q * glm::dot(q, d)), strength_n);
 }
 Vec3 plane_law(const Vec3& d, const Vec3& q) {
-  return q * std::clamp(-k * glm::dot(q, d), 0.0, strength_n);
+  return q * std::clamp(-stiffness_n_per_mm * glm::dot(q, d), 0.0, strength_n);
 }
 
 /// Rests at each spot, is moved by up to 3 mm any way, and compares.
@@ -94,7 +87,7 @@ void expect_law(const Body& body, const Scanned& scanned, const std::function<Mo
     const Vec3 d = 1.7 * Vec3(x, y, z);
     hand.move_to(spot.at + d);
     const Vec3 expected = law(d, spot);
-    EXPECT_LE(glm::length(hand.force() - expected), tolerance * k * glm::length(d) + 1e-9)
+    EXPECT_LE(glm::length(hand.force() - expected), tolerance * stiffness_n_per_mm * glm::length(d) + 1e-9)
         << "moved " << d.x << ' ' << d.y << ' ' << d.z;
     (glm::length(expected) > 0.999 * strength_n ? slid : stuck) += 1;
   }
@@ -134,7 +127,7 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-void on_all(const std::function<void(const Body& body, const Scanned& scanned, double tolerance)>& test) {
+void on_each_scan(const std::function<void(const Body& body, const Scanned& scanned, double tolerance)>& test) {
   for (const Case& made : cases()) {
     SCOPED_TRACE(made.name);
     test(made.body, made.scanned, made.tolerance);
@@ -142,7 +135,7 @@ void on_all(const std::function<void(const Body& body, const Scanned& scanned, d
 }
 
 TEST(ScannedLaw, surface_pushes_back_along_the_normal_by_what_it_holds) {
-  on_all([](const Body& body, const Scanned& scanned, double tolerance) {
+  on_each_scan([](const Body& body, const Scanned& scanned, double tolerance) {
     for (const Side side : {Side::entering, Side::leaving}) {
       expect_law(
           body, scanned,
@@ -160,7 +153,7 @@ TEST(ScannedLaw, surface_pushes_back_along_the_normal_by_what_it_holds) {
 }
 
 TEST(ScannedLaw, follow_is_free_along_the_gradient_and_resists_across_it) {
-  on_all([](const Body& body, const Scanned& scanned, double tolerance) {
+  on_each_scan([](const Body& body, const Scanned& scanned, double tolerance) {
     expect_law(
         body, scanned, [&](const Spot& spot) { return at_boundary("follow", spot, scanned.scale_mm); },
         [](const Vec3& d, const Spot& spot) { return line_law(d, uphill(spot)); }, tolerance);
@@ -168,7 +161,7 @@ TEST(ScannedLaw, follow_is_free_along_the_gradient_and_resists_across_it) {
 }
 
 TEST(ScannedLaw, friction_holds_up_to_its_strength_whatever_way_it_is_pulled) {
-  on_all([](const Body& body, const Scanned& scanned, double) {
+  on_each_scan([](const Body& body, const Scanned& scanned, double) {
     const auto friction = [](const Spot& spot) {
       Mode mode;
       mode.type = "friction";
@@ -191,7 +184,7 @@ TEST(ScannedLaw, friction_holds_up_to_its_strength_whatever_way_it_is_pulled) {
 }
 
 TEST(ScannedLaw, force_pushes_uphill_by_the_strength_of_the_gradient_there) {
-  on_all([](const Body& body, const Scanned& scanned, double tolerance) {
+  on_each_scan([](const Body& body, const Scanned& scanned, double tolerance) {
     for (const Spot& spot : body.spots) {
       const double peak = steepest(spot, scanned.scale_mm);
       Mode mode = at_boundary("force", spot, scanned.scale_mm);
@@ -213,7 +206,7 @@ TEST(ScannedLaw, force_pushes_uphill_by_the_strength_of_the_gradient_there) {
 }
 
 TEST(ScannedLaw, landmark_acts_at_its_own_place_as_strongly_as_the_tissue_at_the_proxy_says) {
-  on_all([](const Body& body, const Scanned& scanned, double) {
+  on_each_scan([](const Body& body, const Scanned& scanned, double) {
     const Vec3 direction = glm::normalize(Vec3(2, -1, 3));
     for (const Shape shape : {Shape::point, Shape::line, Shape::plane}) {
       std::mt19937 random(11);
@@ -274,7 +267,7 @@ TEST(ScannedLaw, tube_is_free_along_a_vessel_and_resists_across_it) {
 
 /// Where no vessel is, whatever direction the curvature gives: what is felt is that line's law.
 TEST(ScannedLaw, tube_obeys_its_law_on_bodies_that_are_no_tubes) {
-  on_all([](const Body& body, const Scanned& scanned, double) {
+  on_each_scan([](const Body& body, const Scanned& scanned, double) {
     Mode mode;
     mode.type = "tube";
     mode.strength_n = TransferFunction(strength_n);

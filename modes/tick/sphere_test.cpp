@@ -12,8 +12,9 @@
 namespace palpate::modes {
 namespace {
 
+using testing::stiffness_n_per_mm;
+
 constexpr double radius_mm = 25.0;
-constexpr double k = 400.0;
 
 /// Voxels of 1 mm at the default gradient scale, as a scanner would show the sphere.
 io::VolumeFields scanned_sphere() {
@@ -56,8 +57,8 @@ Slide slide(const io::FieldSource& source, double depth_mm, double speed_mm_per_
         std::sqrt(std::max(0.0, glm::dot(next - probe, next - probe) - radial_step * radial_step));
     // Depth below the surface that is felt: with voxels its radius is off by up to 0.1 mm (below), much of a shallow
     // press.
-    const double d = std::max(radius_mm - glm::length(next), glm::length(force) / k * 1000);
-    const double bound = 1.2 * k * 1e-3 * (radial_step + d * tangential_step / (radius_mm - d)) + 1e-6;
+    const double d = std::max(radius_mm - glm::length(next), glm::length(force) / stiffness_n_per_mm);
+    const double bound = 1.2 * stiffness_n_per_mm * (radial_step + d * tangential_step / (radius_mm - d)) + 1e-6;
     slide.worst_change = std::max(slide.worst_change, glm::length(hand.force() - force) / bound);
     slide.least_felt_mm = std::min(slide.least_felt_mm, glm::length(hand.proxy_mm()));
     slide.most_felt_mm = std::max(slide.most_felt_mm, glm::length(hand.proxy_mm()));

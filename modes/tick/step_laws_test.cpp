@@ -16,6 +16,7 @@ namespace palpate::modes {
 namespace {
 
 using testing::Hand;
+using testing::mode_of;
 using testing::scene_of;
 using testing::surface;
 
@@ -42,18 +43,11 @@ class Shells : public io::FieldSource {
   }
 };
 
-Mode mode_of(const char* type, double strength_n, Datum of = Datum::gradient_magnitude) {
-  Mode mode;
-  mode.type = type;
-  mode.strength_of = of;
-  mode.strength_n = TransferFunction(strength_n);
-  return mode;
-}
-
 Scene everything() {
-  Scene scene =
-      scene_of({surface(TransferFunction({{0.1, 0}, {1, 0.7}, {3, 2}}), Datum::value), mode_of("friction", 0.1),
-                mode_of("follow", 0.05, Datum::vector_magnitude), mode_of("force", 0.1, Datum::vector_magnitude)});
+  Scene scene = scene_of({surface(TransferFunction({{0.1, 0}, {1, 0.7}, {3, 2}}), Datum::value),
+                          mode_of("friction", TransferFunction(0.1), Datum::gradient_magnitude),
+                          mode_of("follow", TransferFunction(0.05), Datum::vector_magnitude),
+                          mode_of("force", TransferFunction(0.1), Datum::vector_magnitude)});
   scene.subdivision = {.step_mm = 0.1, .most = 8, .proxy_step_mm = 0.25, .most_halts = 16};
   return scene;
 }

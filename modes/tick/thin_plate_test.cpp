@@ -61,13 +61,13 @@ double felt_n(const Scene& scene, const io::FieldSource& source, const Stroke& s
   return most;
 }
 
-struct Scanned {
+struct ScannedPlate {
   std::shared_ptr<const io::Volume> volume;
   Stroke stroke;
 };
 
 /// A plate of 1 mm in voxels of 1 mm: leaning, anywhere between the voxels, and met anywhere.
-Scanned scan(const Plate& plate, double tilt_degrees, std::mt19937& random) {
+ScannedPlate scan(const Plate& plate, double tilt_degrees, std::mt19937& random) {
   std::uniform_real_distribution<double> any(-1, 1);
   const double tilt = tilt_degrees * M_PI / 180, turn = M_PI * any(random), middle = 0.5 * any(random);
   const Vec3 inward(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), -std::cos(tilt));
@@ -81,7 +81,7 @@ Scanned scan(const Plate& plate, double tilt_degrees, std::mt19937& random) {
           {.middle = aside + (middle - glm::dot(aside, inward)) * inward, .inward = inward}};
 }
 
-void expect_felt_as_shown(const Plate& plate, const Scanned& scanned) {
+void expect_felt_as_shown(const Plate& plate, const ScannedPlate& scanned) {
   const double scale_mm = io::default_gradient_scale_mm(scanned.volume->geometry);
   const io::VolumeFields source(scanned.volume, io::FieldSet::value | io::FieldSet::gradient, scale_mm);
   const Scene scene = testing::scene_of({boundary_of(plate, scale_mm)}, 8);

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -21,6 +20,7 @@
 #include "io/load.h"
 #include "io/series.h"
 #include "modes/testing/test_rig.h"
+#include "solver/text/testing/not_finite.h"
 #include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
@@ -32,38 +32,30 @@ int ticks() {
   return wanted != nullptr ? std::max(1, std::atoi(wanted)) : repeats(2000, 200);
 }
 
-Mode mode_of(const char* type, double strength_n) {
-  Mode mode;
-  mode.type = type;
-  mode.strength_n = TransferFunction(strength_n);
-  return mode;
-}
-
 /// The boundary between what is darker and what is brighter than the scan's mean, and every other mode; strong enough
 /// to be felt, each in the others' way.
 Scene every_mode(const io::Volume& volume, const Vec3& middle_mm) {
   const io::Statistics statistics = io::statistics(volume);
-  const double infinity = std::numeric_limits<double>::infinity();
   const double softness = 0.1 * (statistics.maximum - statistics.minimum) + 1e-3;
   Scene scene;
   scene.tissues = {{"dark", -infinity, statistics.mean, softness, ""},
                    {"bright", statistics.mean, infinity, softness, ""}};
-  scene.modes.push_back(mode_of("surface", 1));
+  scene.modes.push_back(testing::mode_of("surface", TransferFunction(1)));
   scene.modes.back().strength_of = Datum::gradient_magnitude;
   scene.modes.back().from = "dark";
   scene.modes.back().to = "bright";
-  scene.modes.push_back(mode_of("surface", 0.4));
+  scene.modes.push_back(testing::mode_of("surface", TransferFunction(0.4)));
   scene.modes.back().side = Side::both;
   scene.modes.back().strength_of = Datum::gradient_magnitude;
-  scene.modes.push_back(mode_of("friction", 0.1));
-  scene.modes.push_back(mode_of("tube", 0.3));
+  scene.modes.push_back(testing::mode_of("friction", TransferFunction(0.1)));
+  scene.modes.push_back(testing::mode_of("tube", TransferFunction(0.3)));
   for (const char* type : {"follow", "force"}) {
-    scene.modes.push_back(mode_of(type, 0.2));
+    scene.modes.push_back(testing::mode_of(type, TransferFunction(0.2)));
     scene.modes.back().direction_of = DirectionField::gradient;
     scene.modes.back().strength_of = Datum::gradient_magnitude;
   }
   for (const Shape shape : {Shape::point, Shape::line, Shape::plane}) {
-    scene.modes.push_back(mode_of("landmark", 0.15));
+    scene.modes.push_back(testing::mode_of("landmark", TransferFunction(0.15)));
     scene.modes.back().shape = shape;
     scene.modes.back().position_mm = middle_mm;
     scene.modes.back().direction = glm::normalize(Vec3(1, 2, 3));

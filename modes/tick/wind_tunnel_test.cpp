@@ -18,7 +18,7 @@ using solver::SolverKind;
 using testing::Hand;
 
 /// A seeded walk through the tunnel, around and along the sphere.
-class Walk {
+class TunnelWalk {
  public:
   Vec3 next() {
     velocity_ += Vec3(normal_(random_), normal_(random_), normal_(random_)) * 0.004 - 0.02 * velocity_;
@@ -49,7 +49,7 @@ TEST(WindTunnel, follow_and_force_are_solved_by_the_analytical_solver_on_every_t
   Hand hand(follow_and_force(), source);
   EXPECT_FALSE(hand.plan.solvers.exact);
   EXPECT_FALSE(hand.plan.solvers.descent);
-  Walk walk;
+  TunnelWalk walk;
   for (int i = 0; i < 20000; ++i) {
     const StepResult& result = hand.move_to(walk.next());
     ASSERT_EQ(result.outcome, solver::Outcome::solved) << i;
@@ -108,7 +108,7 @@ TEST(WindTunnel, with_surface_on_the_pressure_a_general_solver_takes_over_where_
   scene.modes.push_back(pressure);
   Hand hand(scene, source);
   EXPECT_TRUE(hand.plan.solvers.exact);
-  Walk walk;
+  TunnelWalk walk;
   int analytical = 0, general = 0, capped = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vec3 probe = walk.next();
