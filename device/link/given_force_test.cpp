@@ -102,7 +102,9 @@ TEST(GivenForce, EveryZeroThatIsPutInIsFollowedByARamp) {
           EXPECT_LE(length, 3 * (now - back + tick_s) / ceiling::resume_ramp_s + 1e-9);
         }
         whole = now - back > ceiling::resume_ramp_s + tick_s;
-        if (whole) EXPECT_NEAR(length, 3, 1e-9);
+        if (whole) {
+          EXPECT_NEAR(length, 3, 1e-9);
+        }
       }
       EXPECT_TRUE(whole);
     }
@@ -190,7 +192,9 @@ TEST(GivenForce, ADeviceThatRefusesEveryForceIsAFault) {
       bench.answer = every || n % 40 != 0 ? ForceAnswer::refused : ForceAnswer::taken;
       stylus->write_force(Vec3(0, 3, 0));
       stylus->service(tick_s);
-      if (every && n * tick_s < ceiling::refusal_s - 2 * tick_s) EXPECT_EQ(stylus->fault(), LinkFault::none);
+      if (every && n * tick_s < ceiling::refusal_s - 2 * tick_s) {
+        EXPECT_EQ(stylus->fault(), LinkFault::none);
+      }
     }
     EXPECT_EQ(stylus->fault(), every ? LinkFault::forces_refused : LinkFault::none);
     EXPECT_EQ(stylus->on_device(), OnDevice::unknown);

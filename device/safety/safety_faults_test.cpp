@@ -281,7 +281,9 @@ TEST(SafetyFaults, AfterAFaultTheForceNeverGrowsWhereverTheHandGoes) {
         const double length = glm::length(session.step().force);
         ASSERT_LE(length, most * (1 + 1e-12)) << "seed " << seed << ", cause " << cause << ", " << ms << " ms";
         most = length;
-        if (ms * tick > session.limits.fall_time + tick) ASSERT_EQ(length, 0) << "seed " << seed << ", cause " << cause;
+        if (ms * tick > session.limits.fall_time + tick) {
+          ASSERT_EQ(length, 0) << "seed " << seed << ", cause " << cause;
+        }
       }
       EXPECT_EQ(session.state.fault == Fault::none, cause == released);
     }
