@@ -106,6 +106,7 @@ const std::array of_structures{DCM_SpecificCharacterSet,
                                DCM_BitsAllocated,
                                DCM_BitsStored,
                                DCM_HighBit,
+                               DCM_PixelPaddingValue,
                                DCM_TotalPixelMatrixColumns,
                                DCM_SegmentationType,
                                DCM_SegmentationFractionalType,
@@ -120,6 +121,10 @@ const std::array of_structures{DCM_SpecificCharacterSet,
                                DCM_RegistrationSequence,
                                DCM_DeformableRegistrationSequence};
 
+const std::array of_registrations{
+    DCM_SpecificCharacterSet, DCM_SOPClassUID,          DCM_PatientID,
+    DCM_FrameOfReferenceUID,  DCM_RegistrationSequence, DCM_DeformableRegistrationSequence};
+
 }  // namespace
 
 bool is_asked_for(std::uint32_t tag) {
@@ -130,6 +135,11 @@ bool is_asked_for(std::uint32_t tag) {
 
 bool is_asked_for_of_structures(std::uint32_t tag) {
   static const Tags tags = tags_of({of_structures});
+  return holds(tags, tag);
+}
+
+bool is_asked_for_of_registrations(std::uint32_t tag) {
+  static const Tags tags = tags_of({of_registrations});
   return holds(tags, tag);
 }
 

@@ -85,7 +85,13 @@ std::string text_of(DcmItem& item, const DcmTagKey& tag) {
 std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag) {
   DcmElement* element = element_of(item, tag);
   if (element == nullptr || element->isEmpty()) return {};
-  if (dynamic_cast<DcmByteString*>(element) != nullptr) return parsed_list(text_in(*element));
+  if (auto* const text = dynamic_cast<DcmByteString*>(element)) {
+    // As it stands: DCMTK's lists of values are made in a time that grows with the square of their number.
+    char* letters = nullptr;
+    Uint32 count = 0;
+    if (text->getString(letters, count).bad() || letters == nullptr) return {};
+    return parsed_list(std::string_view(letters, count));
+  }
   if (Uint8* bytes = nullptr; is_unknown(*element) && element->getUint8Array(bytes).good()) {
     return parsed_list(
         {reinterpret_cast<const char*>(bytes), element->getLength()});  // private, and not in a dictionary

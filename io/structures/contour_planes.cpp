@@ -1,18 +1,14 @@
 #include "io/structures/contour_planes.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include "io/errors.h"
 #include "io/messages.h"
-#include "io/quantile.h"
 #include "io/structures/beyond_slices.h"
 
 namespace palpate::io {
@@ -20,68 +16,8 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-constexpr double same_plane_mm = 0.01;
-constexpr int most_planes = 4096;
-constexpr double most_missing = 4.5;  // steps between two planes of one body
 constexpr double finest_mm = 0.5;
 constexpr double coarsest_mm = 1.5;
-
-/// Newell's normal: its length is twice the area.
-Vec3 normal_of(const Contour& contour) {
-  Vec3 sum(0);
-  for (std::size_t n = 0; n < contour.size(); ++n) {
-    sum += glm::cross(contour[n] - contour.front(), contour[(n + 1) % contour.size()] - contour.front());
-  }
-  return sum;
-}
-
-/// The axes of the patient where the planes lie along them, so that nothing is turned for rounding's sake.
-glm::dmat3 axes_of(Vec3 normal) {
-  for (int a = 0; a < 3; ++a) {
-    if (std::abs(normal[a]) > 1 - 1e-6) {
-      normal = Vec3(0);
-      normal[a] = 1;
-    }
-  }
-  const Vec3 along = std::abs(normal.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-  const Vec3 i = glm::normalize(along - glm::dot(along, normal) * normal);
-  return glm::dmat3(i, glm::cross(normal, i), normal);
-}
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-/// Twice the signed area of a polygon, and its centroid times that.
-double twice_area(const Polygon& polygon, glm::dvec2& moment) {
-  double area = 0;
-  moment = glm::dvec2(0);
-  const glm::dvec2 base = polygon.front();
-  for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const glm::dvec2 a = polygon[n] - base, b = polygon[(n + 1) % polygon.size()] - base;
-    area += cross(a, b);
-    moment += cross(a, b) / 3.0 * (a + b);
-  }
-  moment += area * base;
-  return area;
-}
-
-bool holds(const Polygon& polygon, const glm::dvec2& at) {
-  bool inside = false;
-  for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const glm::dvec2& a = polygon[n];
-    const glm::dvec2& b = polygon[(n + 1) % polygon.size()];
-    if ((a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-  }
-  return inside;
-}
-
-double typical_step(const std::vector<ContourStack::Plane>& planes) {
-  std::vector<double> steps;
-  steps.reserve(planes.size());
-  for (std::size_t n = 0; n + 1 < planes.size(); ++n) steps.push_back(planes[n + 1].height - planes[n].height);
-  return steps.empty() ? 1 : quantile(std::move(steps), 0.5);
-}
 
 /// Which columns of a row of nodes lie inside, by even-odd.
 void fill_row(const std::vector<Polygon>& polygons, double y, double first, double step, std::vector<char>& inside) {
@@ -125,29 +61,6 @@ void draw_segment(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& or
   }
 }
 
-/// A "keyhole" leads from the outline to a hole and back along the same way: that way is no edge.
-std::vector<std::pair<glm::dvec2, glm::dvec2>> edges_of(const std::vector<Polygon>& polygons) {
-  using Key = std::array<long long, 4>;
-  const auto key_of = [](const glm::dvec2& a, const glm::dvec2& b) {
-    constexpr double per_mm = 1000;
-    return Key{std::llround(a.x * per_mm), std::llround(a.y * per_mm), std::llround(b.x * per_mm),
-               std::llround(b.y * per_mm)};
-  };
-  std::map<Key, int> backward;
-  for (const Polygon& polygon : polygons) {
-    for (std::size_t n = 0; n < polygon.size(); ++n) ++backward[key_of(polygon[(n + 1) % polygon.size()], polygon[n])];
-  }
-  std::vector<std::pair<glm::dvec2, glm::dvec2>> edges;
-  for (const Polygon& polygon : polygons) {
-    for (std::size_t n = 0; n < polygon.size(); ++n) {
-      const glm::dvec2& a = polygon[n];
-      const glm::dvec2& b = polygon[(n + 1) % polygon.size()];
-      if (a != b && backward.find(key_of(a, b)) == backward.end()) edges.emplace_back(a, b);
-    }
-  }
-  return edges;
-}
-
 /// Planes of distances: the contours' own, and empty ones beyond their ends.
 struct Layout {
   std::vector<const ContourStack::Plane*> planes;  ///< null: empty
@@ -166,7 +79,11 @@ void compute_plane(const Layout& layout, const NodeLattice& lattice, double band
   const std::vector<Polygon>& polygons = layout.planes[n]->polygons;
   const glm::dvec2 step(lattice.spacing);
   std::vector<float> squared(count, PlaneDistances::far);
-  for (const auto& [a, b] : edges_of(polygons)) draw_segment(a, b, layout.origin, step, size, band, squared);
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t m = 0; m < polygon.size(); ++m) {
+      draw_segment(polygon[m], polygon[(m + 1) % polygon.size()], layout.origin, step, size, band, squared);
+    }
+  }
   std::vector<char> inside(static_cast<std::size_t>(size.x));
   for (int j = 0; j < size.y; ++j) {
     fill_row(polygons, layout.origin.y + j * step.y, layout.origin.x, step.x, inside);
@@ -237,7 +154,7 @@ std::vector<Level> levels_of(const ContourStack& stack, const Rectangle& all, in
     const double height = stack.planes[n].height;
     // The surface goes on through planes that are missing; where many are, there are two bodies.
     const double from_last = n == 0 ? 0 : height - stack.planes[n - 1].height;
-    for (double part = 1; from_last > most_missing * stack.step_mm && part * stack.step_mm < from_last - 1e-3; ++part) {
+    for (double part = 1; !is_one_body(stack, from_last) && part * stack.step_mm < from_last - 1e-3; ++part) {
       levels.push_back({height - from_last + part * stack.step_mm, nullptr});
     }
     levels.push_back({height, &stack.planes[n]});
@@ -249,86 +166,6 @@ std::vector<Level> levels_of(const ContourStack& stack, const Rectangle& all, in
 }
 
 }  // namespace
-
-ContourStack stack_of(const std::vector<Contour>& contours) {
-  if (contours.empty()) {
-    throw DicomError(say("no-contour"));
-  }
-  Vec3 normal(0);
-  for (const Contour& contour : contours) {
-    const Vec3 own = normal_of(contour);
-    if (glm::length(own) > glm::length(normal)) normal = own;
-  }
-  if (!(glm::length(normal) > 0)) {
-    throw DicomError(say("contours-have-no-area"));
-  }
-  ContourStack stack;
-  stack.axes = axes_of(glm::normalize(normal));
-  stack.contours = contours.size();
-  std::map<long long, std::size_t> plane_at;
-  for (const Contour& contour : contours) {
-    Polygon polygon;
-    polygon.reserve(contour.size());
-    double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
-    for (const Vec3& point : contour) {
-      const Vec3 at = glm::transpose(stack.axes) * point;
-      polygon.emplace_back(at);
-      low = std::min(low, at.z);
-      high = std::max(high, at.z);
-      sum += at.z;
-    }
-    if (!(high - low < 0.5)) {
-      throw DicomError(say("contours-do-not-lie-in-parallel"));
-    }
-    const double height = sum / static_cast<double>(contour.size());
-    const auto [place, is_new] = plane_at.try_emplace(std::llround(height / same_plane_mm), stack.planes.size());
-    if (is_new) stack.planes.push_back({height, {}});
-    stack.planes[place->second].polygons.push_back(std::move(polygon));
-  }
-  std::sort(stack.planes.begin(), stack.planes.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
-  if (static_cast<int>(stack.planes.size()) > most_planes) {
-    throw DicomError(say("contours-lie-in-planes", stack.planes.size()));
-  }
-  stack.step_mm = typical_step(stack.planes);
-  return stack;
-}
-
-StructureMeasures measures_of(const std::vector<Contour>& contours) {
-  const ContourStack stack = stack_of(contours);
-  StructureMeasures measures;
-  measures.contours = contours.size();
-  measures.box_low_mm = Vec3(std::numeric_limits<double>::infinity());
-  measures.box_high_mm = -measures.box_low_mm;
-  for (const Contour& contour : contours) {
-    for (const Vec3& point : contour) {
-      measures.box_low_mm = glm::min(measures.box_low_mm, point);
-      measures.box_high_mm = glm::max(measures.box_high_mm, point);
-    }
-  }
-  double area = 0;
-  Vec3 moment(0);
-  for (const ContourStack::Plane& plane : stack.planes) {
-    for (std::size_t n = 0; n < plane.polygons.size(); ++n) {
-      const Polygon& polygon = plane.polygons[n];
-      // Even-odd: a polygon within an odd number of others is a hole.
-      int around = 0;
-      for (std::size_t m = 0; m < plane.polygons.size(); ++m) {
-        around += m != n && holds(plane.polygons[m], polygon.front()) ? 1 : 0;
-      }
-      glm::dvec2 own;
-      const double twice = twice_area(polygon, own);
-      const double sign = (around % 2 == 0 ? 0.5 : -0.5) * (twice < 0 ? -1 : 1);
-      area += sign * twice;
-      moment += Vec3(sign * own, sign * twice * plane.height);
-    }
-  }
-  if (!(area > 0)) {
-    throw DicomError(say("contours-have-no-area"));
-  }
-  measures.volume_mm3 = area * stack.step_mm;
-  measures.centroid_mm = stack.axes * (moment / area);
-  return measures;
-}
 
 OutlinePlanes planes_of(const ContourStack& stack, const DistanceOptions& options) {
   const Rectangle all = rectangle_around(stack);

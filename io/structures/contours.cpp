@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "io/dicom/character_set.h"
 #include "io/dicom/dicom_value.h"
 #include "io/errors.h"
 #include "io/messages.h"
+#include "io/quantile.h"
 #include "io/structures/color.h"
 #include "io/structures/contour_planes.h"
 #include "io/structures/structure_file.h"
@@ -21,26 +22,59 @@
 namespace palpate::io {
 namespace {
 
+/// Retired in 2008; programs still write it.
+const DcmTagKey contour_slab_thickness(0x3006, 0x0044);
+
 using internal::number_of;
 using internal::numbers_of;
 using internal::text_of;
 
+struct Roi {
+  std::vector<Contour> contours;
+  ContourRule rule;
+};
+
+/// How far the scan's voxels reach along the normal of the contours: of those axes that lie nearest to it.
+double thickness_of_voxels(const Geometry& scan, const Vec3& normal) {
+  const Vec3 across = glm::cross(scan.direction_i, scan.direction_j);
+  double best = 0, thickness = 0;
+  for (const auto& [axis, spacing] : {std::pair{across, scan.slice_spacing()},
+                                      {scan.direction_i, scan.spacing_i},
+                                      {scan.direction_j, scan.spacing_j}}) {
+    if (const double along = std::abs(glm::dot(axis, normal)); along > best) {
+      best = along;
+      thickness = spacing;
+    }
+  }
+  return thickness;
+}
+
 /// The ROIs of one file.
 class ContourSource final : public StructureSource {
  public:
-  explicit ContourSource(std::map<int, std::vector<Contour>> rois) : rois_(std::move(rois)) {}
+  explicit ContourSource(std::map<int, Roi> rois) : rois_(std::move(rois)) {}
 
-  StructureMeasures measure(int number, const RigidMotion& motion) const override {
-    return measures_of(moved(number, motion));
+  StructureMeasures measure(int number, const RigidMotion& motion, const Geometry* scan) const override {
+    const std::vector<Contour> contours = moved(number, motion);
+    return measures_of(contours, rule_on(scan, number, contours));
   }
   std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override {
-    const ContourStack stack = stack_of(moved(number, options.motion));
+    const std::vector<Contour> contours = moved(number, options.motion);
+    const ContourStack stack = stack_of(contours, rule_on(options.scan, number, contours));
     return std::make_shared<const DistanceField>(planes_of(stack, options), options);
   }
 
  private:
+  /// Where the file says nothing of how thick a plane alone is, it is as thick as the scan's voxels.
+  ContourRule rule_on(const Geometry* scan, int number, const std::vector<Contour>& contours) const {
+    ContourRule rule = rois_.at(number).rule;
+    if (scan != nullptr && !(rule.thickness_mm > 0)) {
+      rule.thickness_mm = thickness_of_voxels(*scan, stack_of(contours, rule).axes[2]);
+    }
+    return rule;
+  }
   std::vector<Contour> moved(int number, const RigidMotion& motion) const {
-    std::vector<Contour> contours = rois_.at(number);
+    std::vector<Contour> contours = rois_.at(number).contours;
     if (motion == RigidMotion()) return contours;
     for (Contour& contour : contours) {
       for (Vec3& point : contour) point = motion(point);
@@ -48,7 +82,7 @@ class ContourSource final : public StructureSource {
     return contours;
   }
 
-  std::map<int, std::vector<Contour>> rois_;
+  std::map<int, Roi> rois_;
 };
 
 template <typename Work>
@@ -77,14 +111,17 @@ Contour contour_in(DcmItem& item) {
 }
 
 /// The closed contours of a ROI, and in `unfit` why it cannot be felt.
-std::vector<Contour> closed_contours(DcmItem& roi, Text& unfit, std::vector<Text>& warnings) {
-  std::vector<Contour> contours;
+Roi closed_contours(DcmItem& item_of_roi, Text& unfit, std::vector<Text>& warnings) {
+  Roi roi;
   std::map<std::string, int> others;
-  for_items(roi, DCM_ContourSequence, [&](DcmItem& item) {
+  for_items(item_of_roi, DCM_ContourSequence, [&](DcmItem& item) {
     const std::string type = text_of(item, DCM_ContourGeometricType);
     if (type == "CLOSED_PLANAR" || type == "CLOSEDPLANAR_XOR") {
       Contour contour = contour_in(item);
-      if (contour.size() >= 3) contours.push_back(std::move(contour));
+      if (contour.size() < 3) return;
+      roi.contours.push_back(std::move(contour));
+      roi.rule.is_exclusive = roi.rule.is_exclusive || type == "CLOSEDPLANAR_XOR";
+      roi.rule.thickness_mm = std::max(roi.rule.thickness_mm, number_of(item, contour_slab_thickness).value_or(0));
     } else {
       ++others[type];
     }
@@ -93,12 +130,21 @@ std::vector<Contour> closed_contours(DcmItem& roi, Text& unfit, std::vector<Text
   for (const auto& [type, count] : others) {
     open += (open.empty() ? "" : ", ") + std::to_string(count) + " " + (type.empty() ? "of no type" : type);
   }
-  if (contours.empty()) {
+  if (roi.contours.empty()) {
     unfit = open.empty() ? say("no-contour") : say("no-closed-contour", open);
   } else if (!open.empty()) {
     warnings.push_back(say("contours-that-are-not-closed-are-left", open));
   }
-  return contours;
+  return roi;
+}
+
+/// A plane alone is as thick as the planes of the file's other ROIs are apart: all lie on the same scan.
+void give_thickness(std::map<int, Roi>& rois, std::vector<double> steps_mm) {
+  if (steps_mm.empty()) return;
+  const double typical = quantile(std::move(steps_mm), 0.5);
+  for (auto& [number, roi] : rois) {
+    if (!(roi.rule.thickness_mm > 0)) roi.rule.thickness_mm = typical;
+  }
 }
 
 }  // namespace
@@ -122,7 +168,8 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
   if (structures.empty()) {
     throw DicomError(say("names-no-roi"));
   }
-  std::map<int, std::vector<Contour>> rois;
+  std::map<int, Roi> rois;
+  std::vector<double> steps_mm;
   for_items(dataset, DCM_ROIContourSequence, [&](DcmItem& item) {
     const auto found = structures.find(
         static_cast<int>(std::clamp(number_of(item, DCM_ReferencedROINumber).value_or(-2e9), -2e9, 2e9)));
@@ -131,12 +178,16 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
     structure.color = color_of_rgb(numbers_of(item, DCM_ROIDisplayColor));
     structure.unfit.clear();
     try {
-      rois[structure.number] = closed_contours(item, structure.unfit, structure.warnings);
-      if (structure.unfit.empty()) stack_of(rois[structure.number]);  // refuses what does not lie in parallel planes
+      const Roi& roi = rois[structure.number] = closed_contours(item, structure.unfit, structure.warnings);
+      if (!structure.unfit.empty()) return;
+      const ContourStack stack = stack_of(roi.contours, roi.rule);  // refuses what does not lie in parallel planes
+      std::ranges::copy(stack.warnings, std::back_inserter(structure.warnings));
+      if (stack.planes.size() > 1) steps_mm.push_back(stack.step_mm);
     } catch (const DicomError& error) {
       structure.unfit = error.text();
     }
   });
+  give_thickness(rois, std::move(steps_mm));
   const auto source = std::make_shared<const ContourSource>(std::move(rois));
   std::vector<Structure> list;
   list.reserve(structures.size());

@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "io/errors.h"
@@ -78,7 +79,7 @@ class LabelMapSource final : public MaskSource {
 };
 
 /// Where each label lies, by its number; nothing where the values are those of an image and no labels.
-std::map<int, Box> boxes_in(const VoxelFile& image) {
+std::optional<std::map<int, Box>> boxes_in(const VoxelFile& image) {
   constexpr std::size_t most_labels = 4096;
   std::map<int, Box> boxes;
   std::uint64_t inside = 0,
@@ -122,13 +123,24 @@ std::map<int, Box> boxes_in(const VoxelFile& image) {
     return is_map;
   });
   if (looks_like_an_image()) is_map = false;
-  return is_map ? boxes : std::map<int, Box>();
+  return is_map ? std::optional(boxes) : std::nullopt;
+}
+
+/// "liver" for "liver.nii.gz": what a folder of one mask a file calls its organs.
+std::string organ_of(std::filesystem::path file) {
+  file = file.filename();
+  for (const char* const ending : {".gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".seg"}) {
+    if (file.extension() == ending && !file.stem().empty()) file = file.stem();
+  }
+  return file.string();
 }
 
 }  // namespace
 
 bool is_label_map(const VoxelFile& file) {
-  return file.volumes == 1 && file.axes == std::array{0, 1, 2} && !boxes_in(file).empty();
+  if (file.volumes != 1 || file.axes != std::array{0, 1, 2}) return false;
+  const auto boxes = boxes_in(file);
+  return boxes && !boxes->empty();
 }
 
 std::vector<Structure> structures_of_label_map(const std::filesystem::path& path) {
@@ -137,16 +149,18 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
   if (image->volumes > 1) throw DicomError(say("labels-in-several-volumes"));
   check_size(*image);
   if (image->axes != std::array{0, 1, 2}) throw DicomError(say("labels-in-another-order"));
-  const std::map<int, Box> boxes = boxes_in(*image);
+  const auto found = boxes_in(*image);
+  if (!found) return {};
+  const std::map<int, Box>& boxes = *found;
   const std::map<int, LabelName> names = image->names;
   const std::filesystem::path voxels_at = image->voxels_at;
   const auto source = std::make_shared<const LabelMapSource>(std::move(*image), boxes);
   std::set<int> numbers;
   for (const auto& [number, box] : boxes) numbers.insert(number);
-  // Those that the file names and nobody outlined are listed, too, and cannot be felt.
-  if (!boxes.empty()) {
-    for (const auto& [number, name] : names) numbers.insert(number);
-  }
+  // Those that the file names and nobody outlined are listed, too, and cannot be felt; so is a mask of nothing.
+  for (const auto& [number, name] : names) numbers.insert(number);
+  if (numbers.empty()) numbers.insert(1);
+  const bool is_one_mask = names.empty() && numbers.size() == 1;
   std::vector<Structure> structures;
   for (const int number : numbers) {
     Structure structure;
@@ -156,8 +170,9 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
     structure.kind = StructureKind::label_map;
     structure.number = number;
     const auto named = names.find(number);
-    structure.name =
-        named == names.end() || named->second.name.empty() ? "label " + std::to_string(number) : named->second.name;
+    structure.name = is_one_mask                                          ? organ_of(path)
+                     : named == names.end() || named->second.name.empty() ? "label " + std::to_string(number)
+                                                                          : named->second.name;
     structure.color = named == names.end() ? std::string() : named->second.color;
     structure.warnings.push_back(say("label-map-names-no-scan"));
     structure.source = source;

@@ -5,7 +5,7 @@
 
 namespace palpate::io {
 
-StructureMeasures MaskSource::measure(int number, const RigidMotion& motion) const {
+StructureMeasures MaskSource::measure(int number, const RigidMotion& motion, const Geometry* /*scan*/) const {
   return measures_of(moved_mask(number, motion));
 }
 

@@ -11,7 +11,7 @@ namespace palpate::io {
 
 class MaskSource : public StructureSource {
  public:
-  StructureMeasures measure(int number, const RigidMotion& motion) const override;
+  StructureMeasures measure(int number, const RigidMotion& motion, const Geometry* scan) const override;
   std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override;
 
  private:

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "io/dicom/character_set.h"
 #include "io/dicom/dicom_value.h"
 #include "io/messages.h"
 
@@ -106,7 +107,8 @@ std::optional<Registration> registration_in(DcmDataset& dataset, const std::file
   Registration registration;
   registration.file = path;
   registration.frame_of_reference_uid = text_of(dataset, DCM_FrameOfReferenceUID);
-  registration.patient_id = text_of(dataset, DCM_PatientID);
+  registration.patient_id =
+      internal::utf8_of(text_of(dataset, DCM_PatientID), text_of(dataset, DCM_SpecificCharacterSet));
   if (deforms) {
     for_items(dataset, DCM_DeformableRegistrationSequence, [&](DcmItem& item) {
       registration.parts.push_back({.frame_of_reference_uid = text_of(item, DCM_SourceFrameOfReferenceUID),

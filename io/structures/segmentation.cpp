@@ -49,7 +49,8 @@ std::vector<double> numbers_in(DcmItem* item, const DcmTagKey& tag) {
 struct PlacedFrame {
   int segment = 0;
   Placement placement;
-  double spacing = 0;  ///< SpacingBetweenSlices, mm; 0 where it is not said
+  double spacing = 0;    ///< SpacingBetweenSlices, mm; 0 where it is not said
+  double thickness = 0;  ///< SliceThickness, mm; 0 where it is not said
 };
 
 PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
@@ -65,6 +66,8 @@ PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
   PlacedFrame frame{.placement = *placement};
   const auto spacing = numbers_in(measures, DCM_SpacingBetweenSlices);
   frame.spacing = spacing.empty() ? 0 : std::abs(spacing.front());
+  const auto thickness = numbers_in(measures, DCM_SliceThickness);
+  frame.thickness = thickness.empty() ? 0 : std::abs(thickness.front());
   if (type != SegmentationType::label_map) {
     const auto number =
         numbers_in(group_of(own, shared, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);
@@ -176,10 +179,15 @@ class SegmentationSource final : public MaskSource {
       }
       frames_.push_back({frames[n].segment, static_cast<int>(k)});
     }
+    const double thickness = spacing > 0 ? spacing : frames.front().thickness;
     geometry_ = internal::stack_geometry(pixels_.format.columns, pixels_.format.rows, reference, std::move(positions),
-                                         {}, spacing);
+                                         {}, thickness);
     geometry_.gaps.clear();
+    has_no_thickness_ = geometry_.dimensions.z == 1 && !(thickness > 0);
   }
+
+  /// Whether there is one slice and nothing says how thick it is.
+  bool has_no_thickness() const { return has_no_thickness_; }
 
  private:
   struct Cut {
@@ -271,6 +279,7 @@ class SegmentationSource final : public MaskSource {
   SegmentationType type_;
   double most_;
   Geometry geometry_;
+  bool has_no_thickness_ = false;
   std::vector<SegmentFrame> frames_;
 };
 
@@ -313,6 +322,26 @@ std::vector<Structure> segments_in(DcmItem& dataset) {
   return structures;
 }
 
+/// A label map may describe its background, too: nobody outlined that.
+void take_background_away(DcmItem& dataset, std::vector<Structure>& structures) {
+  const auto padding =
+      static_cast<int>(std::clamp(number_of(dataset, DCM_PixelPaddingValue).value_or(0), -1.0, 65535.0));
+  std::erase_if(structures, [&](const Structure& structure) {
+    return structure.number == padding || structure.code.starts_with("DCM 125040 ");
+  });
+}
+
+/// Segments that frames name and the list of segments does not.
+void add_undescribed(const std::vector<PlacedFrame>& frames, std::vector<Structure>& structures) {
+  for (const PlacedFrame& frame : frames) {
+    if (std::ranges::find(structures, frame.segment, &Structure::number) != structures.end()) continue;
+    Structure& added = structures.emplace_back();
+    added.number = frame.segment;
+    added.name = "segment " + std::to_string(frame.segment);
+    added.warnings.push_back(say("segment-is-not-described"));
+  }
+}
+
 SegmentationType type_in(DcmItem& dataset, const std::string& sop_class) {
   const std::string type = text_of(dataset, DCM_SegmentationType);
   if (type == "LABELMAP" || sop_class == "1.2.840.10008.5.1.4.1.1.66.7") return SegmentationType::label_map;
@@ -351,6 +380,11 @@ std::vector<Structure> structures_of_segmentation(const StructureDataset& file) 
   std::vector<Structure> structures = segments_in(dataset);
   const auto count = static_cast<std::size_t>(std::clamp(number_of(dataset, DCM_NumberOfFrames).value_or(1), 1.0, 1e6));
   const std::vector<PlacedFrame> frames = placed_frames(dataset, type, count);
+  if (type == SegmentationType::label_map) {
+    take_background_away(dataset, structures);
+  } else {
+    add_undescribed(frames, structures);
+  }
   const bool is_fractional = fractions_of(type) != Mask::Fractions::none;
   const double most = is_fractional ? number_of(dataset, DCM_MaximumFractionalValue).value_or(255) : 1;
   if (!(most > 0)) {
@@ -361,6 +395,7 @@ std::vector<Structure> structures_of_segmentation(const StructureDataset& file) 
   for (Structure& structure : structures) {
     structure.kind = StructureKind::segmentation;
     structure.source = source;
+    if (source->has_no_thickness()) structure.warnings.push_back(say("one-slice-of-no-thickness"));
   }
   return structures;
 }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "io/dicom/asked_for.h"
+#include "io/dicom/character_set.h"
 #include "io/dicom/dcmtk_start.h"
 #include "io/dicom/dicom_value.h"
 #include "io/errors.h"
@@ -59,11 +60,12 @@ StructureCatalogue structures_in(const fs::path& path) {
     throw DicomError(say("holds-surfaces"));
   }
   const std::string frame_of_reference = text_of(dataset, DCM_FrameOfReferenceUID);
+  const std::string characters = text_of(dataset, DCM_SpecificCharacterSet);
   for (Structure& structure : structures) {
     structure.file = path;
     structure.study_uid = text_of(dataset, DCM_StudyInstanceUID);
-    structure.patient_id = text_of(dataset, DCM_PatientID);
-    structure.patient_name = text_of(dataset, DCM_PatientName);
+    structure.patient_id = internal::utf8_of(text_of(dataset, DCM_PatientID), characters);
+    structure.patient_name = internal::utf8_of(text_of(dataset, DCM_PatientName), characters);
     if (structure.frame_of_reference_uid.empty()) structure.frame_of_reference_uid = frame_of_reference;
   }
   return {std::move(structures), {}, {}};
@@ -128,15 +130,38 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
   return catalogue;
 }
 
+std::vector<Registration> find_registrations(std::span<const fs::path> files, const Progress& progress) {
+  internal::start_dcmtk();
+  std::vector<std::optional<Registration>> found(files.size());
+  internal::parallel_for(
+      files.size(),
+      [&](std::size_t n) {
+        try {
+          const internal::InputFile file(files[n]);
+          DcmDataset dataset;
+          internal::parse_header(file, files[n], internal::find_dataset(file), dataset,
+                                 internal::is_asked_for_of_registrations);
+          found[n] = registration_in(dataset, files[n]);
+        } catch (const std::exception&) {  // no DICOM file, or none that can be read: find_structures() says so
+        }
+      },
+      progress, 0);
+  std::vector<Registration> registrations;
+  for (std::optional<Registration>& one : found) {
+    if (one) registrations.push_back(std::move(*one));
+  }
+  return registrations;
+}
+
 std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options) {
   DistanceOptions moved = options;
   moved.motion = structure.motion;
   return named(structure, [&](const StructureSource& source) { return source.distance(structure.number, moved); });
 }
 
-StructureMeasures measure(const Structure& structure) {
+StructureMeasures measure(const Structure& structure, const Geometry* scan) {
   return named(structure,
-               [&](const StructureSource& source) { return source.measure(structure.number, structure.motion); });
+               [&](const StructureSource& source) { return source.measure(structure.number, structure.motion, scan); });
 }
 
 StructureBox box_of(const Structure& structure) {
@@ -145,7 +170,7 @@ StructureBox box_of(const Structure& structure) {
 }
 
 StructureBox StructureSource::box(int number, const RigidMotion& motion) const {
-  const StructureMeasures measures = measure(number, motion);
+  const StructureMeasures measures = measure(number, motion, nullptr);
   return {measures.box_low_mm, measures.box_high_mm};
 }
 

@@ -51,8 +51,9 @@ class StructureSource {
   StructureSource& operator=(const StructureSource&) = delete;
   virtual ~StructureSource() = default;
 
-  /// Both throw DicomError if the structure cannot be read or is empty. The reason does not name the file.
-  virtual StructureMeasures measure(int number, const RigidMotion& motion) const = 0;
+  /// Both throw DicomError if the structure cannot be read or is empty. The reason does not name the file. `scan`: the
+  /// one that it is felt with, or null.
+  virtual StructureMeasures measure(int number, const RigidMotion& motion, const Geometry* scan) const = 0;
   virtual std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const = 0;
   /// Throws as measure() does. It may be wider than the one that measure() gives, and need not decode anything.
   virtual StructureBox box(int number, const RigidMotion& motion) const;
@@ -86,11 +87,16 @@ struct StructureCatalogue {
 /// Throws DicomError if a path does not exist; Cancelled.
 StructureCatalogue find_structures(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
+/// The registrations among these files, in their order. Reads headers alone. Throws Cancelled.
+std::vector<Registration> find_registrations(std::span<const std::filesystem::path> files,
+                                             const Progress& progress = {});
+
 /// Reads one structure's distance, moved by its motion. Throws DicomError that names the file and the structure.
 std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options = {});
 
-/// Of the structure where its motion puts it. Throws DicomError that names the file and the structure.
-StructureMeasures measure(const Structure& structure);
+/// Of the structure where its motion puts it. A scan gives contours of one plane their thickness where the file does
+/// not. Throws DicomError that names the file and the structure.
+StructureMeasures measure(const Structure& structure, const Geometry* scan = nullptr);
 
 /// A box that holds the structure where its motion puts it; for label maps much faster than measure(). Throws as
 /// measure() does.

@@ -18,6 +18,7 @@
 #include "plugin/options/series_option.h"
 #include "plugin/session/registered_structure.h"
 #include "plugin/session/structure_files.h"
+#include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
@@ -37,12 +38,12 @@ struct MeasuredStructure {
 };
 
 /// `scan`: the one that it is to be felt on, or null.
-MeasuredStructure measured(io::Structure structure, const io::Volume* scan) {
+MeasuredStructure measured(io::Structure structure, const io::Volume* scan, StudyRegistrations& study) {
   MeasuredStructure result{.structure = std::move(structure)};
   io::Structure& found = result.structure;
   try {
-    if (scan) result.refused = place_on(found, registrations_for(found, *scan), *scan).why_not;
-    result.measures = io::measure(found);
+    if (scan) result.refused = place_on(found, study.beside(found, *scan), *scan).why_not;
+    result.measures = io::measure(found, scan ? &scan->geometry : nullptr);
     if (!scan || !result.refused.empty()) return result;
     const io::StructureBox box{result.measures->box_low_mm, result.measures->box_high_mm};
     if (const Text off = off_scan(found, box, scan->geometry); !off.empty()) found.warnings.push_back(off);
@@ -135,8 +136,9 @@ void run_structures(const StructuresOptions& options) {
   const io::StructureCatalogue catalogue = io::find_structures(paths, terminal_progress("finding structures"));
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::filesystem::path file;
+  StudyRegistrations study(terminal_progress("looking for registrations"));
   for (const io::Structure& structure : catalogue.structures) {
-    const MeasuredStructure found = measured(structure, scan ? &*scan : nullptr);
+    const MeasuredStructure found = measured(structure, scan ? &*scan : nullptr, study);
     if (options.json) {
       list.push_back(structure_json(found));
       continue;

@@ -277,7 +277,7 @@ TEST(CommandStructures, SaysWhichLieOffTheScan) {
         << std::string(64, '\1');
   }
   const std::string off =
-      "note: off.mha: \"label 1\" lies wholly outside the scan: choose one that was outlined on this scan\n";
+      "note: off.mha: \"off\" lies wholly outside the scan: choose one that was outlined on this scan\n";
   const auto times_in = [](const std::string& part, const std::string& output) {
     int count = 0;
     for (std::size_t at = output.find(part); at != std::string::npos; at = output.find(part, at + 1)) ++count;

@@ -18,6 +18,7 @@
 #include "plugin/options/series_option.h"
 #include "plugin/report/suggestion_picture.h"
 #include "plugin/report/text_file.h"
+#include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
@@ -63,11 +64,12 @@ std::vector<Offer> offer_structures(const SuggestOptions& options, const io::Vol
   std::vector<std::filesystem::path> places = options.structures;
   places.emplace_back(options.series.path);
   std::vector<Offer> offers;
+  StudyRegistrations study(terminal_progress("looking for registrations"));
   for (io::Structure& found : io::find_structures(places, terminal_progress("finding structures")).structures) {
     Offer offer{.structure = std::move(found), .name = {}, .why_not = {}, .off = {}};
     io::Structure& structure = offer.structure;
     structure.file = std::filesystem::absolute(structure.file);
-    offer.why_not = place_on(structure, registrations_for(structure, volume), volume).why_not;
+    offer.why_not = place_on(structure, study.beside(structure, volume), volume).why_not;
     if (offer.why_not.empty()) {
       offer.name = name_in_scene(scene, structure);
       offer.off = off(structure, volume.geometry);

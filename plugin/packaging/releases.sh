@@ -12,7 +12,7 @@ system_name() {
 # `demo` and `build` need the first list alone; the core builds and passes its tests without ParaView and Qt.
 core_packages=(g++ cmake ninja-build pkg-config ccache
   libglm-dev libdcmtk-dev libopenjp2-7-dev libcharls-dev libopencv-core-dev libopencv-imgproc-dev libopencv-photo-dev libeigen3-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev libhdf5-dev libcairo2-dev fonts-dejavu-core libarchive-dev libpugixml-dev libxxhash-dev zlib1g-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev libhdf5-dev libcairo2-dev fonts-dejavu-core libarchive-dev libpugixml-dev libxxhash-dev libpolyclipping-dev zlib1g-dev
   libusb-1.0-0-dev libhidapi-dev libboost-dev libssl-dev)
 test_packages=(python3 git locales libgtest-dev libgmock-dev libbenchmark-dev libnlopt-dev libnlopt-cxx-dev umockdev libumockdev-dev
   orthanc dcmtk dicom3tools openssl)

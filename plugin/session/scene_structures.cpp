@@ -13,6 +13,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/session/shared_distance.h"
 #include "plugin/session/structure_files.h"
+#include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
@@ -77,13 +78,14 @@ void keep_what_is_to_be_checked(io::Structure& structure) {
 
 /// Puts it on the scan, by a registration if that is needed: the recorded one, or the study's.
 std::optional<RegisteredStructure> place(io::Structure& structure, const modes::SceneStructure& wanted,
-                                         const io::Volume& volume, std::span<const RegisteredStructure> recorded) {
+                                         const io::Volume& volume, std::span<const RegisteredStructure> recorded,
+                                         StudyRegistrations& study) {
   const auto known = std::ranges::find(recorded, wanted.name, &RegisteredStructure::structure);
   if (known != recorded.end()) {
     if (const Text why = place_by(structure, known->motion, volume); !why.empty()) refuse(wanted, why);
     return *known;
   }
-  const Placed placed = place_on(structure, registrations_for(structure, volume), volume);
+  const Placed placed = place_on(structure, study.beside(structure, volume), volume);
   if (!placed.why_not.empty()) refuse(wanted, placed.why_not);
   if (placed.registration.empty()) return std::nullopt;
   return RegisteredStructure{
@@ -96,6 +98,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded) {
   std::vector<LoadedStructure> loaded;
+  StudyRegistrations study;
   for (const std::size_t n : plan.structures) {
     const modes::SceneStructure& wanted = scene.structures[n];
     const std::filesystem::path file = wanted.file;
@@ -110,7 +113,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
     }
     io::Structure structure = find_structure(wanted, file);
     keep_what_is_to_be_checked(structure);
-    const std::optional<RegisteredStructure> registered = place(structure, wanted, volume, recorded);
+    const std::optional<RegisteredStructure> registered = place(structure, wanted, volume, recorded, study);
     try {
       if (const Text off = off_scan(structure, io::box_of(structure), volume.geometry); !off.empty()) {
         structure.warnings.push_back(off);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
 #define XXH_INLINE_ALL  // xxHash's own code, not the library that the program uses
 #include <xxhash.h>
@@ -99,7 +100,7 @@ TEST(StructuresOfPatients, ARegistrationComesAfterTheMotionThatThereWas) {
     const io::RigidMotion there = structure.motion;
     EXPECT_TRUE(place_on(structure, {}, scan).registration.empty());
     EXPECT_EQ(structure.motion, there);
-    EXPECT_TRUE(registrations_for(structure, scan).empty());
+    EXPECT_TRUE(StudyRegistrations().beside(structure, scan).empty());
     // What was recorded takes the place of all that.
     const io::RigidMotion recorded = random_motion(random);
     structure.frame_of_reference_uid = "1.2";

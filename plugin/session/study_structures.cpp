@@ -5,14 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <vector>
 
 #include "modes/types/mode_type.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
 namespace {
@@ -82,7 +79,9 @@ Text unfit_for(io::Structure& structure, const io::Volume& scan) {
                                  ? agree(hashed_name(structure.patient_name), scan.patient_name)
                                  : agree(plain(structure.patient_name), plain(scan.patient_name));
   const bool differs = has_same_id == false || has_same_name == false;
-  if (differs && has_same_id != true && has_same_name != true) return say("structure-of-another-patient", file);
+  if (differs && has_same_id != true && has_same_name != true) {
+    return has_same_id ? say("structure-of-another-patient", file) : say("structure-of-another-patient-by-name", file);
+  }
   if (differs) structure.warnings.push_back(say("structure-of-a-patient-of-another-name", file));
   return {};
 }
@@ -123,21 +122,6 @@ Placed place_on(io::Structure& structure, std::span<const io::Registration> regi
 Text off_scan(const io::Structure& structure, const io::StructureBox& box, const io::Geometry& scan) {
   if (!io::is_off(box, scan)) return {};
   return say("structure-lies-off-the-scan", structure.file.filename().string(), structure.name);
-}
-
-std::vector<io::Registration> registrations_for(const io::Structure& structure, const io::Volume& scan) {
-  namespace fs = std::filesystem;
-  if (agree(structure.frame_of_reference_uid, scan.frame_of_reference_uid).value_or(true)) return {};
-  std::error_code ignored;
-  const fs::path folder = fs::absolute(copy_of(structure.file), ignored).parent_path();
-  std::vector<fs::path> places{folder};
-  for (const auto& series : fs::directory_iterator(folder.parent_path(), ignored)) {
-    if (!series.is_directory(ignored) || series.path() == folder) continue;
-    for (const auto& one : fs::directory_iterator(series.path(), ignored)) {
-      if (one.is_regular_file(ignored)) places.push_back(one.path());
-    }
-  }
-  return io::find_structures(places).registrations;
 }
 
 bool is_same(const modes::SceneStructure& named, const io::Structure& structure) {

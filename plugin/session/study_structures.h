@@ -27,10 +27,6 @@ Text place_by(io::Structure& structure, const io::RigidMotion& motion, const io:
 /// Says that a structure, which that box holds, lies wholly outside the scan; empty if some of it may lie inside.
 Text off_scan(const io::Structure& structure, const io::StructureBox& box, const io::Geometry& scan);
 
-/// The registrations for a structure whose frame of reference is not the scan's: those in the folder of its file, and
-/// in the folders beside that one, as a study is stored. Empty if the frames are the same.
-std::vector<io::Registration> registrations_for(const io::Structure& structure, const io::Volume& scan);
-
 /// A hash of a patient's id, or of the letters of a name; empty where it is. A scan from a server has them in place of
 /// name and id, and they are compared as such.
 std::string hashed_id(const std::string& id);

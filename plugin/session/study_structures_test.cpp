@@ -118,7 +118,10 @@ TEST(StudyStructures, OfAnotherPatientAreRefused) {
       "rt.dcm was outlined on another patient than the scan's: choose one that was outlined on this study";
   EXPECT_EQ(said_of("8", "Roe^Richard"), another);
   EXPECT_EQ(said_of("8", ""), another);
-  EXPECT_EQ(said_of("", "Roe^Richard"), another);
+  constexpr const char* by_name =
+      "rt.dcm names another patient than the scan, and no patient's id joins the two: choose one that was outlined on "
+      "this study, or correct its name or id";
+  EXPECT_EQ(said_of("", "Roe^Richard"), by_name);
   const TestFolder folder;
   write_contours(folder / "rt.dcm", "1.1", "8", "Roe^Richard");
   EXPECT_EQ(felt(folder / "rt.dcm"), std::string("structure \"cube\": ") + another);

@@ -12,7 +12,7 @@
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
 #include "plugin/session/structure_files.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/session/study_registrations.h"
 
 namespace palpate::plugin {
 namespace {
@@ -24,14 +24,15 @@ std::map<std::string, std::vector<fs::path>> found;  // by the path that was ask
 
 std::set<fs::path> structure_files_in(const std::string& path) {
   const fs::path folder = fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path();
-  const io::StructureCatalogue catalogue = io::find_structures(std::array{folder});
+  io::StructureCatalogue catalogue = io::find_structures(std::array{folder});
   std::set<fs::path> files;
   io::Volume elsewhere;  // in a frame of its own: every registration beside a structure counts
   elsewhere.frame_of_reference_uid = "-";
-  for (const io::Structure& structure : catalogue.structures) {
+  StudyRegistrations study;
+  for (io::Structure& structure : catalogue.structures) {
     if (!files.insert(structure.file).second) continue;
     if (!structure.voxels_file.empty()) files.insert(structure.voxels_file);
-    for (const io::Registration& one : registrations_for(structure, elsewhere)) files.insert(one.file);
+    for (const io::Registration& one : study.beside(structure, elsewhere)) files.insert(one.file);
   }
   for (const io::Registration& one : catalogue.registrations) files.insert(one.file);
   return files;

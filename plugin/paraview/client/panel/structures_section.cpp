@@ -20,6 +20,7 @@
 #include "plugin/paraview/common/structure_shapes.h"
 #include "plugin/session/shared_distance.h"
 #include "plugin/session/structure_files.h"
+#include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
@@ -109,10 +110,11 @@ void StructuresSection::look_into(const std::vector<std::filesystem::path>& plac
     // Those that a scene will find, and no others: what is listed here is what can be felt.
     found.registrations.clear();
     std::set<std::filesystem::path> looked;
+    StudyRegistrations study;
     for (io::Structure& structure : found.structures) {
       structure.file = name_of_copy(structure.file);
       if (!looked.insert(structure.file).second) continue;
-      for (io::Registration& one : registrations_for(structure, *scan)) found.registrations.push_back(std::move(one));
+      for (io::Registration& one : study.beside(structure, *scan)) found.registrations.push_back(std::move(one));
     }
     return found;
   });

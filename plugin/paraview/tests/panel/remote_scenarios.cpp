@@ -288,7 +288,7 @@ void remote_structures() {
   const bool liver_first = structure_list().topLevelItem(0)->text(0) == "Liver";
   QTreeWidgetItem& liver = *structure_list().topLevelItem(liver_first ? 0 : 1);
   QTreeWidgetItem& box = *structure_list().topLevelItem(liver_first ? 1 : 0);
-  expect(liver.text(0) == "Liver" && box.text(0) == "label 1", "by their names");
+  expect(liver.text(0) == "Liver" && box.text(0) == "box", "by their names");
   wait_for(
       "they are measured", [&] { return !liver.text(1).isEmpty() && !box.text(1).isEmpty(); }, 20);
   expect(box.text(1) == "6.00 ml", "with its voxels: " + box.text(1).toStdString());

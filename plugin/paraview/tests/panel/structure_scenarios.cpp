@@ -86,7 +86,7 @@ void structures_are_seen_and_felt() {
   wait_for(
       "a label map that lies elsewhere is said to",
       [] { return list().topLevelItemCount() == 3 && list().topLevelItem(2)->text(1) == "outside the scan"; }, 20);
-  expect(label("palpateStructureMessage").contains("off.mha: \"label 1\" lies wholly outside the scan"),
+  expect(label("palpateStructureMessage").contains("off.mha: \"off\" lies wholly outside the scan"),
          "with its file: " + label("palpateStructureMessage").toStdString());
 }
 

@@ -1,0 +1,165 @@
+// Contours as files have them: at heights that rounding once cut in two, in a time that grows with their points, and
+// as thick as the file, its other ROIs or the scan say.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "io/structures/structure.h"
+#include "io/testing/test_image.h"
+
+namespace palpate::io {
+namespace {
+
+using internal::TestFolder;
+
+struct RoiContour {
+  double radius = 10, height = 0;
+  int points = 40;
+  std::string thickness;  // empty: not said
+  const char* type = "CLOSED_PLANAR";
+};
+
+std::string circle_points(const RoiContour& contour) {
+  std::string text;
+  std::array<char, 80> point{};
+  for (int n = 0; n < contour.points; ++n) {
+    const double angle = 2 * std::numbers::pi * n / contour.points;
+    std::snprintf(point.data(), point.size(), "%s%.6f\\%.6f\\%.6f", n == 0 ? "" : "\\",
+                  contour.radius * std::cos(angle), contour.radius * std::sin(angle), contour.height);
+    text += point.data();
+  }
+  return text;
+}
+
+double circle_area(double radius, int points) {
+  return points / 2.0 * radius * radius * std::sin(2 * std::numbers::pi / points);
+}
+
+DcmItem& added_item(DcmItem& item, const DcmTagKey& sequence) {
+  DcmItem* added = nullptr;
+  internal::succeed(item.findOrCreateSequenceItem(sequence, added, -2));
+  return *added;
+}
+
+/// A file with these ROIs, numbered from 1.
+std::vector<Structure> rois_in(const std::vector<std::vector<RoiContour>>& rois, const TestFolder& folder) {
+  internal::TestImage image;
+  image.edit = [&](DcmDataset& dataset) {
+    dataset.findAndDeleteElement(DCM_PixelData);
+    internal::put(dataset, DCM_SOPClassUID, "1.2.840.10008.5.1.4.1.1.481.3");
+    for (std::size_t n = 0; n < rois.size(); ++n) {
+      const std::string number = std::to_string(n + 1);
+      added_item(dataset, DCM_StructureSetROISequence).putAndInsertString(DCM_ROINumber, number.c_str());
+      DcmItem& drawn = added_item(dataset, DCM_ROIContourSequence);
+      drawn.putAndInsertString(DCM_ReferencedROINumber, number.c_str());
+      for (const RoiContour& contour : rois[n]) {
+        DcmItem& item = added_item(drawn, DCM_ContourSequence);
+        item.putAndInsertString(DCM_ContourGeometricType, contour.type);
+        if (!contour.thickness.empty()) {
+          internal::succeed(item.putAndInsertString(DcmTagKey(0x3006, 0x0044), contour.thickness.c_str()));
+        }
+        item.putAndInsertString(DCM_ContourData, circle_points(contour).c_str());
+      }
+    }
+  };
+  internal::write(image, folder / "rt.dcm");
+  return find_structures(std::array{folder.path()}).structures;
+}
+
+TEST(ContourFiles, AHollowOrganHasItsVolumeWhateverTheDigitsOfItsHeights) {
+  for (const double first : {-120.0, -87.995, 3.005, 0.015, 211.125, -0.005, 912.345}) {
+    for (const double step : {1.0, 1.25, 2.5, 3.0}) {
+      std::vector<RoiContour> contours;
+      double expected = 0;
+      for (int k = 0; k < 7; ++k) {
+        const double height = first + k * step;
+        contours.push_back({20, height, 61 + 17 * k});
+        contours.push_back({11, height, 40 + 3 * k});
+        expected += (circle_area(20, 61 + 17 * k) - circle_area(11, 40 + 3 * k)) * step;
+      }
+      const TestFolder folder;
+      const std::vector<Structure> found = rois_in({contours}, folder);
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].unfit, "");
+      EXPECT_TRUE(found[0].warnings.empty()) << first << ' ' << found[0].warnings.front();
+      EXPECT_NEAR(measure(found[0]).volume_mm3, expected, 1e-3) << first << ' ' << step;
+    }
+  }
+}
+
+TEST(ContourFiles, AreReadInATimeThatGrowsWithTheirPoints) {
+  const auto seconds_for = [](int points) {
+    const TestFolder folder;
+    rois_in({{{50, 0, points}, {50, 3, points}}}, folder);
+    double least = std::numeric_limits<double>::infinity();
+    for (int turn = 0; turn < 3; ++turn) {
+      const auto begin = std::chrono::steady_clock::now();
+      const auto found = find_structures(std::array{folder.path()});
+      least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      EXPECT_EQ(found.structures.at(0).unfit, "");
+    }
+    return least;
+  };
+  // Eight times as many: 8 times as long, and 64 with the square.
+  EXPECT_LT(seconds_for(20000), 24 * seconds_for(2500));
+}
+
+TEST(ContourFiles, APlaneAloneIsAsThickAsTheFileOrTheScanSays) {
+  const double area = circle_area(10, 40);
+  const auto volume = [](const Structure& structure, const Geometry* scan = nullptr) {
+    return measure(structure, scan).volume_mm3;
+  };
+  Geometry scan;
+  scan.dimensions = {60, 60, 30};
+  scan.spacing_i = 0.5;
+  scan.spacing_j = 0.75;
+  scan.step = {0, 0, 1.5};
+  for (int k = 0; k < 30; ++k) scan.slice_positions.emplace_back(-15, -22, 1.5 * k - 20);
+  {
+    const TestFolder folder;
+    const auto found = rois_in({{{10, 4, 40, "2.5"}}, {{10, 4}}, {{9, 0}, {9, 4}, {9, 8}}}, folder);
+    EXPECT_NEAR(volume(found.at(0)), 2.5 * area, 1e-3) << "said";
+    EXPECT_NEAR(volume(found.at(0), &scan), 2.5 * area, 1e-3) << "said";
+    EXPECT_NEAR(volume(found.at(1)), 4 * area, 1e-3) << "as its neighbors'";
+    EXPECT_TRUE(measure(found.at(1)).warnings.empty());
+  }
+  const TestFolder folder;
+  const auto alone = rois_in({{{10, 4}}}, folder);
+  EXPECT_NEAR(volume(alone.at(0), &scan), 1.5 * area, 1e-3) << "of the scan's slices";
+  EXPECT_TRUE(measure(alone.at(0), &scan).warnings.empty());
+  EXPECT_NEAR(volume(alone.at(0)), area, 1e-3);
+  ASSERT_EQ(measure(alone.at(0)).warnings.size(), 1U);
+  EXPECT_EQ(measure(alone.at(0)).warnings[0],
+            "its contours lie in one plane, and nothing says how thick it is: it counts as 1 mm");
+  // Slices that stand across the contours: what counts is how far a voxel reaches along their normal.
+  Geometry across = scan;
+  across.direction_i = {0, 0, 1};
+  across.direction_j = {0, 1, 0};
+  across.step = {1.5, 0, 0};
+  EXPECT_NEAR(volume(alone.at(0), &across), 0.5 * area, 1e-3);
+}
+
+TEST(ContourFiles, AnExclusiveOrTakesAwayWhatTwoHold) {
+  const TestFolder folder;
+  std::vector<RoiContour> contours;
+  for (const double height : {0.0, 2.0}) {
+    for (const double radius : {10.0, 10.0, 10.0, 7.0}) {
+      contours.push_back({radius, height, 40, "", "CLOSEDPLANAR_XOR"});
+    }
+  }
+  const auto found = rois_in({contours}, folder);
+  EXPECT_NEAR(measure(found.at(0)).volume_mm3, 4 * (circle_area(10, 40) - circle_area(7, 40)), 1e-3);
+}
+
+}  // namespace
+}  // namespace palpate::io

@@ -1,0 +1,29 @@
+#pragma once
+
+/// What the contours of one plane fill together.
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace palpate::io {
+
+/// mm; the last point is joined to the first.
+using ContourPolygon = std::vector<glm::dvec2>;
+
+struct ContourRegion {
+  /// They do not cross; those around the region run counterclockwise, those around holes clockwise.
+  std::vector<ContourPolygon> edges;
+  int doubled = 0;          ///< contours left out because another one is the same
+  bool is_overlap = false;  ///< whether a contour holds a part of another one alone
+};
+
+/// A contour that crosses itself, or leads to a hole and back along the same way ("keyhole"), fills by even-odd. One
+/// that lies within another cuts a hole, one within that is an island, and so on. Others are joined; cracks of up to
+/// 0.01 mm between them are closed. The same contour twice counts once. Windings and order do not matter. If
+/// `is_exclusive`, all contours fill by even-odd. Throws DicomError where they span more than can be felt.
+ContourRegion region_of(const std::vector<ContourPolygon>& contours, bool is_exclusive);
+
+/// mm^2; holes count as less than nothing. `moment`: the centroid times that.
+double area_of(const std::vector<ContourPolygon>& edges, glm::dvec2& moment);
+
+}  // namespace palpate::io
