@@ -13,6 +13,7 @@
 #include "device/axis_signs.h"
 #include "device/device_type.h"
 #include "device/messages.h"
+#include "device/setting_limits.h"
 
 namespace palpate::device {
 
@@ -52,15 +53,16 @@ inline void take_signs(SettingsReader& reader, const char* key, Vec3& signs) {
   signs = {values[0], values[1], values[2]};
 }
 
-/// What the settings of every kind with motors have.
+/// What the settings of every kind with motors have. Throws std::runtime_error naming a limit beyond its ceiling.
 template <typename Settings>
-void take_common(SettingsReader& reader, Settings& settings) {
+void take_common(SettingsReader& reader, Settings& settings, const SettingLimits& most) {
   reader.take("address", settings.address);
   reader.take("maximum_force", settings.maximum_force);
   reader.take("stiffness_limit", settings.stiffness_limit);
   reader.take("guarded", settings.guarded);
   take_signs(reader, "position_signs", settings.signs.position);
   take_signs(reader, "force_signs", settings.signs.force);
+  if (const Text wrong = wrong_limit(settings, most); !wrong.empty()) throw Refusal(wrong);
 }
 
 /// read(SettingsReader&) makes the settings. Throws std::runtime_error naming the device, the file, the key and what is

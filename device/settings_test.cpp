@@ -151,13 +151,10 @@ TEST(Settings, EachLimitIsReached) {
     EXPECT_FALSE(falcon(key, 0)) << key;
     EXPECT_FALSE(falcon(key, -1)) << key;
   }
-  EXPECT_TRUE(falcon("maximum_force", 12));
-  EXPECT_FALSE(falcon("maximum_force", 12.01));
-  const std::pair<const char*, double> most[] = {
-      {"workspace_radius", 1}, {"current_limit", 3}, {"maximum_force", 20}, {"stiffness_limit", 1e9}};
+  const std::pair<const char*, double> most[] = {{"workspace_radius", 1}, {"current_limit", 3}};
   for (const auto& [key, value] : most) {
     EXPECT_TRUE(arm({{key, value}})) << key;
-    EXPECT_EQ(arm({{key, value + 0.01}}), value == 1e9) << key;
+    EXPECT_FALSE(arm({{key, value + 0.01}})) << key;
     EXPECT_FALSE(arm({{key, 0}})) << key;
   }
   for (const char* const key :
@@ -190,6 +187,58 @@ TEST(Settings, EachLimitIsReached) {
     for (const int counts : {-32768, 32767}) EXPECT_TRUE(of_axis("home_counts", {0, 0, 0}, counts));
     for (const int counts : {-32769, 32768}) EXPECT_FALSE(of_axis("home_counts", {0, 0, 0}, counts));
   }
+}
+
+/// No settings file raises a force or a stiffness beyond what its device can do, or what the chain allows. Each is
+/// refused by its name, by every kind; 0 means the device's own figure where a device tells one.
+TEST(Settings, NoLimitIsRaisedBeyondItsCeiling) {
+  using Read = void (*)(const std::string&);
+  const struct {
+    const char* name;
+    Read read;
+    double force_n, stiffness_n_per_m;
+    bool tells_force, tells_stiffness;
+  } kinds[] = {{"Novint Falcon", [](const std::string& file) { read_falcon(file); }, 8, 3000, false, false},
+               {"Haply", [](const std::string& file) { read_haply(file); }, 12, 3000, false, false},
+               {"3D Systems Touch", [](const std::string& file) { read_touch(file); }, 7.9, 2350, true, true},
+               {"Force Dimension", [](const std::string& file) { read_force_dimension(file); }, 12, 3000, true, false},
+               {"WoodenHaptics", [](const std::string& file) { read_wooden_haptics(file); }, 12, 3000, false, false}};
+  for (const auto& kind : kinds) {
+    const auto said = [&](const char* key, double value) {
+      Json json{{key, value}};
+      if (kind.name == std::string("WoodenHaptics")) json["preset"] = "2015";
+      return refusal_of([&] { kind.read(file_of(json)); });
+    };
+    const struct {
+      const char* key;
+      const char* words;
+      double most;
+      bool may_be_zero;
+    } limits[] = {
+        {"maximum_force", "the largest force lies between 0 and ", kind.force_n, kind.tells_force},
+        {"stiffness_limit", "the stiffness limit lies between 0 and ", kind.stiffness_n_per_m, kind.tells_stiffness}};
+    for (const auto& limit : limits) {
+      for (const double within : {1e-9, limit.most}) EXPECT_EQ(said(limit.key, within), "") << kind.name;
+      EXPECT_EQ(said(limit.key, 0) == "", limit.may_be_zero) << kind.name << limit.key;
+      for (const double beyond : {-1e-9, 1.001 * limit.most, 1e5, 1e9}) {
+        EXPECT_THAT(said(limit.key, beyond), ::testing::StartsWith(kind.name));
+        EXPECT_THAT(said(limit.key, beyond), ::testing::HasSubstr(limit.words));
+      }
+    }
+  }
+}
+
+/// Nor does a program that makes a stylus.
+TEST(Settings, NoStylusIsMadeWithALimitBeyondItsCeiling) {
+  EXPECT_EQ(refusal_of([] { make_touch({.maximum_force = 8}); }),
+            "3D Systems Touch: the largest force lies between 0 and 7.9 N");
+  EXPECT_EQ(refusal_of([] { make_touch({.stiffness_limit = 1e9}); }),
+            "3D Systems Touch: the stiffness limit lies between 0 and 2350 N/m");
+  EXPECT_EQ(refusal_of([] { make_force_dimension({.maximum_force = 1e5}); }),
+            "Force Dimension: the largest force lies between 0 and 12 N");
+  EXPECT_EQ(refusal_of([] { make_haply({.maximum_force = 1e5}); }), "Haply: the largest force lies between 0 and 12 N");
+  EXPECT_EQ(refusal_of([] { make_falcon({.maximum_force = 12}); }),
+            "Novint Falcon: the largest force lies between 0 and 8 N");
 }
 
 /// What is chosen beside a settings file goes before it; without one the kind's defaults hold.

@@ -23,6 +23,7 @@ struct Specification {
   double continuous_force = 0;     ///< N, sustained
   double stiffness_limit = 0;      ///< N/m: a stiffer wall may ring
   double rate = 1000;              ///< Hz
+  std::string watchdog;            ///< what of this device takes the force away; empty: DeviceType::watchdog
 };
 
 enum class State : std::uint8_t { disconnected, idle, homing, ramping, active, fault };

@@ -15,6 +15,9 @@
 
 namespace palpate::device {
 
+/// N: below the vendor's 9, because the motors' gain is not calibrated.
+constexpr double falcon_force = 8;
+
 struct FalconSettings {
   std::string address;        ///< "bus:device" as FoundDevice::address; empty: the only Falcon there is
   std::string firmware_file;  ///< uploaded where the Falcon has none yet
@@ -22,9 +25,9 @@ struct FalconSettings {
   /// Motor command per N m: libnifalcon's number, never calibrated. With it the largest command means 16.6 N on z, but
   /// the vendor says 9 N; so a force may come out half as strong as asked.
   double motor_gain = 10000;
-  double maximum_force = 8;       ///< N
-  double stiffness_limit = 1000;  ///< N/m
-  bool guarded = true;            ///< start a guardian process where palpate-guardian is found
+  double maximum_force = falcon_force;  ///< N
+  double stiffness_limit = 1000;        ///< N/m
+  bool guarded = true;                  ///< start a guardian process where palpate-guardian is found
   AxisSigns signs;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/setting_limits.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -11,6 +12,10 @@ namespace {
 
 constexpr double reply_time = 0.020;    // s after which a reply is given up and the Falcon asked again
 constexpr double surplus_time = 0.005;  // s that a reply given up is waited for once another has come
+// A hand at the edge of the reach trembles in and out of it with 8 to 12 Hz. A doubt that took the force away lasts
+// until the hand has been inside for longer than a period of that.
+constexpr double brief_doubt = 0.020;   // s
+constexpr double settling_time = 0.15;  // s
 const Vec3 newton_start(0, 0, 0.11);    // m: from here Newton's method reaches every pose of the workspace
 
 }  // namespace
@@ -58,11 +63,14 @@ void FalconProtocol::take(const FalconReply& reply, double now) noexcept {
   const std::optional<Vec3> position = falcon_position(settings_.geometry, angles, robot_position_);
   if (!position) {
     if (doubt_.lasts(now)) fail(LinkFault::unreachable_pose);
+    if (!status_.doubtful) doubt_began_ = now;
+    doubted_ = now;
     status_.doubtful = true;
     return;
   }
   doubt_.ends(now);
-  status_.doubtful = false;
+  const bool is_brief = doubted_ - doubt_began_ < brief_doubt;
+  if (is_brief || now - doubted_ > settling_time) status_.doubtful = false;
   robot_position_ = *position;
   status_.position = *position - Vec3(0, 0, settings_.geometry.center);
   status_.state = State::idle;
@@ -82,14 +90,13 @@ std::size_t FalconProtocol::step(const Vec3& force, double now, std::span<std::u
   asked_again_ = !command_due_;
   // A command that is repeated for want of a reply carries no force: nobody knows where the grip is.
   const bool may_push = command_due_ && status_.state == State::idle;
-  status_.withheld = !may_push;
   FalconCommand command;
   command.lights = status_.state == State::idle ? falcon_green : falcon_red;
-  if (may_push) {
-    const auto torques =
-        falcon_torques(settings_.geometry, robot_position_, clamp_length(force, settings_.maximum_force));
-    if (torques) command.motors = falcon_motors(*torques, settings_.motor_gain);
-  }
+  const auto torques =
+      may_push ? falcon_torques(settings_.geometry, robot_position_, clamp_length(force, settings_.maximum_force))
+               : std::nullopt;
+  if (torques) command.motors = falcon_motors(*torques, settings_.motor_gain);
+  status_.withheld = !torques;
   const auto bytes = encode(command);
   std::copy(bytes.begin(), bytes.end(), packet.begin());
   command_due_ = false;
@@ -110,6 +117,7 @@ Specification falcon_specification(const FalconSettings& settings) {
 
 std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkStylus::LinkMaker make_link,
                                            const LinkStylusOptions& options) {
+  check_limits("Novint Falcon", settings, {.force_n = falcon_force});
   return std::make_unique<LinkStylus>(falcon_specification(settings), std::make_unique<FalconProtocol>(settings),
                                       std::move(make_link), options);
 }

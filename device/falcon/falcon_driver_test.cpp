@@ -104,7 +104,7 @@ TEST(FalconDriver, AHugeForceSaturatesInItsDirection) {
   EXPECT_GT(glm::length(felt), 5) << "about 6 N is what the motors can do sideways, at the gain that is assumed";
   EXPECT_LE(glm::length(felt), 8.01);
   EXPECT_NEAR(glm::dot(glm::normalize(felt), Vec3(0.6, 0.8, 0)), 1, 1e-3);
-  bench.run(0.01, Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+  bench.run(0.03, Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
   EXPECT_FALSE(bench.fake.falcon.is_pushing());
 }
 

@@ -112,7 +112,7 @@ TEST(FalconDriver, AnImpossiblePoseIsAFaultAndNoForce) {
   EXPECT_EQ(bench.stylus->state(), State::fault);
   EXPECT_EQ(bench.stylus->fault(), LinkFault::unreachable_pose);
   EXPECT_FALSE(bench.fake.falcon.is_pushing());
-  EXPECT_LT(bench.fake.falcon.pushed_until() - start, 3e-3);
+  EXPECT_LT(bench.fake.falcon.pushed_until() - start, 25e-3) << "held for 20 ms, as of a single garbled packet";
   bench.fake.falcon.faults.impossible_pose = false;
   bench.run(0.1, Vec3(1, 0, 0));
   EXPECT_EQ(bench.stylus->state(), State::fault) << "until it is opened again";
@@ -124,11 +124,13 @@ TEST(FalconDriver, APoseBeyondTheReachIsHeldWithoutForceUntilItIsBack) {
   bench.run(0.1, Vec3(1, 0, 0));
   const Vec3 before = bench.stylus->read().position;
   bench.fake.falcon.faults.impossible_pose = true;
-  bench.run(0.02, Vec3(1, 0, 0));
+  bench.run(0.03, Vec3(1, 0, 0));
   EXPECT_LT(glm::distance(bench.stylus->read().position, before), 1e-3);
   EXPECT_FALSE(bench.fake.falcon.is_pushing());
   bench.fake.falcon.faults.impossible_pose = false;
-  bench.run(0.05, Vec3(1, 0, 0));
+  bench.run(0.14, Vec3(1, 0, 0));
+  EXPECT_FALSE(bench.fake.falcon.is_pushing()) << "a hand that trembles would be out again";
+  bench.run(0.1, Vec3(1, 0, 0));
   EXPECT_EQ(bench.stylus->state(), State::idle);
   EXPECT_TRUE(bench.fake.falcon.is_pushing());
 }

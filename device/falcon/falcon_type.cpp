@@ -14,14 +14,10 @@ namespace {
 
 FalconSettings read(SettingsReader& reader) {
   FalconSettings settings;
-  take_common(reader, settings);
+  take_common(reader, settings, {.force_n = falcon_force});
   reader.take("firmware_file", settings.firmware_file);
   reader.take("motor_gain", settings.motor_gain);
   if (!(settings.motor_gain > 0)) throw Refusal(say("motor-gain-must-be-above-zero"));
-  if (!(settings.maximum_force > 0 && settings.maximum_force <= 12)) {
-    throw Refusal(say("falcon-largest-force"));
-  }
-  if (!(settings.stiffness_limit > 0)) throw Refusal(say("stiffness-limit-must-be-above-zero"));
   return settings;
 }
 

@@ -60,4 +60,15 @@ DrdLibrary::DrdLibrary() : library("Force Dimension", files(), advice) {
   }
 }
 
+std::string DrdLibrary::serial_of(char id) const {
+  constexpr unsigned short unknown = 65535;
+  unsigned short serial = unknown;
+  return get_serial_number(&serial, id) < 0 || serial == unknown ? std::string() : std::to_string(serial);
+}
+
+bool DrdLibrary::set_own_watchdog(char id) const noexcept {
+  constexpr unsigned char duration = 240;  // x 125 us
+  return enable_expert_mode() >= 0 && set_watchdog(duration, id) >= 0;
+}
+
 }  // namespace palpate::device

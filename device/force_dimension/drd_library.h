@@ -3,9 +3,15 @@
 /// The functions of libdrd.so that are used, with its C types. Default arguments are C++'s alone: the device's number
 /// is always given.
 
+#include <cstddef>
+#include <string>
+
 #include "device/link/shared_library.h"
 
 namespace palpate::device {
+
+/// DHD_MAX_STATUS has grown with the library (14, 15, 17, 20): it writes as many as it knows.
+constexpr std::size_t drd_status_size = 64;
 
 struct DrdLibrary {
   /// Throws std::runtime_error: SharedLibrary.
@@ -34,9 +40,14 @@ struct DrdLibrary {
   int (*get_orientation_frame)(double matrix[3][3], char id) = nullptr;
   bool (*has_wrist)(char id) = nullptr;
   unsigned (*get_button_mask)(char id) = nullptr;
-  int (*get_status)(int status[17], char id) = nullptr;
+  int (*get_status)(int* status, char id) = nullptr;
   int (*set_force_and_torque_and_gripper_force)(double fx, double fy, double fz, double tx, double ty, double tz,
                                                 double gripper, char id) = nullptr;
+
+  /// Empty where the device tells none: 65535 is the library's word for that.
+  std::string serial_of(char id) const;
+  /// Lets the firmware take away a force that is not renewed for 30 ms. False where the device has no such watchdog.
+  bool set_own_watchdog(char id) const noexcept;
 };
 
 }  // namespace palpate::device

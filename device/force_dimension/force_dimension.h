@@ -17,7 +17,7 @@ namespace palpate::device {
 struct ForceDimensionSettings {
   std::string address;            ///< its serial number; empty: the only one there is
   bool may_home = false;          ///< an arm that has no home yet may move by itself to find it
-  double maximum_force = 0;       ///< N; 0: what the device reports, at most 12
+  double maximum_force = 0;       ///< N; 0: what the device reports, which is never exceeded
   double stiffness_limit = 1500;  ///< N/m
   bool guarded = true;            ///< start a guardian process where palpate-guardian is found
   AxisSigns signs;

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "device/falcon/falcon.h"
 #include "device/found_devices.h"
 #include "device/link/realtime.h"
 #include "device/messages.h"
@@ -19,9 +20,7 @@ namespace palpate::device {
 
 namespace {
 
-constexpr double period = 0.5e-3;        // s between two questions: more would only fill the bus
-constexpr double most_newtons = 12;      // of omega; asked for beyond only by a setting
-constexpr unsigned char watchdog = 240;  // x 125 us = 30 ms: the firmware takes a force away that is not renewed
+constexpr double period = 0.5e-3;  // s between two questions: more would only fill the bus
 constexpr int errors_in_a_row = 20;
 constexpr int look_at_status_every = 20;
 
@@ -37,14 +36,19 @@ Vec3 to_their_frame(const Vec3& device) {
   return {device.z, device.x, device.y};
 }
 
+constexpr int falcon_type_number = 60;
+
 struct Extent {
   int type;
   double half_extent;  // m: of the cube within the maker's cylinder or half-sphere
 };
-constexpr std::array extents{Extent{33, 0.055},  Extent{34, 0.055},  Extent{35, 0.055},  Extent{36, 0.055},
-                             Extent{37, 0.055},  Extent{63, 0.100},  Extent{206, 0.065}, Extent{104, 0.065},
-                             Extent{105, 0.065}, Extent{203, 0.080}, Extent{108, 0.080}, Extent{109, 0.080},
-                             Extent{60, 0.040}};
+constexpr std::array extents{
+    Extent{33, 0.055},  Extent{34, 0.055},  Extent{35, 0.055},  Extent{36, 0.055},  Extent{37, 0.055},
+    Extent{63, 0.100},  Extent{206, 0.065}, Extent{104, 0.065}, Extent{105, 0.065}, Extent{203, 0.080},
+    Extent{108, 0.080}, Extent{109, 0.080}, Extent{131, 0.080}, Extent{132, 0.080}, Extent{falcon_type_number, 0.040}};
+
+constexpr const char* own_watchdog = "30 ms, in its firmware";
+constexpr const char* no_watchdog = "none of its own: without palpate-guardian, switch it off";
 
 /// Looking for devices opens and closes them, which must not happen to one that is held.
 std::atomic<bool> is_held{false};
@@ -68,9 +72,7 @@ void ForceDimensionDriver::choose() {
   for (int i = 0; i < count; ++i) {
     const int opened = drd_->open(static_cast<char>(i));
     if (opened < 0) continue;
-    unsigned short serial = 0;
-    drd_->get_serial_number(&serial, static_cast<char>(opened));
-    const bool meant = settings_.address.empty() || settings_.address == std::to_string(serial);
+    const bool meant = settings_.address.empty() || settings_.address == drd_->serial_of(static_cast<char>(opened));
     if (meant && ++matching == 1) {
       id_ = static_cast<char>(opened);
     } else {
@@ -87,7 +89,8 @@ void ForceDimensionDriver::choose() {
 }
 
 void ForceDimensionDriver::bring_up() {
-  if (!drd_->is_initialized(id_)) {
+  const bool has_to_home = !drd_->is_initialized(id_);
+  if (has_to_home) {
     if (!settings_.may_home) {
       throw Refusal(say("force-dimension-the-arm-has-no-home"));
     }
@@ -95,17 +98,24 @@ void ForceDimensionDriver::bring_up() {
       throw Refusal(say("force-dimension-the-arm-did-not-find", last_error()));
     }
   }
-  // The regulation that moves the arm ends; its forces are ours from here on.
-  if (drd_->stop(true, id_) < 0 || drd_->enable_force(1, id_) < 0) {
+  // The regulation that moved the arm ends, and leaves its last force on. Where none ran there is nothing to stop.
+  if (drd_->stop(true, id_) < 0 && has_to_home) {
     throw Refusal(say("force-dimension-its-forces-cannot-be-switched", last_error()));
   }
-  drd_->enable_expert_mode();
-  drd_->set_watchdog(watchdog, id_);
-  drd_->set_gravity_compensation(1, id_);
+  const auto give_zero = [&] { return drd_->set_force_and_torque_and_gripper_force(0, 0, 0, 0, 0, 0, 0, id_); };
+  give_zero();
+  // Before a force can act: what takes it away, and how large it may be.
+  has_watchdog_ = drd_->set_own_watchdog(id_);
   const double told = drd_->get_max_force(id_);
-  maximum_force_ =
-      settings_.maximum_force > 0 ? settings_.maximum_force : (told > 0 ? std::min(told, most_newtons) : most_newtons);
+  const double set = settings_.maximum_force > 0 ? settings_.maximum_force : force_dimension_limits.force_n;
+  maximum_force_ = std::min(told > 0 ? told : force_dimension_limits.force_n, set);
+  // Whatever the library tells of a Falcon.
+  if (drd_->get_system_type(id_) == falcon_type_number) maximum_force_ = std::min(maximum_force_, falcon_force);
   drd_->set_max_force(maximum_force_, id_);
+  drd_->set_gravity_compensation(1, id_);
+  if (drd_->enable_force(1, id_) < 0 || give_zero() < 0) {
+    throw Refusal(say("force-dimension-its-forces-cannot-be-switched", last_error()));
+  }
   has_wrist_ = drd_->has_wrist(id_);
 }
 
@@ -116,7 +126,7 @@ void ForceDimensionDriver::connect() {
   status_ = {};
   status_.news = news;
   status_.state = State::homing;
-  errors_ = asked_ = 0;
+  pose_errors_ = asked_ = 0;
   lost_ = false;
   try {
     bring_up();
@@ -142,10 +152,10 @@ double ForceDimensionDriver::now() noexcept {
   return clock_.now();
 }
 
-void ForceDimensionDriver::note(int result) noexcept {
-  // 0, 1 (time guard) and 2 (a motor at its limit) are no errors.
-  errors_ = result < 0 ? errors_ + 1 : 0;
-  if (errors_ >= errors_in_a_row) lost_ = true;
+void ForceDimensionDriver::fail(LinkFault fault) noexcept {
+  if (status_.state == State::fault) return;
+  status_.state = State::fault;
+  status_.fault = fault;
 }
 
 void ForceDimensionDriver::take(double timeout) noexcept {
@@ -154,13 +164,10 @@ void ForceDimensionDriver::take(double timeout) noexcept {
   next_ = std::max(next_ + period, now());
   Vec3 place;
   const int result = drd_->get_position(&place.x, &place.y, &place.z, id_);
-  note(result);
+  pose_errors_ = result < 0 ? pose_errors_ + 1 : 0;
+  if (pose_errors_ >= errors_in_a_row) lost_ = true;
   if (result < 0 || status_.state == State::fault) return;
-  if (!is_finite(place) || glm::length(place) > 1) {
-    status_.state = State::fault;
-    status_.fault = LinkFault::unreachable_pose;
-    return;
-  }
+  if (!is_finite(place) || glm::length(place) > 1) return fail(LinkFault::unreachable_pose);
   status_.position = to_device_frame(place);
   status_.buttons = drd_->get_button_mask(id_);
   if (has_wrist_) {
@@ -183,23 +190,17 @@ void ForceDimensionDriver::take(double timeout) noexcept {
 }
 
 void ForceDimensionDriver::judge_status() noexcept {
-  if (!drd_->is_initialized(id_)) {
-    status_.state = State::fault;
-    status_.fault = LinkFault::unhomed;
-    return;
-  }
-  std::array<int, 17> told{};
+  if (!drd_->is_initialized(id_)) return fail(LinkFault::unhomed);
+  std::array<int, drd_status_size> told{};
   if (drd_->get_status(told.data(), id_) < 0) return;
-  if (told[status_error] == 0 && told[status_force] != 0) return;
-  status_.state = State::fault;
-  status_.fault = LinkFault::own_safety;
+  if (told[status_error] != 0 || told[status_force] == 0) fail(LinkFault::own_safety);
 }
 
 ForceAnswer ForceDimensionDriver::give(const Vec3& force) noexcept {
   const bool may_push = status_.state == State::idle;
   const Vec3 theirs = may_push ? to_their_frame(clamp_length(force, maximum_force_)) : Vec3(0);
+  // 0, 1 (time guard) and 2 (a motor at its limit) are no errors.
   const int result = drd_->set_force_and_torque_and_gripper_force(theirs.x, theirs.y, theirs.z, 0, 0, 0, 0, id_);
-  note(result);
   if (result < 0) return ForceAnswer::refused;
   return may_push ? ForceAnswer::taken : ForceAnswer::withheld;
 }
@@ -209,16 +210,18 @@ void ForceDimensionDriver::describe(Specification& specification) const {
   specification.orientation_axes = has_wrist_ ? 3 : 0;
   specification.workspace_half_extent = Vec3(half_extent_of(drd_->get_system_type(id_)));
   specification.maximum_force = maximum_force_;
+  specification.watchdog = has_watchdog_ ? own_watchdog : no_watchdog;
   specification.continuous_force = maximum_force_;  // the maker's own figure is of a force that lasts
 }
 
 std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettings& settings,
                                                       const LinkStylusOptions& options, const DriverClock& clock) {
+  check_limits("Force Dimension", settings, force_dimension_limits);
   Specification specification;
   specification.name = "Force Dimension";
   specification.workspace_half_extent = Vec3(0.04);
   specification.position_resolution = 0.01e-3;
-  specification.maximum_force = settings.maximum_force > 0 ? settings.maximum_force : most_newtons;
+  specification.maximum_force = settings.maximum_force > 0 ? settings.maximum_force : force_dimension_limits.force_n;
   specification.continuous_force = specification.maximum_force;
   specification.stiffness_limit = settings.stiffness_limit;
   return std::make_unique<LinkStylus>(specification, std::make_unique<ForceDimensionDriver>(settings, clock), options);
@@ -239,9 +242,8 @@ bool stop_force_dimension(const std::string& address) {
   for (int i = 0; i < count; ++i) {
     const int id = drd.open(static_cast<char>(i));
     if (id < 0) continue;
-    unsigned short serial = 0;
-    drd.get_serial_number(&serial, static_cast<char>(id));
-    if (address.empty() || address == std::to_string(serial)) stopped = drd.dhd_stop(static_cast<char>(id)) >= 0;
+    if (address.empty() || address == drd.serial_of(static_cast<char>(id)))
+      stopped = drd.dhd_stop(static_cast<char>(id)) >= 0;
     drd.close(static_cast<char>(id));
   }
   return stopped;
@@ -256,12 +258,14 @@ std::vector<FoundDevice> find_force_dimension() {
     for (int i = 0; i < count; ++i) {
       const int id = drd.open(static_cast<char>(i));
       if (id < 0) continue;
-      unsigned short serial = 0;
-      drd.get_serial_number(&serial, static_cast<char>(id));
       const char* const name = drd.get_system_name(static_cast<char>(id));
       const bool homed = drd.is_initialized(static_cast<char>(id));
-      found.push_back({"force_dimension", name != nullptr ? name : "Force Dimension", std::to_string(serial), true,
-                       homed ? "" : "it has no home yet: to find it the arm moves by itself"});
+      std::string note = homed ? "" : "it has no home yet: to find it the arm moves by itself";
+      if (!drd.set_own_watchdog(static_cast<char>(id))) {
+        note += (note.empty() ? "its watchdog: " : "; its watchdog: ") + std::string(no_watchdog);
+      }
+      found.push_back({"force_dimension", name != nullptr ? name : "Force Dimension",
+                       drd.serial_of(static_cast<char>(id)), true, note});
       drd.close(static_cast<char>(id));
     }
   } catch (const std::exception&) {

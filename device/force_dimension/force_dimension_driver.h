@@ -9,8 +9,12 @@
 #include "device/link/driver.h"
 #include "device/link/driver_clock.h"
 #include "device/link/link_stylus.h"
+#include "device/setting_limits.h"
 
 namespace palpate::device {
+
+/// Of an omega: 12 N; it holds 14.5 N/mm, more than the chain allows.
+constexpr SettingLimits force_dimension_limits{.force_n = 12, .tells_force = true};
 
 /// A device that answers each call over USB: it is asked and told in the stylus' own thread.
 class ForceDimensionDriver final : public Driver {
@@ -32,7 +36,7 @@ class ForceDimensionDriver final : public Driver {
   void choose();
   void bring_up();
   void judge_status() noexcept;
-  void note(int result) noexcept;
+  void fail(LinkFault fault) noexcept;
   std::string last_error() const;
 
   ForceDimensionSettings settings_;
@@ -43,7 +47,8 @@ class ForceDimensionDriver final : public Driver {
   double maximum_force_ = 0;
   std::string name_ = "Force Dimension";
   ProtocolStatus status_;
-  int errors_ = 0;
+  bool has_watchdog_ = false;
+  int pose_errors_ = 0;  // in a row
   int asked_ = 0;
   double next_ = 0;  // s: when the device is asked next
   bool lost_ = false;

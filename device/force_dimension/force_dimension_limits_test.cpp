@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <random>
@@ -135,13 +136,18 @@ TEST_F(ForceDimensionLimits, NoArmReachesFartherThanAMetre) {
   }
 }
 
-/// The settings' force, else the arm's own, but 12 N at most.
+/// The least of the settings' force and the arm's own; 12 N at most where the settings ask for none, or the arm tells
+/// none. A Falcon bears 8 N, whatever the library tells.
 TEST_F(ForceDimensionLimits, TheLargestForceIsTheLeastThatIsSaid) {
   const struct {
     double set, told, largest;
-  } cases[] = {{0, 8, 8}, {0, 12, 12}, {0, 20, 12}, {0, 0.5, 0.5}, {0, 0, 12}, {0, -1, 12}, {0.5, 8, 0.5}, {15, 8, 15}};
+    int type = 33;
+  } cases[] = {{0, 8, 8},      {0, 12, 12},   {0, 20, 12},     {0, 0.5, 0.5},  {0, 0, 12},
+               {0, -1, 12},    {0.5, 8, 0.5}, {12, 8, 8},      {10, 20, 10},   {12, 0, 12},
+               {0, 12, 8, 60}, {0, 0, 8, 60}, {12, 12, 8, 60}, {3, 12, 3, 60}, {0, 5, 5, 60}};
   for (const auto& one : cases) {
     drd->max_force = one.told;
+    drd->type = one.type;
     const auto driver = connected({.maximum_force = one.set});
     Specification told;
     driver->describe(told);
@@ -155,7 +161,98 @@ TEST_F(ForceDimensionLimits, TheLargestForceIsTheLeastThatIsSaid) {
   EXPECT_EQ(make_force_dimension({.maximum_force = 0.5})->specification().maximum_force, 0.5);
 }
 
-/// Twenty calls in a row that fail are a device that is gone; nineteen are not, whatever failed before them.
+/// Before a force can act, its firmware knows when to take it away and how large it may be; what the regulation of the
+/// homing left on is gone by then.
+TEST_F(ForceDimensionLimits, ItIsLimitedBeforeItsForcesAreSwitchedOn) {
+  for (const bool homes : {false, true}) {
+    *drd = FakeDrd{};
+    drd->homed = homes ? 0 : 1;
+    const auto driver = connected({.may_home = true});
+    EXPECT_STREQ(drd->order, "S0WME0");
+    EXPECT_EQ(drd->force[2], 0) << "the regulation's last force";
+    EXPECT_EQ(drd->forces_on, 1);
+  }
+}
+
+/// To stop a regulation that never ran is no failure, and one that cannot be stopped is.
+TEST_F(ForceDimensionLimits, ARegulationIsStoppedOnlyIfItRan) {
+  std::strcpy(drd->failing_call, "drdStop");
+  EXPECT_EQ(refusal([] { connected(); }), "");
+  drd->homed = 0;
+  EXPECT_THAT(refusal([] { connected({.may_home = true}); }), ::testing::HasSubstr("forces cannot be switched on"));
+  EXPECT_EQ(drd->forces_on, 0);
+}
+
+/// Only some models have a watchdog: of one that has none nobody is promised its 30 ms.
+TEST_F(ForceDimensionLimits, AWatchdogIsPromisedWhereThereIsOne) {
+  for (const int has : {1, 0}) {
+    drd->has_watchdog = has;
+    auto driver = connected();
+    Specification told;
+    driver->describe(told);
+    EXPECT_EQ(told.watchdog,
+              has != 0 ? "30 ms, in its firmware" : "none of its own: without palpate-guardian, switch it off");
+    driver->disconnect();
+    for (const int homed : {1, 0}) {
+      drd->homed = homed;
+      const std::string note = find_force_dimension().at(0).note;
+      EXPECT_EQ(note.find("watchdog: none of its own") != std::string::npos, has == 0) << note;
+      EXPECT_EQ(note.find("no home") != std::string::npos, homed == 0) << note;
+    }
+    drd->homed = 1;
+  }
+}
+
+/// A good pose says nothing for a force, and a force nothing for a pose.
+TEST_F(ForceDimensionLimits, AForceThatIsRefusedIsToldApartFromThePoses) {
+  const auto driver = connected();
+  driver->take(1);
+  EXPECT_EQ(driver->give(Vec3(0, 1, 0)), ForceAnswer::taken);
+  std::strcpy(drd->failing_call, "dhdSetForceAndTorqueAndGripperForce");
+  for (int n = 0; n < 100; ++n) {
+    const std::uint64_t news = driver->status().news;
+    driver->take(1);
+    EXPECT_EQ(driver->status().news, news + 1);
+    EXPECT_EQ(driver->give(Vec3(0, 1, 0)), ForceAnswer::refused);
+  }
+  EXPECT_FALSE(driver->lost());
+  std::strcpy(drd->failing_call, "dhdGetPosition");
+  for (int n = 0; n < 20; ++n) {
+    EXPECT_FALSE(driver->lost()) << n;
+    driver->take(1);
+    EXPECT_EQ(driver->give(Vec3(0, 1, 0)), ForceAnswer::taken);
+  }
+  EXPECT_TRUE(driver->lost());
+}
+
+/// The library writes as many numbers as its version knows.
+TEST_F(ForceDimensionLimits, AStatusOfAnyLengthIsRead) {
+  for (const int size : {14, 17, 32, 64}) {
+    drd->status_size = size;
+    const auto driver = connected();
+    for (int n = 0; n < 20; ++n) driver->take(1);
+    EXPECT_EQ(drd->status_reads, 1) << size;
+    EXPECT_EQ(driver->status().state, State::idle) << size;
+    drd->status_reads = 0;
+  }
+}
+
+/// 65535, or no answer, is the number of none: it is found and opened without an address, and by no address.
+TEST_F(ForceDimensionLimits, ADeviceWithoutASerialNumberHasNoAddress) {
+  for (const bool answers : {true, false}) {
+    drd->serial = 65535;
+    drd->serial_fails = answers ? 0 : 1;
+    EXPECT_EQ(find_force_dimension().at(0).address, "");
+    EXPECT_EQ(refusal([] { connected(); }), "");
+    for (const char* const number : {"65535", "0"}) {
+      EXPECT_NE(refusal([&] { connected({.address = number}); }), "");
+      EXPECT_FALSE(stop_force_dimension(number));
+    }
+    EXPECT_TRUE(stop_force_dimension(""));
+  }
+}
+
+/// Twenty poses in a row that fail are a device that is gone; nineteen are not, whatever failed before them.
 TEST_F(ForceDimensionLimits, TwentyErrorsInARowAreAnUnplugging) {
   const auto driver = connected();
   for (int round = 0; round < 3; ++round) {
@@ -168,7 +265,7 @@ TEST_F(ForceDimensionLimits, TwentyErrorsInARowAreAnUnplugging) {
   drd->failing = 1;
   for (int n = 0; n < 20; ++n) {
     EXPECT_FALSE(driver->lost());
-    n % 2 == 0 ? driver->take(1) : static_cast<void>(driver->give(Vec3(0)));
+    driver->take(1);
   }
   EXPECT_TRUE(driver->lost());
 }

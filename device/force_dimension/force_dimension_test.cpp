@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
@@ -169,6 +170,24 @@ TEST_F(ForceDimension, ADeviceThatFailsIsLostAndOneInErrorIsAFault) {
   EXPECT_EQ(drd->force[2], 0);
 }
 
+/// Every force is refused and every pose is good: the device still holds what it took last.
+TEST_F(ForceDimension, ForcesThatAreRefusedForLongAreAFault) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  drd->has_watchdog = 0;
+  push(*stylus, Vec3(0, 1, 0), 300);
+  ASSERT_EQ(drd->force[2], 1);
+  std::strcpy(drd->failing_call, "dhdSetForceAndTorqueAndGripperForce");
+  push(*stylus, Vec3(0, 1, 0), 45);
+  EXPECT_EQ(stylus->fault(), LinkFault::none);
+  push(*stylus, Vec3(0, 1, 0), 10);
+  EXPECT_EQ(stylus->fault(), LinkFault::forces_refused);
+  EXPECT_EQ(drd->force[2], 1);
+  std::strcpy(drd->failing_call, "");
+  push(*stylus, Vec3(0, 1, 0), 5);
+  EXPECT_EQ(drd->force[2], 0) << "a zero, as soon as it is taken";
+}
+
 TEST_F(ForceDimension, TheWristTurnsTheStylus) {
   drd->has_wrist = 1;
   const auto stylus = unthreaded();
@@ -194,8 +213,8 @@ TEST_F(ForceDimension, TellsHowFarItsModelReaches) {
   const struct {
     int type;
     double half_extent_mm;
-  } models[] = {{33, 55},  {34, 55},  {35, 55},  {36, 55},  {37, 55}, {63, 100}, {206, 65}, {104, 65},
-                {105, 65}, {203, 80}, {108, 80}, {109, 80}, {60, 40}, {1, 40},   {9999, 40}};
+  } models[] = {{33, 55},  {34, 55},  {35, 55},  {36, 55},  {37, 55},  {63, 100}, {206, 65}, {104, 65}, {105, 65},
+                {203, 80}, {108, 80}, {109, 80}, {131, 80}, {132, 80}, {60, 40},  {1, 40},   {9999, 40}};
   for (const auto& model : models) {
     drd->type = model.type;
     const auto stylus = unthreaded();
@@ -212,19 +231,19 @@ TEST_F(ForceDimension, IsAskedTwiceAMillisecond) {
   EXPECT_NEAR(time - begun, 0.5, 1e-3);
 }
 
-/// Opened anew it has failed at nothing yet: twenty calls in a row have to fail, two in an exchange, and its status is
-/// looked at with each twentieth pose.
+/// Opened anew it has failed at nothing yet: twenty poses in a row have to fail, and its status is looked at with each
+/// twentieth.
 TEST_F(ForceDimension, OpenedAnewItCountsFromTheBeginning) {
   const auto stylus = unthreaded();
   for (int n = 0; n < 2; ++n) {
     stylus->open();
     push(*stylus, Vec3(0), 33);
     drd->failing = 1;
-    push(*stylus, Vec3(0), 7);
+    push(*stylus, Vec3(0), 17);
     drd->failing = 0;
     stylus->open();
     drd->failing = 1;
-    push(*stylus, Vec3(0), 10);
+    push(*stylus, Vec3(0), 19);
     EXPECT_EQ(stylus->fault(), LinkFault::none) << n;
     push(*stylus, Vec3(0), 1);
     EXPECT_EQ(stylus->fault(), LinkFault::unplugged) << n;

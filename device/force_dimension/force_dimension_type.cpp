@@ -8,7 +8,7 @@ namespace palpate::device {
 ForceDimensionSettings read_force_dimension(const std::string& json_file) {
   return read_settings_file("Force Dimension", json_file, [](SettingsReader& reader) {
     ForceDimensionSettings settings;
-    take_common(reader, settings);
+    take_common(reader, settings, force_dimension_limits);
     reader.take("may_home", settings.may_home);
     return settings;
   });
@@ -34,7 +34,7 @@ const DeviceType force_dimension_type{
     .needs = "the maker's SDK 3.17 (libdrd.so); leave to home, for which the arm moves by itself",
     .sold = "sold now",
     .tested = protocol_tested,
-    .watchdog = "30 ms, in its firmware",
+    .watchdog = "30 ms, in its firmware, where the model has a watchdog",
     .file = DeviceFile::settings,
     .file_hint = "Leave to home (\"may_home\": true), largest force: a JSON file",
     .find = &find_force_dimension,

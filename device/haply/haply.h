@@ -16,6 +16,7 @@ struct HaplySettings {
   std::string address;             ///< the device's id ("049D"), as FoundDevice::address; empty: the only one there is
   std::string host = "localhost";  ///< of the service
   int port = 10001;                ///< its simulation channel
+  int events_port = 10020;         ///< its events: of its emergency brake; 0: not heard
   std::string preset = "arm_front_centered";  ///< puts the origin in the middle of the workspace
   double maximum_force = 3;                   ///< N; the maker publishes none
   double stiffness_limit = 400;               ///< N/m, likewise

@@ -14,6 +14,7 @@
 
 #include "device/found_devices.h"
 #include "device/messages.h"
+#include "device/setting_limits.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -25,7 +26,13 @@ using Json = nlohmann::json;
 constexpr double answer_time = 0.020;  // s after which a message without an answer is sent again
 constexpr double noticeable = 0.1;     // N: a force that the service must tell back
 constexpr int unheeded_at_most = 100;  // answers
-constexpr double farthest = 1.0;       // m: no arm reaches farther
+// A service that does not heed forces may begin to at any time: until it does it is asked for no more than this.
+constexpr int unheeded_soon = 5;     // answers
+constexpr double trial_force = 0.2;  // N
+// Forces of several programs add up. The service's own filters take from a force, and add none.
+constexpr double foreign_at_most = 0.5;      // N
+constexpr int foreign_answers_at_most = 20;  // in a row
+constexpr double farthest = 1.0;             // m: no arm reaches farther
 
 /// Null where there is none.
 const Json* at(const Json& json, const char* key) {
@@ -45,6 +52,10 @@ std::string text_of(const Json* json) {
 
 double number_of(const Json* json, double otherwise = 0) {
   return json != nullptr && json->is_number() ? json->get<double>() : otherwise;
+}
+
+bool is_denied(const Json* json) {
+  return json != nullptr && json->is_boolean() && !json->get<bool>();
 }
 
 bool is_true(const Json* json) {
@@ -161,6 +172,8 @@ std::vector<HaplyDevice> haply_inventory(std::string_view message) {
     device.handedness = text_of(at(one, "config", "handedness"));
     device.gravity_compensated = is_true(at(one, "config", "gravity_compensation", "enabled"));
     device.torque_scaled = is_true(at(one, "config", "torque_scaling", "enabled"));
+    device.calibrated = !is_denied(at(one, "status", "calibrated"));
+    device.ready = !is_denied(at(one, "status", "ready"));
     device.force_gate = number_of(at(one, "config", "filters", "force_gate", "gain"));
     device.damping = number_of(at(one, "config", "filters", "damping", "scalar"));
     devices.push_back(std::move(device));
@@ -205,9 +218,11 @@ void HaplyProtocol::connect(Link& link) {
       throw Refusal(say("haply-its-service-is-version", version.major));
     }
     vector_key_ = is_old ? "values" : "vector";
+    hears_events_ = service->hears_events();
   }
-  switched_key_ = false;
-  sent_force_ = Vec3(0);
+  switched_key_ = on_trial_ = resumes_ = false;
+  unheeded_ = foreign_ = 0;
+  sent_forces_ = {};
   acting_.reset();
   std::vector<std::uint8_t> packet(packet_size());
   const double start = link.now();
@@ -245,6 +260,9 @@ std::string HaplyProtocol::first_message() const {
 void HaplyProtocol::describe(Specification& specification) const {
   const bool is_small = device_.type == "minverse";
   specification.name = is_small ? "Haply Minverse" : "Haply Inverse3";
+  if (!hears_events_) {
+    specification.watchdog = "the service ends a force that is not renewed; its emergency brake is not heard";
+  }
   specification.orientation_axes = has_grip_ ? 3 : 0;
   specification.workspace_half_extent = Vec3(is_small ? 0.04 : 0.10) / std::sqrt(3.0);
 }
@@ -255,9 +273,20 @@ void HaplyProtocol::fail(LinkFault fault) noexcept {
   status_.fault = fault;
 }
 
+/// Of the service's own safety. After its brake has held the arm nobody knows what lies beneath the hand: the force
+/// comes back only when the user opens the device and turns it on.
+void HaplyProtocol::take_event(const Json& event) {
+  const Json* const data = at(event, "data");
+  if (data == nullptr || text_of(at(event, "name")) != "device-safety-triggered") return;
+  const std::string id = text_of(at(*data, "device_id")), what = text_of(at(*data, "safety_type"));
+  const bool is_brake = what == "ebrake_triggered" || what == "ebrake_released";
+  if (is_brake && (id.empty() || id == device_.id)) fail(LinkFault::own_safety);
+}
+
 void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/) noexcept {
-  if (in_flight_ > 0) --in_flight_;
   const Json message = Json::parse(packet.begin(), packet.end(), nullptr, false);
+  if (at(message, "name") != nullptr) return take_event(message);
+  if (in_flight_ > 0) --in_flight_;
   if (!message.is_object() || status_.state == State::fault) return;
   const Json* const arm = find_device(message, "inverse3", device_.id);
   if (arm == nullptr) {
@@ -265,16 +294,14 @@ void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/
     if (message.contains("inverse3")) fail(LinkFault::unplugged);
     return;
   }
-  const Json* const status = at(*arm, "status");
-  if (status != nullptr) {
-    const auto denies = [&](const char* key) {
-      const Json* const told = at(*status, key);
-      return told != nullptr && told->is_boolean() && !told->get<bool>();
-    };
-    status_.state = denies("calibrated") || denies("ready") ? State::homing : State::idle;
-  } else if (status_.state == State::homing) {
-    status_.state = State::idle;
-  }
+  // What is not told is as it was told before, first by the inventory.
+  const auto keep = [&](const char* key, bool& value) {
+    const Json* const told = at(*arm, "status", key);
+    if (told != nullptr && told->is_boolean()) value = told->get<bool>();
+  };
+  keep("calibrated", device_.calibrated);
+  keep("ready", device_.ready);
+  status_.state = device_.calibrated && device_.ready ? State::idle : State::homing;
   const Json* const position = at(*arm, "state", "cursor_position");
   if (position == nullptr) return;
   const Vec3 place = to_device_frame(vector_of(*position));
@@ -286,11 +313,27 @@ void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/
   if (const Json* const force = at(*arm, "state", "current_cursor_force")) judge_force(vector_of(*force));
 }
 
+/// N: the distance from the nearest force that can be ours: one of the last, or a part of it.
+double HaplyProtocol::foreign_force(const Vec3& acting) const noexcept {
+  double least = glm::length(acting);
+  for (const Vec3& sent : sent_forces_) {
+    const double square = glm::dot(sent, sent);
+    const double part = square > 0 ? std::clamp(glm::dot(acting, sent) / square, 0.0, 1.0) : 0;
+    least = std::min(least, glm::distance(acting, part * sent));
+  }
+  return least;
+}
+
 void HaplyProtocol::judge_force(const Vec3& acting) noexcept {
   acting_ = acting;
+  foreign_ = foreign_force(acting) > foreign_at_most ? foreign_ + 1 : 0;
+  if (foreign_ >= foreign_answers_at_most) return fail(LinkFault::foreign_force);
   // Which of the two spellings the service reads is not certain from its version: it tells the force that acts.
-  const bool heeded = glm::length(sent_force_) < noticeable || glm::length(acting) > 0.1 * glm::length(sent_force_);
+  const double sent = glm::length(sent_forces_.front());
+  const bool heeded = sent < noticeable || glm::length(acting) > 0.1 * sent;
   unheeded_ = heeded ? 0 : unheeded_ + 1;
+  resumes_ = resumes_ || (heeded && on_trial_);
+  on_trial_ = !heeded && (on_trial_ || unheeded_ >= unheeded_soon);
   if (unheeded_ < unheeded_at_most) return;
   if (switched_key_) return fail(LinkFault::forces_refused);
   switched_key_ = true;
@@ -302,24 +345,26 @@ std::size_t HaplyProtocol::step(const Vec3& force, double now, std::span<std::ui
   // Messages are answered one for one: after a late answer the surplus one is waited for, or every force would stay a
   // message older.
   if (in_flight_ > 0 && now - sent_ < answer_time) return 0;
-  const bool may_push = in_flight_ == 0 && status_.state == State::idle;
-  status_.withheld = !may_push;
-  sent_force_ = may_push ? to_service_frame(clamp_length(force, settings_.maximum_force)) : Vec3(0);
+  const bool may_push = in_flight_ == 0 && status_.state == State::idle && !resumes_;
+  const double most = on_trial_ ? std::min(trial_force, settings_.maximum_force) : settings_.maximum_force;
+  const Vec3 sent = may_push ? to_service_frame(clamp_length(force, most)) : Vec3(0);
+  std::shift_right(sent_forces_.begin(), sent_forces_.end(), 1);
+  sent_forces_.front() = sent;
   TextInto text(packet);
   text.add("{\"inverse3\":[{\"device_id\":\"").add(device_.id);
   text.add("\",\"commands\":{\"set_cursor_force\":{\"").add(vector_key_);
-  text.add("\":{\"x\":").add(sent_force_.x).add(",\"y\":").add(sent_force_.y);
-  text.add(",\"z\":").add(sent_force_.z).add("}}}}]}");
+  text.add("\":{\"x\":").add(sent.x).add(",\"y\":").add(sent.y);
+  text.add(",\"z\":").add(sent.z).add("}}}}]}");
   ++in_flight_;
   sent_ = now;
+  status_.withheld = !may_push;
+  resumes_ = false;
   return text.size();
 }
 
 std::unique_ptr<LinkStylus> make_haply_on(const HaplySettings& settings, LinkMaker make_link,
                                           const LinkStylusOptions& options) {
-  if (!(settings.maximum_force > 0 && settings.maximum_force <= 20 && settings.stiffness_limit > 0)) {
-    throw Refusal(say("haply-the-largest-force-lies-between-0"));
-  }
+  check_limits("Haply", settings, {});
   Specification specification;
   specification.name = "Haply Inverse3";
   specification.workspace_half_extent = Vec3(0.10) / std::sqrt(3.0);

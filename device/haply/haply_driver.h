@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,10 +23,12 @@ struct HaplyVersion {
 };
 HaplyVersion parse_haply_version(std::string_view reply) noexcept;
 
-/// The WebSocket of the service: a packet is a message.
+/// The WebSockets of the service: a packet is an answer, or an event of the service.
 class HaplyLink : public Link {
  public:
   virtual HaplyVersion version() const noexcept = 0;
+  /// Whether the service's events come as packets between the answers.
+  virtual bool hears_events() const noexcept = 0;
 };
 
 /// A device in the first message that the service sends.
@@ -37,6 +40,8 @@ struct HaplyDevice {
   double force_gate = 0;  ///< filters.force_gate.gain
   double damping = 0;     ///< filters.damping.scalar
   bool torque_scaled = false;
+  bool calibrated = true;  ///< of its status; true where it does not tell
+  bool ready = true;
 };
 /// Empty where the text is no inventory.
 std::vector<HaplyDevice> haply_inventory(std::string_view message);
@@ -64,7 +69,9 @@ class HaplyProtocol final : public Protocol {
  private:
   void choose(const std::vector<HaplyDevice>& devices);
   std::string first_message() const;
+  void take_event(const nlohmann::json& event);
   void judge_force(const Vec3& acting) noexcept;
+  double foreign_force(const Vec3& acting) const noexcept;
   void fail(LinkFault fault) noexcept;
 
   HaplySettings settings_;
@@ -75,9 +82,14 @@ class HaplyProtocol final : public Protocol {
   bool switched_key_ = false;
   int in_flight_ = 0;  // messages sent and not answered yet
   double sent_ = 0;
-  Vec3 sent_force_{0};  // N, the service's frame
+  bool hears_events_ = true;
+  // N, the service's frame: the last that were sent, the newest first. What acts is told late.
+  std::array<Vec3, 4> sent_forces_{};
   std::optional<Vec3> acting_;
-  int unheeded_ = 0;  // answers in a row that tell of no force where one was sent
+  int unheeded_ = 0;       // answers in a row that tell of no force where one was sent
+  int foreign_ = 0;        // answers in a row that tell of a force that was not sent
+  bool on_trial_ = false;  // the service has not heeded the last forces
+  bool resumes_ = false;   // it heeds them again
 };
 
 }  // namespace palpate::device

@@ -187,8 +187,8 @@ TEST(HaplyLimits, ItsSettingsLieWithinTheirLimits) {
   const struct {
     double force, stiffness;
     bool taken;
-  } cases[] = {{0, 400, false}, {1e-9, 400, true}, {20, 400, true},  {20.01, 400, false},
-               {3, 0, false},   {3, 1e-9, true},   {-1, 400, false}, {3, -1, false}};
+  } cases[] = {{0, 400, false}, {1e-9, 400, true}, {12, 400, true}, {12.01, 400, false}, {3, 0, false},
+               {3, 3000, true}, {3, 3001, false},  {3, 1e-9, true}, {-1, 400, false},    {3, -1, false}};
   for (const auto& one : cases) {
     const auto make = [&] { make_haply({.maximum_force = one.force, .stiffness_limit = one.stiffness}); };
     EXPECT_EQ(refused(make).empty(), one.taken) << one.force << " " << one.stiffness;

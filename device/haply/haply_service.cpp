@@ -34,6 +34,7 @@ namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
 
 constexpr std::size_t longest_message = 1 << 16;
+constexpr double events_patience = 0.5;  // s: it goes without them
 
 std::chrono::microseconds microseconds(double seconds) {
   return std::chrono::microseconds(static_cast<long>(seconds * 1e6));
@@ -83,38 +84,48 @@ std::string http_get(const std::string& host, int port, const char* target, doub
   return error ? std::string() : response.body();
 }
 
+using Socket = websocket::stream<beast::tcp_stream>;
+
+beast::error_code connect_socket(asio::io_context& context, Socket& socket, const std::string& host, int port,
+                                 double patience) {
+  tcp::resolver resolver(context);
+  beast::error_code error;
+  const auto ends = resolver.resolve(host, std::to_string(port), error);
+  if (!error) {
+    error = result_of(context, patience, [&](auto done) {
+      beast::get_lowest_layer(socket).async_connect(ends,
+                                                    [done](beast::error_code e, const tcp::endpoint&) { done(e); });
+    });
+  }
+  if (error) return error;
+  // A force that waits for the next one to fill a segment comes 40 ms late.
+  beast::get_lowest_layer(socket).socket().set_option(tcp::no_delay(true), error);
+  const std::string where = host + ":" + std::to_string(port);
+  error = result_of(context, patience, [&](auto done) { socket.async_handshake(where, "/", done); });
+  socket.read_message_max(longest_message);
+  socket.text(true);
+  return error;
+}
+
 class HaplyService final : public HaplyLink {
  public:
-  explicit HaplyService(const HaplySettings& settings) : socket_(context_) {
-    const std::string where = settings.host + ":" + std::to_string(settings.port);
+  explicit HaplyService(const HaplySettings& settings) {
     version_ = parse_haply_version(http_get(settings.host, settings.port, "/version", haply_patience));
-    tcp::resolver resolver(context_);
-    beast::error_code error;
-    const auto ends = resolver.resolve(settings.host, std::to_string(settings.port), error);
-    if (!error) {
-      error = result_of(context_, haply_patience, [&](auto done) {
-        beast::get_lowest_layer(socket_).async_connect(ends,
-                                                       [done](beast::error_code e, const tcp::endpoint&) { done(e); });
-      });
-    }
-    if (!error) {
-      // A force that waits for the next one to fill a segment comes 40 ms late.
-      beast::get_lowest_layer(socket_).socket().set_option(tcp::no_delay(true), error);
-      error = result_of(context_, haply_patience, [&](auto done) { socket_.async_handshake(where, "/", done); });
-    }
-    if (error) {
+    if (const auto error = connect_socket(context_, answers_.socket, settings.host, settings.port, haply_patience)) {
+      const std::string where = settings.host + ":" + std::to_string(settings.port);
       throw Refusal(say("haply-its-service-does-not-answer", where, error.message()));
     }
-    socket_.read_message_max(longest_message);
-    socket_.text(true);
-    start_read();
+    hears_events_ = settings.events_port > 0 &&
+                    !connect_socket(context_, events_.socket, settings.host, settings.events_port, events_patience);
+    if (hears_events_) start_read(events_);
+    start_read(answers_);
   }
 
   ~HaplyService() override {
     try {
       // The operations that are still under way end with their socket, and hand back what they borrow.
       beast::error_code ignored;
-      beast::get_lowest_layer(socket_).socket().close(ignored);
+      for (Incoming* const one : {&answers_, &events_}) beast::get_lowest_layer(one->socket).socket().close(ignored);
       context_.restart();
       context_.run_for(std::chrono::milliseconds(100));
     } catch (const std::exception&) {
@@ -125,16 +136,18 @@ class HaplyService final : public HaplyLink {
   double now() noexcept override { return monotonic_time(); }
   bool lost() const noexcept override { return lost_; }
   HaplyVersion version() const noexcept override { return version_; }
+  bool hears_events() const noexcept override { return hears_events_; }
 
   std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept override {
-    run([this] { return has_message_; }, timeout);
-    if (!has_message_) return 0;
-    has_message_ = false;
-    const auto bytes = incoming_.data();
+    run([this] { return answers_.has_message || events_.has_message; }, timeout);
+    Incoming& one = events_.has_message ? events_ : answers_;
+    if (!one.has_message) return 0;
+    one.has_message = false;
+    const auto bytes = one.buffer.data();
     const std::size_t size = std::min(bytes.size(), packet.size());
     std::copy_n(static_cast<const std::uint8_t*>(bytes.data()), size, packet.begin());
-    incoming_.consume(incoming_.size());
-    guarded([this] { start_read(); });
+    one.buffer.consume(one.buffer.size());
+    guarded([&] { start_read(one); });
     return size;
   }
 
@@ -144,7 +157,7 @@ class HaplyService final : public HaplyLink {
     guarded([&] {
       outgoing_.assign(packet.begin(), packet.end());
       sending_ = true;
-      socket_.async_write(asio::buffer(outgoing_), [this](beast::error_code error, std::size_t) {
+      answers_.socket.async_write(asio::buffer(outgoing_), [this](beast::error_code error, std::size_t) {
         sending_ = false;
         if (error) lost_ = true;
       });
@@ -159,9 +172,17 @@ class HaplyService final : public HaplyLink {
   }
 
  private:
-  void start_read() {
-    socket_.async_read(incoming_, [this](beast::error_code error, std::size_t) {
-      has_message_ = !error;
+  struct Incoming {
+    explicit Incoming(asio::io_context& context) : socket(context) {}
+    Socket socket;
+    beast::flat_buffer buffer;
+    bool has_message = false;
+  };
+
+  void start_read(Incoming& one) {
+    one.socket.async_read(one.buffer, [this, &one](beast::error_code error, std::size_t) {
+      one.has_message = !error;
+      // Both channels are one service's: where its brake is not heard any more nothing is pushed.
       if (error) lost_ = true;
     });
   }
@@ -191,11 +212,11 @@ class HaplyService final : public HaplyLink {
   }
 
   asio::io_context context_;
-  websocket::stream<beast::tcp_stream> socket_;
-  beast::flat_buffer incoming_;
+  Incoming answers_{context_};
+  Incoming events_{context_};
   std::string outgoing_;
   HaplyVersion version_;
-  bool has_message_ = false;
+  bool hears_events_ = false;
   bool sending_ = false;
   bool lost_ = false;
 };
@@ -247,6 +268,7 @@ bool send_zeros_to_haply(const std::string& address) {
   const auto at = address.find('@');
   HaplySettings settings = haply_defaults();
   settings.address = address.substr(0, at);
+  settings.events_port = 0;
   if (at != std::string::npos) take_place(std::string_view(address).substr(at + 1), settings);
   const auto service = open_haply_service(settings);
   HaplyProtocol protocol(settings);

@@ -8,9 +8,10 @@ namespace palpate::device {
 HaplySettings read_haply(const std::string& json_file) {
   return read_settings_file("Haply", json_file, [](SettingsReader& reader) {
     HaplySettings settings = haply_defaults();
-    take_common(reader, settings);
+    take_common(reader, settings, {});
     reader.take("host", settings.host);
     reader.take("port", settings.port);
+    reader.take("events_port", settings.events_port);
     reader.take("preset", settings.preset);
     return settings;
   });

@@ -30,6 +30,8 @@ const char* name_of(LinkFault fault) {
       return "it does not take forces";
     case LinkFault::own_safety:
       return "its own safety took the force away";
+    case LinkFault::foreign_force:
+      return "another program pushes it, too";
   }
   return "unknown";
 }

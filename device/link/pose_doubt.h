@@ -1,7 +1,7 @@
 #pragma once
 
 /// Decides when impossible poses are a fault. A single one is a garbled packet, or a hand at the edge of the reach: the
-/// driver then keeps the last pose and gives no force. It is a fault only if that lasts.
+/// driver then keeps the last pose and says that it is doubtful. It is a fault only if that lasts.
 
 #include <algorithm>
 
@@ -17,27 +17,20 @@ class PoseDoubt {
   /// To be called for an impossible pose, at a time in s. Returns whether the doubt has lasted longer than `patience`.
   bool lasts(double now) noexcept {
     if (time_ > 0) doubt_ += std::max(0.0, now - time_);
-    doubtful_ = true;
     time_ = now;
     return doubt_ > patience;
   }
   /// To be called for a possible pose, at a time in s.
   void ends(double now) noexcept {
     doubt_ = std::max(0.0, doubt_ - recovery_ * (now - time_));
-    doubtful_ = false;
     time_ = now;
   }
-  void forget() noexcept {
-    doubt_ = time_ = 0;
-    doubtful_ = false;
-  }
-  bool is_doubtful() const noexcept { return doubtful_; }
+  void forget() noexcept { doubt_ = time_ = 0; }
 
  private:
   double recovery_;
   double doubt_ = 0;  // s
   double time_ = 0;   // s: of the last pose
-  bool doubtful_ = false;
 };
 
 }  // namespace palpate::device

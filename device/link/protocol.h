@@ -22,7 +22,8 @@ enum class LinkFault : std::uint8_t {
   held_up,         ///< this process was stopped, or its thread held up
   slept,           ///< the machine was suspended
   forces_refused,  ///< the device takes forces and gives none
-  own_safety       ///< the device's own safety took the force away
+  own_safety,      ///< the device's own safety took the force away
+  foreign_force    ///< a force acts on it that was not sent
 };
 const char* name_of(LinkFault fault);
 

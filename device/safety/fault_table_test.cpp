@@ -116,7 +116,7 @@ std::vector<Case> cases() {
       {"half messages", [](Session& s) { return apply(s.rig.halve); }, 0.6, true, 1},
       // Of the Haply's many messages half are enough, and each is whole or nothing.
       {"every second packet garbled", [](Session& s) { return apply(s.rig.garble); }, 0.6, true, 1, "haply"},
-      {"a pose that cannot be", [](Session& s) { return apply(s.rig.impossible); }, 0.01},
+      {"a pose that cannot be", [](Session& s) { return apply(s.rig.impossible); }, 0.025},
       late("answers 1 ms late", 1e-3, goes_on),
       late("answers 10 ms late", 10e-3, 0.6),
       late("answers 100 ms late", 0.1, 0.25),

@@ -28,6 +28,15 @@ Json grips(bool any) {
 
 }  // namespace
 
+std::string haply_safety_event(const std::string& type, const std::string& id) {
+  return Json{{"name", "device-safety-triggered"},
+              {"category", "device"},
+              {"level", "error"},
+              {"data", {{"device_family", "inverse"}, {"device_id", id}, {"safety_type", type}}},
+              {"message", type}}
+      .dump();
+}
+
 std::string FakeHaply::inventory() const {
   Json list = Json::array();
   for (const std::string& id : ids) {
@@ -39,7 +48,7 @@ std::string FakeHaply::inventory() const {
                       {"torque_scaling", {{"enabled", true}}},
                       {"filters", {{"force_gate", {{"gain", 0.3}}}, {"damping", {{"scalar", 0.0}}}}}}},
                     {"state", {{"cursor_position", vector(place)}}},
-                    {"status", {{"calibrated", ready}, {"ready", ready}}}});
+                    {"status", {{"calibrated", calibrated}, {"ready", ready}}}});
   }
   return Json{{"session_id", 7}, {"inverse3", list}, {"wireless_verse_grip", grips(has_grip)}}.dump();
 }
@@ -49,7 +58,8 @@ std::string FakeHaply::state(double now) const {
   if (!loses_device && !ids.empty()) {
     list.push_back({{"device_id", ids.front()},
                     {"state", {{"cursor_position", vector(place)}, {"current_cursor_force", vector(acting(now))}}},
-                    {"status", {{"calibrated", ready}, {"ready", ready}}}});
+                    {"status", {{"calibrated", calibrated}, {"ready", ready}}}});
+    if (!tells_status) list.back().erase("status");
   }
   return Json{{"inverse3", list}, {"wireless_verse_grip", grips(has_grip)}}.dump();
 }
@@ -76,7 +86,8 @@ std::string FakeHaply::answer(int session, const std::string& text, double now) 
 }
 
 Vec3 FakeHaply::acting(double now) const {
-  Vec3 sum(0);
+  Vec3 sum = others_force;
+  if (!heeds) return sum;
   for (const auto& [session, command] : commands_) {
     if (now - command.time <= idle_after) sum += command.force;
   }
@@ -98,6 +109,12 @@ bool FakeHaplyLink::send(std::span<const std::uint8_t> packet) noexcept {
 std::size_t FakeHaplyLink::receive(std::span<std::uint8_t> packet, double timeout) noexcept {
   const double end = service_.time + timeout;
   for (;;) {
+    if (!service_.events.empty()) {
+      const std::string text = service_.events.front();
+      service_.events.erase(service_.events.begin());
+      std::copy(text.begin(), text.end(), packet.begin());
+      return text.size();
+    }
     auto& waiting = service_.to_client;
     if (!service_.silent && !waiting.empty() && waiting.front().first <= service_.time) {
       const std::string text = waiting.front().second;

@@ -14,6 +14,9 @@
 
 namespace palpate::device {
 
+/// An event of the service's own safety: "ebrake_triggered", "ebrake_released", "stall_detected", ...
+std::string haply_safety_event(const std::string& type, const std::string& id = "049D");
+
 struct FakeHaply {
   double time = 0;  ///< s, in the same process
   HaplyVersion version{3, 5};
@@ -25,6 +28,12 @@ struct FakeHaply {
   bool ready = true;
   double idle_after = 0.05;  ///< s without a message: the device goes idle
   double delay = 0.3e-3;     ///< s until an answer comes
+
+  bool calibrated = true;
+  bool tells_status = true;         ///< in its answers; its inventory always does
+  Vec3 others_force{0};             ///< N: of another program's session
+  bool heeds = true;                ///< forces; where not, none acts
+  std::vector<std::string> events;  ///< in the same process: to be heard between the answers
 
   bool silent = false, gone = false, garbles = false, halves = false, loses_device = false;
   int garbles_every = 0;  ///< each n-th answer is nonsense
@@ -61,6 +70,7 @@ class FakeHaplyLink final : public HaplyLink {
   ~FakeHaplyLink() override { service_.leave(session_); }
 
   HaplyVersion version() const noexcept override { return service_.version; }
+  bool hears_events() const noexcept override { return true; }
   double now() noexcept override { return service_.time; }
   bool lost() const noexcept override { return service_.gone; }
   bool flush(double /*timeout*/) noexcept override { return !service_.gone; }

@@ -1,5 +1,6 @@
 #include "device/testing/fake_libdrd.h"
 
+#include <cstring>
 #include <ctime>
 
 #include "device/testing/shared_state.h"
@@ -16,8 +17,20 @@ double now() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-int result() {
-  return state.failing != 0 || state.unplugged != 0 ? -1 : 0;
+int result(const char* call) {
+  return state.failing != 0 || state.unplugged != 0 || std::strcmp(call, state.failing_call) == 0 ? -1 : 0;
+}
+
+void note(char what) {
+  const std::size_t length = std::strlen(state.order);
+  if (length + 1 < sizeof state.order) state.order[length] = what;
+}
+
+void act(double fx, double fy, double fz) {
+  state.force[0] = fx;
+  state.force[1] = fy;
+  state.force[2] = fz;
+  state.set_time = now();
 }
 
 }  // namespace
@@ -46,6 +59,7 @@ const char* dhdGetSystemName(char) {
   return "omega.3";
 }
 int dhdGetSerialNumber(unsigned short* serial, char id) {
+  if (state.serial_fails != 0) return -1;
   *serial = static_cast<unsigned short>(state.serial + id);
   return 0;
 }
@@ -68,21 +82,30 @@ int drdAutoInit(char) {
   state.auto_inits = state.auto_inits + 1;
   if (state.homing_fails != 0) return -1;
   state.homed = 1;
+  state.is_regulating = 1;
+  state.forces_on = 1;
+  act(0, 0, 0.7);  // it carries the arm
   return 0;
 }
-int drdStop(bool, char) {
-  return result();
+int drdStop(bool keep_forces, char) {
+  note('S');
+  if (state.is_regulating == 0 || result("drdStop") < 0) return -1;
+  state.is_regulating = 0;
+  if (!keep_forces) state.forces_on = 0;
+  return 0;
 }
 int dhdEnableExpertMode() {
   state.expert = 1;
   return 0;
 }
 int dhdSetWatchdog(unsigned char duration, char) {
-  if (state.expert == 0) return -1;
+  if (state.expert == 0 || state.has_watchdog == 0) return -1;
+  note('W');
   state.watchdog_s = duration * 125e-6;
   return 0;
 }
 int dhdSetMaxForce(double newtons, char) {
+  note('M');
   state.told_max_force = newtons;
   return 0;
 }
@@ -94,8 +117,9 @@ int dhdSetGravityCompensation(int on, char) {
   return 0;
 }
 int dhdEnableForce(unsigned char on, char) {
+  note('E');
   state.forces_on = on;
-  return result();
+  return result("dhdEnableForce");
 }
 int dhdStop(char) {
   state.stopped = state.stopped + 1;
@@ -106,7 +130,7 @@ int dhdGetPosition(double* x, double* y, double* z, char) {
   *x = state.place[0];
   *y = state.place[1];
   *z = state.place[2];
-  return result();
+  return result("dhdGetPosition");
 }
 int dhdGetOrientationFrame(double matrix[3][3], char) {
   for (int row = 0; row < 3; ++row) {
@@ -120,8 +144,8 @@ bool dhdHasWrist(char) {
 unsigned dhdGetButtonMask(char) {
   return state.buttons;
 }
-int dhdGetStatus(int status[17], char) {
-  for (int i = 0; i < 17; ++i) status[i] = 0;
+int dhdGetStatus(int* status, char) {
+  for (int i = 0; i < state.status_size; ++i) status[i] = 0;
   status[5] = state.forces_on != 0 && state.no_force == 0 ? 1 : 0;
   status[9] = state.in_error;
   state.status_reads = state.status_reads + 1;
@@ -129,13 +153,11 @@ int dhdGetStatus(int status[17], char) {
 }
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz, double grip,
                                         char) {
-  if (state.unplugged != 0) return result();
+  if (result("dhdSetForceAndTorqueAndGripperForce") < 0) return -1;
+  note(fx == 0 && fy == 0 && fz == 0 ? '0' : 'F');
   if (tx != 0 || ty != 0 || tz != 0 || grip != 0) state.torques = state.torques + 1;
-  state.force[0] = fx;
-  state.force[1] = fy;
-  state.force[2] = fz;
-  state.set_time = now();
-  return result();
+  act(fx, fy, fz);
+  return 0;
 }
 /// What pushes now: the firmware's watchdog takes a force away that is not renewed.
 bool fake_drd_is_pushing() {

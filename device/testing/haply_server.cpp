@@ -139,15 +139,25 @@ class Connection : public std::enable_shared_from_this<Connection> {
   int number_ = 0;
 };
 
+/// One who hears the service's events: nothing is heard from it.
+struct EventHearer {
+  explicit EventHearer(tcp::socket socket) : stream(std::move(socket)) {}
+  websocket::stream<beast::tcp_stream> stream;
+  bool is_open = false;
+};
+
 }  // namespace
 
 class HaplyServer::Impl {
  public:
   explicit Impl(const FakeHaply& service)
       : acceptor_(context_, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0)),
-        port_(acceptor_.local_endpoint().port()) {
+        port_(acceptor_.local_endpoint().port()),
+        event_acceptor_(context_, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0)),
+        events_port_(event_acceptor_.local_endpoint().port()) {
     shared.service = service;
     accept();
+    accept_hearer();
     thread_ = std::thread([this] { context_.run(); });
   }
   ~Impl() {
@@ -162,7 +172,18 @@ class HaplyServer::Impl {
       connections_.clear();
     });
   }
+  void tell(const std::string& event) {
+    asio::post(context_, [this, event] {
+      for (const auto& hearer : hearers_) {
+        if (!hearer->is_open) continue;
+        beast::error_code ignored;
+        hearer->stream.text(true);
+        hearer->stream.write(asio::buffer(event), ignored);
+      }
+    });
+  }
   int port() const { return port_; }
+  int events_port() const { return events_port_; }
 
   Shared shared;
 
@@ -177,9 +198,22 @@ class HaplyServer::Impl {
     });
   }
 
+  void accept_hearer() {
+    event_acceptor_.async_accept([this](auto error, tcp::socket socket) {
+      if (error) return;
+      const auto hearer = std::make_shared<EventHearer>(std::move(socket));
+      hearers_.push_back(hearer);
+      hearer->stream.async_accept([hearer](auto refused) { hearer->is_open = !refused; });
+      accept_hearer();
+    });
+  }
+
   asio::io_context context_{1};
   tcp::acceptor acceptor_;
   int port_;
+  tcp::acceptor event_acceptor_;
+  int events_port_;
+  std::vector<std::shared_ptr<EventHearer>> hearers_;
   std::vector<std::weak_ptr<Connection>> connections_;
   std::thread thread_;
 };
@@ -189,6 +223,12 @@ HaplyServer::~HaplyServer() = default;
 
 int HaplyServer::port() const noexcept {
   return impl_->port();
+}
+int HaplyServer::events_port() const noexcept {
+  return impl_->events_port();
+}
+void HaplyServer::tell(const std::string& event) {
+  impl_->tell(event);
 }
 void HaplyServer::with(const std::function<void(FakeHaply&)>& run) {
   const std::lock_guard hold(impl_->shared.lock);

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "device/testing/fake_haply.h"
 
@@ -19,6 +20,10 @@ class HaplyServer {
   ~HaplyServer();
 
   int port() const noexcept;
+  /// Of its events.
+  int events_port() const noexcept;
+  /// Sends an event to each who hears them.
+  void tell(const std::string& event);
   /// Runs with the service while it serves nobody.
   void with(const std::function<void(FakeHaply&)>& run);
   /// N, that acts now.

@@ -16,8 +16,8 @@ namespace palpate::device {
 
 struct TouchSettings {
   std::string address;       ///< the name given to it in the maker's set-up ("Default Device"); empty: the default one
-  double maximum_force = 0;  ///< N; 0: what the device says of itself
-  double stiffness_limit = 0;  ///< N/m; 0: of its model
+  double maximum_force = 0;  ///< N; 0: what the device says of itself, which is never exceeded
+  double stiffness_limit = 0;  ///< N/m; 0: of its model; never more than the device says of itself
   /// A model without automatic calibration or inkwell may take the place where it is opened for its reset position.
   bool may_reset_encoders = false;
   bool guarded = true;  ///< start a guardian process where palpate-guardian is found

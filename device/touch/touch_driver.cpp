@@ -32,6 +32,13 @@ struct Model {
 };
 constexpr std::array models{Model{"Omni", 700}, Model{"Desktop", 1000}, Model{"Premium", 1000}, Model{"Touch", 400}};
 
+constexpr double usual_force = 3.3;  // N, of Touch and Omni
+
+/// What is set, or else what is usual; never more than the device can.
+double within(double set, double most, double usual = HUGE_VAL) {
+  return std::min(set > 0 ? set : usual, most);
+}
+
 double stiffness_of(std::string_view name) {
   const auto found = std::find_if(models.begin(), models.end(),
                                   [&](const Model& model) { return name.find(model.word) != std::string_view::npos; });
@@ -67,15 +74,15 @@ void TouchDriver::read_model() {
   hd_->get_doubles(hd::nominal_stiffness, &stiffness);
   hd_->get_doubles(hd::usable_workspace, box.data());
   throw_error(say("touch-does-not-tell"));
-  maximum_force_ = settings_.maximum_force > 0 ? settings_.maximum_force : (force > 0 ? force : 3.3);
+  maximum_force_ = within(settings_.maximum_force, force > 0 ? force : usual_force);
   described_.name = name;
   described_.orientation_axes = 3;
   described_.maximum_force = maximum_force_;
   described_.continuous_force = continuous > 0 ? std::min(continuous, maximum_force_) : maximum_force_ / 4;
   // The library's is in N/mm, and is the motors'; what is rendered stably is the model's.
   const double own = stiffness_of(name);
-  described_.stiffness_limit = settings_.stiffness_limit > 0 ? settings_.stiffness_limit
-                                                             : (stiffness > 0 ? std::min(own, 1e3 * stiffness) : own);
+  const double motors = stiffness > 0 ? 1e3 * stiffness : touch_limits.stiffness_n_per_m;
+  described_.stiffness_limit = within(settings_.stiffness_limit, motors, own);
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = static_cast<std::size_t>(axis);
     const double reach = mm * std::min(-box[at], box[at + 3]);
@@ -255,12 +262,13 @@ void TouchDriver::flush(double timeout) noexcept {
 
 std::unique_ptr<LinkStylus> make_touch_with(const TouchSettings& settings, const LinkStylusOptions& options,
                                             const DriverClock& clock) {
+  check_limits("3D Systems Touch", settings, touch_limits);
   Specification specification;
   specification.name = "3D Systems Touch";
   specification.orientation_axes = 3;
   specification.workspace_half_extent = Vec3(0.08, 0.06, 0.035);
   specification.position_resolution = 0.055e-3;
-  specification.maximum_force = settings.maximum_force > 0 ? settings.maximum_force : 3.3;
+  specification.maximum_force = within(settings.maximum_force, touch_limits.force_n, usual_force);
   specification.continuous_force = specification.maximum_force / 4;
   specification.stiffness_limit = settings.stiffness_limit > 0 ? settings.stiffness_limit : 400;
   return std::make_unique<LinkStylus>(specification, std::make_unique<TouchDriver>(settings, clock), options);

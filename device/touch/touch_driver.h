@@ -10,10 +10,15 @@
 #include "device/link/driver_clock.h"
 #include "device/link/latest.h"
 #include "device/link/link_stylus.h"
+#include "device/setting_limits.h"
 #include "device/touch/hd_library.h"
 #include "device/touch/touch.h"
 
 namespace palpate::device {
+
+/// Of the strongest model that was ever sold as Touch X or Desktop, by its maker's data sheet: 7.9 N, 2.35 N/mm.
+constexpr SettingLimits touch_limits{
+    .force_n = 7.9, .stiffness_n_per_m = 2350, .tells_force = true, .tells_stiffness = true};
 
 /// The library calls back a thousand times a second, in a thread of its own: poses and forces are handed across.
 class TouchDriver final : public Driver {

@@ -8,7 +8,7 @@ namespace palpate::device {
 TouchSettings read_touch(const std::string& json_file) {
   return read_settings_file("3D Systems Touch", json_file, [](SettingsReader& reader) {
     TouchSettings settings;
-    take_common(reader, settings);
+    take_common(reader, settings, touch_limits);
     reader.take("may_reset_encoders", settings.may_reset_encoders);
     return settings;
   });

@@ -34,7 +34,7 @@ WoodenHapticsSettings read(SettingsReader& reader) {
   reader.take("motor_aligned", s.motor_aligned);
   reader.take("home_counts", s.home_counts);
   reader.take("current_limit", s.current_limit);
-  take_common(reader, s);
+  take_common(reader, s, {});
   check(s);
   return s;
 }
@@ -80,8 +80,7 @@ void check(const WoodenHapticsSettings& settings) {
   require(settings.lower_length > 0 && settings.upper_length > 0, say("lengths-of-the-bodies-must"));
   require(settings.workspace_radius > 0 && settings.workspace_radius <= 1, say("workspace-radius-lies-within-1-m"));
   require(settings.current_limit > 0 && settings.current_limit <= 3, say("current-limit-lies-between-0"));
-  require(settings.maximum_force > 0 && settings.maximum_force <= 20, say("wooden-haptics-largest-force"));
-  require(settings.stiffness_limit > 0, say("stiffness-limit-must-be-above-zero"));
+  check_limits("WoodenHaptics", settings, {});
 }
 
 WoodenHapticsSettings read_wooden_haptics(const std::string& json_file) {
