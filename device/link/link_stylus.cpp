@@ -112,7 +112,7 @@ void LinkStylus::close() noexcept {
   send_zeros();
   driver_->disconnect();
   connected_ = false;
-  if (guardian_) needs_guardian() ? guardian_->hand_over() : guardian_->dismiss();
+  if (guardian_) may_push_on() ? guardian_->hand_over() : guardian_->dismiss();
   guardian_.reset();
   awake_.reset();
   state_.store(State::disconnected, std::memory_order_relaxed);
@@ -120,15 +120,15 @@ void LinkStylus::close() noexcept {
 
 void LinkStylus::send_zeros() noexcept {
   const double start = driver_->now();
-  bool taken = false;
-  while (!taken && !driver_->lost() && driver_->now() - start < zeros_time) {
+  bool waits = true;
+  while (waits && !driver_->lost() && driver_->now() - start < zeros_time) {
     exchange(1e-3, true);
-    taken = given_.on_device() == OnDevice::zero_taken;
+    waits = may_push_on();
   }
   driver_->flush(0.020);
 }
 
-bool LinkStylus::needs_guardian() const noexcept {
+bool LinkStylus::may_push_on() const noexcept {
   return specification_.force_axes > 0 && given_.on_device() != OnDevice::zero_taken;
 }
 

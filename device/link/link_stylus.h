@@ -63,7 +63,7 @@ class LinkStylus final : public Stylus {
   bool withholds(double now, bool closing) const noexcept;
   void fail(LinkFault fault) noexcept;
   void send_zeros() noexcept;
-  bool needs_guardian() const noexcept;
+  bool may_push_on() const noexcept;
 
   Specification specification_;
   std::unique_ptr<Driver> driver_;

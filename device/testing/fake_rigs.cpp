@@ -67,6 +67,7 @@ FakeRig falcon(const std::vector<Waypoint>& path) {
     link.send(encode(FalconCommand{}));
   };
   rig.unplug = [bench] { bench->unplugged = true; };
+  rig.replug = [bench] { bench->unplugged = false; };
   rig.silence = [faults] { faults->silent = true; };
   rig.shorten = [faults] { faults->most_payload = 3; };
   rig.garble = [faults] { faults->garble_every = 2; };
@@ -93,6 +94,7 @@ FakeRig wooden_haptics(const std::vector<Waypoint>& path) {
   rig.fling = [arm](const Vec3& velocity) { arm->hand().fling(velocity); };
   rig.guardian = [arm, bench] { arm->write(std::array<std::uint8_t, 14>{}, bench->time); };
   rig.unplug = [bench] { bench->unplugged = true; };
+  rig.replug = [bench] { bench->unplugged = false; };
   rig.silence = [faults] { faults->silent = true; };
   rig.shorten = [faults] { faults->short_every = 10; };
   rig.garble = [faults] { faults->garble_every = 2; };
@@ -171,7 +173,8 @@ FakeRig haply(const std::vector<Waypoint>& path, const char* type) {
     follow();
   };
   rig.fling = [held](const Vec3& velocity) { held->hand.fling(velocity); };
-  rig.guardian = [] {};  // it can only look on: forces of several sessions add up
+  rig.guardian = [] {};
+  rig.guardian_looks_on = true;  // forces of several sessions add up
   rig.torques = [service] { return service->torques; };
   rig.unplug = [service] { service->gone = true; };
   rig.silence = [service] { service->silent = true; };
@@ -239,6 +242,7 @@ FakeRig touch(const std::vector<Waypoint>& path) {
   rig.guardian = [hd] { hd->force[0] = hd->force[1] = hd->force[2] = 0; };
   rig.torques = [hd] { return hd->torques; };
   rig.unplug = [hd] { hd->unplugged = 1; };
+  rig.replug = [hd] { hd->unplugged = 0; };
   rig.silence = [hd] { hd->stalled = 1; };
   rig.impossible = [held] { held->is_elsewhere = true; };
   rig.unhome = [hd] { hd->calibration = 0x5002; };
@@ -281,6 +285,7 @@ FakeRig force_dimension(const std::vector<Waypoint>& path) {
   rig.guardian = [drd] { drd->forces_on = 0; };
   rig.torques = [drd] { return drd->torques; };
   rig.unplug = [drd] { drd->unplugged = 1; };
+  rig.replug = [drd] { drd->unplugged = 0; };
   rig.impossible = [held] { held->is_elsewhere = true; };
   rig.unhome = [drd] { drd->homed = 0; };
   return rig;

@@ -27,7 +27,9 @@ struct FakeRig {
   std::function<void()> guardian;                   ///< what the guardian's process does to a session that stands still
   std::function<int()> torques = [] { return 0; };  ///< commands of a torque that came
 
-  std::function<void()> unplug, silence, shorten, halve, garble, impossible, unhome;
+  bool guardian_looks_on = false;  ///< the guardian cannot take a force of another client away
+
+  std::function<void()> unplug, replug, silence, shorten, halve, garble, impossible, unhome, refuse;
   std::function<void(double)> delay;  ///< s on top of every answer
 
   bool is_arithmetic() const { return type->find == nullptr; }

@@ -53,6 +53,14 @@ Snapshot LiveSession::snapshot(double change_s) const {
           .change_s = change_s};
 }
 
+double LiveSession::ramp_s() const {
+  return limits_for(scene_.limits, specification_).ramp_time;
+}
+
+std::vector<Text> LiveSession::drawn_down() const {
+  return is_connected() ? plugin::drawn_down(scene_, specification_) : std::vector<Text>();
+}
+
 SceneRecord LiveSession::record_of_scene(std::uint32_t epoch, double change_s) const {
   SceneRecord record = record_of(suited(scene_, specification_), felt_, specification_, scan_hash());
   record.epoch = epoch;
@@ -90,7 +98,7 @@ void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes
   volume_ = std::move(volume);
   frame_ = frame;
   offered_.reset();
-  publish(scene_.limits.ramp_s);
+  publish(ramp_s());
 }
 
 void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
@@ -98,7 +106,7 @@ void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
   felt_ = felt_of(scene, volume_);
   offered_.reset();
   scene_ = scene;
-  publish(pace == Pace::dragged ? std::min(dragged_s, scene.limits.ramp_s) : scene.limits.ramp_s);
+  publish(pace == Pace::dragged ? dragged_s : ramp_s());
 }
 
 void LiveSession::connect(std::shared_ptr<device::Stylus> stylus, Start start) {
@@ -109,26 +117,26 @@ void LiveSession::connect(std::shared_ptr<device::Stylus> stylus, Start start) {
 }
 
 void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file) {
-  stylus_ = std::move(stylus);
-  specification_ = stylus_->specification();
-  const PreparedScene before = std::exchange(
-      felt_, prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent, this->before()));
+  const PreparedScene before = felt_;
   last_epoch_ = 0;
   faults_ = 0;
   last_fault_.reset();
   try {
+    stylus_ = std::move(stylus);
+    OpenStylus open(stylus_);
+    specification_ = open.specification();  // of the device that is there
+    felt_ = prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent, this->before());
     ring_ = std::make_unique<TickRing>();
     if (file) {
       recorder_ = std::make_unique<Recorder>(*ring_, *file, header_for(scene_, specification_, scan_hash()));
-      recorder_->note(record_of_scene(0, scene_.limits.ramp_s), known_to());
+      recorder_->note(record_of_scene(0, ramp_s()), known_to());
       recorder_->note(StylusRecord{.epoch = 0,
                                    .name = specification_.name,
                                    .force_axes = specification_.force_axes,
                                    .maximum_force_n = specification_.maximum_force});
     }
-    session_ = std::make_unique<Session>(snapshot(scene_.limits.ramp_s), stylus_, ring_.get());
-    if (start_ == Start::released) session_->disarm();                            // before the first tick
-    specification_.orientation_axes = stylus_->specification().orientation_axes;  // told once it is open
+    session_ = std::make_unique<Session>(snapshot(ramp_s()), std::move(open), ring_.get());
+    if (start_ == Start::released) session_->disarm();  // before the first tick
     const double period_s = 1 / specification_.rate;
     servo_ = std::make_unique<Servo>(*session_, make_clock_(period_s), period_s);
   } catch (...) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "device/stylus.h"
 #include "io/volume.h"
@@ -59,6 +60,8 @@ class LiveSession {
   std::uint32_t epoch() const noexcept { return last_epoch_; }
   /// All that is felt.
   const PreparedScene& felt() const noexcept { return felt_; }
+  /// A sentence for each limit of the scene that is drawn down for the connected stylus.
+  std::vector<Text> drawn_down() const;
   /// N/m: the stiffness that is felt. A scene may ask for more than the stylus renders stably.
   double stiffness_n_per_m() const noexcept { return felt_.plan ? felt_.plan->stiffness_n_per_m : 0; }
 
@@ -111,6 +114,7 @@ class LiveSession {
   PreparedScene felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const;
   Prepared before() const { return {.felt = felt_, .scene = scene_}; }
   Snapshot snapshot(double change_s) const;
+  double ramp_s() const;
   SceneRecord record_of_scene(std::uint32_t epoch, double change_s) const;
   KnownTo known_to() const;
   void publish(double change_s);

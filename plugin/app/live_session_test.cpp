@@ -307,5 +307,69 @@ TEST(LiveSession, AStylusThatIsStillGoneIsSaid) {
   EXPECT_FALSE(live.is_connected());
 }
 
+/// A stylus that knows what it can do once it is open, as those of makers' libraries do.
+class LateStylus final : public device::Stylus {
+ public:
+  device::Specification specification() const override {
+    device::Specification told = inner_.specification();
+    if (opened > 0) {
+      told.name = "opened";
+      told.workspace_half_extent *= 0.5;
+      told.maximum_force = 1.5;
+      told.stiffness_limit = 123;
+    }
+    return told;
+  }
+  void open() override {
+    inner_.open();
+    ++opened;
+  }
+  void close() noexcept override {
+    inner_.close();
+    ++closed;
+  }
+  device::Reading read() noexcept override { return inner_.read(); }
+  void write_force(const device::Vec3& force) noexcept override { inner_.write_force(force); }
+  device::State state() const noexcept override { return inner_.state(); }
+
+  int opened = 0, closed = 0;
+
+ private:
+  device::SimulatedStylus inner_;
+};
+
+/// Reach, force and stiffness of the device that is there, in the plan and in the filter; it is opened and closed once.
+TEST(LiveSession, IsPlannedForTheStylusThatIsThere) {
+  const auto late = std::make_shared<LateStylus>();
+  const double nominal_m = late->specification().workspace_half_extent.x;
+  UnhurriedSession live;
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  live.set_scan(ball(), scene);
+  const double before = live.plan()->workspace.mm_per_m;
+  live.connect(late);
+  EXPECT_EQ(live.specification().name, "opened");
+  EXPECT_EQ(live.specification().workspace_half_extent.x, nominal_m / 2);
+  EXPECT_NEAR(live.plan()->workspace.mm_per_m, 2 * before, 1e-6 * before) << "half the reach is all of the scan";
+  EXPECT_EQ(live.stiffness_n_per_m(), 123);
+  EXPECT_EQ(live.drawn_down().size(), 2U) << "the force and the stiffness";
+  live.disconnect();
+  EXPECT_EQ(late->opened, 1);
+  EXPECT_EQ(late->closed, 1);
+}
+
+/// A stylus that cannot be planned for is closed again.
+TEST(LiveSession, AStylusIsClosedWhereItsSceneCannotBeFelt) {
+  for (const bool open : {false, true}) {
+    const auto late = std::make_shared<LateStylus>();
+    if (open) late->open();
+    {
+      const OpenStylus held = OpenStylus::of(late);
+      EXPECT_EQ(late->opened, 1);
+      EXPECT_EQ(held.specification().name, "opened");
+    }
+    EXPECT_EQ(late->closed, 1);
+  }
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -95,12 +95,8 @@ std::string in_words(const SessionRunResult& result, const std::filesystem::path
 }
 
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) {
-  const double stable = stiffness_for(scene, stylus);
-  if (stable < scene.stiffness_n_per_m) {
-    tell(say("stiffness-taken-down", fmt::format("{:.0f}", scene.stiffness_n_per_m), fmt::format("{:.0f}", stable),
-             stylus.name));
-    scene.stiffness_n_per_m = stable;
-  }
+  for (const Text& text : drawn_down(scene, stylus)) tell(text);
+  scene.stiffness_n_per_m = stiffness_for(scene, stylus);
   return scene;
 }
 
@@ -108,7 +104,7 @@ Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const
   return {.plan = felt.plan,
           .source = felt.source,
           .limits = limits_for(scene.limits, stylus),
-          .change_s = scene.limits.ramp_s};
+          .change_s = limits_for(scene.limits, stylus).ramp_time};
 }
 
 Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume,
@@ -131,7 +127,8 @@ bool stderr_is_terminal() {
 }
 
 SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file) {
-  const device::Specification specification = run.stylus->specification();
+  OpenStylus open = OpenStylus::of(run.stylus);
+  const device::Specification specification = open.specification();
   SessionRunResult result;
   TickRing ring;
   RecorderOptions how;
@@ -148,7 +145,7 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
                              .maximum_force_n = specification.maximum_force});
   {
     const Interruptible interruptible;
-    Session session(snapshot_of(run.scene, run.felt, specification), run.stylus, &ring);
+    Session session(snapshot_of(run.scene, run.felt, specification), std::move(open), &ring);
     Watch watch(run, ring, recorder);
     if (run.at_clock_pace) {
       run_at_clock_pace(run, session, specification.rate, watch, result);

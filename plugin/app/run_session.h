@@ -22,9 +22,9 @@ struct SessionRun {
   modes::Scene scene;
   PreparedScene felt;  ///< the scene on the scan
   std::string scan_hash;
-  std::string unit;  ///< the scan's
-  ScanFrame frame;   ///< which one of its series the scan is
-  std::shared_ptr<device::Stylus> stylus;
+  std::string unit;                        ///< the scan's
+  ScanFrame frame;                         ///< which one of its series the scan is
+  std::shared_ptr<device::Stylus> stylus;  ///< may be open; closed at the end
   std::uint64_t seed = 0;
   double seconds = 0;  ///< 0: until it is interrupted
   bool at_clock_pace = true;
@@ -44,8 +44,8 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
 /// "2000 ticks in session.h5; missed ticks 3, ticks lost 0"
 std::string in_words(const SessionRunResult& result, const std::filesystem::path& file);
 
-/// The scene with its coupling no stiffer than the stylus renders stably (device/safety/stiffness.h). Says on stderr if
-/// that changes it.
+/// The scene with its coupling no stiffer than the stylus renders stably (device/safety/stiffness.h). Says on stderr
+/// what of its limits is drawn down.
 modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
 
 /// The snapshot of a scene on a scan for a stylus.

@@ -1,5 +1,11 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,8 +17,10 @@
 #include "device/safety/guardian.h"
 #include "plugin/app/errors.h"
 #include "plugin/app/fault_report.h"
+#include "plugin/app/stylus_choice.h"
 #include "plugin/cli/check_device.h"
 #include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
 
 namespace palpate::plugin {
@@ -93,6 +101,26 @@ void print_text(const std::vector<device::FoundDevice>& found, const device::Rea
   std::puts("A session holds one stylus at a time. Torque stays zero, also on a stylus that senses how it is turned.");
 }
 
+/// Becomes palpate-faults, which plays the faults against the fakes of the devices. It lies beside this program, or
+/// where $PALPATE_FAULTS says.
+[[noreturn]] void play_faults(const std::string& kind, bool json) {
+  if (!kind.empty()) type_of({.device = kind});
+  const char* const named = std::getenv("PALPATE_FAULTS");
+  std::error_code failed;
+  std::string program =
+      named != nullptr
+          ? named
+          : (std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / "palpate-faults").string();
+  std::string wanted = kind, format = "--json";
+  std::vector<char*> arguments{program.data()};
+  if (!wanted.empty()) arguments.push_back(wanted.data());
+  if (json) arguments.push_back(format.data());
+  arguments.push_back(nullptr);
+  std::fflush(nullptr);
+  execv(program.c_str(), arguments.data());
+  throw Refusal(say("faults-cannot-be-played", program, std::strerror(errno)));
+}
+
 }  // namespace
 
 void add_devices(CLI::App& program) {
@@ -115,7 +143,17 @@ void add_devices(CLI::App& program) {
       ->needs(which);
   command->add_flag("--yes", check->yes, "Ask no questions: take the direction of each push from the pose")
       ->needs(which);
-  command->callback([json, check, which] {
+  const auto kind = std::make_shared<std::string>();
+  CLI::Option* const faults =
+      command
+          ->add_option(
+              "--faults", *kind,
+              "Play each fault against the fake of each device, or of this one (KIND): the force that is left,\n"
+              "the time until it is taken away, the largest step")
+          ->expected(0, 1)
+          ->excludes(which);
+  command->callback([json, check, which, kind, faults] {
+    if (faults->count() > 0) play_faults(*kind, *json);
     if (which->count() > 0) {
       check_device(*check);
       return;

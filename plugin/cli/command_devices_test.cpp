@@ -294,5 +294,30 @@ TEST_F(CommandDevices, RefusesWhatCannotBeChecked) {
   EXPECT_THAT(there.output, HasSubstr(file + " is there already; name another file with -o"));
 }
 
+/// The keys are a contract; a missed goal is an exit status.
+TEST_F(CommandDevices, PlaysTheFaultsOfTheDeviceThatIsNamed) {
+  const Outcome outcome = palpate("devices --faults falcon --json", false);
+  EXPECT_EQ(outcome.exit, 0);
+  const auto rows = nlohmann::json::parse(outcome.output);
+  ASSERT_GT(rows.size(), 15U);
+  int by_device = 0;
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("device"), "Novint Falcon");
+    EXPECT_FALSE(row.at("event").get<std::string>().empty());
+    EXPECT_TRUE(row.at("largest_after_n").is_number());
+    EXPECT_TRUE(row.at("largest_step_n").is_number());
+    const bool is_null = row.at("zero_taken_s").is_null();
+    EXPECT_TRUE(is_null || row.at("ended_by") != "device");
+    EXPECT_TRUE(!is_null || row.at("ended_by") != "program");
+    by_device += row.at("ended_by") == "device" ? 1 : 0;
+  }
+  EXPECT_GT(by_device, 0);
+  const Outcome table = palpate("devices --faults falcon");
+  EXPECT_THAT(table.output, HasSubstr("unplugged in contact"));
+  EXPECT_THAT(table.output, Not(HasSubstr("Haply")));
+  EXPECT_THAT(table.output, Not(HasSubstr("MISSED")));
+  EXPECT_EQ(palpate("devices --faults toaster").exit, 2) << "no such kind";
+}
+
 }  // namespace
 }  // namespace palpate::plugin

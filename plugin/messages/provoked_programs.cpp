@@ -145,6 +145,10 @@ std::vector<Provoked> of_recordings(const std::string& scan, const std::filesyst
       {"stiffness-taken-down",
        said("record " + scan + " --seconds 0.2 --from 0,-29,0 --to 0,0,0 -o " + fresh_path("stiff.h5").string() +
             " --scene " + file_with("stiff.json", scene_with(R"("stiffness_n_per_m": 9000)")))},
+      {"limit-drawn-down",
+       said("record " + scan + " --seconds 0.2 --from 0,-29,0 --to 0,0,0 -o " + fresh_path("strong.h5").string() +
+            " --scene " + file_with("strong.json", scene_with(R"("limits": {"force_limit_n": 1e9})")))},
+      {"faults-cannot-be-played", output_of("PALPATE_FAULTS=/absent " PALPATE_PROGRAM " devices --faults")},
       {"real-time", without_real_time()},
       {"replay-needs-the-series-that-was-felt", said("replay " + recording.string())},
       {"recorded-on-another-scan", said("replay " + recording.string() + " " + other.string())},

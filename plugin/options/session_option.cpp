@@ -22,6 +22,9 @@ void add_session_option(CLI::App& command, SessionOption& option) {
 }
 
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus) {
+  // What a real device can do is known once it is open. It is closed with its last owner.
+  const bool simulated_only = dynamic_cast<const device::SimulatedStylus*>(stylus.get()) != nullptr;
+  if (!simulated_only) stylus->open();
   const io::Series series = choose_series(option.series);
   const auto volume = std::make_shared<const io::Volume>(load_series(series, option.series.frame));
   const device::Specification specification = stylus->specification();

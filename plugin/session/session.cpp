@@ -97,33 +97,21 @@ struct Session::Held {
   Held* next_returned = nullptr;
 };
 
-double stiffness_for(const modes::Scene& scene, const device::Specification& stylus) noexcept {
-  return stylus.force_axes > 0 ? std::min(scene.stiffness_n_per_m, stylus.stiffness_limit) : scene.stiffness_n_per_m;
-}
-
-device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device) {
-  device::SafetyLimits limits;
-  limits.force = scene.force_n;
-  limits.device_force = device.maximum_force;
-  limits.slew = scene.slew_n_per_ms * 1e3;
-  limits.ramp_time = scene.ramp_s;
-  limits.speed = scene.speed_m_per_s;
-  return limits;
-}
-
 Session::Session(std::shared_ptr<const modes::Plan> plan, std::shared_ptr<const io::FieldSource> source,
                  device::Stylus& stylus, const device::SafetyLimits& limits)
     : Session({.plan = std::move(plan), .source = std::move(source), .limits = limits},
               std::shared_ptr<device::Stylus>(&stylus, [](device::Stylus*) {})) {}
 
 Session::Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring)
+    : Session(first, OpenStylus(std::move(stylus)), ring) {}
+
+Session::Session(const Snapshot& first, OpenStylus stylus, TickRing* ring)
     : fault_log_(std::make_unique<device::FaultLog>()),
       scratch_(std::make_unique<modes::StepScratch>()),
       ring_(ring),
-      rate_hz_(stylus->specification().rate),
+      rate_hz_(stylus.specification().rate),
       ns_per_count_(1 / modes::counts_per_ns()) {
-  stylus->open();
-  auto held = std::make_unique<Held>(std::move(stylus), last_stylus_);
+  auto held = std::make_unique<Held>(stylus.release(), last_stylus_);
   sampled_ = std::make_shared<const SampledOnce>(first.source);
   setting_ = std::make_unique<Setting>(first, sampled_, last_setting_).release();
   held_ = held.release();

@@ -23,7 +23,9 @@
 #include "io/fields/field_source.h"
 #include "modes/scene/plan.h"
 #include "modes/tick/haptic_step.h"
+#include "plugin/session/felt_limits.h"
 #include "plugin/session/handover.h"
+#include "plugin/session/open_stylus.h"
 #include "plugin/session/tick_record.h"
 #include "plugin/session/tick_ring.h"
 
@@ -54,6 +56,8 @@ class Session {
           device::Stylus& stylus, const device::SafetyLimits& limits);
   /// The same. The ring gets every tick record; it may be null, and must outlive the session.
   Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring = nullptr);
+  /// The same of a stylus that is open.
+  Session(const Snapshot& first, OpenStylus stylus, TickRing* ring);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   /// Sends zero force and closes the stylus. No thread may be ticking any more.
@@ -149,12 +153,6 @@ class Session {
   double ns_per_count_;
   std::uint64_t ticks_ = 0;
 };
-
-/// N/m: the scene's stiffness, or the most that the stylus renders stably if that is less.
-double stiffness_for(const modes::Scene& scene, const device::Specification& stylus) noexcept;
-
-/// The safety filter's limits for a scene on a device: never above what the device can do.
-device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device);
 
 /// TickRecord::safety holds both.
 constexpr std::uint32_t pack_safety(device::State state, device::Fault fault) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,7 @@ TEST(SessionLimits, TheForceLimitIsTheScenesInNewtons) {
 }
 
 TEST(SessionLimits, TheRampIsTheScenesInSeconds) {
-  for (const double ramp_s : {0.1, 0.8}) {
+  for (const double ramp_s : {0.3, 0.8}) {
     const auto puppet = std::make_shared<Puppet>();
     puppet->position_m = away_m;
     Session session(pull("\"force_limit_n\": 1, \"ramp_s\": " + std::to_string(ramp_s)), puppet);
@@ -80,9 +81,9 @@ TEST(SessionLimits, TheRampIsTheScenesInSeconds) {
 TEST(SessionLimits, TheSlewIsTheScenesInNewtonsInAMillisecond) {
   for (const double slew : {0.01, 0.2}) {
     const auto puppet = std::make_shared<Puppet>();
-    Session session(
-        pull("\"force_limit_n\": 2, \"speed_limit_m_per_s\": 1000, \"slew_limit_n_per_ms\": " + std::to_string(slew)),
-        puppet);
+    Snapshot fast = pull("\"force_limit_n\": 2, \"slew_limit_n_per_ms\": " + std::to_string(slew));
+    fast.limits.speed = 1000;
+    Session session(fast, puppet);
     for (int n = 0; n < 600; ++n) ASSERT_EQ(sent_n(session), 0) << "at the point";
     puppet->position_m = away_m;
     for (int n = 1; n < 250; ++n) ASSERT_NEAR(sent_n(session), std::min(2.0, n * slew), 1e-9) << n;
@@ -223,6 +224,61 @@ TEST(SessionLimits, WhatWasBeforeArmingDoesNotCount) {
   };
   const std::vector<device::Vec3> once = run(false), again = run(true);
   for (std::size_t n = 0; n < once.size(); ++n) ASSERT_EQ(once[n], again[n]) << n << " ms after arming";
+}
+
+/// Whatever a scene asks for, on whatever device: no limit is looser than the program's or the device's, a tighter one
+/// stays as it is, and what is drawn down is said, in one sentence each and with its key.
+TEST(SessionLimits, ASceneOnlyTightens) {
+  std::mt19937_64 random(1);
+  const auto any = [&](double usual) {
+    return usual * std::pow(10, std::uniform_real_distribution<double>(random() % 3 == 0 ? -9 : -1, 9)(random));
+  };
+  for (int n = 0; n < 3000; ++n) {
+    modes::Scene scene;
+    scene.stiffness_n_per_m = any(1000);
+    scene.limits = {.force_n = any(1), .slew_n_per_ms = any(1), .ramp_s = 1 / any(1), .speed_m_per_s = any(1)};
+    const device::Specification device{.force_axes = 3, .maximum_force = any(5), .stiffness_limit = any(1000)};
+    const device::SafetyLimits limits = limits_for(scene.limits, device);
+    const double force_n = std::min(limits.force, limits.device_force);
+    EXPECT_EQ(force_n, std::min({scene.limits.force_n, 12.0, device.maximum_force}));
+    EXPECT_EQ(limits.slew, std::min(scene.limits.slew_n_per_ms * 1e3, 1000.0));
+    EXPECT_EQ(limits.ramp_time, std::max(scene.limits.ramp_s, 0.25));
+    EXPECT_EQ(limits.speed, std::min(scene.limits.speed_m_per_s, 1.0));
+    EXPECT_EQ(stiffness_for(scene, device), std::min({scene.stiffness_n_per_m, 3000.0, device.stiffness_limit}));
+    std::string said;
+    for (const Text& text : drawn_down(scene, device)) said += text + "\n";
+    const auto says = [&](const char* key) { return said.find(key) != std::string::npos; };
+    EXPECT_EQ(says("force_limit_n"), force_n < scene.limits.force_n);
+    EXPECT_EQ(says("slew_limit_n_per_ms"), scene.limits.slew_n_per_ms * 1e3 > 1000);
+    EXPECT_EQ(says("ramp_s"), scene.limits.ramp_s < 0.25);
+    EXPECT_EQ(says("speed_limit_m_per_s"), scene.limits.speed_m_per_s > 1);
+    EXPECT_EQ(says("stiffness of"), stiffness_for(scene, device) < scene.stiffness_n_per_m);
+  }
+  EXPECT_TRUE(drawn_down({.limits = {.force_n = 1e9}}, {.force_axes = 0}).empty()) << "without motors";
+  EXPECT_TRUE(drawn_down({}, {.maximum_force = 3.3, .stiffness_limit = 1000}).empty()) << "a scene as it is made";
+}
+
+/// 12 N one tick after arming, at 10 m/s, without a fault: that was so.
+TEST(SessionLimits, AnAbsurdSceneFeelsAsTheProgramAllows) {
+  const auto puppet = std::make_shared<Puppet>();
+  Session session(pull("\"force_limit_n\": 1e9, \"slew_limit_n_per_ms\": 1e9, \"ramp_s\": 1e-9, "
+                       "\"speed_limit_m_per_s\": 1e9"),
+                  puppet);
+  puppet->position_m = away_m;
+  double before_n = 0;
+  for (int n = 1; n <= 400; ++n) {
+    const double now_n = sent_n(session);
+    EXPECT_LE(now_n, std::min(12.0, 12.0 * n * 1e-3 / 0.25) + 1e-9) << n;
+    EXPECT_LE(now_n - before_n, 1 + 1e-9);
+    before_n = now_n;
+  }
+  EXPECT_NEAR(before_n, 12, 1e-9);
+  puppet->position_m = {0, 0.05, 0.05};
+  for (int n = 0; n < 20; ++n) {
+    puppet->position_m.y += 0.010;
+    session.tick();
+  }
+  EXPECT_EQ(session.fault(), device::Fault::speed_exceeded);
 }
 
 }  // namespace

@@ -289,6 +289,7 @@ void StylusSection::show_own() {
                      .arg(stylus.maximum_force, 0, 'f', 1)
                      .arg(stylus.continuous_force, 0, 'f', 1);
       }
+      for (const Text& text : live.drawn_down()) lines << in_qt(text);
       if (stylus.orientation_axes > 0) lines << tr("torque stays zero");
     }
     lines << tested() << unguarded();
@@ -320,6 +321,7 @@ void StylusSection::show_scene() {
   const auto plan = touching_.live().plan();
   scale_->setText(plan ? tr("%1 mm of patient per mm of hand").arg(plan->workspace.mm_per_m / 1e3, 0, 'f', 2)
                        : tr("no scan yet"));
+  show_own();
 }
 
 void StylusSection::show_look(const SessionStatus& look) {

@@ -1,0 +1,24 @@
+#pragma once
+
+/// What of a scene's limits is felt. A scene may only tighten the ceilings of the program and the device
+/// (device/safety/safety_limits.h): what asks for more is drawn down, and this is said.
+
+#include <vector>
+
+#include "device/safety/safety_limits.h"
+#include "device/stylus.h"
+#include "modes/scene/scene.h"
+#include "solver/text/message.h"
+
+namespace palpate::plugin {
+
+/// N/m: the scene's stiffness, or the most that the stylus renders stably if that is less.
+double stiffness_for(const modes::Scene& scene, const device::Specification& stylus) noexcept;
+
+/// The safety filter's limits for a scene on a device: never above what the program allows and the device can do.
+device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device) noexcept;
+
+/// A sentence for each limit of the scene that is drawn down for this stylus. None for a stylus without motors.
+std::vector<Text> drawn_down(const modes::Scene& scene, const device::Specification& stylus);
+
+}  // namespace palpate::plugin
