@@ -107,9 +107,9 @@ TEST(StudyRegistrations, AreLookedForInSoManyFilesAndNoMore) {
     study.beside(structure, *testing::registered_scan());
     EXPECT_LE(opened.count().size(), most);
     ASSERT_EQ(structure.warnings.size(), 1U);
-    EXPECT_EQ(structure.warnings[0], "more than " + std::to_string(most) +
-                                         " files lie beside a1: registrations (REG) are " +
-                                         "looked for in the first ones alone");
+    EXPECT_EQ(structure.warnings[0], "more than " + std::to_string(most) + " files lie beside " +
+                                         structure.file.filename().string() +
+                                         ": registrations (REG) are looked for in the first ones alone");
   }
 }
 
