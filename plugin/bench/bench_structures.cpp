@@ -217,10 +217,10 @@ std::string tabulate_ticks_at(const TickStudy& study, const std::shared_ptr<cons
   return csv;
 }
 
-using Fields = std::vector<std::shared_ptr<const io::DistanceField>>;
+using DistanceFields = std::vector<std::shared_ptr<const io::DistanceField>>;
 
 /// Of every eighth voxel of the middle slice: the one that is farthest from all structures, in the body.
-glm::dvec3 place_far_from(const Fields& fields, const io::Volume& volume) {
+glm::dvec3 place_far_from(const DistanceFields& fields, const io::Volume& volume) {
   constexpr double air = -300;
   glm::dvec3 best(0);
   double most = -1e9;
@@ -250,7 +250,7 @@ std::string tabulate_ticks(const StructureArguments& arguments) {
     fmt::print("\nNo structure there lies on this scan.\n");
     return tick_csv_header();
   }
-  Fields fields;
+  DistanceFields fields;
   for (const io::Structure& structure : felt) fields.push_back(shared_distance(structure, volume->geometry));
   glm::dvec3 edge = io::measure(felt.front()).centroid_mm;
   while (fields.front()->sample(edge).mm > 0) edge.x -= 0.1;

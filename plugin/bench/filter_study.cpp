@@ -22,18 +22,18 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double noise_hu = 60, depth_mm = 1, radius_mm = 12, step_mm = 0.025;
+constexpr double filter_noise_hu = 60, wall_press_mm = 1, ball_radius_mm = 12, path_step_mm = 0.025;
 const dvec3 outward = glm::normalize(dvec3(0.3, 0.5, 0.8));
 
 std::shared_ptr<const io::Volume> scan_of(const testdata::Shape& shape, int size) {
   testdata::Phantom phantom;
   phantom.background = testdata::air_hu;
   phantom.bodies = {{shape, testdata::soft_tissue_hu}};
-  return std::make_shared<const io::Volume>(
-      testdata::scan(phantom, testdata::make_geometry({.size = glm::ivec3(size)}), {.noise = noise_hu, .seed = 5}));
+  return std::make_shared<const io::Volume>(testdata::scan(phantom, testdata::make_geometry({.size = glm::ivec3(size)}),
+                                                           {.noise = filter_noise_hu, .seed = 5}));
 }
 
-struct Slide {
+struct FilteredSlide {
   double roughness_n = 0;  // rms of the force's difference from its mean, where the wall is flat
   double off_mm = 0;       // mean place of the proxy outside of the true surface
 };
@@ -41,8 +41,8 @@ struct Slide {
 /// The probe goes along a path in steps of 0.025 mm; `outside` says how far a place is from the true surface, and
 /// `normal` where that looks.
 template <typename Path, typename Outside, typename Normal>
-Slide slide(const std::shared_ptr<const io::Volume>& volume, int steps, const Path& path, const Outside& outside,
-            const Normal& normal) {
+FilteredSlide slide_over(const std::shared_ptr<const io::Volume>& volume, int steps, const Path& path,
+                         const Outside& outside, const Normal& normal) {
   static const modes::Scene scene = modes::scene_from_json(
       R"({"version": 1, "modes": [{"type": "surface", "strength_n": {"of": "value", "nodes": [[-490, 0], [-470, 3]]}}]})",
       "filters");
@@ -57,7 +57,7 @@ Slide slide(const std::shared_ptr<const io::Volume>& volume, int steps, const Pa
     return modes::step(plan, fields, plan.workspace.to_device(at_mm), touch, chain, *scratch);
   };
   const dvec3 begin = path(0);
-  for (double away = 4; away > 0; away -= step_mm) move_to(begin + away * normal(begin));
+  for (double away = 4; away > 0; away -= path_step_mm) move_to(begin + away * normal(begin));
   dvec3 sum(0);
   double squares = 0, off = 0;
   for (int n = 0; n < steps; ++n) {
@@ -72,26 +72,26 @@ Slide slide(const std::shared_ptr<const io::Volume>& volume, int steps, const Pa
   return {.roughness_n = std::sqrt(std::max(0.0, squares / steps - glm::dot(mean, mean))), .off_mm = off / steps};
 }
 
-Slide on_wall(const std::shared_ptr<const io::Volume>& volume) {
+FilteredSlide on_wall(const std::shared_ptr<const io::Volume>& volume) {
   const dvec3 along = glm::normalize(glm::cross(outward, dvec3(0.1, 1, 0.2)));
   constexpr int steps = 1000, middle = steps / 2;
-  return slide(
-      volume, steps, [&](int n) { return (n - middle) * step_mm * along - depth_mm * outward; },
+  return slide_over(
+      volume, steps, [&](int n) { return (n - middle) * path_step_mm * along - wall_press_mm * outward; },
       [](const dvec3& p) { return glm::dot(p, outward); }, [](const dvec3&) { return outward; });
 }
 
-Slide on_ball(const std::shared_ptr<const io::Volume>& volume) {
+FilteredSlide on_ball(const std::shared_ptr<const io::Volume>& volume) {
   const dvec3 a = glm::normalize(dvec3(1, 0.4, 0.5)), b = glm::normalize(glm::cross(a, dvec3(0.2, 0.7, -0.3)));
-  return slide(
+  return slide_over(
       volume, 2500,
       [&](int n) {
-        const double turn = step_mm / radius_mm * n;
-        return (radius_mm - depth_mm) * (std::cos(turn) * a + std::sin(turn) * b);
+        const double turn = path_step_mm / ball_radius_mm * n;
+        return (ball_radius_mm - wall_press_mm) * (std::cos(turn) * a + std::sin(turn) * b);
       },
-      [](const dvec3& p) { return glm::length(p) - radius_mm; }, [](const dvec3& p) { return glm::normalize(p); });
+      [](const dvec3& p) { return glm::length(p) - ball_radius_mm; }, [](const dvec3& p) { return glm::normalize(p); });
 }
 
-double seconds_of(const std::shared_ptr<const io::Volume>& volume, const io::Filter& filter) {
+double seconds_to_filter(const std::shared_ptr<const io::Volume>& volume, const io::Filter& filter) {
   const auto begun = std::chrono::steady_clock::now();
   (void)io::filtered(volume, filter);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -101,26 +101,27 @@ double seconds_of(const std::shared_ptr<const io::Volume>& volume, const io::Fil
 
 std::string run_filter_study() {
   using io::FilterType;
-  const std::array filters{io::Filter{},
-                           io::Filter{.type = FilterType::gaussian, .sigma_mm = 0.7},
-                           io::Filter{.type = FilterType::gaussian, .sigma_mm = 1.5},
-                           io::Filter{.type = FilterType::median, .width = 3},
-                           io::Filter{.type = FilterType::median, .width = 5},
-                           io::Filter{.type = FilterType::bilateral, .sigma_mm = 1.5, .sigma_value = 2 * noise_hu},
-                           io::Filter{.type = FilterType::non_local_means, .sigma_value = noise_hu}};
+  const std::array filters{
+      io::Filter{},
+      io::Filter{.type = FilterType::gaussian, .sigma_mm = 0.7},
+      io::Filter{.type = FilterType::gaussian, .sigma_mm = 1.5},
+      io::Filter{.type = FilterType::median, .width = 3},
+      io::Filter{.type = FilterType::median, .width = 5},
+      io::Filter{.type = FilterType::bilateral, .sigma_mm = 1.5, .sigma_value = 2 * filter_noise_hu},
+      io::Filter{.type = FilterType::non_local_means, .sigma_value = filter_noise_hu}};
   const auto wall = scan_of(testdata::HalfSpace{outward, 0}, 48);
-  const auto ball = scan_of(testdata::Ball{{0, 0, 0}, radius_mm}, 40);
+  const auto ball = scan_of(testdata::Ball{{0, 0, 0}, ball_radius_mm}, 40);
   const auto large = scan_of(testdata::Ball{{0, 0, 0}, 100}, 256);
   fmt::print(
       "A wall and a ball of {} mm in voxels of 1 mm, {} HU of noise, slid along {} mm deep; time for 256^3 voxels\n\n",
-      radius_mm, noise_hu, depth_mm);
+      ball_radius_mm, filter_noise_hu, wall_press_mm);
   fmt::print("{:<36} {:>13} {:>15} {:>15} {:>9} {:>10}\n", "filter", "roughness, N", "wall shifts, mm",
              "ball shifts, mm", "time, s", "ns a voxel");
   std::string csv = "filter,roughness_n,wall_shift_mm,ball_shift_mm,seconds,ns_a_voxel\n";
   for (const io::Filter& filter : filters) {
-    const Slide flat = on_wall(io::filtered(wall, filter));
-    const Slide round = on_ball(io::filtered(ball, filter));
-    const double seconds = filter.type == FilterType::none ? 0 : seconds_of(large, filter);
+    const FilteredSlide flat = on_wall(io::filtered(wall, filter));
+    const FilteredSlide round = on_ball(io::filtered(ball, filter));
+    const double seconds = filter.type == FilterType::none ? 0 : seconds_to_filter(large, filter);
     const double ns = 1e9 * seconds / (256.0 * 256.0 * 256.0);
     fmt::print("{:<36} {:>13.3f} {:>15.3f} {:>15.3f} {:>9.2f} {:>10.0f}\n", io::in_words(filter), flat.roughness_n,
                flat.off_mm, round.off_mm, seconds, ns);

@@ -77,7 +77,7 @@ std::vector<Solvers> solvers() {
           {"descent", {.analytical = false, .exact = false, .descent = true}}};
 }
 
-struct Outcome {
+struct HandOutcome {
   double rms_n = 0;
   double kept = 0;
   double proxy_error_m = 0;
@@ -125,8 +125,8 @@ std::vector<device::Waypoint> path_of(const Setting& setting, const modes::Works
   return path;
 }
 
-Outcome run_once(const Setting& setting, bool slide, const device::SimulatedDevice& model, const Solvers& solvers,
-                 double stiffness, double hold_s) {
+HandOutcome run_once(const Setting& setting, bool slide, const device::SimulatedDevice& model, const Solvers& solvers,
+                     double stiffness, double hold_s) {
   modes::Scene scene = modes::scene_from_json(setting.scene, "study");
   scene.stiffness_n_per_m = stiffness;
   modes::Workspace workspace;
@@ -143,7 +143,7 @@ Outcome run_once(const Setting& setting, bool slide, const device::SimulatedDevi
   const auto scratch = std::make_unique<modes::StepScratch>();
   std::vector<solver::Vec3> reference_forces(modes::most_primitives);
   modes::Touch touch;
-  Outcome outcome;
+  HandOutcome outcome;
   const auto ticks = static_cast<int>((0.5 + hold_s) * model.rate);
   std::vector<double> force[3];
   for (int tick = 0; tick < ticks; ++tick) {
@@ -210,7 +210,7 @@ HandStudyRow run_all_tremors(const Held& held, double stiffness, const HandStudy
   std::vector<double> rms;
   for (int tremor = 1; tremor <= options.hands; ++tremor) {
     model.hand.tremor_seed = static_cast<std::uint64_t>(tremor);
-    const Outcome outcome = run_once(*held.setting, held.slide, model, held.solvers, stiffness, options.hold_s);
+    const HandOutcome outcome = run_once(*held.setting, held.slide, model, held.solvers, stiffness, options.hold_s);
     rms.push_back(outcome.rms_n);
     row.kept = std::min(row.kept, outcome.kept);
     row.proxy_error_m = std::max(row.proxy_error_m, outcome.proxy_error_m);

@@ -24,16 +24,16 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double radius_mm = 20, depth_mm = 1, noise_hu = 20;
+constexpr double place_radius_mm = 20, place_depth_mm = 1, place_noise_hu = 20;
 constexpr double travel_mm = 0.5;  // of the probe in a tick: fast enough that sub-steps matter
 constexpr int circles = 6;
 
-struct Row {
+struct PlaceRow {
   double off_rms_mm = 0, stated_mm = 0;
   Percentiles us;
 };
 
-Row slide(const std::shared_ptr<const io::Volume>& raw, const modes::Scene& scene) {
+PlaceRow slide_around(const std::shared_ptr<const io::Volume>& raw, const modes::Scene& scene) {
   const auto volume = io::filtered(raw, scene.filter);
   const modes::Plan plan = modes::make_plan(scene, io::FieldSet::value | io::FieldSet::gradient, {});
   const io::VolumeFields fields(volume, plan.fields, io::default_gradient_scale_mm(volume->geometry),
@@ -55,12 +55,12 @@ Row slide(const std::shared_ptr<const io::Volume>& raw, const modes::Scene& scen
       modes::step(plan, fields, probe_m, touch, chain, *scratch);
       us.push_back(1e-3 * static_cast<double>(modes::clock_count() - begun) / modes::counts_per_ns());
     };
-    for (double r = radius_mm + 3; r > radius_mm - depth_mm; r -= 0.05) move_to(r * a);
-    const double turn = travel_mm / radius_mm;
+    for (double r = place_radius_mm + 3; r > place_radius_mm - place_depth_mm; r -= 0.05) move_to(r * a);
+    const double turn = travel_mm / place_radius_mm;
     for (int n = 0; n * turn < 2 * std::numbers::pi; ++n) {
-      move_to((radius_mm - depth_mm) * (std::cos(turn * n) * a + std::sin(turn * n) * b));
+      move_to((place_radius_mm - place_depth_mm) * (std::cos(turn * n) * a + std::sin(turn * n) * b));
       const dvec3 proxy = plan.workspace.to_patient(touch.proxy_m);
-      const double off = glm::length(proxy) - radius_mm;
+      const double off = glm::length(proxy) - place_radius_mm;
       squares += off * off;
       count += 1;
       if (n % 8 != 0) continue;
@@ -79,10 +79,10 @@ Row slide(const std::shared_ptr<const io::Volume>& raw, const modes::Scene& scen
 
 std::string run_place_study() {
   const auto volume = std::make_shared<const io::Volume>(
-      testdata::scan(testdata::make_sphere(radius_mm), testdata::make_geometry({.size = glm::ivec3(56)}),
-                     {.noise = noise_hu, .seed = 11}));
-  fmt::print("A ball of {} mm in voxels of 1 mm, {} HU of noise, slid along {} mm deep, {} mm a tick\n\n", radius_mm,
-             noise_hu, depth_mm, travel_mm);
+      testdata::scan(testdata::make_sphere(place_radius_mm), testdata::make_geometry({.size = glm::ivec3(56)}),
+                     {.noise = place_noise_hu, .seed = 11}));
+  fmt::print("A ball of {} mm in voxels of 1 mm, {} HU of noise, slid along {} mm deep, {} mm a tick\n\n",
+             place_radius_mm, place_noise_hu, place_depth_mm, travel_mm);
   fmt::print("{:<10} {:<20} {:>12} {:>14} {:>18} {:>12} {:>10}  {}\n", "value", "gradient", "sub-step, mm",
              "off, rms, mm", "stated 2 sigma, mm", "tick, us", "p99.9, us", "filter");
   std::string csv = "value,gradient,sub_step_mm,off_rms_mm,stated_two_sigma_mm,tick_median_us,tick_p999_us,filter\n";
@@ -93,7 +93,7 @@ std::string run_place_study() {
           "strength_n": {{"of": "value", "nodes": [[-490, 0], [-470, 3]]}}}}]}})",
                                            value, gradient, step_mm, filter),
                                "place");
-    const Row row = slide(volume, scene);
+    const PlaceRow row = slide_around(volume, scene);
     const std::string words = io::in_words(scene.filter);
     fmt::print("{:<10} {:<20} {:>12} {:>14.3f} {:>18.3f} {:>12.2f} {:>10.2f}  {}\n", value, gradient, step_mm,
                row.off_rms_mm, row.stated_mm, row.us.median, row.us.p999, words);

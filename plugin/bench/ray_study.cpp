@@ -21,8 +21,8 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int rays = 20;
-constexpr double floor_hu = 200, least_peak_hu = 300, least_bone_hu = 150, least_width_mm = 0.5, step_mm = 0.1,
+constexpr int rays_of_scan = 20;
+constexpr double floor_hu = 200, least_peak_hu = 300, least_bone_hu = 150, least_width_mm = 0.5, ray_step_mm = 0.1,
                  near_mm = 2, felt_n = 0.25;
 constexpr double thin_mm = 3, faint_hu = 600;
 
@@ -34,7 +34,7 @@ std::vector<Passage> passages_of(const io::VolumeFields& values, const dvec3& fr
   std::vector<Passage> passages;
   const double length = glm::distance(from, to);
   bool inside = false;
-  for (double depth = 0; depth <= length; depth += step_mm) {
+  for (double depth = 0; depth <= length; depth += ray_step_mm) {
     const io::Sample sample = values.sample(from + depth / length * (to - from), io::FieldSet::value);
     const bool now = sample.inside && sample.value > floor_hu;
     if (now && !inside) passages.push_back({.from_mm = depth, .to_mm = depth, .peak_hu = sample.value});
@@ -63,7 +63,7 @@ struct Ray {
 /// From the sides of the box to its middle, along the points of a Fibonacci sphere.
 Ray ray_of(int n, const Box& box) {
   const dvec3 middle = 0.5 * (box.low + box.high);
-  const double height = 1 - 2 * (n + 0.5) / rays, turn = std::numbers::pi * (3 - std::sqrt(5.0)) * n;
+  const double height = 1 - 2 * (n + 0.5) / rays_of_scan, turn = std::numbers::pi * (3 - std::sqrt(5.0)) * n;
   const double across = std::sqrt(1 - height * height);
   const dvec3 even(across * std::cos(turn), across * std::sin(turn), height);
   const dvec3 direction = even * (box.high - box.low);  // a slab is entered from its sides
@@ -119,7 +119,7 @@ void add(const Felt& felt, const Passage& passage, std::vector<Kind>& kinds) {
 void print(const std::string& name, const modes::Suggestion& suggestion, const std::vector<std::size_t>& crossings,
            const std::vector<Kind>& kinds) {
   fmt::print("{}: {} crossings on {} rays\n", name, std::accumulate(crossings.begin(), crossings.end(), std::size_t{0}),
-             rays);
+             rays_of_scan);
   for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
     fmt::print("  {:<36} {:>4}\n", suggestion.scene.modes[boundary.mode].name, crossings[boundary.mode]);
   }
@@ -143,7 +143,7 @@ void run_ray_study(const std::string& name, const std::shared_ptr<const io::Volu
                           {"all", [](const Passage&) { return true; }, 0, 0, {}}};
   const Box box = bounding_box(volume->geometry);
   std::vector<std::size_t> crossings(suggestion.scene.modes.size());
-  for (int n = 0; n < rays; ++n) {
+  for (int n = 0; n < rays_of_scan; ++n) {
     const Ray ray = ray_of(n, box);
     const auto stroke = run_stroke(*scene.plan, *scene.source, ray.from, ray.to, 100);
     for (const Contact& contact : contacts_of(stroke, *scene.plan, met_n)) ++crossings[contact.boundary];

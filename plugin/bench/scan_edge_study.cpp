@@ -22,14 +22,14 @@ namespace {
 
 constexpr double inside_hu = 60, outside_hu = -100;  // an organ in fat
 constexpr double scanner_mm = 0.6;                   // standard deviation of the scanner's blur
-constexpr int rays = 2000;
+constexpr int rays_of_ball = 2000;
 
 struct Ball {
   double radius = 0, slices_mm = 1, noise_hu = 0;
   glm::dvec3 center{0};
 };
 
-std::shared_ptr<const io::Volume> scan_of(const Ball& ball) {
+std::shared_ptr<const io::Volume> scan_of_ball(const Ball& ball) {
   const double room = 2 * (ball.radius + 3 * ball.slices_mm + 9);
   const testdata::Grid grid{.size = glm::ivec3(glm::ceil(room / glm::dvec3(1, 1, ball.slices_mm))),
                             .spacing = {1, 1, ball.slices_mm}};
@@ -62,7 +62,7 @@ io::Mask threshold_of(const io::Volume& volume) {
   return mask;
 }
 
-struct Errors {
+struct EdgeErrors {
   double largest_mm = 0, sum = 0, squares = 0;
   int count = 0;
 
@@ -76,20 +76,20 @@ struct Errors {
   double rms_mm() const { return std::sqrt(squares / count); }
 };
 
-struct Row {
-  Errors labels, own;
+struct EdgeRow {
+  EdgeErrors labels, own;
   int none = 0;
 };
 
-Row study(const Ball& ball) {
-  const auto volume = scan_of(ball);
+EdgeRow edge_row_of(const Ball& ball) {
+  const auto volume = scan_of_ball(ball);
   const auto structure = io::distance_of(threshold_of(*volume));
   const io::VolumeFields values(volume, io::FieldSet::value | io::FieldSet::gradient, 1,
                                 {.gradient = io::GradientMethod::cubic, .brick_bytes = 0, .background = false});
-  Row row;
+  EdgeRow row;
   std::mt19937 random(1);
   std::normal_distribution<double> any;
-  for (int n = 0; n < rays; ++n) {
+  for (int n = 0; n < rays_of_ball; ++n) {
     const glm::dvec3 way = any_direction(random, any);
     const double in = radius_along(*structure, ball.center, way, ball.radius + 6);
     row.labels.add(in - ball.radius);
@@ -111,8 +111,8 @@ std::string tabulate_own_edges() {
       "\nBalls of {} HU in {} HU, blurred by {} mm; their labels: the values above the middle; {} rays. Errors in "
       "mm\n\n"
       "{:>10} {:>8} {:>8}   {:>8} {:>8} {:>8}   {:>8} {:>8} {:>8} {:>6}\n",
-      inside_hu, outside_hu, scanner_mm, rays, "radius mm", "h mm", "noise HU", "labels", "rms", "mean", "own edge",
-      "rms", "mean", "none");
+      inside_hu, outside_hu, scanner_mm, rays_of_ball, "radius mm", "h mm", "noise HU", "labels", "rms", "mean",
+      "own edge", "rms", "mean", "none");
   std::string csv =
       "radius_mm,slices_mm,noise_hu,labels_largest_mm,labels_rms_mm,labels_mean_mm,own_largest_mm,own_rms_mm,own_mean_"
       "mm,"
@@ -120,8 +120,8 @@ std::string tabulate_own_edges() {
   constexpr std::array<std::array<double, 2>, 4> balls{{{20, 1}, {20, 3}, {20, 5}, {3, 1}}};
   for (const auto& [radius, step] : balls) {
     for (const double noise : {0.0, 15.0}) {
-      const Row row = study({radius, step, noise, {0.31, -0.17, 0.23 * step}});
-      const Errors &labels = row.labels, &own = row.own;
+      const EdgeRow row = edge_row_of({radius, step, noise, {0.31, -0.17, 0.23 * step}});
+      const EdgeErrors &labels = row.labels, &own = row.own;
       fmt::print("{:10.0f} {:8.0f} {:8.0f}   {:8.2f} {:8.3f} {:8.3f}   {:8.2f} {:8.3f} {:8.3f} {:6}\n", radius, step,
                  noise, labels.largest_mm, labels.rms_mm(), labels.mean_mm(), own.largest_mm, own.rms_mm(),
                  own.mean_mm(), row.none);

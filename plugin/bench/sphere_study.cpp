@@ -24,10 +24,10 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double radius_mm = 50;
+constexpr double sphere_radius_mm = 50;
 constexpr double edge_mm = 1;  // standard deviation of its Gaussian edge
-constexpr double depth_mm = 2;
-constexpr double step_mm = 0.05;  // 50 mm/s at 1 kHz
+constexpr double sphere_depth_mm = 2;
+constexpr double sphere_step_mm = 0.05;  // 50 mm/s at 1 kHz
 
 /// Sampled at the voxels' centers, rounded to 1 HU as CT does.
 std::shared_ptr<const io::Volume> soft_sphere(int voxels) {
@@ -38,7 +38,7 @@ std::shared_ptr<const io::Volume> soft_sphere(int voxels) {
   volume->geometry = testdata::make_geometry(grid);
   volume->modality = "CT";
   volume->unit = "HU";
-  const testdata::AnalyticSource sphere(testdata::make_sphere(radius_mm), edge_mm);
+  const testdata::AnalyticSource sphere(testdata::make_sphere(sphere_radius_mm), edge_mm);
   std::vector<std::int16_t> values;
   values.reserve(static_cast<std::size_t>(voxels) * voxels * voxels);
   for (int k = 0; k < voxels; ++k) {
@@ -116,23 +116,25 @@ void slide_and_rest(Probe& probe, SphereFigures& figures) {
     const dvec3 b = glm::normalize(glm::cross(a, dvec3(0.7, -0.1, 0.4)));
     for (int n = 0; n < 200; ++n) {
       const double angle = 2 * std::numbers::pi / 200 * n;
-      probe.prepare(radius_mm * (std::cos(angle) * a + std::sin(angle) * b));
+      probe.prepare(sphere_radius_mm * (std::cos(angle) * a + std::sin(angle) * b));
     }
-    for (double r = radius_mm + 5; r > radius_mm; r -= 2) probe.prepare(r * a);
+    for (double r = sphere_radius_mm + 5; r > sphere_radius_mm; r -= 2) probe.prepare(r * a);
     // Felt: where the proxy stays on the way in.
-    for (double r = radius_mm + 5; r > radius_mm - depth_mm; r -= step_mm) probe.move_to(r * a);
+    for (double r = sphere_radius_mm + 5; r > sphere_radius_mm - sphere_depth_mm; r -= sphere_step_mm)
+      probe.move_to(r * a);
     const double felt = glm::length(probe.proxy_mm());
     felt_mm.push_back(felt);
-    const double pressed = felt - depth_mm;
-    for (double r = radius_mm - depth_mm; r > pressed; r -= step_mm) probe.move_to(r * a);
-    const double turn = step_mm / pressed;
+    const double pressed = felt - sphere_depth_mm;
+    for (double r = sphere_radius_mm - sphere_depth_mm; r > pressed; r -= sphere_step_mm) probe.move_to(r * a);
+    const double turn = sphere_step_mm / pressed;
     const auto steps = static_cast<int>(2 * std::numbers::pi / turn);
     for (int n = 1; n <= steps; ++n) {
       const dvec3 at = pressed * (std::cos(turn * n) * a + std::sin(turn * n) * b);
       probe.move_to(at);
       const double error = angle_between(probe.force_n(), probe.proxy_mm());
       errors_deg.push_back(error);
-      figures.direction_worst_deg = std::max(figures.direction_worst_deg, error - degrees(step_mm / radius_mm));
+      figures.direction_worst_deg =
+          std::max(figures.direction_worst_deg, error - degrees(sphere_step_mm / sphere_radius_mm));
     }
     rest(probe, pressed * (std::cos(turn * steps) * a + std::sin(turn * steps) * b), jumps_n);
     probe.lift();

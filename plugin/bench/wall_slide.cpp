@@ -17,7 +17,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double depth_mm = 1.5;
+constexpr double wall_depth_mm = 1.5;
 constexpr double tick_s = 1e-3;
 
 double radius_of(Wall wall) {
@@ -53,7 +53,7 @@ Slide slide_on(Wall wall, const io::FieldSource& source, const modes::Scene& sce
   };
   // Outwards from the wall towards where it pushes.
   const double outward = wall == Wall::convex ? 1 : -1;
-  const double pressed = radius_of(wall) - outward * depth_mm;
+  const double pressed = radius_of(wall) - outward * wall_depth_mm;
   const dvec3 a = glm::normalize(dvec3(0.2, 0.5, 0.9));
   const dvec3 b = glm::normalize(glm::cross(a, dvec3(0.7, -0.1, 0.4)));
   for (double away = 5; away > 0; away -= 0.01) move_to((pressed + outward * away) * a);
@@ -63,7 +63,7 @@ Slide slide_on(Wall wall, const io::FieldSource& source, const modes::Scene& sce
   const double force_n = plan.stiffness_n_per_m * 1e-3 * std::abs(held - pressed);
   const double angle_step = speed_mm_per_s * tick_s / pressed;
   const auto ticks = static_cast<int>(4 * std::numbers::pi / angle_step);
-  const double true_force_n = plan.stiffness_n_per_m * 1e-3 * depth_mm;
+  const double true_force_n = plan.stiffness_n_per_m * 1e-3 * wall_depth_mm;
   double squares = 0;
   result.ticks_us.clear();
   result.capped = 0;

@@ -197,7 +197,7 @@ const char* name_of(SolverChoice choice) {
   return "chain";
 }
 
-Json json_of(const Vec3& v) {
+Json finite_json_of(const Vec3& v) {
   if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
     throw Refused(say("answer-is-not-finite"));
   }
@@ -240,10 +240,10 @@ void answer(const Problem& problem, const SolveOptions& options, Json& out) {
     throw Refused(say("solver-does-not-fit-this-configuration", name_of(options.solver)));
   }
   if (!std::isfinite(solution.error_bound)) throw Refused(without_bound(balance, solution.proxy));
-  out["proxy"] = json_of(solution.proxy);
-  out["force"] = json_of(coupling_force(balance, solution.proxy));
+  out["proxy"] = finite_json_of(solution.proxy);
+  out["force"] = finite_json_of(coupling_force(balance, solution.proxy));
   Json& shares = out["forces"] = Json::array();
-  for (const Vec3& force : forces) shares.push_back(json_of(force));
+  for (const Vec3& force : forces) shares.push_back(finite_json_of(force));
   out["solver"] = name_of(solution.solver);
   out["error_bound"] = solution.error_bound;
   out["iterations"] = solution.iterations;

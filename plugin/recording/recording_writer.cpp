@@ -11,10 +11,19 @@
 #include "plugin/recording/recording_rows.h"
 
 namespace palpate::plugin {
+
+using hdf5::Handle;
+
+/// A table that grows. It has linkage because RecordingWriter::File, which has members of it, has.
+struct GrowingTable {
+  Handle type;
+  Handle data;
+  hsize_t rows = 0;
+};
+
 namespace {
 
 using hdf5::check;
-using hdf5::Handle;
 
 constexpr hsize_t rows_of_chunk = 1024;  // 270 KB of ticks: within HDF5's cache of a chunk, a second of a session
 
@@ -29,14 +38,7 @@ void write_text(hid_t file, const char* name, const std::string& text) {
   check(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write-is-the-disk-full");
 }
 
-/// A table that grows.
-struct Table {
-  Handle type;
-  Handle data;
-  hsize_t rows = 0;
-};
-
-Table make_table(hid_t file, const char* name, Handle type, hsize_t chunk) {
+GrowingTable make_table(hid_t file, const char* name, Handle type, hsize_t chunk) {
   const hsize_t none = 0;
   const hsize_t unlimited = H5S_UNLIMITED;
   const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "make-a-table");
@@ -48,7 +50,7 @@ Table make_table(hid_t file, const char* name, Handle type, hsize_t chunk) {
   return {std::move(type), std::move(data)};
 }
 
-void append_rows(Table& table, const void* rows, std::size_t count) {
+void append_rows(GrowingTable& table, const void* rows, std::size_t count) {
   if (count == 0) {
     return;
   }
@@ -85,14 +87,14 @@ struct RecordingWriter::File {
     check(H5Fstart_swmr_write(file), "let-the-file-be-read-while");
   }
   void forget() noexcept {
-    for (Table* table : {&ticks, &shares, &known_to, &events}) {
+    for (GrowingTable* table : {&ticks, &shares, &known_to, &events}) {
       table->data.forget();
     }
     file.forget();
   }
 
   Handle file;
-  Table ticks, shares, known_to, events;
+  GrowingTable ticks, shares, known_to, events;
 };
 
 namespace {
@@ -148,7 +150,7 @@ void RecordingWriter::append(const Gap& gap) {
 
 void RecordingWriter::flush() {
   naming(file_, [&] {
-    for (const Table* table : {&open_->events, &open_->shares, &open_->known_to, &open_->ticks}) {
+    for (const GrowingTable* table : {&open_->events, &open_->shares, &open_->known_to, &open_->ticks}) {
       check(H5Dflush(table->data), "write-is-the-disk-full");
     }
   });

@@ -20,12 +20,12 @@ namespace {
 using Rgb = std::array<unsigned char, 3>;
 
 constexpr double side = 520;  // pixels of a slice and of the histogram
-constexpr double margin = 16, header = 40;
+constexpr double margin = 16, heading_room = 40;
 constexpr int samples = 260;  // of a slice, along each side
 constexpr double legend_row = 22;
 constexpr double axis_room = 86;  // left of the histogram
 
-Color color_of(const std::string& hex) {
+Color color_of_hex(const std::string& hex) {
   const auto part = [&](std::size_t at) {
     return static_cast<double>(std::strtol(hex.substr(at, 2).c_str(), nullptr, 16)) / 255;
   };
@@ -86,7 +86,7 @@ class Painter {
     }
     Color color{gray, gray, gray};
     if (felt != nullptr) {
-      const Color own = color_of(felt->color);
+      const Color own = color_of_hex(felt->color);
       const double part = std::min(1.0, strongest);
       color = {gray + part * (own.red - gray), gray + part * (own.green - gray), gray + part * (own.blue - gray)};
     }
@@ -130,7 +130,7 @@ void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, c
     }
   }
   for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
-    const Color color = color_of(suggestion.scene.modes[boundary.mode].color);
+    const Color color = color_of_hex(suggestion.scene.modes[boundary.mode].color);
     const Point at{x_of(suggestion.typical[boundary.low]), y_of(suggestion.typical[boundary.high])};
     canvas.disc(at, 9, colors::white);
     canvas.disc(at, 7, color);
@@ -161,20 +161,21 @@ void write_suggestion_png(const modes::Suggestion& suggestion, const std::shared
                           const std::filesystem::path& file) {
   const auto rows = static_cast<double>(suggestion.boundaries.size());
   Canvas canvas(static_cast<int>(3 * side + 5 * margin + axis_room),
-                static_cast<int>(header + side + 3 * margin + 20 + legend_row * std::max(2.0, rows)), colors::white);
+                static_cast<int>(heading_room + side + 3 * margin + 20 + legend_row * std::max(2.0, rows)),
+                colors::white);
   const Painter painter(suggestion, volume);
-  Point corner{margin, header};
+  Point corner{margin, heading_room};
   for (const Slice& slice : slices) {
     painter.paint(slice, corner, canvas);
     corner.x += side + margin;
   }
   if (!suggestion.edges.counts.empty()) {
-    paint_pairs(suggestion, volume->unit, {corner.x + margin + axis_room, header}, canvas);
+    paint_pairs(suggestion, volume->unit, {corner.x + margin + axis_room, heading_room}, canvas);
   }
-  double y = header + side + 2 * margin + 8;
+  double y = heading_room + side + 2 * margin + 8;
   for (const modes::FoundBoundary& boundary : suggestion.boundaries) {
     const modes::Mode& mode = suggestion.scene.modes[boundary.mode];
-    canvas.rectangle({margin, y - 12}, {28, 14}, color_of(mode.color));
+    canvas.rectangle({margin, y - 12}, {28, 14}, color_of_hex(mode.color));
     canvas.text({margin + 38, y},
                 fmt::format("{}: felt at {:.0f}{}{}; {:.0f} % of what lies at boundaries", mode.name, boundary.middle,
                             volume->unit.empty() ? "" : " ", volume->unit, 100 * boundary.share),
