@@ -71,11 +71,11 @@ fs::path scene_beside_liver(const std::string& segment, const std::string& modes
 // 81 to 203: the row is crossed there along x.
 const std::string into_liver = " --from -180,8.2586,-127.69 --to -165,8.2586,-127.69 --scene ";
 constexpr double last_outside_mm = -235.2 + 80 * 0.810547, first_inside_mm = -235.2 + 81 * 0.810547;
-const std::string edge = R"({"type": "surface", "structure": "liver", "strength_n": 1})";
+const std::string liver_edge = R"({"type": "surface", "structure": "liver", "strength_n": 1})";
 
 TEST(SharedCommandStructures, AreFeltAtTheirEdge) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
-  const fs::path scene = scene_beside_liver("\"Liver\"", edge);
+  const fs::path scene = scene_beside_liver("\"Liver\"", liver_edge);
   const Outcome outcome =
       palpate("profile --json " + (shared / "dcmqi/ct-3slice").string() + into_liver + scene.string(), false);
   ASSERT_EQ(outcome.exit, 0);
@@ -104,11 +104,6 @@ TEST(SharedCommandStructures, AreFeltAtTheirEdge) {
   }
   EXPECT_GT(most, 0.8);
   EXPECT_LT(most, 1 + 1e-6);
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream input(file);
-  return {std::istreambuf_iterator<char>(input), {}};
 }
 
 // From the liver by stomach and bowel, which are as bright, into the spleen: the stroke and the scene of README.md.
@@ -172,17 +167,17 @@ TEST(SharedCommandStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
   EXPECT_GT(deepest_mm, 0);
   EXPECT_GT(most_n, 1);
   EXPECT_LE(most_n, 2 + 1e-9);
-  EXPECT_THAT(text_of(out / "summary.txt"), HasSubstr("mm inside aorta, at "));
+  EXPECT_THAT(testing::text_in(out / "summary.txt"), HasSubstr("mm inside aorta, at "));
   testing::expect_repeated_with_moved(folder / "labels.nii.gz", "aorta", out / "recording.h5", ct,
                                       " --csv " + csv.string());
-  const std::string table = text_of(csv);
+  const std::string table = testing::text_in(csv);
   EXPECT_THAT(table.substr(0, table.find('\n')), ::testing::EndsWith(",\"distance_mm aorta\""));
 }
 
 TEST(SharedCommandStructures, AreLeftOutWhereNoModeReadsThem) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const Outcome outcome = palpate("plan --json " + (shared / "dcmqi/ct-3slice").string() + " --scene " +
-                                  scene_beside_liver("1", edge).string());
+                                  scene_beside_liver("1", liver_edge).string());
   EXPECT_THAT(outcome.output, HasSubstr(R"(structure \"unread\")"));
   EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr(R"(structure \"liver\")")));
 }
@@ -190,11 +185,11 @@ TEST(SharedCommandStructures, AreLeftOutWhereNoModeReadsThem) {
 TEST(SharedCommandStructures, OfASceneAreRefusedInWords) {
   if (!fs::exists(shared)) GTEST_SKIP() << "needs the shared structures, which are not beside this checkout";
   const std::string ct = (shared / "dcmqi/ct-3slice").string();
-  const fs::path unknown = scene_beside_liver("\"Spleen\"", edge);
+  const fs::path unknown = scene_beside_liver("\"Spleen\"", liver_edge);
   const Outcome outcome = palpate("profile " + ct + into_liver + unknown.string());
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_THAT(outcome.output, HasSubstr("structure \"liver\": liver.dcm has no \"Spleen\"; there are: 1 Liver"));
-  const fs::path scene = scene_beside_liver("1", edge);
+  const fs::path scene = scene_beside_liver("1", liver_edge);
   const Outcome elsewhere = palpate("profile " + phantom().string() + forehead + "--scene " + scene.string());
   EXPECT_EQ(elsewhere.exit, 1);
   EXPECT_THAT(elsewhere.output,

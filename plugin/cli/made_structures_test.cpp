@@ -26,12 +26,12 @@ using testing::Outcome;
 using testing::palpate;
 using testing::phantom;
 
-constexpr int voxels = 60;
-constexpr double radius_mm = 10;
+constexpr int lattice = 60;
+constexpr double ball_radius_mm = 10;
 
 /// Of a voxel of the phantom's lattice, 1 mm apart about the origin.
 double at_mm(int index) {
-  return index - 0.5 * (voxels - 1);
+  return index - 0.5 * (lattice - 1);
 }
 
 /// A ball of 10 mm about the origin as label 1, in front of it a bar as label 2.
@@ -42,10 +42,10 @@ struct Labels {
 
 Labels labels() {
   Labels made;
-  for (int k = 0; k < voxels; ++k) {
-    for (int j = 0; j < voxels; ++j) {
-      for (int i = 0; i < voxels; ++i) {
-        const bool ball = glm::length(glm::dvec3(at_mm(i), at_mm(j), at_mm(k))) < radius_mm;
+  for (int k = 0; k < lattice; ++k) {
+    for (int j = 0; j < lattice; ++j) {
+      for (int i = 0; i < lattice; ++i) {
+        const bool ball = glm::length(glm::dvec3(at_mm(i), at_mm(j), at_mm(k))) < ball_radius_mm;
         const bool bar = j < 8 && std::abs(at_mm(i)) < 3;
         made.bytes += ball ? '\1' : bar ? '\2' : '\0';
         made.in_ball += ball ? 1 : 0;
@@ -73,12 +73,7 @@ fs::path scene_in(const fs::path& folder, const std::string& modes, const std::s
   return folder / "scene.json";
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream input(file);
-  return {std::istreambuf_iterator<char>(input), {}};
-}
-
-const std::string edge = R"({"type": "surface", "structure": "ball", "strength_n": 1})";
+const std::string ball_edge = R"({"type": "surface", "structure": "ball", "strength_n": 1})";
 
 TEST(MadeStructures, AreListedWithTheirSizes) {
   const Outcome outcome = palpate("structures --json " + folder_of_labels().string(), false);
@@ -92,7 +87,7 @@ TEST(MadeStructures, AreListedWithTheirSizes) {
 }
 
 TEST(MadeStructures, AreFeltAtTheirEdge) {
-  const fs::path scene = scene_in(folder_of_labels(), edge);
+  const fs::path scene = scene_in(folder_of_labels(), ball_edge);
   const Outcome outcome =
       palpate("profile --json " + phantom().string() + forehead + "--scene " + scene.string(), false);
   ASSERT_EQ(outcome.exit, 0);
@@ -105,7 +100,7 @@ TEST(MadeStructures, AreFeltAtTheirEdge) {
                         stroke.at("proxy_mm").at(n).at(2));
     const glm::dvec3 force(stroke.at("force_n").at(n).at(0), stroke.at("force_n").at(n).at(1),
                            stroke.at("force_n").at(n).at(2));
-    const double inside_mm = radius_mm - glm::length(at);
+    const double inside_mm = ball_radius_mm - glm::length(at);
     if (std::abs(inside_mm) < 5) {
       EXPECT_NEAR(distances[n].get<double>(), inside_mm, 0.5) << at.y;
     }
@@ -132,19 +127,19 @@ TEST(MadeStructures, AKeepOutIsRecordedAndRepeatedToTheLastBit) {
   EXPECT_LT(deepest_mm, 0);
   EXPECT_GT(most_n, 0.5);
   EXPECT_LE(most_n, 1 + 1e-9);
-  EXPECT_THAT(text_of(out / "summary.txt"), HasSubstr("mm from ball, at "));
+  EXPECT_THAT(testing::text_in(out / "summary.txt"), HasSubstr("mm from ball, at "));
   testing::expect_repeated_with_moved(folder / "labels.mha", "ball", out / "recording.h5", phantom().string());
 }
 
 TEST(MadeStructures, AreLeftOutWhereNoModeReadsThem) {
   const Outcome outcome =
-      palpate("plan --json " + phantom().string() + " --scene " + scene_in(folder_of_labels(), edge).string());
+      palpate("plan --json " + phantom().string() + " --scene " + scene_in(folder_of_labels(), ball_edge).string());
   EXPECT_THAT(outcome.output, HasSubstr(R"(structure \"bar\")"));
   EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr(R"(structure \"ball\")")));
 }
 
 TEST(MadeStructures, OfASceneAreRefusedInWords) {
-  const fs::path unknown = scene_in(folder_of_labels(), edge, "\"spleen\"");
+  const fs::path unknown = scene_in(folder_of_labels(), ball_edge, "\"spleen\"");
   const Outcome outcome = palpate("profile " + phantom().string() + forehead + "--scene " + unknown.string());
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_THAT(outcome.output, HasSubstr("structure \"ball\": labels.mha has no \"spleen\"; there are: "));

@@ -24,12 +24,8 @@ namespace {
 
 using ::testing::ElementsAre;
 using testing::fresh_path;
+using testing::text_in;
 using Row = std::map<std::string, std::string>;
-
-std::string written(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -93,7 +89,7 @@ Profile profile() {
 TEST(Tables, AProfilesColumnsAreWhatTheyAreCalled) {
   const auto file = fresh_path("columns.csv");
   write_csv(profile(), file);
-  EXPECT_THAT(rows_of(written(file)), ElementsAre(Row{{"depth_mm", "0"},
+  EXPECT_THAT(rows_of(text_in(file)), ElementsAre(Row{{"depth_mm", "0"},
                                                       {"probe_x_mm", "1"},
                                                       {"probe_y_mm", "2"},
                                                       {"probe_z_mm", "3"},
@@ -182,7 +178,7 @@ Comparison comparison() {
 TEST(Tables, AComparisonsColumnsAndCurvesAreWhatTheyAreCalled) {
   const auto file = fresh_path("compared.csv");
   write_csv(comparison(), file);
-  EXPECT_THAT(rows_of(written(file)),
+  EXPECT_THAT(rows_of(text_in(file)),
               ElementsAre(Row{{"along_mm", "0"}, {"first_n", "0.25"}, {"second_n", "1"}, {"apart_mm", "2"}},
                           Row{{"along_mm", "4"}, {"first_n", "0.5"}, {"second_n", "1.5"}, {"apart_mm", "3"}}));
   const std::vector<Chart> charts = charts_of(comparison(), "before", "after");

@@ -17,12 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-modes::Scene scene_of(const fs::path& file) {
-  modes::Scene scene;
-  scene.structures.push_back({.name = "cube", .file = file.string(), .segment = "Cube"});
-  return scene;
-}
-
 TEST(StructureFiles, AreNamedByTheirContent) {
   const fs::path folder = fs::path(::testing::TempDir()) / "structure_files";
   fs::create_directories(folder);
@@ -41,7 +35,7 @@ TEST(StructureFiles, AreFoundWhereverTheyWentMeanwhile) {
   const fs::path folder = fs::path(::testing::TempDir()) / "moved";
   fs::remove_all(folder);
   testing::write_contours(folder / "first/rt.dcm", "1.1", "7", "Doe^Jane");
-  const modes::Scene recorded = without_paths(scene_of(folder / "first/rt.dcm"));
+  const modes::Scene recorded = without_paths(testing::scene_of(folder / "first/rt.dcm"));
   EXPECT_EQ(modes::to_json(recorded).find("/"), std::string::npos);
   EXPECT_EQ(modes::to_json(without_paths(recorded)), modes::to_json(recorded));
   fs::create_directories(folder / "deep");
@@ -74,16 +68,16 @@ TEST(StructureFiles, OfSeveralInAFolderEachIsFound) {
 // A path may hold a patient's name: whatever its length and its letters, none but a hash is left as it is.
 TEST(StructureFiles, NoneButAHashIsLeftAsItIs) {
   const std::string hash = "0123456789abcdef";
-  EXPECT_EQ(without_paths(scene_of(hash)).structures[0].file, hash);
+  EXPECT_EQ(without_paths(testing::scene_of(hash)).structures[0].file, hash);
   for (std::size_t at = 0; at < hash.size(); ++at) {
     for (const char letter : {'g', 'z', '.', ' ', '_', '-', '/'}) {
       std::string path = hash;
       path[at] = letter;
-      EXPECT_EQ(without_paths(scene_of(path)).structures[0].file, "0000000000000000") << path;
+      EXPECT_EQ(without_paths(testing::scene_of(path)).structures[0].file, "0000000000000000") << path;
     }
   }
   for (const std::string& path : {hash.substr(1), hash + "0"}) {
-    EXPECT_EQ(without_paths(scene_of(path)).structures[0].file, "0000000000000000") << path;
+    EXPECT_EQ(without_paths(testing::scene_of(path)).structures[0].file, "0000000000000000") << path;
   }
 }
 

@@ -3,6 +3,8 @@
 /// A place for the files of tests.
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "io/fresh_folder.h"
@@ -17,6 +19,12 @@ inline std::filesystem::path fresh_path(const std::string& name) {
   std::filesystem::remove_all(path);
   std::filesystem::remove(path.string() + ".partial");
   return path;
+}
+
+/// All that a file holds; empty where there is none.
+inline std::string text_in(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace palpate::plugin::testing
