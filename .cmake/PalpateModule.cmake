@@ -154,15 +154,32 @@ function(palpate_test_code target)
   target_precompile_headers(${target} REUSE_FROM palpate_test_headers)
 endfunction()
 
+set(PALPATE_TEST_FILES "" CACHE STRING "Regular expression: of the files of tests only those that match are compiled, as paths in the tree")
+
 # palpate_tests(<name> SOURCES <file>... [LINK <library>...] [SECONDS <limit>]): GoogleTest cases of a folder, one CTest
-# entry for each suite. A test that hangs is ended after SECONDS (20), six times as many under a sanitizer. Suites named Shared*
-# need the real series in PALPATE_SHARED_DATA: their entries begin with `shared.`, and `plugin/run test shared` runs them.
+# entry for each suite; no program if PALPATE_TEST_FILES leaves no test. A test that hangs is ended after SECONDS (20), six times as many under a sanitizer. Suites named Shared*
+# need the real series in PALPATE_SHARED_DATA: their entries begin with `shared.`, and `plugin/run check shared` runs them.
 function(palpate_tests name)
   if(NOT PALPATE_TESTS)
     return()
   endif()
   cmake_parse_arguments(ARG "" "SECONDS" "SOURCES;LINK" ${ARGN})
   find_package(GTest REQUIRED)
+  if(PALPATE_TEST_FILES)
+    set(tests 0)
+    foreach(source IN LISTS ARG_SOURCES)
+      cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE path)
+      cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+      if(path MATCHES "${PALPATE_TEST_FILES}")
+        math(EXPR tests "${tests} + 1")
+      elseif(path MATCHES "_test\\.cpp$")
+        list(REMOVE_ITEM ARG_SOURCES ${source})
+      endif()
+    endforeach()
+    if(tests EQUAL 0)
+      return()
+    endif()
+  endif()
   if(NOT TARGET palpate_test_limit)
     add_library(palpate_test_limit OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/solver/text/testing/test_limit.cpp)
     target_link_libraries(palpate_test_limit PRIVATE palpate_compile_options GTest::gtest)
@@ -188,7 +205,7 @@ endfunction()
 
 # palpate_benchmarks(<name> SOURCES <file>... [LINK <library>...]): Google Benchmark cases, built but never timed by tests.
 function(palpate_benchmarks name)
-  if(NOT PALPATE_TESTS)
+  if(NOT PALPATE_TESTS OR PALPATE_SANITIZE)
     return()
   endif()
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

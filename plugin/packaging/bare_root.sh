@@ -9,10 +9,15 @@ mount_root() { # /dev, /proc, /sys, then FOLDER FROM TO
   for part in proc sys dev; do mount --bind "/$part" "$1/$part" || return 1; done
 }
 
+# A root as the mirror has it today is kept for a day: the packages are tried in a second one.
 make_root() {
-  local release=$1 root=$2
-  mkdir -p "$(dirname "$root")"
-  mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$root" "$mirror" || return 1
+  local release=$1 root=$2 kept=${XDG_CACHE_HOME:-$HOME/.cache}/palpate/roots
+  mkdir -p "$root" "$kept"
+  if [ -z "$(find "$kept/$release.tar" -mmin -1440 2>/dev/null)" ]; then
+    mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$kept/$release.$$.tar" "$mirror" || return 1
+    mv "$kept/$release.$$.tar" "$kept/$release.tar"
+  fi
+  tar -C "$root" --numeric-owner -xpf "$kept/$release.tar" || return 1
   echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe" # it is thrown away
   cp /etc/resolv.conf /etc/hosts "$root/etc/"
   mount_root "$root"

@@ -17,7 +17,7 @@ maintainer="The Palpate developers <palpate@users.noreply.github.com>"
 
 umask 022
 cmake -S . -B "$tree" -Wno-dev -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=g++ -DCMAKE_INSTALL_PREFIX=/usr -DPALPATE_TESTS=OFF \
-  -DPALPATE_PARAVIEW=ON -DPALPATE_WERROR=ON -DCMAKE_CXX_FLAGS= \
+  -DPALPATE_PARAVIEW=ON -DPALPATE_WERROR="${PALPATE_WERROR:-OFF}" -DCMAKE_CXX_FLAGS= \
   -DCMAKE_EXE_LINKER_FLAGS="-Wl,-z,relro,-z,now" -DCMAKE_MODULE_LINKER_FLAGS="-Wl,-z,relro,-z,now" \
   -DCMAKE_SHARED_LINKER_FLAGS="-Wl,-z,relro,-z,now" >/dev/null
 cmake --build "$tree" -- --quiet

@@ -32,10 +32,12 @@ known_system=yes
 case "$(system_name)" in
   "debian 12"*)
     clang=14
+    other_release=trixie
     test_packages+=("clang-tidy-$style" "clang-format-$style" plastimatch) # plastimatch: reads and writes volumes by ITK, to compare
     paraview_packages+=(qtbase5-dev libqt5svg5-dev qttools5-dev qttools5-dev-tools libqt5opengl5-dev) ;;
   "debian 13"*)
     clang=19
+    other_release=bookworm
     core_packages+=(libtiff-dev) # DCMTK's CMake package names it
     paraview_packages+=(qt6-svg-plugins qt6-base-dev qt6-svg-dev qt6-tools-dev qt6-l10n-tools qt6-5compat-dev libdouble-conversion-dev python3-dev) ;;
   *)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """clang-tidy over the product's files, as a build folder compiles them: plugin/run's stage `tidy`.
 
-    plugin/testing/tidy.py CLANG_TIDY BUILD_FOLDER [FILE...]
+    plugin/testing/tidy.py CLANG_TIDY BUILD_FOLDER [--since COMMIT] [FILE...]
 
 Files that are compiled together are read together, because most of the time is what they include. clang's analyzer looks
 for paths through solver, modes and device; over DCMTK's, Qt's and VTK's headers it would take an hour. With FILE, a part
-of a path, only those. What was found good is not read again until it or something that it includes changes: what was read
+of a path, only those. With --since only the folders in which a file differs from that commit's; all of them where the
+repository does not have it. What was found good is not read again until it or something that it includes changes: what was read
 and its contents' hashes stand in PALPATE_TIDY_CACHE (default ~/.cache/palpate/tidy).
 """
 
@@ -92,14 +93,36 @@ def options_of(folder, path):
     return ["--checks=" + ",".join(checks), *options]
 
 
+def changed_folders(commit):
+    """The folders of the files that differ from a commit's, or None: all may."""
+    if subprocess.run(["git", "cat-file", "-e", commit + "^{commit}"], cwd=ROOT, capture_output=True).returncode != 0:
+        return None
+    names = subprocess.run(["git", "diff", "--name-only", commit], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    if ".clang-tidy" in names.split():
+        return None
+    return {(ROOT / name).parent for name in names.splitlines() if name.endswith((".h", ".cpp"))}
+
+
+def folders_read(path, build):
+    """The folders of what a file holds: its own, or those of the files that CMake wrote it to include."""
+    if not path.is_relative_to(build):
+        return {path.parent}
+    return {pathlib.Path(name).parent for name in re.findall(r'^#include "(.*\.cpp)"', path.read_text(), re.MULTILINE)}
+
+
 def main():
     program, build, *only = sys.argv[1:]
+    since = only[1] if only[:1] == ["--since"] else None
+    only = only[2:] if since else only
     build = (ROOT / build).resolve()
     entries = {pathlib.Path(entry["file"]).resolve(): entry["command"] for entry in json.loads((build / "compile_commands.json").read_text())}
     work = [(path, folder) for path in entries if (folder := folder_of(path, build)) and not NOT_READ.search(name_of(path))]
     work = [(path, folder) for path, folder in work if not only or any(part in name_of(path) for part in only)]
     if not work:
         sys.exit("tidy.py: there is no file to read")
+    changed = changed_folders(since) if since else None
+    if changed is not None:
+        work = [(path, folder) for path, folder in work if folders_read(path, build) & changed]
     work.sort(key=lambda one: (one[0].parent.name != "Unity", str(one[0])))  # the long ones first
     version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
     rules = version + (ROOT / ".clang-tidy").read_text()

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "io/structures/structure.h"
-#include "plugin/paraview/common/slices_message.h"
-#include "plugin/paraview/common/structure_files_message.h"
+#include "plugin/paraview/wire/slices_message.h"
+#include "plugin/paraview/wire/structure_files_message.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
 #include "plugin/session/structure_files.h"

@@ -24,7 +24,7 @@
 #include "io/messages.h"
 #include "io/series.h"
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/common/slices_message.h"
+#include "plugin/paraview/wire/slices_message.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
 #include "plugin/paraview/server/module/PalpateFields.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"

@@ -18,7 +18,7 @@
 
 #include "io/volume.h"
 #include "plugin/paraview/client/scan/scan_loader.h"
-#include "plugin/paraview/common/slices_message.h"
+#include "plugin/paraview/wire/slices_message.h"
 
 namespace palpate::plugin {
 

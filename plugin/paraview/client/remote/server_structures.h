@@ -16,8 +16,8 @@
 #include <memory>
 #include <vector>
 
-#include "plugin/paraview/common/slices_message.h"
-#include "plugin/paraview/common/structure_files_message.h"
+#include "plugin/paraview/wire/slices_message.h"
+#include "plugin/paraview/wire/structure_files_message.h"
 
 namespace palpate::plugin {
 

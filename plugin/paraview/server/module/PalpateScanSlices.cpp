@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "plugin/paraview/common/slices_message.h"
-#include "plugin/paraview/common/structure_files_message.h"
+#include "plugin/paraview/wire/slices_message.h"
+#include "plugin/paraview/wire/structure_files_message.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
 
 using namespace palpate::plugin;

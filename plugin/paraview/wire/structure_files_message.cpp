@@ -1,4 +1,4 @@
-#include "plugin/paraview/common/structure_files_message.h"
+#include "plugin/paraview/wire/structure_files_message.h"
 
 #include <array>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "plugin/paraview/common/slices_message.h"
+#include "plugin/paraview/wire/slices_message.h"
 
 #include <exception>
 #include <memory>
