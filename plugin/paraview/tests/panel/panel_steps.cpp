@@ -134,10 +134,13 @@ void turn_forces_on() {
 
 void stylus_rests() {
   std::optional<plugin::SessionStatus> since;
+  // A panel that was busy may last have looked before the hand was moved: what counts are ticks from now on.
+  const plugin::TickRing* const ticks = panel_session().live().ticks();
+  const std::uint64_t from = ticks ? ticks->written() : 0;
   wait_for("the stylus rests", [&] {
     const plugin::SessionStatus& now = panel_session().last();
     if (!now.connected) return true;
-    if (!now.fresh) return false;
+    if (!now.fresh || now.tick.index < from) return false;
     constexpr double moved_mm = 0.1;
     constexpr std::uint64_t long_enough = 100;
     if (!since || now.tick.index < since->tick.index || glm::distance(now.probe_mm, since->probe_mm) > moved_mm) {
