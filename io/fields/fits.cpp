@@ -52,7 +52,11 @@ std::vector<float> sums_of(const BlockLayout& layout, const SliceKernel& kernel,
 // All by the same sums, over weights alone, that a block beside padding takes: the same neighborhood gets the same
 // fit.
 Fits::Fits(const glm::ivec3& dimensions, const SliceKernel& kernel, double scale_mm, const glm::dmat3& to_patient)
-    : dimensions_(dimensions), radius_(kernel.radius), small_(glm::min(dimensions, 2 * kernel.radius + 1)) {
+    : scale_mm_(scale_mm),
+      to_patient_(to_patient),
+      dimensions_(dimensions),
+      radius_(kernel.radius),
+      small_(glm::min(dimensions, 2 * kernel.radius + 1)) {
   for (int k = 0; k < dimensions.z; ++k) {
     const BlockLayout layout({{0, 0, k}, {1, 1, 1}}, kernel, lanes);
     const std::vector<float> all = sums_of(layout, kernel, OnesEverywhere());
@@ -64,11 +68,11 @@ Fits::Fits(const glm::ivec3& dimensions, const SliceKernel& kernel, double scale
     whole_.push_back(fit_plane(sums.data(), 1, scale_mm, to_patient));
   }
   if (kernel.straight) {
-    add_edges(kernel, scale_mm, to_patient);
+    add_edges(kernel);
   }
 }
 
-void Fits::add_edges(const SliceKernel& kernel, double scale_mm, const glm::dmat3& to_patient) {
+void Fits::add_edges(const SliceKernel& kernel) {
   std::vector<int> first_of_kind;
   for (int k = 0; k < dimensions_.z; ++k) {
     std::size_t kind = 0;
@@ -90,7 +94,7 @@ void Fits::add_edges(const SliceKernel& kernel, double scale_mm, const glm::dmat
     const std::vector<float> sums = sums_of(layout, kernel, OnesWithin{small_.x, small_.y});
     for (int j = 0; j < small_.y; ++j) {
       for (int i = 0; i < small_.x; ++i) {
-        edges_.push_back(fit_plane(sums.data() + layout.at(2, 0, j, 0) + i, layout.plane(), scale_mm, to_patient));
+        edges_.push_back(fit_plane(sums.data() + layout.at(2, 0, j, 0) + i, layout.plane(), scale_mm_, to_patient_));
       }
     }
   }

@@ -19,6 +19,10 @@ class Fits {
   /// to_patient: gradient along the kernel's basis -> patient space, rescale slope included.
   Fits(const glm::ivec3& dimensions, const SliceKernel& kernel, double scale_mm, const glm::dmat3& to_patient);
 
+  double scale_mm() const noexcept { return scale_mm_; }
+  /// Gradient along the kernel's basis -> patient space, rescale slope included.
+  const glm::dmat3& to_patient() const noexcept { return to_patient_; }
+
   using Sums = std::array<float, space_sums(2)>;
 
   /// Of a complete neighborhood, by slice.
@@ -47,8 +51,10 @@ class Fits {
   static int reduced(int i, int size, int radius, int small) noexcept {
     return i < radius ? i : i >= size - radius ? small - (size - i) : radius;
   }
-  void add_edges(const SliceKernel& kernel, double scale_mm, const glm::dmat3& to_patient);
+  void add_edges(const SliceKernel& kernel);
 
+  double scale_mm_ = 0;
+  glm::dmat3 to_patient_{1};
   glm::ivec3 dimensions_{0};
   glm::ivec3 radius_{0};
   glm::ivec3 small_{0};

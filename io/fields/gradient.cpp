@@ -118,10 +118,9 @@ struct GradientKernel::Weights {
       differences->at_block(*volume, block, target);
       return;
     }
-    const auto straight = [&](const auto& voxels) {
-      return internal::straight_block(*volume, voxels, slices, fits, block, target);
-    };
-    if (slices.straight && std::visit(straight, volume->voxels)) {
+    if (slices.straight) {
+      std::visit([&](const auto& v) { internal::straight_block(*volume, v, slices, fits, block, target); },
+                 volume->voxels);
       return;
     }
     const BlockLayout layout(block, slices, block_lanes);

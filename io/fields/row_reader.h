@@ -3,11 +3,11 @@
 /// A volume's rows as the gradient's kernel wants them.
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 #include <vector>
 
-#include "io/fields/straight_filters.h"
+#include "io/fields/padded_rows.h"
+#include "io/padding.h"
 #include "io/volume.h"
 
 namespace palpate::io::internal {
@@ -17,7 +17,7 @@ template <typename Stored>
 class RowReader {
  public:
   RowReader(const Volume& volume, const std::vector<Stored>& voxels, bool mask)
-      : volume_(volume), voxels_(voxels.data()), mask_(mask) {}
+      : volume_(volume), voxels_(voxels.data()), padding_(volume), mask_(mask) {}
 
   void operator()(int slice, int j, int i, int count, float* row) const noexcept {
     const glm::ivec3 size = volume_.geometry.dimensions;
@@ -46,32 +46,20 @@ class RowReader {
   static constexpr int line = 64 / sizeof(Stored);  ///< voxels that the nearest cache reads at once
 
   void copy(const Stored* stored, int count, float* row) const noexcept {
-    if constexpr (std::is_integral_v<Stored>) {
-      if (!volume_.padding) {
+    if (!padding_.possible()) {
+      if constexpr (std::is_integral_v<Stored>) {
         mask_ ? std::fill(row, row + count, 1.0F) : to_floats(stored, count, row);
-        return;
       }
+      return;
     }
-    bool any_padding = false;
-    for (int n = 0; n < count; ++n) {
-      const bool padding = is_padding(stored[n]);
-      any_padding = any_padding || padding;
-      row[n] = padding ? 0.0F : mask_ ? 1.0F : static_cast<float>(stored[n]);
-    }
-    met_padding_ = met_padding_ || any_padding;
-    complete_ = complete_ && !any_padding;
-  }
-  bool is_padding(Stored stored) const noexcept {
-    if constexpr (std::is_floating_point_v<Stored>) {
-      if (!std::isfinite(stored)) {
-        return true;
-      }
-    }
-    return volume_.padding && stored >= volume_.padding->first && stored <= volume_.padding->second;
+    const bool any = mask_ ? to_weights(stored, count, padding_, row) : to_floats(stored, count, padding_, row);
+    met_padding_ = met_padding_ || any;
+    complete_ = complete_ && !any;
   }
 
   const Volume& volume_;
   const Stored* voxels_;
+  StoredPadding<Stored> padding_;
   bool mask_;
   mutable bool complete_ = true;
   mutable bool met_padding_ = false;

@@ -1,9 +1,12 @@
 #include "io/fields/straight_block.h"
 
 #include <algorithm>
-#include <memory>
+#include <optional>
 #include <utility>
 
+#include "io/fields/lines.h"
+#include "io/fields/padded_fits.h"
+#include "io/fields/padding_map.h"
 #include "io/fields/row_reader.h"
 #include "io/fields/straight_filters.h"
 
@@ -11,19 +14,6 @@
 // NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)
 namespace palpate::io::internal {
 namespace {
-
-/// Floats that begin at a line of the cache.
-class Lines {
- public:
-  explicit Lines(std::size_t floats) : lines_(std::make_unique_for_overwrite<Line[]>((floats + 15) / 16)) {}
-  float* get() const noexcept { return lines_[0].floats; }
-
- private:
-  struct alignas(64) Line {
-    float floats[16];
-  };
-  std::unique_ptr<Line[]> lines_;
-};
 
 std::vector<TapPair> pairs_of(const Taps& taps) {
   std::vector<TapPair> pairs;
@@ -54,9 +44,11 @@ class StraightBlock {
                   static_cast<std::size_t>(block.size.y + 2 * kernel.radius.y)),
         planes_(plane_ * static_cast<std::size_t>(ring_)),
         sums_(4 * tile_width),
-        row_fits_(fit_rows * tile_width) {}
+        row_fits_(fit_rows * tile_width) {
+    if (PaddingMap::is_needed(volume, fits)) padded_fits_.emplace(kernel, fits, block.size.y, ring_);
+  }
 
-  bool run(const GradientTarget& target) {
+  void run(const GradientTarget& target) {
     const Block block = tile_;
     const int tiles = (block.size.x + tile_width - 1) / tile_width;
     const int width = (block.size.x + tiles - 1) / tiles;
@@ -64,9 +56,8 @@ class StraightBlock {
     for (int i = 0; i < block.size.x; i += longest) {
       tile_.first.x = block.first.x + i;
       tile_.size.x = std::min(longest, block.size.x - i);
-      if (!run_tile({target.first + i, target.row, target.slice})) return false;
+      run_tile({target.first + i, target.row, target.slice});
     }
-    return true;
   }
 
  private:
@@ -80,9 +71,13 @@ class StraightBlock {
 
   static int whole_lanes(int count) { return (count + 7) / 8 * 8; }
 
-  bool run_tile(const GradientTarget& target) {
-    const RowReader<Stored> reader(volume_, voxels_, false);
+  void run_tile(const GradientTarget& target) {
+    const RowReader<Stored> values(volume_, voxels_, false), weights(volume_, voxels_, true);
     known_fits_ = {-1, -1};
+    find_padding();
+    const glm::ivec3 inner = volume_.geometry.dimensions - kernel_.radius - tile_.size;
+    complete_ = tile_.first.x >= kernel_.radius.x && tile_.first.x <= inner.x && tile_.first.y >= kernel_.radius.y &&
+                tile_.first.y <= inner.y;
     int next = std::max(tile_.first.z - kernel_.radius.z, 0);
     for (int k = 0; k < tile_.size.z; k += at_once_) {
       slice_ = tile_.first.z + k;
@@ -90,16 +85,23 @@ class StraightBlock {
       int last = 0;
       for (const Contribution& c : contributions(at_once_ - 1)) last = std::max(last, c.slice);
       for (; next <= last; ++next) {
-        filter_plane(reader, next);
-        if (reader.met_padding() || (!reader.complete() && !fits_.knows_edges())) return false;
+        filter_plane(values, next);
+        if (padding_) padded_fits_->add_plane(weights, next);
       }
-      complete_ = reader.complete();
       find_planes();
       for (int j = 0; j < tile_.size.y; ++j) {
-        fit_slices(j, target.first + k * target.slice + j * target.row, target.slice);
+        glm::vec3* const gradients = target.first + k * target.slice + j * target.row;
+        fit_slices(j, gradients, target.slice);
+        if (padding_) fit_beside_padding(k, j, gradients, target.slice);
       }
     }
-    return true;
+  }
+
+  void find_padding() {
+    padding_.reset();
+    if (!padded_fits_) return;
+    padding_.emplace(volume_, kernel_, fits_, tile_);
+    padding_->any() ? padded_fits_->start(tile_, *padding_) : padding_.reset();
   }
 
   const std::vector<Contribution>& contributions(int n) const {
@@ -160,6 +162,12 @@ class StraightBlock {
     }
   }
 
+  /// The s-th of the slices in hand.
+  EvenSlices even_slices(int s, std::ptrdiff_t row) const {
+    return {around_.data() + between_.size() + s, row, middle_.even, middle_.odd, between_.data(),
+            static_cast<int>(between_.size())};
+  }
+
   /// A row of the slices in hand.
   void fit_slices(int j, glm::vec3* gradients, std::ptrdiff_t apart_slices) {
     const glm::ivec3 size = volume_.geometry.dimensions;
@@ -176,15 +184,35 @@ class StraightBlock {
                      gradients);
       return;
     }
-    EvenSlices even{around_.data() + between_.size(), row, middle_.even, middle_.odd, between_.data(),
-                    static_cast<int>(between_.size())};
     const bool balanced = inner_row && begin < end;
-    if (balanced) fit_balanced_slices(even, at_once_, fits_.whole(slice_).slope, tile_.size.x, gradients, apart_slices);
+    if (balanced)
+      fit_balanced_slices(even_slices(0, row), at_once_, fits_.whole(slice_).slope, tile_.size.x, gradients,
+                          apart_slices);
     if (balanced && begin == 0 && end == tile_.size.x) return;
     look_up_fits(inner_row ? -1 : y);
-    for (int s = 0; s < at_once_; ++s, ++even.slices, gradients += apart_slices) {
+    for (int s = 0; s < at_once_; ++s, gradients += apart_slices) {
+      const EvenSlices even = even_slices(s, row);
       fit_even_slices(even, row_fits_.get(), 0, balanced ? begin : tile_.size.x, gradients);
       if (balanced) fit_even_slices(even, row_fits_.get(), end, tile_.size.x, gradients);
+    }
+  }
+
+  /// Again, those of row j that have padding in their neighborhoods.
+  void fit_beside_padding(int k, int j, glm::vec3* gradients, std::ptrdiff_t apart_slices) {
+    const std::ptrdiff_t row = row_floats * j;
+    for (int s = 0; s < at_once_; ++s, gradients += apart_slices) {
+      const Chunks beside = padding_->beside(k + s, j);
+      if (beside == 0) continue;
+      const float* const fits = padded_fits_->of_row(k + s, j);
+      for_each_stretch(beside, [&](int begin, int whole_end) {
+        const int end = std::min(whole_end, tile_.size.x);
+        if (even_) {
+          fit_even_slices(even_slices(s, row), fits, begin, end, gradients);
+        } else {
+          fit_any_slices(pairs_.data(), static_cast<int>(pairs_.size()), row + begin, fits + begin, end - begin,
+                         sums_.get(), gradients + begin);
+        }
+      });
     }
   }
 
@@ -192,9 +220,10 @@ class StraightBlock {
   void look_up_fits(int y) {
     if (known_fits_ == std::pair(slice_, y)) return;
     known_fits_ = {slice_, y};
+    const bool whole = complete_ || !fits_.knows_edges();  // those at an edge that is not known are padding's
     for (int i = 0; i < tile_.size.x; ++i) {
       const PlaneFit& fit =
-          complete_ ? fits_.whole(slice_) : fits_.at(tile_.first.x + i, y < 0 ? kernel_.radius.y : y, slice_);
+          whole ? fits_.whole(slice_) : fits_.at(tile_.first.x + i, y < 0 ? kernel_.radius.y : y, slice_);
       for (int n = 0; n < fit_rows; ++n) {
         row_fits_.get()[n * tile_width + i] = n < 9 ? fit.slope[n / 3][n % 3] : fit.constant[n - 9];
       }
@@ -215,6 +244,8 @@ class StraightBlock {
   Lines planes_;
   Lines sums_;
   Lines row_fits_;
+  std::optional<PaddedFits> padded_fits_;  ///< where the volume can hold padding
+  std::optional<PaddingMap> padding_;      ///< where the tile does
   std::pair<int, int> known_fits_{-1, -1};
   int slice_ = 0;    ///< the first of those in hand
   int at_once_ = 1;  ///< how many these are
@@ -229,16 +260,16 @@ class StraightBlock {
 }  // namespace
 
 template <typename Stored>
-bool straight_block(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel,
+void straight_block(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel,
                     const Fits& fits, const Block& block, const GradientTarget& target) {
-  return StraightBlock<Stored>(volume, voxels, kernel, fits, block).run(target);
+  StraightBlock<Stored>(volume, voxels, kernel, fits, block).run(target);
 }
 
-template bool straight_block(const Volume&, const std::vector<std::int16_t>&, const SliceKernel&, const Fits&,
+template void straight_block(const Volume&, const std::vector<std::int16_t>&, const SliceKernel&, const Fits&,
                              const Block&, const GradientTarget&);
-template bool straight_block(const Volume&, const std::vector<std::uint16_t>&, const SliceKernel&, const Fits&,
+template void straight_block(const Volume&, const std::vector<std::uint16_t>&, const SliceKernel&, const Fits&,
                              const Block&, const GradientTarget&);
-template bool straight_block(const Volume&, const std::vector<float>&, const SliceKernel&, const Fits&, const Block&,
+template void straight_block(const Volume&, const std::vector<float>&, const SliceKernel&, const Fits&, const Block&,
                              const GradientTarget&);
 
 }  // namespace palpate::io::internal

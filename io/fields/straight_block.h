@@ -16,11 +16,10 @@ struct GradientTarget {
   std::ptrdiff_t slice = 0;
 };
 
-/// The gradients of a block of a scan with straight slices, slice by slice. False, with nothing of use written, where
-/// it meets padding, or an edge whose fits are not known. Allocates a few hundred KiB. Instantiated for what volumes
-/// store.
+/// The gradients of a block of a scan with straight slices, slice by slice; voxels beside padding by fits of their own.
+/// Allocates a few hundred KiB, and some MiB where there is padding. Instantiated for what volumes store.
 template <typename Stored>
-bool straight_block(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel,
+void straight_block(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel,
                     const Fits& fits, const Block& block, const GradientTarget& target);
 
 }  // namespace palpate::io::internal

@@ -210,18 +210,6 @@ void fit_even_slices(const EvenSlices& even, const float* fits, int begin, int e
                       __attribute__((always_inline)) { fit_even<Count>(even, fits, begin, end, gradients); });
 }
 
-PALPATE_FOR_PROCESSOR
-void to_floats(const std::int16_t* stored, int count, float* values) {
-  PALPATE_INDEPENDENT
-  for (int n = 0; n < count; ++n) values[n] = static_cast<float>(stored[n]);
-}
-
-PALPATE_FOR_PROCESSOR
-void to_floats(const std::uint16_t* stored, int count, float* values) {
-  PALPATE_INDEPENDENT
-  for (int n = 0; n < count; ++n) values[n] = static_cast<float>(stored[n]);
-}
-
 }  // namespace palpate::io::internal
 
 // NOLINTEND(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)

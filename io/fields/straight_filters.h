@@ -5,7 +5,6 @@
 /// the order of moments.h, so it has the same bits.
 
 #include <cstddef>
-#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
@@ -63,9 +62,5 @@ void fit_balanced_slices(const EvenSlices& even, int slices, const glm::mat3& sl
                          std::ptrdiff_t apart);
 /// Gradients of the voxels from `begin` to `end` of a row, each by its own fit.
 void fit_even_slices(const EvenSlices& even, const float* fits, int begin, int end, glm::vec3* gradients);
-
-/// Stored values as floats.
-void to_floats(const std::int16_t* stored, int count, float* values);
-void to_floats(const std::uint16_t* stored, int count, float* values);
 
 }  // namespace palpate::io::internal

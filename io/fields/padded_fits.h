@@ -1,0 +1,46 @@
+#pragma once
+
+/// The plane fits of a tile's voxels that have padding in their neighborhoods (padding_map.h): from the weights of the
+/// voxels that count, with the same bits as fit_plane() of moments.h's sums.
+
+#include <vector>
+
+#include "io/fields/fits.h"
+#include "io/fields/lines.h"
+#include "io/fields/padding_map.h"
+#include "io/fields/row_reader.h"
+#include "io/fields/slice_kernel.h"
+#include "io/fields/weight_filters.h"
+
+namespace palpate::io::internal {
+
+class PaddedFits {
+ public:
+  /// `rows`: of the largest tile. `planes`: how many slices' sums are kept, the newest.
+  PaddedFits(const SliceKernel& kernel, const Fits& fits, int rows, int planes);
+
+  void start(const Block& tile, const PaddingMap& map);
+  /// Sums the weights of a slice in its plane, where they are needed. Slices in ascending order.
+  template <typename Stored>
+  void add_plane(const RowReader<Stored>& weights, int slice);
+  /// The fits of those voxels of row j of slice k that PaddingMap::beside() names, both counted from the tile's first:
+  /// rows as in straight_filters.h. To be asked for each of a tile's rows that has some, slice by slice; all planes
+  /// that slice k needs have been added.
+  const float* of_row(int k, int j);
+
+ private:
+  float* plane_row(int slice, int j) const;
+  Chunks needed_in_row(int slice, int r) const;
+
+  const SliceKernel& kernel_;
+  const Fits& fits_;
+  int planes_count_;
+  std::size_t rows_;
+  const PaddingMap* map_ = nullptr;
+  Block tile_;
+  std::vector<float> row_;
+  Lines filtered_, planes_, sums_, row_fits_;
+  std::vector<WeightPair> pairs_;
+};
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,33 @@
+#pragma once
+
+/// Rows of stored values, some of which may be padding, as the gradient's kernel wants them: in plain loops that the
+/// compiler turns into vectors.
+
+#include <cstdint>
+
+#include "io/padding.h"
+
+namespace palpate::io::internal {
+
+/// Stored values as floats.
+void to_floats(const std::int16_t* stored, int count, float* values);
+void to_floats(const std::uint16_t* stored, int count, float* values);
+
+/// The same, and 0 in padding. Returns whether there is any.
+bool to_floats(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding, float* values);
+bool to_floats(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding, float* values);
+bool to_floats(const float* stored, int count, const StoredPadding<float>& padding, float* values);
+
+/// 1 where there is a value, 0 in padding. Returns whether there is any padding.
+bool to_weights(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding, float* weights);
+bool to_weights(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding, float* weights);
+bool to_weights(const float* stored, int count, const StoredPadding<float>& padding, float* weights);
+
+/// 1 in padding, 0 where there is a value. Returns whether there is any padding.
+bool mark_padding(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding,
+                  std::uint8_t* marks);
+bool mark_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding,
+                  std::uint8_t* marks);
+bool mark_padding(const float* stored, int count, const StoredPadding<float>& padding, std::uint8_t* marks);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,72 @@
+#pragma once
+
+/// Which voxels of a tile have padding in their neighborhoods, and so a plane fit of their own. Whole rows are decided
+/// once; a row that holds some is decided eight voxels at a time.
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "io/fields/fits.h"
+#include "io/fields/slice_kernel.h"
+#include "io/fields/straight_filters.h"
+#include "io/volume.h"
+
+namespace palpate::io::internal {
+
+/// Eight voxels of a tile's row are a chunk; the first is the lowest bit.
+using Chunks = std::uint32_t;
+inline constexpr int chunk_width = 8;  ///< voxels
+static_assert(tile_width == 32 * chunk_width);
+
+/// Calls use(begin, end) for each stretch of chunks; voxels, counted from the tile's first.
+template <typename Use>
+void for_each_stretch(Chunks chunks, const Use& use) {
+  for (int first = 0; chunks >> first != 0;) {
+    first += std::countr_zero(chunks >> first);
+    const int count = std::countr_one(chunks >> first);
+    use(first * chunk_width, (first + count) * chunk_width);
+    first += count;
+    if (first == 32) return;
+  }
+}
+
+/// Of a tile of straight slices. Where the fits at the volume's edge are not known, what lies beyond the volume counts
+/// as padding.
+class PaddingMap {
+ public:
+  PaddingMap(const Volume& volume, const SliceKernel& kernel, const Fits& fits, const Block& tile);
+
+  /// Whether a tile of this volume can have such voxels at all.
+  static bool is_needed(const Volume& volume, const Fits& fits);
+
+  /// Whether there are such voxels.
+  bool any() const noexcept { return any_; }
+  /// Those of row j of slice k, both counted from the tile's first, with values in their neighborhoods as well: where
+  /// there are none, no fit is needed, since all sums are 0.
+  Chunks beside(int k, int j) const noexcept { return beside_[at(k, j)]; }
+  /// Whether the tile's voxels in slice k have the fits of those in slice k - 1.
+  bool as_before(int k) const noexcept { return as_before_[static_cast<std::size_t>(k)]; }
+  /// Chunks of row j of a slice of the volume whose sums some slice's fits need.
+  Chunks needed(int slice, int j) const noexcept { return needed_[at(slice - first_slice_, j)]; }
+
+ private:
+  std::size_t at(int slice, int j) const noexcept {
+    return static_cast<std::size_t>(slice) * static_cast<std::size_t>(tile_.size.y) + static_cast<std::size_t>(j);
+  }
+  template <typename Stored>
+  void read(const Volume& volume, const std::vector<Stored>& voxels);
+  void find_beside();
+
+  const SliceKernel& kernel_;
+  const Fits& fits_;
+  Block tile_;
+  int first_slice_ = 0, slices_ = 0;      // that the tile reaches over
+  std::vector<Chunks> padding_, values_;  // within the reach of a row's chunks, in each of these slices
+  std::vector<bool> padded_as_before_;    // whether a slice has its padding where the one before has it
+  std::vector<Chunks> beside_, needed_;
+  std::vector<bool> as_before_;
+  bool any_ = false;
+};
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,32 @@
+#pragma once
+
+/// The sums of moments.h of second order over weights, for stretches of rows: as straight_filters.h, with the same bits
+/// as moments.h. Sums of one voxel lie tile_width floats apart.
+
+#include <cstddef>
+
+#include "io/fields/slice_kernel.h"
+
+namespace palpate::io::internal {
+
+inline constexpr int row_sums = 3;            ///< 1, p, pp
+inline constexpr int weight_plane_sums = 6;   ///< 1, p, q, pp, pq, qq
+inline constexpr int weight_space_sums = 10;  ///< 1, p, q, w, pp, pq, qq, pw, qw, ww
+
+/// `in` points at the value of the tile's first voxel, with the taps' reach before and after it. Voxels from `begin` to
+/// `end` of the row.
+void weigh_row(const float* in, const Taps& taps, int begin, int end, float* sums);
+
+/// From rows that lie row_sums * tile_width floats apart; `rows` points at that in the middle.
+void weigh_column(const float* rows, const Taps& taps, int begin, int end, float* sums);
+
+/// A slice, or two at the same distance on both sides.
+struct WeightPair {
+  const float* below = nullptr;  ///< rows of a plane's sums
+  const float* above = nullptr;  ///< null where there is but one
+  float weight = 0;
+  float offset = 0;  ///< along the normal
+};
+void weigh_slices(const WeightPair* pairs, int count, int begin, int end, float* sums);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,59 @@
+#pragma once
+
+/// Which stored values of a volume are padding, as whole rows of them are asked.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "io/volume.h"
+
+namespace palpate::io::internal {
+
+/// Stored values from `low` to `high`, both ends included, and floats that are not finite.
+template <typename Stored>
+class StoredPadding {
+ public:
+  explicit StoredPadding(const Volume& volume) {
+    using Limits = std::numeric_limits<Stored>;
+    if (!volume.padding || !(volume.padding->first <= volume.padding->second)) return;
+    const auto [first, second] = *volume.padding;
+    if (second < static_cast<double>(Limits::lowest()) || first > static_cast<double>(Limits::max())) return;
+    low_ = static_cast<Stored>(std::max(first, static_cast<double>(Limits::lowest())));
+    high_ = static_cast<Stored>(std::min(second, static_cast<double>(Limits::max())));
+    // What was rounded outwards is no padding.
+    if (static_cast<double>(low_) < first) low_ = next(low_, Limits::max());
+    if (static_cast<double>(high_) > second) high_ = next(high_, Limits::lowest());
+  }
+
+  /// Whether a voxel may be padding.
+  bool possible() const noexcept { return std::is_floating_point_v<Stored> || low_ <= high_; }
+  /// 1 for padding, 0 for a value; without branches, for the compiler to take many at once.
+  std::uint32_t operator()(Stored stored) const noexcept {
+    const std::uint32_t within =
+        static_cast<std::uint32_t>(stored >= low_) & static_cast<std::uint32_t>(stored <= high_);
+    if constexpr (std::is_floating_point_v<Stored>) {
+      constexpr std::uint32_t exponent = 0x7f800000;  // all bits set: infinite, or not a number
+      return within | static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(stored) & exponent) == exponent);
+    } else {
+      return within;
+    }
+  }
+
+ private:
+  static Stored next(Stored from, Stored towards) {
+    if constexpr (std::is_floating_point_v<Stored>) {
+      return std::nextafter(from, towards);
+    } else {
+      return static_cast<Stored>(from < towards ? from + 1 : from - 1);
+    }
+  }
+
+  Stored low_ = std::numeric_limits<Stored>::max();
+  Stored high_ = std::numeric_limits<Stored>::lowest();
+};
+
+}  // namespace palpate::io::internal
