@@ -108,6 +108,9 @@ inline constexpr MessageRow archives[] = {
        "cannot listen on {}:{} for what archive {} sends ({}): set another address or port with --listen-address and "
        "--listen, and have it entered in the archive"},
       {"no-ipv4-address", "no IPv4 address"}}},
+    {"the archive keeps the file, but changed it, or doubts it",
+     "look at the file there before you rely on it",
+     {{"archive-took-with-a-warning", "archive {} took it, with a warning: {}"}}},
     {"the list above it says which and why",
      "have that kind of object allowed in the archive",
      {{"archive-does-not-take", "archive {} does not take {} as {}"},

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include "io/archive/archive.h"
 #include "io/archive/fetch.h"
@@ -272,6 +273,36 @@ TEST(OddArchive, ACanceledSendEndsSoon) {
            [&](std::size_t) { return std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(300); }),
       Cancelled);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+}
+
+// PS3.4 B.2.3: the archive has the file, and what it says of it is said.
+TEST(OddArchive, ThatTakesAFileWithAWarningIsQuoted) {
+  const fs::path file = fs::directory_iterator(testing::made_series() / testing::ct)->path();
+  for (const auto& [behavior, words] :
+       {std::pair{"changes-at-store", "done, with failures or changes (status B000)"},
+        {"leaves-out-at-store", "it left elements out (status B006)"},
+        {"doubts-at-store", "it finds that the data do not fit their kind of object (status B007)"}}) {
+    OddArchive warns(behavior);
+    const Sent sent = send(warns.archive(), {file});
+    EXPECT_EQ(sent.files, 1U);
+    EXPECT_TRUE(sent.not_sent.empty());
+    ASSERT_EQ(sent.warned.size(), 1U);
+    EXPECT_EQ(sent.warned[0].file, file);
+    EXPECT_TRUE(says(sent.warned[0].why, "archive {} took it, with a warning: {}"));
+    EXPECT_TRUE(std::string(sent.warned[0].why).ends_with(words)) << sent.warned[0].why;
+  }
+}
+
+// Spaces at either end are no part of an AE title (PS3.5 6.2): by C-MOVE the archive sends without them.
+TEST(OddArchive, IsKnownWhateverSpacesItsTitleIsTypedWith) {
+  for (const char* const spaces : {"{} ", " {}", "  {}  "}) {
+    OddArchive odd("good");
+    for (std::string Archive::*const which : {&Archive::called, &Archive::calling}) {
+      std::string typed = spaces;
+      odd.archive().*which = typed.replace(typed.find("{}"), 2, odd.archive().*which);
+    }
+    EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder()).files, 2U) << spaces;
+  }
 }
 
 TEST(OddArchive, ThatDoesNotTakeAFileIsQuoted) {

@@ -67,17 +67,22 @@ T_ASC_PresentationContextID context_of(Association& association, const Outgoing&
   return 0;
 }
 
-/// Why it was not taken; empty: it was.
-Text send_one(Association& association, const Outgoing& one, const KeepGoing& keep_going) {
+/// What the archive said of a file.
+struct Answer {
+  bool taken = false;
+  Text why;  ///< it was not taken, or was with a warning; else empty
+};
+
+Answer send_one(Association& association, const Outgoing& one, const KeepGoing& keep_going) {
   Command command;
   command.context = context_of(association, one);
   if (command.context == 0) {
-    return say("archive-does-not-take", association.archive().name,
-               dcmFindNameOfUID(one.sop_class.c_str(), one.sop_class.c_str()),
-               dcmFindNameOfUID(one.syntax.c_str(), one.syntax.c_str()));
+    return {false, say("archive-does-not-take", association.archive().name,
+                       dcmFindNameOfUID(one.sop_class.c_str(), one.sop_class.c_str()),
+                       dcmFindNameOfUID(one.syntax.c_str(), one.syntax.c_str()))};
   }
   DcmFileFormat format;
-  if (format.loadFile(one.file.c_str()).bad()) return say("cannot-be-read-to-its-end");
+  if (format.loadFile(one.file.c_str()).bad()) return {false, say("cannot-be-read-to-its-end")};
   command.message.CommandField = DIMSE_C_STORE_RQ;
   T_DIMSE_C_StoreRQ& request = command.message.msg.CStoreRQ;
   request.MessageID = association.next_message_id();
@@ -92,8 +97,10 @@ Text send_one(Association& association, const Outgoing& one, const KeepGoing& ke
     throw ArchiveError(say("archive-answered-a-file-with-something-else", association.archive().name));
   }
   const std::uint16_t status = answer.message.msg.CStoreRSP.DimseStatus;
-  const bool taken = status == STATUS_Success || (status & 0xF000U) == 0xB000U;
-  return taken ? Text() : say("archive-did-not-take", association.archive().name, status_words(status));
+  const std::string& name = association.archive().name;
+  if (status == STATUS_Success) return {true, {}};
+  if ((status & 0xF000U) == 0xB000U) return {true, say("archive-took-with-a-warning", name, status_words(status))};
+  return {false, say("archive-did-not-take", name, status_words(status))};
 }
 
 }  // namespace
@@ -116,12 +123,9 @@ Sent send(const Archive& archive, const std::vector<std::filesystem::path>& file
   for (const Outgoing& one : all) {
     const auto keep_going = [&] { return !progress || progress(done); };
     if (!keep_going()) throw Cancelled();
-    const Text why = one.refused.empty() ? send_one(association, one, keep_going) : one.refused;
-    if (why.empty()) {
-      ++sent.files;
-    } else {
-      sent.not_sent.push_back({one.file, why});
-    }
+    const Answer answer = one.refused.empty() ? send_one(association, one, keep_going) : Answer{false, one.refused};
+    if (answer.taken) ++sent.files;
+    if (!answer.why.empty()) (answer.taken ? sent.warned : sent.not_sent).push_back({one.file, answer.why});
     ++done;
   }
   return sent;

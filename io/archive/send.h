@@ -19,6 +19,7 @@ struct NotSent {
 struct Sent {
   std::size_t files = 0;          ///< that the archive took
   std::vector<NotSent> not_sent;  ///< that it did not take, or that are no DICOM files
+  std::vector<NotSent> warned;    ///< that it took with a warning (PS3.4 B.2.3: changed, or with elements left out)
 };
 
 /// Sends the files as they are, in the encoding they have. Throws ArchiveError where there is no association or it

@@ -32,6 +32,8 @@ constexpr Words statuses[] = {
     {0xA801, 0xA801, "it does not know where to send to"},
     {0xA900, 0xA9FF, "it finds that the data do not fit the request"},
     {0xB000, 0xB000, "done, with failures or changes"},
+    {0xB006, 0xB006, "it left elements out"},
+    {0xB007, 0xB007, "it finds that the data do not fit their kind of object"},
     {0xC000, 0xCFFF, "it cannot process the request"},
     {0xFE00, 0xFE00, "canceled"},
 };

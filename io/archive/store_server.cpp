@@ -163,8 +163,9 @@ void StoreServer::serve(int socket) {
 bool StoreServer::let_in(T_ASC_Association& association) {
   const std::string calling = trimmed(association.params->DULparams.callingAPTitle);
   const std::string called = trimmed(association.params->DULparams.calledAPTitle);
-  const bool known = calling == archive_.called;
-  if (known && called == archive_.calling) return true;
+  // Spaces at its ends are no part of a title (PS3.5 6.2, AE).
+  const bool known = calling == trimmed(archive_.called.c_str());
+  if (known && called == trimmed(archive_.calling.c_str())) return true;
   {
     const std::lock_guard lock(mutex_);
     turned_away_ = fmt::format("{} called us {}", printable(calling), printable(called));

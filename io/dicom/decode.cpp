@@ -24,16 +24,21 @@ struct Syntax {
   std::uint64_t most_pixels_per_byte;
 };
 
+constexpr const char* deflated_frames = "1.2.840.10008.1.2.8.1";  // PS3.6 annex A; DCMTK 3.6.7 does not know it
+constexpr std::uint64_t most_pixels_deflated = 1032;              // a byte, zlib's documented limit
+
 constexpr std::array syntaxes{Syntax{UID_JPEGProcess1TransferSyntax, decode_jpeg, 256},
                               Syntax{UID_JPEGProcess2_4TransferSyntax, decode_jpeg, 256},
+                              Syntax{UID_JPEGProcess6_8TransferSyntax, decode_jpeg, 256},
+                              Syntax{UID_JPEGProcess10_12TransferSyntax, decode_jpeg, 256},
                               Syntax{UID_JPEGProcess14TransferSyntax, decode_jpeg, 256},
                               Syntax{UID_JPEGProcess14SV1TransferSyntax, decode_jpeg, 256},
                               Syntax{UID_JPEGLSLosslessTransferSyntax, decode_jpeg_ls, 1024},
                               Syntax{UID_JPEGLSLossyTransferSyntax, decode_jpeg_ls, 1024},
                               Syntax{UID_JPEG2000LosslessOnlyTransferSyntax, decode_jpeg2000, 1024},
                               Syntax{UID_JPEG2000TransferSyntax, decode_jpeg2000, 1024},
-                              Syntax{UID_RLELosslessTransferSyntax, decode_rle, 256}};
-constexpr std::uint64_t most_pixels_deflated = 1032;  // a byte, zlib's documented limit
+                              Syntax{UID_RLELosslessTransferSyntax, decode_rle, 256},
+                              Syntax{deflated_frames, decode_deflated_frame, most_pixels_deflated}};
 
 const Syntax* find_syntax(const std::string& uid) {
   const auto found = std::find_if(syntaxes.begin(), syntaxes.end(), [&](const Syntax& s) { return uid == s.uid; });
@@ -44,6 +49,16 @@ const Syntax* find_syntax(const std::string& uid) {
 
 bool can_decode(const std::string& transfer_syntax) {
   return find_syntax(transfer_syntax) != nullptr;
+}
+
+bool is_packed(const std::string& transfer_syntax) {
+  return transfer_syntax == UID_RLELosslessTransferSyntax || transfer_syntax == deflated_frames;
+}
+
+std::vector<std::byte> unpack_frame(const std::string& transfer_syntax, const PixelFormat& format,
+                                    std::span<const std::byte> bytes) {
+  check_density(transfer_syntax, format, 1, bytes.size());
+  return transfer_syntax == deflated_frames ? inflate_frame(format, bytes) : unpack_rle(format, bytes);
 }
 
 Text why_not_decoded(const std::string& transfer_syntax) {

@@ -1,13 +1,15 @@
 #pragma once
 
 /// One compressed frame -> stored values. JPEG by DCMTK's IJG codecs, JPEG-LS by CharLS, JPEG 2000 by OpenJPEG, RLE by
-/// ourselves: the decoders for JPEG-LS and RLE inside DCMTK 3.6.7 write beyond their buffers on damaged streams.
+/// ourselves, deflated frames by zlib: the decoders for JPEG-LS and RLE inside DCMTK 3.6.7 write beyond their buffers
+/// on damaged streams.
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/dicom/file_header.h"
 
@@ -15,6 +17,9 @@ namespace palpate::io::internal {
 
 /// Whether images in this encapsulated transfer syntax can be decoded.
 bool can_decode(const std::string& transfer_syntax);
+
+/// Whether a frame in this syntax is native bytes, packed: pixels of any number of bits. Others hold up to 16.
+bool is_packed(const std::string& transfer_syntax);
 
 /// Throws DicomError where `bytes` of this syntax cannot hold that many frames of that format: no coder packs pixels
 /// more densely than the bound used here, so a header that claims 60000 rows in a small file costs no memory.
@@ -34,12 +39,24 @@ void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in);
 Text decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
                   std::span<std::uint16_t> values);
 
+/// The native bytes of a frame, little endian, of a syntax that is_packed(): RLE (PS3.5 annex G), or deflated (A.4.13).
+/// Throws DicomError where the stream is damaged or has another size than the header says.
+std::vector<std::byte> unpack_frame(const std::string& transfer_syntax, const PixelFormat& format,
+                                    std::span<const std::byte> bytes);
+
 // The decoders of each family, as decode_frame(). Samples are as the stream holds them: bits that the format does not
 // store and signs are left to the caller.
 Text decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
 Text decode_jpeg_ls(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
 Text decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
 Text decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+Text decode_deflated_frame(const PixelFormat& format, std::span<const std::byte> bytes,
+                           std::span<std::uint16_t> values);
+
+/// Native pixels of 8 or 16 bits -> stored values.
+void put_little_endian(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
+std::vector<std::byte> unpack_rle(const PixelFormat& format, std::span<const std::byte> bytes);
+std::vector<std::byte> inflate_frame(const PixelFormat& format, std::span<const std::byte> bytes);
 
 /// What a JPEG stream says of itself in its SOF marker (ISO 10918-1 annex B).
 struct JpegFrame {

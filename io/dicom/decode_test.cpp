@@ -101,6 +101,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(Lossy, Decode,
                          ::testing::Combine(::testing::Values(Coding{"jpeg_extended", EXS_JPEGProcess2_4, 4},
+                                                              Coding{"jpeg_spectral", EXS_JPEGProcess6_8, 4},
+                                                              Coding{"jpeg_progressive", EXS_JPEGProcess10_12, 4},
                                                               Coding{"jpeg_ls_near", EXS_JPEGLSLossy, 1}),
                                             ::testing::Values(Format{"unsigned_12", 12, false})),
                          [](const auto& which) { return std::string(std::get<0>(which.param).name); });

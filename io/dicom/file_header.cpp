@@ -17,8 +17,10 @@
 #include "io/dicom/dicom_value.h"
 #include "io/dicom/file_kind.h"
 #include "io/dicom/planes.h"
+#include "io/dicom/word_order.h"
 #include "io/errors.h"
 #include "io/messages.h"
+#include "io/reach.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -148,12 +150,50 @@ void remark_on_lost_frames(double frames, FileHeader& header) {
       say("some-frames-have-no-place", header.path.filename().string(), placed, std::llround(frames)));
 }
 
-void read_planes(DcmItem& item, FileHeader& header) {
+// How many frames a file's bytes can hold: a claim of more would cost time and memory for nothing.
+double most_frames(const InputFile& file, const PixelElement& pixels, const FileHeader& header) {
+  constexpr double least_compressed = 32, most_inflated = 1032;  // bytes a frame; bytes out of one
+  const auto bytes = static_cast<double>(file.size());
+  if (pixels.length == PixelElement::undefined_length) return bytes / least_compressed;
+  const auto of_frame = static_cast<double>(std::max<std::size_t>(1, header.format.bytes_per_frame()));
+  return (header.start.deflated ? most_inflated : 1) * bytes / of_frame;
+}
+
+std::vector<Plane> claimed_planes(DcmItem& item, const InputFile& file, const PixelElement& pixels, double frames,
+                                  FileHeader& header) {
+  constexpr double most_of_any = 1e6;
+  const double most = std::clamp(most_frames(file, pixels, header), 1.0, most_of_any);
+  if (frames > most) {
+    constexpr double largest_is = 2147483647;  // PS3.5 6.2
+    const double needed = std::min(frames, largest_is) * static_cast<double>(header.format.bytes_per_frame());
+    header.defect = say("truncated-pixels", std::min<std::uint64_t>(file.size(), pixels.length),
+                        static_cast<std::uint64_t>(needed));
+  }
+  return stacked_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, most)));
+}
+
+// Planes that lie farther away than any patient lose their places.
+bool drop_far_places(FileHeader& header) {
+  bool any = false;
+  for (Plane& plane : header.planes) {
+    if (!plane.placement) continue;
+    const Placement& place = *plane.placement;
+    const double width = header.columns * place.spacing_i, height = header.rows * place.spacing_j;
+    const bool is_near = glm::length(place.position) + width + height <= farthest_place_mm &&
+                         std::min(place.spacing_i, place.spacing_j) >= least_spacing_mm;
+    if (is_near) continue;
+    plane.placement.reset();
+    any = true;
+  }
+  return any;
+}
+
+void read_planes(DcmItem& item, const InputFile& file, const PixelElement& pixels, FileHeader& header) {
   const double frames = number_of(item, DCM_NumberOfFrames).value_or(1);
   header.padding = padding_of(item, header);
-  if (first_item(item, DCM_PerFrameFunctionalGroupsSequence) != nullptr) {
+  const bool is_enhanced = first_item(item, DCM_PerFrameFunctionalGroupsSequence) != nullptr;
+  if (is_enhanced) {
     header.planes = functional_group_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
-    remark_on_lost_frames(frames, header);
   } else if (header.image_type.find("MOSAIC") != std::string::npos) {
     header.planes = mosaic_planes(item, header);
     if (header.planes.empty() && header.unfit.empty()) {
@@ -163,10 +203,12 @@ void read_planes(DcmItem& item, FileHeader& header) {
     header.planes = grid_planes(item, header);
     if (header.planes.empty() && header.unfit.empty()) header.unfit = say("grid-without-the-places-of-its-slices");
   } else if (frames > 1 || header.modality == "RTDOSE") {
-    header.planes = stacked_planes(item, header, static_cast<std::size_t>(std::clamp(frames, 1.0, 1e6)));
+    header.planes = claimed_planes(item, file, pixels, frames, header);
   } else {
     header.planes.push_back(classic_plane(item, header));
   }
+  const bool any_far = drop_far_places(header);
+  if (is_enhanced) remark_on_lost_frames(frames, header);
   read_modality_table(item, header);
   if (header.modality == "RTDOSE") header.remarks.push_back(say("dose-its-values-are-no-density"));
   const bool placed =
@@ -175,7 +217,7 @@ void read_planes(DcmItem& item, FileHeader& header) {
     header.remarks.push_back(say("values-may-not-be-hounsfield-units"));
   }
   if (!placed && header.unfit.empty()) {
-    header.unfit = say("no-position-in-the-patient");
+    header.unfit = any_far ? say("position-beyond-any-patient") : say("no-position-in-the-patient");
   }
 }
 
@@ -200,10 +242,11 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
     if (header.unfit.empty()) header.unfit = why_not_decoded(header.transfer_syntax);
     return;
   }
-  if (encapsulated && header.format.is_wide()) {
+  if (encapsulated && header.format.is_wide() && !is_packed(header.transfer_syntax)) {
     if (header.unfit.empty()) header.unfit = say("compressed-pixels-of-bits", header.format.bits_allocated);
     return;
   }
+  if (!header.defect.empty()) return;
   try {
     if (encapsulated) {
       header.coding = PixelCoding::encapsulated;
@@ -219,6 +262,9 @@ void locate_pixels(const InputFile& file, const PixelElement& pixels, FileHeader
       header.defect = say("pixels-are-not-compressed");
     } else {
       check_native_length(file, frames, pixels, header);
+      const PixelFormat& format = header.format;
+      header.swapped_wholes = header.big_endian && format.bits_allocated == 32 && !format.is_float &&
+                              header.unfit.empty() && header.defect.empty() && swapped_as_wholes(file, header, frames);
     }
   } catch (const DicomError& error) {
     header.defect = error.text();
@@ -269,7 +315,7 @@ FileHeader read_file_header(const std::filesystem::path& stored_at) {
   read_details(dataset, header);
   read_format(dataset, pixels, header);
   if (!pixels) throw NotAnImage(say("no-pixels", what_it_is(header)), header.sop_class);
-  read_planes(dataset, header);
+  read_planes(dataset, file, *pixels, header);
   locate_pixels(file, *pixels, header);
   return header;
 }

@@ -133,6 +133,7 @@ struct FileHeader {
   PixelCoding coding = PixelCoding::native;
   bool big_endian = false;
   bool swapped_words = false;                    ///< 8-bit pixels in big-endian 16-bit words
+  bool swapped_wholes = false;                   ///< big-endian 32-bit integers, not swapped word by word
   DatasetStart start;                            ///< where the dataset is
   std::uint64_t pixels_at = 0;                   ///< where the pixels are: in the file; of the inflated dataset
   std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated

@@ -114,6 +114,29 @@ std::vector<std::size_t> dividing_labels(const SeriesSource& source, const Posit
   return dividing;
 }
 
+// Places where half of the frames or more have a slice, ascending.
+template <typename PlacesOfFrames>
+std::vector<std::size_t> usual_places(const PlacesOfFrames& places, std::size_t count) {
+  std::vector<std::size_t> held(count), usual;
+  for (const auto& [key, of_frame] : places) {
+    for (const std::size_t place : of_frame) ++held[place];
+  }
+  for (std::size_t place = 0; place < count; ++place) {
+    if (2 * held[place] >= places.size()) usual.push_back(place);
+  }
+  return usual;
+}
+
+std::vector<Vec3> lacking_of(const SeriesSource& source, const Positions& positions,
+                             const std::vector<std::size_t>& usual, const std::vector<std::size_t>& present) {
+  std::vector<Vec3> lacking;
+  for (const std::size_t place : usual) {
+    if (std::ranges::binary_search(present, place)) continue;
+    lacking.push_back(source.plane_of(positions[place].front()).placement->position);
+  }
+  return lacking;
+}
+
 // What all of a frame has in common and other frames have not.
 std::string name_of(const SeriesSource& source, const std::vector<Slice>& frame,
                     const std::vector<std::size_t>& telling, std::size_t rank, bool ranked) {
@@ -155,7 +178,9 @@ FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slic
   // A frame's key: the place of its value of each dividing label, then its rank among images that these do not tell
   // apart.
   std::map<std::vector<std::size_t>, std::vector<Slice>> frames;
-  for (const auto& position : positions) {
+  std::map<std::vector<std::size_t>, std::vector<std::size_t>> places;  // where each frame has a slice, ascending
+  for (std::size_t place = 0; place < positions.size(); ++place) {
+    const auto& position = positions[place];
     std::map<std::vector<std::size_t>, std::size_t> seen;
     for (const Slice& slice : position) {
       std::vector<std::size_t> key;
@@ -165,6 +190,7 @@ FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slic
       }
       const std::size_t rank = seen[key]++;
       key.push_back(rank);
+      places[key].push_back(place);
       frames[std::move(key)].push_back(slice);
     }
   }
@@ -174,8 +200,11 @@ FrameSplit split_into_frames(const SeriesSource& source, std::vector<Slice> slic
   const auto is_frame = [&](const auto& entry) { return 2 * entry.second.size() > largest || frames.size() == 1; };
   split.ranked =
       std::any_of(frames.begin(), frames.end(), [&](const auto& f) { return f.first.back() > 0 && is_frame(f); });
+  std::erase_if(places, [&](const auto& entry) { return !is_frame(*frames.find(entry.first)); });
+  const std::vector<std::size_t> usual = usual_places(places, positions.size());
   for (auto& entry : frames) {
     if (is_frame(entry)) {
+      split.lacking.push_back(lacking_of(source, positions, usual, places[entry.first]));
       split.names.push_back(name_of(source, entry.second, telling, entry.first.back(), split.ranked));
       split.frames.push_back(std::move(entry.second));
     } else {

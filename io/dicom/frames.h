@@ -12,6 +12,8 @@ namespace palpate::io::internal {
 struct FrameSplit {
   std::vector<std::vector<SeriesSource::Slice>> frames;  ///< slices of each, ascending along the normal
   std::vector<std::string> names;                        ///< what tells each from the others; one a frame
+  /// Of each frame, the places (mm) where it has no slice although half of the frames or more have one.
+  std::vector<std::vector<Vec3>> lacking;
   bool ranked = false;  ///< whether labels do not tell all of them apart, so that their order has to
   std::vector<SeriesSource::Slice> left_over;  ///< images at a place that another one has, without being a frame
 };

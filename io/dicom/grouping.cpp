@@ -13,6 +13,7 @@
 #include "io/dicom/series_source.h"
 #include "io/dicom/stack_parts.h"
 #include "io/dicom/stacking.h"
+#include "io/dicom/torn_series.h"
 #include "io/fields/gradient.h"
 #include "io/messages.h"
 
@@ -21,9 +22,7 @@ namespace {
 
 using Slice = SeriesSource::Slice;
 
-// Cosines of one series may differ in their last digits from file to file.
-constexpr double direction_tolerance = 1e-3;
-constexpr double spacing_tolerance = 1e-4;
+constexpr double spacing_tolerance = 1e-3;  // half a pixel at the end of 512
 
 std::string name_of(const FileHeader& file) {
   return file.path.filename().string();
@@ -40,8 +39,7 @@ bool fit_together(const SeriesSource& source, const Slice& a, const Slice& b) {
   const Placement& x = *source.plane_of(a).placement;
   const Placement& y = *source.plane_of(b).placement;
   return fa.columns == fb.columns && fa.rows == fb.rows && fa.modality == fb.modality &&
-         share_frame_of_reference(fa, fb) && glm::length(x.direction_i - y.direction_i) < direction_tolerance &&
-         glm::length(x.direction_j - y.direction_j) < direction_tolerance &&
+         share_frame_of_reference(fa, fb) && are_parallel(x, y) &&
          std::abs(x.spacing_i - y.spacing_i) < spacing_tolerance * x.spacing_i &&
          std::abs(x.spacing_j - y.spacing_j) < spacing_tolerance * x.spacing_j;
 }
@@ -105,6 +103,7 @@ std::vector<Slice> add_frames(const std::vector<const StackPart*>& parts, Series
     left_over.insert(left_over.end(), split.left_over.begin(), split.left_over.end());
     for (std::size_t f = 0; f < split.frames.size(); ++f) {
       SeriesSource::Frame& frame = source.frames.emplace_back();
+      frame.lost = std::move(split.lacking[f]);
       for (const Slice& slice : split.frames[f]) {
         if (source.file_of(slice).defect.empty()) {
           frame.slices.push_back(slice);
@@ -306,52 +305,6 @@ void group_one_series(std::vector<FileHeader> headers, std::vector<Series>& resu
   std::move(found.begin(), first_unusable, std::back_inserter(result));
 }
 
-// Whether these files are slices of one stack by their places alone: one orientation, no two at one height.
-bool make_up_a_stack(const std::vector<FileHeader*>& files) {
-  std::vector<double> heights;
-  const Placement* first = nullptr;
-  for (const FileHeader* file : files) {
-    if (file->planes.size() != 1 || !file->planes.front().placement) return false;
-    const Placement& place = *file->planes.front().placement;
-    if (first == nullptr) first = &place;
-    if (glm::length(place.direction_i - first->direction_i) > direction_tolerance ||
-        glm::length(place.direction_j - first->direction_j) > direction_tolerance) {
-      return false;
-    }
-    heights.push_back(height_of(place.position, *first));
-  }
-  std::ranges::sort(heights);
-  const double same = same_place_mm(*first);
-  return std::ranges::adjacent_find(heights, [&](double a, double b) { return b - a <= same; }) == heights.end();
-}
-
-// Anonymizers have been seen that give every file a study, or a frame of reference, of its own.
-void join_what_was_torn_apart(std::vector<FileHeader>& headers) {
-  std::map<std::string, std::vector<FileHeader*>> by_series;
-  for (FileHeader& header : headers) {
-    if (!header.series.empty()) by_series[header.series + '\n' + header.identity.patient_id].push_back(&header);
-  }
-  struct Uid {
-    std::string FileHeader::*uid;
-    Text remark;
-  };
-  const std::array uids{Uid{&FileHeader::study, say("each-of-its-files-names-a-study")},
-                        Uid{&FileHeader::frame_of_reference, say("each-of-its-files-names-a-frame")}};
-  constexpr std::size_t fewest = 3;
-  for (auto& [key, files] : by_series) {
-    if (files.size() < fewest) continue;
-    for (const Uid& one : uids) {
-      std::set<std::string> different;
-      for (const FileHeader* file : files) different.insert(file->*one.uid);
-      if (different.size() < files.size() || different.contains("") || !make_up_a_stack(files)) continue;
-      for (FileHeader* file : files) {
-        file->*one.uid = files.front()->*one.uid;
-        file->remarks.push_back(one.remark);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 std::string orientation_of(const Geometry& geometry) {
@@ -363,7 +316,7 @@ std::string orientation_of(const Geometry& geometry) {
 }
 
 std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped) {
-  join_what_was_torn_apart(headers);
+  join_torn_series(headers);
   // Anonymised scans may share a series UID, or have none: patients, studies and folders are never mixed.
   const auto key_of = [](const FileHeader& file) {
     std::string key = file.series + '\n' + file.study + '\n' + file.identity.patient_id;

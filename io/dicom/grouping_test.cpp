@@ -69,7 +69,7 @@ TEST(Grouping, SlicesFitTogetherUpToTheLastDigitsOfTheirGrid) {
   for (const double sign : {-1.0, 1.0}) {
     for (const auto& [part, volumes] : {std::pair{0.9, 1U}, {1.1, 2U}}) {
       SCOPED_TRACE(sign * part);
-      const double spacing = 1 + sign * part * 1e-4, turn = sign * part * 1e-3;
+      const double spacing = 1 + sign * part * 1e-3, turn = sign * part * 1e-3;
       EXPECT_EQ(volumes_where([&](FileHeader& h) { h.planes[0].placement->spacing_i *= spacing; }), volumes);
       EXPECT_EQ(volumes_where([&](FileHeader& h) { h.planes[0].placement->spacing_j *= spacing; }), volumes);
       EXPECT_EQ(volumes_where([&](FileHeader& h) {

@@ -43,7 +43,8 @@ void clean_bits(const FileHeader& header, std::span<std::uint16_t> values) {
   }
 }
 
-// Of big-endian files: floating-point numbers are swapped as wholes, words of 16 bits each by itself (PS3.5 8.1.1).
+// Of big-endian files: floating-point numbers are swapped as wholes, of integers each word of 16 bits by itself (PS3.5
+// 7.3), unless their writer swapped them as wholes, too.
 void swap_within(std::span<std::byte> bytes, std::size_t unit) {
   for (std::size_t at = 0; at + unit <= bytes.size(); at += unit) {
     std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
@@ -115,9 +116,15 @@ Text PixelReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
 
 void PixelReader::read_wide(std::uint32_t frame, std::span<double> values) {
   const PixelFormat& format = header_.format;
-  std::vector<std::byte> bytes(format.bytes_per_frame());
-  read_uncompressed(frame * bytes.size(), bytes);
-  const std::size_t number = format.is_float ? static_cast<std::size_t>(format.bits_allocated / 8) : 2;
+  std::vector<std::byte> bytes;
+  if (header_.coding == PixelCoding::encapsulated) {
+    bytes = unpack_frame(header_.transfer_syntax, format, read_fragments(file_, header_.fragments.at(frame)));
+  } else {
+    bytes.resize(format.bytes_per_frame());
+    read_uncompressed(frame * bytes.size(), bytes);
+  }
+  const bool as_wholes = format.is_float || header_.swapped_wholes;
+  const std::size_t number = as_wholes ? static_cast<std::size_t>(format.bits_allocated / 8) : 2;
   if (header_.big_endian) swap_within(bytes, number);
   for (std::size_t n = 0; n < values.size(); ++n) {
     if (!format.is_float) {

@@ -21,8 +21,8 @@ class PixelReader {
   /// int16. Returns decode_frame()'s word on it. Throws DicomError with a reason that does not name the file.
   Text read(std::uint32_t frame, std::span<std::uint16_t> values);
 
-  /// The same of a frame whose values are wide (PixelFormat::is_wide), which is never compressed: the numbers that are
-  /// stored. Throws DicomError as read().
+  /// The same of a frame whose values are wide (PixelFormat::is_wide), which is compressed by RLE or deflated at most:
+  /// the numbers that are stored. Throws DicomError as read().
   void read_wide(std::uint32_t frame, std::span<double> values);
 
  private:

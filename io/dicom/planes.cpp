@@ -174,7 +174,12 @@ std::vector<Plane> functional_group_planes(DcmItem& dataset, FileHeader& header,
   while (planes.size() < frames && (object = per_frame->nextInContainer(object)) != nullptr) {
     auto* own = dynamic_cast<DcmItem*>(object);
     if (own == nullptr) break;
-    planes.push_back(plane_of(FunctionalGroups(*own, shared), static_cast<std::uint32_t>(planes.size()), header));
+    const FunctionalGroups groups(*own, shared);
+    if (planes.empty() && !(header.thickness > 0)) {
+      header.thickness = groups.number(DCM_PixelMeasuresSequence, DCM_SliceThickness).value_or(0);
+      header.details.thickness_mm = header.thickness;
+    }
+    planes.push_back(plane_of(groups, static_cast<std::uint32_t>(planes.size()), header));
   }
   return planes;
 }

@@ -39,20 +39,26 @@ void unpack(std::span<const std::byte> packed, std::span<std::uint8_t> bytes) {
 
 }  // namespace
 
-Text decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+std::vector<std::byte> unpack_rle(const PixelFormat& format, std::span<const std::byte> bytes) {
   constexpr std::size_t header_size = 64;
   const auto segments = static_cast<std::size_t>(format.bits_allocated / 8);
   if (bytes.size() < header_size) refuse(say("rle-is-missing"));
   if (little_endian(bytes, 0) != segments) refuse(say("rle-not-one-a-byte"));
-  std::fill(values.begin(), values.end(), std::uint16_t{0});
-  std::vector<std::uint8_t> segment(values.size());
+  std::vector<std::byte> pixels(format.bytes_per_frame());
+  std::vector<std::uint8_t> segment(pixels.size() / segments);
   for (std::size_t s = 0; s < segments; ++s) {
     const std::size_t start = little_endian(bytes, 4 + 4 * s);
     const std::size_t end = s + 1 < segments ? little_endian(bytes, 8 + 4 * s) : bytes.size();
     if (start < header_size || start > end || end > bytes.size()) refuse(say("rle-outside-the-file"));
     unpack(bytes.subspan(start, end - start), segment);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(values[i] << 8 | segment[i]);
+    const std::size_t at = segments - 1 - s;  // the most significant byte first
+    for (std::size_t i = 0; i < segment.size(); ++i) pixels[segments * i + at] = std::byte{segment[i]};
   }
+  return pixels;
+}
+
+Text decode_rle(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values) {
+  put_little_endian(format, unpack_rle(format, bytes), values);
   return {};
 }
 

@@ -26,6 +26,7 @@ struct Stack {
   double same_place = 0;  ///< mm
   double thickness = 0;   ///< mm, the slices' usual one; 0 where unknown
   bool is_ct = false;     ///< the table moves on: one acquisition never fills the gaps of another
+  double even_step = 0;   ///< mm, of all slices taken together; 0 where they are not evenly spaced
 
   const Plane& plane(const Slice& slice) const { return source.plane_of(slice); }
   const FileHeader& file(const Slice& slice) const { return source.file_of(slice); }
@@ -50,6 +51,7 @@ struct Rule {
   Proof proof = Proof::different_kind;
   bool may_be_frames = true;  ///< whether two parts may be frames of one volume
   std::size_t least_slices = 3;
+  bool by_order = false;  ///< whether it knows nothing but times and numbers, which tie and turn back within one scan
   std::function<std::vector<Class>(const Stack&, const std::vector<Slice>&)> classes;
 };
 
@@ -74,12 +76,15 @@ std::vector<Class> by_label(const Stack& stack, const std::vector<Slice>& slices
 
 // Files that hold several slices, each by itself; all that hold one, together.
 std::vector<Class> by_file(const Stack& stack, const std::vector<Slice>& slices) {
-  std::map<std::uint32_t, Lattice> of_file;
+  std::map<std::uint32_t, std::pair<double, double>> extents;
   for (const Slice& slice : slices) {
-    of_file[slice.file].heights.push_back(height_of(stack.plane(slice).placement->position, stack.reference));
+    const double height = height_of(stack.plane(slice).placement->position, stack.reference);
+    auto& [low, high] = extents.try_emplace(slice.file, height, height).first->second;
+    low = std::min(low, height);
+    high = std::max(high, height);
   }
   const auto value_of = [&](const Slice& slice) {
-    const auto [low, high] = std::ranges::minmax(of_file[slice.file].heights);
+    const auto& [low, high] = extents.at(slice.file);
     return high - low > stack.same_place ? std::int64_t{slice.file} : std::int64_t{-1};
   };
   return by_value(slices, value_of, [](std::int64_t, std::size_t n) { return "file " + std::to_string(n + 1); });
@@ -163,7 +168,7 @@ std::vector<Class> by_folder(const Stack& stack, const std::vector<Slice>& slice
 }
 
 Rule label_rule(Proof proof, Label label, bool may_be_frames) {
-  return {proof, may_be_frames, 3,
+  return {proof, may_be_frames, 3, false,
           [label](const Stack& stack, const std::vector<Slice>& slices) { return by_label(stack, slices, label); }};
 }
 
@@ -171,8 +176,8 @@ const std::vector<Rule>& rules() {
   static const std::vector<Rule> all = [] {
     std::vector<Rule> r;
     r.push_back(label_rule(Proof::different_side, Label::laterality, false));
-    r.push_back({Proof::different_place, false, 2, by_place});
-    r.push_back({Proof::different_kind, true, 2, by_file});
+    r.push_back({Proof::different_place, false, 2, false, by_place});
+    r.push_back({Proof::different_kind, true, 2, false, by_file});
     r.push_back(label_rule(Proof::different_kind, Label::image_type, false));
     r.push_back(label_rule(Proof::different_kind, Label::kernel, false));
     for (const Label label : {Label::echo_time, Label::b_value, Label::velocity_encoding, Label::time_point}) {
@@ -182,22 +187,39 @@ const std::vector<Rule>& rules() {
       r.push_back(label_rule(Proof::different_time, label, true));
     }
     for (const auto time : {&FileHeader::acquisition_time, &FileHeader::content_time}) {
-      r.push_back({Proof::different_time, true, 3, [time](const Stack& stack, const std::vector<Slice>& slices) {
+      r.push_back({Proof::different_time, true, 3, true, [time](const Stack& stack, const std::vector<Slice>& slices) {
                      return by_time(stack, slices, time);
                    }});
     }
-    r.push_back({Proof::different_time, true, 3, by_number});
-    r.push_back({Proof::different_time, true, 3, by_folder});
+    r.push_back({Proof::different_time, true, 3, true, by_number});
+    r.push_back({Proof::different_time, true, 3, true, by_folder});
     return r;
   }();
   return all;
 }
 
-// Passes of one acquisition divide its step evenly.
-bool divides_evenly(double distance, double step, std::size_t passes) {
-  const double part = distance / step * static_cast<double>(passes);
-  constexpr double tolerance = 0.15;
-  return std::round(part) >= 1 && std::abs(part - std::round(part)) <= tolerance;
+constexpr double evenly = 0.15;  // of a step
+
+bool is_multiple(double distance, double step) {
+  const double times = distance / step;
+  return std::round(times) >= 1 && std::abs(times - std::round(times)) <= evenly;
+}
+
+// Passes of one acquisition divide its step evenly. Where times tie, there are more or fewer classes than passes: then
+// all slices taken together say it.
+bool divides_evenly(const Stack& stack, double distance, double step, std::size_t passes) {
+  if (stack.even_step > 0 && is_multiple(distance, stack.even_step)) return true;
+  return is_multiple(distance, step / static_cast<double>(passes));
+}
+
+// The step of slices of which nearly all follow one another by the same; 0 where they do not.
+double even_step_of(const Lattice& lattice) {
+  std::size_t alike = 0;
+  for (std::size_t k = 1; k < lattice.heights.size(); ++k) {
+    const double step = lattice.heights[k] - lattice.heights[k - 1];
+    if (std::abs(step - lattice.step) <= evenly * lattice.step) ++alike;
+  }
+  return lattice.heights.size() > 1 && 5 * alike >= 4 * (lattice.heights.size() - 1) ? lattice.step : 0;
 }
 
 enum class Verdict { one_stack, two_stacks, unknown };
@@ -214,8 +236,10 @@ Verdict judge(const Stack& stack, const Rule& rule, const Class& a, const Class&
   }
   if (rule.proof == Proof::different_kind) return Verdict::two_stacks;
   const double step = std::max(a.lattice.step, b.lattice.step);
-  if (!divides_evenly(overlap.distance, step, passes)) return Verdict::two_stacks;
+  if (!divides_evenly(stack, overlap.distance, step, passes)) return Verdict::two_stacks;
   if (!(stack.thickness > 0)) return stack.is_ct ? Verdict::two_stacks : Verdict::unknown;
+  // MR takes thick slices by turns, too: their order is no sign of two scans where they fill an even stack.
+  if (rule.by_order && !stack.is_ct && stack.even_step > 0) return Verdict::one_stack;
   // Each complete by itself, and slices of one within those of the other.
   const bool overlaps = overlap.distance < 0.9 * stack.thickness && step < 1.5 * stack.thickness;
   return overlaps ? Verdict::two_stacks : Verdict::one_stack;
@@ -321,8 +345,13 @@ double usual_thickness(const SeriesSource& source, const std::vector<Slice>& sli
 
 PartedStack part_stack(const SeriesSource& source, std::vector<Slice> slices) {
   const Placement reference = *source.plane_of(slices.front()).placement;
-  const Stack stack{source, reference, same_place_mm(reference), usual_thickness(source, slices),
-                    source.file_of(slices.front()).modality == "CT"};
+  const double same_place = same_place_mm(reference);
+  const Stack stack{source,
+                    reference,
+                    same_place,
+                    usual_thickness(source, slices),
+                    source.file_of(slices.front()).modality == "CT",
+                    even_step_of(lattice_of(source, slices, reference, same_place))};
   std::vector<Part> parts;
   std::vector<std::string> undecided;
   part(stack, {std::move(slices), "", true}, 0, parts, undecided);

@@ -29,7 +29,8 @@ struct PartedStack {
 ///
 /// A label that may also number the passes of one interleaved acquisition (acquisition, trigger time, times and order)
 /// makes parts only of what cannot be such passes: of neighbors that overlap by their SliceThickness, and of steps that
-/// are uneven when taken together. Stacks that follow each other are one.
+/// are uneven when taken together. Times and numbers make no parts of an even stack of MR even if its slices overlap:
+/// they tie, and turn back, within one scan. Stacks that follow each other are one.
 PartedStack part_stack(const SeriesSource& source, std::vector<SeriesSource::Slice> slices);
 
 }  // namespace palpate::io::internal

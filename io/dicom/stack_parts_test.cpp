@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,6 +126,53 @@ TEST(StackParts, PassesOfThickSlicesAreStacksOfTheirOwn) {
   ASSERT_THAT(doubtful.doubts, SizeIs(1));
   EXPECT_THAT(std::string(doubtful.doubts[0]), ::testing::HasSubstr("acquisition 1 and acquisition 2"));
   EXPECT_THAT(by_turns(2, "MR", 1).parted().doubts, IsEmpty());
+}
+
+/// Which time of equal ones a slice has, by its rank in the order of acquisition.
+using TimeOf = std::function<int(int rank, int slice)>;
+
+// A stack of MR that was taken in passes, every second or third slice after the other. Times of whole seconds tie
+// within a pass, across its end, or all over; numbers follow the places, or the acquisition. Slices that overlap are
+// taken so, too.
+TEST(StackParts, AnMrStackOfPassesIsOneHoweverItsTimesTie) {
+  std::mt19937 random(7);
+  std::vector<int> drawn(64);
+  for (int& one : drawn) one = static_cast<int>(random() % 3);
+  const std::vector<std::pair<const char*, std::function<TimeOf(int slices, int passes)>>> ties{
+      {"all equal", [](int, int) { return [](int, int) { return 0; }; }},
+      {"by twos", [](int, int) { return [](int rank, int) { return rank / 2; }; }},
+      {"by fives", [](int, int) { return [](int rank, int) { return rank / 5; }; }},
+      {"by thirds", [](int slices, int) { return [=](int rank, int) { return 3 * rank / slices; }; }},
+      {"by passes", [](int, int passes) { return [=](int, int slice) { return slice % passes; }; }},
+      {"the last pass twice",
+       [](int slices, int passes) {
+         return [=](int rank, int slice) { return slice % passes + (rank > slices - 6 ? 1 : 0); };
+       }},
+      {"at random", [&](int, int) { return [&](int rank, int) { return drawn[static_cast<std::size_t>(rank)]; }; }}};
+  for (const int slices : {12, 29, 55}) {
+    for (const int passes : {1, 2, 3, 4}) {
+      for (const auto& [name, tie] : ties) {
+        const TimeOf time_of = tie(slices, passes);
+        for (const double thickness : {2.0, 2.5, 3.0, 4.0, 5.0}) {
+          for (const bool by_place : {false, true}) {
+            for (const auto time : {&FileHeader::content_time, &FileHeader::acquisition_time}) {
+              Images images("MR", thickness);
+              int rank = 0;
+              for (int pass = 0; pass < passes; ++pass) {
+                for (int slice = pass; slice < slices; slice += passes, ++rank) {
+                  FileHeader& file = images.add(2.5 * slice);
+                  file.*time = std::to_string(101000 + time_of(rank, slice));
+                  file.instance_number = by_place ? slice : rank;
+                }
+              }
+              EXPECT_EQ(images.parts(), 1U) << name << ", " << slices << " in " << passes << " passes, " << thickness
+                                            << " mm, numbers " << (by_place ? "by place" : "by time");
+            }
+          }
+        }
+      }
+    }
+  }
 }
 
 // What reaches beyond the other on either side is mixed where a quarter of its slices lies on the other's.

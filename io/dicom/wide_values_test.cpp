@@ -56,8 +56,9 @@ void put_words(DcmDataset& d, int k, bool is_signed) {
 }
 
 TEST(WideValues, IntegersOf32BitsInEverySyntaxThatHoldsThem) {
-  for (const E_TransferSyntax syntax :
-       {EXS_LittleEndianExplicit, EXS_LittleEndianImplicit, EXS_BigEndianExplicit, EXS_DeflatedLittleEndianExplicit}) {
+  register_encoders();
+  for (const E_TransferSyntax syntax : {EXS_LittleEndianExplicit, EXS_LittleEndianImplicit, EXS_BigEndianExplicit,
+                                        EXS_DeflatedLittleEndianExplicit, EXS_RLELossless}) {
     for (const bool is_signed : {false, true}) {
       const TestFolder folder;
       write_stack(folder.path(), 3, [&](int k, TestImage& image) {
@@ -109,18 +110,19 @@ TEST(WideValues, IntegersAreCutOutOfTheirWords) {
   }
 }
 
-TEST(WideValues, CompressedIntegersOf32BitsAreRefused) {
+TEST(WideValues, IntegersOf32BitsCompressedByMoreThanRunLengthsAreRefused) {
   const TestFolder folder;
   write_stack(folder.path(), 3, [&](int, TestImage& image) {
-    image.syntax = EXS_RLELossless;
+    image.syntax = EXS_JPEGLSLossless;
     image.edit = [](DcmDataset& d) {
-      encapsulate(d, EXS_RLELossless, {std::vector<Uint8>(100, 7)}, 1000);
+      encapsulate(d, EXS_JPEGLSLossless, {std::vector<Uint8>(100, 7)}, 1000);
       put(d, DCM_BitsAllocated, 32);
     };
   });
   const Catalogue found = find_in(folder);
   ASSERT_THAT(found.skipped, SizeIs(3));
-  EXPECT_EQ(found.skipped[0].reason, "pixels of 32 bits are read only where they are not compressed");
+  EXPECT_EQ(found.skipped[0].reason,
+            "pixels of 32 bits are read only where they are not compressed, or by RLE or deflation alone");
 }
 
 template <typename Number>

@@ -103,8 +103,11 @@ bool BrickCache::read(const Block& cell, std::span<float> corners) const noexcep
 }
 
 void BrickCache::move_to(const glm::dvec3& index) noexcept {
+  // A point beyond the region is as good as one on its edge. What is no number is one, too: the worker makes indices of
+  // it.
   for (int axis = 0; axis < 3; ++axis) {
-    point_[axis].store(index[axis] - region_.first[axis], std::memory_order_relaxed);
+    const double at = index[axis] - region_.first[axis];
+    point_[axis].store(std::fmin(std::fmax(at, 0.0), region_.size[axis] - 1.0), std::memory_order_relaxed);
   }
   moves_.fetch_add(1, std::memory_order_relaxed);
 }

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include "io/fields/brick_cache.h"
@@ -128,6 +131,31 @@ TEST(BrickOrder, TheFarthestGivesWay) {
     }
     EXPECT_GT(expected, 20);
   }
+}
+
+/// Absurd points come of damaged places. Twenty rounds of them, with the worker between any two.
+TEST(BrickOrder, NoPointLeadsTheWorkerOutOfTheRegion) {
+  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const std::array absurd{nan, inf, -inf, 1e308, -1e308, 3e9, -3e9, 0.0};
+  const Block region{{3, 0, 5}, glm::ivec3(3 * brick_cells + 1)};
+  std::atomic<int> outside = 0;
+  const BrickContent content{1, [&](const Block& block, std::span<float>) {
+                               const glm::ivec3 first = block.first - region.first;
+                               const glm::ivec3 end = first + block.size;
+                               if (std::min({first.x, first.y, first.z}) < 0 || std::max({end.x, end.y, end.z}) > 49) {
+                                 ++outside;
+                               }
+                             }};
+  for (int round = 0; round < 20; ++round) {
+    BrickCache cache(content, region, std::size_t{1} << 20, true);
+    for (const double x : absurd) {
+      for (const double y : absurd) {
+        cache.move_to({x, y, absurd.at(static_cast<std::size_t>(round) % absurd.size())});
+        if (y == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+    }
+  }
+  EXPECT_EQ(outside, 0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
+#include <glm/ext/vector_common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <span>
@@ -252,8 +253,9 @@ void VolumeFields::prepare(const Vec3& position_mm, double distance_mm) const {
   const Vec3 reach = distance_mm / Vec3(g.spacing_i, g.spacing_j, between);
   const Vec3 last(g.dimensions - 1);
   const Vec3 index = g.to_index(position_mm);
-  const glm::ivec3 low(glm::clamp(index - reach, Vec3(0), last));
-  const glm::ivec3 high(glm::clamp(index + reach, Vec3(0), last));
+  // What is no number is 0 here, which glm::clamp() would leave as it is.
+  const glm::ivec3 low(glm::fmin(glm::fmax(index - reach, Vec3(0)), last));
+  const glm::ivec3 high(glm::fmin(glm::fmax(index + reach, Vec3(0)), last));
   if (bricks_) bricks_->fill(low, high);
   if (tube_bricks_) tube_bricks_->fill(low, high);
 }

@@ -1,18 +1,49 @@
 #pragma once
 
-/// What the text headers of NRRD and MetaImage have in common: fields by their names.
+/// What the text headers of NRRD and MetaImage have in common: lines, and fields by their names.
 
 #include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
+#include <istream>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "io/errors.h"
+#include "io/messages.h"
+
 namespace palpate::io {
 
+/// The lines of a header. Throws DicomError where they come to more than 64 MiB, ten times the longest one known: what
+/// follows a header that was cut would be read as values.
+class HeaderLines {
+ public:
+  explicit HeaderLines(std::istream& stream) : stream_(stream) {}
+
+  /// False where the file ends.
+  bool next(std::string& line) {
+    line.clear();
+    for (int c = stream_.get(); c != std::istream::traits_type::eof(); c = stream_.get()) {
+      if (left_-- == 0) throw DicomError(say("voxel-header-has-no-end"));
+      if (c == '\n') return true;
+      line += static_cast<char>(c);
+    }
+    return !line.empty();
+  }
+
+ private:
+  std::istream& stream_;
+  std::size_t left_ = std::size_t{1} << 26;
+};
+
 using HeaderFields = std::map<std::string, std::string>;
+
+inline std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
 
 inline std::string trimmed(const std::string& text) {
   const std::size_t from = text.find_first_not_of(" \t\r");

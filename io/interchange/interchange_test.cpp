@@ -212,7 +212,7 @@ TEST(Interchange, IsRefusedInWords) {
   EXPECT_EQ(refusal_of("a.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + data.substr(1)),
             "it ends before its last voxel: copy or export it again");
   EXPECT_EQ(refusal_of("a.mha", meta_image(meta_place + "BinaryData = False\nElementDataFile = LOCAL\n") + data),
-            "it is no MetaImage of three dimensions in binary: save it as such");
+            "it is no MetaImage of three or four dimensions in binary: save it as such");
   EXPECT_EQ(
       refusal_of("a.mha", meta_image(meta_place + "ElementNumberOfChannels = 3\nElementDataFile = LOCAL\n") + data),
       "it holds 3 values a voxel: save one of them in a file of its own");

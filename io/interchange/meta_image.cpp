@@ -23,10 +23,9 @@ using Fields = HeaderFields;
 
 // "Key = value", up to ElementDataFile, behind which the voxels may begin.
 Fields fields_in(std::istream& file) {
-  constexpr int most_lines = 1000;
   Fields fields;
   std::string line;
-  for (int n = 0; n < most_lines && std::getline(file, line); ++n) {
+  for (HeaderLines lines(file); lines.next(line);) {
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos) continue;
     const std::string key = trimmed(line.substr(0, equals));
@@ -62,17 +61,29 @@ Vec3 three(const Fields& fields, const std::initializer_list<std::string>& names
   return {all[0], all[1], all[2]};
 }
 
-VoxelMap map_of(const Fields& fields) {
+VoxelMap map_of(const Fields& fields, std::size_t axes) {
   VoxelMap map;
   const Vec3 spacing = three(fields, {"ElementSpacing", "ElementSize"}, Vec3(1));
   const std::vector<double> rows = numbers(field(fields, {"TransformMatrix", "Rotation", "Orientation"}));
-  if (!rows.empty() && rows.size() != 9) throw DicomError(say("meta-image-of-another-kind"));
+  if (!rows.empty() && rows.size() != axes * axes) throw DicomError(say("meta-image-of-another-kind"));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!rows.empty()) map.along[axis] = {rows[3 * axis], rows[3 * axis + 1], rows[3 * axis + 2]};
+    if (!rows.empty()) map.along[axis] = {rows[axes * axis], rows[axes * axis + 1], rows[axes * axis + 2]};
     map.along[axis] *= spacing[static_cast<int>(axis)];
   }
   map.first = three(fields, {"Offset", "Position", "Origin"}, Vec3(0));
   return map;
+}
+
+// ITK takes 1 mm, no turn and the origin for what is not said. So it is here, with a word.
+void remark_on_what_is_not_said(const Fields& fields, VoxelFile& file) {
+  std::string missing;
+  const auto look = [&](const std::initializer_list<std::string>& names) {
+    if (field(fields, names).empty()) missing += (missing.empty() ? "" : ", ") + *names.begin();
+  };
+  look({"ElementSpacing", "ElementSize"});
+  look({"Offset", "Position", "Origin"});
+  look({"TransformMatrix", "Rotation", "Orientation"});
+  if (!missing.empty()) file.remarks.push_back(say("meta-image-does-not-say", missing));
 }
 
 void find_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& file) {
@@ -81,14 +92,16 @@ void find_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& file)
   file.voxels_at = is_local ? file.path : beside(file.path, data);
   file.first = is_local ? header_end : 0;
   if (is_true(field(fields, {"CompressedData"}))) file.packing = VoxelFile::Packing::behind_it;
+  // As ITK has it: from the beginning of the file that holds the voxels, whichever that is; 0 says nothing.
   const std::vector<double> skipped = numbers(field(fields, {"HeaderSize"}));
-  if (is_local || skipped.empty() || !(std::abs(skipped.front()) < 1e9)) return;
-  if (skipped.front() >= 0) {
+  if (skipped.empty() || skipped.front() == 0 || !(std::abs(skipped.front()) < 1e9)) return;
+  if (skipped.front() > 0) {
     file.first = static_cast<std::int64_t>(skipped.front());
   } else {  // the voxels are what the file ends with
     std::error_code ignored;
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file.voxels_at, ignored));
-    const std::size_t needed = file.slice_size() * static_cast<std::size_t>(file.size.z) * bytes_of(file.number);
+    const std::size_t needed = file.numbers_of_slice() * static_cast<std::size_t>(file.size.z) *
+                               static_cast<std::size_t>(file.volumes) * bytes_of(file.number);
     file.first = std::max<std::int64_t>(0, size - static_cast<std::int64_t>(needed));
   }
 }
@@ -104,22 +117,26 @@ std::optional<VoxelFile> open_meta_image(const std::filesystem::path& path, cons
   const std::vector<double> sizes = numbers(field(fields, {"DimSize"}));
   const std::string binary = field(fields, {"BinaryData"});
   const bool in_words = !binary.empty() && !is_true(binary);
-  if (sizes.size() != 3 || in_words || numbers(field(fields, {"NDims"})) != std::vector<double>{3}) {
+  const bool has_frames = sizes.size() == 4;
+  const std::size_t axes = has_frames ? 4 : 3;
+  if (sizes.size() != axes || in_words || numbers(field(fields, {"NDims"})) != std::vector{static_cast<double>(axes)}) {
     throw DicomError(say("meta-image-of-another-kind"));
-  }
-  const std::vector<double> channels = numbers(field(fields, {"ElementNumberOfChannels"}));
-  if (!channels.empty() && channels.front() != 1) {
-    throw DicomError(say("voxels-have-several-values", static_cast<int>(std::clamp(channels.front(), 0.0, 1e6))));
   }
   VoxelFile file;
   file.path = path;
-  file.number = number_of(field(fields, {"ElementType"}));
+  std::string type = field(fields, {"ElementType"});
+  if (type.ends_with("_ARRAY")) type.resize(type.size() - std::string("_ARRAY").size());
+  file.number = number_of(type);
+  const std::vector<double> channels = numbers(field(fields, {"ElementNumberOfChannels"}));
+  if (!channels.empty() && channels.front() != 1) read_as_colors(channels.front(), file);
+  if (has_frames) file.volumes = count_of_volumes(sizes[3]);
   const bool is_big = is_true(field(fields, {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
   file.swapped = is_big == (std::endian::native == std::endian::little);
   const auto size = [&](std::size_t n) {
     return std::isfinite(sizes[n]) ? static_cast<int>(std::clamp(sizes[n], 0.0, 65535.0)) : 0;
   };
-  place(map_of(fields), {size(0), size(1), size(2)}, file);
+  remark_on_what_is_not_said(fields, file);
+  place(map_of(fields, axes), {size(0), size(1), size(2)}, file);
   find_voxels(fields, static_cast<std::int64_t>(stream.tellg()), file);
   return file;
 }

@@ -1,5 +1,3 @@
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,10 +5,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "io/errors.h"
+#include "io/interchange/voxel_bytes.h"
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
 #include "io/structures/color.h"
@@ -18,13 +20,23 @@
 namespace palpate::io {
 namespace {
 
-constexpr int header_bytes = 348;
 constexpr std::size_t most_extension = std::size_t{1} << 22;
 
-/// The header, with its numbers in this machine's order.
-class Header {
+/// The numbers of a header that are used here, of either version.
+struct Header {
+  std::size_t bytes = 0;  ///< of it, without the four that say whether extensions follow
+  std::array<double, 8> sizes{}, spacings{};
+  int number = 0, intent = 0, qform = 0, sform = 0;
+  unsigned units = 0;
+  double first = 0, slope = 0, offset = 0, most = 0, least = 0;
+  Vec3 quaternion{0}, origin{0};
+  std::array<std::array<double, 4>, 3> rows{};
+};
+
+/// Reads numbers in this machine's order.
+class Numbers {
  public:
-  Header(const std::vector<std::uint8_t>& bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
+  Numbers(const std::vector<std::uint8_t>& bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
 
   template <typename T>
   T at(std::size_t offset) const {
@@ -33,21 +45,94 @@ class Header {
     if (swapped_) std::reverse(raw.begin(), raw.end());
     return std::bit_cast<T>(raw);
   }
-  double number(std::size_t offset) const { return static_cast<double>(at<float>(offset)); }
+  /// Some that follow one another.
+  template <typename T, typename Into>
+  void read(std::size_t offset, Into&& into, std::size_t count) const {
+    for (std::size_t n = 0; n < count; ++n) {
+      into[static_cast<int>(n)] = static_cast<double>(at<T>(offset + n * sizeof(T)));
+    }
+  }
 
  private:
   const std::vector<std::uint8_t>& bytes_;
   bool swapped_;
 };
 
-std::vector<std::uint8_t> start_of(const std::filesystem::path& path) {
-  std::vector<std::uint8_t> bytes(header_bytes + 4 + most_extension);
-  gzFile_s* const file = gzopen(path.c_str(), "rb");
-  if (file == nullptr) return {};
-  const int count = gzread(file, bytes.data(), static_cast<unsigned>(bytes.size()));
-  gzclose(file);
-  bytes.resize(static_cast<std::size_t>(std::max(0, count)));
+constexpr std::size_t bytes_of_1 = 348, bytes_of_2 = 540;
+
+Header header_of_1(const Numbers& from) {  // nifti1.h
+  Header header{.bytes = bytes_of_1};
+  from.read<std::int16_t>(40, header.sizes.data(), 8);
+  from.read<float>(76, header.spacings.data(), 8);
+  header.intent = from.at<std::int16_t>(68);
+  header.number = from.at<std::int16_t>(70);
+  header.first = static_cast<double>(from.at<float>(108));
+  header.slope = static_cast<double>(from.at<float>(112));
+  header.offset = static_cast<double>(from.at<float>(116));
+  header.units = from.at<std::uint8_t>(123);
+  header.most = static_cast<double>(from.at<float>(124));
+  header.least = static_cast<double>(from.at<float>(128));
+  header.qform = from.at<std::int16_t>(252);
+  header.sform = from.at<std::int16_t>(254);
+  from.read<float>(256, header.quaternion, 3);
+  from.read<float>(268, header.origin, 3);
+  for (std::size_t row = 0; row < 3; ++row) from.read<float>(280 + 16 * row, header.rows[row].data(), 4);
+  return header;
+}
+
+Header header_of_2(const Numbers& from) {  // nifti2.h
+  Header header{.bytes = bytes_of_2};
+  from.read<std::int64_t>(16, header.sizes.data(), 8);
+  from.read<double>(104, header.spacings.data(), 8);
+  header.intent = from.at<std::int32_t>(504);
+  header.number = from.at<std::int16_t>(12);
+  header.first = static_cast<double>(from.at<std::int64_t>(168));
+  header.slope = from.at<double>(176);
+  header.offset = from.at<double>(184);
+  header.units = static_cast<unsigned>(from.at<std::int32_t>(500));
+  header.most = from.at<double>(192);
+  header.least = from.at<double>(200);
+  header.qform = from.at<std::int32_t>(344);
+  header.sform = from.at<std::int32_t>(348);
+  from.read<double>(352, header.quaternion, 3);
+  from.read<double>(376, header.origin, 3);
+  for (std::size_t row = 0; row < 3; ++row) from.read<double>(400 + 32 * row, header.rows[row].data(), 4);
+  return header;
+}
+
+/// Nothing where the bytes are the header of neither.
+std::optional<std::pair<Header, bool>> header_in(const std::vector<std::uint8_t>& bytes) {
+  for (const bool swapped : {false, true}) {
+    const Numbers numbers(bytes, swapped);
+    const auto size = static_cast<std::size_t>(numbers.at<std::int32_t>(0));
+    if (size == bytes_of_1 && std::memcmp(bytes.data() + 344, "n+1", 3) == 0)
+      return std::pair(header_of_1(numbers), swapped);
+    if (size == bytes_of_2 && bytes.size() >= bytes_of_2 + 4 && std::memcmp(bytes.data() + 4, "n+2", 3) == 0) {
+      return std::pair(header_of_2(numbers), swapped);
+    }
+  }
+  return std::nullopt;
+}
+
+/// The first bytes of a file, unpacked, from its beginning on; fewer where it ends before.
+std::vector<std::uint8_t> start_of(const VoxelFile& file, std::size_t count) {
+  std::vector<std::uint8_t> bytes(count);
+  try {
+    voxel_bytes(file)->read(bytes);
+  } catch (const DicomError&) {
+    return {};
+  }
   return bytes;
+}
+
+/// What lies between header and voxels.
+std::string extensions_of(VoxelFile file, std::size_t header_bytes) {
+  const std::size_t end = std::min(static_cast<std::size_t>(file.first), header_bytes + most_extension);
+  if (end <= header_bytes) return {};
+  file.first = 0;
+  const std::vector<std::uint8_t> start = start_of(file, end);
+  return start.empty() ? std::string()
+                       : std::string(start.begin() + static_cast<std::ptrdiff_t>(header_bytes), start.end());
 }
 
 bool is_gzipped(const std::filesystem::path& path) {
@@ -86,34 +171,38 @@ VoxelFile::Number number_of(int type) {
 /// Voxels to RAS, in the file's unit: sform, or qform. The sform goes before the qform, as the standard has it.
 VoxelMap map_by_sform(const Header& header) {
   VoxelMap map;
-  std::size_t at = 280;
-  for (int row = 0; row < 3; ++row, at += 16) {
-    for (std::size_t axis = 0; axis < 3; ++axis) map.along[axis][row] = header.number(at + 4 * axis);
-    map.first[row] = header.number(at + 12);
+  for (int row = 0; row < 3; ++row) {
+    const auto& numbers = header.rows[static_cast<std::size_t>(row)];
+    for (std::size_t axis = 0; axis < 3; ++axis) map.along[axis][row] = numbers[axis];
+    map.first[row] = numbers[3];
   }
   return map;
 }
 
 VoxelMap map_by_qform(const Header& header) {
-  const Vec3 size(header.number(80), header.number(84), header.number(88));
-  const double b = header.number(256), c = header.number(260), d = header.number(264);
-  const double a = std::sqrt(std::max(0.0, 1 - b * b - c * c - d * d));
-  const double handed = header.number(76) < 0 ? -1 : 1;
+  // Longer than 1 by its rounding, or damaged: as nifti_quatern_to_mat44() of nifti1_io.c has it.
+  constexpr double least = 1e-7;
+  Vec3 quaternion = header.quaternion;
+  const double left = 1 - glm::dot(quaternion, quaternion);
+  if (left < least) quaternion = glm::normalize(quaternion);
+  const double a = left < least ? 0 : std::sqrt(left), b = quaternion.x, c = quaternion.y, d = quaternion.z;
+  const Vec3 size(header.spacings[1], header.spacings[2], header.spacings[3]);
+  const double handed = header.spacings[0] < 0 ? -1 : 1;
   VoxelMap map;
   map.along[0] = size.x * Vec3(a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c));
   map.along[1] = size.y * Vec3(2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b));
   map.along[2] = handed * size.z * Vec3(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c);
-  map.first = {header.number(268), header.number(272), header.number(276)};
+  map.first = header.origin;
   return map;
 }
 
 /// Voxels to LPS, mm.
 VoxelMap map_of(const Header& header) {
-  const bool has_sform = header.at<std::int16_t>(254) > 0, has_qform = header.at<std::int16_t>(252) > 0;
+  const bool has_sform = header.sform > 0, has_qform = header.qform > 0;
   if (!has_sform && !has_qform) throw DicomError(say("nifti-without-a-place"));
   VoxelMap map = has_sform ? map_by_sform(header) : map_by_qform(header);
-  constexpr std::uint8_t meters = 1, micrometers = 3;
-  const std::uint8_t unit = header.at<std::uint8_t>(123) & 7U;
+  constexpr unsigned meters = 1, micrometers = 3;
+  const unsigned unit = header.units & 7U;
   const double mm = unit == meters ? 1e3 : unit == micrometers ? 1e-3 : 1;
   const Vec3 to_lps = mm * Vec3(-1, -1, 1);
   for (Vec3& along : map.along) along *= to_lps;
@@ -123,17 +212,15 @@ VoxelMap map_of(const Header& header) {
 
 /// Where voxels of several volumes lie one behind the other: time, or whatever else the further axes count.
 int volumes_of(const Header& header) {
-  const int axes = header.at<std::int16_t>(40);
-  std::int64_t volumes = 1;
-  for (int axis = 4; axis <= std::min(axes, 7); ++axis) {
-    volumes *= std::max<int>(1, header.at<std::int16_t>(40 + 2 * static_cast<std::size_t>(axis)));
-    if (volumes > 1'000'000) throw DicomError(say("voxels-on-no-lattice"));
+  double volumes = 1;
+  for (std::size_t axis = 4; axis < header.sizes.size() && static_cast<double>(axis) <= header.sizes[0]; ++axis) {
+    volumes *= std::max(1.0, header.sizes[axis]);
   }
-  return static_cast<int>(volumes);
+  return count_of_volumes(volumes);
 }
 
 std::optional<Series::Window> window_of(const Header& header) {
-  const double most = header.number(124), least = header.number(128);
+  const double most = header.most, least = header.least;
   if (!std::isfinite(most) || !std::isfinite(least) || !(most > least)) return std::nullopt;
   return Series::Window{(most + least) / 2, most - least};
 }
@@ -173,33 +260,40 @@ std::map<int, LabelName> names_in(const std::string& text) {
 
 std::optional<VoxelFile> open_nifti(const std::filesystem::path& path, const std::filesystem::path& named) {
   if (!has_ending(named, ".nii") && !has_ending(named, ".nii.gz")) return std::nullopt;
-  const std::vector<std::uint8_t> start = start_of(path);
-  if (start.size() < header_bytes + 4) return std::nullopt;
-  const bool swapped = Header(start, true).at<std::int32_t>(0) == header_bytes;
-  const Header header(start, swapped);
-  if (header.at<std::int32_t>(0) != header_bytes || std::memcmp(start.data() + 344, "n+1", 3) != 0) {
-    throw DicomError(say("nifti-of-another-kind"));
-  }
   VoxelFile file;
   file.path = file.voxels_at = path;
   file.packing = is_gzipped(path) ? VoxelFile::Packing::whole : VoxelFile::Packing::none;
+  std::vector<std::uint8_t> start = start_of(file, bytes_of_2 + 4);
+  if (start.empty()) start = start_of(file, bytes_of_1 + 4);
+  if (start.empty()) return std::nullopt;
+  const auto found = header_in(start);
+  if (!found) throw DicomError(say("nifti-of-another-kind"));
+  const auto& [header, swapped] = *found;
   file.swapped = swapped;
   file.volumes = volumes_of(header);
-  file.number = number_of(header.at<std::int16_t>(70));
-  if (const double slope = header.number(112); std::isfinite(slope) && slope != 0) {
-    const double offset = header.number(116);
-    file.slope = slope;
-    file.offset = std::isfinite(offset) ? offset : 0;
+  constexpr int rgb = 128, rgba = 2304;
+  if (header.number == rgb || header.number == rgba) {
+    read_as_colors(header.number == rgb ? 3 : 4, file);
+  } else {
+    file.number = number_of(header.number);
+  }
+  if (std::isfinite(header.slope) && header.slope != 0) {
+    file.slope = header.slope;
+    file.offset = std::isfinite(header.offset) ? header.offset : 0;
   }
   file.window = window_of(header);
-  const double first = header.number(108);
-  file.first = std::isfinite(first) ? static_cast<std::int64_t>(std::clamp(first, 352.0, 1e9)) : 352;
+  const std::size_t least = header.bytes + 4;
+  file.first = std::isfinite(header.first)
+                   ? static_cast<std::int64_t>(std::clamp(header.first, static_cast<double>(least), 1e9))
+                   : static_cast<std::int64_t>(least);
   constexpr int labels = 1002;
-  const auto end = std::min(start.size(), static_cast<std::size_t>(file.first));
-  file.names =
-      names_in(std::string(start.begin() + header_bytes + 4, start.begin() + static_cast<std::ptrdiff_t>(end)));
-  file.said_to_be_labels = header.at<std::int16_t>(68) == labels || !file.names.empty();
-  place(map_of(header), {header.at<std::int16_t>(42), header.at<std::int16_t>(44), header.at<std::int16_t>(46)}, file);
+  file.names = names_in(extensions_of(file, least));
+  file.said_to_be_labels = header.intent == labels || !file.names.empty();
+  const auto size = [&header = header](std::size_t axis) {
+    const double one = header.sizes[axis];
+    return one >= 1 && one <= 1e6 ? static_cast<int>(one) : 0;
+  };
+  place(map_of(header), {size(1), size(2), size(3)}, file);
   return file;
 }
 

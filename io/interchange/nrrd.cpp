@@ -5,6 +5,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <initializer_list>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -23,35 +26,41 @@ constexpr double most_layers = 255;
 using Fields = HeaderFields;
 
 Fields fields_in(std::istream& file) {
-  constexpr int most_lines = 100000;
   Fields fields;
   std::string line;
-  for (int n = 0; n < most_lines && std::getline(file, line); ++n) {
+  for (HeaderLines lines(file); lines.next(line);) {
     if (trimmed(line).empty()) return fields;
     const std::size_t colon = line.find(':');
     if (line.front() == '#' || colon == std::string::npos) continue;
     const bool pair = colon + 1 < line.size() && line[colon + 1] == '=';
-    fields[trimmed(line.substr(0, colon))] = trimmed(line.substr(colon + (pair ? 2 : 1)));
+    const std::string name = trimmed(line.substr(0, colon));
+    fields[pair ? name : lower_case(name)] = trimmed(line.substr(colon + (pair ? 2 : 1)));
   }
   return fields;  // a header alone ends where its file does
 }
 
 VoxelFile::Number number_of(const std::string& type) {
   using Number = VoxelFile::Number;
-  static const std::map<std::string, Number> types{
-      {"uchar", Number::u8},         {"unsigned char", Number::u8},   {"uint8", Number::u8},
-      {"uint8_t", Number::u8},       {"signed char", Number::i8},     {"int8", Number::i8},
-      {"int8_t", Number::i8},        {"short", Number::i16},          {"short int", Number::i16},
-      {"signed short", Number::i16}, {"int16", Number::i16},          {"int16_t", Number::i16},
-      {"ushort", Number::u16},       {"unsigned short", Number::u16}, {"unsigned short int", Number::u16},
-      {"uint16", Number::u16},       {"uint16_t", Number::u16},       {"int", Number::i32},
-      {"signed int", Number::i32},   {"int32", Number::i32},          {"int32_t", Number::i32},
-      {"uint", Number::u32},         {"unsigned int", Number::u32},   {"uint32", Number::u32},
-      {"uint32_t", Number::u32},     {"longlong", Number::i64},       {"long long", Number::i64},
-      {"int64", Number::i64},        {"int64_t", Number::i64},        {"ulonglong", Number::u64},
-      {"uint64", Number::u64},       {"uint64_t", Number::u64},       {"float", Number::f32},
-      {"double", Number::f64}};
-  const auto found = types.find(type);
+  // https://teem.sourceforge.net/nrrd/format.html, 5
+  static const std::map<std::string, Number> types = [] {
+    std::map<std::string, Number> all;
+    const auto add = [&](Number number, std::initializer_list<const char*> names) {
+      for (const char* const name : names) all[name] = number;
+    };
+    add(Number::i8, {"signed char", "int8", "int8_t"});
+    add(Number::u8, {"uchar", "unsigned char", "uint8", "uint8_t"});
+    add(Number::i16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"});
+    add(Number::u16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"});
+    add(Number::i32, {"int", "signed int", "int32", "int32_t"});
+    add(Number::u32, {"uint", "unsigned int", "uint32", "uint32_t"});
+    add(Number::i64,
+        {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t"});
+    add(Number::u64, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"});
+    add(Number::f32, {"float"});
+    add(Number::f64, {"double"});
+    return all;
+  }();
+  const auto found = types.find(lower_case(type));
   if (found == types.end()) {
     throw DicomError(say("voxels-of-another-type"));
   }
@@ -59,11 +68,50 @@ VoxelFile::Number number_of(const std::string& type) {
 }
 
 /// From the file's space to LPS.
-Vec3 to_lps(const std::string& space) {
-  if (space == "left-posterior-superior" || space == "LPS") return {1, 1, 1};
-  if (space == "right-anterior-superior" || space == "RAS") return {-1, -1, 1};
-  if (space == "left-anterior-superior" || space == "LAS") return {1, -1, 1};
+Vec3 to_lps(const std::string& given) {
+  const std::string space = lower_case(given);
+  if (space == "left-posterior-superior" || space == "lps") return {1, 1, 1};
+  if (space == "right-anterior-superior" || space == "ras") return {-1, -1, 1};
+  if (space == "left-anterior-superior" || space == "las") return {1, -1, 1};
   throw DicomError(say("nrrd-without-a-place"));
+}
+
+double mm_of(const std::string& unit) {
+  // Both signs for a millionth: the micro sign and the Greek letter.
+  static const std::map<std::string, double> units{{"", 1},
+                                                   {"mm", 1},
+                                                   {"millimeter", 1},
+                                                   {"millimeters", 1},
+                                                   {"um", 1e-3},
+                                                   {"\u00b5m", 1e-3},
+                                                   {"\u03bcm", 1e-3},
+                                                   {"micron", 1e-3},
+                                                   {"microns", 1e-3},
+                                                   {"micrometer", 1e-3},
+                                                   {"micrometers", 1e-3},
+                                                   {"nm", 1e-6},
+                                                   {"cm", 10},
+                                                   {"m", 1000},
+                                                   {"meter", 1000},
+                                                   {"meters", 1000}};
+  const auto found = units.find(lower_case(unit));
+  if (found == units.end()) throw DicomError(say("nrrd-of-another-unit", unit));
+  return found->second;
+}
+
+/// "space units": one in quotes for each axis of the space; mm where it is not said.
+Vec3 mm_along_axes(const Fields& fields) {
+  const std::string text = field(fields, {"space units"});
+  constexpr char quote = '\x22';
+  Vec3 mm(1);
+  std::size_t at = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t open = text.find(quote, at), close = text.find(quote, open + 1);
+    if (open == std::string::npos || close == std::string::npos) break;
+    mm[axis] = mm_of(trimmed(text.substr(open + 1, close - open - 1)));
+    at = close + 1;
+  }
+  return mm;
 }
 
 /// Slicer's: Segment0_Name, Segment0_LabelValue, Segment0_Layer, Segment0_Color.
@@ -86,46 +134,92 @@ std::map<int, LabelName> names_in(const Fields& fields) {
   }
 }
 
-// How many numbers a voxel has: where the first axis is no direction in space and segments have their layers in it.
-// Elsewhere a number alone is read.
-int layers_of(const Fields& fields) {
-  const std::vector<double> sizes = numbers(field(fields, {"sizes"}));
-  const bool are_layers = sizes.size() == 4 && field(fields, {"space directions"}).starts_with("none") &&
-                          fields.contains("Segment0_Layer") && sizes[0] >= 1 && sizes[0] <= most_layers;
-  return are_layers ? static_cast<int>(sizes[0]) : 1;
+/// The direction of each axis in the file's space; nothing for one that is none in space.
+std::vector<std::optional<Vec3>> directions_of(const Fields& fields) {
+  const std::string text = field(fields, {"space directions"});
+  std::vector<std::optional<Vec3>> directions;
+  for (std::size_t at = text.find_first_of("(n"); at != std::string::npos; at = text.find_first_of("(n", at)) {
+    const std::size_t end = text[at] == '(' ? text.find(')', at) : text.find_first_of(" (", at);
+    const std::vector<double> all = text[at] == '(' ? numbers(text.substr(at, end - at)) : std::vector<double>();
+    const bool is_direction =
+        all.size() == 3 && std::isfinite(all[0]) && std::isfinite(all[1]) && std::isfinite(all[2]);
+    directions.push_back(is_direction ? std::optional(Vec3(all[0], all[1], all[2])) : std::nullopt);
+    if (end == std::string::npos) break;
+    at = end;
+  }
+  return directions;
 }
 
-// Sizes along its axes; refused where they are not those of one volume with one value a voxel, or with layers.
-glm::ivec3 size_of(const Fields& fields) {
-  std::vector<double> sizes = numbers(field(fields, {"sizes"}));
-  if (sizes.size() == 4 && layers_of(fields) > 1) sizes.erase(sizes.begin());
-  if (sizes.size() == 4) {  // which of the four is no direction in space?
-    std::istringstream directions(field(fields, {"space directions"}));
-    std::string word;
-    for (std::size_t axis = 0; axis < 4 && directions >> word; ++axis) {
-      if (word != "none" || !(std::abs(sizes[axis]) < 1e9)) continue;
-      throw DicomError(say("voxels-have-several-values", static_cast<int>(sizes[axis])));
+/// The axes of a file: three in space, and at most one that counts something else, as the fastest or as the slowest.
+struct Axes {
+  std::vector<double> sizes;  ///< of those in space
+  std::vector<Vec3> along;
+  std::optional<std::size_t> other;
+  double count = 1;  ///< along the other
+};
+
+Axes axes_of(const Fields& fields) {
+  const std::vector<double> sizes = numbers(field(fields, {"sizes"}));
+  const auto directions = directions_of(fields);
+  if (sizes.size() != 3 && sizes.size() != 4) throw DicomError(say("labels-in-several-volumes"));
+  if (directions.size() != sizes.size()) to_lps({});
+  Axes axes;
+  for (std::size_t n = 0; n < sizes.size(); ++n) {
+    if (directions[n]) {
+      axes.sizes.push_back(sizes[n]);
+      axes.along.push_back(*directions[n]);
+    } else if (axes.other) {
+      to_lps({});
+    } else {
+      axes.other = n;
+      axes.count = sizes[n];
     }
   }
-  if (sizes.size() != 3) throw DicomError(say("labels-in-several-volumes"));
-  const auto size = [&](std::size_t n) {
-    return std::isfinite(sizes[n]) ? static_cast<int>(std::clamp(sizes[n], 0.0, 65535.0)) : 0;
-  };
-  return {size(0), size(1), size(2)};
+  if (axes.sizes.size() != 3) to_lps({});
+  return axes;
 }
 
-VoxelMap map_of(const Fields& fields) {
-  std::vector<double> directions = numbers(field(fields, {"space directions"}));
-  if (layers_of(fields) > 1) directions.erase(directions.begin());  // "none"
-  const std::vector<double> origin = numbers(field(fields, {"space origin"}));
-  if (directions.size() != 9 || origin.size() != 3) to_lps({});
-  const Vec3 sign = to_lps(field(fields, {"space"}));
-  VoxelMap map;
-  for (std::size_t n = 0; n < 3; ++n) {
-    map.along[n] = sign * Vec3(directions[3 * n], directions[3 * n + 1], directions[3 * n + 2]);
+// What the other axis counts: volumes one behind the other where it is the slowest; where it is the fastest, layers of
+// labels, the parts of a color, or volumes, as its kind says.
+void read_other_axis(const Fields& fields, const Axes& axes, VoxelFile& file) {
+  if (!axes.other) return;
+  const bool are_layers = *axes.other == 0 && fields.contains("Segment0_Layer");
+  std::istringstream kinds(lower_case(field(fields, {"kinds"})));
+  std::string kind;
+  for (std::size_t n = 0; n <= *axes.other; ++n) kinds >> kind;
+  if (*axes.other == 3) {
+    file.volumes = count_of_volumes(axes.count);
+  } else if (are_layers && axes.count >= 1 && axes.count <= most_layers) {
+    file.layers = static_cast<int>(axes.count);
+  } else if (*axes.other == 0 && (kind == "rgb-color" || kind == "rgba-color")) {
+    read_as_colors(axes.count, file);
+  } else if (*axes.other == 0 && (kind == "list" || kind == "time") && axes.count <= most_layers) {
+    file.layers = count_of_volumes(axes.count);
+    file.beside = VoxelFile::Beside::volumes;
+  } else {
+    throw DicomError(say("voxels-have-several-values", static_cast<int>(std::clamp(axes.count, 0.0, 1e6))));
   }
-  map.first = sign * Vec3(origin[0], origin[1], origin[2]);
+}
+
+VoxelMap map_of(const Fields& fields, const Axes& axes) {
+  const std::vector<double> origin = numbers(field(fields, {"space origin"}));
+  if (origin.size() != 3) to_lps({});
+  const Vec3 mm = to_lps(field(fields, {"space"})) * mm_along_axes(fields);
+  VoxelMap map;
+  for (std::size_t n = 0; n < 3; ++n) map.along[n] = mm * axes.along[n];
+  map.first = mm * Vec3(origin[0], origin[1], origin[2]);
   return map;
+}
+
+VoxelFile::Packing packing_of(const std::string& encoding) {
+  using Packing = VoxelFile::Packing;
+  static const std::map<std::string, Packing> all{
+      {"raw", Packing::none},    {"gzip", Packing::behind_it}, {"gz", Packing::behind_it},
+      {"bzip2", Packing::bzip2}, {"bz2", Packing::bzip2},      {"ascii", Packing::ascii},
+      {"text", Packing::ascii},  {"txt", Packing::ascii},      {"hex", Packing::hex}};
+  const auto found = all.find(lower_case(encoding));
+  if (found == all.end()) throw DicomError(say("voxels-in-another-encoding", encoding));
+  return found->second;
 }
 
 // Where the voxels are: behind the header, which ends at `header_end`, or in a file beside it.
@@ -133,10 +227,9 @@ void find_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& file)
   const std::string data = field(fields, {"data file", "datafile"});
   file.voxels_at = data.empty() ? file.path : beside(file.path, data);
   file.first = data.empty() ? header_end : 0;
-  const std::string encoding = field(fields, {"encoding"});
-  const bool packed = encoding == "gzip" || encoding == "gz";
-  if (!packed && encoding != "raw") throw DicomError(say("voxels-in-another-encoding", encoding));
-  if (packed) file.packing = VoxelFile::Packing::behind_it;
+  file.packing = packing_of(field(fields, {"encoding"}));
+  const bool packed = file.packing != VoxelFile::Packing::none;
+  if (file.packing == VoxelFile::Packing::ascii) file.swapped = false;
   const auto skipped = [&](const std::string& first, const std::string& second) {
     const std::vector<double> count = numbers(field(fields, {first}) + " " + field(fields, {second}));
     return count.empty() || !std::isfinite(count.front()) ? 0.0 : count.front();
@@ -148,7 +241,7 @@ void find_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& file)
   constexpr double from_the_end = -1;
   if (bytes == from_the_end) {
     const auto needed = static_cast<std::int64_t>(file.numbers_of_slice() * static_cast<std::size_t>(file.size.z) *
-                                                  bytes_of(file.number));
+                                                  static_cast<std::size_t>(file.volumes) * bytes_of(file.number));
     std::error_code ignored;
     file.first = std::max<std::int64_t>(
         0, static_cast<std::int64_t>(std::filesystem::file_size(file.voxels_at, ignored)) - needed);
@@ -171,12 +264,18 @@ std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path) {
   file.path = path;
   const auto header_end = static_cast<std::int64_t>(stream.tellg());
   file.number = number_of(field(fields, {"type"}));
-  file.swapped = field(fields, {"endian"}) == (std::endian::native == std::endian::little ? "big" : "little");
+  file.swapped =
+      lower_case(field(fields, {"endian"})) == (std::endian::native == std::endian::little ? "big" : "little");
   file.names = names_in(fields);
   file.said_to_be_labels = !file.names.empty();
-  file.layers = layers_of(fields);
-  const glm::ivec3 size = size_of(fields);
-  place(map_of(fields), size, file);
+  const Axes axes = axes_of(fields);
+  read_other_axis(fields, axes, file);
+  glm::ivec3 size(0);
+  for (int n = 0; n < 3; ++n) {
+    const double one = axes.sizes[static_cast<std::size_t>(n)];
+    if (std::isfinite(one)) size[n] = static_cast<int>(std::clamp(one, 0.0, 65535.0));
+  }
+  place(map_of(fields, axes), size, file);
   find_voxels(fields, header_end, file);
   return file;
 }

@@ -9,6 +9,7 @@
 
 #include "io/dicom/input_file.h"
 #include "io/errors.h"
+#include "io/interchange/voxel_words.h"
 #include "io/messages.h"
 
 namespace palpate::io {
@@ -52,12 +53,12 @@ class InflatedBytes final : public VoxelBytes {
       done += part - stream_.avail_out;
     }
   }
-  void skip(std::uint64_t count) override {
-    std::vector<std::uint8_t> passed(std::min<std::uint64_t>(count, 1U << 20));
-    while (count > 0) {
-      const auto part = std::min<std::uint64_t>(count, passed.size());
-      read(std::span(passed).first(part));
-      count -= part;
+  void finish() override {
+    std::vector<std::uint8_t> passed(1U << 16);
+    while (!at_end_) {
+      stream_.next_out = passed.data();
+      stream_.avail_out = static_cast<uInt>(passed.size());
+      inflate_some();
     }
   }
 
@@ -72,16 +73,18 @@ class InflatedBytes final : public VoxelBytes {
       stream_.avail_in = static_cast<uInt>(count);
     }
     const int status = inflate(&stream_, Z_NO_FLUSH);
-    if (status == Z_STREAM_END) {
+    at_end_ = status == Z_STREAM_END;
+    if (at_end_) {
       inflateReset(&stream_);
     } else if (status != Z_OK && status != Z_BUF_ERROR) {
-      refuse_end();
+      throw DicomError(say("voxels-are-damaged"));
     }
   }
 
   internal::InputFile file_;
   std::uint64_t at_;
   z_stream stream_{};
+  bool at_end_ = false;  // of a part with a checksum of its own
   std::array<std::uint8_t, 1U << 16> window_{};
 };
 
@@ -93,6 +96,15 @@ double value_in(const std::uint8_t* from) noexcept {
 }
 
 }  // namespace
+
+void VoxelBytes::skip(std::uint64_t count) {
+  std::vector<std::uint8_t> passed(std::min<std::uint64_t>(count, 1U << 20));
+  while (count > 0) {
+    const auto part = std::min<std::uint64_t>(count, passed.size());
+    read(std::span(passed).first(part));
+    count -= part;
+  }
+}
 
 double number_at(VoxelFile::Number number, const std::uint8_t* from) noexcept {
   using Number = VoxelFile::Number;
@@ -126,6 +138,11 @@ std::unique_ptr<VoxelBytes> voxel_bytes(const VoxelFile& file) {
   switch (file.packing) {
     case VoxelFile::Packing::none:
       break;
+    case VoxelFile::Packing::bzip2:
+      return bunzipped(file);
+    case VoxelFile::Packing::ascii:
+    case VoxelFile::Packing::hex:
+      return voxels_in_words(file);
     case VoxelFile::Packing::behind_it:
       return std::make_unique<InflatedBytes>(file, first);
     case VoxelFile::Packing::whole:
@@ -151,6 +168,7 @@ void read_raw_slices(const VoxelFile& file, int volume, int begin, int end,
     }
     if (!slice(n, raw)) return;
   }
+  if (begin == 0 && end == file.size.z) bytes->finish();
 }
 
 void read_slices(const VoxelFile& file, const std::function<bool(int, std::span<const double>)>& slice) {

@@ -17,7 +17,10 @@ class VoxelBytes {
   virtual ~VoxelBytes() = default;
   /// Fills all of `into`; throws DicomError where they end before that.
   virtual void read(std::span<std::uint8_t> into) = 0;
-  virtual void skip(std::uint64_t count) = 0;
+  virtual void skip(std::uint64_t count);
+  /// After the last byte that is wanted. Throws DicomError where what was unpacked has another checksum than its file
+  /// says.
+  virtual void finish() {}
 };
 
 /// Throws DicomError where the file cannot be opened.
@@ -25,7 +28,8 @@ std::unique_ptr<VoxelBytes> voxel_bytes(const VoxelFile& file);
 
 /// Calls `slice` for the slices `begin` to `end` - 1 of a volume (counted from 0). They lie along the file's third
 /// axis. `n` is the slice's number in the file; `raw` are its numbers, in this machine's byte order. Ends early where
-/// `slice` returns false. Throws DicomError where the file ends before its voxels do.
+/// `slice` returns false. Throws DicomError where the file ends before its voxels do, or, after all of a volume, where
+/// its checksum is wrong.
 void read_raw_slices(const VoxelFile& file, int volume, int begin, int end,
                      const std::function<bool(int n, std::span<const std::uint8_t> raw)>& slice);
 

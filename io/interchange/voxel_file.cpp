@@ -9,6 +9,7 @@
 #include "io/dicom/decode.h"
 #include "io/errors.h"
 #include "io/messages.h"
+#include "io/reach.h"
 
 namespace palpate::io {
 namespace {
@@ -61,6 +62,23 @@ std::size_t bytes_of(VoxelFile::Number number) noexcept {
   return 8;
 }
 
+void read_as_colors(double numbers, VoxelFile& file) {
+  const bool is_color =
+      (numbers == 3 || numbers == 4) && (file.number == VoxelFile::Number::u8 || file.number == VoxelFile::Number::u16);
+  if (!is_color) {
+    throw DicomError(say("voxels-have-several-values", static_cast<int>(std::clamp(numbers, 0.0, 1e6))));
+  }
+  file.layers = static_cast<int>(numbers);
+  file.beside = VoxelFile::Beside::colors;
+  file.remarks.push_back(say("colors-are-read-as-gray"));
+}
+
+int count_of_volumes(double count) {
+  constexpr double most = 1e6;
+  if (!(count >= 1 && count <= most)) throw DicomError(say("voxels-on-no-lattice"));
+  return static_cast<int>(count);
+}
+
 bool has_ending(const fs::path& name, const std::string& ending) {
   std::string text = name.filename().string();
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -82,11 +100,15 @@ void check_size(const VoxelFile& file) {
   const std::uint64_t needed = voxels * bytes_of(file.number);
   std::error_code ignored;
   const std::uint64_t present = fs::file_size(file.voxels_at, ignored);
-  if (file.packing != VoxelFile::Packing::none) {
+  using Packing = VoxelFile::Packing;
+  const bool in_words = file.packing == Packing::ascii || file.packing == Packing::hex;
+  if (file.packing != Packing::none && !in_words) {
     internal::check_inflation(needed, present);
-  } else if (present < needed + static_cast<std::uint64_t>(file.first)) {
-    throw DicomError(say("voxels-end-early"));
+    return;
   }
+  // A number in words has a digit and a gap at least, but for the last one.
+  const std::uint64_t least = file.packing == Packing::ascii ? 2 * voxels - 1 : in_words ? 2 * needed : needed;
+  if (present < least + static_cast<std::uint64_t>(file.first)) throw DicomError(say("voxels-end-early"));
 }
 
 void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file) {
@@ -98,6 +120,14 @@ void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file) {
       static_cast<double>(size.x) * size.y * size.z > most_voxels) {
     throw DicomError(say("voxels-on-too-fine-a-lattice", size.x, size.y, size.z));
   }
+  double reach = glm::length(map.first), finest = internal::farthest_place_mm;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double spacing = glm::length(map.along[static_cast<std::size_t>(axis)]);
+    reach += size[axis] * spacing;
+    finest = std::min(finest, spacing);
+  }
+  if (reach > internal::farthest_place_mm || finest < internal::least_spacing_mm)
+    throw DicomError(say("voxels-beyond-any-patient"));
   file.size = size;
   file.axes = *axes;
   const auto along = [&](std::size_t axis) { return map.along[static_cast<std::size_t>((*axes)[axis])]; };

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A lattice of values in a file that is no DICOM: NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage
-/// (.mha, .mhd). It may be a scan or a map of labels.
+/// A lattice of values in a file that is no DICOM: NIfTI-1 and NIfTI-2 (.nii, .nii.gz), NRRD (.nrrd, .nhdr, .seg.nrrd),
+/// MetaImage (.mha, .mhd). It may be a scan or a map of labels.
 
 #include <array>
 #include <cstdint>
@@ -27,9 +27,14 @@ struct VoxelFile {
   enum class Number : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
   enum class Packing : std::uint8_t {
     none,
-    whole,     ///< gzipped, its header as well
-    behind_it  ///< its header is not, what follows it is (gzip or zlib)
+    whole,      ///< gzipped, its header as well
+    behind_it,  ///< its header is not, what follows it is (gzip or zlib)
+    bzip2,      ///< the same by bzip2
+    ascii,      ///< numbers in words
+    hex         ///< bytes as two digits each
   };
+  /// What the numbers of a voxel are that lie side by side.
+  enum class Beside : std::uint8_t { labels, volumes, colors };
 
   std::filesystem::path path;       ///< where its bytes are
   std::filesystem::path voxels_at;  ///< where those of its voxels are: the same file, or one beside it
@@ -40,13 +45,17 @@ struct VoxelFile {
   Packing packing = Packing::none;  ///< of the file at voxels_at
   std::int64_t first = 0;  ///< the byte at which the voxels begin; of the unpacked file where it is packed whole
   int volumes = 1;         ///< frames: volumes of the same size, one behind the other
-  int layers = 1;          ///< label maps on one lattice: a voxel has a number for each, side by side
-  glm::ivec3 size{0};      ///< voxels along the file's axes, the fastest one first
+  int layers = 1;          ///< numbers of a voxel, side by side
+  Beside beside = Beside::labels;        ///< label maps on one lattice; frames; or red, green, blue and perhaps alpha
+  glm::ivec3 size{0};                    ///< voxels along the file's axes, the fastest one first
   std::array<int, 3> axes{0, 1, 2};      ///< the file's axes that are the geometry's i, j and k
   bool reversed = false;                 ///< the file's first slice (along axes[2]) is the geometry's last
   std::optional<Series::Window> window;  ///< how it would be shown
   bool said_to_be_labels = false;
   std::map<int, LabelName> names;
+  std::vector<Text> remarks;  ///< what a user should know of it
+
+  int frames() const noexcept { return beside == Beside::volumes ? layers : volumes; }
 
   std::size_t slice_size() const { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y); }
   /// Numbers of a slice: more than its voxels where there are layers.
@@ -77,6 +86,12 @@ struct VoxelMap {
 /// Gives the file its geometry. Two axes at right angles become i and j. The third may be oblique: then the slices are
 /// sheared. They ascend along i x j. Throws DicomError if no two axes are at right angles, or a size is impossible.
 void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file);
+
+/// Notes that a voxel has so many numbers, its red, green and blue and perhaps its alpha. Throws DicomError where that
+/// cannot be: colors are 3 or 4 numbers of 8 bits, or of 16.
+void read_as_colors(double numbers, VoxelFile& file);
+/// Throws DicomError where it is none.
+int count_of_volumes(double count);
 
 /// Whether a file name has this ending, in upper or lower case.
 bool has_ending(const std::filesystem::path& name, const std::string& ending);

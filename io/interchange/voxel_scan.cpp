@@ -46,21 +46,39 @@ struct Strides {
   }
 };
 
-/// Puts slice `n` of the file to its places, which are counted from `begin` on.
+/// A voxel's luma: how bright a color is (ITU-R BT.601, as DICOM's Y; alpha counts for nothing). Of grays the gray.
+double luma_at(Number number, const std::uint8_t* from) {
+  const std::size_t next = bytes_of(number);
+  return std::round(0.299 * number_at(number, from) + 0.587 * number_at(number, from + next) +
+                    0.114 * number_at(number, from + 2 * next));
+}
+
+/// What a reader finds in the numbers.
+struct Oddities {
+  bool any_hole = false;     ///< what is no number
+  bool any_rounded = false;  ///< integers of more digits than a float has
+};
+
+/// Puts slice `n` of the file to its places, which are counted from `begin` on. `beside`: which of a voxel's numbers.
 template <typename Stored>
-void put_slice(const VoxelFile& file, int n, std::span<const std::uint8_t> raw, std::ptrdiff_t begin,
-               std::vector<Stored>& voxels, bool& any_hole) {
+void put_slice(const VoxelFile& file, int n, int beside, std::span<const std::uint8_t> raw, std::ptrdiff_t begin,
+               std::vector<Stored>& voxels, Oddities& odd) {
   const Strides strides(file);
-  const std::size_t number = bytes_of(file.number);
-  const std::uint8_t* from = raw.data();
+  const std::size_t number = bytes_of(file.number), voxel = number * static_cast<std::size_t>(file.layers);
+  const bool is_color = file.beside == VoxelFile::Beside::colors;
+  constexpr double exact = 9007199254740992;  // 2^53: beyond, a double has not all digits either
+  const bool is_integer = file.number != Number::f32 && file.number != Number::f64;
+  const std::uint8_t* from = raw.data() + static_cast<std::size_t>(beside) * number;
   for (int j = 0; j < file.size.y; ++j) {
     std::ptrdiff_t at = strides.start + n * strides.along[2] + j * strides.along[1] - begin;
-    for (int i = 0; i < file.size.x; ++i, from += number, at += strides.along[0]) {
+    for (int i = 0; i < file.size.x; ++i, from += voxel, at += strides.along[0]) {
       if (at < 0 || at >= static_cast<std::ptrdiff_t>(voxels.size())) continue;  // of a slice that was not asked for
-      const double stored = number_at(file.number, from);
+      const double stored = is_color ? luma_at(file.number, from) : number_at(file.number, from);
       if constexpr (std::is_same_v<Stored, float>) {
         const auto value = static_cast<float>(stored * file.slope + file.offset);
-        any_hole |= !std::isfinite(value);
+        odd.any_hole |= !std::isfinite(value);
+        odd.any_rounded |=
+            is_integer && (static_cast<double>(static_cast<float>(stored)) != stored || std::abs(stored) >= exact);
         voxels[static_cast<std::size_t>(at)] = std::isfinite(value) ? value : internal::float_padding;
       } else {
         voxels[static_cast<std::size_t>(at)] = static_cast<Stored>(stored);
@@ -84,8 +102,8 @@ Volume::Voxels allocate(Number number, std::size_t count, const std::string& nam
 
 /// Slices of the geometry.
 LoadOptions::Range checked_range(const VoxelFile& file, const std::string& name, const LoadOptions& options) {
-  if (options.frame < 0 || options.frame >= file.volumes) {
-    throw DicomError(say("no-such-frame", name, file.volumes - 1, options.frame));
+  if (options.frame < 0 || options.frame >= file.frames()) {
+    throw DicomError(say("no-such-frame", name, file.frames() - 1, options.frame));
   }
   const int all = file.geometry.dimensions.z;
   const LoadOptions::Range range = options.slices.value_or(LoadOptions::Range{0, all});
@@ -112,7 +130,9 @@ std::pair<int, int> slices_to_read(const VoxelFile& file, const LoadOptions::Ran
 }  // namespace
 
 Series series_of(VoxelFile file, const std::filesystem::path& path, std::shared_ptr<const void> keeper) {
-  if (file.layers > 1) throw DicomError(say("voxels-have-several-values", file.layers));
+  if (file.layers > 1 && file.beside == VoxelFile::Beside::labels) {
+    throw DicomError(say("voxels-have-several-values", file.layers));
+  }
   Series series;
   series.uid = uid_of(file);
   series.modality = "OT";  // DICOM's word for what is not said
@@ -120,12 +140,13 @@ Series series_of(VoxelFile file, const std::filesystem::path& path, std::shared_
   series.files = {path};
   series.geometry = file.geometry;
   series.details.orientation = internal::orientation_of(file.geometry);
-  series.frames_per_position = file.volumes;
-  series.frame_names.resize(static_cast<std::size_t>(file.volumes));
+  series.frames_per_position = file.frames();
+  series.frame_names.resize(static_cast<std::size_t>(file.frames()));
   series.window = file.window;
   series.usable = file.geometry.dimensions.z > 1;
   if (!series.usable) series.warnings.push_back(say("one-slice-alone-is-no-volume"));
   series.warnings.push_back(say("file-names-no-modality"));
+  series.warnings.insert(series.warnings.end(), file.remarks.begin(), file.remarks.end());
   auto source = std::make_shared<SeriesSource>();
   source->keeper = std::move(keeper);
   source->voxel_file = std::make_shared<const VoxelFile>(std::move(file));
@@ -141,10 +162,13 @@ Volume load_voxels(const VoxelFile& file, const std::string& name, const LoadOpt
   const std::ptrdiff_t slice = std::ptrdiff_t{volume.geometry.dimensions.x} * volume.geometry.dimensions.y;
   volume.voxels = allocate(file.number, static_cast<std::size_t>(slice * range.count), name);
   const auto [begin, end] = slices_to_read(file, range);
-  bool any_hole = false;
+  const bool is_beside = file.beside == VoxelFile::Beside::volumes;
+  const int at = is_beside ? 0 : options.frame, beside = is_beside ? options.frame : 0;
+  Oddities odd;
   try {
-    read_raw_slices(file, options.frame, begin, end, [&, first = begin, last = end](int n, auto raw) {
-      std::visit([&](auto& voxels) { put_slice(file, n, raw, slice * range.first, voxels, any_hole); }, volume.voxels);
+    read_raw_slices(file, at, begin, end, [&, first = begin, last = end](int n, auto raw) {
+      std::visit([&](auto& voxels) { put_slice(file, n, beside, raw, slice * range.first, voxels, odd); },
+                 volume.voxels);
       if (options.progress && !options.progress(static_cast<double>(n + 1 - first) / (last - first))) throw Cancelled();
       return true;
     });
@@ -152,7 +176,8 @@ Volume load_voxels(const VoxelFile& file, const std::string& name, const LoadOpt
     throw DicomError(say("series-cannot-be-read", name, error.text()));
   }
   if (std::holds_alternative<std::vector<float>>(volume.voxels)) {
-    if (any_hole) volume.padding = {internal::float_padding, internal::float_padding};
+    if (odd.any_rounded) volume.warnings.push_back(say("values-are-rounded"));
+    if (odd.any_hole) volume.padding = {internal::float_padding, internal::float_padding};
   } else {
     volume.slope = file.slope;
     volume.intercept = file.offset;

@@ -138,7 +138,8 @@ std::string organ_of(std::filesystem::path file) {
 }  // namespace
 
 bool is_label_map(const VoxelFile& file) {
-  if (file.volumes != 1 || file.axes != std::array{0, 1, 2}) return false;
+  const bool may_be = file.frames() == 1 && file.beside == VoxelFile::Beside::labels;
+  if (!may_be || file.axes != std::array{0, 1, 2}) return false;
   const auto boxes = boxes_in(file);
   return boxes && !boxes->empty();
 }
@@ -146,13 +147,17 @@ bool is_label_map(const VoxelFile& file) {
 std::vector<Structure> structures_of_label_map(const std::filesystem::path& path) {
   auto image = open_voxel_file(path, path);
   if (!image) return {};
-  if (image->volumes > 1) throw DicomError(say("labels-in-several-volumes"));
+  if (image->beside == VoxelFile::Beside::colors) {
+    throw DicomError(say("voxels-have-several-values", image->layers));
+  }
+  if (image->frames() > 1) throw DicomError(say("labels-in-several-volumes"));
   check_size(*image);
   if (image->axes != std::array{0, 1, 2}) throw DicomError(say("labels-in-another-order"));
   const auto found = boxes_in(*image);
   if (!found) return {};
   const std::map<int, Box>& boxes = *found;
   const std::map<int, LabelName> names = image->names;
+  const std::vector<Text> remarks = image->remarks;
   const std::filesystem::path voxels_at = image->voxels_at;
   const auto source = std::make_shared<const LabelMapSource>(std::move(*image), boxes);
   std::set<int> numbers;
@@ -175,6 +180,7 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
                                                                           : named->second.name;
     structure.color = named == names.end() ? std::string() : named->second.color;
     structure.warnings.push_back(say("label-map-names-no-scan"));
+    structure.warnings.insert(structure.warnings.end(), remarks.begin(), remarks.end());
     structure.source = source;
     structures.push_back(std::move(structure));
   }

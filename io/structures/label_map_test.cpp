@@ -283,7 +283,7 @@ TEST(LabelMap, IsRefusedInWords) {
   EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(252, 0).written()),
             "it does not say where it lies in the patient (neither sform nor qform): save it with its place");
   EXPECT_EQ(refusal_of(Nifti().put<std::int32_t>(0, 540).written()),
-            "it is no NIfTI-1 file with header and voxels in one: save it as such");
+            "it is no NIfTI-1 or NIfTI-2 file with header and voxels in one: save it as such");
   EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(40, 4).put<std::int16_t>(48, 5).written()),
             "it holds several volumes: save each in a file of its own");
   EXPECT_EQ(refusal_of(Nifti().put<std::int16_t>(70, 32).written()),
@@ -294,8 +294,8 @@ TEST(LabelMap, IsRefusedInWords) {
       refusal_of(Nifti().put<std::int16_t>(42, -1).written()),
       "its voxels are on no lattice that can be felt (no size, or axes that are sheared): resample it with axes at "
       "right angles");
-  EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: bzip2\n" + placed))),
-            "its encoding \"bzip2\" is not read; there are: raw, gzip");
+  EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: lzma\n" + placed))),
+            "its encoding \"lzma\" is not read; there are: raw, gzip, bzip2, ascii, hex");
   EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: raw\ndata file: b.raw\n" + placed))),
             "its voxels are in several files, or in one that is not beside it: save header and voxels in one file");
   EXPECT_EQ(refusal_of(write("a.nrrd", nrrd("type: uint8\nsizes: 3 2 2\nencoding: raw\n"))),

@@ -193,6 +193,8 @@ std::vector<Provoked> provoke_files() {
        of_image([](DcmDataset& d) { put(d, DCM_PhotometricInterpretation, std::string("RGB")); })},
       {"pixels-of-bits", of_image([](DcmDataset& d) { put(d, DCM_BitsStored, 40); })},
       {"no-position-in-the-patient", of_image([](DcmDataset& d) { d.findAndDeleteElement(DCM_ImagePositionPatient); })},
+      {"position-beyond-any-patient",
+       of_image([](DcmDataset& d) { put(d, DCM_ImagePositionPatient, std::string("0\\0\\1e30")); })},
       {"one-slice-alone-is-no-volume", of_image([](DcmDataset&) {})},
       {"localizer-no-volume", of_stack(3,
                                        [](int, TestImage& image) {

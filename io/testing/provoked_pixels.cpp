@@ -147,7 +147,7 @@ std::vector<Provoked> provoke_jpeg() {
 std::vector<Provoked> provoke_pixels() {
   std::vector<Provoked> said{
       {"series-cannot-be-read", of_coded(EXS_RLELossless, Bytes(10, 7))},
-      {"compression-is-unknown-here", of_coded(EXS_JPEGProcess10_12, Bytes(100, 7))},
+      {"compression-is-unknown-here", of_coded(EXS_JPEGProcess7_9, Bytes(100, 7))},
       {"pixels-are-not-compressed", of_bytes([](std::string b) {
          return b.replace(b.find(UID_LittleEndianExplicitTransferSyntax), 19, "1.2.840.10008.1.2.5");
        })},

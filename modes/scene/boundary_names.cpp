@@ -1,10 +1,10 @@
 #include "modes/scene/boundary_names.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
 #include "modes/scene/ct_tissues.h"
+#include "modes/scene/number_text.h"
 
 namespace palpate::modes {
 namespace {
@@ -35,7 +35,7 @@ std::vector<double> sorted_values(std::span<const NamedPair> boundaries) {
   return values;
 }
 
-std::vector<std::string> ranked_names(std::span<const NamedPair> boundaries) {
+std::vector<std::string> ranked_names(std::span<const NamedPair> boundaries, double range) {
   const std::vector<double> values = sorted_values(boundaries);
   const auto rank = [&values](double value) {
     return std::to_string(1 + (std::lower_bound(values.begin(), values.end(), value) - values.begin()));
@@ -44,8 +44,8 @@ std::vector<std::string> ranked_names(std::span<const NamedPair> boundaries) {
   std::size_t least = 0;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     if (!boundaries[b].within.empty()) {
-      names.push_back("Wall in " + boundaries[b].within + ", " + std::to_string(std::lround(boundaries[b].low)) +
-                      " to " + std::to_string(std::lround(boundaries[b].high)));
+      names.push_back("Wall in " + boundaries[b].within + ", " + number_text(boundaries[b].low, range) + " to " +
+                      number_text(boundaries[b].high, range));
       continue;
     }
     names.push_back("Tissue " + rank(boundaries[b].low) + " to " + rank(boundaries[b].high));
@@ -58,8 +58,8 @@ std::vector<std::string> ranked_names(std::span<const NamedPair> boundaries) {
 
 }  // namespace
 
-std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, bool hounsfield) {
-  if (!hounsfield) return ranked_names(boundaries);
+std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, bool hounsfield, double range) {
+  if (!hounsfield) return ranked_names(boundaries, range);
   std::vector<std::string> plain;
   plain.reserve(boundaries.size());
   for (const NamedPair& boundary : boundaries) plain.push_back(ct_name(boundary));
@@ -68,11 +68,11 @@ std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, b
   };
   std::vector<std::string> names = plain;
   for (std::size_t b = 0; b < names.size(); ++b) {
-    if (shared(plain, b)) names[b] += ", " + std::to_string(std::lround(boundaries[b].high)) + " HU";
+    if (shared(plain, b)) names[b] += ", " + number_text(boundaries[b].high, range) + " HU";
   }
   const std::vector<std::string> with_high = names;
   for (std::size_t b = 0; b < names.size(); ++b) {
-    if (shared(with_high, b)) names[b] += " from " + std::to_string(std::lround(boundaries[b].low));
+    if (shared(with_high, b)) names[b] += " from " + number_text(boundaries[b].low, range);
   }
   return names;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "modes/scene/defaults.h"
 #include "modes/scene/faint_walls.h"
 #include "modes/scene/merge_boundaries.h"
+#include "modes/scene/number_text.h"
 #include "modes/scene/scan_noise.h"
 #include "modes/scene/tissue_hills.h"
 
@@ -40,11 +42,7 @@ constexpr std::size_t most_boundaries = 8;  // as many as have a color
 constexpr std::array<const char*, most_boundaries> colors{"#e69f00", "#0072b2", "#009e73", "#d55e00",
                                                           "#56b4e9", "#cc79a7", "#f0e442", "#999999"};
 
-std::string whole_number(double value) {
-  return std::to_string(std::lround(value));
-}
-
-std::vector<std::string> names_of(const std::vector<double>& typical, const io::Volume& volume) {
+std::vector<std::string> names_of(const std::vector<double>& typical, const io::Volume& volume, double range) {
   std::vector<std::string> names;
   const std::size_t count = typical.size();
   for (std::size_t t = 0; t < count; ++t) {
@@ -58,19 +56,18 @@ std::vector<std::string> names_of(const std::vector<double>& typical, const io::
   const std::vector<std::string> plain = names;
   for (std::size_t t = 0; t < count; ++t) {
     if (std::count(plain.begin(), plain.end(), plain[t]) > 1) {
-      names[t] += " (" + whole_number(typical[t]) + " HU)";
+      names[t] += " (" + number_text(typical[t], range) + " HU)";
     }
   }
   return names;
 }
 
-/// Four significant digits: what a person can read and edit.
-double readable(double value) {
+/// Four significant digits of the value, or of the range where that is less: what a person can read and edit.
+double readable(double value, double range) {
   if (value == 0 || !std::isfinite(value)) {
     return value;
   }
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3);
-  return std::round(value / unit) * unit;
+  return rounded_to(value, static_cast<int>(std::floor(std::log10(std::min(std::abs(value), range)))) - 3);
 }
 
 int bins_of_least_step(const io::Bins& values) {
@@ -78,19 +75,21 @@ int bins_of_least_step(const io::Bins& values) {
 }
 
 std::vector<Tissue> tissues_of(const TissueHills& found, const io::Bins& values, const io::Volume& volume) {
-  const std::vector<std::string> names = names_of(found.typical, volume);
+  const double range = values.high - values.low;
+  const std::vector<std::string> names = names_of(found.typical, volume, range);
   std::vector<Tissue> tissues;
   for (std::size_t t = 0; t < found.hills.size(); ++t) {
     const bool last = t + 1 == found.hills.size();
     Tissue tissue;
     tissue.name = names[t];
     tissue.low = t == 0 ? -infinity : tissues.back().high;
-    tissue.high = last ? infinity : readable(values.low + static_cast<double>(found.hills[t].end) * values.width());
+    tissue.high =
+        last ? infinity : readable(values.low + static_cast<double>(found.hills[t].end) * values.width(), range);
     // A tenth of the way to the nearest tissue: neighbors share the soft end between them.
     double nearest = infinity;
     if (t > 0) nearest = std::min(nearest, found.typical[t] - found.typical[t - 1]);
     if (!last) nearest = std::min(nearest, found.typical[t + 1] - found.typical[t]);
-    tissue.softness = readable(0.1 * (std::isfinite(nearest) ? nearest : values.high - values.low));
+    tissue.softness = readable(0.1 * (std::isfinite(nearest) ? nearest : range), range);
     tissues.push_back(std::move(tissue));
   }
   return tissues;
@@ -146,28 +145,24 @@ std::vector<FoundBoundary> boundaries_of(const TissueHills& found, const PairCou
 
 /// Each side of a faint wall is a tissue of its own, beside the one that both are part of: so the boundaries of that
 /// one stay as they are.
-void add_faint_walls(std::vector<internal::FaintWall> walls, Suggestion& suggestion,
+void add_faint_walls(std::vector<internal::FaintWall> walls, double range, Suggestion& suggestion,
                      std::vector<double>& noise_gradients) {
   walls.resize(std::min(walls.size(), most_boundaries - suggestion.boundaries.size()));
   std::vector<Tissue>& tissues = suggestion.scene.tissues;
   for (const internal::FaintWall& wall : walls) {
     const std::string tissue = tissues[wall.within].name;
+    std::size_t low = 0, high = 0;
     for (const auto& [side, typical, which] :
          {std::tuple(wall.low_side, wall.low, "darker"), std::tuple(wall.high_side, wall.high, "brighter")}) {
-      const std::string name = tissue + ", " + which + " part (" + whole_number(typical) + ")";
-      if (std::ranges::any_of(tissues, [&](const Tissue& other) { return other.name == name; })) continue;
-      tissues.push_back({name, readable(side.low), readable(side.high), readable(side.softness)});
+      std::size_t& index = which == std::string_view("darker") ? low : high;
+      const std::string name = tissue + ", " + which + " part (" + number_text(typical, range) + ")";
+      index = static_cast<std::size_t>(std::ranges::find(tissues, name, &Tissue::name) - tissues.begin());
+      if (index < tissues.size()) continue;
+      tissues.push_back({name, readable(side.low, range), readable(side.high, range), readable(side.softness, range)});
       suggestion.typical.push_back(typical);
     }
-    const auto index_of = [&](double typical) {
-      return static_cast<std::size_t>(std::find(suggestion.typical.begin(), suggestion.typical.end(), typical) -
-                                      suggestion.typical.begin());
-    };
-    suggestion.boundaries.push_back({.low = index_of(wall.low),
-                                     .high = index_of(wall.high),
-                                     .middle = 0.5 * (wall.low + wall.high),
-                                     .share = wall.share,
-                                     .within = tissue});
+    suggestion.boundaries.push_back(
+        {.low = low, .high = high, .middle = 0.5 * (wall.low + wall.high), .share = wall.share, .within = tissue});
     noise_gradients.push_back(wall.noise_gradient);
   }
 }
@@ -175,8 +170,8 @@ void add_faint_walls(std::vector<internal::FaintWall> walls, Suggestion& suggest
 /// Factors that set in at the boundary's middle, on the way up or on the way down.
 TransferFunction beyond_the_middle(const FoundBoundary& boundary, double step, double factor, bool up) {
   const double way = up ? step : -step;
-  std::vector<Node> nodes{{readable(boundary.middle - 0.08 * way), 0},
-                          {readable(boundary.middle + 0.02 * way), factor}};
+  std::vector<Node> nodes{{readable(boundary.middle - 0.08 * way, step), 0},
+                          {readable(boundary.middle + 0.02 * way, step), factor}};
   if (!up) std::swap(nodes[0], nodes[1]);
   return TransferFunction(std::move(nodes));
 }
@@ -196,8 +191,8 @@ Mode surface_for(const FoundBoundary& boundary, const Suggestion& suggestion, co
   mode.strength_of = Datum::gradient_magnitude;
   // What noise alone may be is not felt.
   const double from = std::max(ramp_from * peak, least_in_noise * noise_gradient);
-  mode.strength_n = TransferFunction({{readable(from), 0},
-                                      {readable(std::max(ramp_to * peak, 1.5 * from)),
+  mode.strength_n = TransferFunction({{readable(from, infinity), 0},
+                                      {readable(std::max(ramp_to * peak, 1.5 * from), infinity),
                                        is_hard ? defaults::bone_strength_n : defaults::skin_strength_n}});
   mode.gates = {{Datum::value, beyond_the_middle(boundary, step, 1, up)}};
   return mode;
@@ -216,14 +211,14 @@ Mode friction_above(const FoundBoundary& boundary, const Suggestion& suggestion)
 /// A surface for each boundary, then the ways back, then the friction of the outermost of the first `between_tissues`
 /// boundaries: the others are faint walls. `noise_gradients`: of each boundary.
 void add_modes(Suggestion& suggestion, std::size_t between_tissues, const std::vector<double>& noise_gradients,
-               double scale_mm, bool is_ct) {
+               double range, double scale_mm, bool is_ct) {
   std::vector<FoundBoundary>& boundaries = suggestion.boundaries;
   std::vector<NamedPair> pairs;
   pairs.reserve(boundaries.size());
   for (const FoundBoundary& boundary : boundaries) {
     pairs.push_back({suggestion.typical[boundary.low], suggestion.typical[boundary.high], boundary.within});
   }
-  const std::vector<std::string> names = boundary_names(pairs, is_ct);
+  const std::vector<std::string> names = boundary_names(pairs, is_ct, range);
   std::vector<Mode>& modes = suggestion.scene.modes;
   for (const bool up : {true, false}) {
     for (std::size_t b = 0; b < boundaries.size(); ++b) {
@@ -253,6 +248,12 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
     suggestion.scene.description = "The scan has one value only, and no boundary.";
     return suggestion;
   }
+  constexpr double least_range = 1e-15, most_range = 1e15;  // beyond, the squares of gradients are no floats
+  if (!(range >= least_range && range <= most_range)) {
+    suggestion.scene.description = "The values of the scan span " + number_text(range) +
+                                   ", too much or too little for a scene: rescale them to another unit.";
+    return suggestion;
+  }
   const double steepest_of_least = least_step * range / (scale_mm * std::sqrt(2 * std::numbers::pi));
   const std::array least_gradients{steepest_of_least, internal::least_gradient_of_walls(noise, scale_mm)};
   std::vector<io::LowHighHistogram> edges =
@@ -272,9 +273,9 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   std::vector<double> limits, noise_gradients(suggestion.boundaries.size());
   for (std::size_t t = 1; t < found.hills.size(); ++t) limits.push_back(suggestion.scene.tissues[t].low);
   const std::size_t between_tissues = suggestion.boundaries.size();
-  add_faint_walls(internal::faint_walls(edges[1], found, noise.between(limits), range, counts.all, is_ct), suggestion,
-                  noise_gradients);
-  add_modes(suggestion, between_tissues, noise_gradients, scale_mm, is_ct);
+  add_faint_walls(internal::faint_walls(edges[1], found, noise.between(limits), range, counts.all, is_ct), range,
+                  suggestion, noise_gradients);
+  add_modes(suggestion, between_tissues, noise_gradients, range, scale_mm, is_ct);
   suggestion.scene.description =
       "Tissues and boundaries as they were found in the scan: rename, switch and reshape them.";
   return suggestion;

@@ -22,6 +22,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
+#include "plugin/report/slice_picture.h"
 
 namespace palpate::plugin {
 namespace {
@@ -89,6 +90,8 @@ Json json_of(const Examined& examined) {
   json["sequence"] = s.details.sequence;
   json["contrast"] = s.details.contrast;
   json["orientation"] = s.details.orientation;
+  json["letters"] =
+      placed ? Json::array({orientation_letters(g.direction_i), orientation_letters(g.direction_j)}) : Json();
   json["thickness_mm"] = s.details.thickness_mm > 0 ? Json(s.details.thickness_mm) : Json();
   json["first_choice"] = examined.is_first_choice;
   json["modality"] = s.modality;
@@ -108,6 +111,7 @@ Json json_of(const Examined& examined) {
   json["uniform"] = g.uniform;
   json["transfer_syntaxes"] = s.transfer_syntaxes;
   json["unit"] = s.unit;
+  json["window"] = s.window ? Json{{"center", s.window->level}, {"width", s.window->width}} : Json();
   json["minimum"] = has_values ? Json(examined.values.minimum) : Json();
   json["maximum"] = has_values ? Json(examined.values.maximum) : Json();
   json["mean"] = has_values ? Json(examined.values.mean) : Json();

@@ -232,6 +232,63 @@ TEST(CommandNumbers, ASeriesDetailsAreToldUnderTheirNames) {
                 "thick, 4 files\n"));
 }
 
+/// The letters are those of the patient's sides at the image's right and lower edge (PS3.3 C.7.6.1.1.1).
+TEST(CommandNumbers, ASeriesTellsItsWindowAndTheLettersOfItsEdges) {
+  using io::internal::put;
+  struct Case {
+    const char* orientation;
+    Json letters;
+  };
+  for (const Case& one : {Case{"1\\0\\0\\0\\1\\0", {"L", "P"}}, Case{"-1\\0\\0\\0\\-1\\0", {"R", "A"}},
+                          Case{"1\\0\\0\\0\\0\\-1", {"L", "F"}}, Case{"0\\1\\0\\0\\0\\-1", {"P", "F"}},
+                          Case{"0.8\\0.6\\0\\0\\0\\-1", {"LP", "F"}}}) {
+    for (const bool has_window : {false, true}) {
+      const fs::path folder = fresh_path("window");
+      fs::create_directories(folder);
+      io::internal::write_stack(folder, 4, [&](int k, io::internal::TestImage& image) {
+        image.edit = [=](DcmDataset& d) {
+          put(d, DCM_ImageOrientationPatient, std::string(one.orientation));
+          // Along the normal, whichever that is.
+          put(d, DCM_ImagePositionPatient,
+              std::to_string(2 * k) + "\\" + std::to_string(-2 * k) + "\\" + std::to_string(2 * k));
+          if (!has_window) return;
+          put(d, DCM_WindowCenter, std::string("40\\300"));
+          put(d, DCM_WindowWidth, std::string("400\\1500"));
+        };
+      });
+      const Json s = Json::parse(palpate("info --json " + folder.string(), false).output).at("series").at(0);
+      EXPECT_EQ(s.at("letters"), one.letters);
+      EXPECT_EQ(s.at("window"), has_window ? Json({{"center", 40.0}, {"width", 400.0}}) : Json());
+    }
+  }
+}
+
+TEST(CommandNumbers, AnEnhancedFileTellsItsThickness) {
+  for (const bool is_shared : {false, true}) {
+    const fs::path folder = fresh_path("enhanced");
+    fs::create_directories(folder);
+    io::internal::TestImage image;
+    image.edit = [is_shared](DcmDataset& d) {
+      d.findAndDeleteElement(DCM_SliceThickness);
+      io::internal::make_multi_frame(d, {0, 2, 4}, [&](std::size_t, DcmItem& frame) {
+        if (is_shared) return;
+        DcmItem& measures = io::internal::group(frame, DCM_PixelMeasuresSequence);
+        io::internal::succeed(measures.putAndInsertString(DCM_PixelSpacing, "0.5\\0.75"));
+        io::internal::succeed(measures.putAndInsertString(DCM_SliceThickness, "1.75"));
+      });
+      DcmItem& shared = io::internal::group(d, DCM_SharedFunctionalGroupsSequence);
+      if (is_shared) {
+        io::internal::succeed(
+            io::internal::group(shared, DCM_PixelMeasuresSequence).putAndInsertString(DCM_SliceThickness, "1.75"));
+      }
+      io::internal::repeat_pixels(d, 3);
+    };
+    io::internal::write(image, folder / "a.dcm");
+    const Json s = Json::parse(palpate("info --json " + folder.string(), false).output).at("series").at(0);
+    EXPECT_EQ(s.at("thickness_mm"), 1.75);
+  }
+}
+
 /// An archive's settings come back as they were entered, in words and as JSON.
 TEST(CommandNumbers, AnArchivesSettingsAreListedAsTheyWereEntered) {
   const std::string program = "XDG_CONFIG_HOME=" + fresh_path("archives").string() +

@@ -51,13 +51,18 @@ void run(const SendOptions& options) {
   });
   show_progress("");
   if (options.json) {
-    nlohmann::ordered_json refused = nlohmann::ordered_json::array();
-    for (const io::NotSent& one : sent.not_sent) refused.push_back({{"file", one.file.string()}, {"why", one.why}});
-    const nlohmann::ordered_json json{{"sent", sent.files}, {"not_sent", refused}};
+    const auto listed = [](const std::vector<io::NotSent>& files_and_reasons) {
+      nlohmann::ordered_json list = nlohmann::ordered_json::array();
+      for (const io::NotSent& one : files_and_reasons) list.push_back({{"file", one.file.string()}, {"why", one.why}});
+      return list;
+    };
+    const nlohmann::ordered_json json{
+        {"sent", sent.files}, {"not_sent", listed(sent.not_sent)}, {"warned", listed(sent.warned)}};
     put_json(json, 1);
   } else {
     put("{} files sent to {}\n", sent.files, archive.name);
   }
+  for (const io::NotSent& one : sent.warned) tell(at_place("palpate: " + one.file.string(), one.why));
   for (const io::NotSent& one : sent.not_sent) tell(at_place("palpate: " + one.file.string(), one.why));
   if (!sent.not_sent.empty()) throw InputRefused(say("files-not-sent", sent.not_sent.size(), files.size()));
 }

@@ -65,8 +65,8 @@ std::string marks_as_csv(const Marks& marks) {
                        path.points_mm.front().x, path.points_mm.front().y, path.points_mm.front().z, path.length_mm);
   }
   for (const MarkedDistance& distance : marks.distances) {
-    csv += fmt::format("distance,{} to {},,,,,,,,{:.4f},\n", cell(marks.points[distance.from].name),
-                       cell(marks.points[distance.to].name), distance.mm);
+    const std::string name = marks.points[distance.from].name + " to " + marks.points[distance.to].name;
+    csv += fmt::format("distance,{},,,,,,,,{:.4f},\n", cell(name), distance.mm);
   }
   for (const MarkedAngle& angle : marks.angles) {
     csv += fmt::format("angle,{},,,,,,,,,{:.3f}\n", cell(marks.points[angle.at].name), angle.degrees);

@@ -218,7 +218,10 @@ Marks marks() {
 }
 
 TEST(Tables, TheMarksColumnsAreWhatTheyAreCalled) {
-  EXPECT_THAT(rows_of(marks_as_csv(marks())),
+  Marks all = marks();
+  all.distances.push_back({.from = 0, .to = 1, .mm = 11.75});
+  all.distances.push_back({.from = 2, .to = 0, .mm = 4});
+  EXPECT_THAT(rows_of(marks_as_csv(all)),
               ElementsAre(Row{{"kind", "mark"},
                               {"name", "A, left"},
                               {"time_s", "1.250"},
@@ -252,6 +255,8 @@ TEST(Tables, TheMarksColumnsAreWhatTheyAreCalled) {
                               {"z_mm", "13.0000"},
                               {"length_mm", "5.0000"}},
                           Row{{"kind", "distance"}, {"name", "B to C"}, {"length_mm", "15.5000"}},
+                          Row{{"kind", "distance"}, {"name", "A, left to B"}, {"length_mm", "11.7500"}},
+                          Row{{"kind", "distance"}, {"name", "C to A, left"}, {"length_mm", "4.0000"}},
                           Row{{"kind", "angle"}, {"name", "A, left"}, {"angle_deg", "77.500"}}));
 }
 

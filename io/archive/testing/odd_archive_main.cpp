@@ -182,6 +182,9 @@ class Serving {
     if (request.field == 0x10) return get(request);
     if (request.field == 0x21) return move(request);
     if (behavior_ == "silent-at-store") std::this_thread::sleep_for(std::chrono::seconds(60));
+    if (behavior_ == "changes-at-store") return respond(socket_, request, 0xB000);
+    if (behavior_ == "leaves-out-at-store") return respond(socket_, request, 0xB006);
+    if (behavior_ == "doubts-at-store") return respond(socket_, request, 0xB007);
     if (behavior_ == "refuses-store") return respond(socket_, request, 0xA900);
     if (behavior_ == "echoes-at-store") return echo(request);
     respond(socket_, request, behavior_ == "refuses-echo" ? 0x0122 : 0);

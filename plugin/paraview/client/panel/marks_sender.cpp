@@ -56,7 +56,8 @@ void MarksSender::send(const io::Archive& archive, const io::Series& series,
 
 void MarksSender::take(const io::Sent& sent, const std::string& archive) {
   if (sent.not_sent.empty()) {
-    emit told(words(say("marks-are-sent", archive, sent.files - 1)), false);
+    const QString warned = sent.warned.empty() ? QString() : QLatin1Char('\n') + words(sent.warned.front().why);
+    emit told(words(say("marks-are-sent", archive, sent.files - 1)) + warned, false);
     return;
   }
   const QString why = words(sent.not_sent.front().why);
