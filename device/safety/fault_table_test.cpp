@@ -29,7 +29,7 @@ TEST_P(FaultTable, NoEventRaisesAForceStepsItOrLeavesIt) {
   const bool has_motors = GetParam() != std::string("space_mouse");
   const bool is_arithmetic = GetParam() == std::string("simulated");
   EXPECT_EQ(events.size(), rows.size());
-  const std::size_t fewest = !has_motors ? 0 : is_arithmetic ? 12 : 18;
+  const std::size_t fewest = !has_motors ? 0 : is_arithmetic ? 11 : 18;
   EXPECT_GE(rows.size(), fewest);
 }
 

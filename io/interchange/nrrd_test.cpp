@@ -41,7 +41,8 @@ TEST(Nrrd, WhatIsToBeSkippedOtherwiseIsRefused) {
   const TestFolder folder;
   const std::string place = "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
   const std::string why =
-      "its encoding \"raw with lines or packed bytes to be skipped\" is not read; there are: raw, gzip, bzip2, ascii, hex";
+      "its encoding \"raw with lines or packed bytes to be skipped\" is not read; there are: raw, gzip, bzip2, ascii, "
+      "hex";
   const std::string data = voxels<std::int16_t>();
   for (const std::string fields :
        {"encoding: raw\nline skip: 1\n", "encoding: raw\nlineskip: 2\n", "encoding: raw\nbyte skip: -2\n"}) {

@@ -338,18 +338,16 @@ class LateStylus final : public device::Stylus {
   device::SimulatedStylus inner_;
 };
 
-/// Reach, force and stiffness of the device that is there, in the plan and in the filter; it is opened and closed once.
+/// Force and stiffness of the device that is there are those of the session; it is opened and closed once.
 TEST(LiveSession, IsPlannedForTheStylusThatIsThere) {
   const auto late = std::make_shared<LateStylus>();
   const double nominal_m = late->specification().workspace_half_extent.x;
   UnhurriedSession live;
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
   live.set_scan(ball(), scene);
-  const double before = live.plan()->workspace.mm_per_m;
   live.connect(late);
   EXPECT_EQ(live.specification().name, "opened");
   EXPECT_EQ(live.specification().workspace_half_extent.x, nominal_m / 2);
-  EXPECT_NEAR(live.plan()->workspace.mm_per_m, 2 * before, 1e-6 * before) << "half the reach is all of the scan";
   EXPECT_EQ(live.stiffness_n_per_m(), 123);
   EXPECT_EQ(live.drawn_down().size(), 2U) << "the force and the stiffness";
   live.disconnect();

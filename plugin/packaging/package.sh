@@ -159,7 +159,7 @@ and feel them with a haptic stylus or the mouse. ParaView loads it by itself.
 
 Research software, not a medical device.
 TEXT
-finish libpalpate-dev libdevel "libglm-dev, libfmt-dev, libdcmtk-dev, libopenjp2-7-dev, libcharls-dev, libarchive-dev, libopencv-core-dev, libopencv-imgproc-dev, libopencv-photo-dev, nlohmann-json3-dev, libusb-1.0-0-dev, libhidapi-dev, libssl-dev$(
+finish libpalpate-dev libdevel "libglm-dev, libfmt-dev, libdcmtk-dev, libopenjp2-7-dev, libcharls-dev, libarchive-dev, libpolyclipping-dev, libopencv-core-dev, libopencv-imgproc-dev, libopencv-photo-dev, nlohmann-json3-dev, libusb-1.0-0-dev, libhidapi-dev, libssl-dev$(
   [ "$suffix" = deb12 ] || echo ", libjpeg-dev, libpng-dev, libtiff-dev")" "headers and static libraries of Palpate" <<'TEXT'
 The force balance, the reader of DICOM series, the haptic modes and the
 stylus drivers of Palpate as libraries, with their CMake package:

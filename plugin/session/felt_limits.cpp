@@ -40,8 +40,9 @@ std::vector<Text> drawn_down(const modes::Scene& scene, const device::Specificat
       said.push_back(say("limit-drawn-down", key, fmt::format("{:g}", asked), fmt::format("{:g}", felt), unit));
   };
   compare("force_limit_n", scene.limits.force_n, std::min(limits.force, limits.device_force), "N");
-  compare("slew_limit_n_per_ms", scene.limits.slew_n_per_ms, std::min(scene.limits.slew_n_per_ms, limits.slew / 1e3),
-          "N/ms");
+  // Not from `limits`: there and back between units a limit that nothing tightens may differ by rounding.
+  compare("slew_limit_n_per_ms", scene.limits.slew_n_per_ms,
+          std::min(scene.limits.slew_n_per_ms, ceiling::slew_n_per_s / 1e3), "N/ms");
   compare("ramp_s", scene.limits.ramp_s, limits.ramp_time, "s");
   compare("speed_limit_m_per_s", scene.limits.speed_m_per_s, limits.speed, "m/s");
   return said;

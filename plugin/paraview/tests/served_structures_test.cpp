@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "io/structures/structure.h"
-#include "plugin/paraview/wire/slices_message.h"
-#include "plugin/paraview/wire/structure_files_message.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
+#include "plugin/paraview/wire/slices_message.h"
+#include "plugin/paraview/wire/structure_files_message.h"
 #include "plugin/session/structure_files.h"
 #include "plugin/testing/registered_study.h"
 #include "plugin/testing/test_files.h"

@@ -12,9 +12,9 @@
 #include <variant>
 #include <vector>
 
+#include "plugin/paraview/server/module/PalpateDicomReader.h"
 #include "plugin/paraview/wire/slices_message.h"
 #include "plugin/paraview/wire/structure_files_message.h"
-#include "plugin/paraview/server/module/PalpateDicomReader.h"
 
 using namespace palpate::plugin;
 
