@@ -1,4 +1,5 @@
-// Deflated image frames (PS3.5 A.4.13): each frame by itself, as RFC 1951 has it.
+// Deflated image frames (PS3.5 A.4.13): each frame by itself, as RFC 1951 has it. A frame of an odd number of bytes may
+// have been padded by one before.
 #include <zlib.h>
 
 #include <new>
@@ -11,7 +12,8 @@
 namespace palpate::io::internal {
 
 std::vector<std::byte> inflate_frame(const PixelFormat& format, std::span<const std::byte> bytes) {
-  std::vector<std::byte> pixels(format.bytes_per_frame());
+  const std::size_t needed = format.bytes_per_frame(), padded = needed + needed % 2;
+  std::vector<std::byte> pixels(padded);
   z_stream stream{};
   if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
   // zlib reads through a pointer that is not const, and does not write.
@@ -21,7 +23,9 @@ std::vector<std::byte> inflate_frame(const PixelFormat& format, std::span<const 
   stream.avail_out = static_cast<uInt>(pixels.size());
   const int status = inflate(&stream, Z_FINISH);
   inflateEnd(&stream);
-  if (status != Z_STREAM_END || stream.avail_out != 0) throw DicomError(say("deflated-frame-is-damaged"));
+  const std::size_t got = padded - stream.avail_out;
+  if (status != Z_STREAM_END || got < needed) throw DicomError(say("deflated-frame-is-damaged"));
+  pixels.resize(needed);
   return pixels;
 }
 

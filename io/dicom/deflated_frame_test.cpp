@@ -8,7 +8,6 @@
 
 #include "io/errors.h"
 #include "io/load.h"
-#include "io/testing/file_bytes.h"
 #include "io/testing/test_coders.h"
 #include "io/testing/test_image.h"
 #include "io/testing/voxel_files.h"
@@ -27,7 +26,6 @@ std::int64_t deflated_truth(int n, int k, int bits, bool is_signed) {
   return is_signed ? value - range / 2 : value;
 }
 
-/// DCMTK does not know the syntax: the file says another one of as many letters, which is exchanged.
 void write_deflated(const TestFolder& folder, int bits, bool is_signed, int damaged = -1) {
   TestImage image{.columns = deflated_columns, .rows = deflated_rows};
   image.syntax = EXS_JPEG2000LosslessOnly;
@@ -41,6 +39,7 @@ void write_deflated(const TestFolder& folder, int bits, bool is_signed, int dama
         const std::int64_t value = deflated_truth(n, k, bits, is_signed);
         for (int b = 0; b < bits; b += 8) bytes += static_cast<char>(value >> b & 255);
       }
+      if (bytes.size() % 2 == 1 && k != 1) bytes += '\0';  // some writers pad a frame before they pack it
       if (k == damaged) bytes.resize(bytes.size() - 3);
       const std::string small = packed(bytes, -15);
       coded.emplace_back(small.begin(), small.end());
@@ -53,10 +52,7 @@ void write_deflated(const TestFolder& folder, int bits, bool is_signed, int dama
     encapsulate(d, EXS_JPEG2000LosslessOnly, coded, 1U << 20);
   };
   write(image, folder / "a.dcm");
-  std::string bytes = bytes_of(folder / "a.dcm");
-  const std::string said = "1.2.840.10008.1.2.4.90";
-  bytes.replace(bytes.find(said), said.size(), std::string("1.2.840.10008.1.2.8.1\0", said.size()));
-  write_bytes(folder / "a.dcm", bytes);
+  call_deflated_frames(folder / "a.dcm");
 }
 
 TEST(DeflatedFrames, HaveTheirValuesOfAnyNumberOfBits) {

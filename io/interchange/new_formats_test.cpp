@@ -132,13 +132,23 @@ TEST(NewFormats, VolumesOfAFourthAxisAreFrames) {
                                                "directions: none " +
                                                directions + "\n") +
                                          side_by_side());
+  // ITK writes images of four axes so: vectors of four numbers, in a space with time.
+  for (const char* const space : {"left-posterior-superior-time", "LPST"}) {
+    std::string fields = nrrd_with(
+        "dimension: 4\nsizes: 4 3 5 3\nkinds: domain domain domain domain\nspace directions: (1,0,0,0) (0,2,0,0) "
+        "(0,0,3,0) (0,0,0,0.7)\n");
+    fields.replace(fields.find("LPS"), 3, space);
+    fields.replace(fields.find("(-4,5,6)"), 8, "(-4,5,6,0)");
+    write_bytes(folder / (std::string(space) + ".nrrd"), fields + behind);
+  }
   const std::string four =
       "NDims = 4\nBinaryDataByteOrderMSB = False\nDimSize = 4 3 5 3\nElementType = MET_SHORT\n"
       "ElementSpacing = 1 2 3 0.7\nOffset = -4 5 6 0\n"
       "TransformMatrix = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n";
   write_bytes(folder / "a.mha", four + "ElementDataFile = LOCAL\n" + behind);
   write_bytes(folder / "z.mha", four + "CompressedData = True\nElementDataFile = LOCAL\n" + packed(behind, 15));
-  for (const char* const name : {"last.nrrd", "packed.nrrd", "first.nrrd", "a.mha", "z.mha"}) {
+  for (const char* const name :
+       {"last.nrrd", "packed.nrrd", "first.nrrd", "left-posterior-superior-time.nrrd", "LPST.nrrd", "a.mha", "z.mha"}) {
     SCOPED_TRACE(name);
     const Catalogue found = find_series(std::array{folder / name});
     ASSERT_THAT(found.series, SizeIs(1)) << (found.skipped.empty() ? Text() : found.skipped[0].reason);
@@ -314,6 +324,8 @@ TEST(NewFormats, EncodingsThatAreDamagedAreRefusedInWords) {
   EXPECT_THAT(refused("ascii", std::string(400, '7')), ::testing::HasSubstr("is no number of its type"));
   EXPECT_THAT(refused("hex", in_hex(voxels<std::int16_t>(), "").substr(1)),
               ::testing::HasSubstr("ends before its last voxel"));
+  EXPECT_THAT(refused("hex", in_hex(voxels<std::int16_t>(), "").replace(40, 1, "g")),
+              ::testing::HasSubstr("\"g\" is no number of its type"));
   EXPECT_THAT(refused("lzma", bzip2), "its encoding \"lzma\" is not read; there are: raw, gzip, bzip2, ascii, hex");
 }
 

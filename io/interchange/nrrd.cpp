@@ -67,13 +67,25 @@ VoxelFile::Number number_of(const std::string& type) {
   return found->second;
 }
 
-/// From the file's space to LPS.
+/// From the file's space to LPS. It may have an axis of time behind its three ("left-posterior-superior-time", "LPST").
 Vec3 to_lps(const std::string& given) {
-  const std::string space = lower_case(given);
-  if (space == "left-posterior-superior" || space == "lps") return {1, 1, 1};
-  if (space == "right-anterior-superior" || space == "ras") return {-1, -1, 1};
-  if (space == "left-anterior-superior" || space == "las") return {1, -1, 1};
+  std::string space = lower_case(given);
+  if (space.ends_with("-time")) space.resize(space.size() - std::string("-time").size());
+  if (space == "left-posterior-superior" || space == "lps" || space == "lpst") return {1, 1, 1};
+  if (space == "right-anterior-superior" || space == "ras" || space == "rast") return {-1, -1, 1};
+  if (space == "left-anterior-superior" || space == "las" || space == "last") return {1, -1, 1};
   throw DicomError(say("nrrd-without-a-place"));
+}
+
+/// The part in space of a vector in the file's space; nothing where it has none, or is no such vector.
+std::optional<Vec3> in_space(const std::vector<double>& vector) {
+  if (vector.size() != 3 && vector.size() != 4) return std::nullopt;
+  const Vec3 part(vector[0], vector[1], vector[2]);
+  const double time = vector.size() == 4 ? vector[3] : 0;
+  const bool is_sound = std::isfinite(part.x) && std::isfinite(part.y) && std::isfinite(part.z) && std::isfinite(time);
+  if (!is_sound || (time != 0 && part == Vec3(0))) return std::nullopt;
+  if (time != 0) throw DicomError(say("voxels-on-no-lattice"));
+  return part;
 }
 
 double mm_of(const std::string& unit) {
@@ -141,9 +153,7 @@ std::vector<std::optional<Vec3>> directions_of(const Fields& fields) {
   for (std::size_t at = text.find_first_of("(n"); at != std::string::npos; at = text.find_first_of("(n", at)) {
     const std::size_t end = text[at] == '(' ? text.find(')', at) : text.find_first_of(" (", at);
     const std::vector<double> all = text[at] == '(' ? numbers(text.substr(at, end - at)) : std::vector<double>();
-    const bool is_direction =
-        all.size() == 3 && std::isfinite(all[0]) && std::isfinite(all[1]) && std::isfinite(all[2]);
-    directions.push_back(is_direction ? std::optional(Vec3(all[0], all[1], all[2])) : std::nullopt);
+    directions.push_back(in_space(all));
     if (end == std::string::npos) break;
     at = end;
   }
@@ -203,7 +213,7 @@ void read_other_axis(const Fields& fields, const Axes& axes, VoxelFile& file) {
 
 VoxelMap map_of(const Fields& fields, const Axes& axes) {
   const std::vector<double> origin = numbers(field(fields, {"space origin"}));
-  if (origin.size() != 3) to_lps({});
+  if (origin.size() != 3 && origin.size() != 4) to_lps({});
   const Vec3 mm = to_lps(field(fields, {"space"})) * mm_along_axes(fields);
   VoxelMap map;
   for (std::size_t n = 0; n < 3; ++n) map.along[n] = mm * axes.along[n];

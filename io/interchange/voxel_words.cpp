@@ -142,6 +142,8 @@ class HexBytes final : public VoxelBytes {
       if (c >= '0' && c <= '9') return c - '0';
       if (c >= 'a' && c <= 'f') return c - 'a' + 10;
       if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+      if (c != ' ' && (c < '\t' || c > '\r'))
+        throw DicomError(say("voxels-in-no-words", std::string(1, static_cast<char>(c))));
     }
     throw DicomError(say("voxels-end-early"));
   }

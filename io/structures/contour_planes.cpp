@@ -191,7 +191,8 @@ OutlinePlanes planes_of(const ContourStack& stack, const DistanceOptions& option
   lattice.bricks = (glm::ivec3(size, tall) + NodeBricks::edge - 1) / NodeBricks::edge;
   constexpr double most_nodes = 2e9;
   if (static_cast<double>(lattice.bricks.x) * lattice.bricks.y * lattice.bricks.z * 512 > most_nodes) {
-    throw DicomError(say("contours-span-mm", std::lround(glm::length(all.high - all.low))));
+    const double tall_mm = stack.planes.back().height - stack.planes.front().height;
+    throw DicomError(say("contours-span-mm", std::lround(glm::length(Vec3(all.high - all.low, tall_mm)))));
   }
   lattice.origin = stack.axes * Vec3(layout.origin, bottom);
   planes.compute = [layout, lattice, band = planes.band_mm](std::size_t n, PlaneDistances& distances) {

@@ -16,8 +16,9 @@
 namespace palpate::io {
 namespace {
 
-constexpr double least_apart_mm = 0.01;  // of two planes
-constexpr double most_apart_mm = 0.1;    // of two contours in one plane
+constexpr double least_apart_mm = 0.01;    // of two planes
+constexpr double most_apart_mm = 0.1;      // of two contours in one plane that lean
+constexpr double rounded_apart_mm = 0.05;  // of two contours in one plane whose heights were rounded differently
 constexpr int most_planes = 4096;
 constexpr double most_missing = 4.5;  // steps between two planes of one body
 
@@ -89,12 +90,26 @@ LevelContour level_contour(const Contour& contour, const glm::dmat3& axes) {
   return level;
 }
 
+/// Whether contours fall into planes no thicker than `mm` that are clearly farther apart than that.
+bool fall_into_planes(const std::vector<LevelContour>& ascending, double mm) {
+  constexpr double clearly = 3;
+  double first = ascending.front().height, last = first;
+  for (const LevelContour& contour : ascending) {
+    const double gap = contour.height - last;
+    if (gap > clearly * mm) first = contour.height;
+    if (contour.height - first > mm) return false;
+    last = contour.height;
+  }
+  return true;
+}
+
 /// How far apart two contours of one plane may be, mm.
-double same_plane_mm(const std::vector<LevelContour>& contours) {
+double same_plane_mm(const std::vector<LevelContour>& ascending) {
   std::vector<double> leaning;
-  leaning.reserve(contours.size());
-  for (const LevelContour& contour : contours) leaning.push_back(contour.leaning);
-  return std::clamp(quantile(std::move(leaning), 0.5), least_apart_mm, most_apart_mm);
+  leaning.reserve(ascending.size());
+  for (const LevelContour& contour : ascending) leaning.push_back(contour.leaning);
+  const double least = fall_into_planes(ascending, rounded_apart_mm) ? rounded_apart_mm : least_apart_mm;
+  return std::clamp(quantile(std::move(leaning), 0.5), least, most_apart_mm);
 }
 
 std::vector<double> steps_of(const ContourStack& stack) {

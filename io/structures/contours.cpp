@@ -15,6 +15,7 @@
 #include "io/errors.h"
 #include "io/messages.h"
 #include "io/quantile.h"
+#include "io/reach.h"
 #include "io/structures/color.h"
 #include "io/structures/contour_planes.h"
 #include "io/structures/structure_file.h"
@@ -106,6 +107,8 @@ Contour contour_in(DcmItem& item) {
   contour.reserve(numbers.size() / 3);
   for (std::size_t n = 0; n < numbers.size(); n += 3) {
     contour.push_back({numbers[n], numbers[n + 1], numbers[n + 2]});
+    const bool is_near = glm::length(contour.back()) <= internal::farthest_place_mm;  // nor is what is no number
+    if (!is_near) throw DicomError(say("contour-beyond-any-patient"));
   }
   return contour;
 }
@@ -121,7 +124,8 @@ Roi closed_contours(DcmItem& item_of_roi, Text& unfit, std::vector<Text>& warnin
       if (contour.size() < 3) return;
       roi.contours.push_back(std::move(contour));
       roi.rule.is_exclusive = roi.rule.is_exclusive || type == "CLOSEDPLANAR_XOR";
-      roi.rule.thickness_mm = std::max(roi.rule.thickness_mm, number_of(item, contour_slab_thickness).value_or(0));
+      const double thickness = number_of(item, contour_slab_thickness).value_or(0);
+      if (thickness <= internal::farthest_place_mm) roi.rule.thickness_mm = std::max(roi.rule.thickness_mm, thickness);
     } else {
       ++others[type];
     }

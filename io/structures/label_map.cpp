@@ -140,8 +140,7 @@ std::string organ_of(std::filesystem::path file) {
 bool is_label_map(const VoxelFile& file) {
   const bool may_be = file.frames() == 1 && file.beside == VoxelFile::Beside::labels;
   if (!may_be || file.axes != std::array{0, 1, 2}) return false;
-  const auto boxes = boxes_in(file);
-  return boxes && !boxes->empty();
+  return boxes_in(file).has_value();
 }
 
 std::vector<Structure> structures_of_label_map(const std::filesystem::path& path) {

@@ -225,15 +225,17 @@ TEST(ContourStacks, AreOfTheLargestContoursPlane) {
   }
 }
 
-// Heights of a hundredth of a millimeter are one plane; a contour leans by half a millimeter at most.
-TEST(ContourStacks, PlanesAreAHundredthOfAMillimeterApart) {
+// Heights within a twentieth of a millimeter are one plane, where others are clearly farther apart; a contour leans by
+// half a millimeter at most.
+TEST(ContourStacks, PlanesAreMoreThanATwentiethOfAMillimeterApart) {
   const ObliquePlanes planes;
   const auto planes_at = [&](double height) {
     return stack_of({planes.contour(square, 0), planes.contour(square, 4), planes.contour(square, 4 + height)})
         .planes.size();
   };
   EXPECT_EQ(planes_at(1e-4), 2U);
-  EXPECT_EQ(planes_at(0.02), 3U);
+  EXPECT_EQ(planes_at(0.045), 2U);
+  EXPECT_EQ(planes_at(0.055), 3U);
   EXPECT_EQ(planes_at(0.3), 3U);
   for (const auto& [leaning, fits] : {std::pair{0.49, true}, {0.51, false}}) {
     Contour contour = planes.contour({{3, 3}, {9, 3}, {9, 9}}, 2);

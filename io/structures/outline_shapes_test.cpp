@@ -88,16 +88,20 @@ TEST(OutlineShapes, OfMoreThanFourThousandPlanesAreRefused) {
 }
 
 TEST(OutlineShapes, ThatNoLatticeHoldsAreRefused) {
-  std::vector<Contour> far_apart{upright_box(10, 10, 0), upright_box(10, 10, 2)};
-  for (Vec3& point : far_apart[1]) point += Vec3(40000, 30000, 0);
-  const ContourStack stack = stack_of(far_apart);
-  try {
-    planes_of(stack, {});
-    ADD_FAILURE() << "not refused";
-  } catch (const DicomError& error) {
-    // From one corner to the opposite one: 50 m, and two times 10 mm on both axes.
-    EXPECT_NE(std::string(error.what()).find("50014"), std::string::npos) << error.what();
-  }
+  const auto refusal = [](const Vec3& apart) -> std::string {
+    std::vector<Contour> far_apart{upright_box(10, 10, 0), upright_box(10, 10, 2)};
+    for (Vec3& point : far_apart[1]) point += apart;
+    const ContourStack stack = stack_of(far_apart);
+    try {
+      planes_of(stack, {});
+    } catch (const DicomError& error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  // From one corner to the opposite one: 50 m, and two times 10 mm on both axes; and as far along the normal.
+  EXPECT_NE(refusal({40000, 30000, 0}).find(" 50014 "), std::string::npos) << refusal({40000, 30000, 0});
+  EXPECT_NE(refusal({0, 0, 50000}).find(" 50002 "), std::string::npos) << refusal({0, 0, 50000});
 }
 
 double distance_to_segment(const Vec3& at, const Vec3& a, const Vec3& b) {

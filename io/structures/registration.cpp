@@ -12,6 +12,7 @@
 #include "io/dicom/character_set.h"
 #include "io/dicom/dicom_value.h"
 #include "io/messages.h"
+#include "io/reach.h"
 
 namespace palpate::io {
 namespace {
@@ -71,6 +72,8 @@ Registration::Part part_in(DcmItem& item, const std::string& file) {
       }
       if (const auto motion = rigid(rows)) {
         part.motion = after(part.motion, *motion);
+        const bool is_near = glm::length(part.motion.shift) <= internal::farthest_place_mm;  // nor is what is no number
+        if (!is_near && part.unfit.empty()) part.unfit = say("registration-moves-too-far", file);
       } else if (part.unfit.empty()) {
         part.unfit = say("registration-is-not-rigid", file);
       }

@@ -21,7 +21,7 @@ std::uint64_t pixels_of(const PixelFormat& format) {
   return static_cast<std::uint64_t>(format.columns) * static_cast<std::uint64_t>(format.rows);
 }
 
-/// A frame of single bits as bytes: what the run-length coder packs.
+/// A frame of single bits as bytes: how coders of images hold it.
 PixelFormat as_bytes(const PixelFormat& format) {
   PixelFormat bytes = format;
   bytes.bits_allocated = bytes.bits_stored = 8;
@@ -72,8 +72,8 @@ void read_encapsulated(const SegmentationPixels& pixels, std::uint32_t frame, st
   const internal::InputFile file(pixels.path);
   const auto bytes = internal::read_fragments(file, pixels.fragments.at(frame));
   const PixelFormat& format = pixels.format;
-  constexpr const char* run_length = "1.2.840.10008.1.2.5";
-  if (format.bits_allocated == 1 && pixels.start.transfer_syntax == run_length) {
+  // What packs bytes packs the bits eight to a byte (PS3.5 8.2.2 and 8.2.16); coders of images know bytes alone.
+  if (format.bits_allocated == 1 && internal::is_packed(pixels.start.transfer_syntax)) {
     PixelFormat packed = as_bytes(format);
     packed.columns = static_cast<int>((pixels_of(format) + 7) / 8);
     packed.rows = 1;

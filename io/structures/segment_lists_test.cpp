@@ -5,16 +5,19 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "io/messages.h"
+#include "io/series.h"
 #include "io/structures/structure.h"
+#include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
 #include "io/testing/test_segmentation.h"
+#include "io/testing/voxel_files.h"
 
 namespace palpate::io {
 namespace {
@@ -127,24 +130,30 @@ TEST(SegmentLists, ABackgroundIsNoStructure) {
 }
 
 void write_mask(const std::filesystem::path& file, char value) {
-  const bool is_nrrd = file.extension() == ".nrrd";
-  std::ofstream out(file, std::ios::binary);
-  if (is_nrrd) {
-    out << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 3 2 2\n"
-           "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n";
-  } else {
-    out << "NDims = 3\nDimSize = 3 2 2\nElementType = MET_UCHAR\nOffset = 0 0 0\nElementSpacing = 1 1 1\n"
-           "ElementDataFile = LOCAL\n";
-  }
-  std::string voxels(12, '\0');
+  const std::string name = file.filename().string();
+  std::string voxels(static_cast<std::size_t>(internal::nx * internal::ny * internal::nz), '\0');
   voxels[4] = voxels[5] = value;
-  out << voxels;
+  if (name.ends_with(".nrrd")) {
+    voxels =
+        "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 4 3 5\n"
+        "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n" +
+        voxels;
+  } else if (name.ends_with(".mha")) {
+    voxels =
+        "NDims = 3\nDimSize = 4 3 5\nElementType = MET_UCHAR\nOffset = 0 0 0\nElementSpacing = 1 1 1\n"
+        "ElementDataFile = LOCAL\n" +
+        voxels;
+  } else {
+    constexpr std::int16_t of_bytes = 2;
+    voxels = internal::Nifti().sform(internal::oblique()).put(70, of_bytes).bytes() + voxels;
+  }
+  internal::write_bytes(file, name.ends_with(".gz") ? internal::packed(voxels, 31) : voxels);
 }
 
 // As programs write a folder of them.
 TEST(SegmentLists, AMaskInAFileOfItsOwnIsNamedByTheFileAlsoWhereItIsEmpty) {
   for (const char value : {'\0', '\1', '\5'}) {
-    for (const std::string ending : {".nrrd", ".seg.nrrd", ".mha"}) {
+    for (const std::string ending : {".nrrd", ".seg.nrrd", ".mha", ".nii", ".nii.gz"}) {
       for (const std::string organ : {"spleen", "vertebrae_L1", "kidney.left"}) {
         const TestFolder folder;
         write_mask(folder / (organ + ending), value);
@@ -156,6 +165,8 @@ TEST(SegmentLists, AMaskInAFileOfItsOwnIsNamedByTheFileAlsoWhereItIsEmpty) {
         if (value != 0) {
           EXPECT_EQ(measure(found[0]).voxels, 2U);
         }
+        // Of a folder it is no scan.
+        EXPECT_EQ(find_series(std::array{folder.path()}).series.size(), 0U) << organ << ending;
       }
     }
   }

@@ -16,6 +16,7 @@
 #include "io/dicom/stacking.h"
 #include "io/errors.h"
 #include "io/messages.h"
+#include "io/reach.h"
 #include "io/structures/color.h"
 #include "io/structures/mask_source.h"
 #include "io/structures/segment_frames.h"
@@ -46,6 +47,19 @@ std::vector<double> numbers_in(DcmItem* item, const DcmTagKey& tag) {
   return item != nullptr ? numbers_of(*item, tag) : std::vector<double>();
 }
 
+/// A distance that is said; 0 where it is not, or is none of a patient's.
+double distance_in(DcmItem* measures, const DcmTagKey& tag) {
+  const std::vector<double> numbers = numbers_in(measures, tag);
+  const double distance = numbers.empty() ? 0 : std::abs(numbers.front());
+  return distance <= internal::farthest_place_mm ? distance : 0;
+}
+
+bool is_within_reach(const Placement& placement) {
+  return glm::length(placement.position) <= internal::farthest_place_mm &&
+         std::max(placement.spacing_i, placement.spacing_j) <= internal::farthest_place_mm &&
+         std::min(placement.spacing_i, placement.spacing_j) >= internal::least_spacing_mm;
+}
+
 struct PlacedFrame {
   int segment = 0;
   Placement placement;
@@ -63,11 +77,10 @@ PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
   if (!placement) {
     throw DicomError(say("frame-without-a-position"));
   }
+  if (!is_within_reach(*placement)) throw DicomError(say("frame-beyond-any-patient"));
   PlacedFrame frame{.placement = *placement};
-  const auto spacing = numbers_in(measures, DCM_SpacingBetweenSlices);
-  frame.spacing = spacing.empty() ? 0 : std::abs(spacing.front());
-  const auto thickness = numbers_in(measures, DCM_SliceThickness);
-  frame.thickness = thickness.empty() ? 0 : std::abs(thickness.front());
+  frame.spacing = distance_in(measures, DCM_SpacingBetweenSlices);
+  frame.thickness = distance_in(measures, DCM_SliceThickness);
   if (type != SegmentationType::label_map) {
     const auto number =
         numbers_in(group_of(own, shared, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);

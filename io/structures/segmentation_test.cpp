@@ -15,6 +15,7 @@
 #include "io/testing/test_coders.h"
 #include "io/testing/test_image.h"
 #include "io/testing/test_segmentation.h"
+#include "io/testing/voxel_files.h"
 
 namespace palpate::io {
 namespace {
@@ -166,37 +167,47 @@ TEST(Segmentations, OfLabelsHoldNumbersOfSixteenBits) {
   }
 }
 
-// Bits are packed before they are run-length coded, eight to a byte, the least significant first (PS3.5 8.2.2, G).
-TEST(Segmentations, OfBitsAreReadRunLengthCoded) {
-  const TestFolder folder;
-  TestSegmentation segmentation{.frames = {{1, 0, box}, {1, 2, other_box}}};
-  segmentation.syntax = EXS_RLELossless;
-  segmentation.edit = [&](DcmDataset& dataset) {
-    std::vector<std::vector<Uint8>> frames;
-    for (const Frame& frame : segmentation.frames) {
-      std::vector<Uint8> bytes((columns * rows + 7) / 8);
-      for (std::size_t n = 0; n < static_cast<std::size_t>(columns * rows); ++n) {
-        const int bit = frame.value(static_cast<int>(n) % columns, static_cast<int>(n) / columns);
-        bytes[n / 8] = static_cast<Uint8>(bytes[n / 8] | bit << (n % 8));
+/// The run-length coder's: one segment, which begins behind its header, as a literal.
+std::vector<Uint8> run_length_coded(const std::string& bytes) {
+  std::vector<Uint8> coded(64);
+  coded[0] = 1;
+  coded[4] = 64;
+  coded.push_back(static_cast<Uint8>(bytes.size() - 1));
+  coded.insert(coded.end(), bytes.begin(), bytes.end());
+  return coded;
+}
+
+// Bits are packed eight to a byte, the least significant first, before they are run-length coded or deflated (PS3.5
+// 8.2.2, 8.2.16, G). Each frame begins with a byte of its own.
+TEST(Segmentations, OfBitsAreReadRunLengthCodedAndDeflated) {
+  for (const bool deflated : {false, true}) {
+    const TestFolder folder;
+    TestSegmentation segmentation{.frames = {{1, 0, box}, {1, 2, other_box}}};
+    segmentation.syntax = deflated ? EXS_JPEG2000LosslessOnly : EXS_RLELossless;
+    segmentation.edit = [&](DcmDataset& dataset) {
+      std::vector<std::vector<Uint8>> frames;
+      for (const Frame& frame : segmentation.frames) {
+        std::string bytes((columns * rows + 7) / 8, '\0');
+        for (std::size_t n = 0; n < static_cast<std::size_t>(columns * rows); ++n) {
+          const int bit = frame.value(static_cast<int>(n) % columns, static_cast<int>(n) / columns);
+          bytes[n / 8] = static_cast<char>(bytes[n / 8] | bit << (n % 8));
+        }
+        const std::string small = internal::packed(bytes, -15);
+        frames.push_back(deflated ? std::vector<Uint8>(small.begin(), small.end()) : run_length_coded(bytes));
       }
-      std::vector<Uint8> coded(64);  // one segment, which begins behind this header
-      coded[0] = 1;
-      coded[4] = 64;
-      coded.push_back(static_cast<Uint8>(bytes.size() - 1));  // a literal
-      coded.insert(coded.end(), bytes.begin(), bytes.end());
-      frames.push_back(coded);
-    }
-    internal::encapsulate(dataset, EXS_RLELossless, frames, 1U << 16U);
-  };
-  write(segmentation, folder / "seg.dcm");
-  const StructureCatalogue catalogue = structures_in(folder);
-  ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? Text() : catalogue.skipped[0].reason);
-  const StructureMeasures measures = measure(catalogue.structures[0]);
-  EXPECT_EQ(measures.voxels, 20U + 20U);
-  EXPECT_NEAR(measures.box_low_mm.x, 0.75 * 3, 1e-9);
-  EXPECT_NEAR(measures.box_high_mm.x, 0.75 * 10, 1e-9);
-  EXPECT_NEAR(measures.centroid_mm.x, 0.75 * 0.5 * (5 + 8), 1e-9);
-  EXPECT_NEAR(measures.centroid_mm.y, 0.5 * 0.5 * (3.5 + 5.5), 1e-9);
+      internal::encapsulate(dataset, segmentation.syntax, frames, 1U << 16U);
+    };
+    write(segmentation, folder / "seg.dcm");
+    if (deflated) internal::call_deflated_frames(folder / "seg.dcm");
+    const StructureCatalogue catalogue = structures_in(folder);
+    ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? Text() : catalogue.skipped[0].reason);
+    const StructureMeasures measures = measure(catalogue.structures[0]);
+    EXPECT_EQ(measures.voxels, 20U + 20U);
+    EXPECT_NEAR(measures.box_low_mm.x, 0.75 * 3, 1e-9);
+    EXPECT_NEAR(measures.box_high_mm.x, 0.75 * 10, 1e-9);
+    EXPECT_NEAR(measures.centroid_mm.x, 0.75 * 0.5 * (5 + 8), 1e-9);
+    EXPECT_NEAR(measures.centroid_mm.y, 0.5 * 0.5 * (3.5 + 5.5), 1e-9);
+  }
 }
 
 // Positions differ in their last digits from frame to frame, and a slice may have several frames of a segment.

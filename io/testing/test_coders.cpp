@@ -5,13 +5,16 @@
 #include <dcmtk/dcmdata/dcpixseq.h>
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dcrleerg.h>
+#include <dcmtk/dcmdata/dcuid.h>
 #include <dcmtk/dcmjpeg/djencode.h>
 #include <openjpeg.h>
 
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
+#include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
 
 namespace palpate::io::internal {
@@ -103,6 +106,13 @@ std::vector<Uint8> jpeg_ls(int columns, int rows, int bits, int near, const std:
   coded.resize(bits > 8 ? encoder.encode(pixels.data(), pixels.size() * 2)
                         : encoder.encode(bytes.data(), bytes.size()));
   return coded;
+}
+
+void call_deflated_frames(const std::filesystem::path& file) {
+  std::string bytes = bytes_of(file);
+  const std::string said = UID_JPEG2000LosslessOnlyTransferSyntax;
+  bytes.replace(bytes.find(said), said.size(), std::string("1.2.840.10008.1.2.8.1\0", said.size()));
+  write_bytes(file, bytes);
 }
 
 }  // namespace palpate::io::internal

@@ -6,6 +6,7 @@
 #include <dcmtk/dcmdata/dcdatset.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -21,5 +22,9 @@ std::vector<Uint8> jpeg_ls(int columns, int rows, int bits, int near, const std:
 /// Replaces the pixels by fragments of at most `longest` bytes; the offset table stays empty.
 void encapsulate(DcmDataset& dataset, E_TransferSyntax syntax, const std::vector<std::vector<Uint8>>& frames,
                  std::size_t longest);
+
+/// Exchanges the syntax in a file written as lossless JPEG 2000 for deflated frames, which DCMTK does not know: its UID
+/// has as many letters.
+void call_deflated_frames(const std::filesystem::path& file);
 
 }  // namespace palpate::io::internal
