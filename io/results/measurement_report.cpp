@@ -11,6 +11,7 @@
 
 #include "io/errors.h"
 #include "io/messages.h"
+#include "io/results/dicom_object.h"
 #include "io/results/study_header.h"
 
 namespace palpate::io {
@@ -21,11 +22,6 @@ constexpr const char* comment = "Measured by research software, which is not a m
 /// A code that no standard has.
 DSRCodedEntryValue own_code(const char* value, const char* meaning) {
   return {value, "99PALPATE", meaning};
-}
-
-std::string new_uid() {
-  char text[100];
-  return dcmGenerateUniqueIdentifier(text, SITE_INSTANCE_UID_ROOT);
 }
 
 /// The content tree, by TID 1500. What DCMTK refuses is a fault of ours, and is found by check().

@@ -4,8 +4,11 @@
 // DCMTK's configuration comes first.
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <algorithm>
+
 #include "io/dicom/character_set.h"
 #include "io/dicom/dcmtk_start.h"
+#include "io/dicom/series_source.h"
 #include "io/errors.h"
 #include "io/messages.h"
 
@@ -29,9 +32,19 @@ std::uint32_t number_of(const DcmTagKey& key) {
   return static_cast<std::uint32_t>(key.getGroup()) << 16U | key.getElement();
 }
 
-void read_image(const std::filesystem::path& file, StudyHeader& header) {
+/// Where a file of the series is stored: an archive's may be unpacked.
+std::filesystem::path stored_at(const Series& series, const std::filesystem::path& file) {
+  if (!series.source || !series.source->files) return file;
+  const auto found = std::ranges::find(*series.source->files, file, &internal::FileHeader::path);
+  return found == series.source->files->end() ? file : found->stored_at;
+}
+
+void read_image(const Series& series, const std::filesystem::path& file, StudyHeader& header) {
   DcmFileFormat format;
-  if (format.loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_autoDetect, DCM_PixelData).bad()) {
+  if (format
+          .loadFileUntilTag(stored_at(series, file).c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_autoDetect,
+                            DCM_PixelData)
+          .bad()) {
     throw DicomError(say("cannot-be-referred-to", file.string()));
   }
   DcmDataset& data = *format.getDataset();
@@ -52,7 +65,7 @@ void read_image(const std::filesystem::path& file, StudyHeader& header) {
 StudyHeader read_study_header(const Series& series) {
   internal::start_dcmtk();
   StudyHeader header;
-  for (const std::filesystem::path& file : series.files) read_image(file, header);
+  for (const std::filesystem::path& file : series.files) read_image(series, file, header);
   if (header.study_uid.empty() || header.series_uid.empty() || header.frame_of_reference_uid.empty()) {
     throw DicomError(say("series-its-images-name-no-study", series.uid));
   }

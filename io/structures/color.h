@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,5 +13,11 @@ std::string color_of_lab(const std::vector<double>& encoded);
 
 /// "#rrggbb" of three numbers from 0 to 255; empty where there are not three.
 std::string color_of_rgb(const std::vector<double>& rgb);
+
+/// Red, green and blue, 0 to 255, of "#rrggbb"; nothing where it is not that.
+std::optional<std::array<int, 3>> rgb_of_color(const std::string& color);
+
+/// RecommendedDisplayCIELabValue of red, green and blue. color_of_lab() gives them back.
+std::array<std::uint16_t, 3> lab_of_rgb(const std::array<int, 3>& rgb);
 
 }  // namespace palpate::io

@@ -59,5 +59,19 @@ TEST(Color, OfNumbersIsRoundedAndHeldWithinItsBytes) {
   EXPECT_EQ(color_of_lab({1, 2}), "");
 }
 
+TEST(Color, GoesIntoLabByTheStandardsFormulas) {
+  for (const std::array rgb : {std::array{0, 0, 0}, {255, 255, 255}, {217, 130, 101}, {3, 200, 40}, {0, 0, 255}}) {
+    const std::vector<double> wanted = encoded(rgb[0], rgb[1], rgb[2]);
+    const auto lab = lab_of_rgb(rgb);
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(lab[n], wanted[n], 1) << n;
+    const std::string color = color_of_rgb({rgb.begin(), rgb.end()});
+    EXPECT_EQ(color_of_lab({lab.begin(), lab.end()}), color);
+    EXPECT_EQ(rgb_of_color(color), rgb);
+  }
+  for (const char* const none : {"", "red", "#12345", "#1234567", "#12345g", "0#12345"}) {
+    EXPECT_FALSE(rgb_of_color(none)) << none;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io

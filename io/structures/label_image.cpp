@@ -6,8 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include "io/errors.h"
+#include "io/interchange/voxel_file.h"
+#include "io/messages.h"
 #include "io/parallel.h"
 #include "io/structures/grid_box.h"
+#include "io/structures/write_checks.h"
 
 namespace palpate::io {
 
@@ -48,6 +52,33 @@ LabelImage sample_labels(StructureLabel label, const Geometry& scan, const Signe
       },
       progress, 0);
   return image;
+}
+
+void check_target(const StructureLabel& label, const std::filesystem::path& file, const WriteOptions& options) {
+  check_may_write(file, existing(options));
+  std::error_code not_there;
+  if (label.origin && std::filesystem::equivalent(label.origin->file, file, not_there)) {
+    throw DicomError(say("file-is-what-was-corrected", file.string()));
+  }
+}
+
+std::pair<int, int> occupied_slices(const LabelImage& image) {
+  const auto is_inside = [](std::uint8_t voxel) { return voxel != 0; };
+  const auto first = std::ranges::find_if(image.inside, is_inside);
+  if (first == image.inside.end()) throw DicomError(say("outline-is-empty", image.label.name));
+  const auto last = std::find_if(image.inside.rbegin(), image.inside.rend(), is_inside);
+  const auto slice = static_cast<std::ptrdiff_t>(image.offset(0, 0, 1));
+  return {static_cast<int>((first - image.inside.begin()) / slice),
+          static_cast<int>((last.base() - image.inside.begin() - 1) / slice)};
+}
+
+StructureForm form_of(const std::filesystem::path& file, bool rtstruct) {
+  if (has_ending(file, ".dcm")) return rtstruct ? StructureForm::contours : StructureForm::segmentation;
+  if (rtstruct) throw DicomError(say("contours-are-dicom-alone", file.filename().string()));
+  for (const char* const ending : {".nii", ".nii.gz", ".nrrd", ".mha"}) {
+    if (has_ending(file, ending)) return StructureForm::label_map;
+  }
+  throw DicomError(say("outline-of-no-known-ending", file.filename().string()));
 }
 
 }  // namespace palpate::io

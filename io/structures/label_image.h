@@ -71,6 +71,7 @@ LabelImage sample_labels(StructureLabel label, const Geometry& scan, const Signe
 /// The edge of a structure on a scan's slices.
 struct SliceContours {
   StructureLabel label;
+  Geometry geometry;
   struct Slice {
     int k = 0;                                ///< of the scan
     std::vector<std::vector<Vec3>> contours;  ///< closed, in the slice's plane; the last point is joined to the first
@@ -87,6 +88,7 @@ SliceContours trace_slices(StructureLabel label, const Geometry& scan, const Sig
 struct WriteOptions {
   bool overwrite = false;        ///< an existing file; never the one that was corrected
   std::string software_version;  ///< Palpate's
+  int frame = 0;                 ///< of the series (frames_per_position): the one that was corrected on
 };
 
 /// DICOM Segmentation, BINARY and SEMIAUTOMATIC, with a frame for each slice from the structure's first to its last

@@ -1,0 +1,51 @@
+#pragma once
+
+/// What all DICOM objects that are made here have in common. Not installed.
+
+#include <dcmtk/config/osconfig.h>
+// DCMTK's configuration comes first.
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/results/study_header.h"
+#include "io/series.h"
+#include "io/structures/label_image.h"
+
+namespace palpate::io {
+
+inline constexpr const char* not_a_device = "Made by research software, which is not a medical device.";
+
+std::string new_uid();
+
+/// A number as DICOM has it in text (DS), with as many digits as its 16 bytes can hold.
+std::string decimal(double number);
+
+/// One line of at most 64 characters (LO): without backslashes and control characters.
+std::string long_string(const std::string& utf8);
+
+/// The object as a file has it. Throws DicomError where DCMTK refuses.
+std::string bytes_of(DcmFileFormat& format, E_TransferSyntax syntax);
+
+/// Throws DicomError with DCMTK's reason.
+void succeed(const OFCondition& condition);
+
+/// The image that lies on a slice.
+struct SliceImage {
+  ReferencedImage image;    ///< without an instance where there is none
+  std::uint32_t frame = 0;  ///< from 1 on, of a file with several; else 0
+};
+
+/// One for each slice of the scan's frame, found by their positions. Throws DicomError where the scan is no DICOM.
+std::vector<SliceImage> images_of_slices(const Series& scan, const Geometry& geometry, int frame);
+
+/// Puts a Code Sequence with one item.
+void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
+
+/// Puts what is common: patient and study, a new series and instance, equipment, dates and what was corrected.
+void put_common(const StudyHeader& header, const StructureLabel& label, const Series& scan, const WriteOptions& options,
+                DcmDataset& data);
+
+}  // namespace palpate::io

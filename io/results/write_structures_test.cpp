@@ -1,0 +1,330 @@
+// Outlines as DICOM, read back by the reader here and by DCMTK alone. Other programs look at them in
+// outline_peers_test.cpp.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "io/archive/testing/says.h"
+#include "io/errors.h"
+#include "io/results/dicom_object.h"
+#include "io/structures/structure.h"
+#include "io/testing/outlined_scan.h"
+
+namespace palpate::io {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::TestFolder;
+using testing::full_label;
+using testing::says;
+using testing::scan_kind;
+using testing::ScanKind;
+using testing::Shape;
+
+WriteOptions options() {
+  return testing::by_test;
+}
+
+Structure only_structure_in(const fs::path& file) {
+  const StructureCatalogue found = find_structures(std::array{file});
+  if (found.structures.size() != 1) {
+    std::string why = "not one structure";
+    for (const SkippedFile& one : found.skipped) why += ": " + one.reason;
+    throw std::runtime_error(why);
+  }
+  return found.structures.front();
+}
+
+std::string text(DcmItem& item, const DcmTagKey& key) {
+  OFString value;
+  item.findAndGetOFStringArray(key, value);
+  return value.c_str();
+}
+
+std::string refusal(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const DicomError& error) {
+    return error.what();
+  }
+  return "no refusal";
+}
+
+/// The reader's field has every voxel's center on its side where the grid is at right angles: so it has read every
+/// voxel. On a tilted one it has their number and their center; pydicom has them all (outline_peers_test.cpp).
+void expect_same_voxels(const LabelImage& written, const Structure& read, bool is_straight) {
+  DistanceOptions distance;
+  distance.scan = &written.geometry;
+  const auto field = load_distance(read, distance);
+  const glm::ivec3& n = written.geometry.dimensions;
+  std::size_t inside = 0, wrong = 0;
+  Vec3 sum(0);
+  for (int k = 0; k < n.z; ++k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i) {
+        const bool was = written.inside[written.offset(i, j, k)] != 0;
+        const Vec3 at = written.geometry.to_patient(Vec3(i, j, k));
+        const bool is = field->sample(at).mm > 0;
+        wrong += was != is ? 1 : 0;
+        inside += was ? 1 : 0;
+        sum += was ? at : Vec3(0);
+      }
+    }
+  }
+  if (is_straight) {
+    EXPECT_EQ(wrong, 0U);
+  }
+  const StructureMeasures measures = measure(read);
+  EXPECT_EQ(measures.voxels, inside);
+  EXPECT_LT(glm::length(measures.centroid_mm - sum / static_cast<double>(inside)), 1e-6);
+}
+
+TEST(WriteSegmentation, IsReadVoxelForVoxelOnEveryGrid) {
+  for (const ScanKind& kind : testing::scan_kinds()) {
+    const TestFolder folder;
+    const Series scan = testing::write_scan(kind, folder / "scan");
+    for (const Shape& shape : testing::shapes_in(scan.geometry)) {
+      SCOPED_TRACE(kind.name + ", " + shape.name);
+      const fs::path file = folder / (shape.name + ".dcm");
+      const LabelImage image = sample_labels(full_label(), scan.geometry, shape.distance);
+      write_segmentation(image, scan, file, options());
+      const Structure read = only_structure_in(file);
+      EXPECT_EQ(read.name, full_label().name);
+      EXPECT_EQ(read.color, full_label().color);
+      EXPECT_EQ(read.code, "SCT 10200004 Liver");
+      EXPECT_EQ(read.frame_of_reference_uid, "1.2.3.9");
+      EXPECT_EQ(read.study_uid, "1.2.3");
+      EXPECT_EQ(read.patient_name, "Müller^Zoë");
+      expect_same_voxels(image, read, kind.name != "tilted");
+    }
+  }
+}
+
+/// The codes go through a file and back, and so do lists of references.
+TEST(WriteSegmentation, KeepsWhatItsLabelSays) {
+  const TestFolder folder;
+  const Series scan = testing::write_scan(scan_kind("axial"), folder / "scan");
+  const Shape ball = testing::shapes_in(scan.geometry).front();
+  write_segmentation(sample_labels(full_label(), scan.geometry, ball.distance), scan, folder / "first.dcm", options());
+  const StructureLabel read = label_of(only_structure_in(folder / "first.dcm"));
+  EXPECT_EQ(read.name, full_label().name);
+  EXPECT_EQ(read.color, full_label().color);
+  EXPECT_EQ(read.category, full_label().category);
+  EXPECT_EQ(read.type, full_label().type);
+  EXPECT_EQ(read.modifiers, full_label().modifiers);
+  EXPECT_EQ(read.tracking_id, full_label().tracking_id);
+  EXPECT_EQ(read.tracking_uid, full_label().tracking_uid);
+  ASSERT_TRUE(read.origin.has_value());
+
+  // Corrected and written again: it refers to the first one.
+  write_segmentation(sample_labels(read, scan.geometry, ball.distance), scan, folder / "second.dcm", options());
+  DcmFileFormat first, second;
+  ASSERT_TRUE(first.loadFile((folder / "first.dcm").c_str()).good());
+  ASSERT_TRUE(second.loadFile((folder / "second.dcm").c_str()).good());
+  DcmDataset& data = *second.getDataset();
+  for (const DcmTagKey& own : {DCM_SOPInstanceUID, DCM_SeriesInstanceUID}) {
+    EXPECT_NE(text(*first.getDataset(), own), text(data, own));
+    EXPECT_FALSE(text(data, own).empty());
+  }
+  EXPECT_EQ(text(data, DCM_SegmentationType), "BINARY");
+  EXPECT_EQ(text(data, DCM_SpecificCharacterSet), "ISO_IR 192");
+  EXPECT_EQ(text(data, DCM_PatientID), "4711");
+  EXPECT_EQ(text(data, DCM_StudyDate), "20240229");
+  DcmItem* item = nullptr;
+  ASSERT_TRUE(data.findAndGetSequenceItem(DCM_SegmentSequence, item).good());
+  EXPECT_EQ(text(*item, DCM_SegmentAlgorithmType), "SEMIAUTOMATIC");
+  ASSERT_TRUE(data.findAndGetSequenceItem(DCM_SourceImageSequence, item).good());
+  EXPECT_EQ(text(*item, DCM_ReferencedSOPInstanceUID), read.origin->instance);
+  EXPECT_EQ(read.origin->instance, text(*first.getDataset(), DCM_SOPInstanceUID));
+
+  // All images and the corrected object, each once.
+  std::set<std::string> referenced;
+  for (signed long s = 0; data.findAndGetSequenceItem(DCM_ReferencedSeriesSequence, item, s).good(); ++s) {
+    DcmItem* one = nullptr;
+    for (signed long n = 0; item->findAndGetSequenceItem(DCM_ReferencedInstanceSequence, one, n).good(); ++n) {
+      EXPECT_TRUE(referenced.insert(text(*one, DCM_ReferencedSOPInstanceUID)).second);
+    }
+  }
+  EXPECT_EQ(referenced.size(), scan.files.size() + 1);
+  EXPECT_TRUE(referenced.contains(read.origin->instance));
+  // A frame names the image on its slice.
+  for (signed long f = 0; data.findAndGetSequenceItem(DCM_PerFrameFunctionalGroupsSequence, item, f).good(); ++f) {
+    DcmItem *position = nullptr, *derivation = nullptr, *source = nullptr;
+    ASSERT_TRUE(item->findAndGetSequenceItem(DCM_PlanePositionSequence, position).good());
+    ASSERT_TRUE(item->findAndGetSequenceItem(DCM_DerivationImageSequence, derivation).good());
+    ASSERT_TRUE(derivation->findAndGetSequenceItem(DCM_SourceImageSequence, source).good());
+    const std::string instance = text(*source, DCM_ReferencedSOPInstanceUID);
+    bool found = false;
+    for (const fs::path& file : scan.files) {
+      DcmFileFormat image;
+      ASSERT_TRUE(image.loadFile(file.c_str()).good());
+      if (text(*image.getDataset(), DCM_SOPInstanceUID) != instance) continue;
+      found = true;
+      Float64 there = 0, here = 1;
+      image.getDataset()->findAndGetFloat64(DCM_ImagePositionPatient, there, 2);
+      position->findAndGetFloat64(DCM_ImagePositionPatient, here, 2);
+      EXPECT_NEAR(here, there, 1e-6);
+    }
+    EXPECT_TRUE(found) << f;
+  }
+}
+
+/// A frame of a multi-frame file is referred to by its number.
+TEST(WriteSegmentation, RefersToFramesOfOneFile) {
+  const TestFolder folder;
+  fs::create_directories(folder / "scan");
+  internal::TestImage image;
+  const std::vector<double> heights{0, 2, 4, 6};
+  image.edit = [&](DcmDataset& data) {
+    internal::put(data, DCM_FrameOfReferenceUID, "1.2.3.9");
+    internal::make_multi_frame(data, heights);
+    internal::repeat_pixels(data, heights.size());
+  };
+  internal::write(image, folder / "scan" / "all.dcm");
+  const Series scan = find_series(std::array{folder / "scan"}).series.at(0);
+  ASSERT_EQ(scan.geometry.dimensions.z, 4);
+  const LabelImage label = sample_labels(full_label(), scan.geometry, [](const Vec3& at) { return at.z - 1; });
+  write_segmentation(label, scan, folder / "seg.dcm", options());
+  expect_same_voxels(label, only_structure_in(folder / "seg.dcm"), true);
+  DcmFileFormat format;
+  ASSERT_TRUE(format.loadFile((folder / "seg.dcm").c_str()).good());
+  DcmItem *item = nullptr, *derivation = nullptr, *source = nullptr;
+  std::vector<std::string> numbers;
+  for (signed long f = 0;
+       format.getDataset()->findAndGetSequenceItem(DCM_PerFrameFunctionalGroupsSequence, item, f).good(); ++f) {
+    ASSERT_TRUE(item->findAndGetSequenceItem(DCM_DerivationImageSequence, derivation).good());
+    ASSERT_TRUE(derivation->findAndGetSequenceItem(DCM_SourceImageSequence, source).good());
+    numbers.push_back(text(*source, DCM_ReferencedFrameNumber));
+  }
+  EXPECT_EQ(numbers, (std::vector<std::string>{"2", "3", "4"}));
+}
+
+/// Contours are felt where the shape is, but for what a straight line between lattice nodes leaves out. What they fill
+/// on each slice, holes too, is looked at by other programs: outline_peers_test.cpp.
+TEST(WriteContours, AreReadWhereTheShapeIsOnEveryGrid) {
+  for (const ScanKind& kind : testing::scan_kinds()) {
+    const TestFolder folder;
+    const Series scan = testing::write_scan(kind, folder / "scan");
+    for (const Shape& shape : testing::shapes_in(scan.geometry)) {
+      SCOPED_TRACE(kind.name + ", " + shape.name);
+      const fs::path file = folder / (shape.name + ".dcm");
+      write_contours(trace_slices(full_label(), scan.geometry, shape.distance), scan, file, options());
+      const Structure read = only_structure_in(file);
+      EXPECT_EQ(read.name, full_label().name);
+      EXPECT_EQ(read.color, full_label().color);
+      EXPECT_EQ(read.frame_of_reference_uid, "1.2.3.9");
+      const StructureLabel label = label_of(read);
+      EXPECT_EQ(label.type, full_label().type);
+      EXPECT_EQ(label.category, full_label().category);
+      EXPECT_EQ(label.interpreted_type, "ORGAN");
+      EXPECT_TRUE(read.warnings.empty() || kind.name == "uneven" || kind.name == "slices missing")
+          << read.warnings.front();
+      EXPECT_TRUE(measure(read).warnings.empty()) << "one slice says how thick it is";
+      if (shape.name == "shell and ball") continue;  // finer than the millimeter of the field's lattice
+      DistanceOptions distance;
+      distance.scan = &scan.geometry;
+      const auto field = load_distance(read, distance);
+      const glm::ivec3& n = scan.geometry.dimensions;
+      for (int k = 0; k < n.z; ++k) {
+        for (int j = 0; j < n.y; ++j) {
+          for (int i = 0; i < n.x; ++i) {
+            const Vec3 at = scan.geometry.to_patient(Vec3(i, j, k));
+            const double truth = shape.distance(at);
+            constexpr double chord_mm = 0.15;  // of a circle of 1.6 mm between nodes 0.625 mm apart
+            if (std::abs(truth) < chord_mm) continue;
+            EXPECT_EQ(field->sample(at).mm > 0, truth > 0) << i << ' ' << j << ' ' << k << ": " << truth;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(WriteContours, RefersToWhatWasCorrected) {
+  const TestFolder folder;
+  const Series scan = testing::write_scan(scan_kind("oblique"), folder / "scan");
+  const Shape ball = testing::shapes_in(scan.geometry).front();
+  write_contours(trace_slices(full_label(), scan.geometry, ball.distance), scan, folder / "first.dcm", options());
+  const StructureLabel read = label_of(only_structure_in(folder / "first.dcm"));
+  write_contours(trace_slices(read, scan.geometry, ball.distance), scan, folder / "second.dcm", options());
+  DcmFileFormat format;
+  ASSERT_TRUE(format.loadFile((folder / "second.dcm").c_str()).good());
+  DcmItem *item = nullptr, *study = nullptr, *series = nullptr, *image = nullptr;
+  for (const DcmTagKey& key : {DCM_PredecessorStructureSetSequence, DCM_SourceInstanceSequence}) {
+    ASSERT_TRUE(format.getDataset()->findAndGetSequenceItem(key, item).good());
+    EXPECT_EQ(text(*item, DCM_ReferencedSOPInstanceUID), read.origin->instance);
+  }
+  ASSERT_TRUE(format.getDataset()->findAndGetSequenceItem(DCM_ReferencedFrameOfReferenceSequence, item).good());
+  ASSERT_TRUE(item->findAndGetSequenceItem(DCM_RTReferencedStudySequence, study).good());
+  ASSERT_TRUE(study->findAndGetSequenceItem(DCM_RTReferencedSeriesSequence, series).good());
+  std::size_t images = 0;
+  while (series->findAndGetSequenceItem(DCM_ContourImageSequence, image, static_cast<signed long>(images)).good()) {
+    ++images;
+  }
+  EXPECT_EQ(images, scan.files.size());
+}
+
+TEST(WriteStructure, RefusesInWordsAndLeavesNothing) {
+  const TestFolder folder;
+  const Series scan = testing::write_scan(scan_kind("uneven"), folder / "scan");
+  const SignedDistance none = [](const Vec3&) { return -1.0; };
+  const Shape ball = testing::shapes_in(scan.geometry).front();
+  StructureLabel label = full_label();
+  const auto write = [&](const SignedDistance& distance, const std::string& name, bool rtstruct) {
+    return refusal([&] {
+      const StructureForm form = form_of(name, rtstruct);
+      write_structure(label, scan, scan.geometry, distance, {}, form, folder / name, options());
+    });
+  };
+  const char* const empty = "\"{}\" is empty on this scan, no voxel is inside: nothing is written";
+  EXPECT_TRUE(says(write(none, "a.dcm", false), empty));
+  EXPECT_TRUE(says(write(none, "a.dcm", true), empty));
+  EXPECT_TRUE(says(write(none, "a.nii", false), empty));
+  for (const char* const name : {"a.nii", "a.nii.gz", "a.nrrd", "a.seg.nrrd", "a.mha"}) {
+    EXPECT_TRUE(says(write(ball.distance, name, false),
+                     "{} can hold slices at equal distances alone, and the scan's are not: write .dcm"));
+  }
+  EXPECT_TRUE(says(write(ball.distance, "a.stl", false),
+                   "{} has no ending that is known: name a file .dcm, .nii, .nii.gz, .nrrd, .seg.nrrd or .mha"));
+  EXPECT_TRUE(says(write(ball.distance, "a.mha", true),
+                   "contours (RTSTRUCT) are written as DICOM alone, and {} is none: name a file .dcm"));
+  Series elsewhere = scan;
+  elsewhere.source = nullptr;
+  EXPECT_TRUE(says(refusal([&] {
+                     write_segmentation(sample_labels(label, scan.geometry, ball.distance), elsewhere, folder / "a.dcm",
+                                        options());
+                   }),
+                   "the scan is no DICOM, so there is no study that the outline could go into: write .nii.gz, "
+                   ".seg.nrrd or .mha"));
+  WriteOptions nameless = options();
+  nameless.software_version.clear();
+  EXPECT_TRUE(says(refusal([&] {
+                     write_segmentation(sample_labels(label, scan.geometry, ball.distance), scan, folder / "a.dcm",
+                                        nameless);
+                   }),
+                   "the outline cannot be made: {}"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1) << "the scan alone";
+
+  ASSERT_EQ(write(ball.distance, "a.dcm", false), "no refusal");
+  EXPECT_TRUE(
+      says(write(ball.distance, "a.dcm", false), "{} exists: name another file, or ask for it to be overwritten"));
+  label = label_of(only_structure_in(folder / "a.dcm"));
+  WriteOptions over = options();
+  over.overwrite = true;
+  EXPECT_TRUE(says(refusal([&] {
+                     write_structure(label, scan, scan.geometry, ball.distance, {}, StructureForm::contours,
+                                     folder / "a.dcm", over);
+                   }),
+                   "{} is the outline that was corrected, and is kept: name another file"));
+  over.overwrite = true;
+  label.origin.reset();
+  write_structure(label, scan, scan.geometry, ball.distance, {}, StructureForm::contours, folder / "a.dcm", over);
+  EXPECT_EQ(only_structure_in(folder / "a.dcm").kind, StructureKind::contours);
+}
+
+}  // namespace
+}  // namespace palpate::io

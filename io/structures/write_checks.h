@@ -1,0 +1,23 @@
+#pragma once
+
+/// What all writers of structures refuse alike.
+
+#include <filesystem>
+#include <utility>
+
+#include "io/structures/label_image.h"
+#include "io/whole_file.h"
+
+namespace palpate::io {
+
+inline Existing existing(const WriteOptions& options) {
+  return options.overwrite ? Existing::replace : Existing::keep;
+}
+
+/// Throws DicomError where the file is the one that was corrected, or check_may_write() does.
+void check_target(const StructureLabel& label, const std::filesystem::path& file, const WriteOptions& options);
+
+/// The first and the last slice with a voxel inside. Throws DicomError where there is none.
+std::pair<int, int> occupied_slices(const LabelImage& image);
+
+}  // namespace palpate::io

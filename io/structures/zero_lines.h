@@ -1,0 +1,21 @@
+#pragma once
+
+/// Where values on a plane's lattice cross zero.
+
+#include <glm/vec2.hpp>
+#include <span>
+
+#include "io/structures/contour_region.h"
+
+namespace palpate::io {
+
+/// Closed lines, in nodes, between the values above 0 and the others: linear along the lattice's edges. What is above 0
+/// lies to the left of a line (where j grows upwards): lines around it run counterclockwise, lines around holes
+/// clockwise. They do not cross. `values`: nodes.x * nodes.y of them, i fastest; those at the ends may not be above 0.
+std::vector<ContourPolygon> zero_lines(std::span<const double> values, const glm::ivec2& nodes);
+
+/// The lines with fewer points, none of which is moved: all that is left out lies within 0.01 mm of what is kept. A
+/// line around nothing wider than that is left out.
+std::vector<ContourPolygon> thinned(const std::vector<ContourPolygon>& lines_mm);
+
+}  // namespace palpate::io
