@@ -25,6 +25,7 @@ namespace palpate::plugin {
 
 /// Sections first: what connects them finds all of them.
 void PanelParts::build() {
+  readers.follow(scans);
   build_column();
   build_toolbar();
   connect_start();
@@ -40,8 +41,10 @@ void PanelParts::build_column() {
   auto* const column = new QVBoxLayout(content);
   column->setContentsMargins(6, 2, 6, 2);
   column->setSpacing(4);
-  scan = new ScanSection;
-  filter = new FilterRow(model, touching, *scan, scan);
+  scan = new ScanSection(scans);
+  QObject::connect(scan, &ScanSection::ras_wanted, &dock,
+                   [this](bool on) { readers.views().set_coordinates(on ? Coordinates::ras : Coordinates::letters); });
+  filter = new FilterRow(model, touching, scans, readers, scan);
   scan->layout()->addWidget(filter);
   scan_fold = new Fold(tr("Scan"), QStringLiteral("palpateScanSection"), scan, true, content);
   column->addWidget(scan_fold);

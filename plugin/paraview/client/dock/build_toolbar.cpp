@@ -13,6 +13,7 @@
 #include "plugin/paraview/client/layout/host_layout.h"
 #include "plugin/paraview/client/layout/view_picture.h"
 #include "plugin/paraview/client/layout/volume_look_box.h"
+#include "plugin/paraview/client/layout/window_box.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/stylus_section.h"
 #include "plugin/paraview/client/views/patient_volume.h"
@@ -26,7 +27,7 @@ namespace palpate::plugin {
 void PanelParts::build_toolbar() {
   auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
   look_box = new VolumeLookBox(window);
-  toolbar = new ClinicalToolbar(scan->window_box(), *look_box, window);
+  toolbar = new ClinicalToolbar(*new WindowBox(scans, readers.views(), window), *look_box, window);
   QObject::connect(look_box, &VolumeLookBox::felt_chosen, &dock, [this] {
     color_views();
     contours.set_surfaces(true);
@@ -44,16 +45,16 @@ void PanelParts::build_toolbar() {
   QObject::connect(toolbar, &ClinicalToolbar::open_wanted, &dock, [this] { scan->ask_folder(); });
   QObject::connect(toolbar, &ClinicalToolbar::enlarged_wanted, &dock, [this](bool enlarged) { enlarge(enlarged); });
   QObject::connect(toolbar, &ClinicalToolbar::measure_wanted, &dock,
-                   [this](Measure measure) { scan->views().set_measure(measure); });
-  scan->views().set_measure_changed([this](Measure measure) { toolbar->show_measure(measure); });
+                   [this](Measure measure) { readers.views().set_measure(measure); });
+  readers.views().set_measure_changed([this](Measure measure) { toolbar->show_measure(measure); });
   QObject::connect(toolbar, &ClinicalToolbar::cut_wanted, &dock, [this](bool cut) {
-    if (PatientVolume* const patient = scan->views().patient()) patient->set_cut(cut);
+    if (PatientVolume* const patient = readers.views().patient()) patient->set_cut(cut);
   });
   QObject::connect(toolbar, &ClinicalToolbar::crop_wanted, &dock, [this](bool crop) {
-    if (PatientVolume* const patient = scan->views().patient()) patient->set_cropped(crop);
+    if (PatientVolume* const patient = readers.views().patient()) patient->set_cropped(crop);
   });
-  scan->views().set_patient_changed([this] {
-    const PatientVolume* const patient = scan->views().patient();
+  readers.views().set_patient_changed([this] {
+    const PatientVolume* const patient = readers.views().patient();
     toolbar->show_volume_cuts(patient && patient->can_cut(), patient && patient->can_crop());
   });
   QObject::connect(toolbar, &ClinicalToolbar::connect_wanted, stylus, &StylusSection::connect_or_not);
@@ -61,7 +62,7 @@ void PanelParts::build_toolbar() {
   QObject::connect(toolbar, &ClinicalToolbar::advanced_wanted, layout, &HostLayout::set_advanced);
   QObject::connect(layout, &HostLayout::advanced_changed, toolbar, &ClinicalToolbar::show_advanced);
   QObject::connect(stylus, &StylusSection::connection_shown, toolbar, &ClinicalToolbar::show_connection);
-  scan->views().set_enlarged_changed([this](bool enlarged) { toolbar->show_enlarged(enlarged); });
+  readers.views().set_enlarged_changed([this](bool enlarged) { toolbar->show_enlarged(enlarged); });
 }
 
 void PanelParts::ask_picture() {

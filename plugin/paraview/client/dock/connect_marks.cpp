@@ -39,14 +39,14 @@ void PanelParts::connect_marks() {
                    [this](const std::vector<std::size_t>& chosen) { drawn_marks.set_chosen(chosen); });
   QObject::connect(marks_list, &MarksSection::place_wanted, &dock, [this](const glm::dvec3& place) {
     SCOPED_UNDO_EXCLUDE();
-    scan->views().show_point(place);
+    readers.views().show_point(place);
   });
 }
 
 /// Shows what would be sent, and sends it where that is wanted.
 void PanelParts::send_marks() {
-  const io::Series* const series = scan->series_shown();
-  if (!series || !scan->handle().volume) {
+  const io::Series* const series = scans.shown() ? scans.shown()->of.details() : nullptr;
+  if (!series) {
     marks_list->tell(words(say("marks-need-the-images")), true);
     return;
   }
@@ -65,14 +65,14 @@ void PanelParts::send_marks() {
   }
   // Copies: another scan may be opened while the dialog is.
   const io::Series of = *series;
-  const std::shared_ptr<const io::Volume> volume = scan->handle().volume;
+  const std::shared_ptr<const io::Volume> volume = scans.shown()->volume;
   const Marks shown = marks.marks();
   SendDialog dialog(of, shown, std::move(archives), &dock);
   if (dialog.exec() == QDialog::Accepted) marks_list->sender().send(dialog.archive(), of, volume, shown);
 }
 
 void PanelParts::show_marks(const ScanHandle& handle) {
-  const char* const uid = vtkSMPropertyHelper(scan->source()->getProxy(), "SeriesUid").GetAsString();
+  const char* const uid = vtkSMPropertyHelper(readers.source()->getProxy(), "SeriesUid").GetAsString();
   marks.set_scan(hash_of_series(uid ? uid : "", *handle.volume));
 }
 

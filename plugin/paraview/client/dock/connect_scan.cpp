@@ -35,24 +35,25 @@
 namespace palpate::plugin {
 
 void PanelParts::connect_scan() {
-  QObject::connect(scan, &ScanSection::closing, &dock, [this] {
+  QObject::connect(&scans, &ScanModel::leaving, &dock, [this] {
     touching.release();  // before another scan takes its place
     leave_views();
   });
-  QObject::connect(scan, &ScanSection::out_of_reach, &dock, [this](const QString& why) { touching.set_no_scan(why); });
-  QObject::connect(scan, &ScanSection::scan_shown, &dock, [this](const ScanHandle& handle) { show_scan(handle); });
-  QObject::connect(scan, &ScanSection::frame_shown, &dock, [this](const ScanHandle& handle) { show_frame(handle); });
+  QObject::connect(&scans, &ScanModel::out_of_reach, &dock, [this](const QString& why) { touching.set_no_scan(why); });
+  QObject::connect(&scans, &ScanModel::scan_shown, &dock,
+                   [this](const ScanHandle& handle, Brought brought) { show_scan(handle, brought); });
+  QObject::connect(&scans, &ScanModel::frame_shown, &dock, [this](const ScanHandle& handle) { show_frame(handle); });
   QObject::connect(&servers, &ServerWatch::leaving, &dock, [this] { leave_server(); });
   QObject::connect(&servers, &ServerWatch::lost, &dock, [this] { leave(words(say("server-is-lost"))); });
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
   open_first_folder(dock, [this](const std::string& folder) { scan->open(folder); });
 }
 
-void PanelParts::show_scan(const ScanHandle& handle) {
+void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   pqServer* const server = pqActiveObjects::instance().activeServer();
   if (!server) return;
   proposing = true;
-  const bool restored = std::exchange(restoring, false) && model.source();
+  const bool restored = brought != Brought::by_opening && model.source();
   touching.release();
   if (!restored) {
     modes::Scene scene = scene_for(handle.scene, *handle.volume);
@@ -61,10 +62,10 @@ void PanelParts::show_scan(const ScanHandle& handle) {
     model.open(*server, scene);
   }
   touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
-  model.forget_steps();
+  if (brought != Brought::by_undo) model.forget_steps();
   tissues->forget_scan(handle);
-  if (restored) tissues->set_restored();
-  const std::vector<ClinicalView> shown = scan->views().views();
+  if (restored && brought == Brought::by_state) tissues->set_restored();
+  const std::vector<ClinicalView> shown = readers.views().views();
   contours.set_views(shown);
   crosshair.set_views(shown);
   structures->set_views(shown);
@@ -74,9 +75,9 @@ void PanelParts::show_scan(const ScanHandle& handle) {
   show_marks(handle);
   drawn_marks.set_views(shown);
   views.set_views(shown);  // last: the stylus is drawn over the paths
-  look_box->set_looks(scan->views().looks(), scan->views().first_look());
+  look_box->set_looks(readers.views().looks(), readers.views().first_look());
   read_opacity();
-  const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(scan->source()->getProxy()));
+  const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(readers.source()->getProxy()));
   low = lattice.values.low;
   high = lattice.values.high;
   flow.set_views(shown);
@@ -141,12 +142,11 @@ void PanelParts::adopt_state() {
     if (kind == "PalpateDicomReader") reader = source;
     if (kind == "PalpateScene") scene = source;
   }
-  const bool another = reader && reader != scan->source();
+  const bool another = reader && reader != readers.source();
   if (another) touching.expect_scan();
   if (scene) model.adopt(*scene);
   if (!another) return;
-  restoring = true;
-  scan->adopt(*reader);
+  readers.restore(*reader, Brought::by_state);
 }
 
 /// In good order: another server, none, or a new session.
@@ -157,8 +157,7 @@ void PanelParts::leave_server() {
     return;
   }
   touching.keep_off(words(say("paraview-session-ended")));
-  scan->server_gone();
-  leave_views();
+  scans.lose_server();
 }
 
 /// All that a server has goes, and what is held of it is let go: first the force, and the recording with it.
@@ -167,8 +166,7 @@ void PanelParts::leave(const QString& why) {
   const bool held = touching.live().is_connected();
   touching.set_no_scan({});
   if (held) emit touching.told(why, true);  // before the views, which may find that their server does not answer
-  scan->server_gone();
-  leave_views();
+  scans.lose_server();
   leaving = false;
 }
 

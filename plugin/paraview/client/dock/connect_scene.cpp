@@ -9,7 +9,6 @@
 #include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/structures_section.h"
-#include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/views/boundary_colors.h"
 
 // A scene is edited: the views follow.
@@ -28,17 +27,17 @@ void PanelParts::connect_scene() {
     if (on) read_opacity();  // it may have been edited in ParaView since
     const auto pick = on ? [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); }
                          : std::function<void(Pick, const glm::dvec3&)>{};
-    scan->views().set_pick(pick);
+    readers.views().set_pick(pick);
     views.set_pick(pick);
   });
   QObject::connect(profile, &ProfileSection::stroke_changed, &dock,
                    [this](const WantedStroke& stroke) { curves->profile().choose(stroke); });
-  scan->views().set_pointed([this](const std::optional<glm::dvec3>& place) {
+  readers.views().set_pointed([this](const std::optional<glm::dvec3>& place) {
     const std::optional<io::Sample> pointed = place ? contours.sample(*place) : std::nullopt;
     curves->mark(pointed);
     if (pointed) curves->profile().point_at(*place, pointed->gradient);
   });
-  scan->views().set_slice_shown([this](SliceView& slice) {
+  readers.views().set_slice_shown([this](SliceView& slice) {
     flow.show(slice);
     contours.show(slice);
     crosshair.refresh();
@@ -59,10 +58,10 @@ void PanelParts::color_views() {
 
 void PanelParts::change_volume(const std::function<void(vtkSMProxy&)>& change) {
   SCOPED_UNDO_EXCLUDE();  // follows from the scene, or from a box that says what it is
-  if (!scan->source()) return;
-  for (const ClinicalView& one : scan->views().views()) {
+  if (!readers.source()) return;
+  for (const ClinicalView& one : readers.views().views()) {
     if (one.kind != ViewKind::volume) continue;
-    pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view);
+    pqDataRepresentation* const shown = readers.source()->getRepresentation(one.view);
     if (!shown) continue;
     change(*shown->getProxy());
     one.view->render();
@@ -72,10 +71,10 @@ void PanelParts::change_volume(const std::function<void(vtkSMProxy&)>& change) {
 
 /// What is seen of the volume, as it is shown now.
 void PanelParts::read_opacity() {
-  if (!scan->source()) return;
-  for (const ClinicalView& one : scan->views().views()) {
+  if (!readers.source()) return;
+  for (const ClinicalView& one : readers.views().views()) {
     if (one.kind != ViewKind::volume) continue;
-    if (pqDataRepresentation* const shown = scan->source()->getRepresentation(one.view)) {
+    if (pqDataRepresentation* const shown = readers.source()->getRepresentation(one.view)) {
       views.set_opacity(opacity_of(*shown->getProxy()));
     }
   }

@@ -15,7 +15,6 @@
 #include "plugin/paraview/client/panel/recordings_section.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
 #include "plugin/paraview/client/scan/filter_row.h"
-#include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/start_place.h"
 #include "plugin/paraview/client/stylus/stylus_section.h"
 #include "plugin/paraview/client/words.h"
@@ -27,9 +26,9 @@ namespace palpate::plugin {
 void PanelParts::connect_session() {
   QObject::connect(stylus, &StylusSection::stylus_wanted, &dock, [this] {
     SCOPED_UNDO_EXCLUDE();
-    if (touching.last().is_seen()) scan->views().show_point(touching.last().proxy_mm);
+    if (touching.last().is_seen()) readers.views().show_point(touching.last().proxy_mm);
   });
-  scan->views().set_leafed([this] { stylus->pause_following(); });
+  readers.views().set_leafed([this] { stylus->pause_following(); });
   touching.set_start([this](const device::Specification& device) { return start_of(device); });
   QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
     recordings_fold->set_open(true);
@@ -63,9 +62,9 @@ void PanelParts::look(const SessionStatus& seen) {
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
   // A recording that stands still does not keep the slices from being leafed through.
   const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
-  if (seen.connected) touching.keep_off(scan->why_not_felt());
+  if (seen.connected) touching.keep_off(scans.why_not_felt());
   name_felt();
-  if (seen.is_seen() && moved && stylus->slices_follow()) scan->views().show_point(seen.proxy_mm);
+  if (seen.is_seen() && moved && stylus->slices_follow()) readers.views().show_point(seen.proxy_mm);
   if (seen.connected && !seen.held.empty()) {
     curves->profile().touch_at(seen.proxy_mm, seen.probe_mm - seen.proxy_mm);
   }
@@ -80,12 +79,12 @@ void PanelParts::draw_stylus() {
 
 /// Scan, frame and scene: what the stylus has, whatever is looked at.
 void PanelParts::name_felt() {
-  const ScanHandle& handle = scan->handle();
-  if (!handle.volume) {
+  if (!scans.shown()) {
     footer->set_felt(tr("No scan is open."));
     return;
   }
-  const QStringList others = scan->others_shown();
+  const ScanHandle& handle = *scans.shown();
+  const QStringList others = readers.others_shown();
   const QString through = filter->in_words();
   const QString felt =
       tr("Felt: %1. Scene: %2.")

@@ -22,26 +22,28 @@ void PanelParts::connect_start() {
   auto* const page = new StartPage(window);
   auto* const center = new EmptyCenter(*window, *page, &dock);
   auto* const cover = new ViewsCover(*window);
-  scan->views().set_making_changed([cover = QPointer(cover)](bool making) {
+  readers.views().set_making_changed([cover = QPointer(cover)](bool making) {
     if (cover) cover->set_shown(making);
   });
   QObject::connect(layout, &HostLayout::advanced_changed, center, &EmptyCenter::set_advanced);
   QObject::connect(page, &StartPage::open_wanted, scan, &ScanSection::ask_folder);
   QObject::connect(page, &StartPage::folder_wanted, scan,
                    [this](const QString& folder) { scan->open(folder.toStdString()); });
-  QObject::connect(page, &StartPage::series_wanted, scan, &ScanSection::load);
+  QObject::connect(page, &StartPage::series_wanted, &scans, &ScanModel::choose);
   QObject::connect(page, &StartPage::archive_wanted, scan, [this] {
     scan_fold->set_open(true);
     scan->show_archive();
   });
-  QObject::connect(scan, &ScanSection::finding, page, [page] { page->set_catalogue(nullptr); });
-  QObject::connect(scan, &ScanSection::listed, page, &StartPage::set_catalogue);
-  QObject::connect(scan, &ScanSection::listed, &dock, [this] {
+  QObject::connect(&scans, &ScanModel::listed, &dock, [this, page] {
+    const FoundList* const found = scans.found();
+    const bool several = found && found->catalogue && !found->catalogue->series.empty() && !found->only();
+    page->set_catalogue(several ? found->catalogue : nullptr);
+    if (!several) return;
     scan_fold->set_open(true);
-    if (!scan->source()) scan_fold->set_note({});
+    if (!scans.seen()) scan_fold->set_note({});
   });
   QObject::connect(scan, &ScanSection::thumbnail_drawn, page, &StartPage::set_picture);
-  QObject::connect(scan, &ScanSection::said, page, &StartPage::tell);
+  QObject::connect(&scans, &ScanModel::told, page, &StartPage::tell);
 
   auto* const sample = new SampleScan(&dock);
   page->set_sample(sample->offer());

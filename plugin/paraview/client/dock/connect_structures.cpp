@@ -6,7 +6,6 @@
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/panel/structures_section.h"
-#include "plugin/paraview/client/scan/scan_section.h"
 
 // Structure sets belong to the scan that is shown.
 
@@ -18,7 +17,7 @@ void PanelParts::connect_structures() {
 }
 
 void PanelParts::show_structures(const ScanHandle& handle) {
-  pqPipelineSource& reader = *scan->source();
+  pqPipelineSource& reader = *readers.source();
   if (!reader.getServer()->isRemote()) {
     structures->set_scan(handle.volume, vtkSMPropertyHelper(reader.getProxy(), "FileName").GetAsString());
     return;

@@ -11,13 +11,14 @@
 #include <functional>
 #include <memory>
 
+#include "plugin/paraview/client/model/scan_model.h"
 #include "plugin/paraview/client/panel/marks_model.h"
 #include "plugin/paraview/client/panel/scene_model.h"
 #include "plugin/paraview/client/panel/session_controller.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
+#include "plugin/paraview/client/pipeline/scan_pipeline.h"
 #include "plugin/paraview/client/remote/server_structures.h"
 #include "plugin/paraview/client/remote/server_watch.h"
-#include "plugin/paraview/client/scan/scan_handle.h"
 #include "plugin/paraview/client/scan/scan_loader.h"
 #include "plugin/paraview/client/stylus/stylus_views.h"
 #include "plugin/paraview/client/views/boundary_contours.h"
@@ -45,6 +46,7 @@ class StructuresSection;
 class StylusSection;
 class TissuesSection;
 class VolumeLookBox;
+class WindowBox;
 
 /// Members in the order in which they lean on each other.
 struct PanelParts {
@@ -69,7 +71,7 @@ struct PanelParts {
   void enlarge(bool enlarged);
   // connect_scan.cpp
   void connect_scan();
-  void show_scan(const ScanHandle& handle);
+  void show_scan(const ScanHandle& handle, Brought brought);
   void show_frame(const ScanHandle& handle);
   void note_scan(const ScanHandle& handle);
   void study(const std::shared_ptr<const io::Volume>& volume);
@@ -114,6 +116,8 @@ struct PanelParts {
   QTimer next_turn;  // of a picture that comes in turns
   ServerWatch servers;
   ServerStructures served;
+  ScanPipeline readers;
+  ScanModel scans{readers};
   Fold* scan_fold = nullptr;
   Fold* recordings_fold = nullptr;
   Footer* footer = nullptr;
@@ -133,7 +137,6 @@ struct PanelParts {
   ClinicalToolbar* toolbar = nullptr;
   HostLayout* layout = nullptr;
   VolumeLookBox* look_box = nullptr;
-  bool restoring = false;                   // the scan to come is a state file's
   bool leaving = false;                     // a server
   bool edited = false;                      // since the scan was shown
   bool proposing = false;                   // what is being edited is the panel's own doing

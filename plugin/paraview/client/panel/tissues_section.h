@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "plugin/paraview/client/model/scan_handle.h"
 #include "plugin/paraview/client/panel/boundary_row.h"
 #include "plugin/paraview/client/panel/scene_model.h"
-#include "plugin/paraview/client/scan/scan_handle.h"
 
 class QComboBox;
 class QGridLayout;

@@ -8,18 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "plugin/paraview/client/model/scan_state.h"
+
 class pqServer;
 class vtkSMSourceProxy;
 
 namespace palpate::plugin {
 
 struct ServerSeries {
-  struct One {
-    std::string name;   ///< as scan_name()
-    std::string label;  ///< as scan_label()
-    bool usable = false;
-  };
-  std::vector<One> series;
+  std::vector<SeriesOnServer> series;
   /// Keeps what was found in the server's store, so that the reader to come need not look again.
   vtkSmartPointer<vtkSMSourceProxy> finder;
 };

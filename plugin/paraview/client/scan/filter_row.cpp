@@ -23,7 +23,7 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/paraview/client/panel/scene_model.h"
 #include "plugin/paraview/client/panel/session_controller.h"
-#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/pipeline/scan_pipeline.h"
 
 namespace palpate::plugin {
 namespace {
@@ -32,8 +32,9 @@ constexpr double usual_sigma_mm = 1, usual_noise = 30;
 
 }  // namespace
 
-FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanSection& scan, QWidget* parent)
-    : QWidget(parent), model_(model), touching_(touching), scan_(scan) {
+FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanModel& scans, ScanPipeline& readers,
+                     QWidget* parent)
+    : QWidget(parent), model_(model), touching_(touching), scans_(scans), readers_(readers) {
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   auto* const row = new QHBoxLayout;
@@ -78,7 +79,7 @@ FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanSection
     if (pace == Pace::stepped) refresh();
   });
   model.set_make_ready([this](const modes::Scene& scene, const auto& ready) { return make_ready(scene, ready); });
-  scan.set_filter([this] { return model_.scene().filter; });
+  scans.set_filter([this] { return model_.scene().filter; });
   refresh();
 }
 
@@ -189,16 +190,16 @@ void FilterRow::compute(const io::Filter& filter, const std::function<void()>& d
   progress_->show();
   const auto tell = [this](double part) { progress_->setValue(static_cast<int>(100 * part)); };
   // A series of this machine through the store, where the reader finds the same voxels.
-  if (const io::Series* const series = scan_.series_shown()) {
-    loader_.load(*series, scan_.handle().frame, filter, tell, take);
+  if (const ScanHandle* const shown = scans_.shown(); shown && shown->of.details()) {
+    loader_.load(*shown->of.details(), shown->frame, filter, tell, take);
   } else {
     loader_.filter(scan, filter, tell, take);
   }
 }
 
 void FilterRow::show_in_views() {
-  pqPipelineSource* const reader = scan_.source();
-  if (!reader || !scan_.handle().volume) return;
+  pqPipelineSource* const reader = readers_.source();
+  if (!reader || !scans_.shown()) return;
   const std::string text = shown_->isChecked() ? modes::to_json(model_.scene().filter) : std::string();
   vtkSMPropertyHelper property(reader->getProxy(), "Filter");
   if (text == property.GetAsString()) return;
@@ -211,7 +212,7 @@ void FilterRow::show_in_views() {
   reader->setModifiedState(pqProxy::UNMODIFIED);
   reader->updatePipeline();
   reader->renderAllViews();
-  scan_.views().refresh_values();
+  readers_.views().refresh_values();
 }
 
 QString FilterRow::in_words() const {

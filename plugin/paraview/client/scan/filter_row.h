@@ -19,7 +19,8 @@ class QProgressBar;
 namespace palpate::plugin {
 
 class SceneModel;
-class ScanSection;
+class ScanModel;
+class ScanPipeline;
 class SessionController;
 
 /// The row of the filter: the scene holds the filter, and this row asks for another one. The voxels are filtered in the
@@ -28,7 +29,8 @@ class FilterRow : public QWidget {
   Q_OBJECT
 
  public:
-  FilterRow(SceneModel& model, SessionController& touching, ScanSection& scan, QWidget* parent = nullptr);
+  FilterRow(SceneModel& model, SessionController& touching, ScanModel& scans, ScanPipeline& readers,
+            QWidget* parent = nullptr);
 
   /// Another scan, or none.
   void refresh();
@@ -47,7 +49,8 @@ class FilterRow : public QWidget {
 
   SceneModel& model_;
   SessionController& touching_;
-  ScanSection& scan_;
+  ScanModel& scans_;
+  ScanPipeline& readers_;
   QComboBox* type_;
   QDoubleSpinBox* amount_;
   QCheckBox* shown_;

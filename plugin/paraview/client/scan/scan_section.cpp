@@ -1,305 +1,227 @@
 #include "plugin/paraview/client/scan/scan_section.h"
 
-#include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
-#include <pqObjectBuilder.h>
-#include <pqPipelineSource.h>
-#include <pqServer.h>
-#include <pqUndoStack.h>
-#include <vtkSMPropertyHelper.h>
-#include <vtkSMSourceProxy.h>
-#include <vtkSMTrace.h>
+#include <pqFileDialog.h>
 
-#include <QComboBox>
-#include <QListWidget>
+#include <QCheckBox>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QMimeData>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTabBar>
-#include <QTimer>
+#include <QUrl>
+#include <QVBoxLayout>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
+#include <optional>
+#include <vector>
 
-#include "modes/scene/starting_scene.h"
-#include "plugin/app/scan_choice.h"
-#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/message_label.h"
-#include "plugin/paraview/client/scan/animation_time.h"
+#include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/scan/archive_tab.h"
+#include "plugin/paraview/client/scan/frame_row.h"
 #include "plugin/paraview/client/scan/recent_folders.h"
-#include "plugin/paraview/client/scan/scan_identity.h"
-#include "plugin/paraview/client/words.h"
-#include "plugin/paraview/common/display_image.h"
-#include "plugin/session/scan.h"
+#include "plugin/paraview/client/scan/series_list.h"
 
 namespace palpate::plugin {
 namespace {
 
-constexpr int again_ms = 100;
+/// What is being done, and how much of it.
+struct Work {
+  QString what;
+  double done = 0;
+  bool can_cancel = true;
+};
 
-QString text(const std::string& utf8) {
-  return QString::fromStdString(utf8);
+std::optional<Work> work_of(const ScanModel& model) {
+  if (const auto* const finding = std::get_if<coming::Finding>(&model.coming())) {
+    return Work{ScanSection::tr("Finding series"), finding->done};
+  }
+  if (const auto* const loading = std::get_if<coming::Loading>(&model.coming())) {
+    return Work{ScanSection::tr("Loading"), loading->done};
+  }
+  if (std::holds_alternative<in_views::Showing>(model.in_views())) return Work{ScanSection::tr("Showing"), 0, false};
+  if (const auto* const fetching = std::get_if<in_views::Fetching>(&model.in_views())) {
+    return Work{fetching->what, fetching->done};
+  }
+  const auto* const shown = std::get_if<in_views::Shown>(&model.in_views());
+  if (shown && shown->coming && !shown->scan.of.catalogue) return Work{shown->coming->what, shown->coming->done};
+  return std::nullopt;
 }
 
 }  // namespace
 
-ScanSection::ScanSection(QWidget* parent) : QWidget(parent) {
+ScanSection::ScanSection(ScanModel& model, QWidget* parent) : QWidget(parent), model_(model) {
   setObjectName(QStringLiteral("palpateScan"));
   setAcceptDrops(true);
-  build();
-  set_busy(false);
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  build_tabs();
+  build_series();
+  build_progress(*column);
+  auto* const ras = new QCheckBox(tr("Places under the pointer in RAS"), this);
+  ras->setObjectName(QStringLiteral("palpateRas"));
+  ras->setToolTip(tr("Right, anterior and superior are positive; DICOM and radiology write L/R, P/A, H/F instead."));
+  connect(ras, &QCheckBox::toggled, this, &ScanSection::ras_wanted);
+  column->addWidget(ras);
+  build_notes();
+  connect(&model, &ScanModel::changed, this, [this] { refresh(); });
+  connect(&model, &ScanModel::told, this,
+          [this](const QString& text, bool problem) { show_message(*message_, text, problem); });
+  connect(&model, &ScanModel::listed, this, [this] {
+    if (model_.found() && !model_.found()->only()) tabs_->setCurrentIndex(0);
+  });
+  refresh();
 }
 
 ScanSection::~ScanSection() = default;
 
-void ScanSection::tell(const QString& message, bool problem) {
-  show_message(*message_, message, problem);
-  emit said(message, problem);
+void ScanSection::build_tabs() {
+  tabs_ = new QTabBar(this);
+  tabs_->setObjectName(QStringLiteral("palpateScanTabs"));
+  tabs_->addTab(tr("Folder"));
+  tabs_->addTab(tr("Archive"));
+  tabs_->setExpanding(false);
+  folder_ = new QWidget(this);
+  auto* const column = new QVBoxLayout(folder_);
+  column->setContentsMargins(0, 0, 0, 0);
+  archive_ = new ArchiveTab(this);
+  archive_->hide();
+  archive_->set_in_use([this] {
+    std::vector<std::filesystem::path> open{model_.path()};
+    if (const SeriesRef* const seen = model_.seen()) open.emplace_back(seen->path);
+    return open;
+  });
+  for (QWidget* const one : {static_cast<QWidget*>(tabs_), folder_, static_cast<QWidget*>(archive_)}) {
+    layout()->addWidget(one);
+  }
+  // No pages of a tab widget: all of those would be as tall as the tallest.
+  connect(tabs_, &QTabBar::currentChanged, this, [this](int tab) {
+    folder_->setVisible(tab == 0);
+    archive_->setVisible(tab == 1);
+  });
+  connect(archive_, &ArchiveTab::fetched, this, [this](const QString& folder) { open(folder.toStdString()); });
+}
+
+/// Of the folder: what opens one, and what was found in it.
+void ScanSection::build_series() {
+  auto* const folder = new QPushButton(tr("Open DICOM folder…"), this);
+  folder->setObjectName(QStringLiteral("palpateOpen"));
+  folder->setToolTip(tr("Opens a folder of DICOM files, with all its subfolders. A folder may also be dropped here."));
+  connect(folder, &QPushButton::clicked, this, [this] { ask_folder(); });
+  auto* const file = new QPushButton(tr("File…"), this);
+  file->setObjectName(QStringLiteral("palpateOpenFile"));
+  file->setToolTip(tr("A scan in NIfTI, NRRD or MetaImage, or a zipped study. It may also be dropped here."));
+  connect(file, &QPushButton::clicked, this, [this] { ask_file(); });
+  auto* const ways = new QHBoxLayout;
+  ways->addWidget(folder, 1);
+  ways->addWidget(file);
+  static_cast<QVBoxLayout*>(folder_->layout())->addLayout(ways);
+  series_ = new SeriesList(model_, this);
+  folder_->layout()->addWidget(series_);
+  connect(series_, &SeriesList::thumbnail_drawn, this, [this](std::size_t n, const QImage& picture) {
+    const FoundList* const found = model_.found();
+    if (found && found->catalogue) {
+      archive_->set_picture(QString::fromStdString(found->catalogue->series[n].uid), picture);
+    }
+    emit thumbnail_drawn(n, picture);
+  });
+}
+
+void ScanSection::build_progress(QVBoxLayout& column) {
+  auto* const work = new QHBoxLayout;
+  progress_ = new QProgressBar(this);
+  progress_->setObjectName(QStringLiteral("palpateProgress"));
+  cancel_ = new QPushButton(tr("Cancel"), this);
+  cancel_->setObjectName(QStringLiteral("palpateCancel"));
+  connect(cancel_, &QPushButton::clicked, this, [this] { model_.cancel(); });
+  work->addWidget(progress_, 1);
+  work->addWidget(cancel_);
+  column.addLayout(work);
+  copy_ = new QPushButton(tr("A copy on this machine…"), this);
+  copy_->setObjectName(QStringLiteral("palpateCopy"));
+  copy_->setToolTip(tr("A folder of this machine that holds the same scan: it is then not fetched from the server."));
+  connect(copy_, &QPushButton::clicked, this, [this] { ask_copy(); });
+  column.addWidget(copy_);
+}
+
+void ScanSection::build_notes() {
+  notes_ = new QWidget(this);
+  auto* const column = new QVBoxLayout(notes_);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(new FrameRow(model_, notes_));
+  message_ = make_message_label(*notes_, "palpateMessage");
+  column->addWidget(message_);
+}
+
+void ScanSection::refresh() {
+  const auto work = work_of(model_);
+  progress_->setVisible(work.has_value());
+  cancel_->setVisible(work && work->can_cancel);
+  if (work) {
+    progress_->setFormat(work->what + QStringLiteral(" %p%"));
+    progress_->setValue(static_cast<int>(100 * work->done));
+  }
+  const auto* const fetching = std::get_if<in_views::Fetching>(&model_.in_views());
+  const auto* const far = std::get_if<in_views::OutOfReach>(&model_.in_views());
+  copy_->setVisible((fetching && fetching->from_server) || (far && !far->of.catalogue && remote_server()));
 }
 
 void ScanSection::open(const std::string& path) {
-  path_ = path;
-  ++asked_;
-  catalogue_.reset();
-  on_server_.reset();
-  series_->clear();
-  fit_series();
-  loader_.cancel();
-  server_scan_.cancel();
-  copy_->hide();
-  emit finding();
-  tell({});
-  if (remote_server()) {
-    open_on_server();
-    return;
-  }
-  if (!archive_->has_fetched(path)) remember_folder(text(path));  // that one goes with the program
-  set_busy(true, tr("Finding series"));
-  loader_.find(
-      path, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
-      [this](auto catalogue, const std::string& error) { list(std::move(catalogue), error); });
-}
-
-void ScanSection::list(std::shared_ptr<const io::Catalogue> catalogue, const std::string& error) {
-  if (is_in_paraview()) {  // what is shown may have to be closed
-    QTimer::singleShot(again_ms, this, [this, catalogue, error, path = path_] {
-      if (path == path_) list(catalogue, error);
-    });
-    return;
-  }
-  set_busy(false);
-  if (!catalogue) {
-    tell(text(error), true);
-    return;
-  }
-  catalogue_ = std::move(catalogue);
-  leave_other_patient();
-  list_rows();
-  draw_thumbnails();
-  if (catalogue_->series.empty()) {
-    tell(words(say("no-image-series-in-this-folder", catalogue_->skipped.size())), true);
-  } else if (const auto only = only_scan(*catalogue_)) {
-    load(*only);
-  } else {
-    tabs_->setCurrentIndex(0);
-    emit listed(catalogue_);
-    tell(words(say("series-choose-one", scan_count(*catalogue_))));
-  }
+  const QString folder = QString::fromStdString(path);
+  if (!remote_server() && !archive_->has_fetched(path)) remember_folder(folder);  // that one goes with the program
+  model_.open(path);
 }
 
 void ScanSection::show_archive() {
   tabs_->setCurrentIndex(1);
 }
 
-void ScanSection::load(std::size_t series) {
-  if (on_server_ && series < on_server_->series.size()) {
-    server_scan_.cancel();
-    show({.path = path_, .name = on_server_->series[series].name, .catalogue = {}, .volume = {}});
+void ScanSection::ask_copy() {
+  const QString folder =
+      QFileDialog::getExistingDirectory(this, tr("Folder of this machine with the scan that the server shows"));
+  if (!folder.isEmpty()) model_.add_copy(folder.toStdString());
+}
+
+void ScanSection::ask_folder() {
+  const QString title = tr("Open DICOM folder");
+  if (pqServer* const server = remote_server()) {
+    pqFileDialog dialog(server, this, title + tr(" of the server"));
+    dialog.setFileMode(pqFileDialog::Directory);
+    if (dialog.exec() == QDialog::Accepted && !dialog.getSelectedFiles().isEmpty()) {
+      open(dialog.getSelectedFiles().first().toStdString());
+    }
     return;
   }
-  if (!catalogue_ || series >= scan_count(*catalogue_)) return;
-  set_busy(true, tr("Loading"));
-  tell({});
-  loader_.load(
-      scan_at(*catalogue_, series), 0, {}, [this](double done) { progress_->setValue(static_cast<int>(100 * done)); },
-      [this, catalogue = catalogue_, path = path_, series](const auto& volume, const std::string& error) {
-        volume ? show({path, scan_name(*catalogue, series), catalogue, series, volume}) : set_busy(false);
-        if (!error.empty()) tell(text(error), true);
-      });
+  const QString folder = QFileDialog::getExistingDirectory(this, title, last_place());
+  if (!folder.isEmpty()) open(folder.toStdString());
 }
 
-/// ParaView handles events while it makes a view: what they ask for comes after it.
-bool ScanSection::is_in_paraview() const {
-  return showing_ || views_.is_inside();
-}
-
-void ScanSection::show(const Loaded& loaded) {
-  ++asked_;
-  if (is_in_paraview()) {
-    QTimer::singleShot(again_ms, this, [this, loaded, asked = asked_] {
-      if (asked == asked_) show(loaded);
-    });
+void ScanSection::ask_file() {
+  const QString title = tr("Open a file");
+  const QString kinds =
+      tr("Scans") + QStringLiteral(" (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.zip *.tar.gz *.tgz)");
+  if (pqServer* const server = remote_server()) {
+    pqFileDialog dialog(server, this, title + tr(" of the server"), QString(), kinds);
+    dialog.setFileMode(pqFileDialog::ExistingFile);
+    if (dialog.exec() == QDialog::Accepted && !dialog.getSelectedFiles().isEmpty()) {
+      open(dialog.getSelectedFiles().first().toStdString());
+    }
     return;
   }
-  showing_ = true;
-  show_now(loaded);
-  showing_ = false;
+  const QString all = tr("All files") + QStringLiteral(" (*)");
+  const QString file = QFileDialog::getOpenFileName(this, title, last_place(), kinds + QStringLiteral(";;") + all);
+  if (!file.isEmpty()) open(file.toStdString());
 }
 
-void ScanSection::show_now(const Loaded& loaded) {
-  pqServer* const server = pqActiveObjects::instance().activeServer();
-  if (!server) {
-    set_busy(false);
-    tell(words(say("paraview-is-not-connected-to-a-server")), true);
-    return;
-  }
-  set_busy(true, tr("Showing"));
-  cancel_->hide();
-  try {
-    SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
-    emit closing();
-    if (!loaded.volume) emit out_of_reach({});
-    views_.close();
-    handle_ = {};
-    frame_loader_.cancel();
-    coming_.reset();
-    felt_source_.clear();
-    catalogue_shown_ = loaded.catalogue;
-    series_shown_ = loaded.series;
-    if (source_) pqApplicationCore::instance()->getObjectBuilder()->destroy(source_);
-    views_.make_room();
-    read(loaded, *server);
-    views_.show(*source_, [this, loaded](const std::string& error) { views_are_made(loaded, error); });
-  } catch (const std::exception& error) {
-    catalogue_shown_.reset();
-    set_busy(false);
-    tell(text(error.what()), true);
-  }
+void ScanSection::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
 }
 
-/// The voxels are here already, or are the server's.
-void ScanSection::read(const Loaded& loaded, pqServer& server) {
-  source_ = pqApplicationCore::instance()->getObjectBuilder()->createSource(
-      QStringLiteral("sources"), QStringLiteral("PalpateDicomReader"), &server);
-  if (!source_) {
-    throw Refusal(say("server-has-no-palpate-plug"));
-  }
-  vtkSMProxy& proxy = *source_->getProxy();
-  vtkSMPropertyHelper(&proxy, "ShowMessages", true).Set(0);  // they stand in this section
-  {
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", &proxy);  // else a trace has a reader of nothing
-    vtkSMPropertyHelper(&proxy, "FileName").Set(loaded.path.c_str());
-    vtkSMPropertyHelper(&proxy, "SeriesUid").Set(loaded.name.c_str());
-    proxy.UpdateVTKObjects();
-  }
-  source_->updatePipeline();
-  set_animation_time(loaded.frame);  // another series: the time starts anew
-  // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
-  // takes that for a change.
-  QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
-}
-
-void ScanSection::views_are_made(const Loaded& loaded, const std::string& error) {
-  if (!loader_.is_busy()) set_busy(false);
-  if (!error.empty()) {
-    tell(text(error), true);
-    return;
-  }
-  if (!source_) {  // deleted since the last of them was made
-    views_.close();
-    tell(words(say("scan-left-the-pipeline")), true);
-    return;
-  }
-  try {
-    SCOPED_UNDO_EXCLUDE();
-    list_windows();
-    if (loaded.path == path_) say_what_to_know(loaded);  // else another folder is open, and has told what it holds
-    take(loaded);
-    if (!loaded.volume) fetch(loaded.path);
-  } catch (const std::exception& problem) {
-    tell(text(problem.what()), true);
-  }
-}
-
-/// What is shown from now on is this.
-void ScanSection::take(const Loaded& loaded) {
-  catalogue_shown_ = loaded.catalogue;
-  series_shown_ = loaded.series;
-  const io::Series* const of = loaded.catalogue ? &scan_at(*loaded.catalogue, loaded.series) : nullptr;
-  views_.set_scan_texts(of ? identity_text(*of) : QString(), of ? of->details.thickness_mm : 0);
-  if (!loaded.volume) {
-    felt_source_.clear();
-    return;
-  }
-  handle_ = {.series = source_->getSMName(), .volume = loaded.volume, .frame = loaded.frame};
-  felt_source_ = source_;
-  if (loaded.catalogue) {
-    const io::Series& series = scan_at(*loaded.catalogue, loaded.series);
-    handle_.series = text(scan_label(series));
-    if (!loaded.volume->vectors) handle_.scene = modes::starting_scene(series);
-    handle_.frames = series.frames_per_position;
-    handle_.frame_names = series.frame_names;
-  } else {
-    handle_.series = text(describe_scan(*loaded.volume));
-    handle_.frames = server_frames();
-  }
-  pqActiveObjects::instance().setActiveSource(source_);  // what ParaView's own panels are about
-  watch_time();
-  show_frame();
-  emit scan_shown(handle_);
-}
-
-void ScanSection::list_windows() {
-  window_->clear();
-  for (const NamedWindow& named : views_.windows()) {
-    window_->addItem(QStringLiteral("%1 (%2 / %3)")
-                         .arg(tr(named.name))
-                         .arg(named.window.level, 0, 'g', 4)
-                         .arg(named.window.width, 0, 'g', 4));
-    window_->setItemData(window_->count() - 1, tr("Key %1").arg(window_->count()), Qt::ToolTipRole);
-  }
-  show_window();
-}
-
-/// The one that the slices have; where it has no name, as one more.
-void ScanSection::show_window() {
-  const auto& named = views_.windows();
-  const int custom = static_cast<int>(named.size());
-  const Window& now = views_.window();
-  const auto same = std::ranges::find_if(
-      named, [&](const NamedWindow& of) { return of.window.level == now.level && of.window.width == now.width; });
-  if (same != named.end() || named.empty()) {
-    window_->removeItem(custom);
-    window_->setCurrentIndex(named.empty() ? -1 : static_cast<int>(same - named.begin()));
-    return;
-  }
-  if (window_->count() == custom) window_->addItem(QString());
-  window_->setItemText(custom, tr("Custom (%1 / %2)").arg(now.level, 0, 'f', 0).arg(now.width, 0, 'f', 0));
-  window_->setCurrentIndex(custom);
-}
-
-void ScanSection::say_what_to_know(const Loaded& loaded) {
-  QStringList notes;
-  if (!loaded.volume) {
-    for (const std::string& message : messages_of(*source_->getSourceProxy())) notes << text(message);
-    tell(notes.join(QStringLiteral("\n")));
-    return;
-  }
-  const io::Series& shown = scan_at(*loaded.catalogue, loaded.series);
-  for (const std::string& warning : shown.warnings) notes << text(warning);
-  for (const std::string& warning : loaded.volume->warnings) notes << text(warning);
-  if (display_grid(shown.geometry).resampled) notes << words(say("display-resampled-touch-is-not"));
-  if (!is_straight(display_grid(shown.geometry))) {
-    notes << words(say("oblique-or-tilted"));
-  }
-  tell(notes.join(QStringLiteral("\n")));
-}
-
-void ScanSection::apply_window(int choice) {
-  if (choice >= 0 && choice < static_cast<int>(views_.windows().size())) {
-    views_.set_window(views_.windows()[static_cast<std::size_t>(choice)].window);
-  }
+void ScanSection::dropEvent(QDropEvent* event) {
+  open(event->mimeData()->urls().first().toLocalFile().toStdString());
 }
 
 }  // namespace palpate::plugin

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugin/paraview/client/layout/enlarged_view.h"
@@ -52,8 +53,9 @@ class ClinicalViews {
   void make_room();
   /// What is still to be made is not made: what was to be shown is gone, or has views already.
   void stop_making();
-  /// Whether ParaView is just making a view. It may handle events meanwhile: nothing is to be closed then.
-  bool is_inside() const { return turns_.is_inside(); }
+  /// ParaView handles events while it makes a view, and nothing is to be closed then: this is done at once, or after
+  /// the view that is being made. Of several that wait for it, the last is done.
+  void alone(std::function<void()> step) { turns_.alone(std::move(step)); }
   /// Called when the views begin to be made, and when they are all there, or will not be.
   void set_making_changed(std::function<void(bool)> changed) { making_changed_ = std::move(changed); }
   /// Takes over existing clinical views of an image, which a state file has restored.

@@ -18,6 +18,21 @@ void Turns::add(Step step) {
   if (!inside_ && !timer_.isActive()) timer_.start();
 }
 
+void Turns::alone(Step step) {
+  waiting_ = std::move(step);
+  if (!inside_) take_waiting();
+}
+
+void Turns::take_waiting() {
+  while (waiting_) {
+    const Step step = std::exchange(waiting_, {});
+    inside_ = true;
+    step();
+    inside_ = false;
+  }
+  if (!steps_.empty() && !timer_.isActive()) timer_.start();
+}
+
 void Turns::clear() {
   steps_.clear();
   timer_.stop();
@@ -40,9 +55,8 @@ void Turns::take_one() {
   if (failed) {
     clear();
     failed_(error);
-  } else if (!steps_.empty()) {
-    timer_.start();
   }
+  take_waiting();
 }
 
 }  // namespace palpate::plugin

@@ -21,6 +21,9 @@ class Turns {
   Turns& operator=(const Turns&) = delete;
 
   void add(Step step);
+  /// A step that is taken at once, or after the one that is being taken: of several that wait for it, the last. It
+  /// throws nothing.
+  void alone(Step step);
   /// Drops the steps that were not taken yet.
   void clear();
   /// Whether a step is being taken. It may handle events itself; no other step is taken meanwhile.
@@ -28,9 +31,11 @@ class Turns {
 
  private:
   void take_one();
+  void take_waiting();
 
   std::function<void(const std::string&)> failed_;
   std::deque<Step> steps_;
+  Step waiting_;
   bool inside_ = false;
   QTimer timer_;  // its end ends what is still to come
 };

@@ -1,0 +1,45 @@
+#include "plugin/paraview/client/model/scan_handle.h"
+
+#include <QCoreApplication>
+
+#include <utility>
+
+#include "modes/scene/starting_scene.h"
+#include "plugin/app/scan_choice.h"
+#include "plugin/session/scan.h"
+
+namespace palpate::plugin {
+
+const io::Series* SeriesRef::details() const {
+  return catalogue ? &scan_at(*catalogue, series) : nullptr;
+}
+
+QString ScanHandle::frame_in_words(int of_frame) const {
+  if (frames <= 1) return {};
+  const auto n = static_cast<std::size_t>(of_frame);
+  const QString name = n < frame_names.size() ? QString::fromStdString(frame_names[n]) : QString();
+  const QString meaning = name.isEmpty() ? QCoreApplication::translate("ScanHandle", "frame") : name;
+  return QCoreApplication::translate("ScanHandle", name.isEmpty() ? "%1 %2 of %3" : "%1, %2 of %3")
+      .arg(meaning)
+      .arg(of_frame + 1)
+      .arg(frames);
+}
+
+QString ScanHandle::in_words() const {
+  return frames > 1 ? QStringLiteral("%1, %2").arg(series, frame_in_words()) : series;
+}
+
+ScanHandle handle_of(const SeriesRef& of, std::shared_ptr<const io::Volume> volume, int frame, int frames) {
+  ScanHandle handle{.of = of, .volume = std::move(volume), .frame = frame, .frames = frames};
+  if (const io::Series* const series = of.details()) {
+    handle.series = QString::fromStdString(scan_label(*series));
+    if (!handle.volume->vectors) handle.scene = modes::starting_scene(*series);
+    handle.frames = series->frames_per_position;
+    handle.frame_names = series->frame_names;
+  } else {
+    handle.series = QString::fromStdString(describe_scan(*handle.volume));
+  }
+  return handle;
+}
+
+}  // namespace palpate::plugin

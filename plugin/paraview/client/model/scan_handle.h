@@ -1,0 +1,49 @@
+#pragma once
+
+/// The scan that is shown and felt: one handle for the reader, the views, the stylus and whatever else reads it, so
+/// that all of them mean the same series and the same frame.
+
+#include <QString>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/series.h"
+#include "io/volume.h"
+
+namespace palpate::plugin {
+
+/// A series: where it is, and its name there.
+struct SeriesRef {
+  std::string path;                                     ///< folder or file, as the program that reads it names it
+  std::string name;                                     ///< as scan_name()
+  QString label;                                        ///< as scan_label()
+  std::shared_ptr<const io::Catalogue> catalogue = {};  ///< that has it; null: a server's
+  std::size_t series = 0;                               ///< in the catalogue
+
+  /// Null if only a server has them.
+  const io::Series* details() const;
+};
+
+struct ScanHandle {
+  SeriesRef of;
+  QString series;                            ///< in words: modality, description, size. Names no patient
+  std::shared_ptr<const io::Volume> volume;  ///< of that frame
+  std::string scene;                         ///< the starting scene that suits it
+  int frame = 0;                             ///< from 0
+  int frames = 1;
+  std::vector<std::string> frame_names;  ///< "b = 1000 s/mm2", one a frame, or fewer where unknown
+
+  /// "b = 1000 s/mm2, 5 of 17", counted from 1; empty where there is one frame alone.
+  QString frame_in_words() const { return frame_in_words(frame); }
+  QString frame_in_words(int of_frame) const;
+  /// Series and frame.
+  QString in_words() const;
+};
+
+/// The handle of a volume of a series. `frames`: of a server's series; else the catalogue says it.
+ScanHandle handle_of(const SeriesRef& of, std::shared_ptr<const io::Volume> volume, int frame, int frames);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,118 @@
+#pragma once
+
+/// Owns which scan is open: what is in the views, what comes next, and the frame. Sections and views follow it.
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/filter.h"
+#include "plugin/paraview/client/model/scan_state.h"
+#include "plugin/paraview/client/model/scan_world.h"
+
+namespace palpate::plugin {
+
+/// A note or an error message for the one who asked; empty: nothing.
+struct ScanMessage {
+  QString text;
+  bool problem = false;
+};
+
+class ScanModel : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit ScanModel(ScanWorld& world, QObject* parent = nullptr) : QObject(parent), world_(world) {}
+
+  const in_views::State& in_views() const { return in_views_; }
+  const coming::State& coming() const { return coming_; }
+  const ScanMessage& message() const { return message_; }
+  /// The scan that is shown and can be felt; null if there is none.
+  const ScanHandle* shown() const;
+  /// The series that was asked for, and whose voxels or views are still to come; none: nothing is.
+  std::optional<SeriesRef> on_its_way() const;
+  /// The list to choose from; null if there is none.
+  const FoundList* found() const;
+  /// The frame that the views show, or will show as soon as its voxels are here; 0 if no scan is shown.
+  int wanted_frame() const;
+  /// The folder or file that was opened last; empty: none.
+  std::string path() const;
+  /// The series in the views, whether it can be felt or not; null: none.
+  const SeriesRef* seen() const;
+  /// Why the views show something other than what the stylus would feel, and what to do; empty if they agree.
+  QString why_not_felt() const;
+
+  /// Finds the series of a folder or file, as the active server names it. Shows it if exactly one of them is a volume.
+  void open(const std::string& path);
+  /// Shows one of the series that were found.
+  void choose(std::size_t series);
+  /// Gives up what is being found, read or fetched.
+  void cancel();
+  /// Another frame: its voxels first, in the background; then the views follow.
+  void go_to_frame(int frame);
+  /// A server's scan may also be found in this folder of this machine: it is fetched again.
+  void add_copy(const std::string& folder);
+  /// `filter` returns the filter that is felt, so that a new frame is filtered from the start.
+  void set_filter(std::function<io::Filter()> filter) { filter_ = std::move(filter); }
+
+  /// A reader that stands in the pipeline is taken over, with its views: a state file or Undo has brought it.
+  void restore(const SeriesRef& of, Brought brought);
+  /// The reader was deleted from the pipeline.
+  void lose();
+  /// The server has gone, with everything that it read.
+  void lose_server();
+  /// ParaView's time is another one.
+  void follow_time();
+
+ signals:
+  /// Anything of it is different.
+  void changed();
+  /// Another list, or none: found().
+  void listed();
+  void told(const QString& message, bool problem);
+  /// What is in the views is about to go.
+  void leaving();
+  /// A server's scan is in the views, or about to be. It cannot be felt yet (`why` is empty), or not at all (`why` says
+  /// the reason). Also where the scan was closed.
+  void out_of_reach(const QString& why);
+  /// Another scan is in the views, and can be felt.
+  void scan_shown(const palpate::plugin::ScanHandle& handle, palpate::plugin::Brought brought);
+  /// Another frame of it is in the views, and can be felt.
+  void frame_shown(const palpate::plugin::ScanHandle& handle);
+
+ private:
+  void tell(const QString& text, bool problem = false);
+  void set_coming(coming::State next);
+  void set_in_views(in_views::State next);
+  void list(const FoundList& found, const std::string& error);
+  bool is_of_other_patient(const FoundList& found) const;
+  void close();
+  void leave();
+  void begin_showing(const SeriesRef& of, const std::shared_ptr<const io::Volume>& volume);
+  void views_made(const std::string& error);
+  void fetch(const SeriesRef& of, bool from_server, Brought brought);
+  void take_fetched(const ScanWorld::Fetch& fetch);
+  void give_up_fetching(const QString& why);
+  void take(const ScanHandle& scan, Brought brought);
+  void load_frame(int frame);
+  void fetch_frame(int frame);
+  void take_frame(const std::shared_ptr<const io::Volume>& volume, int frame);
+  void note(const SeriesRef& of, const io::Volume* volume);
+
+  ScanWorld& world_;
+  in_views::State in_views_;
+  coming::State coming_;
+  ScanMessage message_;
+  std::function<io::Filter()> filter_;
+  std::vector<std::string> copies_;  // folders of this machine that were named
+  // Of each kind of request, the last one: an answer to another is ignored.
+  unsigned find_ = 0, views_ = 0, fetch_ = 0, frame_ = 0;
+};
+
+}  // namespace palpate::plugin

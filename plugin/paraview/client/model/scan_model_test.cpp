@@ -1,0 +1,421 @@
+#include "plugin/paraview/client/model/scan_model.h"
+
+#include <gmock/gmock.h>
+
+#include <QStringList>
+
+#include <random>
+#include <string>
+
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/model/testing/made_world.h"
+#include "plugin/paraview/client/words.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+io::Series series(const std::string& uid, const std::string& patient, int frames) {
+  io::Series one;
+  one.uid = uid;
+  one.modality = "CT";
+  one.usable = true;
+  one.identity.patient_name = patient;
+  one.frames_per_position = frames;
+  return one;
+}
+
+FoundList folder(const std::string& path, const std::vector<io::Series>& all) {
+  auto catalogue = std::make_shared<io::Catalogue>();
+  catalogue->series = all;
+  return {.path = path, .catalogue = catalogue};
+}
+
+std::shared_ptr<const io::Volume> voxels() {
+  return std::make_shared<const io::Volume>();
+}
+
+/// Follows the model as panel and views do, and writes down what it reports.
+struct ScanModelFollowed : testing::Test {
+  ScanModelFollowed() {
+    QObject::connect(&model, &ScanModel::leaving, [this] { reported << QStringLiteral("leaving"); });
+    QObject::connect(&model, &ScanModel::out_of_reach, [this](const QString& why) {
+      reported << QStringLiteral("out of reach ") + why;
+      felt = false;
+    });
+    QObject::connect(&model, &ScanModel::scan_shown, [this](const ScanHandle& scan, Brought brought) {
+      reported << (brought == Brought::by_undo ? QStringLiteral("restored ") : QStringLiteral("shown ")) +
+                      QString::fromStdString(scan.of.name);
+      felt = true;
+    });
+    QObject::connect(&model, &ScanModel::frame_shown,
+                     [this](const ScanHandle& scan) { reported << QStringLiteral("frame %1").arg(scan.frame); });
+  }
+  QStringList take_reported() { return std::exchange(reported, {}); }
+
+  /// A folder of one series of so many frames, up to its views.
+  void show(const std::string& name, int frames = 1, const std::string& patient = "A") {
+    model.open("/" + name);
+    world.found_.back()(folder("/" + name, {series(name, patient, frames)}), {});
+    world.loaded_.back()(voxels(), {});
+    world.made_.back()({});
+    world.take_asked();
+    take_reported();
+  }
+
+  MadeWorld world;
+  ScanModel model{world};
+  QStringList reported;
+  bool felt = false;
+};
+
+TEST_F(ScanModelFollowed, AnOnlySeriesIsShownAtOnce) {
+  model.open("/one");
+  EXPECT_TRUE(std::holds_alternative<coming::Finding>(model.coming()));
+  world.found_.back()(folder("/one", {series("1", "A", 1)}), {});
+  ASSERT_TRUE(model.on_its_way());
+  EXPECT_EQ(model.on_its_way()->name, "1") << "it is said whose scan comes before its voxels are there";
+  world.loaded_.back()(voxels(), {});
+  EXPECT_TRUE(std::holds_alternative<in_views::Showing>(model.in_views()));
+  EXPECT_EQ(model.shown(), nullptr);
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-is-still-being-read")));
+  world.made_.back()({});
+  EXPECT_THAT(world.take_asked(), ElementsAre("find /one", "load 1", "show 1"));
+  ASSERT_NE(model.shown(), nullptr);
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+  EXPECT_FALSE(model.on_its_way());
+  EXPECT_EQ(model.message().text, QStringLiteral("notes on 1"));
+  EXPECT_EQ(take_reported(), QStringList({"leaving", "shown 1"}));
+}
+
+TEST_F(ScanModelFollowed, SeveralAreChosenFromAndTheListStays) {
+  model.open("/two");
+  world.found_.back()(folder("/two", {series("1", "A", 1), series("2", "A", 1)}), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("find /two"));
+  ASSERT_NE(model.found(), nullptr);
+  EXPECT_EQ(model.message().text, words(say("series-choose-one", std::size_t{2})));
+  model.choose(7);
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+  model.choose(1);
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  EXPECT_EQ(model.shown()->of.name, "2");
+  ASSERT_NE(model.found(), nullptr) << "the other may be chosen next";
+  EXPECT_EQ(model.found()->count(), 2U);
+}
+
+TEST_F(ScanModelFollowed, WhatWasOvertakenIsNeverShown) {
+  model.open("/one");
+  model.open("/two");
+  world.found_.front()(folder("/one", {series("1", "A", 1)}), {});
+  EXPECT_TRUE(std::holds_alternative<coming::Finding>(model.coming())) << "of the second folder";
+  world.found_.back()(folder("/two", {series("1", "A", 1), series("2", "A", 1)}), {});
+  model.choose(0);
+  model.choose(1);
+  world.loaded_.front()(voxels(), {});
+  EXPECT_TRUE(std::holds_alternative<in_views::Nothing>(model.in_views()));
+  world.loaded_.back()(voxels(), {});
+  model.choose(0);  // while the views of the second are made
+  world.loaded_.back()(voxels(), {});
+  world.made_.front()({});
+  EXPECT_EQ(model.shown(), nullptr) << "those were of the scan before";
+  world.made_.back()({});
+  EXPECT_EQ(model.shown()->of.name, "1");
+}
+
+TEST_F(ScanModelFollowed, TheScanBeforeIsFeltUntilAnotherIsInTheViews) {
+  show("1");
+  model.open("/2");
+  EXPECT_EQ(model.shown()->of.name, "1");
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+  world.found_.back()(folder("/2", {series("2", "A", 1)}), {});
+  EXPECT_EQ(model.shown()->of.name, "1") << "the same patient's";
+  world.loaded_.back()({}, "a file is missing");
+  EXPECT_EQ(model.shown()->of.name, "1");
+  EXPECT_TRUE(model.message().problem);
+  EXPECT_FALSE(model.on_its_way());
+  EXPECT_EQ(take_reported(), QStringList());
+}
+
+TEST_F(ScanModelFollowed, NoPatientStaysBesideAnothersName) {
+  show("1");
+  model.open("/2");
+  world.found_.back()(folder("/2", {series("2", "B", 1)}), {});
+  EXPECT_TRUE(std::holds_alternative<in_views::Nothing>(model.in_views()));
+  EXPECT_EQ(model.on_its_way()->name, "2");
+  EXPECT_EQ(take_reported(), QStringList({"leaving", "out of reach "}));
+  EXPECT_THAT(world.take_asked(), ElementsAre("find /2", "close", "load 2"));
+}
+
+TEST_F(ScanModelFollowed, AFolderWithoutSeriesLeavesWhatIsShown) {
+  show("1");
+  model.open("/junk");
+  world.found_.back()(folder("/junk", {}), {});
+  EXPECT_TRUE(model.message().problem);
+  EXPECT_EQ(model.shown()->of.name, "1");
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+  model.open("/absent");
+  world.found_.back()({}, "there is no such folder");
+  EXPECT_EQ(model.message().text, QStringLiteral("there is no such folder"));
+  EXPECT_EQ(model.shown()->of.name, "1");
+  EXPECT_EQ(model.found(), nullptr);
+}
+
+TEST_F(ScanModelFollowed, CancelLeadsBackToTheList) {
+  show("1");
+  model.open("/two");
+  model.cancel();
+  EXPECT_TRUE(std::holds_alternative<coming::Nothing>(model.coming()));
+  world.found_.back()(folder("/two", {series("2", "B", 1)}), {});
+  EXPECT_EQ(model.shown()->of.name, "1") << "a late answer changes nothing";
+  model.open("/two");
+  world.found_.back()(folder("/two", {series("2", "A", 1), series("3", "A", 1)}), {});
+  model.choose(0);
+  model.cancel();
+  EXPECT_TRUE(std::holds_alternative<coming::Choosing>(model.coming()));
+  world.loaded_.back()(voxels(), {});
+  EXPECT_EQ(model.shown()->of.name, "1");
+}
+
+TEST_F(ScanModelFollowed, AScanWhoseViewsFailLeavesNoReader) {
+  model.open("/1");
+  world.found_.back()(folder("/1", {series("1", "A", 1)}), {});
+  world.loaded_.back()(voxels(), {});
+  world.take_asked();
+  world.made_.back()("ParaView cannot draw it");
+  EXPECT_TRUE(std::holds_alternative<in_views::Lost>(model.in_views()));
+  EXPECT_THAT(world.take_asked(), ElementsAre("close"));
+  EXPECT_EQ(model.why_not_felt(), QStringLiteral("ParaView cannot draw it"));
+  EXPECT_TRUE(model.message().problem);
+}
+
+TEST_F(ScanModelFollowed, WhatIsDeletedIsNotFelt) {
+  show("1");
+  model.lose();
+  EXPECT_EQ(model.shown(), nullptr);
+  EXPECT_EQ(model.seen(), nullptr);
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-left-the-pipeline")));
+  EXPECT_EQ(take_reported(), QStringList({"leaving"}));
+  EXPECT_THAT(world.take_asked(), IsEmpty()) << "Undo may bring it back, with its views";
+}
+
+TEST_F(ScanModelFollowed, WhatIsDeletedWhileItsViewsAreMadeIsClosed) {
+  model.open("/1");
+  world.found_.back()(folder("/1", {series("1", "A", 1)}), {});
+  world.loaded_.back()(voxels(), {});
+  world.take_asked();
+  model.lose();
+  EXPECT_THAT(world.take_asked(), ElementsAre("close"));
+  EXPECT_TRUE(model.message().problem);
+  world.made_.back()({});
+  EXPECT_TRUE(std::holds_alternative<in_views::Lost>(model.in_views()));
+}
+
+TEST_F(ScanModelFollowed, WhatUndoBringsBackIsFeltAgain) {
+  show("1");
+  const SeriesRef of = model.shown()->of;
+  model.lose();
+  model.restore(of, Brought::by_undo);
+  EXPECT_EQ(model.on_its_way()->name, "1");
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-is-still-being-read")));
+  world.fetched_.back()({.volume = voxels(), .of = of});
+  EXPECT_EQ(model.shown()->of.name, "1");
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+  EXPECT_EQ(take_reported(), QStringList({"leaving", "leaving", "restored 1"}));
+  EXPECT_THAT(world.take_asked(), ElementsAre("fetch 1", "adopt"));
+}
+
+TEST_F(ScanModelFollowed, AStateThatCannotBeReadSaysSo) {
+  show("1");
+  model.restore({.path = "/gone", .name = "9", .label = {}}, Brought::by_state);
+  EXPECT_EQ(model.shown(), nullptr) << "the scan before is not in the state";
+  world.fetched_.back()({.volume = {}, .said = QStringLiteral("there is no such folder"), .of = {}});
+  EXPECT_TRUE(std::holds_alternative<in_views::OutOfReach>(model.in_views()));
+  EXPECT_EQ(model.why_not_felt(), QStringLiteral("there is no such folder"));
+  EXPECT_TRUE(model.message().problem);
+}
+
+TEST_F(ScanModelFollowed, AServersScanIsSeenBeforeItIsFelt) {
+  world.remote = true;
+  model.open("/there");
+  world.found_.back()({.path = "/there", .on_server = {{"1", "CT", true}, {"2", "report", false}}}, {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("find /there", "show 1")) << "the only volume of them";
+  world.made_.back()({});
+  EXPECT_TRUE(std::holds_alternative<in_views::Fetching>(model.in_views()));
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-is-still-being-read")));
+  world.fetched_.back()({.volume = {}, .said = QStringLiteral("no memory"), .of = {}});
+  EXPECT_EQ(model.why_not_felt(), QStringLiteral("no memory"));
+  EXPECT_EQ(take_reported(), QStringList({"out of reach ", "leaving", "out of reach ", "out of reach no memory"}));
+  model.add_copy("/here");
+  EXPECT_THAT(world.looked_in, ElementsAre("/there", "/here"));
+  world.fetched_.back()({.volume = voxels(), .said = QStringLiteral("from a copy"), .of = *model.seen(), .frames = 3});
+  ASSERT_NE(model.shown(), nullptr);
+  EXPECT_EQ(model.shown()->frames, 3);
+  world.time = 2;
+  model.follow_time();
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-is-still-being-read")));
+  world.fetched_.back()({.volume = voxels(), .said = {}, .of = {}, .frame = 2});
+  EXPECT_EQ(model.shown()->frame, 2);
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+  model.lose_server();
+  EXPECT_EQ(model.shown(), nullptr);
+  EXPECT_EQ(model.found(), nullptr);
+}
+
+TEST_F(ScanModelFollowed, CancelLeavesAServersScanInTheViews) {
+  world.remote = true;
+  model.open("/there");
+  world.found_.back()({.path = "/there", .on_server = {{"1", "CT", true}}}, {});
+  world.made_.back()({});
+  model.cancel();
+  EXPECT_TRUE(std::holds_alternative<in_views::OutOfReach>(model.in_views()));
+  EXPECT_EQ(take_reported().back(), QStringLiteral("out of reach ") + words(say("scan-is-on-the-server")));
+  world.fetched_.back()({.volume = voxels(), .said = {}, .of = *model.seen()});
+  EXPECT_EQ(model.shown(), nullptr) << "a late answer changes nothing";
+}
+
+// The frame.
+
+TEST_F(ScanModelFollowed, AFrameIsHereBeforeTheViewsGoThere) {
+  show("1", 5);
+  model.go_to_frame(3);
+  EXPECT_THAT(world.take_asked(), ElementsAre("frame 3"));
+  EXPECT_EQ(model.shown()->frame, 0);
+  EXPECT_TRUE(model.why_not_felt().isEmpty()) << "the views show the frame before, and it is felt";
+  world.frames_.back()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("time 3"));
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+  model.follow_time();
+  EXPECT_EQ(model.shown()->frame, 3);
+  EXPECT_EQ(take_reported(), QStringList({"frame 3"}));
+  EXPECT_THAT(world.take_asked(), IsEmpty()) << "it is not read twice";
+}
+
+TEST_F(ScanModelFollowed, TheLastFrameAskedForIsShown) {
+  show("1", 5);
+  model.go_to_frame(-1);
+  model.go_to_frame(99);
+  EXPECT_THAT(world.take_asked(), ElementsAre("frame 0", "frame 4"));
+  world.frames_.front()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+  world.frames_.back()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("time 4"));
+}
+
+TEST_F(ScanModelFollowed, ParaViewsTimeIsFollowed) {
+  show("1", 5);
+  world.time = 2;
+  model.follow_time();
+  world.time = 4;
+  model.follow_time();
+  world.frames_.front()(voxels(), {});
+  EXPECT_EQ(model.shown()->frame, 0) << "ParaView has gone on";
+  world.frames_.back()({}, "frame 4 is not whole");
+  EXPECT_EQ(model.shown()->frame, 0);
+  EXPECT_EQ(model.why_not_felt(), words(say("views-show-another-scan", model.shown()->frame_in_words(4).toStdString(),
+                                            model.shown()->frame_in_words(0).toStdString())));
+  world.time = 1;
+  model.follow_time();
+  world.frames_.back()(voxels(), {});
+  EXPECT_EQ(model.shown()->frame, 1);
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+}
+
+TEST_F(ScanModelFollowed, AFrameOfTheScanBeforeIsNotTakenForTheNext) {
+  show("1", 5);
+  model.go_to_frame(3);
+  model.open("/2");
+  world.found_.back()(folder("/2", {series("2", "A", 5)}), {});
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  world.take_asked();
+  world.frames_.back()(voxels(), {});
+  EXPECT_EQ(model.shown()->frame, 0);
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+}
+
+TEST_F(ScanModelFollowed, WhatTheViewsShowOtherwiseIsNotFelt) {
+  show("1");
+  world.view.name = "Reader1";
+  world.view.other = "Reader2";
+  EXPECT_EQ(model.why_not_felt(), words(say("another-scan-is-active-in-the-pipeline", "Reader2", "Reader1")));
+  world.view.seen = false;
+  EXPECT_EQ(model.why_not_felt(), words(say("no-view-shows-the-scan")));
+  world.view.in_pipeline = false;
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-left-the-pipeline")));
+}
+
+/// Whatever comes in whatever order: what is felt is shown, and what is shown is the last that was asked for.
+TEST(ScanModel, NoOrderOfEventsLeavesItHalf) {
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    std::mt19937 random(seed);
+    const auto pick = [&](std::size_t of) { return of == 0 ? 0 : random() % of; };
+    MadeWorld world;
+    ScanModel model(world);
+    bool left = true;  // the followers have let the scan before go
+    QObject::connect(&model, &ScanModel::leaving, [&] { left = true; });
+    QObject::connect(&model, &ScanModel::scan_shown, [&](const ScanHandle&, Brought) {
+      EXPECT_TRUE(left) << "seed " << seed << ": two scans at once";
+      left = false;
+    });
+    for (int step = 0; step < 60; ++step) {
+      const auto answer = [&](auto& all, const auto& with) {
+        if (!all.empty()) all[pick(all.size())](with, {});
+      };
+      switch (pick(12)) {
+        case 0:
+          model.open("/" + std::to_string(pick(3)));
+          break;
+        case 1:
+          answer(world.found_, folder("/x", {series("1", pick(2) ? "A" : "B", 4), series("2", "A", 1)}));
+          break;
+        case 2:
+          model.choose(pick(3));
+          break;
+        case 3:
+        case 4:
+          answer(world.loaded_, voxels());
+          break;
+        case 5:
+        case 6:
+          if (!world.made_.empty()) world.made_[pick(world.made_.size())](pick(4) == 0 ? "failed" : "");
+          break;
+        case 7:
+          model.cancel();
+          break;
+        case 8:
+          model.lose();
+          world.view = {};
+          break;
+        case 9:
+          world.time = static_cast<int>(pick(5));
+          model.follow_time();
+          break;
+        case 10:
+          model.go_to_frame(static_cast<int>(pick(5)));
+          answer(world.frames_, voxels());
+          break;
+        default:
+          if (pick(3) == 0) model.restore({.path = "/x", .name = "1", .label = {}}, Brought::by_state);
+          if (!world.fetched_.empty()) {
+            world.fetched_[pick(world.fetched_.size())]({.volume = pick(3) ? voxels() : nullptr,
+                                                         .said = QStringLiteral("said"),
+                                                         .of = {.path = "/x", .name = "1", .label = {}}});
+          }
+      }
+      const ScanHandle* const shown = model.shown();
+      EXPECT_EQ(shown != nullptr, !left) << "seed " << seed << ", step " << step;
+      if (shown) {
+        EXPECT_NE(shown->volume, nullptr);
+        EXPECT_LT(shown->frame, shown->frames);
+      } else {
+        EXPECT_FALSE(model.why_not_felt().isEmpty()) << "seed " << seed << ", step " << step;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::plugin

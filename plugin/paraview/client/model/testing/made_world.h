@@ -1,0 +1,82 @@
+#pragma once
+
+/// A program around the model of the scan: it keeps what was asked for, and a test answers when it wants to.
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "plugin/paraview/client/model/scan_world.h"
+
+namespace palpate::plugin {
+
+class MadeWorld : public ScanWorld {
+ public:
+  bool is_remote() const override { return remote; }
+  void find(const std::string& path, Progress progress, Found found) override {
+    asked.push_back("find " + path);
+    found_.push_back(std::move(found));
+    progress_ = std::move(progress);
+  }
+  void load(const io::Series& series, int /*frame*/, Progress progress, Loaded loaded) override {
+    asked.push_back("load " + series.uid);
+    loaded_.push_back(std::move(loaded));
+    progress_ = std::move(progress);
+  }
+  void stop() override {}
+  void load_frame(const io::Series& /*series*/, int frame, const io::Filter& /*filter*/, Loaded loaded) override {
+    asked.push_back("frame " + std::to_string(frame));
+    frames_.push_back(std::move(loaded));
+  }
+  void stop_frames() override {}
+  void show(const SeriesRef& of, int /*frame*/, Made made) override {
+    asked.push_back("show " + of.name);
+    made_.push_back(std::move(made));
+    view.in_pipeline = view.seen = true;
+  }
+  void adopt() override {
+    asked.emplace_back("adopt");
+    view.in_pipeline = view.seen = true;
+  }
+  void close() override {
+    asked.emplace_back("close");
+    view = {};
+  }
+  void abandon() override {
+    asked.emplace_back("abandon");
+    view = {};
+  }
+  void fetch(const SeriesRef& of, std::optional<int> frame, const io::Filter& /*filter*/,
+             std::vector<std::string> places, Progress progress, Fetched fetched) override {
+    asked.push_back("fetch " + of.name + (frame ? " " + std::to_string(*frame) : ""));
+    looked_in = std::move(places);
+    fetched_.push_back(std::move(fetched));
+    progress_ = std::move(progress);
+  }
+  void stop_fetching() override {}
+  void show_frame(int frame) override {
+    asked.push_back("time " + std::to_string(frame));
+    time = frame;
+  }
+  int frame_in_views(int frames) const override { return time < frames ? time : frames - 1; }
+  ViewFacts facts() const override { return view; }
+  QString notes(const SeriesRef& of, const io::Volume* /*volume*/) const override {
+    return QStringLiteral("notes on ") + QString::fromStdString(of.name);
+  }
+
+  /// What was asked for since the last call.
+  std::vector<std::string> take_asked() { return std::exchange(asked, {}); }
+
+  bool remote = false;
+  int time = 0;
+  ViewFacts view;
+  std::vector<std::string> asked, looked_in;
+  // All that were ever asked for, the last one last: an old one may be answered, too.
+  std::deque<Found> found_;
+  std::deque<Loaded> loaded_, frames_;
+  std::deque<Made> made_;
+  std::deque<Fetched> fetched_;
+  Progress progress_;
+};
+
+}  // namespace palpate::plugin

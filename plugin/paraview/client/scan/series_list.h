@@ -1,0 +1,35 @@
+#pragma once
+
+/// The series of the folder that is open, to be chosen from.
+
+#include <QImage>
+#include <QListWidget>
+
+#include "plugin/paraview/client/model/scan_model.h"
+#include "plugin/paraview/client/scan/scan_loader.h"
+
+namespace palpate::plugin {
+
+class SeriesList : public QListWidget {
+  Q_OBJECT
+
+ public:
+  explicit SeriesList(ScanModel& model, QWidget* parent = nullptr);
+
+ signals:
+  void thumbnail_drawn(std::size_t series, const QImage& picture);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void list();
+  void list_files(const FoundList& found);
+  void fit();
+  void draw_thumbnails(const FoundList& found);
+
+  ScanModel& model_;
+  ScanLoader thumbnails_;  // last: its thread is to end before all that its callbacks use
+};
+
+}  // namespace palpate::plugin
