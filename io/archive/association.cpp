@@ -291,7 +291,8 @@ const std::vector<std::string>& compressed_syntaxes() {
       UID_JPEGLSLosslessTransferSyntax,   UID_RLELosslessTransferSyntax,
       UID_JPEGProcess14TransferSyntax,    UID_JPEG2000TransferSyntax,
       UID_JPEGLSLossyTransferSyntax,      UID_JPEGProcess2_4TransferSyntax,
-      UID_JPEGProcess1TransferSyntax,     UID_DeflatedExplicitVRLittleEndianTransferSyntax,
+      UID_JPEGProcess1TransferSyntax,     UID_JPEGProcess10_12TransferSyntax,
+      UID_JPEGProcess6_8TransferSyntax,   UID_DeflatedExplicitVRLittleEndianTransferSyntax,
       UID_BigEndianExplicitTransferSyntax};
   return syntaxes;
 }

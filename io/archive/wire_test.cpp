@@ -150,9 +150,10 @@ TEST(OnTheWire, AGetOffersToReceiveAllThatIsRead) {
   // CT, MR, enhanced CT, enhanced MR and PET images.
   for (const char* const kind : {"2", "4", "2.1", "4.1", "128"}) {
     expected.insert(storage + kind + " receives" + uncompressed);
-    // JPEG lossless, 12 and 8 bit; JPEG 2000, JPEG-LS, RLE; deflated, big endian.
+    // JPEG lossless, 12 and 8 bit, progressive and by spectral selection; JPEG 2000, JPEG-LS, RLE; deflated, big
+    // endian.
     for (const char* const syntax :
-         {"4.70", "4.57", "4.51", "4.50", "4.90", "4.91", "4.80", "4.81", "5", "1.99", "2"}) {
+         {"4.70", "4.57", "4.51", "4.50", "4.55", "4.53", "4.90", "4.91", "4.80", "4.81", "5", "1.99", "2"}) {
       expected.insert(storage + kind + " receives 1.2.840.10008.1.2." + syntax);
     }
   }

@@ -64,6 +64,16 @@ void expect_sound_scene(const Suggestion& found) {
   }
 }
 
+void expect_same_nodes(const TransferFunction& now, const TransferFunction& was, bool of_gradients, double near,
+                       const Affine& change) {
+  ASSERT_EQ(now.nodes().size(), was.nodes().size());
+  for (std::size_t n = 0; n < was.nodes().size(); ++n) {
+    EXPECT_EQ(now.nodes()[n].value, was.nodes()[n].value);
+    const double at = was.nodes()[n].at;
+    EXPECT_NEAR(now.nodes()[n].at, of_gradients ? change.factor * at : change.of(at), near);
+  }
+}
+
 void expect_same_scene(const Suggestion& found, const Suggestion& before, const Affine& change) {
   const double near = 2e-3 * phantom_range * change.factor;
   ASSERT_EQ(found.scene.tissues.size(), before.scene.tissues.size());
@@ -79,17 +89,24 @@ void expect_same_scene(const Suggestion& found, const Suggestion& before, const 
     }
     EXPECT_NEAR(found.scene.tissues[t].softness, change.factor * before.scene.tissues[t].softness, near);
   }
+  ASSERT_EQ(found.boundaries.size(), before.boundaries.size());
+  for (std::size_t b = 0; b < before.boundaries.size(); ++b) {
+    EXPECT_EQ(found.boundaries[b].low, before.boundaries[b].low);
+    EXPECT_EQ(found.boundaries[b].high, before.boundaries[b].high);
+    EXPECT_NEAR(found.boundaries[b].middle, change.of(before.boundaries[b].middle), near);
+  }
   ASSERT_EQ(found.scene.modes.size(), before.scene.modes.size());
   for (std::size_t m = 0; m < before.scene.modes.size(); ++m) {
     const Mode &now = found.scene.modes[m], &was = before.scene.modes[m];
     ASSERT_EQ(now.type, was.type);
     ASSERT_EQ(now.gates.size(), was.gates.size());
-    ASSERT_EQ(now.strength_n.nodes().size(), was.strength_n.nodes().size());
-    for (std::size_t n = 0; n < was.strength_n.nodes().size(); ++n) {
-      EXPECT_EQ(now.strength_n.nodes()[n].value, was.strength_n.nodes()[n].value);
-      const double at = was.strength_n.nodes()[n].at;
-      const double wanted = was.strength_of == Datum::gradient_magnitude ? change.factor * at : change.of(at);
-      EXPECT_NEAR(now.strength_n.nodes()[n].at, wanted, near) << now.name;
+    SCOPED_TRACE(now.name);
+    EXPECT_EQ(now.enabled, was.enabled);
+    expect_same_nodes(now.strength_n, was.strength_n, was.strength_of == Datum::gradient_magnitude, near, change);
+    for (std::size_t g = 0; g < was.gates.size(); ++g) {
+      ASSERT_EQ(now.gates[g].of, was.gates[g].of);
+      expect_same_nodes(now.gates[g].factor, was.gates[g].factor, was.gates[g].of == Datum::gradient_magnitude, near,
+                        change);
     }
   }
 }
