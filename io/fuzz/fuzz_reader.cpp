@@ -29,7 +29,9 @@ namespace fs = std::filesystem;
 // NIfTI and MetaImage are known by their names.
 const char* ending_of(std::string_view bytes) {
   constexpr std::size_t nifti_magic = 344;
+  constexpr std::size_t nifti_2_magic = 4;
   if (bytes.substr(std::min(bytes.size(), nifti_magic)).starts_with("n+1")) return ".nii";
+  if (bytes.substr(std::min(bytes.size(), nifti_2_magic)).starts_with("n+2")) return ".nii";
   if (bytes.starts_with("ObjectType") || bytes.starts_with("NDims")) return ".mha";
   return bytes.starts_with("\x1f\x8b") ? ".nii.gz" : "";
 }

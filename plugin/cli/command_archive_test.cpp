@@ -105,6 +105,22 @@ TEST_F(CommandArchive, TellsOfWhatIsMissing) {
            "palpate: the archive holds more than these {} studies: ask more narrowly, or for more with --most"));
 }
 
+// PS3.4 B.2.3: the archive keeps the file, and what it says of it is said.
+TEST_F(CommandArchive, SendSaysWhatTheArchiveWarnsOf) {
+  io::testing::Process odd({ODD_ARCHIVE, "leaves-out-at-store"});
+  ASSERT_EQ(run("archive add odd --host 127.0.0.1 --port " + odd.read_line() + " --called ODD --calling PALPATE").exit,
+            0);
+  const std::string file = fs::directory_iterator(phantom())->path().string();
+  const Outcome sent = run("send " + file);
+  EXPECT_EQ(sent.exit, 0) << sent.output;
+  EXPECT_THAT(sent.output, HasSubstr("took it, with a warning: it left elements out (status B006)"));
+  const Json told = json("send " + file + " --json");
+  EXPECT_EQ(told["sent"], 1);
+  ASSERT_EQ(told["warned"].size(), 1U) << told;
+  EXPECT_EQ(told["warned"][0]["file"], file);
+  EXPECT_EQ(told["not_sent"].size(), 0U);
+}
+
 /// A ball whose hand presses the second button twice on the surface, and keeps it down once.
 fs::path path_with_buttons() {
   const fs::path file = fresh_path("path.csv");

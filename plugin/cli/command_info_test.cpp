@@ -1,6 +1,7 @@
 // `palpate info` and `sample` as a script meets them, on series whose every number is known.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -121,6 +123,27 @@ TEST(CommandSample, GivesTheVoxelAtItsCenterAndSaysWhatIsOutside) {
   }
   const Outcome outside = palpate("sample --json " + known.folder.string() + " --at 0,0,5000", false);
   EXPECT_EQ(Json::parse(outside.output), Json::parse(R"([{"position_mm": [0.0, 0.0, 5000.0], "outside": true}])"));
+}
+
+// As its help says: a quarter of the way to the next voxel three quarters of the one and a quarter of the other.
+TEST(CommandSample, InterpolatesAsItsHelpSays) {
+  const std::string help = std::regex_replace(palpate("sample --help").output, std::regex("\\s+"), " ");  // wrapped
+  EXPECT_THAT(help, HasSubstr("linearly between the eight voxels"));
+  const Known known = known_series("between");
+  const io::Geometry& g = known.volume.geometry;
+  for (int n = 0; n < 6; ++n) {
+    const glm::ivec3 at(3 * n % 19, 5 * n % 17, 2 * n % 12);
+    const glm::ivec3 next = at + glm::ivec3(n % 2, 1 - n % 2, 0);
+    const glm::dvec2 part = glm::dvec2(at) + 0.25 * glm::dvec2(next - at);
+    const glm::dvec3 p = g.slice_positions[static_cast<std::size_t>(at.z)] + (part.x * g.spacing_i) * g.direction_i +
+                         (part.y * g.spacing_j) * g.direction_j;
+    const std::string command =
+        fmt::format("sample --json {} --at={:.9g},{:.9g},{:.9g}", known.folder.string(), p.x, p.y, p.z);
+    const double value = Json::parse(palpate(command, false).output).at(0).at("value");
+    EXPECT_NEAR(value,
+                0.75 * known.volume.value_at(at.x, at.y, at.z) + 0.25 * known.volume.value_at(next.x, next.y, next.z),
+                0.05);
+  }
 }
 
 TEST(SeriesOption, SeveralSeriesAreToldApartAndNoneChosenIsWrongUsage) {
