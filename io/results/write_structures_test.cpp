@@ -39,7 +39,7 @@ Structure only_structure_in(const fs::path& file) {
   return found.structures.front();
 }
 
-std::string text(DcmItem& item, const DcmTagKey& key) {
+std::string tag_text(DcmItem& item, const DcmTagKey& key) {
   OFString value;
   item.findAndGetOFStringArray(key, value);
   return value.c_str();
@@ -127,26 +127,26 @@ TEST(WriteSegmentation, KeepsWhatItsLabelSays) {
   ASSERT_TRUE(second.loadFile((folder / "second.dcm").c_str()).good());
   DcmDataset& data = *second.getDataset();
   for (const DcmTagKey& own : {DCM_SOPInstanceUID, DCM_SeriesInstanceUID}) {
-    EXPECT_NE(text(*first.getDataset(), own), text(data, own));
-    EXPECT_FALSE(text(data, own).empty());
+    EXPECT_NE(tag_text(*first.getDataset(), own), tag_text(data, own));
+    EXPECT_FALSE(tag_text(data, own).empty());
   }
-  EXPECT_EQ(text(data, DCM_SegmentationType), "BINARY");
-  EXPECT_EQ(text(data, DCM_SpecificCharacterSet), "ISO_IR 192");
-  EXPECT_EQ(text(data, DCM_PatientID), "4711");
-  EXPECT_EQ(text(data, DCM_StudyDate), "20240229");
+  EXPECT_EQ(tag_text(data, DCM_SegmentationType), "BINARY");
+  EXPECT_EQ(tag_text(data, DCM_SpecificCharacterSet), "ISO_IR 192");
+  EXPECT_EQ(tag_text(data, DCM_PatientID), "4711");
+  EXPECT_EQ(tag_text(data, DCM_StudyDate), "20240229");
   DcmItem* item = nullptr;
   ASSERT_TRUE(data.findAndGetSequenceItem(DCM_SegmentSequence, item).good());
-  EXPECT_EQ(text(*item, DCM_SegmentAlgorithmType), "SEMIAUTOMATIC");
+  EXPECT_EQ(tag_text(*item, DCM_SegmentAlgorithmType), "SEMIAUTOMATIC");
   ASSERT_TRUE(data.findAndGetSequenceItem(DCM_SourceImageSequence, item).good());
-  EXPECT_EQ(text(*item, DCM_ReferencedSOPInstanceUID), read.origin->instance);
-  EXPECT_EQ(read.origin->instance, text(*first.getDataset(), DCM_SOPInstanceUID));
+  EXPECT_EQ(tag_text(*item, DCM_ReferencedSOPInstanceUID), read.origin->instance);
+  EXPECT_EQ(read.origin->instance, tag_text(*first.getDataset(), DCM_SOPInstanceUID));
 
   // All images and the corrected object, each once.
   std::set<std::string> referenced;
   for (signed long s = 0; data.findAndGetSequenceItem(DCM_ReferencedSeriesSequence, item, s).good(); ++s) {
     DcmItem* one = nullptr;
     for (signed long n = 0; item->findAndGetSequenceItem(DCM_ReferencedInstanceSequence, one, n).good(); ++n) {
-      EXPECT_TRUE(referenced.insert(text(*one, DCM_ReferencedSOPInstanceUID)).second);
+      EXPECT_TRUE(referenced.insert(tag_text(*one, DCM_ReferencedSOPInstanceUID)).second);
     }
   }
   EXPECT_EQ(referenced.size(), scan.files.size() + 1);
@@ -157,12 +157,12 @@ TEST(WriteSegmentation, KeepsWhatItsLabelSays) {
     ASSERT_TRUE(item->findAndGetSequenceItem(DCM_PlanePositionSequence, position).good());
     ASSERT_TRUE(item->findAndGetSequenceItem(DCM_DerivationImageSequence, derivation).good());
     ASSERT_TRUE(derivation->findAndGetSequenceItem(DCM_SourceImageSequence, source).good());
-    const std::string instance = text(*source, DCM_ReferencedSOPInstanceUID);
+    const std::string instance = tag_text(*source, DCM_ReferencedSOPInstanceUID);
     bool found = false;
     for (const fs::path& file : scan.files) {
       DcmFileFormat image;
       ASSERT_TRUE(image.loadFile(file.c_str()).good());
-      if (text(*image.getDataset(), DCM_SOPInstanceUID) != instance) continue;
+      if (tag_text(*image.getDataset(), DCM_SOPInstanceUID) != instance) continue;
       found = true;
       Float64 there = 0, here = 1;
       image.getDataset()->findAndGetFloat64(DCM_ImagePositionPatient, there, 2);
@@ -198,7 +198,7 @@ TEST(WriteSegmentation, RefersToFramesOfOneFile) {
        format.getDataset()->findAndGetSequenceItem(DCM_PerFrameFunctionalGroupsSequence, item, f).good(); ++f) {
     ASSERT_TRUE(item->findAndGetSequenceItem(DCM_DerivationImageSequence, derivation).good());
     ASSERT_TRUE(derivation->findAndGetSequenceItem(DCM_SourceImageSequence, source).good());
-    numbers.push_back(text(*source, DCM_ReferencedFrameNumber));
+    numbers.push_back(tag_text(*source, DCM_ReferencedFrameNumber));
   }
   EXPECT_EQ(numbers, (std::vector<std::string>{"2", "3", "4"}));
 }
@@ -256,7 +256,7 @@ TEST(WriteContours, RefersToWhatWasCorrected) {
   DcmItem *item = nullptr, *study = nullptr, *series = nullptr, *image = nullptr;
   for (const DcmTagKey& key : {DCM_PredecessorStructureSetSequence, DCM_SourceInstanceSequence}) {
     ASSERT_TRUE(format.getDataset()->findAndGetSequenceItem(key, item).good());
-    EXPECT_EQ(text(*item, DCM_ReferencedSOPInstanceUID), read.origin->instance);
+    EXPECT_EQ(tag_text(*item, DCM_ReferencedSOPInstanceUID), read.origin->instance);
   }
   ASSERT_TRUE(format.getDataset()->findAndGetSequenceItem(DCM_ReferencedFrameOfReferenceSequence, item).good());
   ASSERT_TRUE(item->findAndGetSequenceItem(DCM_RTReferencedStudySequence, study).good());

@@ -132,6 +132,7 @@ inline constexpr MessageRow structures[] = {
      {{"file-exists", "{} exists: name another file, or ask for it to be overwritten"},
       {"file-is-what-was-corrected", "{} is the outline that was corrected, and is kept: name another file"},
       {"outline-is-empty", "\"{}\" is empty on this scan, no voxel is inside: nothing is written"},
+      {"outline-has-no-surface", "one of the structures has no surface that could be compared"},
       {"outline-has-no-study",
        "the scan is no DICOM, so there is no study that the outline could go into: write .nii.gz, .seg.nrrd or .mha"},
       {"outline-cannot-be-made", "the outline cannot be made: {}"},

@@ -5,17 +5,21 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <thread>
 
 #include "io/archive/testing/orthanc.h"
 #include "io/archive/testing/says.h"
+#include "io/structures/label_image.h"
 #include "io/testing/test_image.h"
 #include "plugin/testing/command_rig.h"
 
@@ -302,6 +306,46 @@ TEST_F(CommandOrthanc, FromTheArchiveAndBack) {
   const Outcome refused = run("send --archive here " + text.string());
   EXPECT_EQ(refused.exit, 1);
   EXPECT_TRUE(says(refused.output, "{} of {} files were not sent"));
+}
+
+/// What was outlined on a scan goes into the scan's study, is found there, and comes back as it was.
+TEST_F(CommandOrthanc, OutlinesGoIntoTheStudyAndComeBack) {
+  ASSERT_EQ(json("send " + phantom().string() + " --json")["sent"], 60);
+  const io::Series scan = io::find_series(std::array{phantom()}).series.at(0);
+  io::StructureLabel label;
+  label.name = "Größe";
+  label.type = {"10200004", "SCT", "Liver"};
+  const auto outline = [](const io::Vec3& at) { return 20 - std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z); };
+  const fs::path out = fresh_path("outlines");
+  fs::create_directories(out);
+  for (const auto& [form, name] :
+       {std::pair{io::StructureForm::segmentation, "seg.dcm"}, std::pair{io::StructureForm::contours, "rt.dcm"}}) {
+    write_structure(label, scan, scan.geometry, outline, {}, form, out / name, {.software_version = "1"});
+  }
+  EXPECT_EQ(json("send --archive here " + out.string() + " --json")["sent"], 2);
+
+  const Json found = json("find --archive here --json");
+  ASSERT_EQ(found["studies"].size(), 1U) << found;
+  std::map<std::string, std::string> series;
+  for (const Json& one : found["studies"][0]["series"]) series[one["modality"]] = one["series_uid"];
+  ASSERT_EQ(series.size(), 3U) << found;
+  const fs::path back = fresh_path("outlines_back");
+  ASSERT_EQ(
+      json("fetch " + series.at("SEG") + " " + series.at("RTSTRUCT") + " -o " + back.string() + " --json")["images"],
+      2);
+  const Json sent = json("structures --json " + out.string()), fetched = json("structures --json " + back.string());
+  ASSERT_EQ(fetched["structures"].size(), 2U) << fetched;
+  std::set<std::string> kinds;
+  for (const Json& one : fetched["structures"]) {
+    kinds.insert(one["kind"]);
+    EXPECT_EQ(one["name"], "Größe");
+    const auto was = std::ranges::find_if(sent["structures"], [&](const Json& s) { return s["kind"] == one["kind"]; });
+    ASSERT_NE(was, sent["structures"].end());
+    for (const char* const key : {"volume_mm3", "centroid_mm", "box_mm", "frame_of_reference_uid"}) {
+      EXPECT_EQ(one[key], (*was)[key]) << key;
+    }
+  }
+  EXPECT_EQ(kinds, (std::set<std::string>{"SEG", "RTSTRUCT"}));
 }
 
 /// A study of 1.5 MiB whose every text is another: each is told as what it is, in the text and in the JSON, and a MiB

@@ -175,10 +175,16 @@ void add_structures(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "structures", "Lists outlined structures: segments, ROIs and labels with their names, volumes and places");
   const auto options = std::make_shared<StructuresOptions>();
-  command->add_option("PATH", options->paths, "Folders with all that they hold, and files")->required();
+  // Not required by CLI11: `compare` needs none.
+  command->add_option("PATH", options->paths, "Folders with all that they hold, and files");
   command->add_option("--scan", options->scan, "Also say which of them cannot be felt on this scan, or lie outside it");
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
-  command->callback([options] { run_structures(*options); });
+  add_compare_structures(*command);
+  command->callback([command, options] {
+    if (!command->get_subcommands().empty()) return;
+    if (options->paths.empty()) throw CLI::RequiredError("PATH");
+    run_structures(*options);
+  });
 }
 
 }  // namespace palpate::plugin

@@ -20,6 +20,7 @@ void add_probe(CLI::App& program);
 void add_record(CLI::App& program);
 void add_replay(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_compare_structures(CLI::App& structures);  ///< a subcommand of `structures`
 void add_solve(CLI::App& program);
 void add_devices(CLI::App& program);
 void add_archive(CLI::App& program);
