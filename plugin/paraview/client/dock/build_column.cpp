@@ -5,9 +5,7 @@
 #include <QVBoxLayout>
 
 #include "plugin/paraview/client/dock/parts.h"
-#include "plugin/paraview/client/panel/column_scroll.h"
 #include "plugin/paraview/client/panel/curves_section.h"
-#include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/panel/footer.h"
 #include "plugin/paraview/client/panel/marks_section.h"
 #include "plugin/paraview/client/panel/modes_section.h"
@@ -18,6 +16,8 @@
 #include "plugin/paraview/client/scan/filter_row.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/stylus_section.h"
+#include "plugin/paraview/client/widgets/column_scroll.h"
+#include "plugin/paraview/client/widgets/fold.h"
 
 // The panel's sections, from top to bottom, and the footer below them.
 
@@ -50,7 +50,7 @@ void PanelParts::build_column() {
   column->addWidget(scan_fold);
   column->addWidget(&scan->notes());
   column->addWidget(new Fold(tr("Tissues"), QStringLiteral("palpateTissuesSection"), build_tissues(), true, content));
-  structures = new StructuresSection(model, touching);
+  structures = new StructuresSection(open_views, model, touching);
   structures_fold = new Fold(tr("Structures"), QStringLiteral("palpateStructuresSection"), structures, false, content);
   column->addWidget(structures_fold);
   stylus = new StylusSection(touching, model, [this] { return views.eye(); });
@@ -62,9 +62,9 @@ void PanelParts::build_column() {
   column->addWidget(new Fold(tr("Transfer function"), QStringLiteral("palpateCurvesSection"), curves, false, content));
   modes = new ModesSection(model, touching);
   column->addWidget(new Fold(tr("Modes"), QStringLiteral("palpateModesSection"), modes, false, content));
-  profile = new ProfileSection(touching, model, strokes);
+  profile = new ProfileSection(open_views, touching, model, strokes);
   column->addWidget(new Fold(tr("Force profile"), QStringLiteral("palpateProfileSection"), profile, false, content));
-  recordings = new RecordingsSection(touching);
+  recordings = new RecordingsSection(open_views, touching);
   recordings_fold = new Fold(tr("Recordings"), QStringLiteral("palpateRecordingsSection"), recordings, false, content);
   column->addWidget(recordings_fold);
   auto* const about = new QLabel(

@@ -6,9 +6,7 @@
 
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
-#include "plugin/paraview/client/file_name.h"
 #include "plugin/paraview/client/layout/clinical_toolbar.h"
-#include "plugin/paraview/client/layout/enlarged_view.h"
 #include "plugin/paraview/client/layout/help_menu.h"
 #include "plugin/paraview/client/layout/host_layout.h"
 #include "plugin/paraview/client/layout/view_picture.h"
@@ -16,7 +14,9 @@
 #include "plugin/paraview/client/layout/window_box.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/stylus_section.h"
+#include "plugin/paraview/client/views/enlarged_view.h"
 #include "plugin/paraview/client/views/patient_volume.h"
+#include "plugin/paraview/client/widgets/file_name.h"
 #include "plugin/paraview/client/words.h"
 
 // ParaView's window as a clinician's, and what its toolbar asks for.

@@ -12,11 +12,11 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/layout/clinical_toolbar.h"
-#include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/panel/marks_section.h"
 #include "plugin/paraview/client/panel/marks_sender.h"
 #include "plugin/paraview/client/panel/send_dialog.h"
 #include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/session/scan_hash.h"
 
@@ -77,8 +77,8 @@ void PanelParts::show_marks(const ScanHandle& handle) {
 }
 
 void PanelParts::leave_marks() {
+  marks_list->tell({}, false);  // it was about the scan before
   marks.set_scan({});
-  drawn_marks.set_views({});
 }
 
 }  // namespace palpate::plugin

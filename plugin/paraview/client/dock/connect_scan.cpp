@@ -16,7 +16,6 @@
 #include "plugin/paraview/client/layout/host_layout.h"
 #include "plugin/paraview/client/layout/volume_look_box.h"
 #include "plugin/paraview/client/panel/curves_section.h"
-#include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/recordings_section.h"
 #include "plugin/paraview/client/panel/structures_section.h"
@@ -27,6 +26,7 @@
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/mapping.h"
 #include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/session/scan.h"
 
@@ -50,43 +50,31 @@ void PanelParts::connect_scan() {
 }
 
 void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
-  pqServer* const server = pqActiveObjects::instance().activeServer();
-  if (!server) return;
-  proposing = true;
-  const bool restored = brought != Brought::by_opening && model.source();
+  if (!pqActiveObjects::instance().activeServer()) return;
+  const bool restored = brought != Brought::by_opening && kept.is_open();
   touching.release();
   if (!restored) {
     modes::Scene scene = scene_for(handle.scene, *handle.volume);
     scene.workspace.fit = true;
     touching.expect_scan();  // the scene is for this scan, not for the last one
-    model.open(*server, scene);
+    model.open(scene);
   }
   touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
   if (brought != Brought::by_undo) model.forget_steps();
   tissues->forget_scan(handle);
   if (restored && brought == Brought::by_state) tissues->set_restored();
-  const std::vector<ClinicalView> shown = readers.views().views();
-  contours.set_views(shown);
-  crosshair.set_views(shown);
-  structures->set_views(shown);
-  profile->set_views(shown);
-  curves->profile().forget();
-  recordings->set_views(shown);
   show_marks(handle);
-  drawn_marks.set_views(shown);
-  views.set_views(shown);  // last: the stylus is drawn over the paths
+  open_views.set(readers.views().views());
+  curves->profile().forget();
   look_box->set_looks(readers.views().looks(), readers.views().first_look());
   read_opacity();
   const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(readers.source()->getProxy()));
   low = lattice.values.low;
   high = lattice.values.high;
-  flow.set_views(shown);
   flow.set_volume(handle.volume);
   filter->refresh();
   draw_contours();
   touching.begin_outside();
-  proposing = false;
-  edited = restored;
   show_structures(handle);
   note_scan(handle);
   scan_fold->set_open(false);
@@ -124,10 +112,8 @@ void PanelParts::study(const std::shared_ptr<const io::Volume>& volume) {
         tissues->set_proposed(proposed);
         curves->set_study(study, unit);
         // What is felt or was edited already is not taken away from under the hand.
-        if (edited || touching.live().is_connected()) return;
-        proposing = true;
+        if (model.is_edited() || touching.live().is_connected()) return;
         model.propose(proposed);
-        proposing = false;
       });
 }
 
@@ -144,7 +130,7 @@ void PanelParts::adopt_state() {
   }
   const bool another = reader && reader != readers.source();
   if (another) touching.expect_scan();
-  if (scene) model.adopt(*scene);
+  if (scene) kept.adopt(*scene);
   if (!another) return;
   readers.restore(*reader, Brought::by_state);
 }
@@ -171,15 +157,11 @@ void PanelParts::leave(const QString& why) {
 }
 
 void PanelParts::leave_views() {
-  contours.set_views({});
-  crosshair.set_views({});
-  flow.set_views({});
+  open_views.set({});
+  scan_fold->set_note({});
   leave_structures();
   leave_marks();
-  views.set_views({});
-  profile->set_views({});
   curves->profile().forget();
-  recordings->set_views({});
 }
 
 }  // namespace palpate::plugin

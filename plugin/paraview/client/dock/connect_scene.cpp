@@ -17,7 +17,6 @@ namespace palpate::plugin {
 
 void PanelParts::connect_scene() {
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
-    if (!proposing) edited = true;
     if (pace == Pace::stepped) color_views();
     if (const auto felt = touching.live().felt_scan(); felt && felt != studied.lock()) study(felt);
     draw_contours();
@@ -37,13 +36,7 @@ void PanelParts::connect_scene() {
     curves->mark(pointed);
     if (pointed) curves->profile().point_at(*place, pointed->gradient);
   });
-  readers.views().set_slice_shown([this](SliceView& slice) {
-    flow.show(slice);
-    contours.show(slice);
-    crosshair.refresh();
-    structures->show(slice);
-    drawn_marks.show(slice);
-  });
+  readers.views().set_slice_shown([this](SliceView& slice) { open_views.show_slice(slice); });
 }
 
 void PanelParts::draw_contours() {

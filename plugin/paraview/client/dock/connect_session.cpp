@@ -9,7 +9,6 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/curves_section.h"
-#include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/panel/footer.h"
 #include "plugin/paraview/client/panel/modes_section.h"
 #include "plugin/paraview/client/panel/recordings_section.h"
@@ -17,6 +16,7 @@
 #include "plugin/paraview/client/scan/filter_row.h"
 #include "plugin/paraview/client/stylus/start_place.h"
 #include "plugin/paraview/client/stylus/stylus_section.h"
+#include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
 // A stylus is connected, is held, is gone.
@@ -80,19 +80,19 @@ void PanelParts::draw_stylus() {
 /// Scan, frame and scene: what the stylus has, whatever is looked at.
 void PanelParts::name_felt() {
   if (!scans.shown()) {
-    footer->set_felt(tr("No scan is open."));
+    const auto coming = scans.on_its_way();
+    footer->set_felt(coming ? tr("Opening %1…").arg(coming->label) : tr("No scan is open."), false);
     return;
   }
   const ScanHandle& handle = *scans.shown();
   const QStringList others = readers.others_shown();
   const QString through = filter->in_words();
   const QString felt =
-      tr("Felt: %1. Scene: %2.")
+      (touching.last().feels ? tr("Felt: %1. Scene: %2.") : tr("Open: %1. Scene: %2."))
           .arg(through.isEmpty() ? handle.in_words() : handle.in_words() + QStringLiteral(", ") + through,
                tissues->scene_in_words());
-  footer->set_felt(others.isEmpty() ? felt
-                                    : felt + QLatin1Char(' ') +
-                                          tr("Also shown, not felt: %1.").arg(others.join(QStringLiteral(", "))));
+  const QString beside = tr("Also shown, not felt: %1.").arg(others.join(QStringLiteral(", ")));
+  footer->set_felt(others.isEmpty() ? felt : felt + QLatin1Char(' ') + beside, true);
 }
 
 /// In sight, in reach and outside of anything felt.

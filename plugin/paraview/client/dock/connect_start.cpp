@@ -1,6 +1,9 @@
 #include <pqCoreUtilities.h>
 
 #include <QMainWindow>
+#include <QPointer>
+
+#include <utility>
 
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
@@ -8,9 +11,9 @@
 #include "plugin/paraview/client/layout/host_layout.h"
 #include "plugin/paraview/client/layout/start_page.h"
 #include "plugin/paraview/client/layout/views_cover.h"
-#include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/scan/sample_scan.h"
 #include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
 // What stands in the center where no scan is open, and how one gets from there to a scan.
@@ -44,6 +47,21 @@ void PanelParts::connect_start() {
   });
   QObject::connect(scan, &ScanSection::thumbnail_drawn, page, &StartPage::set_picture);
   QObject::connect(&scans, &ScanModel::told, page, &StartPage::tell);
+  // Whose scan is coming is said at once, where the one before was named.
+  QObject::connect(&scans, &ScanModel::changed, &dock, [this, page, cover = QPointer(cover)] {
+    const auto coming = scans.on_its_way();
+    const QString words_now = coming ? tr("Opening %1…").arg(coming->label) : QString();
+    if (cover) cover->set_words(words_now);
+    if (std::exchange(opening, words_now) == words_now) return;
+    if (coming && !scans.seen()) page->tell(words_now);
+    if (coming) {
+      scan_fold->set_note(words_now);
+    } else if (scans.shown()) {
+      note_scan(*scans.shown());
+    } else {
+      scan_fold->set_note({});
+    }
+  });
 
   auto* const sample = new SampleScan(&dock);
   page->set_sample(sample->offer());

@@ -4,8 +4,8 @@
 #include <vtkSMProxy.h>
 
 #include "plugin/paraview/client/dock/parts.h"
-#include "plugin/paraview/client/panel/fold.h"
 #include "plugin/paraview/client/panel/structures_section.h"
+#include "plugin/paraview/client/widgets/fold.h"
 
 // Structure sets belong to the scan that is shown.
 
@@ -36,7 +36,6 @@ void PanelParts::show_structures(const ScanHandle& handle) {
 void PanelParts::leave_structures() {
   served.cancel();
   structures->set_scan(nullptr, {});
-  structures->set_views({});
 }
 
 }  // namespace palpate::plugin

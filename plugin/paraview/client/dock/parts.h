@@ -11,15 +11,17 @@
 #include <functional>
 #include <memory>
 
+#include "plugin/paraview/client/jobs/scan_loader.h"
+#include "plugin/paraview/client/model/marks_model.h"
+#include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/model/scan_model.h"
-#include "plugin/paraview/client/panel/marks_model.h"
-#include "plugin/paraview/client/panel/scene_model.h"
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
 #include "plugin/paraview/client/pipeline/scan_pipeline.h"
+#include "plugin/paraview/client/pipeline/scene_source.h"
 #include "plugin/paraview/client/remote/server_structures.h"
 #include "plugin/paraview/client/remote/server_watch.h"
-#include "plugin/paraview/client/scan/scan_loader.h"
 #include "plugin/paraview/client/stylus/stylus_views.h"
 #include "plugin/paraview/client/views/boundary_contours.h"
 #include "plugin/paraview/client/views/flow_views.h"
@@ -55,11 +57,13 @@ struct PanelParts {
  public:
   explicit PanelParts(QDockWidget& panel)
       : dock(panel),
-        marks(model),
         touching(model, &panel),
         strokes(touching),
-        drawn_marks([this]() -> const Marks& { return marks.marks(); }),
-        views(touching, model) {}
+        flow(open_views),
+        contours(open_views),
+        crosshair(open_views),
+        drawn_marks(open_views, [this]() -> const Marks& { return marks.marks(); }),
+        views(open_views, touching, model) {}
 
   void build();
   // build_column.cpp
@@ -104,8 +108,10 @@ struct PanelParts {
   glm::dvec3 start_of(const device::Specification& stylus);
 
   QDockWidget& dock;
-  SceneModel model;
-  MarksModel marks;
+  OpenViews open_views;
+  SceneSource kept;
+  SceneModel model{kept};
+  MarksModel marks{kept};
   SessionController touching;
   StrokeRunner strokes;
   FlowViews flow;
@@ -138,8 +144,7 @@ struct PanelParts {
   HostLayout* layout = nullptr;
   VolumeLookBox* look_box = nullptr;
   bool leaving = false;                     // a server
-  bool edited = false;                      // since the scan was shown
-  bool proposing = false;                   // what is being edited is the panel's own doing
+  QString opening;                          // whose scan is coming, in words
   double low = 0, high = 1;                 // of what the scan holds
   std::weak_ptr<const io::Volume> studied;  // for its tissues
   std::uint64_t followed = 0;               // last tick of a recording that the slices followed

@@ -527,6 +527,25 @@
     </message>
 </context>
 <context>
+    <name>FrameRow</name>
+    <message>
+        <source>First frame</source>
+        <translation>Erste Phase</translation>
+    </message>
+    <message>
+        <source>One frame back</source>
+        <translation>Eine Phase zurück</translation>
+    </message>
+    <message>
+        <source>One frame on</source>
+        <translation>Eine Phase weiter</translation>
+    </message>
+    <message>
+        <source>Last frame</source>
+        <translation>Letzte Phase</translation>
+    </message>
+</context>
+<context>
     <name>HelpMenu</name>
     <message>
         <source>Help</source>
@@ -867,6 +886,14 @@
         <translation>Keine Aufnahme ist geöffnet.</translation>
     </message>
     <message>
+        <source>Open: %1. Scene: %2.</source>
+        <translation>Geöffnet: %1. Szene: %2.</translation>
+    </message>
+    <message>
+        <source>Opening %1…</source>
+        <translation>%1 wird geöffnet…</translation>
+    </message>
+    <message>
         <source>Felt: %1. Scene: %2.</source>
         <translation>Gefühlt: %1. Szene: %2.</translation>
     </message>
@@ -1038,6 +1065,17 @@
     </message>
 </context>
 <context>
+    <name>ScanPipeline</name>
+    <message>
+        <source>Finding series</source>
+        <translation>Serien werden gesucht</translation>
+    </message>
+    <message>
+        <source>Loading</source>
+        <translation>Laden</translation>
+    </message>
+</context>
+<context>
     <name>ScanSection</name>
     <message>
         <source>Finding series</source>
@@ -1058,26 +1096,6 @@
     <message>
         <source>Custom (%1 / %2)</source>
         <translation>Eigenes (%1 / %2)</translation>
-    </message>
-    <message>
-        <source>First frame</source>
-        <translation>Erste Phase</translation>
-    </message>
-    <message>
-        <source>One frame back</source>
-        <translation>Eine Phase zurück</translation>
-    </message>
-    <message>
-        <source>One frame on</source>
-        <translation>Eine Phase weiter</translation>
-    </message>
-    <message>
-        <source>Last frame</source>
-        <translation>Letzte Phase</translation>
-    </message>
-    <message>
-        <source>★ Best to feel first: %1</source>
-        <translation>★ Zuerst zu fühlen: %1</translation>
     </message>
     <message>
         <source>Open DICOM folder…</source>
@@ -1196,6 +1214,13 @@
     <message>
         <source>Cannot be felt: %1</source>
         <translation>Kann nicht gefühlt werden: %1</translation>
+    </message>
+</context>
+<context>
+    <name>SeriesList</name>
+    <message>
+        <source>★ Best to feel first: %1</source>
+        <translation>★ Zuerst zu fühlen: %1</translation>
     </message>
 </context>
 <context>

@@ -14,8 +14,8 @@
 
 #include <utility>
 
-#include "plugin/paraview/client/panel/release_button.h"
 #include "plugin/paraview/client/scan/recent_folders.h"
+#include "plugin/paraview/client/widgets/release_button.h"
 
 namespace palpate::plugin {
 namespace {

@@ -7,8 +7,8 @@
 #include <QVBoxLayout>
 
 #include "io/series.h"
-#include "plugin/paraview/client/scan/series_words.h"
-#include "plugin/paraview/client/scan/thumbnail.h"
+#include "plugin/paraview/client/jobs/thumbnail.h"
+#include "plugin/paraview/client/words/series_words.h"
 
 namespace palpate::plugin {
 namespace {

@@ -18,9 +18,9 @@
 #include "io/choose_first.h"
 #include "plugin/app/scan_choice.h"
 #include "plugin/paraview/client/layout/series_card.h"
-#include "plugin/paraview/client/message_label.h"
-#include "plugin/paraview/client/scan/patient_words.h"
 #include "plugin/paraview/client/scan/recent_folders.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/words/patient_words.h"
 
 namespace palpate::plugin {
 namespace {

@@ -10,7 +10,7 @@
 #include <vtkSMViewLayoutProxy.h>
 #include <vtkSmartPointer.h>
 
-#include "plugin/paraview/client/layout/enlarged_view.h"
+#include "plugin/paraview/client/views/enlarged_view.h"
 #include "plugin/paraview/client/views/slice_view.h"
 
 namespace palpate::plugin {

@@ -28,6 +28,12 @@ void ViewsCover::set_shown(bool shown) {
   setVisible(shown);
 }
 
+void ViewsCover::set_words(const QString& words) {
+  if (words == words_) return;
+  words_ = words;
+  update();
+}
+
 bool ViewsCover::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize || event->type() == QEvent::Move) setGeometry(views_->geometry());
   return QWidget::eventFilter(watched, event);
@@ -35,7 +41,10 @@ bool ViewsCover::eventFilter(QObject* watched, QEvent* event) {
 
 /// Black, as the views are. Drawn like this it does not count as opaque: what is under it is set up as if it were seen.
 void ViewsCover::paintEvent(QPaintEvent* /*event*/) {
-  QPainter(this).fillRect(rect(), Qt::black);
+  QPainter painter(this);
+  painter.fillRect(rect(), Qt::black);
+  painter.setPen(Qt::lightGray);
+  painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, words_);
 }
 
 }  // namespace palpate::plugin

@@ -3,6 +3,7 @@
 /// Lies over ParaView's views while those of a scan are made, one after the other: nobody sees an empty one.
 
 #include <QPointer>
+#include <QString>
 #include <QWidget>
 
 class QMainWindow;
@@ -15,6 +16,8 @@ class ViewsCover : public QWidget {
   explicit ViewsCover(QMainWindow& window);
 
   void set_shown(bool shown);
+  /// What stands in its middle.
+  void set_words(const QString& words);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -22,6 +25,7 @@ class ViewsCover : public QWidget {
 
  private:
   QPointer<QWidget> views_;
+  QString words_;
 };
 
 }  // namespace palpate::plugin

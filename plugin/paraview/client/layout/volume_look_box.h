@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "plugin/paraview/client/scan/scan_look.h"
+#include "plugin/paraview/common/scan_look.h"
 
 namespace palpate::plugin {
 

@@ -7,7 +7,7 @@
 namespace palpate::plugin {
 namespace {
 
-QString translated(const char* text) {
+QString of_section(const char* text) {
   return QCoreApplication::translate("palpate::plugin::ScanSection", text);
 }
 
@@ -22,7 +22,7 @@ WindowBox::WindowBox(ScanModel& model, ClinicalViews& views, QWidget* parent)
   setObjectName(QStringLiteral("palpateWindow"));
   setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   setMinimumContentsLength(14);
-  setToolTip(translated("Keys 1 to 9. Also: drag in a slice, to the right for a wider window, up for a brighter one."));
+  setToolTip(of_section("Keys 1 to 9. Also: drag in a slice, to the right for a wider window, up for a brighter one."));
   connect(this, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) {
     const auto n = static_cast<std::size_t>(choice);
     if (choice >= 0 && n < views_.windows().size()) views_.set_window(views_.windows()[n].window);
@@ -45,10 +45,10 @@ void WindowBox::list() {
   clear();
   for (const NamedWindow& named : listed_) {
     addItem(QStringLiteral("%1 (%2 / %3)")
-                .arg(translated(named.name))
+                .arg(of_section(named.name))
                 .arg(named.window.level, 0, 'g', 4)
                 .arg(named.window.width, 0, 'g', 4));
-    setItemData(count() - 1, translated("Key %1").arg(count()), Qt::ToolTipRole);
+    setItemData(count() - 1, of_section("Key %1").arg(count()), Qt::ToolTipRole);
   }
   show_window();
 }
@@ -65,7 +65,7 @@ void WindowBox::show_window() {
     return;
   }
   if (count() == custom) addItem(QString());
-  setItemText(custom, translated("Custom (%1 / %2)").arg(now.level, 0, 'f', 0).arg(now.width, 0, 'f', 0));
+  setItemText(custom, of_section("Custom (%1 / %2)").arg(now.level, 0, 'f', 0).arg(now.width, 0, 'f', 0));
   setCurrentIndex(custom);
 }
 

@@ -2,13 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include <QStringList>
-
 #include <random>
 #include <string>
 
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/model/testing/made_world.h"
+#include "plugin/paraview/client/model/testing/scan_rig.h"
 #include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {
@@ -16,60 +14,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-io::Series series(const std::string& uid, const std::string& patient, int frames) {
-  io::Series one;
-  one.uid = uid;
-  one.modality = "CT";
-  one.usable = true;
-  one.identity.patient_name = patient;
-  one.frames_per_position = frames;
-  return one;
-}
-
-FoundList folder(const std::string& path, const std::vector<io::Series>& all) {
-  auto catalogue = std::make_shared<io::Catalogue>();
-  catalogue->series = all;
-  return {.path = path, .catalogue = catalogue};
-}
-
-std::shared_ptr<const io::Volume> voxels() {
-  return std::make_shared<const io::Volume>();
-}
-
-/// Follows the model as panel and views do, and writes down what it reports.
-struct ScanModelFollowed : testing::Test {
-  ScanModelFollowed() {
-    QObject::connect(&model, &ScanModel::leaving, [this] { reported << QStringLiteral("leaving"); });
-    QObject::connect(&model, &ScanModel::out_of_reach, [this](const QString& why) {
-      reported << QStringLiteral("out of reach ") + why;
-      felt = false;
-    });
-    QObject::connect(&model, &ScanModel::scan_shown, [this](const ScanHandle& scan, Brought brought) {
-      reported << (brought == Brought::by_undo ? QStringLiteral("restored ") : QStringLiteral("shown ")) +
-                      QString::fromStdString(scan.of.name);
-      felt = true;
-    });
-    QObject::connect(&model, &ScanModel::frame_shown,
-                     [this](const ScanHandle& scan) { reported << QStringLiteral("frame %1").arg(scan.frame); });
-  }
-  QStringList take_reported() { return std::exchange(reported, {}); }
-
-  /// A folder of one series of so many frames, up to its views.
-  void show(const std::string& name, int frames = 1, const std::string& patient = "A") {
-    model.open("/" + name);
-    world.found_.back()(folder("/" + name, {series(name, patient, frames)}), {});
-    world.loaded_.back()(voxels(), {});
-    world.made_.back()({});
-    world.take_asked();
-    take_reported();
-  }
-
-  MadeWorld world;
-  ScanModel model{world};
-  QStringList reported;
-  bool felt = false;
-};
 
 TEST_F(ScanModelFollowed, AnOnlySeriesIsShownAtOnce) {
   model.open("/one");
@@ -196,6 +140,7 @@ TEST_F(ScanModelFollowed, WhatIsDeletedIsNotFelt) {
   model.lose();
   EXPECT_EQ(model.shown(), nullptr);
   EXPECT_EQ(model.seen(), nullptr);
+  EXPECT_TRUE(model.message().text.isEmpty()) << "the notes were on the scan that is gone";
   EXPECT_EQ(model.why_not_felt(), words(say("scan-left-the-pipeline")));
   EXPECT_EQ(take_reported(), QStringList({"leaving"}));
   EXPECT_THAT(world.take_asked(), IsEmpty()) << "Undo may bring it back, with its views";
@@ -224,6 +169,7 @@ TEST_F(ScanModelFollowed, WhatUndoBringsBackIsFeltAgain) {
   EXPECT_EQ(model.shown()->of.name, "1");
   EXPECT_TRUE(model.why_not_felt().isEmpty());
   EXPECT_EQ(take_reported(), QStringList({"leaving", "leaving", "restored 1"}));
+  EXPECT_NE(model.found(), nullptr) << "the others of its folder may still be chosen";
   EXPECT_THAT(world.take_asked(), ElementsAre("fetch 1", "adopt"));
 }
 
@@ -274,77 +220,6 @@ TEST_F(ScanModelFollowed, CancelLeavesAServersScanInTheViews) {
   EXPECT_EQ(take_reported().back(), QStringLiteral("out of reach ") + words(say("scan-is-on-the-server")));
   world.fetched_.back()({.volume = voxels(), .said = {}, .of = *model.seen()});
   EXPECT_EQ(model.shown(), nullptr) << "a late answer changes nothing";
-}
-
-// The frame.
-
-TEST_F(ScanModelFollowed, AFrameIsHereBeforeTheViewsGoThere) {
-  show("1", 5);
-  model.go_to_frame(3);
-  EXPECT_THAT(world.take_asked(), ElementsAre("frame 3"));
-  EXPECT_EQ(model.shown()->frame, 0);
-  EXPECT_TRUE(model.why_not_felt().isEmpty()) << "the views show the frame before, and it is felt";
-  world.frames_.back()(voxels(), {});
-  EXPECT_THAT(world.take_asked(), ElementsAre("time 3"));
-  EXPECT_TRUE(model.why_not_felt().isEmpty());
-  model.follow_time();
-  EXPECT_EQ(model.shown()->frame, 3);
-  EXPECT_EQ(take_reported(), QStringList({"frame 3"}));
-  EXPECT_THAT(world.take_asked(), IsEmpty()) << "it is not read twice";
-}
-
-TEST_F(ScanModelFollowed, TheLastFrameAskedForIsShown) {
-  show("1", 5);
-  model.go_to_frame(-1);
-  model.go_to_frame(99);
-  EXPECT_THAT(world.take_asked(), ElementsAre("frame 0", "frame 4"));
-  world.frames_.front()(voxels(), {});
-  EXPECT_THAT(world.take_asked(), IsEmpty());
-  world.frames_.back()(voxels(), {});
-  EXPECT_THAT(world.take_asked(), ElementsAre("time 4"));
-}
-
-TEST_F(ScanModelFollowed, ParaViewsTimeIsFollowed) {
-  show("1", 5);
-  world.time = 2;
-  model.follow_time();
-  world.time = 4;
-  model.follow_time();
-  world.frames_.front()(voxels(), {});
-  EXPECT_EQ(model.shown()->frame, 0) << "ParaView has gone on";
-  world.frames_.back()({}, "frame 4 is not whole");
-  EXPECT_EQ(model.shown()->frame, 0);
-  EXPECT_EQ(model.why_not_felt(), words(say("views-show-another-scan", model.shown()->frame_in_words(4).toStdString(),
-                                            model.shown()->frame_in_words(0).toStdString())));
-  world.time = 1;
-  model.follow_time();
-  world.frames_.back()(voxels(), {});
-  EXPECT_EQ(model.shown()->frame, 1);
-  EXPECT_TRUE(model.why_not_felt().isEmpty());
-}
-
-TEST_F(ScanModelFollowed, AFrameOfTheScanBeforeIsNotTakenForTheNext) {
-  show("1", 5);
-  model.go_to_frame(3);
-  model.open("/2");
-  world.found_.back()(folder("/2", {series("2", "A", 5)}), {});
-  world.loaded_.back()(voxels(), {});
-  world.made_.back()({});
-  world.take_asked();
-  world.frames_.back()(voxels(), {});
-  EXPECT_EQ(model.shown()->frame, 0);
-  EXPECT_THAT(world.take_asked(), IsEmpty());
-}
-
-TEST_F(ScanModelFollowed, WhatTheViewsShowOtherwiseIsNotFelt) {
-  show("1");
-  world.view.name = "Reader1";
-  world.view.other = "Reader2";
-  EXPECT_EQ(model.why_not_felt(), words(say("another-scan-is-active-in-the-pipeline", "Reader2", "Reader1")));
-  world.view.seen = false;
-  EXPECT_EQ(model.why_not_felt(), words(say("no-view-shows-the-scan")));
-  world.view.in_pipeline = false;
-  EXPECT_EQ(model.why_not_felt(), words(say("scan-left-the-pipeline")));
 }
 
 /// Whatever comes in whatever order: what is felt is shown, and what is shown is the last that was asked for.

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "modes/scene/boundary_names.h"
-#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
 namespace {

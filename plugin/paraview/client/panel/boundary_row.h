@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "plugin/paraview/client/panel/scene_model.h"
+#include "plugin/paraview/client/model/scene_model.h"
 
 class QCheckBox;
 class QComboBox;

@@ -45,7 +45,7 @@ constexpr float before_chart = 10;
 
 }  // namespace
 
-/// Drags with Shift held down, before the chart sees them.
+/// Presses, before the chart sees them: when a drag begins and ends, and drags with Shift held down.
 class CurveEditor::Block {
  public:
   Block(CurveEditor& owner, vtkRenderWindowInteractor& interactor, vtkChart& chart)
@@ -62,10 +62,14 @@ class CurveEditor::Block {
     if (event == vtkCommand::LeftButtonPressEvent) {
       dragging_ = interactor_->GetShiftKey() != 0;
       from_ = x;
+      owner_.press();
       if (dragging_) owner_.shifted_from_.clear();
       return dragging_;
     }
-    if (event == vtkCommand::LeftButtonReleaseEvent) return std::exchange(dragging_, false);
+    if (event == vtkCommand::LeftButtonReleaseEvent) {
+      owner_.let_go();
+      return std::exchange(dragging_, false);
+    }
     if (!dragging_) return false;
     const double width = chart_->GetPoint2()[0] - chart_->GetPoint1()[0];
     const io::Bins& bins = owner_.counts_.bins;
@@ -262,15 +266,35 @@ void CurveEditor::shift_to(double by) {
   if (least > most) return;  // it is as wide as the histogram
   for (modes::Node& node : nodes) node.at += std::clamp(by, least, most);
   set_curve(modes::TransferFunction(std::move(nodes), interpolation_), color_);
+  move();
+}
+
+void CurveEditor::press() {
+  held_ = true;
+  if (rest_->isActive()) emit finished();  // what keys or numbers have moved
+  rest_->stop();
+  moved_ = false;
+}
+
+/// Once the chart has seen it, too: it may move the curve a last time.
+void CurveEditor::let_go() {
+  QTimer::singleShot(0, this, [this] {
+    held_ = false;
+    if (std::exchange(moved_, false)) emit finished();
+  });
+}
+
+/// A drag ends when the button is let go. Keys and numbers have no button: they end when they rest.
+void CurveEditor::move() {
+  moved_ = true;
   emit dragged();
-  rest_->start();
+  if (!held_) rest_->start();
 }
 
 void CurveEditor::curve_modified() {
   if (setting_ || functions_->curve->GetSize() < 2) return;
   show_node();
-  emit dragged();
-  rest_->start();
+  move();
 }
 
 void CurveEditor::show_node() {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "modes/scene/transfer_function.h"
-#include "plugin/paraview/client/scan/scan_study.h"
+#include "plugin/paraview/client/jobs/scan_study.h"
 
 class QDoubleSpinBox;
 class QLabel;
@@ -42,7 +42,7 @@ class CurveEditor : public QWidget {
 
  signals:
   void dragged();   ///< the curve has moved, and may go on
-  void finished();  ///< it has come to rest
+  void finished();  ///< the button was let go, or keys and numbers have come to rest
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -57,6 +57,9 @@ class CurveEditor : public QWidget {
 
   void find_chart();
   void shift_to(double by);
+  void press();
+  void let_go();
+  void move();
 
   std::unique_ptr<Functions> functions_;
   std::unique_ptr<Block> block_;  // the whole curve, while it is dragged
@@ -73,6 +76,8 @@ class CurveEditor : public QWidget {
   QColor color_;
   modes::Interpolation interpolation_ = modes::Interpolation::linear;
   bool setting_ = false;
+  bool held_ = false;   // the button, in the chart
+  bool moved_ = false;  // since it was pressed
 };
 
 }  // namespace palpate::plugin

@@ -15,7 +15,7 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr int chart_pixels = 110;
+constexpr int small_chart_pixels = 110;
 constexpr int rested_ms = 250;
 constexpr double half_length_mm = 15;
 constexpr double same_mm = 1;
@@ -41,7 +41,7 @@ CurveProfile::CurveProfile(SessionController& touching, SceneModel& model, Strok
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
-  chart_ = new ChartPicture(chart_pixels, this);
+  chart_ = new ChartPicture(small_chart_pixels, this);
   chart_->setObjectName(QStringLiteral("palpateCurveProfileChart"));
   chart_->setToolTip(
       tr("The force along a line, as it would be felt now; dashed: before the curve was dragged. Rest "

@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "plugin/paraview/client/panel/latest_job.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
 
 class QLabel;

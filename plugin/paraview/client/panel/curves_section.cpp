@@ -13,8 +13,9 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "plugin/paraview/client/panel/mode_words.h"
-#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
+#include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
 namespace {
@@ -56,6 +57,9 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
   column->addWidget(profile_);
   gate_ = new CurveEditor(QStringLiteral("palpateGateCurve"), tr("value"), tr("factor"), this);
   column->addWidget(gate_);
+  message_ = make_message_label(*this, "palpateCurveMessage");
+  message_->hide();
+  column->addWidget(message_);
   presets_ = new QComboBox(this);
   presets_->setObjectName(QStringLiteral("palpatePresets"));
   presets_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -67,7 +71,8 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
   const auto connect_editor = [this](CurveEditor* editor, auto put) {
     connect(editor, &CurveEditor::dragged, this, [this, editor, put] {
       editing_ = true;
-      model_.drag([&](modes::Scene& scene) { put(scene, editor->curve()); });
+      model_.drag([&](modes::Scene& scene) { put(scene, editor->curve()); },
+                  [this](const QString& why) { show_message(*message_, why, true); });
       editing_ = false;
     });
     connect(editor, &CurveEditor::finished, this, [this] {
@@ -75,6 +80,7 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
       if (mode() < model_.scene().modes.size()) {
         model_.finish_drag(tr("Curve of %1").arg(name_of(model_.scene(), mode())));
       }
+      if (message_->isVisibleTo(this)) show_mode();  // what was refused goes back to what is felt
     });
   };
   connect_editor(strength_, [this](modes::Scene& scene, const modes::TransferFunction& curve) {
@@ -84,7 +90,9 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
     if (modes::Gate* const gate = gate_of(scene)) gate->factor = curve;
   });
   connect(&model, &SceneModel::changed, this, [this](Pace) {
-    if (!editing_) list_modes();
+    if (editing_) return;
+    message_->hide();
+    list_modes();
   });
   list_modes();
   QCoreApplication::instance()->installEventFilter(this);
@@ -186,14 +194,16 @@ void CurvesSection::use_preset(int index) {
   presets_->setCurrentIndex(0);
   if (index <= 0 || !study_ || mode() >= model_.scene().modes.size()) return;
   const Preset& preset = presets()[static_cast<std::size_t>(index - 1)];
-  model_.edit(tr("Shape: %1").arg(tr(preset.name)), [&](modes::Scene& scene) {
+  const auto shape = [&](modes::Scene& scene) {
     modes::Mode& changed = scene.modes[mode()];
     const io::Bins& bins = counts_of(changed.strength_of).bins;
     const double strongest = changed.strength_n.maximum() > 0 ? changed.strength_n.maximum() : 1;
     std::vector<modes::Node> nodes = preset.nodes;
     for (modes::Node& node : nodes) node = {bins.low + node.at * (bins.high - bins.low), node.value * strongest};
     changed.strength_n = modes::TransferFunction(std::move(nodes), changed.strength_n.interpolation());
-  });
+  };
+  model_.edit(tr("Shape: %1").arg(tr(preset.name)), shape,
+              [this](const QString& why) { show_message(*message_, why, true); });
 }
 
 }  // namespace palpate::plugin

@@ -8,12 +8,13 @@
 #include <optional>
 
 #include "io/fields/field_source.h"
+#include "plugin/paraview/client/jobs/scan_study.h"
+#include "plugin/paraview/client/model/scene_model.h"
 #include "plugin/paraview/client/panel/curve_editor.h"
 #include "plugin/paraview/client/panel/curve_profile.h"
-#include "plugin/paraview/client/panel/scene_model.h"
-#include "plugin/paraview/client/scan/scan_study.h"
 
 class QComboBox;
+class QLabel;
 
 namespace palpate::plugin {
 
@@ -48,6 +49,7 @@ class CurvesSection : public QWidget {
   CurveEditor* strength_;
   CurveEditor* gate_;
   CurveProfile* profile_;
+  QLabel* message_;
   bool editing_ = false;
   bool before_ = false;  // the last edit is taken back while a key is held
 };

@@ -14,10 +14,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "plugin/paraview/client/message_label.h"
+#include "plugin/paraview/client/model/session_state.h"
 #include "plugin/paraview/client/panel/force_strip.h"
-#include "plugin/paraview/client/panel/release_button.h"
-#include "plugin/paraview/client/stylus/session_state.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/widgets/release_button.h"
 #include "plugin/report/summary.h"
 #include "solver/solution.h"
 
@@ -187,7 +187,8 @@ void Footer::toggle_recording() {
   if (!file.isEmpty()) touching_.record(file.toStdString());
 }
 
-void Footer::set_felt(const QString& words) {
+void Footer::set_felt(const QString& words, bool scan_open) {
+  scan_open_ = scan_open;
   if (felt_->text() == words) return;
   felt_->setText(words);
   felt_->setToolTip(words);
@@ -250,6 +251,7 @@ void Footer::show_look(const SessionStatus& look) {
   const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
   tissue_->setText(std::isfinite(tick.value) ? value_text(tick.value, QString::fromStdString(unit), tissue)
                                              : tr("outside the scan"));
+  if (!scan_open_) tissue_->setText(QStringLiteral("–"));  // the tick is of a scan that is gone
   const double error_mm = 1e3 * tick.error_bound_m;
   constexpr double small_mm = 1e-9;
   solver_->setText(tr("%1 solver, error below %2 mm")

@@ -4,7 +4,7 @@
 
 #include <QWidget>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 
 class QGridLayout;
 class QLabel;
@@ -22,8 +22,8 @@ class Footer : public QWidget {
  public:
   explicit Footer(SessionController& touching, const SceneModel& model, QWidget* parent = nullptr);
 
-  /// What is felt, in words: scan, frame, scene.
-  void set_felt(const QString& words);
+  /// What is felt, in words: scan, frame, scene; and whether there is a scan.
+  void set_felt(const QString& words, bool scan_open);
   /// What developers ask for is shown.
   bool is_technical() const;
 
@@ -59,6 +59,7 @@ class Footer : public QWidget {
   QLabel* lamp_ = nullptr;
   QLabel* state_ = nullptr;
   QLabel* felt_ = nullptr;
+  bool scan_open_ = false;
 };
 
 }  // namespace palpate::plugin

@@ -10,10 +10,10 @@
 #include <set>
 #include <utility>
 
-#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/panel/marks_sender.h"
-#include "plugin/paraview/client/panel/row_list.h"
-#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/widgets/row_list.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
 
 namespace palpate::plugin {
 namespace {

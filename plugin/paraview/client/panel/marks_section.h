@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "plugin/paraview/client/panel/marks_model.h"
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/marks_model.h"
+#include "plugin/paraview/client/model/session_controller.h"
 
 class QLabel;
 class QPushButton;

@@ -9,7 +9,7 @@
 #include "io/archive/send.h"
 #include "io/series.h"
 #include "io/volume.h"
-#include "plugin/paraview/client/scan/background.h"
+#include "plugin/paraview/client/jobs/background.h"
 #include "plugin/recording/marks.h"
 
 class QProgressBar;

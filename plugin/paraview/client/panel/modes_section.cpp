@@ -14,9 +14,9 @@
 #include <algorithm>
 
 #include "modes/types/mode_type.h"
-#include "plugin/paraview/client/message_label.h"
-#include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <QWidget>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 
 class QComboBox;
 class QDoubleSpinBox;

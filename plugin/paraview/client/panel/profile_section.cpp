@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "plugin/app/vector_text.h"
-#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/panel/chart_picture.h"
-#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/report/summary.h"
 
 namespace palpate::plugin {
@@ -30,11 +30,13 @@ QString text_of(const glm::dvec3& place) {
 
 }  // namespace
 
-ProfileSection::ProfileSection(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent)
+ProfileSection::ProfileSection(OpenViews& views, SessionController& touching, SceneModel& model, StrokeRunner& strokes,
+                               QWidget* parent)
     : QWidget(parent),
       touching_(touching),
       strokes_(strokes),
-      path_(QColor(230, 80, 210)),
+      path_(views, QColor(230, 80, 210)),
+      following_(views.follow(Layer::paths, [this](const auto&) { forget(); })),
       job_([this](auto made, const QString& error) { show_profile(std::move(made), error); }) {
   setObjectName(QStringLiteral("palpateProfile"));
   auto* const column = new QVBoxLayout(this);
@@ -113,11 +115,10 @@ QWidget* ProfileSection::build_points() {
   return box;
 }
 
-void ProfileSection::set_views(const std::vector<ClinicalView>& views) {
+void ProfileSection::forget() {
   pick_->setChecked(false);
   stroke_ = {.from = {}, .to = {}, .speed_mm_per_s = stroke_.speed_mm_per_s};
   strokes_.forget();
-  path_.set_views(views);
   show_points();
 }
 

@@ -8,12 +8,12 @@
 #include <memory>
 #include <vector>
 
-#include "plugin/paraview/client/panel/latest_job.h"
-#include "plugin/paraview/client/panel/save_buttons.h"
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
 #include "plugin/paraview/client/views/path_views.h"
 #include "plugin/paraview/client/views/slice_view.h"
+#include "plugin/paraview/client/widgets/save_buttons.h"
 #include "plugin/report/stroke_picture.h"
 
 class QDoubleSpinBox;
@@ -28,11 +28,9 @@ class ProfileSection : public QWidget {
   Q_OBJECT
 
  public:
-  ProfileSection(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
+  ProfileSection(OpenViews& views, SessionController& touching, SceneModel& model, StrokeRunner& strokes,
+                 QWidget* parent = nullptr);
   ~ProfileSection() override;
-
-  /// The views of a scan that has just been shown; empty: none, and the points are forgotten.
-  void set_views(const std::vector<ClinicalView>& views);
 
  signals:
   /// Places are to be picked in the slices from now on, or no more.
@@ -56,6 +54,7 @@ class ProfileSection : public QWidget {
   static Made make(Profile profile);
 
   QWidget* build_points();
+  void forget();
   void set_point(std::optional<glm::dvec3> WantedStroke::*point, const glm::dvec3& place);
   void read_point(std::optional<glm::dvec3> WantedStroke::*point, const QLineEdit& field);
   void show_points(bool passing = false);
@@ -78,6 +77,7 @@ class ProfileSection : public QWidget {
   WantedStroke stroke_;
   PathViews path_;
   std::shared_ptr<const Made> made_;
+  OpenViews::Following following_;  // of another scan the points are no longer
   LatestJob<Made> job_;
 };
 

@@ -21,10 +21,10 @@
 #include <utility>
 
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/panel/chart_picture.h"
-#include "plugin/paraview/client/panel/save_buttons.h"
-#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/widgets/save_buttons.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {
@@ -75,11 +75,12 @@ QString ask_for_recording(QWidget* parent) {
 
 }  // namespace
 
-RecordingsSection::RecordingsSection(SessionController& touching, QWidget* parent)
+RecordingsSection::RecordingsSection(OpenViews& views, SessionController& touching, QWidget* parent)
     : QWidget(parent),
       touching_(touching),
-      first_path_(QColor(86, 180, 233)),
-      second_path_(QColor(230, 159, 0)),
+      first_path_(views, QColor(86, 180, 233)),
+      second_path_(views, QColor(230, 159, 0)),
+      following_(views.follow(Layer::paths, [this](const auto&) { close_all(); })),
       first_job_([this](const auto& opened, const QString& error) { take(opened, error, false); }),
       second_job_([this](const auto& opened, const QString& error) { take(opened, error, true); }),
       compare_job_([this](const auto& both, const QString& error) { show_comparison(both, error); }) {
@@ -185,12 +186,6 @@ QWidget* RecordingsSection::build_comparison() {
       },
       [this](const QString& problem) { tell(problem, true); });
   return box;
-}
-
-void RecordingsSection::set_views(const std::vector<ClinicalView>& views) {
-  first_path_.set_views(views);
-  second_path_.set_views(views);
-  close_all();
 }
 
 void RecordingsSection::open(const QString& file) {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "plugin/paraview/client/panel/latest_job.h"
-#include "plugin/paraview/client/stylus/playback.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/model/playback.h"
 #include "plugin/paraview/client/views/path_views.h"
 #include "plugin/report/compare_strokes.h"
 
@@ -27,11 +27,9 @@ class RecordingsSection : public QWidget {
   Q_OBJECT
 
  public:
-  explicit RecordingsSection(SessionController& touching, QWidget* parent = nullptr);
+  RecordingsSection(OpenViews& views, SessionController& touching, QWidget* parent = nullptr);
   ~RecordingsSection() override;
 
-  /// The views of a scan that has just been shown; empty: none, and the recordings are forgotten.
-  void set_views(const std::vector<ClinicalView>& views);
   void open(const QString& file);
 
  private:
@@ -61,6 +59,7 @@ class RecordingsSection : public QWidget {
   Opened first_, second_;
   std::shared_ptr<const Comparison> both_;
   PathViews first_path_, second_path_;
+  OpenViews::Following following_;  // of another scan the recordings are no longer
   QLabel* name_ = nullptr;
   QWidget* player_ = nullptr;
   QToolButton* play_ = nullptr;

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/report/stroke_picture.h"
 
 namespace palpate::plugin {

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "device/simulated/simulated_stylus.h"
-#include "plugin/paraview/client/message_label.h"
+#include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/structure_shapes.h"
 #include "plugin/session/shared_distance.h"
@@ -41,10 +41,11 @@ QString volume_in_words(double mm3) {
 
 }  // namespace
 
-StructuresSection::StructuresSection(SceneModel& model, SessionController& touching, QWidget* parent)
+StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching, QWidget* parent)
     : QWidget(parent),
       model_(model),
       touching_(touching),
+      drawn_(views),
       finding_([this](const auto& found, const QString& error) {
         if (found) take(*found);
         if (!error.isEmpty()) tell(error, true);
@@ -55,11 +56,12 @@ StructuresSection::StructuresSection(SceneModel& model, SessionController& touch
         make_next();
       }),
       using_([this](const auto& read, const QString& error) {
-        if (!error.isEmpty()) tell(error, true);
-        if (!read) return;
-        held_.insert(held_.end(), read->begin(), read->end());
-        then_();
-      }) {
+        if (read) held_.insert(held_.end(), read->begin(), read->end());
+        read_done_(error);
+      }),
+      presses_(
+          model, [this](const modes::Scene& edited, auto done) { read_for(edited, std::move(done)); },
+          [this](const QString& text, bool problem) { tell(text, problem); }) {
   setObjectName(QStringLiteral("palpateStructures"));
   setAcceptDrops(true);
   build();
@@ -75,6 +77,7 @@ void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const s
   finding_.drop();
   making_.drop();
   using_.drop();
+  presses_.drop();
   scan_ = std::move(scan);
   entries_.clear();
   looked_into_.clear();
@@ -280,23 +283,21 @@ void StructuresSection::draw() {
   drawn_.set_structures(std::move(shown), opacity_->value() / 100.0);
 }
 
-/// Reads what the edited scene will need in the background first: neither panel nor servo waits for it.
 void StructuresSection::use(const QString& what, const Edit& edit) {
   if (!scan_ || !chosen()) return;
   chosen()->shown = true;
-  const modes::Scene now = model_.scene();
-  then_ = [this, what, edit, off = chosen()->off] {
-    tell(words(off), !off.empty());
-    model_.edit(what, edit);
-  };
   tell(tr("Reading…"), false);
+  presses_.press(what, edit, words(chosen()->off));
+}
+
+/// What the edited scene will need, in the background: neither panel nor servo waits for it.
+void StructuresSection::read_for(const modes::Scene& edited, std::function<void(const QString& error)> done) {
+  read_done_ = std::move(done);
   const glm::dvec3 extent =
       (touching_.live().is_connected() ? touching_.live().specification() : device::SimulatedStylus().specification())
           .workspace_half_extent;
-  using_.ask([edited = now, edit, scan = scan_, extent]() mutable {
-    edit(edited);
-    return load_structures(edited, *plan_for(edited, *scan, extent), *scan, {});
-  });
+  using_.ask(
+      [edited, scan = scan_, extent] { return load_structures(edited, *plan_for(edited, *scan, extent), *scan, {}); });
 }
 
 QString StructuresSection::in_words() const {

@@ -5,6 +5,7 @@
 #include <QWidget>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -12,8 +13,9 @@
 #include <vector>
 
 #include "io/structures/structure.h"
-#include "plugin/paraview/client/panel/latest_job.h"
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/model/session_controller.h"
+#include "plugin/paraview/client/model/structure_presses.h"
 #include "plugin/paraview/client/views/structure_views.h"
 #include "plugin/session/scene_structures.h"
 
@@ -31,17 +33,13 @@ class StructuresSection : public QWidget {
   Q_OBJECT
 
  public:
-  StructuresSection(SceneModel& model, SessionController& touching, QWidget* parent = nullptr);
+  StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching, QWidget* parent = nullptr);
   ~StructuresSection() override;
 
   /// Looks for structures on a scan that has just been shown, in the folder that it is from; null: there is no scan.
   void set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder);
   /// Looks into these files, too; `problem` is said where it is not empty.
   void add(const std::vector<std::filesystem::path>& files, const QString& problem);
-  /// The views of that scan; empty: none.
-  void set_views(const std::vector<ClinicalView>& views) { drawn_.set_views(views); }
-  /// Draws what is on the slice that a view shows now.
-  void show(SliceView& slice) { drawn_.show(slice); }
   /// How many can be felt on the scan, and how many cannot; empty where none was found.
   QString in_words() const;
 
@@ -89,6 +87,7 @@ class StructuresSection : public QWidget {
   Entry* chosen();
   void fill_gates(QMenu& menu);
   void use(const QString& what, const Edit& edit);
+  void read_for(const modes::Scene& edited, std::function<void(const QString& error)> done);
   void tell(const QString& text, bool problem);
 
   SceneModel& model_;
@@ -113,7 +112,8 @@ class StructuresSection : public QWidget {
   LatestJob<Made> making_;
   LatestJob<std::vector<LoadedStructure>> using_;
   bool busy_making_ = false;
-  std::function<void()> then_;  // when what is to be used has been read
+  StructurePresses presses_;
+  std::function<void(const QString& error)> read_done_;  // of the press that is being read for
 };
 
 }  // namespace palpate::plugin

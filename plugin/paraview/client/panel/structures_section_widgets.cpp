@@ -13,11 +13,11 @@
 
 #include <algorithm>
 
-#include "plugin/paraview/client/message_label.h"
-#include "plugin/paraview/client/panel/mode_words.h"
-#include "plugin/paraview/client/panel/row_list.h"
 #include "plugin/paraview/client/panel/structures_section.h"
-#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/widgets/row_list.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
+#include "plugin/paraview/client/words/mode_words.h"
 #include "plugin/session/study_structures.h"
 
 // What stands in the section, from top to bottom, and what its buttons, menus and dialogs ask for.

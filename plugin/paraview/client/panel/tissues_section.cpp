@@ -18,11 +18,11 @@
 #include "modes/scene/starting_scene.h"
 #include "modes/types/mode_type.h"
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/file_name.h"
 #include "plugin/paraview/client/panel/force_difference.h"
-#include "plugin/paraview/client/panel/mode_words.h"
-#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/widgets/file_name.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
 namespace {

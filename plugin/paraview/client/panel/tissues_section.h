@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "plugin/paraview/client/model/scan_handle.h"
+#include "plugin/paraview/client/model/scene_model.h"
 #include "plugin/paraview/client/panel/boundary_row.h"
-#include "plugin/paraview/client/panel/scene_model.h"
 
 class QComboBox;
 class QGridLayout;

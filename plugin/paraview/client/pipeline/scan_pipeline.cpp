@@ -22,9 +22,9 @@
 
 #include "plugin/app/scan_choice.h"
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/scan/animation_time.h"
-#include "plugin/paraview/client/scan/scan_identity.h"
+#include "plugin/paraview/client/pipeline/animation_time.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/paraview/client/words/scan_identity.h"
 #include "plugin/paraview/common/display_image.h"
 
 namespace palpate::plugin {

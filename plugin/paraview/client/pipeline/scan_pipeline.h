@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "plugin/paraview/client/jobs/scan_loader.h"
 #include "plugin/paraview/client/model/scan_model.h"
 #include "plugin/paraview/client/remote/server_scan.h"
 #include "plugin/paraview/client/remote/server_series.h"
-#include "plugin/paraview/client/scan/scan_loader.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 
 class pqServer;

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "io/volume.h"
-#include "plugin/paraview/client/scan/scan_loader.h"
+#include "plugin/paraview/client/jobs/scan_loader.h"
 #include "plugin/paraview/wire/slices_message.h"
 
 namespace palpate::plugin {

@@ -18,7 +18,7 @@
 
 #include "plugin/app/archive_settings.h"
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/message_label.h"
+#include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {

@@ -5,7 +5,7 @@
 #include <QDialog>
 
 #include "io/archive/archive.h"
-#include "plugin/paraview/client/scan/background.h"
+#include "plugin/paraview/client/jobs/background.h"
 
 class QCheckBox;
 class QFormLayout;

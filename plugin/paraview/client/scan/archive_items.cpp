@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <span>
 
-#include "plugin/paraview/client/scan/patient_words.h"
+#include "plugin/paraview/client/words/patient_words.h"
 
 namespace palpate::plugin {
 namespace {

@@ -17,11 +17,11 @@
 
 #include "plugin/app/archive_settings.h"
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/message_label.h"
-#include "plugin/paraview/client/scan/archive_date.h"
 #include "plugin/paraview/client/scan/archive_dialog.h"
 #include "plugin/paraview/client/scan/archive_items.h"
+#include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/paraview/client/words/archive_date.h"
 
 namespace palpate::plugin {
 

@@ -16,7 +16,7 @@
 #include "io/archive/fetch.h"
 #include "io/archive/find.h"
 #include "plugin/app/fetched.h"
-#include "plugin/paraview/client/scan/background.h"
+#include "plugin/paraview/client/jobs/background.h"
 
 class QCheckBox;
 class QComboBox;

@@ -10,9 +10,9 @@
 #include <QVBoxLayout>
 
 #include "plugin/messages/messages.h"
-#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/scan/archive_items.h"
 #include "plugin/paraview/client/scan/archive_tab.h"
+#include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 
 // What stands in the tab, from top to bottom.

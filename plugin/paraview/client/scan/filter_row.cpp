@@ -21,8 +21,8 @@
 #include <utility>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/paraview/client/panel/scene_model.h"
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/pipeline/scan_pipeline.h"
 
 namespace palpate::plugin {

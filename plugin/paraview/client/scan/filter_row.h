@@ -8,7 +8,7 @@
 
 #include "io/filter.h"
 #include "modes/scene/scene.h"
-#include "plugin/paraview/client/scan/scan_loader.h"
+#include "plugin/paraview/client/jobs/scan_loader.h"
 
 class QCheckBox;
 class QComboBox;

@@ -6,7 +6,7 @@
 #include <QSlider>
 #include <QToolButton>
 
-#include "plugin/paraview/client/panel/tool_button.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
 
 namespace palpate::plugin {
 

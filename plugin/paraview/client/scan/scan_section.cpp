@@ -18,12 +18,12 @@
 #include <optional>
 #include <vector>
 
-#include "plugin/paraview/client/message_label.h"
 #include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/scan/archive_tab.h"
 #include "plugin/paraview/client/scan/frame_row.h"
 #include "plugin/paraview/client/scan/recent_folders.h"
 #include "plugin/paraview/client/scan/series_list.h"
+#include "plugin/paraview/client/widgets/message_label.h"
 
 namespace palpate::plugin {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "io/choose_first.h"
 #include "plugin/app/scan_choice.h"
-#include "plugin/paraview/client/scan/patient_words.h"
-#include "plugin/paraview/client/scan/series_words.h"
+#include "plugin/paraview/client/words/patient_words.h"
+#include "plugin/paraview/client/words/series_words.h"
 
 namespace palpate::plugin {
 

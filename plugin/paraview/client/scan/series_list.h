@@ -5,8 +5,8 @@
 #include <QImage>
 #include <QListWidget>
 
+#include "plugin/paraview/client/jobs/scan_loader.h"
 #include "plugin/paraview/client/model/scan_model.h"
-#include "plugin/paraview/client/scan/scan_loader.h"
 
 namespace palpate::plugin {
 

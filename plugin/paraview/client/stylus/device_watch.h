@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "device/found_devices.h"
-#include "plugin/paraview/client/panel/latest_job.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
 
 namespace palpate::plugin {
 

@@ -22,8 +22,8 @@
 #include <utility>
 
 #include "modes/tick/haptic_step.h"
-#include "plugin/paraview/client/panel/mode_words.h"
 #include "plugin/paraview/client/views/overlay_layer.h"
+#include "plugin/paraview/client/words/mode_words.h"
 #include "solver/primitive.h"
 
 namespace palpate::plugin {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "modes/scene/scene.h"
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 
 class vtkBillboardTextActor3D;
 class vtkPVRenderView;

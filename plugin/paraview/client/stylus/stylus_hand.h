@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 
 class vtkPVRenderView;
 

@@ -20,7 +20,7 @@
 #include "device/device_type.h"
 #include "device/safety/guardian.h"
 
-#include "plugin/paraview/client/message_label.h"
+#include "plugin/paraview/client/widgets/message_label.h"
 
 namespace palpate::plugin {
 namespace {

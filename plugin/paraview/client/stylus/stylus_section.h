@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/stylus/device_watch.h"
 #include "plugin/paraview/client/stylus/mapping.h"
 

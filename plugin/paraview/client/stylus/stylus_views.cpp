@@ -97,7 +97,10 @@ struct StylusViews::OneView {
   bool coarse = false;  ///< drawn last with less detail than it can have
 };
 
-StylusViews::StylusViews(SessionController& touching, const SceneModel& model) : touching_(touching), model_(model) {}
+StylusViews::StylusViews(OpenViews& views, SessionController& touching, const SceneModel& model)
+    : touching_(touching),
+      model_(model),
+      following_(views.follow(Layer::stylus, [this](const auto& open) { set_views(open); })) {}
 
 StylusViews::~StylusViews() = default;
 

@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/open_views.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/stylus/stylus_glyphs.h"
 #include "plugin/paraview/client/stylus/stylus_hand.h"
 #include "plugin/paraview/client/views/clinical_views.h"
@@ -22,13 +23,11 @@ struct Eye;
 
 class StylusViews {
  public:
-  StylusViews(SessionController& touching, const SceneModel& model);
+  StylusViews(OpenViews& views, SessionController& touching, const SceneModel& model);
   StylusViews(const StylusViews&) = delete;
   StylusViews& operator=(const StylusViews&) = delete;
   ~StylusViews();
 
-  /// The views of a scan that has just been shown; empty: none.
-  void set_views(const std::vector<ClinicalView>& views);
   /// The opacity of the volume rendering, which tells what it hides.
   void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
   /// Draws the views again in which something has moved, but never so often that the program would stand still. True
@@ -44,6 +43,7 @@ class StylusViews {
 
  private:
   struct OneView;
+  void set_views(const std::vector<ClinicalView>& views);
   void follow_scan();
   bool pick(Pick what, const glm::dvec3& near, const glm::dvec3& far);
 
@@ -57,6 +57,7 @@ class StylusViews {
   std::shared_ptr<const io::Volume> values_of_;
   QElapsedTimer clock_;
   std::size_t next_ = 0;
+  OpenViews::Following following_;
 };
 
 }  // namespace palpate::plugin

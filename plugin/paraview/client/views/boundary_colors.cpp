@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
 namespace {

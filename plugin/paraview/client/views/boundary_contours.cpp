@@ -18,11 +18,11 @@
 #include <cmath>
 #include <utility>
 
-#include "plugin/paraview/client/panel/latest_job.h"
-#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
 #include "plugin/paraview/client/views/felt_contours.h"
 #include "plugin/paraview/client/views/felt_surfaces.h"
 #include "plugin/paraview/client/views/overlay_layer.h"
+#include "plugin/paraview/client/words/mode_words.h"
 #include "plugin/session/scan.h"
 
 namespace palpate::plugin {
@@ -107,7 +107,10 @@ void BoundaryContours::One::draw(const Drawn& drawn) {
   if (view) view->render();
 }
 
-BoundaryContours::BoundaryContours() : surfaces_(std::make_unique<FeltSurfaces>()) {}
+BoundaryContours::BoundaryContours(OpenViews& views)
+    : surfaces_(std::make_unique<FeltSurfaces>()),
+      following_(views.follow(
+          Layer::outlines, [this](const auto& open) { set_views(open); }, [this](SliceView& slice) { show(slice); })) {}
 BoundaryContours::~BoundaryContours() = default;
 
 void BoundaryContours::set_views(const std::vector<ClinicalView>& views) {

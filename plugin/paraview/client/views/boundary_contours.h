@@ -11,6 +11,7 @@
 #include "io/volume.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
+#include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 
 namespace palpate::plugin {
@@ -19,13 +20,11 @@ class FeltSurfaces;
 
 class BoundaryContours {
  public:
-  BoundaryContours();
+  explicit BoundaryContours(OpenViews& views);
   ~BoundaryContours();
   BoundaryContours(const BoundaryContours&) = delete;
   BoundaryContours& operator=(const BoundaryContours&) = delete;
 
-  /// The views of a scan that has just been shown; empty: none.
-  void set_views(const std::vector<ClinicalView>& views);
   /// Sets what is drawn: the boundaries that this plan of the scene has in the volume. They are computed in the
   /// background; the old lines stay meanwhile. Without a volume or a plan nothing is drawn.
   void set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
@@ -35,18 +34,20 @@ class BoundaryContours {
   void set_surfaces(bool visible);
   /// The fields that are felt at a place in the patient, mm: value and gradient. None outside the scan.
   std::optional<io::Sample> sample(const glm::dvec3& place) const;
-  /// Draws the lines of the slice that a view shows now.
-  void show(SliceView& slice);
 
  private:
   struct One;
   struct Felt;
+  void set_views(const std::vector<ClinicalView>& views);
+  /// Draws the lines of the slice that a view shows now.
+  void show(SliceView& slice);
   void draw(One& one);
 
   std::vector<std::unique_ptr<One>> views_;
   std::unique_ptr<FeltSurfaces> surfaces_;
   std::shared_ptr<const Felt> felt_;
   bool visible_ = true;
+  OpenViews::Following following_;
 };
 
 }  // namespace palpate::plugin

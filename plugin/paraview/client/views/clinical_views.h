@@ -13,12 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/paraview/client/layout/enlarged_view.h"
-#include "plugin/paraview/client/layout/view_mark.h"
+#include "plugin/paraview/client/model/open_views.h"
+#include "plugin/paraview/client/views/enlarged_view.h"
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/views/orientation_marker.h"
 #include "plugin/paraview/client/views/slice_view.h"
 #include "plugin/paraview/client/views/turns.h"
+#include "plugin/paraview/client/views/view_mark.h"
 
 class pqPipelineSource;
 class pqServer;
@@ -28,14 +29,6 @@ class vtkSMViewLayoutProxy;
 namespace palpate::plugin {
 
 class PatientVolume;
-
-enum class ViewKind { axial, sagittal, coronal, volume };
-struct ClinicalView {
-  ViewKind kind = ViewKind::volume;
-  pqRenderView* view = nullptr;
-  SliceView* slice = nullptr;                 ///< null: the volume's. Goes with the view
-  std::weak_ptr<PatientVolume> patient = {};  ///< the volume's, where the views have made it
-};
 
 class ClinicalViews {
  public:

@@ -2,7 +2,7 @@
 
 /// ParaView's color maps, as slices and volumes of a scan use them.
 
-#include "plugin/paraview/client/scan/scan_look.h"
+#include "plugin/paraview/common/scan_look.h"
 
 class pqServer;
 class vtkSMProxy;

@@ -24,9 +24,9 @@
 #include <map>
 #include <utility>
 
-#include "plugin/paraview/client/panel/latest_job.h"
-#include "plugin/paraview/client/panel/mode_words.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
 #include "plugin/paraview/client/views/patient_volume.h"
+#include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
 namespace {

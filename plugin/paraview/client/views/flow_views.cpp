@@ -56,7 +56,9 @@ void FlowViews::One::draw(const io::FieldSource& field, double fastest) {
   actor->SetVisibility(points->GetNumberOfPoints() > 0 ? 1 : 0);
 }
 
-FlowViews::FlowViews() = default;
+FlowViews::FlowViews(OpenViews& views)
+    : following_(views.follow(
+          Layer::image, [this](const auto& open) { set_views(open); }, [this](SliceView& slice) { show(slice); })) {}
 FlowViews::~FlowViews() = default;
 
 void FlowViews::set_views(const std::vector<ClinicalView>& views) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin/paraview/client/scan/scan_look.h"
+#include "plugin/paraview/common/scan_look.h"
 
 class vtkSMProxy;
 class vtkSMSourceProxy;

@@ -110,7 +110,10 @@ struct MarkViews::One {
   std::vector<vtkSmartPointer<vtkProp>> props;
 };
 
-MarkViews::MarkViews(Ask marks) : marks_(std::move(marks)) {}
+MarkViews::MarkViews(OpenViews& views, Ask marks)
+    : marks_(std::move(marks)),
+      following_(views.follow(
+          Layer::marks, [this](const auto& open) { set_views(open); }, [this](SliceView& slice) { show(slice); })) {}
 MarkViews::~MarkViews() = default;
 
 void MarkViews::set_views(const std::vector<ClinicalView>& views) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 #include "plugin/recording/marks.h"
 
@@ -16,27 +17,27 @@ class MarkViews {
  public:
   /// What is drawn, asked for whenever it is.
   using Ask = std::function<const Marks&()>;
-  explicit MarkViews(Ask marks);
+  MarkViews(OpenViews& views, Ask marks);
   ~MarkViews();
   MarkViews(const MarkViews&) = delete;
   MarkViews& operator=(const MarkViews&) = delete;
 
-  /// The views of a scan that has just been shown; empty: none.
-  void set_views(const std::vector<ClinicalView>& views);
   /// The marks that are chosen are drawn larger, and what lies between them with a line.
   void set_chosen(std::vector<std::size_t> chosen);
   /// Draws all anew.
   void refresh();
-  /// Draws what is on the slice that a view shows now. The caller renders the view.
-  void show(SliceView& slice);
 
  private:
   struct One;
+  void set_views(const std::vector<ClinicalView>& views);
+  /// Draws what is on the slice that a view shows now. The caller renders the view.
+  void show(SliceView& slice);
   void draw(One& one);
 
   Ask marks_;
   std::vector<std::size_t> chosen_;
   std::vector<std::unique_ptr<One>> views_;
+  OpenViews::Following following_;
 };
 
 }  // namespace palpate::plugin

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 #include "plugin/paraview/client/views/path_glyphs.h"
 
@@ -15,10 +16,10 @@ namespace palpate::plugin {
 
 class PathViews {
  public:
-  explicit PathViews(QColor color) : color_(std::move(color)) {}
+  PathViews(OpenViews& views, QColor color)
+      : color_(std::move(color)),
+        following_(views.follow(Layer::paths, [this](const auto& open) { set_views(open); })) {}
 
-  /// The views of a scan that has just been shown; empty: none.
-  void set_views(const std::vector<ClinicalView>& views);
   /// Empty: none. `passing`: another one follows at once, so that the volume, which takes long to draw, can wait.
   void show(const std::vector<glm::dvec3>& path, bool passing = false);
 
@@ -28,8 +29,11 @@ class PathViews {
     QPointer<pqRenderView> view;
     std::unique_ptr<PathGlyphs> glyphs;
   };
+  void set_views(const std::vector<ClinicalView>& views);
+
   QColor color_;
   std::vector<One> views_;
+  OpenViews::Following following_;
 };
 
 }  // namespace palpate::plugin

@@ -29,7 +29,7 @@
 #include <string_view>
 #include <utility>
 
-#include "plugin/paraview/client/panel/latest_job.h"
+#include "plugin/paraview/client/jobs/latest_job.h"
 #include "plugin/paraview/client/views/castable.h"
 #include "plugin/paraview/client/views/crop_box.h"
 #include "plugin/paraview/client/views/event_watch.h"
@@ -40,7 +40,7 @@
 namespace palpate::plugin {
 namespace {
 
-vtkPVRenderView& client_view(const pqRenderView& view) {
+vtkPVRenderView& render_view_of(const pqRenderView& view) {
   return *vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
 }
 
@@ -158,7 +158,7 @@ PatientVolume::~PatientVolume() {
   job_.reset();
   box_.reset();
   if (!view_) return;
-  vtkRenderer& renderer = *client_view(*view_).GetRenderer();
+  vtkRenderer& renderer = *render_view_of(*view_).GetRenderer();
   if (own_) renderer.RemoveVolume(own_);
   if (taken_out_) renderer.AddVolume(taken_out_);
 }
@@ -180,7 +180,7 @@ void PatientVolume::set_hidden(bool hidden) {
 /// The one that the representation has put into the view.
 vtkVolume* PatientVolume::of_paraview() const {
   if (taken_out_) return taken_out_;
-  vtkVolumeCollection& volumes = *client_view(*view_).GetRenderer()->GetVolumes();
+  vtkVolumeCollection& volumes = *render_view_of(*view_).GetRenderer()->GetVolumes();
   for (int n = 0; n < volumes.GetNumberOfItems(); ++n) {
     auto* const volume = vtkVolume::SafeDownCast(volumes.GetItemAsObject(n));
     if (volume != own_) return volume;
@@ -191,7 +191,7 @@ vtkVolume* PatientVolume::of_paraview() const {
 /// Of the view: the representation makes it visible before every picture.
 void PatientVolume::take_out(vtkVolume& theirs, bool out) {
   if (out == (taken_out_ != nullptr)) return;
-  vtkRenderer& renderer = *client_view(*view_).GetRenderer();
+  vtkRenderer& renderer = *render_view_of(*view_).GetRenderer();
   if (out) {
     taken_out_ = &theirs;
     renderer.RemoveVolume(&theirs);
@@ -241,7 +241,7 @@ void PatientVolume::draw_ours(vtkVolume& theirs, vtkImageData& image, bool cast)
   if (!own_) {
     own_ = vtkSmartPointer<vtkVolume>::New();
     own_->PickableOff();
-    client_view(*view_).GetRenderer()->AddVolume(own_);
+    render_view_of(*view_).GetRenderer()->AddVolume(own_);
   }
   // What is chosen for the one is seen of the other.
   if (cast) {

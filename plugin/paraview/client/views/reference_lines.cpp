@@ -15,7 +15,9 @@ struct ReferenceLines::One : OverlayLines {
   explicit One(const ClinicalView& of) : OverlayLines(of, {0.34, 0.71, 0.91}) { actor->GetProperty()->SetOpacity(0.7); }
 };
 
-ReferenceLines::ReferenceLines() = default;
+ReferenceLines::ReferenceLines(OpenViews& views)
+    : following_(views.follow(
+          Layer::outlines, [this](const auto& open) { set_views(open); }, [this](SliceView&) { refresh(); })) {}
 ReferenceLines::~ReferenceLines() = default;
 
 void ReferenceLines::set_views(const std::vector<ClinicalView>& views) {

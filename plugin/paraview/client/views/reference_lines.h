@@ -5,27 +5,28 @@
 #include <memory>
 #include <vector>
 
+#include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 
 namespace palpate::plugin {
 
 class ReferenceLines {
  public:
-  ReferenceLines();
+  explicit ReferenceLines(OpenViews& views);
   ~ReferenceLines();
   ReferenceLines(const ReferenceLines&) = delete;
   ReferenceLines& operator=(const ReferenceLines&) = delete;
 
-  /// The views of a scan that has just been shown; empty: none.
-  void set_views(const std::vector<ClinicalView>& views);
   void set_visible(bool visible);
-  /// After any of them shows another slice.
-  void refresh();
 
  private:
   struct One;
+  void set_views(const std::vector<ClinicalView>& views);
+  void refresh();
+
   std::vector<std::unique_ptr<One>> views_;
   bool visible_ = false;
+  OpenViews::Following following_;
 };
 
 }  // namespace palpate::plugin

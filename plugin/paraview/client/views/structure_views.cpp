@@ -74,7 +74,9 @@ struct StructureViews::One {
   std::vector<vtkSmartPointer<vtkActor>> actors;
 };
 
-StructureViews::StructureViews() = default;
+StructureViews::StructureViews(OpenViews& views)
+    : following_(views.follow(
+          Layer::outlines, [this](const auto& open) { set_views(open); }, [this](SliceView& slice) { show(slice); })) {}
 StructureViews::~StructureViews() = default;
 
 void StructureViews::set_views(const std::vector<ClinicalView>& views) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/structures/distance_field.h"
+#include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 
 class vtkPolyData;
@@ -27,23 +28,24 @@ struct DrawnStructure {
 
 class StructureViews {
  public:
-  StructureViews();
+  explicit StructureViews(OpenViews& views);
   ~StructureViews();
   StructureViews(const StructureViews&) = delete;
   StructureViews& operator=(const StructureViews&) = delete;
 
-  /// The views of a scan that has just been shown; empty: none.
-  void set_views(const std::vector<ClinicalView>& views);
   /// `opacity` is that of the surfaces.
   void set_structures(std::vector<DrawnStructure> structures, double opacity);
-  /// Draws the outlines in the slice that a view shows now.
-  void show(SliceView& slice);
 
  private:
   struct One;
+  void set_views(const std::vector<ClinicalView>& views);
+  /// Draws the outlines in the slice that a view shows now.
+  void show(SliceView& slice);
+
   std::vector<DrawnStructure> structures_;
   double opacity_ = 0.4;
   std::vector<std::unique_ptr<One>> views_;
+  OpenViews::Following following_;
 };
 
 }  // namespace palpate::plugin

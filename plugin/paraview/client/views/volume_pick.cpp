@@ -10,7 +10,7 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr float before_paraview = 10;
+constexpr float pick_before_paraview = 10;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ VolumePick::VolumePick(vtkPVRenderView& view, Ray ray)
       interactor_(view.GetInteractor()),
       events_(interactor_,
               {vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent},
-              before_paraview, [this](unsigned long event) { return handle(event); }) {}
+              pick_before_paraview, [this](unsigned long event) { return handle(event); }) {}
 
 bool VolumePick::handle(unsigned long event) {
   const glm::dvec3 near = place_at(0), far = place_at(1);

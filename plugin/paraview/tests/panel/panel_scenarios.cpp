@@ -24,7 +24,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/views/caster.h"
 #include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/tests/panel/busy_watch.h"

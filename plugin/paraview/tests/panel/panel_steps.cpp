@@ -29,7 +29,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "plugin/paraview/client/panel/session_controller.h"
+#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/views/caster.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/testing/test_clocks.h"

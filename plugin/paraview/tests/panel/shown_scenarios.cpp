@@ -9,6 +9,7 @@
 #include <pqRenderView.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
@@ -103,6 +104,25 @@ void no_scan_shown_no_force() {
   let_go();
   choose_series(1);
   expect_ready_to_feel();
+}
+
+/// What is deleted in the pipeline can be brought back, and is felt as before.
+void a_deleted_scan_comes_back() {
+  choose_series(0);
+  feel();
+  const QString felt = label("palpateFelt");
+  expect(felt.startsWith("Felt: CT "), "the panel names what is felt");
+  pqDeleteReaction::deleteSources({&reader()});
+  expect_stopped("the scan is no longer in the pipeline. Open a scan, then press Feel");
+  wait_for(
+      "nothing is said to be felt", [] { return label("palpateFelt") == "No scan is open."; }, 20);
+  let_go();
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  scan_is_shown();
+  expect_ready_to_feel();
+  wait_for(
+      "the same is felt", [&] { return label("palpateFelt") == felt; }, 20);
+  save_screen("scan-brought-back");
 }
 
 void a_reset_session_has_no_force() {
@@ -265,6 +285,7 @@ void a_scan_is_overtaken() {
 const Scenarios& shown_scenarios() {
   static const Scenarios all{
       {"no_scan_shown_no_force", no_scan_shown_no_force},
+      {"a_deleted_scan_comes_back", a_deleted_scan_comes_back},
       {"a_reset_session_has_no_force", a_reset_session_has_no_force},
       {"a_loaded_state_has_no_force", a_loaded_state_has_no_force},
       {"undo_belongs_to_a_scan", undo_belongs_to_a_scan},

@@ -1,0 +1,54 @@
+#pragma once
+
+/// Owns the marks of the scan that is shown; views and list ask it. ParaView's pipeline keeps them beside the scene, so
+/// that undo, state files and traces hold them. The marks of other scans are kept there, too.
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+#include <string>
+
+#include "plugin/paraview/client/model/kept_text.h"
+#include "plugin/report/kept_marks.h"
+
+namespace palpate::plugin {
+
+class MarksModel : public QObject {
+  Q_OBJECT
+
+ public:
+  using Change = std::function<void(Marks&)>;
+
+  explicit MarksModel(KeptText& kept, QObject* parent = nullptr);
+
+  /// Of the scan that is shown.
+  const Marks& marks() const;
+  /// Another scan: its hash_of_series(); empty: none.
+  void set_scan(const std::string& scan);
+  bool has_scan() const { return !scan_.empty(); }
+
+  /// One step that can be undone; `what` names it in ParaView's menu. Distances and angles are measured anew.
+  void edit(const QString& what, const Change& change);
+  /// Adds what a press made, with a name.
+  void add(const MarkMade& made);
+  /// Undoes the last step, of marks or of the scene.
+  void undo() { in_pipeline_.undo(); }
+
+ signals:
+  void changed();
+  /// A press has made a mark or a path.
+  void added();
+  void refused(const QString& why);
+
+ private:
+  void attach();
+  void follow_text();
+
+  KeptText& in_pipeline_;
+  MarksOfScans kept_;
+  std::string scan_;
+  std::string text_;  // of the marks as the pipeline has them
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,85 @@
+#include "plugin/paraview/client/model/scan_model.h"
+
+#include <gmock/gmock.h>
+
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/model/testing/scan_rig.h"
+#include "plugin/paraview/client/words.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST_F(ScanModelFollowed, AFrameIsHereBeforeTheViewsGoThere) {
+  show("1", 5);
+  model.go_to_frame(3);
+  EXPECT_THAT(world.take_asked(), ElementsAre("frame 3"));
+  EXPECT_EQ(model.shown()->frame, 0);
+  EXPECT_TRUE(model.why_not_felt().isEmpty()) << "the views show the frame before, and it is felt";
+  world.frames_.back()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("time 3"));
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+  model.follow_time();
+  EXPECT_EQ(model.shown()->frame, 3);
+  EXPECT_EQ(take_reported(), QStringList({"frame 3"}));
+  EXPECT_THAT(world.take_asked(), IsEmpty()) << "it is not read twice";
+}
+
+TEST_F(ScanModelFollowed, TheLastFrameAskedForIsShown) {
+  show("1", 5);
+  model.go_to_frame(-1);
+  model.go_to_frame(99);
+  EXPECT_THAT(world.take_asked(), ElementsAre("frame 0", "frame 4"));
+  world.frames_.front()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+  world.frames_.back()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("time 4"));
+}
+
+TEST_F(ScanModelFollowed, ParaViewsTimeIsFollowed) {
+  show("1", 5);
+  world.time = 2;
+  model.follow_time();
+  world.time = 4;
+  model.follow_time();
+  world.frames_.front()(voxels(), {});
+  EXPECT_EQ(model.shown()->frame, 0) << "ParaView has gone on";
+  world.frames_.back()({}, "frame 4 is not whole");
+  EXPECT_EQ(model.shown()->frame, 0);
+  EXPECT_EQ(model.why_not_felt(), words(say("views-show-another-scan", model.shown()->frame_in_words(4).toStdString(),
+                                            model.shown()->frame_in_words(0).toStdString())));
+  world.time = 1;
+  model.follow_time();
+  world.frames_.back()(voxels(), {});
+  EXPECT_EQ(model.shown()->frame, 1);
+  EXPECT_TRUE(model.why_not_felt().isEmpty());
+}
+
+TEST_F(ScanModelFollowed, AFrameOfTheScanBeforeIsNotTakenForTheNext) {
+  show("1", 5);
+  model.go_to_frame(3);
+  model.open("/2");
+  world.found_.back()(folder("/2", {series("2", "A", 5)}), {});
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  world.take_asked();
+  world.frames_.back()(voxels(), {});
+  EXPECT_EQ(model.shown()->frame, 0);
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+}
+
+TEST_F(ScanModelFollowed, WhatTheViewsShowOtherwiseIsNotFelt) {
+  show("1");
+  world.view.name = "Reader1";
+  world.view.other = "Reader2";
+  EXPECT_EQ(model.why_not_felt(), words(say("another-scan-is-active-in-the-pipeline", "Reader2", "Reader1")));
+  world.view.seen = false;
+  EXPECT_EQ(model.why_not_felt(), words(say("no-view-shows-the-scan")));
+  world.view.in_pipeline = false;
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-left-the-pipeline")));
+}
+
+}  // namespace
+}  // namespace palpate::plugin

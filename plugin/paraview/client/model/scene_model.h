@@ -1,0 +1,87 @@
+#pragma once
+
+/// Owns the scene that the panel edits. ParaView's pipeline keeps its text, so that ParaView's undo, state files and
+/// traces hold every edit.
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "modes/scene/scene.h"
+#include "plugin/app/live_session.h"
+#include "plugin/paraview/client/model/kept_text.h"
+
+namespace palpate::plugin {
+
+class SceneModel : public QObject {
+  Q_OBJECT
+
+ public:
+  using Change = std::function<void(modes::Scene&)>;
+  /// Lets the stylus take a scene over, or throws with the reason why it cannot be felt.
+  using Commit = std::function<void(const modes::Scene&, Pace)>;
+  /// Gets the reason why a change was refused, or an empty one where it was accepted.
+  using Told = std::function<void(const QString& why)>;
+
+  explicit SceneModel(KeptText& kept, QObject* parent = nullptr);
+
+  /// Called once for every scene, before anything else gets it. A scene that it refuses is refused for panel, pipeline
+  /// and stylus alike. Without it a scene only has to be valid.
+  void set_commit(Commit commit) { commit_ = std::move(commit); }
+
+  /// Prepares in the background what takes long for a scene: it then returns true, and calls `ready` once. False: there
+  /// is nothing to wait for.
+  using MakeReady = std::function<bool(const modes::Scene& scene, std::function<void()> ready)>;
+  /// Called for a scene that comes from the pipeline (undo, a trace, the property panel). Until it is ready the
+  /// previous scene stays. If another scene comes meanwhile, it takes its place.
+  void set_make_ready(MakeReady make_ready) { make_ready_ = std::move(make_ready); }
+  /// The pipeline holds a scene that was refused: sets it back to the scene that is felt.
+  void put_back();
+
+  const modes::Scene& scene() const { return scene_; }
+  /// Whether the scene is no longer the one that was opened or proposed.
+  bool is_edited() const { return edited_; }
+
+  /// A completely different scene. Makes a place in the pipeline if there is none yet.
+  void open(const modes::Scene& scene);
+  /// A scene that the panel proposes by itself: it is not a step that can be undone. Returns whether it was accepted.
+  bool propose(const modes::Scene& scene);
+  /// One step that can be undone; `what` names it in ParaView's menu. A change that is refused leaves the scene as it
+  /// was. The reason goes to `told`, which shows it beside what was pressed; without it, refused() gives it.
+  void edit(const QString& what, const Change& change, const Told& told = {});
+  /// A change in progress, such as dragging a node. It is felt at once. Together with the finish_drag() that ends it,
+  /// it is one step.
+  void drag(const Change& change, const Told& told = {});
+  void finish_drag(const QString& what);
+
+  bool can_undo() const { return kept_.can_undo(); }
+  void undo() { kept_.undo(); }
+  void redo() { kept_.redo(); }
+  /// Another scan: edits of the previous one's scene can no longer be undone here.
+  void forget_steps() { kept_.forget_steps(); }
+
+ signals:
+  void changed(palpate::plugin::Pace pace);
+  /// A scene was refused that no button asked for: it is the pipeline's, or a file's.
+  void refused(const QString& why);
+
+ private:
+  void follow_text();
+  /// Why it was refused; empty: it was not.
+  QString take(const modes::Scene& scene, Pace pace);
+  void tell(const QString& why, const Told& told);
+  void keep(const QString& what);
+  void take_text(const std::string& text, bool when_ready);
+
+  KeptText& kept_;
+  Commit commit_;
+  MakeReady make_ready_;
+  modes::Scene scene_;
+  std::string text_;  // of the scene as the pipeline has it
+  bool edited_ = false;
+};
+
+}  // namespace palpate::plugin

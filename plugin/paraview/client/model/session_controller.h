@@ -1,0 +1,173 @@
+#pragma once
+
+/// Runs the haptic session for the panel while a stylus is held, and emits looked() thirty times a second.
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/simulated/simulated_stylus.h"
+#include "modes/scene/workspace.h"
+#include "plugin/app/live_session.h"
+#include "plugin/app/stylus_choice.h"
+#include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/recording/marks.h"
+#include "plugin/report/nearest_structure.h"
+
+namespace palpate::plugin {
+
+/// What has been felt since the last status, and the last tick.
+struct SessionStatus {
+  bool connected = false;
+  bool replayed = false;  ///< of a recording: nothing is felt
+  bool fresh = false;     ///< whether there is a tick
+  TickRecord tick;
+  std::vector<PrimitiveRecord> shares;
+  modes::Workspace workspace;           ///< of the tick
+  glm::dvec3 probe_mm{0}, proxy_mm{0};  ///< patient space
+  std::string tissue;
+  std::string held;                         ///< the boundary that holds the proxy, in words; empty where none does
+  std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
+  double force_n = 0;                       ///< that the device was fed, in the last tick
+  double peak_n = 0;                        ///< the largest since the last look
+  double tick_us = 0;                       ///< median since the last look
+  std::uint64_t missed = 0;                 ///< since the stylus was connected
+  bool clutched = false;
+  bool feels = false;                         ///< forces were turned on, and not turned off since
+  QString kept_off;                           ///< why the force is held back; empty: it is not
+  std::shared_ptr<const modes::Scene> scene;  ///< that was felt; null: the panel's
+
+  std::optional<glm::dquat> orientation;  ///< of the stylus in the patient, where it tells: its z along the handle
+  QString homing;                         ///< how the stylus is homed
+
+  bool is_seen() const { return fresh && (connected || replayed); }
+};
+
+class SessionController : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit SessionController(SceneModel& model, QObject* parent = nullptr);
+  ~SessionController() override;
+
+  /// Another scan, or another frame of it, with the model's scene. The force is ramped across the change.
+  void set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
+  /// Gives the scan through the filter of a scene that is about to be set.
+  void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
+  /// Until the next set_scan() a scene only has to be valid, because it is meant for the scan that will come.
+  void expect_scan() { expects_scan_ = true; }
+  bool expects_scan() const { return expects_scan_; }
+  /// There is no scan that can be felt: releases the stylus. connect() is refused with `why`, if it is given.
+  void set_no_scan(const QString& why);
+  const QString& why_no_scan() const { return why_no_scan_; }
+  const LiveSession& live() const { return live_; }
+  /// The most recent status.
+  const SessionStatus& last() const { return look_; }
+
+  /// As LiveSession::set_clock(). Virtual so that the tests' plug-in reaches it, which is not linked with this one.
+  virtual void set_clock(LiveSession::MakeClock make) { live_.set_clock(std::move(make)); }
+  /// `start` returns where a simulated stylus begins. It is called when the scene is planned.
+  void set_start(std::function<glm::dvec3(const device::Specification&)> start) { start_ = std::move(start); }
+  /// Without a force: only feel() turns it on.
+  void connect_stylus(const StylusChoice& choice);
+  void disconnect_stylus();
+  /// Another scan is in the views: moves a simulated stylus to where it would begin there.
+  void begin_outside();
+  void feel();
+  void release();
+  /// Takes the force away and refuses feel(), until this is called with an empty reason.
+  void keep_off(const QString& why);
+  /// Clears a fault; the stylus stays without a force. A stylus that was lost is opened again.
+  void clear_fault();
+  /// What was recorded of the session's last fault, in a sentence; empty: nothing.
+  QString last_fault() const;
+  void record(const std::string& file);
+  void stop_recording();
+
+  /// Presses and releases the mark button from the panel, like the stylus' own button. Does nothing without a stylus.
+  void press_mark();
+  void let_go_mark();
+  /// The mark that would be made at the last tick.
+  FeltMark mark_here() const;
+
+  /// Separates the hand from the patient: there is no force, and on unclutching the stylus is at the same place in the
+  /// patient as before, however the hand has moved meanwhile. `rotation`: the device's axes in the patient from then
+  /// on.
+  void clutch();
+  void unclutch(const glm::dmat3& rotation);
+  bool is_clutched() const { return clutched_; }
+  /// Whether the mapping may change: not while the hand feels something, because it would be thrown.
+  bool may_remap() const;
+
+  /// What is looked at while no stylus is held.
+  void show_instead(std::function<SessionStatus()> look) { instead_ = std::move(look); }
+
+  // The simulated stylus' hand, for mouse and keyboard.
+  bool has_simulated() const { return simulated_ != nullptr && live_.is_connected(); }
+  void move_hand(const glm::dvec3& patient_mm);
+  /// Where the hand wants to be, mm, patient space: where it was last put, or else where the stylus is.
+  glm::dvec3 hand_mm() const { return hand_mm_.value_or(look_.probe_mm); }
+  /// The simulated hand relaxes until nothing pushes it.
+  void let_go();
+  /// True: the mouse is used for something else, and does not take the stylus.
+  void keep_mouse_off(bool off) { mouse_off_ = off; }
+  bool takes_mouse() const { return has_simulated() && !mouse_off_; }
+
+ signals:
+  /// The stylus' clutch button was released. The stylus views unclutch, because they know how they are turned.
+  void clutch_button_let_go();
+  void looked(const palpate::plugin::SessionStatus& look);
+  void connection_changed();
+  void told(const QString& message, bool problem);
+  /// What a press of the mark button made; it has no name yet.
+  void marked(const palpate::plugin::MarkMade& made);
+  /// A recording has been written completely.
+  void recorded(const QString& file);
+
+ private:
+  /// Whether the user has turned forces on. The session owns that; a fault takes them away until it is cleared.
+  bool feels() const;
+  void give_way();
+  void tell_recorded(const std::optional<RecorderStatus>& status);
+  void commit(const modes::Scene& scene, Pace pace);
+  void follow_workspace();
+  void look();
+  /// Those that were pressed and those that were let go since the last look.
+  void obey_buttons(std::uint32_t pressed, std::uint32_t let);
+  void follow_marks();
+  void forget_marks();
+
+  SceneModel& model_;
+  LiveSession live_;
+  QString why_no_scan_;
+  QString homing_;
+  std::shared_ptr<device::SimulatedStylus> simulated_;
+  modes::Workspace before_, now_;  // of the last two scenes
+  std::uint64_t next_tick_ = 0;
+  std::uint32_t buttons_ = 0;
+  MarkPresses presses_;
+  bool letting_mark_go_ = false;       // once a tick has had it
+  std::optional<glm::dvec3> hand_mm_;  // while the workspace stays and it does not relax
+  bool letting_go_ = false;
+  bool clutched_ = false;
+  bool feels_after_clutch_ = false;
+  bool expects_scan_ = false;
+  QString kept_off_;
+  std::function<glm::dvec3(const device::Specification&)> start_;
+  bool mouse_off_ = false;
+  glm::dvec3 clutched_at_mm_{0};
+  SessionStatus look_;
+  std::function<SessionStatus()> instead_;
+  QString recording_to_;
+  QTimer heart_, looks_;
+};
+
+}  // namespace palpate::plugin

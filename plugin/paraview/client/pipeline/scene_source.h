@@ -1,0 +1,36 @@
+#pragma once
+
+/// The source in ParaView's pipeline (PalpateScene) that keeps the scene and the marks.
+
+#include <pqPipelineSource.h>
+
+#include <QPointer>
+
+#include "plugin/paraview/client/model/kept_text.h"
+
+namespace palpate::plugin {
+
+class SceneSource : public KeptText {
+  Q_OBJECT
+
+ public:
+  using KeptText::KeptText;
+
+  /// Takes over a source that stands in the pipeline, as a state file restores it.
+  void adopt(pqPipelineSource& source);
+
+  bool is_open() const override { return source_ != nullptr; }
+  void open(const std::string& scene) override;
+  std::string text(const char* key) const override;
+  void keep(const char* key, const std::string& text, const QString& what) override;
+  void put(const char* key, const std::string& text) override;
+  bool can_undo() const override;
+  void undo() override;
+  void redo() override;
+  void forget_steps() override;
+
+ private:
+  QPointer<pqPipelineSource> source_;
+};
+
+}  // namespace palpate::plugin
