@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "device/found_devices.h"
+#include "device/safety/guardian_beat.h"
 #include "device/stylus.h"
 
 namespace palpate::device {
@@ -26,6 +27,12 @@ struct DeviceChoice {
 
 /// The file that a kind is asked for.
 enum class DeviceFile : std::uint8_t { none, firmware, settings };
+
+/// What the guardian can do for a device, and how fast.
+struct GuardianMeans {
+  GuardianReach reach = GuardianReach::none;
+  double zero_within_s = 0;  ///< s from when it acts until a zero is taken
+};
 
 struct DeviceType {
   std::string_view kind;      ///< as in --device
@@ -45,6 +52,8 @@ struct DeviceType {
   /// For the guardian: opens the device again and sends zeros. `take_away`: takes it from a process that is stopped.
   /// Null: the kind has no motors.
   bool (*send_zeros)(const std::string& address, bool take_away) = nullptr;
+  /// For the guardian, when it starts: loads what send_zeros() needs and remembers which device it is. Never throws.
+  GuardianMeans (*prepare_zeros)(const std::string& address) = nullptr;
 };
 
 /// How every driver of real hardware was tested.

@@ -15,7 +15,9 @@
 
 #include "device/device_type.h"
 #include "device/force_dimension/drd_library.h"
+#include "device/link/realtime.h"
 #include "device/link/shared_library.h"
+#include "device/testing/fake_falcon.h"
 #include "device/testing/fake_hidapi.h"
 #include "device/testing/fake_libusb.h"
 #include "device/testing/haply_server.h"
@@ -76,26 +78,35 @@ TEST(FoundDevices, EachKindHasItsName) {
   EXPECT_EQ(find_device_type(""), nullptr);
 }
 
-/// The guardian's zeros to a Falcon: three commands of no force that keep its home. Where it is not named, to each that
-/// can be opened; and only where all of several were reached is that told.
-TEST(FoundDevices, AFalconGetsThreeZeros) {
+/// The guardian's zeros to a Falcon: commands of no force that keep its home, until two were answered, also by a serial
+/// chip that was plugged in again and has forgotten its speed. Where it is not named, to each that can be opened; and
+/// only if all of several were reached does it count.
+TEST(FoundDevices, AFalconGetsZerosUntilItAnswersThem) {
   const auto send_zeros = find_device_type("falcon")->send_zeros;
   const std::string zero = "<AAAAAAAAAAAABA>";
   {
     FakeUsb usb;
+    FakeFalcon falcon;
+    usb.falcon = &falcon;
+    falcon.control(3, 0x4138, monotonic_time());
+    ASSERT_FALSE(falcon.firmware_runs());
     EXPECT_TRUE(send_zeros("1-3", false));
-    ASSERT_EQ(usb.written.size(), 3U);
+    EXPECT_TRUE(falcon.firmware_runs());
+    EXPECT_GE(falcon.commands(), 2U);
     for (const auto& command : usb.written) EXPECT_EQ(std::string(command.begin(), command.end()), zero);
     EXPECT_FALSE(send_zeros("1-4", false)) << "another";
     EXPECT_TRUE(send_zeros("", false));
-    EXPECT_EQ(usb.written.size(), 6U);
     EXPECT_TRUE(usb.holds_nothing());
+    falcon.faults.silent = true;
+    EXPECT_FALSE(send_zeros("1-3", false)) << "what is not answered is not known to be taken";
   }
   for (const bool locked : {false, true}) {
     FakeUsb usb;
+    FakeFalcon falcon;
+    usb.falcon = &falcon;
     usb.devices = {{.ports = {1}}, {.ports = {2}, .open_fails = locked ? -3 : 0}, {.ports = {3}}};
     EXPECT_EQ(send_zeros("", false), !locked);
-    EXPECT_EQ(usb.written.size(), locked ? 6U : 9U) << "one that cannot be opened keeps them from no other";
+    EXPECT_GE(falcon.commands(), locked ? 4U : 6U) << "one that cannot be opened keeps them from no other";
     EXPECT_FALSE(send_zeros("1-9", false));
   }
   {
@@ -110,6 +121,36 @@ TEST(FoundDevices, AFalconGetsThreeZeros) {
     usb.submit_fails = -4;
     EXPECT_FALSE(send_zeros("1-3", false)) << "it does not take them";
   }
+}
+
+/// What the guardian says that it can do, before it is needed: nothing where there is no device, no right to it or no
+/// maker's library.
+TEST(FoundDevices, EachKindSaysWhatItsGuardianCanDo) {
+  const auto reach = [](const char* kind, const std::string& address) {
+    return find_device_type(kind)->prepare_zeros(address).reach;
+  };
+  for (const DeviceType* const type : device_types()) {
+    EXPECT_EQ(type->prepare_zeros != nullptr, type->send_zeros != nullptr) << type->kind;
+  }
+  {
+    FakeUsb usb;
+    EXPECT_EQ(reach("falcon", "1-3"), GuardianReach::at_any_time);
+    EXPECT_EQ(reach("falcon", ""), GuardianReach::at_any_time);
+    EXPECT_EQ(reach("falcon", "1-4"), GuardianReach::none);
+    usb.devices[0].open_fails = -3;
+    EXPECT_EQ(reach("falcon", "1-3"), GuardianReach::none) << "no right to it";
+  }
+  for (const bool is_there : {true, false}) {
+    setenv("PALPATE_LIBHD", is_there ? PALPATE_FAKE_LIBHD : "/absent.so", 1);
+    setenv("PALPATE_LIBDRD", is_there ? PALPATE_FAKE_LIBDRD : "/absent.so", 1);
+    const GuardianReach expected = is_there ? GuardianReach::once_free : GuardianReach::none;
+    EXPECT_EQ(reach("touch", ""), expected);
+    EXPECT_EQ(reach("force_dimension", "1234"), expected);
+  }
+  unsetenv("PALPATE_LIBHD");
+  unsetenv("PALPATE_LIBDRD");
+  EXPECT_EQ(reach("haply", "049D@localhost:1"), GuardianReach::looks_on);
+  EXPECT_EQ(reach("wooden_haptics", "/absent"), GuardianReach::none);
 }
 
 /// A library is taken from where the environment says, and from nowhere else then; or from the first usual place.

@@ -19,6 +19,7 @@
 #include "device/falcon/falcon.h"
 #include "device/falcon/falcon_driver.h"
 #include "device/falcon/falcon_usb.h"
+#include "device/link/hid.h"
 #include "device/link/realtime.h"
 #include "device/messages.h"
 #include "device/safety/guardian.h"
@@ -27,8 +28,9 @@
 #include "device/simulated/replay_stylus.h"
 #include "device/simulated/simulated_stylus.h"
 #include "device/space_mouse/space_mouse.h"
-#include "device/testing/fake_falcon_link.h"
+#include "device/testing/fake_hidapi.h"
 #include "device/testing/fake_wooden_haptics.h"
+#include "device/testing/mishap_link.h"
 #include "device/wooden_haptics/wooden_haptics.h"
 #include "device/wooden_haptics/wooden_haptics_driver.h"
 #include "solver/text/testing/shown.h"
@@ -46,31 +48,6 @@ std::string file_with(const std::string& name, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
   return file;
 }
-
-using Packet = std::span<const std::uint8_t>;
-
-/// A Falcon's serial chip to which something happens while it is sent to.
-class MishapLink final : public FalconLink {
- public:
-  MishapLink(FakeFalconBench& bench, std::function<bool(Packet)> takes)
-      : bench_(bench), link_(bench), takes_(std::move(takes)) {}
-
-  double now() noexcept override { return link_.now(); }
-  std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept override {
-    return link_.receive(packet, timeout);
-  }
-  bool send(Packet packet) noexcept override { return takes_(packet) && link_.send(packet); }
-  bool flush(double timeout) noexcept override { return link_.flush(timeout); }
-  bool lost() const noexcept override { return link_.lost(); }
-  bool control(std::uint8_t request, std::uint16_t value) noexcept override {
-    return !bench_.unplugged && link_.control(request, value);
-  }
-
- private:
-  FakeFalconBench& bench_;
-  FakeFalconLink link_;
-  std::function<bool(Packet)> takes_;
-};
 
 const std::vector<std::uint8_t> image(500, 3);
 
@@ -229,12 +206,34 @@ std::vector<Provoked> provoke_threads() {
                                      test_command("BecomeRealtime"))}};
 }
 
+std::string said_of_guardian(const std::string& program) {
+  const auto guardian = start_guardian({program, "toaster", "-"});
+  return said_when([&] {
+    guardian->prove(program == "/bin/cat" ? 0.05 : Guardian::patience_s);
+    guardian->reach();
+  });
+}
+
+std::string words_of_guardian(GuardianReach reach) {
+  GuardianBeat beat;
+  beat.reach = reach;
+  return Guardian(0, -1, &beat).describe();
+}
+
+std::string said_of_second_session() {
+  FakeHidApi hid;
+  hid.nodes = {{0x1234, 6, 0xffab, 0x200, file_with("arm", ""), L"arm"}};
+  const auto first = open_hid("wooden_haptics", hid.nodes[0].path);
+  return said_when([&] { open_hid("wooden_haptics", hid.nodes[0].path); });
+}
+
 std::vector<Provoked> provoke_devices() {
   const std::string good = image_file(image.size());
   const std::string other = image_file(image.size() - 1);
-  const std::string node = file_with("node", "");
+  // One that reaches no device waits for it until it is ended.
   const auto of_guardian = [](const std::string& arguments) {
-    return output_of(guardian_program() + " " + arguments + " < /dev/null");
+    return output_of("PALPATE_LIBDRD=" PALPATE_FAKE_LIBDRD " timeout 4 " + guardian_program() + " " + arguments +
+                     " < /dev/null");
   };
   const auto falcon = [&](const std::function<bool(FakeFalconBench&, Packet)>& takes) {
     return of_falcon(good, as_it_is, takes);
@@ -275,10 +274,17 @@ std::vector<Provoked> provoke_devices() {
          start_guardian({"/absent", "falcon", ""});
        })},
       {"usb-cannot-be-used-here", without_files([] { open_falcon_usb(""); })},
-      {"palpate-guardian-the-session-ended-without-closing", of_guardian("wooden_haptics " + node)},
-      {"zero-force-was-sent", of_guardian("wooden_haptics " + node)},
+      {"palpate-guardian-the-session-ended-without-closing", of_guardian("force_dimension ''")},
+      {"zero-force-was-sent", of_guardian("force_dimension ''")},
       {"stylus-could-not-be-reached", of_guardian("wooden_haptics /absent")},
       {"palpate-guardian-kind-address-is-started", of_guardian("")},
+      {"guardian-of-the-stylus-ended", said_of_guardian("/bin/false")},
+      {"guardian-of-the-stylus-proves-nothing", said_of_guardian("/bin/cat")},
+      {"guardian-of-the-stylus-reaches-nothing", said_of_guardian(guardian_program())},
+      {"guardian-reaches-it-at-any-time", words_of_guardian(GuardianReach::at_any_time)},
+      {"guardian-reaches-it-once-free", words_of_guardian(GuardianReach::once_free)},
+      {"guardian-looks-on", words_of_guardian(GuardianReach::looks_on)},
+      {"arm-is-driven-by-another", said_of_second_session()},
   };
 }
 
@@ -331,6 +337,12 @@ std::vector<Provoked> provoke_styluses() {
       "stylus-stopped-sending-poses",       "no-new-force-was-computed", "servo-loop-was-held-up",
       "stylus-moved-faster-than-allowed",   "panel-stopped-answering"};
   for (std::size_t n = 0; n < advice.size(); ++n) said.push_back({advice[n], advice_for(static_cast<Fault>(n + 1))});
+  constexpr std::array link_advice{"link-unplugged",  "link-silent",        "link-slow",     "link-unreachable-pose",
+                                   "link-unhomed",    "link-held-up",       "link-slept",    "link-forces-refused",
+                                   "link-own-safety", "link-foreign-force", "link-unguarded"};
+  for (std::size_t n = 0; n < link_advice.size(); ++n) {
+    said.push_back({link_advice[n], advice_for(static_cast<LinkFault>(n + 1))});
+  }
   return said;
 }
 

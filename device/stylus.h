@@ -7,6 +7,8 @@
 #include <glm/vec3.hpp>
 #include <string>
 
+#include "solver/text/message.h"
+
 namespace palpate::device {
 
 using Vec3 = glm::dvec3;
@@ -24,6 +26,7 @@ struct Specification {
   double stiffness_limit = 0;      ///< N/m: a stiffer wall may ring
   double rate = 1000;              ///< Hz
   std::string watchdog;            ///< what of this device takes the force away; empty: DeviceType::watchdog
+  std::string guardian;            ///< what its guardian can do for it; empty: there is none
 };
 
 enum class State : std::uint8_t { disconnected, idle, homing, ramping, active, fault };
@@ -54,6 +57,9 @@ class Stylus {
   /// N. Only the safety filter's output may be written.
   virtual void write_force(const Vec3& force) noexcept = 0;
   virtual State state() const noexcept = 0;
+  /// While state() is State::fault: what happened and what to do, in a sentence. Empty where it is not known. Not for
+  /// the tick.
+  virtual Text trouble() const { return {}; }
 };
 
 }  // namespace palpate::device

@@ -131,6 +131,14 @@ std::vector<std::uint8_t> read_image(const std::string& file) {
 
 }  // namespace
 
+bool zero_falcon(FalconLink& link) noexcept {
+  // The homing bit stays set: dropping it would make the Falcon forget where it is. A command cut short when the
+  // session died takes the first of these to its end; the next ones are whole.
+  const bool is_set =
+      link.control(latency, 1) && link.control(baud, baud_1500k) && link.control(ftdi_reset, ftdi_purge_received);
+  return is_set && answers_run_packets(link) && answers_run_packets(link);
+}
+
 void connect_falcon(FalconLink& link, const std::string& firmware_file) {
   configure(link, {{ftdi_reset, ftdi_purge_received}, {ftdi_reset, purge_sent}});
   enter_run_mode(link);

@@ -3,7 +3,7 @@
 
 #include "device/device_type.h"
 #include "device/falcon/falcon.h"
-#include "device/falcon/falcon_protocol.h"
+#include "device/falcon/falcon_driver.h"
 #include "device/falcon/falcon_usb.h"
 #include "device/messages.h"
 #include "device/settings_file.h"
@@ -25,15 +25,8 @@ std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
   return make_with_settings(choice, &read_falcon, &make_falcon);
 }
 
-/// The homing bit stays set: dropping it would make the Falcon forget where it is.
 bool send_zeros_to_one(const std::string& address) {
-  const auto link = open_falcon_usb(address);
-  const auto zero = encode(FalconCommand{});
-  // A command cut short when the session died takes the first of these to its end; the next ones are whole.
-  for (int i = 0; i < 3; ++i) {
-    if (!link->send(zero) || !link->flush(0.1)) return false;
-  }
-  return true;
+  return zero_falcon(*open_falcon_usb(address));
 }
 
 /// The usual case first, since it is a matter of milliseconds. Without an address the session had the only Falcon;
@@ -57,6 +50,14 @@ bool send_zeros(const std::string& address, bool take_away) {
   return all.size() > 1 && reached == static_cast<std::ptrdiff_t>(all.size());
 }
 
+GuardianMeans prepare_zeros(const std::string& address) {
+  const std::vector<FoundDevice> all = find_falcons();
+  const bool may_be_reached = std::any_of(all.begin(), all.end(), [&](const FoundDevice& falcon) {
+    return falcon.accessible && (address.empty() || falcon.address == address || address.find(':') != address.npos);
+  });
+  return may_be_reached ? GuardianMeans{GuardianReach::at_any_time, 0.05} : GuardianMeans{};
+}
+
 }  // namespace
 
 FalconSettings read_falcon(const std::string& json_file) {
@@ -78,6 +79,7 @@ const DeviceType falcon_type{
     .find = &find_falcons,
     .make = &make,
     .send_zeros = &send_zeros,
+    .prepare_zeros = &prepare_zeros,
 };
 
 }  // namespace palpate::device

@@ -1,11 +1,7 @@
 #include "device/falcon/falcon_usb.h"
 
-#include <fcntl.h>
 #include <libusb.h>
-#include <linux/usbdevice_fs.h>
-#include <sys/ioctl.h>
 #include <sys/time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -276,16 +272,7 @@ bool take_falcon_and_send_zeros(const std::string& address) noexcept {
     std::array<char, 32> path{};
     std::snprintf(path.data(), path.size(), "/dev/bus/usb/%03u/%03u", libusb_get_bus_number(device),
                   libusb_get_device_address(device));
-    const int node = open(path.data(), O_RDWR | O_CLOEXEC);
-    if (node < 0) return;
-    // Without flags the kernel takes the interface from whoever has it, a process, too.
-    usbdevfs_disconnect_claim claim{};
-    auto zero = encode(FalconCommand{});
-    usbdevfs_bulktransfer bulk{endpoint_out, static_cast<unsigned>(zero.size()), 100, zero.data()};
-    bool taken = ioctl(node, USBDEVFS_DISCONNECT_CLAIM, &claim) == 0;
-    for (int i = 0; i < 3 && taken; ++i) taken = ioctl(node, USBDEVFS_BULK, &bulk) >= 0;
-    sent = sent || taken;
-    close(node);
+    sent = take_falcon_at_and_send_zeros(path.data()) || sent;
   });
   return sent;
 }

@@ -19,4 +19,7 @@ std::unique_ptr<FalconLink> open_falcon_usb(const std::string& address);
 /// session then finds the Falcon unplugged. False where it cannot be reached or the kernel refuses.
 bool take_falcon_and_send_zeros(const std::string& address) noexcept;
 
+/// The same of the Falcon at this file of /dev/bus/usb.
+bool take_falcon_at_and_send_zeros(const char* path) noexcept;
+
 }  // namespace palpate::device

@@ -1,3 +1,5 @@
+#include <exception>
+
 #include "device/device_type.h"
 #include "device/force_dimension/force_dimension.h"
 #include "device/force_dimension/force_dimension_driver.h"
@@ -24,6 +26,16 @@ bool send_zeros(const std::string& address, bool /*take_away*/) {
   return stop_force_dimension(address);
 }
 
+/// The library stays loaded.
+GuardianMeans prepare_zeros(const std::string& /*address*/) {
+  try {
+    const DrdLibrary drd;
+    return {GuardianReach::once_free, 0.1};
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 extern const DeviceType force_dimension_type;
@@ -40,6 +52,7 @@ const DeviceType force_dimension_type{
     .find = &find_force_dimension,
     .make = &make,
     .send_zeros = &send_zeros,
+    .prepare_zeros = &prepare_zeros,
 };
 
 }  // namespace palpate::device

@@ -27,6 +27,10 @@ bool send_zeros(const std::string& address, bool /*take_away*/) {
   return send_zeros_to_haply(address);
 }
 
+GuardianMeans prepare_zeros(const std::string& /*address*/) {
+  return {GuardianReach::looks_on, 0.3};
+}
+
 }  // namespace
 
 extern const DeviceType haply_type;
@@ -44,6 +48,7 @@ const DeviceType haply_type{
     .find = &find_haply,
     .make = &make,
     .send_zeros = &send_zeros,
+    .prepare_zeros = &prepare_zeros,
 };
 
 }  // namespace palpate::device

@@ -227,8 +227,10 @@ TEST(GivenForce, TheGuardianIsToldOfAForceThatMayLieOnALostDevice) {
   for (const Loss loss : {Loss::none, Loss::unplugged, Loss::unplugged_at_rest, Loss::silent, Loss::refused}) {
     HeardGuardian guardian;
     LinkBench bench;
-    const auto stylus = unthreaded(bench, {.guardian = guardian.settings});
-    push(bench, *stylus, loss == Loss::unplugged_at_rest ? 0 : 3, 0.5);
+    LinkStylusOptions options;
+    options.start_guardian = [&](const GuardianSettings&) { return proved(start_guardian(guardian.settings)); };
+    const auto stylus = unthreaded(bench, options);
+    push(bench, *stylus, loss == Loss::unplugged_at_rest ? 0 : 3, 0.3);
     if (loss == Loss::unplugged || loss == Loss::unplugged_at_rest) bench.lost = true;
     if (loss == Loss::silent) bench.speaks = false;
     if (loss == Loss::refused) bench.answer = ForceAnswer::refused;

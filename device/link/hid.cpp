@@ -1,13 +1,17 @@
 #include "device/link/hid.h"
 
+#include <fcntl.h>
 #include <hidapi.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "device/link/realtime.h"
 #include "device/messages.h"
@@ -45,9 +49,29 @@ std::string kind_of(const hid_device_info& info) {
   return {};
 }
 
+/// A lock on a node, for as long as it is held. The kernel lets any number of programs write to an arm.
+class NodeLock {
+ public:
+  NodeLock() = default;
+  explicit NodeLock(const std::string& path) : node_(open(path.c_str(), O_RDWR | O_CLOEXEC)) {
+    is_taken_ = node_ < 0 || flock(node_, LOCK_EX | LOCK_NB) == 0;
+  }
+  NodeLock(NodeLock&& other) noexcept
+      : node_(std::exchange(other.node_, -1)), is_taken_(std::exchange(other.is_taken_, true)) {}
+  NodeLock& operator=(NodeLock&&) = delete;
+  ~NodeLock() {
+    if (node_ >= 0) close(node_);
+  }
+  bool is_taken() const noexcept { return is_taken_; }
+
+ private:
+  int node_ = -1;
+  bool is_taken_ = true;
+};
+
 class HidLink final : public Link {
  public:
-  explicit HidLink(hid_device* device) : device_(device) {}
+  HidLink(hid_device* device, NodeLock lock) : device_(device), lock_(std::move(lock)) {}
 
   double now() noexcept override { return monotonic_time(); }
   bool lost() const noexcept override { return lost_; }
@@ -74,6 +98,7 @@ class HidLink final : public Link {
 
  private:
   std::unique_ptr<hid_device, DeviceCloser> device_;
+  NodeLock lock_;
   bool lost_ = false;
 };
 
@@ -99,6 +124,19 @@ std::vector<FoundDevice> find_hid_devices(const std::string& wanted) {
   return found;
 }
 
+std::string hid_identity(const std::string& path) {
+  const auto slash = path.rfind('/');
+  if (slash == std::string::npos) return {};
+  std::ifstream about("/sys/class/hidraw/" + path.substr(slash + 1) + "/device/uevent");
+  std::string identity;
+  for (std::string line; std::getline(about, line);) {
+    for (const char* key : {"HID_ID=", "HID_NAME=", "HID_PHYS=", "HID_UNIQ="}) {
+      if (line.starts_with(key)) identity += line + "\n";
+    }
+  }
+  return identity;
+}
+
 std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& address) {
   std::vector<FoundDevice> found = find_hid_devices(kind);
   std::erase_if(found, [&](const FoundDevice& device) { return !address.empty() && device.address != address; });
@@ -109,11 +147,13 @@ std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& addre
     throw which_of(name, found.size());
   }
   if (!found.front().accessible) throw Refusal(say("permission-denied", name, permission_advice()));
+  NodeLock lock = kind == "wooden_haptics" ? NodeLock(found.front().address) : NodeLock();
+  if (!lock.is_taken()) throw Refusal(say("arm-is-driven-by-another", name));
   hid_device* const device = hid_open_path(found.front().address.c_str());
   if (device == nullptr) {
     throw Refusal(say("cannot-be-opened-held", name, narrow(hid_error(nullptr))));
   }
-  return std::make_unique<HidLink>(device);
+  return std::make_unique<HidLink>(device, std::move(lock));
 }
 
 std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "device/messages.h"
 #include "device/vectors.h"
 
 namespace palpate::device {
@@ -32,8 +33,40 @@ const char* name_of(LinkFault fault) {
       return "its own safety took the force away";
     case LinkFault::foreign_force:
       return "another program pushes it, too";
+    case LinkFault::unguarded:
+      return "its guardian is gone";
   }
   return "unknown";
+}
+
+Text advice_for(LinkFault fault) {
+  switch (fault) {
+    case LinkFault::none:
+      return {};
+    case LinkFault::unplugged:
+      return say("link-unplugged");
+    case LinkFault::silent:
+      return say("link-silent");
+    case LinkFault::slow:
+      return say("link-slow");
+    case LinkFault::unreachable_pose:
+      return say("link-unreachable-pose");
+    case LinkFault::unhomed:
+      return say("link-unhomed");
+    case LinkFault::held_up:
+      return say("link-held-up");
+    case LinkFault::slept:
+      return say("link-slept");
+    case LinkFault::forces_refused:
+      return say("link-forces-refused");
+    case LinkFault::own_safety:
+      return say("link-own-safety");
+    case LinkFault::foreign_force:
+      return say("link-foreign-force");
+    case LinkFault::unguarded:
+      return say("link-unguarded");
+  }
+  return {};
 }
 
 namespace {
@@ -64,16 +97,18 @@ LinkStylus::~LinkStylus() {
 void LinkStylus::open() {
   close();
   // The guardian first: from the moment when a force can be sent, somebody can take it back.
-  guardian_ = start_guardian(options_.guardian);
+  guardian_ = options_.start_guardian(options_.guardian);
   try {
-    driver_->connect();
+    connect();
   } catch (...) {
     guardian_.reset();
     throw;
   }
   connected_ = true;
   driver_->describe(specification_);
+  specification_.guardian = guardian_ ? guardian_->describe() : Text();
   if (options_.stays_awake) awake_ = stay_awake(specification_.name + " is held");
+  if (guardian_) missed_guardian_.start(guardian_->shared().lives, driver_->now());
   opened_ = exchange_time_ = news_time_ = window_start_ = driver_->now();
   asleep_ = options_.asleep();
   news_ = window_news_ = driver_->status().news;
@@ -88,6 +123,18 @@ void LinkStylus::open() {
   if (!options_.threaded) return;
   stop_.store(false, std::memory_order_relaxed);
   thread_ = std::thread([this] { run(); });
+}
+
+void LinkStylus::connect() {
+  if (guardian_) guardian_->prove(options_.guardian_patience);
+  driver_->connect();
+  if (!guardian_) return;
+  try {
+    guardian_->reach(options_.guardian_patience);
+  } catch (...) {
+    driver_->disconnect();
+    throw;
+  }
 }
 
 void LinkStylus::run() noexcept {
@@ -161,6 +208,7 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
     given_.doubt();
   }
   judge_rate(now);
+  judge_guardian(now);
 
   give(now, closing);
   exchange_time_ = now;
@@ -200,6 +248,15 @@ void LinkStylus::judge_clocks(double now) noexcept {
   // before the user opens the device anew.
   if (now - exchange_time_ > longest_gap) fail(LinkFault::held_up);
   if (options_.asleep() - asleep_ > shortest_sleep) fail(LinkFault::slept);
+}
+
+void LinkStylus::judge_guardian(double now) noexcept {
+  if (!guardian_) return;
+  const GuardianBeat& shared = guardian_->shared();
+  if (missed_guardian_.silent_for(shared.lives.load(std::memory_order_relaxed), now) > ceiling::guardian_s) {
+    fail(LinkFault::unguarded);
+  }
+  if (shared.sleep_is_near.load(std::memory_order_relaxed)) fail(LinkFault::slept);
 }
 
 void LinkStylus::fail(LinkFault fault) noexcept {

@@ -5,6 +5,7 @@
 /// layer before the device (given_force.h).
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -26,6 +27,9 @@ struct LinkStylusOptions {
   double force_age = ceiling::link_force_age_s;  ///< s: a force that write_force() does not renew becomes zero
   int priority = 60;  ///< SCHED_FIFO of the thread, above the servo's; where not allowed it goes without
   GuardianSettings guardian;
+  /// Starts it: the process, or a test's.
+  std::function<std::unique_ptr<Guardian>(const GuardianSettings&)> start_guardian = device::start_guardian;
+  double guardian_patience = Guardian::patience_s;  ///< s that it has to prove itself
   AxisSigns signs;
   bool stays_awake = false;                   ///< the machine is asked not to sleep while the stylus is open
   double (*asleep)() noexcept = time_asleep;  ///< s that the machine has slept: a jump is a fault
@@ -48,6 +52,8 @@ class LinkStylus final : public Stylus {
   void write_force(const Vec3& force) noexcept override;
   State state() const noexcept override { return state_.load(std::memory_order_relaxed); }
 
+  Text trouble() const override { return advice_for(fault()); }
+
   LinkFault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
   /// Of the exchanging thread; after close(): what was left on the device.
   OnDevice on_device() const noexcept { return given_.on_device(); }
@@ -59,6 +65,8 @@ class LinkStylus final : public Stylus {
   void exchange(double timeout, bool closing) noexcept;
   void judge_rate(double now) noexcept;
   void judge_clocks(double now) noexcept;
+  void judge_guardian(double now) noexcept;
+  void connect();
   void give(double now, bool closing) noexcept;
   bool withholds(double now, bool closing) const noexcept;
   void fail(LinkFault fault) noexcept;
@@ -90,6 +98,7 @@ class LinkStylus final : public Stylus {
   std::uint64_t window_news_ = 0;
   Vec3 wanted_{0};          // N: the newest force asked for
   bool loss_told_ = false;  // to the guardian
+  MissedGuardian missed_guardian_;
   SustainedLoad load_;
   GivenForce given_;
   // The servo's.

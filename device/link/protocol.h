@@ -8,6 +8,7 @@
 
 #include "device/link/link.h"
 #include "device/stylus.h"
+#include "solver/text/message.h"
 
 namespace palpate::device {
 
@@ -23,9 +24,12 @@ enum class LinkFault : std::uint8_t {
   slept,           ///< the machine was suspended
   forces_refused,  ///< the device takes forces and gives none
   own_safety,      ///< the device's own safety took the force away
-  foreign_force    ///< a force acts on it that was not sent
+  foreign_force,   ///< a force acts on it that was not sent
+  unguarded        ///< the guardian ended or stands still
 };
 const char* name_of(LinkFault fault);
+/// In a sentence: what happened and what to do. Empty for `none`.
+Text advice_for(LinkFault fault);
 
 struct ProtocolStatus {
   State state = State::disconnected;  ///< homing, idle or fault

@@ -9,16 +9,20 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "device/link/driver_clock.h"
 #include "device/messages.h"
+#include "device/safety/guardian_watch.h"
 
 namespace palpate::device {
 
@@ -41,6 +45,56 @@ SharedMemory share_beat() {
 
 }  // namespace
 
+bool Guardian::has_ended() const noexcept {
+  siginfo_t ended{};
+  return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid == pid_;
+}
+
+template <typename Holds>
+void Guardian::wait_until(const Holds& holds, double patience) const {
+  for (const double start = monotonic_time(); !holds(); sleep_seconds(1e-3)) {
+    if (pid_ > 0 && has_ended()) throw Refusal(say("guardian-of-the-stylus-ended", program_));
+    if (monotonic_time() - start > patience) throw Refusal(say("guardian-of-the-stylus-proves-nothing", program_));
+  }
+}
+
+void Guardian::prove(double patience) const {
+  wait_until([&] { return shared_->proof.load() == proof_for(shared_->challenge); }, patience);
+}
+
+GuardianReach Guardian::reach(double patience) const {
+  wait_until([&] { return shared_->reach.load() != GuardianReach::untold; }, patience);
+  const GuardianReach reach = shared_->reach.load();
+  if (reach == GuardianReach::none) throw Refusal(say("guardian-of-the-stylus-reaches-nothing", program_));
+  return reach;
+}
+
+Text Guardian::describe() const {
+  const auto ms = shared_->zero_within_ms.load();
+  switch (shared_->reach.load()) {
+    case GuardianReach::at_any_time:
+      return say("guardian-reaches-it-at-any-time", ms, ms + GuardianWatch::stopped_after_ms);
+    case GuardianReach::once_free:
+      return say("guardian-reaches-it-once-free", ms);
+    case GuardianReach::looks_on:
+      return say("guardian-looks-on");
+    case GuardianReach::untold:
+    case GuardianReach::none:
+      break;
+  }
+  return {};
+}
+
+bool Guardian::wait_for_end(double patience) const noexcept {
+  const double start = monotonic_time();
+  for (;;) {
+    const pid_t ended = waitpid(pid_, nullptr, WNOHANG);
+    if (ended == pid_ || (ended < 0 && errno != EINTR)) return true;
+    if (monotonic_time() - start >= patience) return false;
+    sleep_seconds(0.5e-3);
+  }
+}
+
 void Guardian::end(char word) noexcept {
   if (pid_ <= 0) return;
   // It may have ended already; then the pipe is broken, and SIGPIPE must not end the session.
@@ -52,7 +106,11 @@ void Guardian::end(char word) noexcept {
   }
   sigaction(SIGPIPE, &before, nullptr);
   ::close(pipe_);
-  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  // One that is stuck in a maker's library is ended, but not where a force may be left: its word waits for it.
+  constexpr double killed_within_s = 0.2;
+  if (!wait_for_end(end_within_s - killed_within_s) && word == 'q') {
+    kill(pid_, SIGKILL);
+    wait_for_end(killed_within_s);
   }
   pid_ = 0;
   munmap(shared_, sizeof(GuardianBeat));
@@ -83,6 +141,7 @@ std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
   std::string address = settings.address;
   std::array<char*, 4> arguments{program.data(), kind.data(), address.data(), nullptr};
   pid_t pid = 0;
+  shared.beat->challenge = std::random_device()();
   const int failed = posix_spawn(&pid, program.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
@@ -93,7 +152,12 @@ std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings) {
     munmap(shared.beat, sizeof(GuardianBeat));
     throw Refusal(say("guardian-of-the-stylus-cannot-start", program, std::strerror(failed)));
   }
-  return std::make_unique<Guardian>(pid, pipe_ends[1], shared.beat);
+  return std::make_unique<Guardian>(pid, pipe_ends[1], shared.beat, program);
+}
+
+bool guardian_can_leave_group() {
+  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
+  return runtime != nullptr && access((std::string(runtime) + "/systemd/private").c_str(), F_OK) == 0;
 }
 
 namespace {

@@ -3,15 +3,15 @@
 /// A small process that takes the force away when the session's process is killed, crashes, or is stopped while the
 /// stylus pushes (Ctrl-Z, a debugger). A pipe and a shared count of the exchanges with the device join the two. When
 /// the pipe ends or the count stands still, the guardian opens the device and sends zeros. A device that was unplugged
-/// gets them when it comes back.
+/// gets them when it comes back. The guardian proves itself before the first force, and its loss is a fault.
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "device/safety/on_device.h"
+#include "device/safety/guardian_beat.h"
+#include "solver/text/message.h"
 
 namespace palpate::device {
 
@@ -21,23 +21,33 @@ struct GuardianSettings {
   std::string address;  ///< of the one device, as FoundDevice::address
 };
 
-/// Lies in memory that session and guardian share.
-struct GuardianBeat {
-  std::atomic<std::uint32_t> count{0};                    ///< exchanges with the device
-  std::atomic<OnDevice> on_device{OnDevice::zero_taken};  ///< at the last of them; before the first: nothing was given
-};
-
 class Guardian {
  public:
-  Guardian(int pid, int pipe, GuardianBeat* shared) : pid_(pid), pipe_(pipe), shared_(shared) {}
+  /// s that it has to prove itself, and again to look for its device.
+  static constexpr double patience_s = 5;
+  /// s at most that its end is waited for, whatever it is stuck in.
+  static constexpr double end_within_s = 2;
+
+  /// `pid` 0: there is no process, and `shared` is somebody else's.
+  Guardian(int pid, int pipe, GuardianBeat* shared, std::string program = {})
+      : pid_(pid), pipe_(pipe), shared_(shared), program_(std::move(program)) {}
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
   ~Guardian() { dismiss(); }
 
-  /// The device was closed in good order: the guardian leaves it alone and ends.
+  /// Waits until it has shown that it is a guardian. Throws std::runtime_error if it ends, or does not within
+  /// `patience` s.
+  void prove(double patience = patience_s) const;
+  /// Waits until it says what it can do for the device. Throws std::runtime_error as prove() does, and if it can do
+  /// nothing.
+  GuardianReach reach(double patience = patience_s) const;
+  /// What it can do, in words for the user; after reach().
+  Text describe() const;
+
+  /// The device was closed in good order: the guardian leaves it alone and ends. One that does not is ended.
   void dismiss() noexcept { end('q'); }
-  /// The device was lost, perhaps with its force on. The guardian goes on by itself for a minute, and sends zeros as
-  /// soon as the device is back.
+  /// The device was lost, perhaps with its force on. The guardian goes on by itself until the device is back or the
+  /// user logs out, and sends zeros as soon as it is back.
   void hand_over() noexcept { end('w'); }
   /// In each exchange with the device, before a force is given to it. After a device is lost there is no more beat.
   /// Wait-free.
@@ -45,18 +55,28 @@ class Guardian {
     shared_->on_device.store(on_device, std::memory_order_relaxed);
     shared_->count.fetch_add(1, std::memory_order_relaxed);
   }
+  const GuardianBeat& shared() const noexcept { return *shared_; }
   int pid() const noexcept { return pid_; }
 
  private:
+  bool has_ended() const noexcept;
+  template <typename Holds>
+  void wait_until(const Holds& holds, double patience) const;
   void end(char word) noexcept;
+  bool wait_for_end(double patience) const noexcept;
 
   int pid_;
   int pipe_;
   GuardianBeat* shared_;
+  std::string program_;
 };
 
 /// Nothing where no program is named. Throws std::runtime_error where it cannot be started.
 std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings);
+
+/// Whether a guardian of this user can leave the session's control group: there is a systemd that runs the user's
+/// scopes. Where there is none, who ends the whole group (a container's end, an out-of-memory killer) ends both.
+bool guardian_can_leave_group();
 
 /// The path of palpate-guardian: $PALPATE_GUARDIAN if it is set; else the first one that is found of
 /// guardian_candidates(). Empty if there is none.

@@ -4,8 +4,8 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,32 +21,13 @@
 #include "device/testing/fake_libdrd.h"
 #include "device/testing/fake_libhd.h"
 #include "device/testing/haply_server.h"
+#include "device/testing/shared_device.h"
 #include "device/testing/test_files.h"
 
 namespace palpate::device {
 namespace {
 
 using std::chrono::milliseconds;
-
-/// The device of a fake library, as it lies in a file.
-template <typename State>
-class SharedDevice {
- public:
-  explicit SharedDevice(const std::string& file) {
-    State first;
-    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(&first), sizeof first);
-    const int node = open(file.c_str(), O_RDWR | O_CLOEXEC);
-    memory_ = mmap(nullptr, sizeof(State), PROT_READ | PROT_WRITE, MAP_SHARED, node, 0);
-    close(node);
-  }
-  SharedDevice(const SharedDevice&) = delete;
-  SharedDevice& operator=(const SharedDevice&) = delete;
-  ~SharedDevice() { munmap(memory_, sizeof(State)); }
-  volatile State* operator->() const { return static_cast<volatile State*>(memory_); }
-
- private:
-  void* memory_;
-};
 
 /// Whether it comes to hold within 15 s.
 bool comes(const std::function<bool()>& holds) {
@@ -63,9 +44,17 @@ class GuardianOfProcess : public ::testing::Test {
     for (const char* name : {"PALPATE_LIBHD", "PALPATE_LIBDRD", "PALPATE_HAPLY", "PALPATE_GUARDIAN"}) unsetenv(name);
     setenv("PALPATE_FAKE_HD", hd_file.c_str(), 1);
     setenv("PALPATE_FAKE_DRD", drd_file.c_str(), 1);
+    prctl(PR_SET_CHILD_SUBREAPER, 1);  // what the session leaves behind is this process's to wait for
   }
   ~GuardianOfProcess() override {
     end();
+    // Guardians that wait for a device that does not come back.
+    std::ifstream children("/proc/self/task/" + std::to_string(getpid()) + "/children");
+    for (pid_t child = 0; children >> child;) {
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+    }
+    prctl(PR_SET_CHILD_SUBREAPER, 0);
     for (const char* name : {"PALPATE_FAKE_HD", "PALPATE_FAKE_DRD", "PALPATE_LIBHD", "PALPATE_LIBDRD", "PALPATE_HAPLY",
                              "PALPATE_GUARDIAN"}) {
       unsetenv(name);
@@ -99,6 +88,7 @@ class GuardianOfProcess : public ::testing::Test {
     int status = 0;
     return waitpid(client_, &status, WUNTRACED | WNOHANG) == client_ && WIFSTOPPED(status);
   }
+  pid_t client() const { return client_; }
   std::string said() const {
     std::ifstream file(said_);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -145,12 +135,10 @@ TEST_F(GuardianOfProcess, TriesUntilATouchOfAStoppedSessionCanBeReached) {
 TEST_F(GuardianOfProcess, WithoutAGuardianATouchKeepsItsForce) {
   setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
   setenv("PALPATE_GUARDIAN", "", 1);
-  prctl(PR_SET_CHILD_SUBREAPER, 1);  // what the session leaves behind is this process's to wait for, to its end
   start("touch", "sigkill");
   wait_for_death();
   while (waitpid(-1, nullptr, 0) > 0) {
   }
-  prctl(PR_SET_CHILD_SUBREAPER, 0);
   EXPECT_EQ(hd->force[1], 1) << "what the other tests see goes by the guardian alone";
 }
 
@@ -160,6 +148,40 @@ TEST_F(GuardianOfProcess, StopsAForceDimensionWhoseSessionIsKilled) {
   ASSERT_TRUE(comes([&] { return drd->force[2] == 1; })) << said();
   wait_for_death();
   EXPECT_TRUE(comes([&] { return drd->stopped == 1 && drd->forces_on == 0; })) << "beside its firmware's watchdog";
+}
+
+/// A program that only looks like a guardian, and one that ends at once: nothing is opened, and it says why.
+TEST_F(GuardianOfProcess, WhatProvesNothingIsNoGuardian) {
+  setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
+  setenv("PALPATE_GUARDIAN", "/bin/false", 1);
+  start("force_dimension", "run");
+  EXPECT_TRUE(comes([&] { return said().find("/bin/false ended at once") != std::string::npos; })) << said();
+  end();
+  const std::string mute = files.write("mute", "#!/bin/sh\nwhile read line; do :; done\n");
+  chmod(mute.c_str(), 0755);
+  setenv("PALPATE_GUARDIAN", mute.c_str(), 1);
+  start("force_dimension", "run");
+  EXPECT_TRUE(comes([&] { return said().find(mute + " does not answer as a guardian") != std::string::npos; }))
+      << said();
+  EXPECT_EQ(drd->forces_on, 0);
+}
+
+/// A guardian that dies while the stylus pushes is a fault, and the force goes.
+TEST_F(GuardianOfProcess, ItsDeathIsAFault) {
+  setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
+  start("force_dimension", "unplug");  // pushes until there is a fault
+  ASSERT_TRUE(comes([&] { return drd->force[2] == 1; })) << said();
+  std::ifstream children("/proc/" + std::to_string(client()) + "/task/" + std::to_string(client()) + "/children");
+  pid_t guardian = 0;
+  for (pid_t child = 0; children >> child;) {
+    std::string name;
+    std::ifstream("/proc/" + std::to_string(child) + "/comm") >> name;
+    if (name.starts_with("palpate-guard")) guardian = child;
+  }
+  ASSERT_GT(guardian, 0);
+  kill(guardian, SIGKILL);
+  EXPECT_TRUE(comes([&] { return drd->force[2] == 0; }));
+  EXPECT_TRUE(comes([&] { return said().find("its guardian is gone") != std::string::npos; })) << said();
 }
 
 TEST_F(GuardianOfProcess, SaysOfAHaplyWhetherTheServiceTookTheForceAway) {

@@ -20,10 +20,11 @@ constexpr int enough = GuardianWatch::looks_until_stopped;
 
 TEST(GuardianWatch, AForceIsLeftAloneForTwoTenthsOfASecond) {
   EXPECT_EQ(GuardianWatch::look_every_ms * GuardianWatch::looks_until_stopped, 200);
+  EXPECT_LE(GuardianWatch::look_every_ms, 100) << "it lives for its session to see 10 times a second";
 }
 
-/// From the last look at which the session had gone on: enough looks, and then as many again, and so on.
-TEST(GuardianWatch, TellsOfAForceThatIsKeptAndAgainWhileItIsKept) {
+/// From the last look at which the session had gone on.
+TEST(GuardianWatch, SaysThatAForceIsKeptForAsLongAsItIsKept) {
   for (const int exchanges : {1, 2, 1000}) {
     WatchedSession session;
     for (int n = 0; n < exchanges; ++n) {
@@ -31,7 +32,7 @@ TEST(GuardianWatch, TellsOfAForceThatIsKeptAndAgainWhileItIsKept) {
       EXPECT_FALSE(session.watch.stopped()) << "it goes on";
     }
     for (int look = 1; look <= 5 * enough; ++look) {
-      EXPECT_EQ(session.watch.stopped(), look % enough == 0) << look;
+      EXPECT_EQ(session.watch.stopped(), look >= enough) << look;
       EXPECT_EQ(session.watch.stopped_just_now(), look == enough) << look;
     }
   }

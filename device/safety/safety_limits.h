@@ -30,6 +30,7 @@ inline constexpr double pose_age_s = 0.010;        ///< without a new pose for s
 inline constexpr double link_force_age_s = 0.020;  ///< a written force that is not renewed counts as zero in the link
 inline constexpr double stall_s = 0.100;           ///< a fault if a force, pose or tick is later
 inline constexpr double refusal_s = 0.050;         ///< a fault if a device refuses every force for so long
+inline constexpr double guardian_s = 0.5;          ///< a fault if the guardian shows no sign of life for so long
 inline constexpr double heartbeat_s = 2.0;         ///< a fault if the controlling thread is silent for so long
 
 }  // namespace ceiling

@@ -1,7 +1,7 @@
 // A session's part of the tests that go through the real libraries: opens a device as palpate does, pushes, ends.
 //   device_client KIND SCENARIO [FILE]
 // KIND: falcon (FILE: firmware), wooden_haptics (FILE: settings), space_mouse, haply, touch, force_dimension.
-// SCENARIO: run | unplug | sigint | sigterm | sigkill | sigstop | denied.
+// SCENARIO: run | unplug | replug | replug_close | sigint | sigterm | sigkill | sigstop | denied.
 
 #include <csignal>
 #include <cstdio>
@@ -14,6 +14,7 @@
 #include "device/device_type.h"
 #include "device/falcon/falcon.h"
 #include "device/found_devices.h"
+#include "device/link/link_stylus.h"
 #include "device/link/realtime.h"
 #include "device/space_mouse/space_mouse.h"
 #include "device/wooden_haptics/wooden_haptics.h"
@@ -76,15 +77,21 @@ int play(Stylus& stylus, const std::string& scenario) {
   const double pushing = scenario == "run" ? 1 : 0.5;  // s
   const Run run = push(stylus, pushing, scenario.starts_with("sig") ? 5 : 1);
   std::printf("client: %d new poses in %.2f s, state %s\n", run.fresh, run.seconds, name_of(stylus.state()));
-  if (scenario == "unplug") {
+  std::fflush(stdout);
+  const bool is_replugged = scenario.starts_with("replug");
+  if (scenario == "unplug" || is_replugged) {
     tick(stylus, Vec3(0, 1, 0), 10, State::fault);
     failures += expect(stylus.state() == State::fault, "unplugged is a fault");
+    if (const auto* link = dynamic_cast<const LinkStylus*>(&stylus)) {
+      std::printf("client: %s: %s\n", name_of(link->fault()), link->trouble().c_str());
+    }
   } else {
     failures += expect(run.fresh > 40 * pushing, "more than 40 poses a second, also on a busy machine");
     failures += expect(stylus.state() == State::idle, "still there");
   }
   std::fflush(stdout);
   if (failures > 0) return failures;
+  if (scenario == "replug") tick(stylus, Vec3(0, 1, 0), 4, State::disconnected);
   if (scenario == "sigint") std::raise(SIGINT);
   if (scenario == "sigterm") std::raise(SIGTERM);
   if (scenario == "sigkill") std::raise(SIGKILL);

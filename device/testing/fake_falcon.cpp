@@ -72,6 +72,14 @@ void FakeFalcon::control(std::uint8_t request, std::uint16_t value, double now) 
   last_in_ = std::max(last_in_, now - latency_);
 }
 
+void FakeFalcon::lose_usb() {
+  baud_ = baud_9600;
+  latency_ = 0.016;
+  dtr_ = false;
+  to_host_.clear();
+  command_bytes_.clear();
+}
+
 void FakeFalcon::write(std::span<const std::uint8_t> bytes, double now) {
   if (faults.silent) return;
   for (const std::uint8_t byte : bytes) {

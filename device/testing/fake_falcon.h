@@ -46,6 +46,9 @@ class FakeFalcon {
   void write(std::span<const std::uint8_t> bytes, double now);
   std::optional<std::size_t> read(std::span<std::uint8_t> packet, double now);
 
+  /// Unplugged: its serial chip, which lives on the bus's power, forgets how it was set. The arms have their own power.
+  void lose_usb();
+
   FakeFalconFaults faults;
 
   // What the arms feel. A real Falcon's own watchdog is not known: this one holds its last command for ever.

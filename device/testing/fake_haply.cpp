@@ -1,7 +1,10 @@
 #include "device/testing/fake_haply.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 
 namespace palpate::device {
@@ -12,6 +15,19 @@ using Json = nlohmann::json;
 
 Json vector(const Vec3& v) {
   return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
+}
+
+std::string vector_text(const Vec3& v) {
+  std::array<char, 120> text{};
+  char* at = text.data();
+  const auto add = [&](const char* key, double value) {
+    at = std::copy_n(key, std::strlen(key), at);
+    at = std::isfinite(value) ? std::to_chars(at, text.data() + text.size(), value).ptr : std::copy_n("null", 4, at);
+  };
+  add(R"({"x":)", v.x);
+  add(R"(,"y":)", v.y);
+  add(R"(,"z":)", v.z);
+  return std::string(text.data(), at) + "}";
 }
 
 /// A quarter turn about the service's z; its second button is down.
@@ -53,15 +69,20 @@ std::string FakeHaply::inventory() const {
   return Json{{"session_id", 7}, {"inverse3", list}, {"wireless_verse_grip", grips(has_grip)}}.dump();
 }
 
+// Not through a tree of JSON: a session asks a thousand times a second.
 std::string FakeHaply::state(double now) const {
-  Json list = Json::array();
+  static const std::string with_grip = grips(true).dump();
+  std::string text = R"({"inverse3":[)";
   if (!loses_device && !ids.empty()) {
-    list.push_back({{"device_id", ids.front()},
-                    {"state", {{"cursor_position", vector(place)}, {"current_cursor_force", vector(acting(now))}}},
-                    {"status", {{"calibrated", calibrated}, {"ready", ready}}}});
-    if (!tells_status) list.back().erase("status");
+    text += R"({"device_id":")" + ids.front() + R"(","state":{"cursor_position":)" + vector_text(place) +
+            R"(,"current_cursor_force":)" + vector_text(acting(now)) + "}";
+    const auto word = [](bool holds) { return holds ? "true" : "false"; };
+    if (tells_status) {
+      text += std::string(R"(,"status":{"calibrated":)") + word(calibrated) + R"(,"ready":)" + word(ready) + "}";
+    }
+    text += "}";
   }
-  return Json{{"inverse3", list}, {"wireless_verse_grip", grips(has_grip)}}.dump();
+  return text + R"(],"wireless_verse_grip":)" + (has_grip ? with_grip : "[]") + "}";
 }
 
 std::string FakeHaply::answer(int session, const std::string& text, double now) {
@@ -102,7 +123,8 @@ bool FakeHaplyLink::send(std::span<const std::uint8_t> packet) noexcept {
   if (service_.gone) return false;
   // A service that says nothing may still hear.
   const std::string said = service_.answer(session_, {packet.begin(), packet.end()}, service_.time);
-  service_.to_client.emplace_back(service_.time + service_.delay, said);
+  constexpr double at_least = 50e-6;  // s: an answer in no time would let no time go by
+  service_.to_client.emplace_back(service_.time + std::max(service_.delay, at_least), said);
   return true;
 }
 

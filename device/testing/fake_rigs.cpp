@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 
 #include "device/falcon/falcon_driver.h"
-#include "device/falcon/falcon_protocol.h"
 #include "device/force_dimension/force_dimension_driver.h"
 #include "device/haply/haply_driver.h"
 #include "device/simulated/simulated_stylus.h"
@@ -32,10 +32,17 @@ double asleep() noexcept {
   return asleep_s;
 }
 
-LinkStylusOptions in_this_thread() {
+/// What the next rig's stylus starts.
+std::shared_ptr<FakeGuardian> next_guard;
+
+LinkStylusOptions in_this_thread(bool guarded = true) {
   LinkStylusOptions options;
   options.threaded = false;
   options.asleep = &asleep;
+  options.guardian_patience = 0;
+  options.start_guardian = [guard = next_guard, guarded](const GuardianSettings&) {
+    return guarded ? guard->start() : nullptr;
+  };
   return options;
 }
 
@@ -64,9 +71,12 @@ FakeRig falcon(const std::vector<Waypoint>& path) {
   rig.fling = [bench](const Vec3& velocity) { bench->falcon.hand().fling(velocity); };
   rig.guardian = [bench] {
     FakeFalconLink link(*bench);
-    link.send(encode(FalconCommand{}));
+    zero_falcon(link);
   };
-  rig.unplug = [bench] { bench->unplugged = true; };
+  rig.unplug = [bench] {
+    bench->unplugged = true;
+    bench->falcon.lose_usb();
+  };
   rig.replug = [bench] { bench->unplugged = false; };
   rig.silence = [faults] { faults->silent = true; };
   rig.shorten = [faults] { faults->most_payload = 3; };
@@ -109,7 +119,7 @@ FakeRig space_mouse(const std::vector<Waypoint>& /*path*/) {
   auto puck = std::make_shared<FakeSpaceMouse>(true);
   puck->deflect(Vec3(0, 0, 100));  // down, slowly
   std::shared_ptr<LinkStylus> stylus = make_space_mouse_on(
-      {}, [puck, bench] { return std::make_unique<FakeHidLink>(*puck, *bench); }, in_this_thread());
+      {}, [puck, bench] { return std::make_unique<FakeHidLink>(*puck, *bench); }, in_this_thread(false));
   FakeRig rig;
   rig.stylus = stylus;
   rig.now = [bench] { return bench->time; };
@@ -148,6 +158,7 @@ struct Held {
 FakeRig haply(const std::vector<Waypoint>& path, const char* type) {
   auto service = std::make_shared<FakeHaply>();
   service->type = type;
+  service->delay = 0.8e-3;  // an exchange in a millisecond, as over a socket
   auto held = std::make_shared<Held>(path);
   std::shared_ptr<LinkStylus> stylus = make_haply_on(
       {}, [service] { return std::make_unique<FakeHaplyLink>(*service); }, in_this_thread());
@@ -182,6 +193,7 @@ FakeRig haply(const std::vector<Waypoint>& path, const char* type) {
   rig.garble = [service] { service->garbles_every = 2; };
   rig.impossible = [held] { held->is_elsewhere = true; };
   rig.delay = [service](double delay) { service->delay = delay; };
+  rig.foreign = [service] { service->others_force = Vec3(0, 0, 1.5); };
   rig.unhome = [service] { service->ready = false; };
   return rig;
 }
@@ -197,6 +209,15 @@ double impatient_now() noexcept {
 }
 void library_sleep(double seconds) noexcept {
   library_time += seconds;
+}
+
+/// Of a driver whose library calls back, a thousand times a second.
+void (*library_round)() = nullptr;
+void sleep_in_rounds(double seconds) noexcept {
+  for (double passed = 0; passed < seconds; passed += 1e-3) {
+    library_time += 1e-3;
+    library_round();
+  }
 }
 
 template <typename Function>
@@ -216,8 +237,9 @@ FakeRig touch(const std::vector<Waypoint>& path) {
   const auto by_hand = function_of<void (*)(bool)>(file, "fake_hd_by_hand");
   by_hand(true);
   library_time = 0;
+  library_round = call;
   const std::shared_ptr<void> by_itself(nullptr, [by_hand](void*) { by_hand(false); });
-  std::shared_ptr<LinkStylus> stylus = make_touch_with({}, in_this_thread(), {&impatient_now, &library_sleep});
+  std::shared_ptr<LinkStylus> stylus = make_touch_with({}, in_this_thread(), {&impatient_now, &sleep_in_rounds});
   auto held = std::make_shared<Held>(path);
   FakeRig rig;
   rig.stylus = stylus;
@@ -288,10 +310,20 @@ FakeRig force_dimension(const std::vector<Waypoint>& path) {
   rig.replug = [drd] { drd->unplugged = 0; };
   rig.impossible = [held] { held->is_elsewhere = true; };
   rig.unhome = [drd] { drd->homed = 0; };
+  rig.refuse = [drd] { std::strcpy(drd->failing_call, "dhdSetForceAndTorqueAndGripperForce"); };
   return rig;
 }
 
 }  // namespace
+
+std::unique_ptr<Guardian> FakeGuardian::start() {
+  beat.count = 0;
+  beat.on_device = OnDevice::zero_taken;
+  beat.sleep_is_near = false;
+  beat.proof = proves ? proof_for(beat.challenge) : 0;
+  beat.reach = GuardianReach::at_any_time;
+  return std::make_unique<Guardian>(0, -1, &beat);
+}
 
 void put_rigs_to_sleep(double seconds) {
   asleep_s += seconds;
@@ -322,7 +354,19 @@ FakeRig make_rig(const std::string& kind, const std::vector<Waypoint>& path) {
     if (kind == "force_dimension") return force_dimension(path);
     throw std::runtime_error("there is no rig " + kind);
   };
+  next_guard = std::make_shared<FakeGuardian>();
   FakeRig rig = make();
+  if (rig.guardian) {
+    rig.guard = next_guard;
+    rig.exchange = [guard = next_guard, exchange = rig.exchange] {
+      if (guard->lives) ++guard->beat.lives;
+      exchange();
+    };
+    rig.pass = [guard = next_guard, pass = rig.pass](double seconds) {
+      if (guard->lives) ++guard->beat.lives;
+      pass(seconds);
+    };
+  }
   rig.type = find_device_type(kind == "minverse" ? "haply" : kind);
   return rig;
 }

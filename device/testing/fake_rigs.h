@@ -10,10 +10,20 @@
 #include <vector>
 
 #include "device/device_type.h"
+#include "device/safety/guardian.h"
 #include "device/simulated/hand_path.h"
 #include "device/stylus.h"
 
 namespace palpate::device {
+
+/// A guardian that lives in this process, and lives while time goes by.
+struct FakeGuardian {
+  GuardianBeat beat;
+  bool lives = true, proves = true;
+
+  /// For LinkStylusOptions::start_guardian.
+  std::unique_ptr<Guardian> start();
+};
 
 /// A function that is empty is a fault that this device cannot have.
 struct FakeRig {
@@ -25,11 +35,12 @@ struct FakeRig {
   std::function<Vec3()> force;                      ///< N on the stylus, device frame: what the device does now
   std::function<void(const Vec3&)> fling;           ///< the hand goes on at this velocity, m/s
   std::function<void()> guardian;                   ///< what the guardian's process does to a session that stands still
+  std::shared_ptr<FakeGuardian> guard;              ///< null: a kind without one
   std::function<int()> torques = [] { return 0; };  ///< commands of a torque that came
 
   bool guardian_looks_on = false;  ///< the guardian cannot take a force of another client away
 
-  std::function<void()> unplug, replug, silence, shorten, halve, garble, impossible, unhome, refuse;
+  std::function<void()> unplug, replug, silence, shorten, halve, garble, impossible, unhome, refuse, foreign;
   std::function<void(double)> delay;  ///< s on top of every answer
 
   bool is_arithmetic() const { return type->find == nullptr; }

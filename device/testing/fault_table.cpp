@@ -52,7 +52,9 @@ class FaultSession {
   }
   void run(double seconds) {
     for (const double end = rig.now() + seconds; rig.now() < end;) {
+      const double before = rig.now();
       program_lives ? rig.exchange() : rig.pass(tick_s);
+      if (rig.now() == before) rig.pass(tick_s);  // one that is closed takes no time
       if (program_lives && servo_runs && rig.now() >= next_tick_) tick();
       observe();
     }
@@ -68,6 +70,18 @@ class FaultSession {
       rig.pass(tick_s);
       observe();
     }
+  }
+  /// Opened again with a guardian that is none: no force is ever given.
+  bool is_refused() {
+    rig.stylus->close();
+    rig.guard->proves = false;
+    begin();
+    try {
+      rig.stylus->open();
+    } catch (const std::exception&) {
+      return true;
+    }
+    throw std::logic_error("a guardian that proves nothing is taken for one");
   }
   FaultRow finish() {
     row.left_n = glm::length(rig.force());
@@ -176,6 +190,22 @@ std::vector<FaultEvent> fault_events() {
          s.stand_still(0.5, guardian_s);
          return true;
        }},
+      {"plugged in again after 61 s", EndedBy::guardian, 0, 1,
+       [](S& s) {
+         if (!s.rig.replug) return false;
+         s.rig.unplug();
+         s.run(1);
+         s.rig.pass(60);
+         s.rig.replug();
+         s.begin();
+         s.stand_still(0.5, guardian_s);
+         return true;
+       }},
+      {"its guardian dies", EndedBy::program, ceiling::guardian_s, 1,
+       [](S& s) { return s.rig.guard && !(s.rig.guard->lives = false); }},
+      {"its guardian proves nothing", EndedBy::program, 0, 0.5, [](S& s) { return s.rig.guard && s.is_refused(); }},
+      {"the machine is about to sleep", EndedBy::program, 0, 0.5,
+       [](S& s) { return s.rig.guard && (s.rig.guard->beat.sleep_is_near = true); }},
       {"silent", EndedBy::device, 0, 1, [](S& s) { return apply(s.rig.silence); }},
       {"short or split packets", EndedBy::nobody, 0, 0.5, [](S& s) { return apply(s.rig.shorten); }},
       {"half messages", EndedBy::program, 0.5, 1, [](S& s) { return apply(s.rig.halve); }},
@@ -186,6 +216,13 @@ std::vector<FaultEvent> fault_events() {
       {"answers 10 ms late", EndedBy::program, 0.5, 1.5, [](S& s) { return apply_delay(s, 0.01); }},
       {"answers 100 ms late", EndedBy::program, 0.15, 1.7, [](S& s) { return apply_delay(s, 0.1); }},
       {"answers 1000 ms late", EndedBy::program, 2, 3.5, [](S& s) { return apply_delay(s, 1); }},
+      // Its force adds to ours until that is noticed, and stays.
+      {"another program pushes with 1.5 N", EndedBy::device, 0, 1,
+       [](S& s) {
+         s.row.allowed_n = s.row.before_n + 1.5;
+         s.row.allowed_step_n = s.row.before_n;  // ours falls to zero, and the other's stays
+         return apply(s.rig.foreign);
+       }},
       {"refuses forces", EndedBy::device, 0, 1, [](S& s) { return apply(s.rig.refuse); }},
       {"NaN from above", EndedBy::program, 0, 0.5,
        [](S& s) {
@@ -266,7 +303,7 @@ std::vector<FaultRow> fault_table(const std::string& kind) {
     row.seen_after_s = event.seen_after_s;
     // Motors and kinematics round; a Falcon's model and its fake's differ by as much.
     row.allowed_n = std::max(row.allowed_n, row.before_n) * 1.02;
-    row.allowed_step_n = ceiling::slew_n_per_s * ceiling::slew_time_s * 1.02;
+    row.allowed_step_n = std::max(row.allowed_step_n, ceiling::slew_n_per_s * ceiling::slew_time_s) * 1.02;
     if (row.ended_by == EndedBy::device) row.zero_taken_s.reset();
     rows.push_back(row);
   }

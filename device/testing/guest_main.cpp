@@ -55,12 +55,14 @@ std::vector<Case> cases(bool with_udev) {
     all.push_back(one(Mount::uhid, "space_mouse", name));
     all.back().scenario.newer_puck = true;
   }
-  for (const char* name : {"run", "unplug", "sigint", "sigterm", "sigkill"}) {
+  for (const char* name : {"run", "unplug", "sigint", "sigterm", "sigkill", "sigstop", "replug", "replug_close"}) {
     all.push_back(one(Mount::usbip, "falcon", name));
     all.push_back(one(Mount::uhid, "wooden_haptics", name));
   }
   all.push_back(one(Mount::usbip, "wooden_haptics", "run"));
-  all.push_back(one(Mount::usbip, "wooden_haptics", "unplug"));
+  for (const char* name : {"unplug", "replug", "replug_close"}) {
+    all.push_back(one(Mount::usbip, "wooden_haptics", name));
+  }
   for (const char* kind : {"falcon", "wooden_haptics", "space_mouse"}) {
     all.push_back(one(Mount::usbip, kind, "denied"));
     all.back().scenario.user = a_user;
@@ -94,6 +96,8 @@ int number_in(const std::string& file) {
 /// The node by which the client will have the device; empty: there is none yet.
 std::string node_of(const Scenario& scenario) {
   std::string node = hidraw;
+  // While a session still holds the node of before, the arm gets the next one.
+  if (!std::filesystem::exists(node)) node = "/dev/hidraw1";
   if (scenario.kind == "falcon") {
     const std::string device = "/sys/bus/usb/devices/1-1";
     if (!std::filesystem::exists(device + ":1.0")) return {};
@@ -112,7 +116,9 @@ bool is_in_plugdev(const std::string& node) {
 
 template <typename MountType>
 bool holds(const Case& one, const std::string& client) {
-  Play play(one.scenario);
+  Scenario scenario = one.scenario;
+  scenario.is_plugged_in = [&] { return !node_of(one.scenario).empty(); };
+  Play play(scenario);
   std::string node;
   bool held = false;
   {

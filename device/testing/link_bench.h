@@ -77,6 +77,14 @@ inline Specification pushing() {
   return specification;
 }
 
+/// Another program that counts as a guardian: the test proves for it.
+inline std::unique_ptr<Guardian> proved(std::unique_ptr<Guardian> guardian) {
+  auto& shared = const_cast<GuardianBeat&>(guardian->shared());
+  shared.reach = GuardianReach::at_any_time;
+  shared.proof = proof_for(shared.challenge);
+  return guardian;
+}
+
 /// Exchanges are the test's own.
 inline std::unique_ptr<LinkStylus> unthreaded(LinkBench& bench, LinkStylusOptions options = {}) {
   options.threaded = false;

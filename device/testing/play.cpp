@@ -22,7 +22,9 @@ namespace palpate::device {
 
 namespace {
 
-const Vec3 asked_force(0, 1, 0);  // N: what the client asks for
+constexpr double longest_while_stopped = 0.3;  // s
+constexpr double longest_after_replug = 0.3;   // s from the node to the zero
+const Vec3 asked_force(0, 1, 0);               // N: what the client asks for
 
 std::string firmware() {
   std::string image(1500, 0);
@@ -51,7 +53,7 @@ int wait_for_guardian() {
   return guardian;
 }
 
-int run_client(const Scenario& scenario, const std::string& client, const std::string& file) {
+pid_t start_client(const Scenario& scenario, const std::string& client, const std::string& file) {
   const pid_t pid = fork();
   if (pid == 0) {
     if (scenario.user >= 0) {
@@ -62,7 +64,13 @@ int run_client(const Scenario& scenario, const std::string& client, const std::s
     execl(client.c_str(), client.c_str(), scenario.kind.c_str(), scenario.name.c_str(), file.c_str(), nullptr);
     _exit(127);
   }
-  return pid < 0 ? 127 : wait_for(pid);
+  return pid;
+}
+
+/// Until the client is stopped. False where it has ended.
+bool wait_for_stop(pid_t pid) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(pid), &info, WSTOPPED | WEXITED | WNOWAIT) == 0 && info.si_code == CLD_STOPPED;
 }
 
 /// Those that this process has; its clients' guardians become its own.
@@ -113,8 +121,14 @@ void Play::touch(double now) noexcept {
   if (first_touch_ < 0) first_touch_ = now;
 }
 
+void Play::lose_usb() noexcept {
+  if (falcon) falcon->lose_usb();
+}
+
 bool Play::unplugged(double now) const noexcept {
-  return scenario_.name == "unplug" && first_touch_ >= 0 && now - first_touch_ > scenario_.unplug_after;
+  const double since = now - first_touch_ - scenario_.unplug_after;
+  if (first_touch_ < 0 || since <= 0) return false;
+  return scenario_.name == "unplug" || (is_replugged() && since < scenario_.replug_after);
 }
 
 Play::Outcome Play::look() {
@@ -125,7 +139,10 @@ Play::Outcome Play::look() {
             loaded_anew ? "" : "firmware uploaded " + std::to_string(falcon->uploads()) + " times"};
   }
   if (const auto* arm = dynamic_cast<const FakeWoodenHaptics*>(hid.get())) {
-    Outcome outcome{arm->is_pushing(monotonic_time()), arm->reports(), arm->strongest_force(), ""};
+    // Its own watchdog ends a force that is not renewed: after a replug what counts is what it was told.
+    const bool pushes =
+        is_replugged() ? arm->milliamperes() != std::array<int, 3>{} : arm->is_pushing(monotonic_time());
+    Outcome outcome{pushes, arm->reports(), arm->strongest_force(), ""};
     // A guardian cannot know the length and sends them all.
     if (scenario_.name == "run" && arm->odd_outputs() != 0) {
       outcome.complaint = std::to_string(arm->odd_outputs()) + " outputs of another length";
@@ -136,18 +153,51 @@ Play::Outcome Play::look() {
   return {false, puck == nullptr ? 0 : puck->reports(), Vec3(0), ""};
 }
 
+double Play::wait_for_zero(double since, double patience) {
+  while (look().pushing && monotonic_time() - since < patience) {
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+  return monotonic_time() - since;
+}
+
+/// s from when the system has a node of it again.
+double Play::zero_after_replug() {
+  const auto is_out = [&] {
+    const std::lock_guard lock(mutex);
+    return unplugged(monotonic_time());
+  };
+  const auto wait_while = [](const std::function<bool()>& holds) {
+    for (int ms = 0; holds() && ms < 20000; ++ms) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  wait_while([&] { return !is_out(); });
+  const bool kept_force = look().pushing;
+  wait_while(is_out);
+  const double plugged_in = monotonic_time();
+  wait_while([&] { return !scenario_.is_plugged_in(); });
+  const double has_node = monotonic_time();
+  const double after = wait_for_zero(has_node, 3);
+  std::printf("fake %s: force %s when it was unplugged; node %.0f ms after the plug, zero %.0f ms after the node\n",
+              scenario_.kind.c_str(), kept_force ? "kept" : "GONE", 1e3 * (has_node - plugged_in), 1e3 * after);
+  return after;
+}
+
 int Play::run(const std::string& client) {
   // A guardian that outlives its session becomes a child of this process.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const int code = run_client(scenario_, client, file_);
+  const pid_t pid = start_client(scenario_, client, file_);
+  const double zeroed_after = is_replugged() ? zero_after_replug() : 0;
+  bool stopped_too_long = false;
+  if (scenario_.name == "sigstop" && wait_for_stop(pid)) {
+    const double after = wait_for_zero(monotonic_time(), 1);
+    stopped_too_long = after > longest_while_stopped;
+    std::printf("fake %s: zero %.1f ms after the client was stopped\n", scenario_.kind.c_str(), after * 1e3);
+    kill(pid, SIGKILL);
+  }
+  const int code = pid < 0 ? 127 : wait_for(pid);
   const double ended = monotonic_time();
   const bool should_die = scenario_.name.starts_with("sig");
+  const double zero_after = wait_for_zero(ended, should_die ? scenario_.zero_within : 0);
   Outcome outcome = look();
-  while (outcome.pushing && should_die && monotonic_time() - ended < scenario_.zero_within) {
-    std::this_thread::sleep_for(std::chrono::microseconds(500));
-    outcome = look();
-  }
-  const double zero_after = monotonic_time() - ended;
   // One whose device was unplugged waits for it to come back: as it should, but not here.
   if (scenario_.name == "unplug" && scenario_.kind != "space_mouse") end_children();
   const int guardian = wait_for_guardian();
@@ -155,12 +205,13 @@ int Play::run(const std::string& client) {
   // An unplugged device is its own watchdog's affair; nobody can tell one what may not be opened anything at all.
   const bool was_opened = scenario_.name != "denied";
   const bool ended_well = should_die ? code > 128 : code == 0;
-  if (guardian != (should_die ? 0 : -1)) {
+  if (guardian != (should_die || is_replugged() ? 0 : -1)) {
     outcome.complaint += " its guardian was left behind, or ended with " + std::to_string(guardian);
   }
   if (was_opened && scenario_.kind != "space_mouse" && glm::distance(outcome.strongest, asked_force) > 0.1) {
     outcome.complaint += " the strongest force was not the one asked for";
   }
+  if (stopped_too_long || zeroed_after > longest_after_replug) outcome.complaint += " its zero came too late";
   if (was_opened && outcome.packets == 0) outcome.complaint += " it was never asked for anything";
   std::printf("fake %s, %s: %llu packets, strongest force %.3f N, client ended with %d, %s", scenario_.kind.c_str(),
               scenario_.name.c_str(), outcome.packets, glm::length(outcome.strongest), code,

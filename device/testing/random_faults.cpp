@@ -58,7 +58,7 @@ class RandomSession {
     const auto cause = [](const std::function<void()>& fault) {
       if (fault) fault();
     };
-    switch (random_() % 18) {
+    switch (random_() % 20) {
       case 0:
         return event("the servo pauses"), pause_servo();
       case 1:
@@ -93,6 +93,13 @@ class RandomSession {
         return event("no number"), static_cast<void>(asked_ = Vec3(0, chance() < 0.2 ? 0.0 / 0.0 : 1, 0));
       case 15:
         return event("the clock jumps"), rig_.pass(0.4 * chance());
+      case 16:
+        guard_died_ = rig_.now();
+        rig_.guard->lives = false;
+        return event("its guardian dies");
+      case 17:
+        rig_.guard->beat.sleep_is_near = true;
+        return event("the machine is about to sleep");
       default:
         clear_fault(state_);
         arm(state_);
@@ -117,6 +124,7 @@ class RandomSession {
   void reopen() {
     try {
       rig_.stylus->close();
+      rig_.guard->lives = true;
       rig_.stylus->open();
       clear_fault(state_);
       latched_n_ = -1;
@@ -185,6 +193,10 @@ class RandomSession {
     if (latched_n_ >= 0 && rig_.now() - latched_at_ > 0.004 && length > grown) {
       say_broken("a force that grows after a fault", length, grown);
     }
+    const bool is_unguarded = !rig_.guard->lives && rig_.now() - guard_died_ > ceiling::guardian_s + 0.1;
+    const bool is_seen = link_->state() != State::disconnected && link_->fault() != LinkFault::unplugged &&
+                         link_->fault() != LinkFault::silent && link_->on_device() == OnDevice::pushing;
+    if (is_unguarded && is_seen && length > 0) say_broken("a force without a guardian", length, 0);
     const bool claims_zero = link_ != nullptr && link_->on_device() == OnDevice::zero_taken;
     if (claims_zero && length > 0) say_broken("a force where a zero counts as taken", length, 0);
     last_force_ = force;
@@ -200,6 +212,7 @@ class RandomSession {
   GuardianWatch watch_{&beat_};
   Vec3 asked_{0, 2.5, 0}, last_force_{0};
   bool servo_runs_ = true, panel_lives_ = true;
+  double guard_died_ = 0;
   double next_tick_ = 0, panel_time_ = 0, event_time_ = 0;
   double latched_n_ = -1, latched_at_ = 0;
   const char* event_ = "none";

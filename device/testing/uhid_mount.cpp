@@ -16,6 +16,7 @@
 #include <system_error>
 #include <thread>
 
+#include "device/link/driver_clock.h"
 #include "device/link/realtime.h"
 
 namespace palpate::device {
@@ -37,6 +38,7 @@ struct UhidMount::Parts {
     event.type = UHID_CREATE2;
     uhid_create2_req& request = event.u.create2;
     std::strncpy(reinterpret_cast<char*>(request.name), identity.name.c_str(), sizeof request.name - 1);
+    std::strncpy(reinterpret_cast<char*>(request.phys), "usb-fake-1/input0", sizeof request.phys - 1);
     std::copy(identity.report_descriptor.begin(), identity.report_descriptor.end(), request.rd_data);
     request.rd_size = static_cast<__u16>(identity.report_descriptor.size());
     request.bus = BUS_USB;
@@ -88,13 +90,24 @@ struct UhidMount::Parts {
     uhid_event event{};
     event.type = UHID_DESTROY;
     tell(event);
+    opened = false;
+  }
+
+  /// Until it is unplugged for good.
+  void serve_all() {
+    serve();
+    while (!stop && play.is_replugged()) {
+      while (!stop && unplugged()) sleep_seconds(1e-3);
+      create();
+      serve();
+    }
   }
 };
 
 UhidMount::UhidMount(Play& play) : parts_(std::make_unique<Parts>(play)) {
   parts_->node = open("/dev/uhid", O_RDWR | O_CLOEXEC);
   if (parts_->node < 0 || !parts_->create()) throw std::system_error(errno, std::generic_category(), "/dev/uhid");
-  parts_->thread = std::thread([this] { parts_->serve(); });
+  parts_->thread = std::thread([this] { parts_->serve_all(); });
 }
 
 UhidMount::~UhidMount() {

@@ -16,6 +16,7 @@
 #include <system_error>
 #include <thread>
 
+#include "device/link/driver_clock.h"
 #include "device/link/realtime.h"
 #include "device/testing/fake_usb.h"
 
@@ -142,6 +143,48 @@ struct UsbipMount::Parts {
     return play.unplugged(monotonic_time());
   }
 
+  void attach() {
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+      throw std::system_error(errno, std::generic_category(), "socketpair");
+    }
+    socket = ends[0];
+    constexpr unsigned device_number = 1U << 16 | 2U;
+    try {
+      write_to("attach", std::to_string(port) + " " + std::to_string(ends[1]) + " " + std::to_string(device_number) +
+                             " " + std::to_string(full_speed));
+    } catch (const std::system_error&) {
+      for (const int end : ends) close(end);
+      throw;
+    }
+    close(ends[1]);  // the kernel holds it by now
+  }
+
+  /// Until it is unplugged for good.
+  void serve_all() {
+    serve();
+    while (!stop && play.is_replugged()) {
+      {
+        const std::lock_guard lock(play.mutex);
+        play.lose_usb();
+      }
+      reads.clear();
+      close(socket);
+      socket = -1;
+      while (!stop && unplugged()) sleep_seconds(1e-3);
+      // The kernel lets go of the former one when it gets to it.
+      while (!stop && socket < 0) {
+        try {
+          attach();
+        } catch (const std::system_error&) {
+          socket = -1;
+          sleep_seconds(5e-3);
+        }
+      }
+      serve();
+    }
+  }
+
   void serve() {
     while (!stop && !unplugged()) {
       pollfd waiting{socket, POLLIN, 0};
@@ -156,16 +199,8 @@ struct UsbipMount::Parts {
 };
 
 UsbipMount::UsbipMount(Play& play) : parts_(std::make_unique<Parts>(play)) {
-  std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    throw std::system_error(errno, std::generic_category(), "socketpair");
-  }
-  parts_->socket = ends[0];
-  constexpr unsigned device_number = 1U << 16 | 2U;
-  write_to("attach", std::to_string(port) + " " + std::to_string(ends[1]) + " " + std::to_string(device_number) + " " +
-                         std::to_string(full_speed));
-  close(ends[1]);  // the kernel holds it by now
-  parts_->thread = std::thread([this] { parts_->serve(); });
+  parts_->attach();
+  parts_->thread = std::thread([this] { parts_->serve_all(); });
 }
 
 UsbipMount::~UsbipMount() {

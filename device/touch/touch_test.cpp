@@ -1,6 +1,5 @@
 #include "device/touch/touch.h"
 
-#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,69 +13,13 @@
 
 #include "device/device_type.h"
 #include "device/link/realtime.h"
-#include "device/testing/fake_libhd.h"
 #include "device/testing/test_files.h"
-#include "device/touch/touch_driver.h"
+#include "device/testing/touch_fixture.h"
 
 namespace palpate::device {
 namespace {
 
-template <typename Function>
-Function function_of_library(const char* name) {
-  return reinterpret_cast<Function>(dlsym(dlopen(PALPATE_FAKE_LIBHD, RTLD_NOW | RTLD_NODELETE), name));
-}
-
-/// The scheduler's rounds come by hand, one a millisecond of a clock that only they move.
-class Touch : public ::testing::Test {
- protected:
-  Touch() {
-    setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
-    hd = function_of_library<FakeHd* (*)()>("fake_hd")();
-    *hd = FakeHd{};
-    function_of_library<void (*)(bool)>("fake_hd_by_hand")(true);
-  }
-  ~Touch() override {
-    function_of_library<void (*)(bool)>("fake_hd_by_hand")(false);
-    unsetenv("PALPATE_LIBHD");
-  }
-
-  static void pass(double seconds) noexcept {
-    static const auto round = function_of_library<void (*)()>("fake_hd_call");
-    for (long rounds = std::lround(1e3 * seconds); rounds > 0; --rounds) {
-      time += 1e-3;
-      round();
-    }
-  }
-  /// Of a stylus that waits for samples while no round comes: its patience ends all the same.
-  static double impatient_now() noexcept { return time += 1e-4; }
-  static std::unique_ptr<LinkStylus> unthreaded(const TouchSettings& settings = {}) {
-    LinkStylusOptions options;
-    options.threaded = false;
-    return make_touch_with(settings, options, {&impatient_now, &pass});
-  }
-  /// Exchanges as long as something does not hold, at most two seconds.
-  static bool comes(LinkStylus& stylus, const Vec3& force, const std::function<bool()>& holds) {
-    for (int i = 0; i < 2000 && !holds(); ++i) {
-      stylus.write_force(force);
-      pass(1e-3);
-      stylus.service(0);
-    }
-    return holds();
-  }
-  Vec3 acting() const { return {hd->force[0], hd->force[1], hd->force[2]}; }
-  static void expect_refusal(const std::function<void()>& open, const std::string& why) {
-    try {
-      open();
-      FAIL() << "not refused: " << why;
-    } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), ::testing::HasSubstr("3D Systems Touch"));
-      EXPECT_THAT(error.what(), ::testing::HasSubstr(why));
-    }
-  }
-
-  FakeHd* hd = nullptr;
-  inline static double time = 0;  // s
-};
+class Touch : public TouchFixture {};
 
 TEST_F(Touch, PosesAreInMetresAndForcesArriveWithTheirSigns) {
   hd->place_mm[0] = 10;
@@ -121,90 +64,6 @@ TEST_F(Touch, WhatTheLibraryDoesNotTellIsTheModels) {
   weak->open();
   EXPECT_DOUBLE_EQ(weak->specification().maximum_force, 2);
   EXPECT_DOUBLE_EQ(weak->specification().continuous_force, 2);
-}
-
-TEST_F(Touch, PushesNothingBeforeItIsCalibrated) {
-  hd->calibration = hd->after_update = 0x5002;  // by hand: the inkwell
-  const auto stylus = unthreaded();
-  stylus->open();
-  EXPECT_FALSE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() != Vec3(0); }));
-  EXPECT_EQ(stylus->state(), State::homing);
-  hd->calibration = 0x5000;
-  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
-  EXPECT_EQ(stylus->state(), State::idle);
-}
-
-TEST_F(Touch, CalibratesItselfWhereItCan) {
-  hd->calibration = 0x5001;
-  const auto stylus = unthreaded();
-  stylus->open();
-  EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; }));
-}
-
-/// Its home would move under the hand.
-TEST_F(Touch, IsNotCalibratedAnewOnceItPushed) {
-  for (const int styles : {1, 4, 1 | 4}) {
-    *hd = FakeHd{};
-    hd->styles = styles;
-    const auto stylus = unthreaded();
-    stylus->open();
-    ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
-    hd->calibration = 0x5001;
-    EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->state() == State::fault; }));
-    EXPECT_EQ(stylus->fault(), LinkFault::unhomed);
-    EXPECT_EQ(hd->calibration, 0x5001U);
-    EXPECT_EQ(acting(), Vec3(0));
-  }
-}
-
-/// An automatic calibration gathers figures as the arm moves, and says so: no fault, and nothing is taken over as long
-/// as it pushes.
-TEST_F(Touch, AnAutomaticCalibrationRefinesItselfWhileNothingPushes) {
-  hd->styles = 2 | 4;
-  const auto stylus = unthreaded();
-  stylus->open();
-  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
-  hd->calibration = 0x5001;
-  EXPECT_FALSE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->state() != State::idle || hd->updates > 0; }));
-  EXPECT_EQ(acting(), Vec3(0, 1, 0)) << "it goes on as it was";
-  EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return hd->updates == 1; }));
-  EXPECT_EQ(hd->update_force, 0) << "N, that acted meanwhile";
-  EXPECT_EQ(hd->style, 2U);
-  EXPECT_EQ(stylus->fault(), LinkFault::none);
-  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
-  hd->calibration = 0x5002;
-  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->fault() == LinkFault::unhomed; })) << "that is lost";
-}
-
-/// One style of those that the device has: automatic before inkwell before a reset of its encoders.
-TEST_F(Touch, IsCalibratedByOneStyle) {
-  for (int styles = 1; styles < 8; ++styles) {
-    *hd = FakeHd{};
-    hd->styles = styles;
-    hd->calibration = 0x5001;
-    const auto stylus = unthreaded({.may_reset_encoders = true});
-    stylus->open();
-    EXPECT_TRUE(comes(*stylus, Vec3(0), [&] { return stylus->state() == State::idle; })) << styles;
-    EXPECT_EQ(hd->style, (styles & 2) != 0 ? 2U : (styles & 4) != 0 ? 4U : 1U) << styles;
-    EXPECT_EQ(hd->updates, 1) << styles;
-  }
-}
-
-/// A reset takes any place of the arm for its zero: nobody's arm is reset before it was allowed.
-TEST_F(Touch, ItsEncodersAreResetOnlyWhenTheyMay) {
-  hd->styles = 1;
-  hd->calibration = 0x5002;
-  expect_refusal([] { unthreaded()->open(); },
-                 "3D Systems Touch: this model takes the position in which it is reset for its zero; put its links at "
-                 "right angles, then allow it in its settings file: may_reset_encoders, true");
-  EXPECT_EQ(hd->updates, 0);
-  EXPECT_EQ(hd->disabled, 1);
-  unthreaded({.may_reset_encoders = true})->open();
-  EXPECT_EQ(hd->updates, 1);
-  EXPECT_EQ(hd->style, 1U);
-  EXPECT_EQ(hd->running, 0) << "before its servo loop runs; the stylus of this line is gone";
-  unthreaded()->open();
-  EXPECT_EQ(hd->updates, 1) << "it has its zero";
 }
 
 /// Whatever call it is that fails: its reason is said, and nothing stays initialized, so that it can be opened again.
@@ -320,7 +179,7 @@ TEST_F(Touch, EveryErrorEndsAsItShould) {
 }
 
 TEST_F(Touch, IsCalledBackByTheLibrarysOwnThread) {
-  function_of_library<void (*)(bool)>("fake_hd_by_hand")(false);
+  function_of_libhd<void (*)(bool)>("fake_hd_by_hand")(false);
   hd->place_mm[0] = 10;
   const auto stylus = make_touch({.guarded = false});
   stylus->open();
@@ -411,7 +270,7 @@ TEST_F(Touch, ADriverThatIsDroppedLetsGoOfItsDevice) {
 /// The guardian's five zeros come from the library's own thread. They take as long as they take, and no longer than a
 /// tenth of a second where none arrives; nothing stays scheduled.
 TEST_F(Touch, TheGuardiansZerosTakeNoLongerThanTheyMust) {
-  function_of_library<void (*)(bool)>("fake_hd_by_hand")(false);
+  function_of_libhd<void (*)(bool)>("fake_hd_by_hand")(false);
   for (const bool arrives : {true, false}) {
     *hd = FakeHd{};
     hd->force[1] = 1;
@@ -432,7 +291,7 @@ TEST_F(Touch, TheGuardiansZerosTakeNoLongerThanTheyMust) {
 /// The guardian comes when something went wrong: a warning on the stack keeps no zero from the device, and a device
 /// that it could not open is left as it was found, so that the next try is as good as the first.
 TEST_F(Touch, TheGuardiansZerosAreSentInSpiteOfWarnings) {
-  function_of_library<void (*)(bool)>("fake_hd_by_hand")(false);
+  function_of_libhd<void (*)(bool)>("fake_hd_by_hand")(false);
   for (const unsigned warning : {0x200U, 0x201U, 0x202U, 0x203U, 0x204U}) {
     *hd = FakeHd{};
     hd->force[1] = 1;

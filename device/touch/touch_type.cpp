@@ -24,6 +24,11 @@ bool send_zeros(const std::string& address, bool /*take_away*/) {
   return send_zeros_to_touch(address);
 }
 
+/// The library stays loaded.
+GuardianMeans prepare_zeros(const std::string& /*address*/) {
+  return find_touch().empty() ? GuardianMeans{} : GuardianMeans{GuardianReach::once_free, 0.1};
+}
+
 }  // namespace
 
 extern const DeviceType touch_type;
@@ -41,6 +46,7 @@ const DeviceType touch_type{
     .find = &find_touch,
     .make = &make,
     .send_zeros = &send_zeros,
+    .prepare_zeros = &prepare_zeros,
 };
 
 }  // namespace palpate::device

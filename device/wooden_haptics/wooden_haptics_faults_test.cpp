@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -19,6 +20,8 @@
 #include <vector>
 
 #include "device/device_type.h"
+#include "device/link/hid.h"
+#include "device/testing/fake_hidapi.h"
 #include "device/testing/test_files.h"
 #include "device/testing/wooden_haptics_bench.h"
 
@@ -208,12 +211,40 @@ TEST(WoodenHapticsDriver, AnArmThatWasRefusedLeavesNothingBehind) {
 TEST(WoodenHapticsDriver, TheGuardiansZerosHaveTheLengthOfEachFirmware) {
   const auto send_zeros = find_device_type("wooden_haptics")->send_zeros;
   const TestFiles files;
-  const std::string node = files.write("node", "");
+  FakeHidApi hid;
+  const auto arm_at = [](const std::string& path) { return FakeHidNode{0x1234, 6, 0xffab, 0x200, path, L"arm"}; };
+  const std::string node = files.write("node", ""), other = files.write("other", "");
+  hid.nodes = {arm_at(node), arm_at("/dev/full"), {0x1234, 6, 1, 4, other, L"a gamepad of the same ids"}};
   EXPECT_TRUE(send_zeros(node, false));
   std::ifstream stream(node, std::ios::binary);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), std::string(15 + 9 + 65, '\0'));
   EXPECT_FALSE(send_zeros("/dev/full", false)) << "it takes nothing";
   EXPECT_FALSE(send_zeros("/absent", false));
+  EXPECT_FALSE(send_zeros(other, false)) << "no arm";
+  EXPECT_EQ(std::filesystem::file_size(other), 0U);
+}
+
+/// One that another session drives is left to it; from one that is stopped it is taken.
+TEST(WoodenHapticsDriver, ASessionHoldsItsArmAlone) {
+  const auto send_zeros = find_device_type("wooden_haptics")->send_zeros;
+  const TestFiles files;
+  FakeHidApi hid;
+  const std::string node = files.write("node", "");
+  hid.nodes = {{0x1234, 6, 0xffab, 0x200, node, L"arm"}};
+  {
+    const auto first = open_hid("wooden_haptics", node);
+    try {
+      open_hid("wooden_haptics", node);
+      ADD_FAILURE() << "a second session drives it";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), "WoodenHaptics at " + node + ": another program drives it; close that one first");
+    }
+    EXPECT_FALSE(send_zeros(node, false));
+    EXPECT_EQ(std::filesystem::file_size(node), 0U);
+    EXPECT_TRUE(send_zeros(node, true));
+  }
+  EXPECT_TRUE(send_zeros(node, false));
+  EXPECT_NE(open_hid("wooden_haptics", node), nullptr);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -21,16 +23,41 @@ std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
   return make_with_settings(choice, &read_wooden_haptics, &make_wooden_haptics);
 }
 
-/// Straight to the hidraw node, which several may hold at once: a report number and zeros, in each of the lengths that
-/// firmwares read, since which one this arm has is not known here.
-bool send_zeros(const std::string& address, bool /*take_away*/) {
-  const int node = open(address.c_str(), O_WRONLY | O_CLOEXEC);
+/// Of the guardian's arm; empty: not known.
+std::string guarded_arm;
+
+/// Straight to the hidraw node: a report number and zeros, in each of the lengths that firmwares read, since which one
+/// this arm has is not known here. Not into what another session drives, unless that one is stopped.
+bool write_zeros(const std::string& path, bool take_away) {
+  const int node = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (node < 0) return false;
   constexpr std::array<std::uint8_t, 65> zeros{};
   int taken = 0;
-  for (const std::size_t length : {15, 9, 65}) taken += write(node, zeros.data(), length) > 0 ? 1 : 0;
+  if (take_away || flock(node, LOCK_EX | LOCK_NB) == 0) {
+    for (const std::size_t length : {15, 9, 65}) taken += write(node, zeros.data(), length) > 0 ? 1 : 0;
+  }
   close(node);
   return taken > 0;
+}
+
+/// An arm that was plugged in again has another node, and what lies at the former one may be anything.
+bool send_zeros(const std::string& address, bool take_away) {
+  if (!guarded_arm.empty() && hid_identity(address) == guarded_arm) return write_zeros(address, take_away);
+  const std::vector<FoundDevice> arms = find();
+  const auto meant = [&](const FoundDevice& arm) {
+    return guarded_arm.empty() ? arm.address == address : hid_identity(arm.address) == guarded_arm;
+  };
+  const auto arm = std::find_if(arms.begin(), arms.end(), meant);
+  return arm != arms.end() && write_zeros(arm->address, take_away);
+}
+
+GuardianMeans prepare_zeros(const std::string& address) {
+  const std::vector<FoundDevice> arms = find();
+  const bool may_be_reached = std::any_of(
+      arms.begin(), arms.end(), [&](const FoundDevice& arm) { return arm.accessible && arm.address == address; });
+  if (!may_be_reached) return {};
+  guarded_arm = hid_identity(address);
+  return {GuardianReach::at_any_time, 0.05};
 }
 
 }  // namespace
@@ -50,6 +77,7 @@ const DeviceType wooden_haptics_type{
     .find = &find,
     .make = &make,
     .send_zeros = &send_zeros,
+    .prepare_zeros = &prepare_zeros,
 };
 
 }  // namespace palpate::device

@@ -80,6 +80,9 @@ class LiveSession {
   bool is_connected() const noexcept { return servo_ != nullptr; }
   const device::Specification& specification() const noexcept { return specification_; }
 
+  /// What is wrong with the stylus, in a sentence; empty if nothing is (device::Stylus::trouble()).
+  Text trouble() const { return stylus_ ? stylus_->trouble() : Text(); }
+
   void feel() noexcept;     ///< the force comes up
   void release() noexcept;  ///< the force falls to zero, and stays there until feel()
   /// What feel(), release() or connect() asked for last. A cleared fault counts as release().

@@ -73,6 +73,7 @@ void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, 
   servo.stop();
   session.collect();
   if (const auto fault = keep_fault(session.fault_ticks(), run.stylus->specification().name)) tell(describe(*fault));
+  if (const Text trouble = run.stylus->trouble(); !trouble.empty()) tell(trouble);
   result.missed = servo.missed();
 }
 

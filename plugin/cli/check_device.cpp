@@ -102,9 +102,10 @@ void write_settings(const DeviceCheck& check, const std::string& file, const dev
   put("\nWritten: {}. Use it with --device-settings, or name it in the panel.\n", file);
 }
 
-void say_result(const device::AxisCheck& found) {
+void say_result(const device::AxisCheck& found, const device::Stylus& stylus) {
   if (found.fault != device::Fault::none) {
     put("\nThe force was taken away: {}. {}\n", device::name_of(found.fault), device::advice_for(found.fault));
+    if (const Text trouble = stylus.trouble(); !trouble.empty()) put("{}\n", trouble);
   }
   for (int axis = 0; axis < 3; ++axis) {
     const char* what = "not felt: nothing was changed; hold the stylus more loosely, or check its power";
@@ -137,6 +138,9 @@ void check_device(const DeviceCheck& check, device::Stylus& stylus, const std::f
     if (*answer != 'y') return;
   }
   stylus.open();
+  const device::Specification can = stylus.specification();
+  put("Without the program: {}.\n", can.watchdog.empty() ? std::string(type.watchdog) : can.watchdog);
+  if (!can.guardian.empty()) put("With it: {}.\n", can.guardian);
   const device::AxisCheck found = device::check_axes(
       stylus,
       {.ready =
@@ -146,7 +150,7 @@ void check_device(const DeviceCheck& check, device::Stylus& stylus, const std::f
       next_tick);
   const device::Specification specification = stylus.specification();
   stylus.close();
-  say_result(found);
+  say_result(found, stylus);
   if (found.ended || found.fault != device::Fault::none) {
     throw InputRefused(say("check-was-not-finished", std::string(type.name)));
   }

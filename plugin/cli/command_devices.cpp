@@ -63,6 +63,7 @@ void print_json(const std::vector<device::FoundDevice>& found, const device::Rea
       {"devices", list},
       {"kinds", kinds},
       {"guardian", device::guardian_program()},
+      {"guardian_leaves_group", device::guardian_can_leave_group()},
       {"last_fault", fault},
       {"realtime",
        {{"scheduled", realtime.scheduled}, {"memory_locked", realtime.memory_locked}, {"advice", realtime.advice}}}};
@@ -95,6 +96,9 @@ void print_text(const std::vector<device::FoundDevice>& found, const device::Rea
   put("\nReal time: {}\n", realtime.advice.empty() ? std::string("allowed") : std::string(realtime.advice));
   if (device::guardian_program().empty()) {
     std::puts("palpate-guardian was not found: after a crash only a device's own watchdog takes the force away.");
+  } else if (!device::guardian_can_leave_group()) {
+    std::puts(
+        "palpate-guardian stays in the session's control group: there is no systemd of this user to run it apart.");
   }
   if (const auto last = last_fault()) put("{}\n", describe(*last));
   std::puts("The drivers are tested against fakes of their protocols; they were never run on hardware.");

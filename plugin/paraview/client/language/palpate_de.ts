@@ -1572,6 +1572,10 @@
         <translation>das Drehmoment bleibt null</translation>
     </message>
     <message>
+        <source>its own watchdog: %1</source>
+        <translation>seine eigene Überwachung: %1</translation>
+    </message>
+    <message>
         <source>No guardian was found: if the program ends or hangs, only the device takes its force away (%1). Install palpate-guardian.</source>
         <translation>Kein Wächter gefunden: Wenn das Programm endet oder hängt, nimmt nur das Gerät seine Kraft weg (%1). palpate-guardian installieren.</translation>
     </message>

@@ -355,6 +355,7 @@ void SessionController::look() {
   look_.force_n = glm::length(vector_of(tick.sent_n));
   look_.missed = live_.missed();
   look_.homing = homing_;
+  look_.trouble = QString::fromStdString(live_.trouble());
   look_.orientation.reset();
   if (const auto turned = live_.orientation()) {
     look_.orientation = glm::normalize(glm::quat_cast(look_.workspace.rotation) * *turned);

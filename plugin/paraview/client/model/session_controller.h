@@ -47,6 +47,7 @@ struct SessionStatus {
 
   std::optional<glm::dquat> orientation;  ///< of the stylus in the patient, where it tells: its z along the handle
   QString homing;                         ///< how the stylus is homed
+  QString trouble;                        ///< what is wrong with it, and what to do; empty: nothing
 
   bool is_seen() const { return fresh && (connected || replayed); }
 };

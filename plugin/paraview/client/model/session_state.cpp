@@ -24,8 +24,11 @@ StateLine state_line_of(const SessionStatus& look) {
   }
   if (latched) {
     const auto device = static_cast<device::State>(look.tick.stylus_state);
-    return {SessionState::stopped, translated("Stopped: %1").arg(QString::fromStdString(device::advice_for(fault))),
-            true, device == device::State::fault || device == device::State::disconnected};
+    const bool lost = device == device::State::fault || device == device::State::disconnected;
+    const QString advice = QString::fromStdString(device::advice_for(fault));
+    // The stylus knows more than that it is lost.
+    return {SessionState::stopped,
+            translated("Stopped: %1").arg(lost && !look.trouble.isEmpty() ? look.trouble : advice), true, lost};
   }
   if (look.clutched) return {SessionState::ready, translated("Ready: clutched, move your hand or the view freely")};
   if (!look.fresh) return {SessionState::ready, translated("Ready: the stylus is starting")};

@@ -292,6 +292,7 @@ void StylusSection::show_own() {
       for (const Text& text : live.drawn_down()) lines << in_qt(text);
       if (stylus.orientation_axes > 0) lines << tr("torque stays zero");
     }
+    if (stylus.force_axes > 0) lines << without_program(stylus);
     lines << tested() << unguarded();
     lines.removeAll(QString());
   }
@@ -302,6 +303,16 @@ void StylusSection::show_own() {
 QString StylusSection::tested() const {
   const device::DeviceType* const type = chosen_type();
   return type != nullptr && type->find != nullptr ? in_qt(type->tested) : QString();
+}
+
+/// What takes the force away when the program cannot: the guardian, and the device itself.
+QStringList StylusSection::without_program(const device::Specification& stylus) const {
+  const device::DeviceType* const type = chosen_type();
+  if (type == nullptr || type->send_zeros == nullptr) return {};
+  const QString watchdog = stylus.watchdog.empty() ? in_qt(type->watchdog) : QString::fromStdString(stylus.watchdog);
+  QStringList lines{tr("its own watchdog: %1").arg(watchdog)};
+  if (!stylus.guardian.empty()) lines << QString::fromStdString(stylus.guardian);
+  return lines;
 }
 
 /// A session without a guardian says so for as long as it lasts.

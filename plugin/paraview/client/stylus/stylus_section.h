@@ -57,6 +57,7 @@ class StylusSection : public QWidget {
   void show_own();
   QString tested() const;
   QString unguarded() const;
+  QStringList without_program(const device::Specification& stylus) const;
   void show_scene();
   void show_look(const SessionStatus& look);
   void remap(const QString& what, const modes::WorkspaceSettings& settings);

@@ -1,0 +1,115 @@
+/// Every device that is opened is closed, however its connection ends.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "device/force_dimension/force_dimension.h"
+#include "device/testing/force_dimension_fixture.h"
+
+namespace palpate::device {
+namespace {
+
+class ForceDimensionClosing : public ForceDimensionFixture {};
+
+/// Whatever comes of it, each device that was opened is closed again, but for the one that is held.
+TEST_F(ForceDimensionClosing, OpensAndClosesInPairs) {
+  drd->devices = 3;  // 1234, 1235, 1236
+  const auto held = [&] { return drd->opened - drd->closed; };
+  for (const char* const serial : {"1234", "1235", "1236"}) {
+    auto driver = connected({.address = serial});
+    EXPECT_EQ(held(), 1) << serial;
+    driver->disconnect();
+    EXPECT_EQ(held(), 0);
+    driver->disconnect();
+    EXPECT_EQ(held(), 0) << "twice is once";
+  }
+  EXPECT_THAT(refusal([] { connected(); }), ::testing::HasSubstr("there are 3"));
+  EXPECT_THAT(refusal([] { connected({.address = "7"}); }), ::testing::HasSubstr("not found"));
+  EXPECT_EQ(held(), 0);
+  drd->homed = 0;
+  EXPECT_NE(refusal([] { connected({.address = "1235"}); }), "");
+  EXPECT_EQ(held(), 0);
+  const auto found = find_force_dimension();
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(held(), 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(found[i].kind, "force_dimension");
+    EXPECT_EQ(found[i].name, "omega.3");
+    EXPECT_EQ(found[i].address, std::to_string(1234 + i));
+    EXPECT_TRUE(found[i].accessible);
+    EXPECT_EQ(found[i].note, "it has no home yet: to find it the arm moves by itself");
+  }
+  drd->homed = 1;
+  EXPECT_EQ(find_force_dimension().at(0).note, "");
+  const int stopped = drd->stopped;
+  EXPECT_TRUE(stop_force_dimension("1236"));
+  EXPECT_EQ(drd->stopped, stopped + 1);
+  EXPECT_FALSE(stop_force_dimension("7"));
+  EXPECT_EQ(drd->stopped, stopped + 1);
+  EXPECT_TRUE(stop_force_dimension(""));
+  EXPECT_EQ(drd->stopped, stopped + 4);
+  EXPECT_EQ(held(), 0);
+}
+
+/// Whoever could not be connected to needs no disconnecting: it is stopped and closed, and can be tried again.
+TEST_F(ForceDimensionClosing, OneThatCannotBeBroughtUpIsStoppedAndClosed) {
+  const struct {
+    bool may_home;
+    int homed, homing_fails, failing;
+  } cases[] = {{false, 0, 0, 0}, {true, 0, 1, 0}, {false, 1, 0, 1}};
+  for (const auto& one : cases) {
+    *drd = FakeDrd{};
+    drd->homed = one.homed;
+    drd->homing_fails = one.homing_fails;
+    drd->failing = one.failing;
+    ForceDimensionDriver driver({.may_home = one.may_home}, {&now, &pass});
+    EXPECT_NE(refusal([&] { driver.connect(); }), "");
+    EXPECT_EQ(drd->opened, 1);
+    EXPECT_EQ(drd->stopped, 1);
+    EXPECT_EQ(drd->closed, 1);
+    EXPECT_EQ(drd->forces_on, 0);
+    drd->homed = 1;
+    drd->failing = 0;
+    driver.connect();
+    driver.disconnect();
+    EXPECT_EQ(drd->opened, 2);
+    EXPECT_EQ(drd->closed, 2);
+  }
+}
+
+/// Looking for devices opens them, which one that is held does not bear: it is told as it is.
+TEST_F(ForceDimensionClosing, OneThatIsHeldIsNotOpenedByASearch) {
+  auto driver = connected();
+  const int opened = drd->opened;
+  const auto found = find_force_dimension();
+  EXPECT_EQ(drd->opened, opened);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].note, "held by this session");
+  EXPECT_TRUE(found[0].accessible);
+  driver->disconnect();
+  EXPECT_EQ(find_force_dimension().at(0).note, "");
+}
+
+/// Connected anew: at rest, no fault, not lost; poses are counted on.
+TEST_F(ForceDimensionClosing, ConnectedAnewItKnowsNothingOfBefore) {
+  const auto driver = connected();
+  put({0.01, 0.02, 0.03});
+  drd->buttons = 3;
+  driver->take(1);
+  drd->failing = 1;
+  for (int n = 0; n < 20; ++n) driver->take(1);
+  ASSERT_TRUE(driver->lost());
+  drd->failing = 0;
+  driver->disconnect();
+  driver->connect();
+  EXPECT_FALSE(driver->lost());
+  EXPECT_EQ(driver->status().state, State::homing);
+  EXPECT_EQ(driver->status().fault, LinkFault::none);
+  EXPECT_EQ(driver->status().position, Vec3(0));
+  EXPECT_EQ(driver->status().buttons, 0U);
+  EXPECT_EQ(driver->status().news, 1U);
+}
+
+}  // namespace
+}  // namespace palpate::device
