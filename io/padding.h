@@ -13,6 +13,12 @@
 
 namespace palpate::io::internal {
 
+/// 1 for what is infinite or not a number, else 0.
+inline std::uint32_t is_infinite(float value) noexcept {
+  constexpr std::uint32_t exponent = 0x7f800000;  // all bits set
+  return static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(value) & exponent) == exponent);
+}
+
 /// Stored values from `low` to `high`, both ends included, and floats that are not finite.
 template <typename Stored>
 class StoredPadding {
@@ -31,13 +37,16 @@ class StoredPadding {
 
   /// Whether a voxel may be padding.
   bool possible() const noexcept { return std::is_floating_point_v<Stored> || low_ <= high_; }
+  /// Whether there is a range of them, beside what is not finite.
+  bool has_range() const noexcept { return low_ <= high_; }
+  Stored low() const noexcept { return low_; }
+  Stored high() const noexcept { return high_; }
   /// 1 for padding, 0 for a value; without branches, for the compiler to take many at once.
   std::uint32_t operator()(Stored stored) const noexcept {
     const std::uint32_t within =
         static_cast<std::uint32_t>(stored >= low_) & static_cast<std::uint32_t>(stored <= high_);
     if constexpr (std::is_floating_point_v<Stored>) {
-      constexpr std::uint32_t exponent = 0x7f800000;  // all bits set: infinite, or not a number
-      return within | static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(stored) & exponent) == exponent);
+      return within | is_infinite(stored);
     } else {
       return within;
     }

@@ -30,6 +30,7 @@ struct PhantomRequest {
   double uneven = 0;
   double noise = 0;
   double circle = 0;
+  bool untagged = false;
   std::vector<int> missing;
   std::vector<double> window;
   std::uint64_t seed = 1;
@@ -50,6 +51,9 @@ Phantom make_phantom(const PhantomRequest& request) {
   if (request.kind == "tube") {
     return make_tube(request.radius, Vec3(0, 0, 1));
   }
+  if (request.kind == "chest") {
+    return make_chest();
+  }
   return make_wedge(60);
 }
 
@@ -67,7 +71,8 @@ void write_phantom(const PhantomRequest& request) {
   acquisition.seed = request.seed;
   acquisition.slice_thickness = request.spacing[2];
   acquisition.circle_radius = request.circle;
-  const io::Volume volume = testdata::scan(make_phantom(request), testdata::make_geometry(grid), acquisition);
+  io::Volume volume = testdata::scan(make_phantom(request), testdata::make_geometry(grid), acquisition);
+  if (request.untagged) volume.padding.reset();
   testdata::SeriesLabel label{.description = "phantom: " + request.kind};
   if (!request.window.empty()) label.window = {request.window[0], request.window[1]};
   testdata::write_series(volume, request.folder, label);
@@ -84,9 +89,9 @@ void write_invesalius(const std::string& file, const std::string& folder) {
 
 void add_phantom(CLI::App& program, PhantomRequest& request) {
   CLI::App& command = *program.add_subcommand("phantom", "Write a phantom with known answers");
-  command.add_option("kind", request.kind, "slab, sphere, shell, tube or wedge")
+  command.add_option("kind", request.kind, "slab, sphere, shell, tube, wedge or chest")
       ->required()
-      ->check(CLI::IsMember({"slab", "sphere", "shell", "tube", "wedge"}));
+      ->check(CLI::IsMember({"slab", "sphere", "shell", "tube", "wedge", "chest"}));
   command.add_option("-o,--output", request.folder, "Folder to make")->required();
   command.add_option("--spacing", request.spacing, "mm between columns, rows, slices")->delimiter(',')->expected(3);
   command.add_option("--size", request.size, "Columns, rows, slices")->delimiter(',')->expected(3);
@@ -103,6 +108,7 @@ void add_phantom(CLI::App& program, PhantomRequest& request) {
   command.add_option("--noise", request.noise, "Standard deviation, HU")->check(CLI::NonNegativeNumber);
   command.add_option("--circle", request.circle, "mm: radius of the reconstruction circle; 0: none")
       ->check(CLI::NonNegativeNumber);
+  command.add_flag("--untagged", request.untagged, "Do not say what is padding: no PixelPaddingValue");
   command.add_option("--window", request.window, "Level and width that the series asks for, HU")
       ->delimiter(',')
       ->expected(2);

@@ -121,4 +121,18 @@ Phantom make_wedge(double angle_degrees, double first, double second, double bac
   return {first, {{HalfSpace{interface_normal, 0}, second}, {HalfSpace{Vec3(0, 0, -1), 0}, background}}};
 }
 
+Phantom make_chest() {
+  const Vec3 z(0, 0, 1), back(0, 1, 0);
+  return {air_hu,
+          {{HalfSpace{-back, -168}, table_hu},
+           {HalfSpace{-back, -180}, air_hu},
+           {Cylinder{Vec3(0), z, 160}, fat_hu},
+           {Cylinder{Vec3(0), z, 150}, soft_tissue_hu},
+           {Cylinder{Vec3(-75, -10, 0), z, 55}, lung_hu},
+           {Cylinder{Vec3(75, -10, 0), z, 55}, lung_hu},
+           {Ball{Vec3(15, -40, -40), 45}, soft_tissue_hu},
+           {Cylinder{Vec3(0, 30, 0), z, 9}, air_hu},
+           {Cylinder{Vec3(0, 100, 0), z, 18}, bone_hu / 2}}};
+}
+
 }  // namespace palpate::testdata

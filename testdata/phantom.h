@@ -51,4 +51,9 @@ Phantom make_tube(double radius, const Vec3& axis, double lumen = 300, double ba
 Phantom make_wedge(double angle_degrees, double first = soft_tissue_hu, double second = bone_hu,
                    double background = air_hu);
 
+/// A chest on a table, along z without end: a body of 160 mm radius about the z axis, its outer 10 mm fat, with two
+/// lungs, a trachea, a spine and a heart. The table is a plate of 12 mm, 8 mm behind the body.
+Phantom make_chest();
+inline constexpr double fat_hu = -90, lung_hu = -850, table_hu = 150;
+
 }  // namespace palpate::testdata

@@ -4,7 +4,30 @@
 #include <cmath>
 #include <type_traits>
 
+#include "io/padding.h"
+
 namespace palpate::io::internal {
+namespace {
+
+/// Whether a corner that has a weight is padding.
+template <typename Stored>
+bool weighs_padding(const Volume& volume, const std::vector<Stored>& voxels, const Cell& cell) noexcept {
+  if (!volume.padding && std::is_integral_v<Stored>) return false;
+  const StoredPadding<Stored> padding(volume);
+  const Stored* const first = voxels.data() + volume.offset(cell.first.x, cell.first.y, cell.first.z);
+  const std::size_t row = volume.offset(0, 1, 0), slice = volume.offset(0, 0, 1);
+  for (int k = 0; k < cell.size.z; ++k) {
+    for (int j = 0; j < cell.size.y; ++j) {
+      const Stored* const two = first + (k != 0 ? slice : 0) + (j != 0 ? row : 0);
+      for (int i = 0; i < cell.size.x; ++i) {
+        if (padding(two[i]) != 0 && cell.weight(i, j, k) > 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept {
   const Geometry& g = volume.geometry;
@@ -20,27 +43,12 @@ bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept {
   if (cell.fraction.z > 0 && cell.fraction.z < 1 && std::binary_search(g.gaps.begin(), g.gaps.end(), cell.first.z)) {
     return false;
   }
-  const bool may_be_float = std::holds_alternative<std::vector<float>>(volume.voxels);
-  if (!volume.padding && !may_be_float) {
-    return true;
-  }
-  for (int k = 0; k < cell.size.z; ++k) {
-    for (int j = 0; j < cell.size.y; ++j) {
-      for (int i = 0; i < cell.size.x; ++i) {
-        const glm::ivec3 v = cell.first + glm::ivec3(i, j, k);
-        if (cell.weight(i, j, k) > 0 &&
-            (volume.is_padding(v.x, v.y, v.z) || !std::isfinite(volume.value_at(v.x, v.y, v.z)))) {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
+  return std::visit([&](const auto& voxels) { return !weighs_padding(volume, voxels, cell); }, volume.voxels);
 }
 
 namespace {
 
-/// The sum over a cell of eight whole numbers, in the same order as below: what has no weight adds nothing.
+/// The sum over a cell of eight numbers, in the same order as below: what has no weight adds nothing.
 template <typename Stored>
 double sum_of_eight(const Stored* first, std::size_t row, std::size_t slice, const Cell& cell) noexcept {
   double sum = 0;
@@ -58,8 +66,11 @@ double sum_of_eight(const Stored* first, std::size_t row, std::size_t slice, con
 
 double trilinear_value(const Volume& volume, const Cell& cell) noexcept {
   const auto stored = [&](const auto& voxels) {
-    if constexpr (std::is_integral_v<typename std::decay_t<decltype(voxels)>::value_type>) {
-      if (cell.size == glm::ivec3(2)) {
+    // Of floats only where all have a weight: what has none may be no number.
+    const auto within = [](double fraction) { return fraction > 0 && fraction < 1; };
+    if (cell.size == glm::ivec3(2)) {
+      if (std::is_integral_v<typename std::decay_t<decltype(voxels)>::value_type> ||
+          (within(cell.fraction.x) && within(cell.fraction.y) && within(cell.fraction.z))) {
         return sum_of_eight(voxels.data() + volume.offset(cell.first.x, cell.first.y, cell.first.z),
                             volume.offset(0, 1, 0), volume.offset(0, 0, 1), cell);
       }

@@ -6,13 +6,17 @@
 #include <glm/matrix.hpp>
 #include <type_traits>
 
+#include "io/fields/padded_rows.h"
 #include "io/for_processor.h"
+#include "io/padding.h"
 
 namespace palpate::io::internal {
 namespace {
 
 using Weights = CentralDifferences::Weights;
 using Sides = CentralDifferences::Sides;
+
+constexpr int stretch = 32;  // voxels of a row that are decided at once, where it holds padding
 
 struct Differences {
   float i = 0, j = 0, up = 0, down = 0;
@@ -76,7 +80,8 @@ void run_row(const Rows<float>& rows, const Weights& weights, int count, glm::ve
 template <typename Stored>
 class AtVoxel {
  public:
-  AtVoxel(const Volume& volume, const std::vector<Stored>& voxels) : volume_(volume), voxels_(voxels.data()) {}
+  AtVoxel(const Volume& volume, const std::vector<Stored>& voxels)
+      : volume_(volume), voxels_(voxels.data()), padding_(volume) {}
 
   glm::vec3 operator()(const glm::ivec3& v, Sides slices, const std::array<Weights, 4>& weights) const noexcept {
     if (is_padding(v)) {
@@ -91,19 +96,12 @@ class AtVoxel {
     return {combined(w, d, 0), combined(w, d, 1), combined(w, d, 2)};
   }
   bool holds_padding(const glm::ivec3& first, int count) const noexcept {
-    const Stored* const row = voxels_ + volume_.offset(first.x, first.y, first.z);
-    return std::any_of(row, row + count, [this](Stored stored) { return is_padding(stored); });
+    return any_padding(voxels_ + volume_.offset(first.x, first.y, first.z), count, padding_);
   }
 
  private:
   float at(const glm::ivec3& v) const noexcept { return static_cast<float>(voxels_[volume_.offset(v.x, v.y, v.z)]); }
-  bool is_padding(Stored stored) const noexcept {
-    if constexpr (std::is_floating_point_v<Stored>) {
-      if (!std::isfinite(stored)) return true;
-    }
-    return volume_.padding && stored >= volume_.padding->first && stored <= volume_.padding->second;
-  }
-  bool is_padding(const glm::ivec3& v) const noexcept { return is_padding(voxels_[volume_.offset(v.x, v.y, v.z)]); }
+  bool is_padding(const glm::ivec3& v) const noexcept { return padding_(voxels_[volume_.offset(v.x, v.y, v.z)]) != 0; }
 
   float in_plane(const glm::ivec3& v, int axis) const noexcept {
     glm::ivec3 before = v;
@@ -118,6 +116,7 @@ class AtVoxel {
 
   const Volume& volume_;
   const Stored* voxels_;
+  StoredPadding<Stored> padding_;
 };
 
 /// Weights of the slices on both sides, where they are counted.
@@ -165,7 +164,7 @@ void CentralDifferences::run(const Volume& volume, const std::vector<Stored>& vo
                              const GradientTarget& target) const noexcept {
   const AtVoxel<Stored> at_voxel(volume, voxels);
   const glm::ivec3 size = volume.geometry.dimensions;
-  const bool may_be_padding = std::is_floating_point_v<Stored> || volume.padding;
+  const bool may_be_padding = StoredPadding<Stored>(volume).possible();
   const int first = std::clamp(1 - block.first.x, 0, block.size.x);
   const int last = std::clamp(size.x - 1 - block.first.x, first, block.size.x);
   for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
@@ -177,28 +176,32 @@ void CentralDifferences::run(const Volume& volume, const std::vector<Stored>& vo
       glm::vec3* const out = target.first + (k - block.first.z) * target.slice + (j - block.first.y) * target.row;
       const int before = std::max(j - 1, 0);
       const int after = std::min(j + 1, size.y - 1);
-      int plain_first = first;
-      int plain_last = last;
-      if (may_be_padding && first < last) {
-        const glm::ivec3 from(block.first.x + first, j, k);
-        const int count = last - first;
-        const bool any =
-            at_voxel.holds_padding(from - glm::ivec3(1, 0, 0), count + 2) ||
-            at_voxel.holds_padding({from.x, before, k}, count) || at_voxel.holds_padding({from.x, after, k}, count) ||
-            at_voxel.holds_padding({from.x, j, above_k}, count) || at_voxel.holds_padding({from.x, j, below_k}, count);
-        plain_last = any ? first : last;
-      }
-      for (int i = 0; i < block.size.x; ++i) {
-        if (i == plain_first && plain_first < plain_last) {
-          const auto row = [&](int y, int z) { return voxels.data() + volume.offset(block.first.x + i, y, z); };
-          const float share_j = before < j && j < after ? 0.5F : 1.0F;
-          run_row(Rows<Stored>{row(j, k), row(before, k), row(after, k), share_j, row(j, above_k), row(j, below_k)},
-                  weights[sides], plain_last - plain_first, out + i);
-          i = plain_last - 1;
-        } else {
-          out[i] = at_voxel({block.first.x + i, j, k}, sides, weights);
+      const auto one_by_one = [&](int from, int to) {
+        for (int i = from; i < to; ++i) out[i] = at_voxel({block.first.x + i, j, k}, sides, weights);
+      };
+      const auto together = [&](int from, int to) {
+        const auto row = [&](int y, int z) { return voxels.data() + volume.offset(block.first.x + from, y, z); };
+        const float share_j = before < j && j < after ? 0.5F : 1.0F;
+        run_row(Rows<Stored>{row(j, k), row(before, k), row(after, k), share_j, row(j, above_k), row(j, below_k)},
+                weights[sides], to - from, out + from);
+      };
+      const auto is_beside_padding = [&](int from, int to) {
+        const glm::ivec3 at(block.first.x + from, j, k);
+        const int count = to - from;
+        return at_voxel.holds_padding(at - glm::ivec3(1, 0, 0), count + 2) ||
+               at_voxel.holds_padding({at.x, before, k}, count) || at_voxel.holds_padding({at.x, after, k}, count) ||
+               at_voxel.holds_padding({at.x, j, above_k}, count) || at_voxel.holds_padding({at.x, j, below_k}, count);
+      };
+      one_by_one(0, first);
+      if (!may_be_padding || first == last || !is_beside_padding(first, last)) {
+        if (first < last) together(first, last);
+      } else {
+        for (int from = first; from < last; from += stretch) {
+          const int to = std::min(from + stretch, last);
+          is_beside_padding(from, to) ? one_by_one(from, to) : together(from, to);
         }
       }
+      one_by_one(last, block.size.x);
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "io/fields/fits.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 
 namespace palpate::io::internal {
@@ -31,7 +32,8 @@ bool same_kind(const std::vector<Contribution>& a, int slice_a, const std::vecto
   }
   for (std::size_t n = 0; n < a.size(); ++n) {
     if (a[n].slice - slice_a != b[n].slice - slice_b || a[n].weight != b[n].weight ||
-        a[n].offset[2] != b[n].offset[2] || a[n].paired != b[n].paired) {
+        !std::equal(a[n].offset, a[n].offset + 3, b[n].offset) || a[n].taps != b[n].taps ||
+        a[n].paired != b[n].paired) {
       return false;
     }
   }
@@ -67,9 +69,7 @@ Fits::Fits(const glm::ivec3& dimensions, const SliceKernel& kernel, double scale
     whole_sums_.push_back(sums);
     whole_.push_back(fit_plane(sums.data(), 1, scale_mm, to_patient));
   }
-  if (kernel.straight) {
-    add_edges(kernel);
-  }
+  add_edges(kernel);
 }
 
 void Fits::add_edges(const SliceKernel& kernel) {

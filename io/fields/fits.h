@@ -30,12 +30,12 @@ class Fits {
   /// The sums of its weights.
   const Sums& whole_sums(int k) const noexcept { return whole_sums_[static_cast<std::size_t>(k)]; }
 
-  /// Whether two straight slices have the same neighbors at the same distances, and so the same fits.
+  /// Whether two slices have the same neighbors at the same distances, and so the same fits.
   bool alike(int k, int other) const noexcept {
     return kind_of_slice_[static_cast<std::size_t>(k)] == kind_of_slice_[static_cast<std::size_t>(other)];
   }
 
-  /// Whether at() may be called: not where slices are tilted, or all spaced differently.
+  /// Whether at() may be called: not where slices are all spaced differently.
   bool knows_edges() const noexcept { return !edges_.empty(); }
   /// Of a voxel's neighborhood as the volume's edge cuts it off, where nothing in it is padding.
   const PlaneFit& at(int i, int j, int k) const noexcept {

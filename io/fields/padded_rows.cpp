@@ -1,6 +1,7 @@
 #include "io/fields/padded_rows.h"
 
 #include <bit>
+#include <type_traits>
 
 #include "io/for_processor.h"
 
@@ -26,6 +27,41 @@ template <typename Stored, typename Out, typename Of>
     out[n] = of(stored[n], is_padding);
   }
   return any != 0;
+}
+
+/// Whether any is padding where none is marked, or none where it is. In lanes no wider than what is stored, as twice as
+/// many are looked at at once then.
+template <typename Stored, typename Mark>
+[[gnu::always_inline]] inline bool any_differs(const Stored* __restrict stored, int count,
+                                               const StoredPadding<Stored>& padding, const Mark& mark) {
+  using Lane = std::conditional_t<std::is_floating_point_v<Stored>, std::uint32_t, std::uint16_t>;
+  const Stored low = padding.low(), high = padding.high();
+  Lane other = 0;
+  if (std::is_integral_v<Stored> || padding.has_range()) {
+    PALPATE_INDEPENDENT
+    for (int n = 0; n < count; ++n) {
+      auto is_padding = static_cast<Lane>(static_cast<Lane>(stored[n] >= low) & static_cast<Lane>(stored[n] <= high));
+      if constexpr (std::is_floating_point_v<Stored>) is_padding |= static_cast<Lane>(is_infinite(stored[n]));
+      other = static_cast<Lane>(other | (is_padding ^ static_cast<Lane>(mark(n))));
+    }
+  } else if constexpr (std::is_floating_point_v<Stored>) {
+    PALPATE_INDEPENDENT
+    for (int n = 0; n < count; ++n) other |= is_infinite(stored[n]) ^ static_cast<Lane>(mark(n));
+  }
+  return other != 0;
+}
+
+template <typename Stored>
+[[gnu::always_inline]] inline bool have_marks(const Stored* stored, int count, const StoredPadding<Stored>& padding,
+                                              const std::uint8_t* __restrict marks) {
+  return !any_differs(
+      stored, count, padding, [marks](int n) __attribute__((always_inline)) { return marks[n]; });
+}
+
+template <typename Stored>
+[[gnu::always_inline]] inline bool have_any(const Stored* stored, int count, const StoredPadding<Stored>& padding) {
+  return any_differs(
+      stored, count, padding, [](int) __attribute__((always_inline)) { return 0; });
 }
 
 /// By bits: 0 times what is not a number would not be 0.
@@ -96,6 +132,38 @@ bool mark_padding(const std::uint16_t* stored, int count, const StoredPadding<st
 PALPATE_FOR_PROCESSOR
 bool mark_padding(const float* stored, int count, const StoredPadding<float>& padding, std::uint8_t* marks) {
   return each_stored(stored, count, padding, marks, mark_of);
+}
+
+PALPATE_FOR_PROCESSOR
+bool has_marks(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding,
+               const std::uint8_t* marks) {
+  return have_marks(stored, count, padding, marks);
+}
+
+PALPATE_FOR_PROCESSOR
+bool has_marks(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding,
+               const std::uint8_t* marks) {
+  return have_marks(stored, count, padding, marks);
+}
+
+PALPATE_FOR_PROCESSOR
+bool has_marks(const float* stored, int count, const StoredPadding<float>& padding, const std::uint8_t* marks) {
+  return have_marks(stored, count, padding, marks);
+}
+
+PALPATE_FOR_PROCESSOR
+bool any_padding(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding) {
+  return have_any(stored, count, padding);
+}
+
+PALPATE_FOR_PROCESSOR
+bool any_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding) {
+  return have_any(stored, count, padding);
+}
+
+PALPATE_FOR_PROCESSOR
+bool any_padding(const float* stored, int count, const StoredPadding<float>& padding) {
+  return have_any(stored, count, padding);
 }
 
 }  // namespace palpate::io::internal

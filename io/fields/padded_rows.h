@@ -30,4 +30,16 @@ bool mark_padding(const std::uint16_t* stored, int count, const StoredPadding<st
                   std::uint8_t* marks);
 bool mark_padding(const float* stored, int count, const StoredPadding<float>& padding, std::uint8_t* marks);
 
+/// Whether there is any padding.
+bool any_padding(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding);
+bool any_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding);
+bool any_padding(const float* stored, int count, const StoredPadding<float>& padding);
+
+/// Whether mark_padding() would write just these marks.
+bool has_marks(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding,
+               const std::uint8_t* marks);
+bool has_marks(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding,
+               const std::uint8_t* marks);
+bool has_marks(const float* stored, int count, const StoredPadding<float>& padding, const std::uint8_t* marks);
+
 }  // namespace palpate::io::internal

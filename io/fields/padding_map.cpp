@@ -53,6 +53,15 @@ class MarkReader {
     return any;
   }
 
+  /// Whether it would write these marks, which are of the same row of another slice.
+  bool agrees(int slice, int j, int i, int count, const std::uint8_t* marks) const {
+    const glm::ivec3 size = volume_.geometry.dimensions;
+    const int first = std::clamp(-i, 0, count);
+    const int last = j < 0 || j >= size.y ? first : std::clamp(size.x - i, first, count);
+    return first == last || !padding_.possible() ||
+           has_marks(voxels_ + volume_.offset(i + first, j, slice), last - first, padding_, marks + first);
+  }
+
  private:
   const Volume& volume_;
   const Stored* voxels_;
@@ -102,22 +111,22 @@ void PaddingMap::read(const Volume& volume, const std::vector<Stored>& voxels) {
   const int rows = tile_.size.y + 2 * reach.y;
   // The last chunk may reach beyond the tile, where nothing counts.
   const auto width = static_cast<std::size_t>(chunks * chunk_width + 2 * reach.x);
-  std::vector<std::uint8_t> before(width * static_cast<std::size_t>(rows), neither), row(width, neither);
+  std::vector<std::uint8_t> marks(width * static_cast<std::size_t>(rows), neither);
   std::vector<Chunks> padding_of_row(static_cast<std::size_t>(rows)), values_of_row(padding_of_row.size());
   for (int n = 0; n < slices_; ++n) {
     bool alike = n > 0;
     for (int r = 0; r < rows; ++r) {
-      const bool any =
-          reader(first_slice_ + n, tile_.first.y + r - reach.y, tile_.first.x - reach.x, count, row.data());
-      std::uint8_t* const same_row = before.data() + width * static_cast<std::size_t>(r);
+      std::uint8_t* const row = marks.data() + width * static_cast<std::size_t>(r);
       const auto at_row = static_cast<std::size_t>(r);
-      if (n > 0 && std::memcmp(same_row, row.data(), width) == 0) continue;  // the row's chunks are as before
+      const int j = tile_.first.y + r - reach.y, i = tile_.first.x - reach.x;
+      if (n > 0 && reader.agrees(first_slice_ + n, j, i, count, row)) continue;  // the row's chunks are as before
       alike = false;
-      std::memcpy(same_row, row.data(), width);
+      const bool any = reader(first_slice_ + n, j, i, count, row);
+      met_padding_ = met_padding_ || any;
       padding_of_row[at_row] = 0;
       values_of_row[at_row] = ~Chunks{0};
       for (int c = 0; any && c < chunks; ++c) {
-        const Found found = look_at(row.data() + c * chunk_width, chunk_width + 2 * reach.x);
+        const Found found = look_at(row + c * chunk_width, chunk_width + 2 * reach.x);
         padding_of_row[at_row] |= found.padding ? Chunks{1} << c : 0;
         values_of_row[at_row] &= found.values ? ~Chunks{0} : ~(Chunks{1} << c);
       }

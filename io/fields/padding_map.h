@@ -31,7 +31,7 @@ void for_each_stretch(Chunks chunks, const Use& use) {
   }
 }
 
-/// Of a tile of straight slices. Where the fits at the volume's edge are not known, what lies beyond the volume counts
+/// Of a tile. Where the fits at the volume's edge are not known, what lies beyond the volume counts
 /// as padding.
 class PaddingMap {
  public:
@@ -40,6 +40,8 @@ class PaddingMap {
   /// Whether a tile of this volume can have such voxels at all.
   static bool is_needed(const Volume& volume, const Fits& fits);
 
+  /// Whether there is padding in the tile's reach at all.
+  bool met_padding() const noexcept { return met_padding_; }
   /// Whether there are such voxels.
   bool any() const noexcept { return any_; }
   /// Those of row j of slice k, both counted from the tile's first, with values in their neighborhoods as well: where
@@ -66,7 +68,7 @@ class PaddingMap {
   std::vector<bool> padded_as_before_;    // whether a slice has its padding where the one before has it
   std::vector<Chunks> beside_, needed_;
   std::vector<bool> as_before_;
-  bool any_ = false;
+  bool met_padding_ = false, any_ = false;
 };
 
 }  // namespace palpate::io::internal

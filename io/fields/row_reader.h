@@ -16,8 +16,13 @@ namespace palpate::io::internal {
 template <typename Stored>
 class RowReader {
  public:
-  RowReader(const Volume& volume, const std::vector<Stored>& voxels, bool mask)
-      : volume_(volume), voxels_(voxels.data()), padding_(volume), mask_(mask) {}
+  /// has_padding: false where it is known that what is read holds none.
+  RowReader(const Volume& volume, const std::vector<Stored>& voxels, bool mask, bool has_padding = true)
+      : volume_(volume),
+        voxels_(voxels.data()),
+        padding_(volume),
+        has_padding_(has_padding && padding_.possible()),
+        mask_(mask) {}
 
   void operator()(int slice, int j, int i, int count, float* row) const noexcept {
     const glm::ivec3 size = volume_.geometry.dimensions;
@@ -46,9 +51,13 @@ class RowReader {
   static constexpr int line = 64 / sizeof(Stored);  ///< voxels that the nearest cache reads at once
 
   void copy(const Stored* stored, int count, float* row) const noexcept {
-    if (!padding_.possible()) {
-      if constexpr (std::is_integral_v<Stored>) {
-        mask_ ? std::fill(row, row + count, 1.0F) : to_floats(stored, count, row);
+    if (!has_padding_) {
+      if (mask_) {
+        std::fill(row, row + count, 1.0F);
+      } else if constexpr (std::is_integral_v<Stored>) {
+        to_floats(stored, count, row);
+      } else {
+        std::copy(stored, stored + count, row);
       }
       return;
     }
@@ -60,7 +69,7 @@ class RowReader {
   const Volume& volume_;
   const Stored* voxels_;
   StoredPadding<Stored> padding_;
-  bool mask_;
+  bool has_padding_, mask_;
   mutable bool complete_ = true;
   mutable bool met_padding_ = false;
 };

@@ -1,6 +1,7 @@
 #include "io/fields/straight_block.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -72,9 +73,9 @@ class StraightBlock {
   static int whole_lanes(int count) { return (count + 7) / 8 * 8; }
 
   void run_tile(const GradientTarget& target) {
-    const RowReader<Stored> values(volume_, voxels_, false), weights(volume_, voxels_, true);
     known_fits_ = {-1, -1};
     find_padding();
+    const RowReader<Stored> values(volume_, voxels_, false, met_padding_), weights(volume_, voxels_, true);
     const glm::ivec3 inner = volume_.geometry.dimensions - kernel_.radius - tile_.size;
     complete_ = tile_.first.x >= kernel_.radius.x && tile_.first.x <= inner.x && tile_.first.y >= kernel_.radius.y &&
                 tile_.first.y <= inner.y;
@@ -100,7 +101,8 @@ class StraightBlock {
   void find_padding() {
     padding_.reset();
     if (!padded_fits_) return;
-    padding_.emplace(volume_, kernel_, fits_, tile_);
+    padding_ = std::make_unique<PaddingMap>(volume_, kernel_, fits_, tile_);
+    met_padding_ = padding_->met_padding();
     padding_->any() ? padded_fits_->start(tile_, *padding_) : padding_.reset();
   }
 
@@ -245,7 +247,8 @@ class StraightBlock {
   Lines sums_;
   Lines row_fits_;
   std::optional<PaddedFits> padded_fits_;  ///< where the volume can hold padding
-  std::optional<PaddingMap> padding_;      ///< where the tile does
+  std::unique_ptr<PaddingMap> padding_;    ///< where the tile does
+  bool met_padding_ = false;
   std::pair<int, int> known_fits_{-1, -1};
   int slice_ = 0;    ///< the first of those in hand
   int at_once_ = 1;  ///< how many these are

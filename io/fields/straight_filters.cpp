@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
+#include "io/fields/passes.h"
 #include "io/for_processor.h"
 
 // Offsets within a tile, far below what an int holds.
 // NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)
 namespace palpate::io::internal {
 namespace {
-
-// As many pairs in one pass as there may be registers for their weights, so that the sums stay in registers meanwhile;
-// the first pass starts them.
-constexpr int most_at_once = 8;
 
 template <int Count, bool First>
 [[gnu::always_inline]] inline void add_row_pairs(const float* __restrict in, float middle,
@@ -52,26 +49,6 @@ template <int Count, bool First>
     sums[i] = s0;
     sums[i + tile_width] = s1;
     sums[i + 2 * tile_width] = s2;
-  }
-}
-
-/// Calls run<Count>() with a count of most_at_once at most.
-template <int Most = most_at_once, typename Run>
-[[gnu::always_inline]] inline void with_count(int count, const Run& run) {
-  if constexpr (Most > 0) {
-    if (count < Most) return with_count<Most - 1>(count, run);
-  }
-  run.template operator()<Most>();
-}
-
-/// Calls pass<Count, First>(done) with the pairs that are done.
-template <typename Pass>
-[[gnu::always_inline]] inline void in_passes(int count, const Pass& pass) {
-  with_count(
-      count, [&]<int Count>() __attribute__((always_inline)) { pass.template operator()<Count, true>(0); });
-  for (int n = most_at_once; n < count; n += most_at_once) {
-    with_count(
-        count - n, [&]<int Count>() __attribute__((always_inline)) { pass.template operator()<Count, false>(n); });
   }
 }
 

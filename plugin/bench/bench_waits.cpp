@@ -27,6 +27,7 @@
 #include "solver/exact.h"
 #include "solver/testing/problems.h"
 #include "testdata/scan.h"
+#include "testdata/scan_shapes.h"
 
 namespace palpate::plugin {
 namespace {
@@ -36,6 +37,8 @@ struct WaitsArguments {
   std::string output;
   int rounds = 3;
   int largest = 512;
+  bool shapes = false;
+  int slices = 248;
 };
 
 /// MiB, from the kernel's account of this process: "VmRSS" or "VmHWM".
@@ -188,12 +191,49 @@ void tabulate_primitives(const std::filesystem::path& folder, Growth& growth) {
   table.save(folder, "primitives.csv");
 }
 
+/// Each shape of scan beside the plain one, in turn, on one thread.
+void tabulate_shapes(int slices, int rounds, const std::filesystem::path& folder) {
+  struct Work {
+    const char* name;
+    std::function<void(const std::shared_ptr<const io::Volume>&)> once;
+  };
+  const auto pass_over = [](const io::GradientKernel& kernel) {
+    kernel.for_each_block([](const io::Block&, std::span<const glm::vec3>) {}, {}, 1);
+  };
+  const std::vector<Work> works{{"gradient",
+                                 [&](const auto& v) {
+                                   pass_over({v, io::default_gradient_scale_mm(v->geometry)});
+                                 }},
+                                {"central differences",
+                                 [&](const auto& v) {
+                                   pass_over({v, io::GradientKernel::CentralDifferences{}});
+                                 }},
+                                {"suggest", [](const auto& v) { (void)modes::suggest(v, {}, 1); }}};
+  const std::shared_ptr<const io::Volume> plain = testdata::plain_chest({512, 512, slices});
+  CsvTable table("work,shape,plain_s,shape_s,ratio,peak_mib");
+  for (const testdata::ScanShape& shape : testdata::scan_shapes()) {
+    const std::shared_ptr<const io::Volume> volume = shape.from(*plain);
+    for (const Work& work : works) {
+      double peak_mib = 0;
+      const testdata::CostRatio cost = testdata::compare_costs(
+          rounds, [&] { work.once(plain); }, [&] { peak_mib = cost_of(1, [&] { work.once(volume); }).peak_mib; });
+      table.add(fmt::format("{},{},{:.3f},{:.3f},{:.2f},{:.0f}", work.name, shape.name, cost.plain_s, cost.shape_s,
+                            cost.ratio(), peak_mib));
+    }
+  }
+  table.save(folder, "shapes.csv");
+}
+
 void run(const WaitsArguments& arguments, const std::filesystem::path& folder) {
   fmt::print("On {} cores; seconds: best of {}; peak memory: beyond the scan's own.\n",
              std::thread::hardware_concurrency(), arguments.rounds);
   Growth sizes("Against size", "voxels (millions)", "seconds", of_voxels);
   Growth modes("Felt strength against modes", "modes", "seconds", {""});
   Growth primitives("Exact solve against primitives", "primitives", "us", {"median of 40", "largest"});
+  if (arguments.shapes) {
+    tabulate_shapes(arguments.slices, arguments.rounds, folder);
+    return;
+  }
   CsvTable table("work,scan,voxels,seconds,ns_a_voxel_and_core,peak_mib");
   if (!arguments.series.path.empty()) {
     const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
@@ -227,6 +267,12 @@ void add_bench_waits(CLI::App& bench) {
   command->add_option("--largest", arguments->largest, "voxels along an edge of the largest ball")
       ->capture_default_str()
       ->check(CLI::Range(64, 1024));
+  command->add_flag(
+      "--shapes", arguments->shapes,
+      "a CT of 512 x 512 as scanners send it (padding, tilt, floats and so on), each beside the plain one");
+  command->add_option("--slices", arguments->slices, "of the CT of --shapes")
+      ->capture_default_str()
+      ->check(CLI::Range(16, 1000));
   command->add_option("-o,--output", arguments->output, "also write CSV and a picture to this new or empty folder");
   command->callback([arguments] {
     io::write_all_or_none(arguments->output, [&](const std::filesystem::path& folder) { run(*arguments, folder); });

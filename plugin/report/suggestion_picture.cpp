@@ -7,9 +7,16 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "io/fields/gradient.h"
+#include "io/fields/volume_fields.h"
+#include "io/fields/voxel_fields.h"
+#include "modes/scene/felt_strength.h"
 #include "modes/scene/plan.h"
 #include "plugin/report/canvas.h"
 #include "plugin/session/scan.h"
@@ -40,12 +47,17 @@ struct Slice {
 constexpr std::array slices{Slice{"axial, from the feet", {1, 0, 0}, {0, 1, 0}},
                             Slice{"sagittal, from the left", {0, 1, 0}, {0, 0, -1}}};
 
-/// What a slice shows: the value in gray, and in color the boundary that is strongest there.
+/// What a slice shows: the value in gray, and in color the boundary that is strongest at the nearest voxel.
 class Painter {
  public:
   Painter(const modes::Suggestion& suggestion, const std::shared_ptr<const io::Volume>& volume)
       : suggestion_(suggestion),
-        felt_(prepare(suggestion.scene, volume, glm::dvec3(0.1))),
+        volume_(*volume),
+        plan_(plan_for(suggestion.scene, *volume, glm::dvec3(0.1))),
+        holding_(modes::holding_modes(*plan_)),
+        values_(volume, io::FieldSet::value, 0, {.value = io::ValueMethod::trilinear}),
+        kernel_(volume, io::default_gradient_scale_mm(volume->geometry)),
+        voxels_(*volume, suggestion.scene.sampling.value, kernel_.scale_mm()),
         box_(bounding_box(volume->geometry)) {
     const io::Bins& values = suggestion.edges.values;
     low_ = suggestion.typical.empty() ? values.low : std::ranges::min(suggestion.typical);
@@ -54,48 +66,106 @@ class Painter {
   }
 
   void paint(const Slice& slice, const Point& corner, Canvas& canvas) const {
-    const glm::dvec3 size = box_.high - box_.low;
-    const double extent = std::max({size.x, size.y, size.z});
     std::vector<Rgb> pixels(static_cast<std::size_t>(samples) * samples);
-    for (int row = 0; row < samples; ++row) {
-      for (int column = 0; column < samples; ++column) {
-        const glm::dvec2 at = (glm::dvec2(column, row) + 0.5) / static_cast<double>(samples) - 0.5;
-        const glm::dvec3 place = 0.5 * (box_.low + box_.high) + extent * (at.x * slice.right + at.y * slice.down);
-        pixels[static_cast<std::size_t>(row) * samples + static_cast<std::size_t>(column)] = pixel_at(place);
-      }
+    for (int row = 0; row < samples; row += tile_side) {
+      for (int column = 0; column < samples; column += tile_side) paint_tile(slice, {column, row}, pixels);
     }
     canvas.image(pixels, samples, samples, corner, {side, side});
     canvas.text(corner + Point{0, -8}, slice.name, 14);
   }
 
  private:
-  Rgb pixel_at(const glm::dvec3& place) const {
-    const io::Sample sample = felt_.source->sample(place, felt_.plan->fields | io::FieldSet::value);
-    if (!sample.inside) {
-      return {0, 0, 0};
+  static constexpr int tile_side = 20;
+  static_assert(samples % tile_side == 0);
+
+  struct Pixel {
+    std::size_t at = 0;
+    glm::ivec3 nearest{0};  ///< voxel
+    double gray = 0;
+  };
+
+  /// The pixels of a tile share the gradients of a block of voxels.
+  void paint_tile(const Slice& slice, const glm::ivec2& first, std::vector<Rgb>& pixels) const {
+    const std::vector<Pixel> inside = pixels_inside(slice, first);
+    if (inside.empty()) return;
+    glm::ivec3 low = inside.front().nearest, high = low;
+    for (const Pixel& pixel : inside) {
+      low = glm::min(low, pixel.nearest);
+      high = glm::max(high, pixel.nearest);
     }
-    const double gray = std::clamp((sample.value - low_) / (high_ - low_), 0.0, 1.0) * 0.75;
-    const modes::Mode* felt = nullptr;
-    double strongest = 0;
-    for (const modes::ActiveMode& mode : felt_.plan->modes) {
-      const double strength = mode.strength(sample);
-      if (mode.holds && strength > strongest) {
-        strongest = strength;
-        felt = &suggestion_.scene.modes[mode.scene_index];
+    const io::Block block{low, high - low + 1};
+    std::vector<glm::vec3> gradients(block.voxels());
+    kernel_.at_block(block, gradients);
+    for (const Pixel& pixel : inside) {
+      const glm::ivec3 v = pixel.nearest - low;
+      pixels[pixel.at] =
+          color_of(pixel, gradients[static_cast<std::size_t>((v.z * block.size.y + v.y) * block.size.x + v.x)]);
+    }
+  }
+
+  std::vector<Pixel> pixels_inside(const Slice& slice, const glm::ivec2& first) const {
+    std::vector<Pixel> inside;
+    const glm::dvec3 size = box_.high - box_.low;
+    const double extent = std::max({size.x, size.y, size.z});
+    for (int row = first.y; row < first.y + tile_side; ++row) {
+      for (int column = first.x; column < first.x + tile_side; ++column) {
+        const glm::dvec2 at = (glm::dvec2(column, row) + 0.5) / static_cast<double>(samples) - 0.5;
+        const glm::dvec3 place = 0.5 * (box_.low + box_.high) + extent * (at.x * slice.right + at.y * slice.down);
+        const io::Sample sample = values_.sample(place, io::FieldSet::value);
+        if (!sample.inside) continue;
+        inside.push_back({static_cast<std::size_t>(row) * samples + static_cast<std::size_t>(column),
+                          glm::ivec3(glm::round(volume_.geometry.to_index(place))),
+                          std::clamp((sample.value - low_) / (high_ - low_), 0.0, 1.0) * 0.75});
       }
     }
+    return inside;
+  }
+
+  Rgb color_of(const Pixel& pixel, const glm::vec3& gradient) const {
+    const auto [felt, strength] = strongest_at(pixel.nearest, gradient);
+    const double gray = pixel.gray;
     Color color{gray, gray, gray};
     if (felt != nullptr) {
       const Color own = color_of_hex(felt->color);
-      const double part = std::min(1.0, strongest);
+      const double part = std::min(1.0, strength);
       color = {gray + part * (own.red - gray), gray + part * (own.green - gray), gray + part * (own.blue - gray)};
     }
     const auto byte = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
     return {byte(color.red), byte(color.green), byte(color.blue)};
   }
 
+  /// Null where none is felt. What lies on the two sides is asked only where value and gradient let a mode be felt.
+  std::pair<const modes::Mode*, double> strongest_at(const glm::ivec3& voxel, const glm::vec3& gradient) const {
+    std::pair<const modes::Mode*, double> strongest{nullptr, 0};
+    const auto value = voxels_.value(voxel);
+    if (!value) return strongest;
+    io::Sample sample{.inside = true, .value = *value, .gradient = gradient};
+    const double magnitude = glm::length(sample.gradient);
+    bool knows_sides = false;
+    for (const modes::ActiveMode* mode : holding_) {
+      const auto is_zero = [&](modes::Datum of, double datum) {
+        return mode->strength.not_zero(of, {&datum, 1}, 1) == 0;
+      };
+      if (is_zero(modes::Datum::value, *value) || is_zero(modes::Datum::gradient_magnitude, magnitude)) continue;
+      if (!knows_sides) {
+        const io::LowHigh sides = voxels_.low_high(voxel, gradient);
+        sample.low = sides.low;
+        sample.high = sides.high;
+        knows_sides = true;
+      }
+      const double strength = mode->strength(sample);
+      if (strength > strongest.second) strongest = {&suggestion_.scene.modes[mode->scene_index], strength};
+    }
+    return strongest;
+  }
+
   const modes::Suggestion& suggestion_;
-  PreparedScene felt_;
+  const io::Volume& volume_;
+  std::shared_ptr<const modes::Plan> plan_;
+  std::vector<const modes::ActiveMode*> holding_;
+  io::VolumeFields values_;
+  io::GradientKernel kernel_;
+  io::VoxelFields voxels_;
   Box box_;
   double low_ = 0, high_ = 1;
 };

@@ -3,8 +3,11 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <glm/geometric.hpp>
 #include <memory>
 
+#include "modes/scene/suggest.h"
 #include "modes/testing/test_rig.h"
 #include "plugin/report/canvas.h"
 #include "plugin/testing/test_files.h"
@@ -58,6 +61,34 @@ TEST(SuggestionPicture, SlicesHangAsRadiologistsHangThem) {
       EXPECT_NEAR(along.x, sagittal + per_mm * a, 12);
       EXPECT_NEAR(along.y, middle_row - per_mm * b, 12);
     }
+  }
+}
+
+/// The boundary's color lies where the ball's surface is, and nowhere else.
+TEST(SuggestionPicture, ShowsABoundaryWhereItIsInTheScan) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(22), testdata::make_geometry({.size = glm::ivec3(60)}), {.noise = 10}));
+  const modes::Suggestion found = modes::suggest(volume);
+  ASSERT_EQ(found.boundaries.size(), 1U);
+  const auto file = testing::fresh_path("suggestion.png");
+  write_suggestion_png(found, volume, file);
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(
+      cairo_image_surface_create_from_png(file.c_str()), cairo_surface_destroy);
+  const unsigned char* const data = cairo_image_surface_get_data(image.get());
+  const int stride = cairo_image_surface_get_stride(image.get());
+  constexpr double per_mm = 520 / 60.0;
+  for (const Point middle : {Point(16 + 260, 40 + 260), Point(16 + 520 + 16 + 260, 40 + 260)}) {
+    int on_surface = 0, colored = 0;
+    for (int row = 40; row < 560; ++row) {
+      for (int column = static_cast<int>(middle.x) - 258; column < middle.x + 258; ++column) {
+        const unsigned char* const bgr = data + row * stride + 4 * column;
+        if (std::abs(bgr[2] - bgr[0]) < 40) continue;
+        ++colored;
+        on_surface += std::abs(glm::length(Point(column, row) - middle) / per_mm - 22) < 3;
+      }
+    }
+    EXPECT_GT(colored, 0.5 * 2 * 3.1 * 22 * per_mm * per_mm);
+    EXPECT_GT(on_surface, 0.99 * colored);
   }
 }
 

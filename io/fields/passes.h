@@ -1,0 +1,31 @@
+#pragma once
+
+/// Loops over a filter's taps whose count the compiler knows.
+
+namespace palpate::io::internal {
+
+/// As many in one pass as there may be registers for their weights, so that the sums stay in registers meanwhile; the
+/// first pass starts them.
+inline constexpr int most_at_once = 8;
+
+/// Calls run<Count>() with a count of most_at_once at most.
+template <int Most = most_at_once, typename Run>
+[[gnu::always_inline]] inline void with_count(int count, const Run& run) {
+  if constexpr (Most > 0) {
+    if (count < Most) return with_count<Most - 1>(count, run);
+  }
+  run.template operator()<Most>();
+}
+
+/// Calls pass<Count, First>(done) with the pairs that are done.
+template <typename Pass>
+[[gnu::always_inline]] inline void in_passes(int count, const Pass& pass) {
+  with_count(
+      count, [&]<int Count>() __attribute__((always_inline)) { pass.template operator()<Count, true>(0); });
+  for (int n = most_at_once; n < count; n += most_at_once) {
+    with_count(
+        count - n, [&]<int Count>() __attribute__((always_inline)) { pass.template operator()<Count, false>(n); });
+  }
+}
+
+}  // namespace palpate::io::internal
