@@ -84,7 +84,9 @@ TEST(SuggestionPicture, ShowsABoundaryWhereItIsInTheScan) {
         const unsigned char* const bgr = data + row * stride + 4 * column;
         if (std::abs(bgr[2] - bgr[0]) < 40) continue;
         ++colored;
-        on_surface += std::abs(glm::length(Point(column, row) - middle) / per_mm - 22) < 3;
+        // It sets in at the surface, and ends where the gradient is 0.08 of its peak: 2.25 sigma of 2 mm inside.
+        const double beyond = glm::length(Point(column, row) - middle) / per_mm - 22;
+        on_surface += beyond > -6 && beyond < 1.5;
       }
     }
     EXPECT_GT(colored, 0.5 * 2 * 3.1 * 22 * per_mm * per_mm);
