@@ -64,12 +64,14 @@ Vec3 crossing(const SignedDistance& distance, const Vec3& a, double from, const 
 }
 
 void add_points(const SignedDistance& distance, const Vec3& corner, double spacing, std::vector<SurfacePoint>& points) {
-  constexpr int wide = edge + 1;
-  std::array<double, static_cast<std::size_t>(wide) * wide * wide> values{};
-  const auto at = [](int i, int j, int k) { return static_cast<std::size_t>((k * wide + j) * wide + i); };
-  for (int k = 0; k < wide; ++k) {
-    for (int j = 0; j < wide; ++j) {
-      for (int i = 0; i < wide; ++i) values[at(i, j, k)] = distance(corner + spacing * Vec3(i, j, k));
+  constexpr std::size_t wide = edge + 1;
+  std::array<double, wide * wide * wide> values{};
+  const auto at = [](int i, int j, int k) {
+    return static_cast<std::size_t>(i) + wide * (static_cast<std::size_t>(j) + wide * static_cast<std::size_t>(k));
+  };
+  for (int k = 0; k <= edge; ++k) {
+    for (int j = 0; j <= edge; ++j) {
+      for (int i = 0; i <= edge; ++i) values[at(i, j, k)] = distance(corner + spacing * Vec3(i, j, k));
     }
   }
   for (int k = 0; k < edge; ++k) {
@@ -104,8 +106,10 @@ StructureBox box_around(const SignedDistance& distance, StructureBox box) {
       for (int n = 0; n < 2 * (nodes + 1) * (nodes + 1); ++n) {
         Vec3 share;
         share[axis] = n % 2;
-        share[(axis + 1) % 3] = static_cast<double>(n / 2 % (nodes + 1)) / nodes;
-        share[(axis + 2) % 3] = static_cast<double>(n / 2 / (nodes + 1)) / nodes;
+        const int column = n / 2 % (nodes + 1);
+        share[(axis + 1) % 3] = static_cast<double>(column) / nodes;
+        const int row = n / 2 / (nodes + 1);
+        share[(axis + 2) % 3] = static_cast<double>(row) / nodes;
         leaves = leaves || distance(glm::mix(box.low_mm, box.high_mm, share)) > 0;
       }
     }
@@ -146,7 +150,8 @@ SharedVolume shared_volume(const SignedDistance& first, const SignedDistance& se
           const double reach = blocks.reach();
           if (there[0] < -reach && there[1] < -reach) return;
           for (int n = 0; n < edge * edge * edge; ++n) {
-            const Vec3 at = corner + spacing_mm * (Vec3(n % edge, n / edge % edge, n / (edge * edge)) + 0.5);
+            const glm::ivec3 place(n % edge, n / edge % edge, n / (edge * edge));
+            const Vec3 at = corner + spacing_mm * (Vec3(place) + 0.5);
             // Deep inside or far outside of one, its value in the middle says it for all of the block.
             const double a = std::abs(there[0]) > reach ? there[0] : first(at);
             const double b = std::abs(there[1]) > reach ? there[1] : second(at);
