@@ -18,6 +18,7 @@ void add_plan(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_probe(CLI::App& program);
 void add_record(CLI::App& program);
+void add_serve(CLI::App& program);
 void add_replay(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_compare_structures(CLI::App& structures);  ///< a subcommand of `structures`

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   add_profile(program);
   add_probe(program);
   add_record(program);
+  add_serve(program);
   add_replay(program);
   add_compare(program);
   add_devices(program);

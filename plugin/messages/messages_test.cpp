@@ -2,6 +2,7 @@
 // message of the programs and the panel as it is said.
 
 #include "plugin/messages/messages.h"
+#include "plugin/messages/messages_of_openigtlink.h"
 
 #include <gtest/gtest.h>
 
@@ -82,8 +83,8 @@ TEST(Messages, NoFolderHasAnIdTwice) {
       {modes::messages::scenes},
       {solver::messages::balances},
       {device::messages::styluses},
-      {messages::archives, messages::balances, messages::paraview, messages::series, messages::sessions,
-       messages::structures}};
+      {messages::archives, messages::balances, messages::openigtlink, messages::paraview, messages::series,
+       messages::sessions, messages::structures}};
   for (const auto& tables : folders) {
     std::set<std::string_view> ids;
     for (const auto& table : tables) {
@@ -147,11 +148,12 @@ constexpr std::array not_shown{
 
 TEST(Messages, EachIsShown) {
   std::vector<Provoked> provoked;
-  for (const auto& some : {testing::provoke_balances(), testing::provoke_programs(), testing::provoke_recordings()}) {
+  for (const auto& some : {testing::provoke_balances(), testing::provoke_openigtlink(), testing::provoke_programs(),
+                           testing::provoke_recordings()}) {
     provoked.insert(provoked.end(), some.begin(), some.end());
   }
-  palpate::testing::expect_all_shown({messages::archives, messages::balances, messages::paraview, messages::series,
-                                      messages::sessions, messages::structures},
+  palpate::testing::expect_all_shown({messages::archives, messages::balances, messages::openigtlink, messages::paraview,
+                                      messages::series, messages::sessions, messages::structures},
                                      provoked, not_shown, PALPATE_SOURCES);
 }
 

@@ -4,6 +4,7 @@
 #include "io/messages.h"
 #include "modes/messages.h"
 #include "plugin/messages/messages.h"
+#include "plugin/messages/messages_of_openigtlink.h"
 #include "solver/messages.h"
 
 namespace palpate::plugin {
@@ -34,6 +35,10 @@ const std::vector<MessageSection>& message_sections() {
        "In the answer's `error`, one line for each line that was refused.",
        {messages::balances, solver::messages::balances}},
       {"Sessions, strokes and recordings", "", {messages::sessions}},
+      {"OpenIGTLink (`palpate serve`)",
+       "What a client sends and is refused is answered by a STATUS with this text; `palpate serve` says it on stderr, "
+       "too.",
+       {messages::openigtlink}},
       {"Styluses",
        "What becomes of the force in each of these faults, and how fast, is in\n"
        "[device/README.md](../../device/README.md#what-every-fault-comes-to) and its own test.",

@@ -12,6 +12,7 @@ namespace palpate::plugin::testing {
 using palpate::testing::Provoked;
 
 std::vector<Provoked> provoke_balances();
+std::vector<Provoked> provoke_openigtlink();
 std::vector<Provoked> provoke_programs();
 std::vector<Provoked> provoke_recordings();
 

@@ -15,7 +15,7 @@ core_packages=(g++ cmake ninja-build pkg-config ccache
   libcli11-dev nlohmann-json3-dev libfmt-dev libhdf5-dev libcairo2-dev fonts-dejavu-core libarchive-dev libpugixml-dev libxxhash-dev libpolyclipping-dev zlib1g-dev
   libusb-1.0-0-dev libhidapi-dev libsystemd-dev libboost-dev libssl-dev)
 test_packages=(python3 git locales libgtest-dev libgmock-dev libbenchmark-dev libnlopt-dev libnlopt-cxx-dev umockdev libumockdev-dev dbus-daemon
-  orthanc dcmtk dicom3tools openssl python3-pydicom python3-nibabel)
+  orthanc dcmtk dicom3tools openssl libopenigtlink-dev openigtlink-examples python3-pydicom python3-nibabel)
 paraview_packages=(paraview paraview-dev python3-paraview libopenmpi-dev libglew-dev libfreetype-dev)
 gui_test_packages=(xvfb xauth libgl1-mesa-dri xdotool imagemagick)
 guest_packages=(qemu-system-x86 busybox-static cpio) # boot a guest; its kernel is downloaded, never installed

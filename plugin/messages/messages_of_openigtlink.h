@@ -1,0 +1,67 @@
+#pragma once
+
+/// What `palpate serve` says, to its user and to its clients.
+
+#include "solver/text/message.h"
+
+namespace palpate::plugin::messages {
+
+inline constexpr MessageRow openigtlink[] = {
+    {"a message of a client that is cut short, or that no OpenIGTLink program writes",
+     "update the program that sends it; it is dropped or its connection closed, and the session goes on",
+     {{"igtl-ends-early", "the message ends before its parts do"},
+      {"igtl-not-a-message", "this is no message of OpenIGTLink, versions 1 to 3"},
+      {"igtl-wrong-checksum", "the message's checksum is wrong"},
+      {"igtl-body-too-large", "a message of type {} says that it has {} bytes; at most {} are taken"},
+      {"igtl-not-a-number", "a coordinate is not a number"}}},
+    {"STRING has a length of 16 bits",
+     "a shorter text",
+     {{"igtl-text-too-long", "a text of {} bytes; at most 65535 fit"}}},
+    {"an image that is no label map",
+     "send a segmentation as a label map: whole numbers, one a voxel, in one piece",
+     {{"igtl-not-labels", "the image's voxels are no labels: a label is one whole number"},
+      {"igtl-not-an-image", "the image's size is not that of its bytes, or its byte order or frame is unknown"},
+      {"igtl-part-of-an-image", "this is a part of an image; only whole ones are taken"},
+      {"igtl-no-labels", "{}: there are no labels or structures in it"}}},
+    {"each takes memory and time",
+     "name one again, or begin a new session",
+     {{"igtl-too-many-maps", "label map \"{}\": there are {} already"}}},
+    {"a scene of another session",
+     "send the label map first",
+     {{"igtl-no-such-map", "structure \"{}\": no label map \"{}\" was sent in this session"}}},
+    {"the client runs on another machine",
+     "send a label map, or name the file when `palpate serve` is started",
+     {{"igtl-file-from-elsewhere", "{}: only a client on this machine may name a file"}}},
+    {"a scene or a folder that cannot be felt; the one before stays",
+     "what it says",
+     {{"igtl-refused", "refused: {}"}}},
+    {"the network may only tighten what the session began with",
+     "nothing; or begin with another scene",
+     {{"igtl-limits-stay", "limits or stiffness of the scene are drawn down to those that the session began with"}}},
+    {"the first client that sends something controls",
+     "close that client, or go on reading",
+     {{"igtl-another-client-controls", "another client controls; this one can only read"}}},
+    {"a question for something that is not there",
+     "ask later, or for something else",
+     {{"igtl-nothing-to-get", "{}: there is nothing to get"}}},
+    {"the port is taken, or the address is none of this machine",
+     "another `--port`, or an address that `ip address` shows",
+     {{"igtl-cannot-listen", "cannot listen on {}, port {}: {}"}}},
+    {"`--host` was asked for",
+     "use it in a network that you trust",
+     {{"igtl-others-may-connect",
+       "palpate: warning: anybody who reaches {} can read the places of stylus and marks and set scenes; nobody can "
+       "turn "
+       "the force on or raise a limit"}}},
+    {"the session is shared",
+     "connect Slicer's OpenIGTLinkIF to it",
+     {{"igtl-listens", "palpate: listens on {}, port {}"}}},
+    {"the session has ended",
+     "nothing; or a client that reads faster",
+     {{"igtl-served",
+       "palpate: {} messages sent, {} replaced by newer ones; {} requests, {} outrun by newer ones; {} refused, {} "
+       "passed "
+       "over; {} clients cut or turned away"}}},
+};
+
+}  // namespace palpate::plugin::messages

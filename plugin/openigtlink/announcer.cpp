@@ -1,0 +1,206 @@
+#include "plugin/openigtlink/announcer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "device/safety/safety_filter.h"
+#include "modes/scene/scene_json.h"
+#include "plugin/openigtlink/isosurface.h"
+#include "plugin/openigtlink/names.h"
+#include "plugin/openigtlink/say.h"
+#include "plugin/report/held_boundary.h"
+#include "plugin/report/live_view.h"
+
+namespace palpate::plugin::igtl {
+namespace {
+
+constexpr auto between_status = std::chrono::seconds(1);
+constexpr auto between_contacts = std::chrono::milliseconds(100);
+constexpr double mark_diameter_mm = 2;
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+/// The surfaces of what is felt, by the names of its structures.
+std::vector<std::pair<std::string, Surface>> surfaces_of(const PreparedScene& felt, const modes::Scene& scene) {
+  std::vector<std::pair<std::string, Surface>> surfaces;
+  for (std::size_t n = 0; n < felt.structures.size(); ++n) {
+    const auto& field = felt.structures[n].distance;
+    Surface surface = isosurface(
+        [&](const glm::dvec3& place) {
+          const io::Distance there = field->sample(place);
+          return SurfaceDistance{there.mm, there.gradient};
+        },
+        bounding_box(felt.volume->geometry));
+    for (glm::dvec3& point : surface.points) point = ras_of(point);
+    surfaces.emplace_back(scene.structures[felt.plan->structures[n]].name, std::move(surface));
+  }
+  return surfaces;
+}
+
+}  // namespace
+
+StateInWords state_of_session(const TickRecord& tick) {
+  if (const device::Fault fault = fault_of(tick); fault != device::Fault::none) {
+    return {"stopped", "Stopped: " + device::advice_for(fault)};
+  }
+  switch (state_of(tick)) {
+    case device::State::active:
+      return {"feeling", "Feeling: forces are on"};
+    case device::State::ramping:
+      return {"feeling", "Feeling: forces are coming up or going down"};
+    case device::State::homing:
+      return {"ready", "Ready: homing, move the stylus as its maker says"};
+    case device::State::idle:
+      return {"ready", "Ready: no force"};
+    default:
+      return {"off", "Off: the stylus does not answer"};
+  }
+}
+
+Announcer::Announcer(LiveSession& session, Server& server, Publisher& publisher, const Received& received)
+    : session_(session), server_(server), publisher_(publisher), received_(received) {
+  scene_changed();
+  announce_marks();
+}
+
+void Announcer::offer(const char* type, const std::string& device, Bytes content, double stamp, bool kept) {
+  Bytes wire;
+  append(wire, {.type = type, .device = device, .time_s = stamp, .content = std::move(content)});
+  server_.offer(std::string(type) + " " + device, std::move(wire), kept);
+}
+
+void Announcer::scene_changed() {
+  publisher_.set_workspace(session_.epoch(), session_.plan()->workspace);
+  const std::string scene = modes::to_json(received_.with_names(session_.scene()));
+  if (scene.size() <= longest_string) offer("STRING", scene_name, string_content(scene), 0, true);
+  surfaces_wanted_ = true;
+}
+
+void Announcer::look() {
+  publisher_.set_orientation(session_.orientation());
+  follow_marks();
+  announce_surfaces();
+  const TickRing& ticks = *session_.ticks();
+  const std::uint64_t written = ticks.written();
+  TickRecord tick;
+  std::vector<PrimitiveRecord> shares;
+  if (written == 0 || !ticks.read(written - 1, tick, &shares)) return;
+  const auto now = Clock::now();
+  const std::string state = state_of_session(tick).state;
+  if (state != last_state_ || now >= next_status_) {
+    last_state_ = state;
+    next_status_ = now + between_status;
+    announce_status(tick);
+  }
+  if (now >= next_contact_) {
+    next_contact_ = now + between_contacts;
+    announce_contact(tick, shares);
+  }
+}
+
+void Announcer::announce_status(const TickRecord& tick) {
+  const StateInWords words = state_of_session(tick);
+  const ServerCounts counts = server_.counts();
+  const auto code = words.state == "feeling"   ? Status::Code::ok
+                    : words.state == "stopped" ? Status::Code::hardware_failure
+                                               : Status::Code::not_ready;
+  const std::string text =
+      fmt::format("{}. Clients {}, messages refused {}, passed over {}, replaced {}", words.sentence, counts.clients,
+                  counts.refused, counts.passed_over, counts.replaced + counts.outrun);
+  offer("STATUS", program_name, content_of(Status{.code = code, .name = words.state, .text = text}),
+        publisher_.stamp_of(tick), true);
+}
+
+void Announcer::announce_contact(const TickRecord& tick, const std::vector<PrimitiveRecord>& shares) {
+  const modes::Scene& scene = session_.scene();
+  nlohmann::ordered_json contact{{"tick", tick.index}, {"time_s", tick.time_s}, {"state", last_state_}};
+  contact["value"] = number_or_null(tick.value);
+  contact["unit"] = session_.scan()->unit;
+  contact["tissue"] = tissue_name(scene, session_.scan()->unit, tick.value);
+  contact["force_n"] = glm::length(vector_of(tick.sent_n));
+  contact["boundary"] = nullptr;
+  if (tick.scene_epoch == session_.epoch() && tick.change_part >= 1) {
+    const modes::Workspace& workspace = session_.plan()->workspace;
+    const auto held = held_boundary(shares, session_.felt(), scene, workspace.to_patient(vector_of(tick.proxy_m)),
+                                    workspace.to_patient(vector_of(tick.probe_m)));
+    if (held) {
+      const modes::Mode& mode = scene.modes[held->mode];
+      contact["boundary"] = mode.name.empty() ? mode.type : mode.name;
+      contact["known_to_mm"] = held->known_to_mm ? number_or_null(*held->known_to_mm) : nlohmann::ordered_json();
+      contact["in_words"] = in_words(*held, scene);
+    }
+    auto& distances = contact["distances_mm"] = nlohmann::ordered_json::object();
+    for (std::size_t n = 0; n < session_.plan()->structures.size() && n < distance_count; ++n) {
+      distances[scene.structures[session_.plan()->structures[n]].name] = number_or_null(tick.distance_mm[n]);
+    }
+  }
+  const std::string text = contact.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  if (text.size() <= longest_string) {
+    offer("STRING", contact_name, string_content(text), publisher_.stamp_of(tick), false);
+  }
+}
+
+void Announcer::set_marks(const std::vector<Point>& marks) {
+  // As with scenes: what a client only sends back is no change.
+  constexpr double same_mm = 1e-3;
+  const auto same = [](const Point& a, const Point& b) {
+    return a.name == b.name && glm::distance(a.position, b.position) < same_mm;
+  };
+  if (std::ranges::equal(marks, marks_, same)) return;
+  marks_ = marks;
+  announce_marks();
+}
+
+void Announcer::announce_marks() {
+  offer("POINT", marks_name, content_of(marks_), 0, true);
+}
+
+void Announcer::follow_marks() {
+  const TickRing& ticks = *session_.ticks();
+  TickRecord tick;
+  std::vector<PrimitiveRecord> shares;
+  for (next_tick_ = std::max(next_tick_, ticks.oldest()); next_tick_ < ticks.written(); ++next_tick_) {
+    shares.clear();
+    if (!ticks.read(next_tick_, tick, &shares)) continue;
+    if ((tick.buttons & mark_button) == 0 && !presses_.is_down()) continue;
+    const glm::dvec3 proxy = session_.plan()->workspace.to_patient(vector_of(tick.proxy_m));
+    const auto made = presses_.take(
+        {.tick = tick, .time_s = tick.time_s, .proxy_mm = proxy, .shares = shares, .scene = session_.scene()});
+    const auto* const mark = made ? std::get_if<FeltMark>(&*made) : nullptr;
+    if (mark == nullptr) continue;
+    FeltMark& kept = felt_.points.emplace_back(*mark);
+    kept.name = free_mark_name(felt_);
+    marks_.push_back({.name = kept.name,
+                      .group = kept.boundary,
+                      .position = ras_of(kept.position_mm),
+                      .diameter = mark_diameter_mm,
+                      .owner = program_name});
+    announce_marks();
+  }
+}
+
+void Announcer::announce_surfaces() {
+  if (surfaces_.valid()) {
+    if (surfaces_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    std::set<std::string> sent;
+    for (auto& [name, surface] : surfaces_.get()) {
+      offer("POLYDATA", name, content_of(surface), 0, true);
+      sent.insert(name);
+    }
+    for (const std::string& name : surfaces_sent_) {
+      if (!sent.contains(name)) server_.forget("POLYDATA " + name);
+    }
+    surfaces_sent_ = std::move(sent);
+  }
+  if (!std::exchange(surfaces_wanted_, false)) return;
+  surfaces_ = std::async(std::launch::async,
+                         [felt = session_.felt(), scene = session_.scene()] { return surfaces_of(felt, scene); });
+}
+
+}  // namespace palpate::plugin::igtl

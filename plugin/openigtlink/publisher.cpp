@@ -1,0 +1,86 @@
+#include "plugin/openigtlink/publisher.h"
+
+#include <chrono>
+
+#include "plugin/openigtlink/frame.h"
+
+namespace palpate::plugin::igtl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::uint64_t velocity_ticks = 10;
+constexpr std::size_t workspaces_kept = 8;
+constexpr auto between_frames =
+    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / frames_per_s));
+
+double utc_s() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+/// The last tick there is; waits for the first one.
+TickRecord newest(const TickRing& ticks) {
+  TickRecord tick;
+  for (int ms = 0; ms < 1000; ++ms) {
+    const std::uint64_t written = ticks.written();
+    if (written > 0 && ticks.read(written - 1, tick)) return tick;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return tick;
+}
+
+}  // namespace
+
+Publisher::Publisher(Server& server, const TickRing& ticks)
+    : server_(server), ticks_(ticks), began_s_(-newest(ticks).time_s + utc_s()), thread_([this] { run(); }) {}
+
+Publisher::~Publisher() {
+  stop_ = true;
+  thread_.join();
+}
+
+void Publisher::set_workspace(std::uint32_t epoch, const modes::Workspace& workspace) {
+  const std::lock_guard lock(mutex_);
+  workspaces_.emplace_back(epoch, workspace);
+  if (workspaces_.size() > workspaces_kept) workspaces_.pop_front();
+}
+
+void Publisher::set_orientation(const std::optional<glm::dquat>& orientation) {
+  const std::lock_guard lock(mutex_);
+  orientation_ = orientation;
+}
+
+std::optional<modes::Workspace> Publisher::workspace_of(const TickRecord& tick) const {
+  for (std::size_t n = 0; n < workspaces_.size(); ++n) {
+    if (workspaces_[n].first != tick.scene_epoch) continue;
+    if (n == 0 || tick.change_part >= 1) return workspaces_[n].second;
+    return modes::between(workspaces_[n - 1].second, workspaces_[n].second, tick.change_part);
+  }
+  return std::nullopt;
+}
+
+std::optional<Bytes> Publisher::newest_frame() {
+  const std::uint64_t written = ticks_.written();
+  TickRecord tick, before;
+  if (written == 0 || !ticks_.read(written - 1, tick)) return std::nullopt;
+  const bool has_before = written > velocity_ticks && ticks_.read(written - 1 - velocity_ticks, before);
+  const std::lock_guard lock(mutex_);
+  const auto workspace = workspace_of(tick);
+  if (!workspace) return std::nullopt;
+  return wire_of(frame_of(tick, has_before ? std::optional(before) : std::nullopt, *workspace, orientation_),
+                 stamp_of(tick));
+}
+
+void Publisher::run() {
+  auto next = Clock::now();
+  while (!stop_) {
+    if (auto frame = newest_frame()) server_.offer(frame_name, std::move(*frame), true);
+    next = std::max(next + between_frames, Clock::now());  // frames that were missed are not made up for
+    for (auto left = Clock::duration(0); left >= Clock::duration(0) && !stop_; left = next - Clock::now()) {
+      server_.step(std::chrono::ceil<std::chrono::milliseconds>(left));
+    }
+  }
+  const auto end = Clock::now() + std::chrono::milliseconds(100);
+  while (Clock::now() < end) server_.step(std::chrono::milliseconds(10));
+}
+
+}  // namespace palpate::plugin::igtl

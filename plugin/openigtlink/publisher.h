@@ -1,0 +1,53 @@
+#pragma once
+
+/// The network's thread: steps the server, and sends the newest tick sixty times a second. It only reads the ring of
+/// ticks, so nothing that a client does reaches the servo.
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <glm/gtc/quaternion.hpp>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "modes/scene/workspace.h"
+#include "plugin/openigtlink/server.h"
+#include "plugin/session/tick_ring.h"
+
+namespace palpate::plugin::igtl {
+
+inline constexpr double frames_per_s = 60;
+
+class Publisher {
+ public:
+  /// Both have to outlive it.
+  Publisher(Server& server, const TickRing& ticks);
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
+  /// Sends what waits, for a tenth of a second at most, and ends the thread.
+  ~Publisher();
+
+  // --- Any thread.
+  /// Where ticks from this epoch on are felt. Ticks of an epoch that is not known yet are not sent.
+  void set_workspace(std::uint32_t epoch, const modes::Workspace& workspace);
+  void set_orientation(const std::optional<glm::dquat>& orientation);
+  /// UTC, s since 1970, of a tick: the stamp of what is said of it.
+  double stamp_of(const TickRecord& tick) const noexcept { return began_s_ + tick.time_s; }
+
+ private:
+  void run();
+  std::optional<Bytes> newest_frame();
+  std::optional<modes::Workspace> workspace_of(const TickRecord& tick) const;
+
+  Server& server_;
+  const TickRing& ticks_;
+  double began_s_ = 0;  // UTC, of the session's tick 0
+  mutable std::mutex mutex_;
+  std::deque<std::pair<std::uint32_t, modes::Workspace>> workspaces_;  // the last few, by epoch
+  std::optional<glm::dquat> orientation_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace palpate::plugin::igtl

@@ -1,0 +1,51 @@
+#include "plugin/openigtlink/received.h"
+
+#include <fmt/format.h>
+
+#include "plugin/openigtlink/say.h"
+
+namespace palpate::plugin::igtl {
+namespace {
+
+constexpr std::string_view prefix = "openigtlink:";
+
+}  // namespace
+
+std::filesystem::path Received::fresh_file(const std::string& name) {
+  if (!files_.contains(name) && files_.size() >= most_maps) throw Refusal(say("igtl-too-many-maps", name, most_maps));
+  return folder_.path() / fmt::format("{}.nrrd", ++written_);
+}
+
+std::filesystem::path Received::file_of(const std::string& name) const {
+  const auto found = files_.find(name);
+  return found == files_.end() ? std::filesystem::path() : found->second;
+}
+
+void Received::use(const std::string& name, const std::filesystem::path& file) {
+  auto& place = files_[name];
+  std::error_code none;
+  if (!place.empty()) std::filesystem::remove(place, none);
+  place = file;
+}
+
+modes::Scene Received::with_names(modes::Scene scene) const {
+  for (modes::SceneStructure& structure : scene.structures) {
+    for (const auto& [name, file] : files_) {
+      if (structure.file == file.string()) structure.file = std::string(prefix) + name;
+    }
+  }
+  return scene;
+}
+
+modes::Scene Received::with_files(modes::Scene scene) const {
+  for (modes::SceneStructure& structure : scene.structures) {
+    if (!structure.file.starts_with(prefix)) continue;
+    const std::string name = structure.file.substr(prefix.size());
+    const auto file = files_.find(name);
+    if (file == files_.end()) throw InvalidInput(say("igtl-no-such-map", structure.name, name));
+    structure.file = file->second.string();
+  }
+  return scene;
+}
+
+}  // namespace palpate::plugin::igtl

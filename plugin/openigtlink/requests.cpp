@@ -1,0 +1,185 @@
+#include "plugin/openigtlink/requests.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "io/structures/structure.h"
+#include "modes/scene/scene_json.h"
+#include "plugin/messages/tell.h"
+#include "plugin/openigtlink/image.h"
+#include "plugin/openigtlink/names.h"
+#include "plugin/openigtlink/say.h"
+#include "plugin/session/study_structures.h"
+
+namespace palpate::plugin::igtl {
+namespace {
+
+/// The session as it is when the work begins.
+struct Base {
+  Prepared before;
+  std::shared_ptr<const io::Volume> scan;
+  glm::dvec3 half_extent_m{0};
+
+  PreparedScene prepared(const modes::Scene& scene) const { return prepare(scene, scan, half_extent_m, before); }
+  const modes::Scene& scene() const { return before.scene; }
+};
+
+/// The scene with a boundary at the edge of each structure that it does not name yet.
+modes::Scene with_boundaries(modes::Scene scene, const std::vector<io::Structure>& structures) {
+  for (const io::Structure& structure : structures) {
+    const bool known = std::ranges::any_of(
+        scene.structures, [&](const modes::SceneStructure& named) { return is_same(named, structure); });
+    if (!known && structure.unfit.empty()) add_boundary_of(scene, structure);
+  }
+  return scene;
+}
+
+/// The same of a label map: what the scene reads of the one before, it reads of the new one.
+modes::Scene with_map(modes::Scene scene, const std::string& name, const std::filesystem::path& before,
+                      const std::filesystem::path& file) {
+  std::vector<io::Structure> structures = io::find_structures(std::vector{file}).structures;
+  if (std::ranges::none_of(structures, [](const io::Structure& one) { return one.unfit.empty(); })) {
+    throw Refusal(say("igtl-no-labels", name));
+  }
+  for (modes::SceneStructure& structure : scene.structures) {
+    if (!before.empty() && structure.file == before.string()) structure.file = file.string();
+  }
+  for (io::Structure& structure : structures) {
+    structure.name = structures.size() == 1 ? name : name + " " + std::to_string(structure.number);
+  }
+  return with_boundaries(std::move(scene), structures);
+}
+
+bool is_named(const modes::Scene& scene, const std::string& file) {
+  return std::ranges::any_of(scene.structures, [&](const auto& structure) { return structure.file == file; });
+}
+
+}  // namespace
+
+void internal::check_file(const Server::Request& request, const std::string& file) {
+  if (!request.from_this_machine) throw Refusal(say("igtl-file-from-elsewhere", file));
+}
+
+Requests::Requests(LiveSession& session, Server& server, Announcer& announcer, Received& received, LoadScan load)
+    : session_(session),
+      server_(server),
+      announcer_(announcer),
+      received_(received),
+      load_(std::move(load)),
+      limits_(session.scene().limits),
+      stiffness_n_per_m_(session.scene().stiffness_n_per_m) {}
+
+void Requests::look() {
+  for (Server::Request& request : server_.take()) waiting_.push_back(std::move(request));
+  if (change_.valid()) {
+    if (change_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    try {
+      finish(change_.get());
+    } catch (const std::exception& error) {
+      refuse(asked_by_, error);
+    }
+  }
+  while (!waiting_.empty() && !change_.valid()) {
+    const Server::Request request = std::move(waiting_.front());
+    waiting_.erase(waiting_.begin());
+    begin(request);
+  }
+}
+
+void Requests::begin(const Server::Request& request) {
+  asked_by_ = request.client;
+  try {
+    if (request.message.type == "POINT") {
+      announcer_.set_marks(points_of(request.message.content));
+    } else {
+      const Prepare work = work_for(request);
+      if (work) change_ = std::async(std::launch::async, work);
+    }
+  } catch (const std::exception& error) {
+    refuse(request.client, error);
+  }
+}
+
+Requests::Prepare Requests::work_for(const Server::Request& request) {
+  const Base base{{.felt = session_.felt(), .scene = session_.scene()},
+                  session_.scan(),
+                  session_.specification().workspace_half_extent};
+  const Message& message = request.message;
+  if (message.type == "IMAGE") {
+    const std::filesystem::path before = received_.file_of(message.device), file = received_.fresh_file(message.device);
+    return [base, before, file, name = message.device, content = std::make_shared<const Bytes>(message.content)] {
+      write_nrrd(image_of(*content), file);
+      const modes::Scene scene = with_map(base.scene(), name, before, file);
+      return Change{.scene = scene, .prepared = base.prepared(scene), .map = name, .file = file};
+    };
+  }
+  const std::string text = string_of(message.content);
+  if (message.device == scene_name) {
+    const modes::Scene named = received_.with_files(modes::scene_from_json(text, scene_name));
+    for (const modes::SceneStructure& structure : named.structures) {
+      if (!is_named(base.scene(), structure.file)) internal::check_file(request, structure.file);
+    }
+    const modes::Scene scene = drawn_down(named, request.client);
+    // A client whose copy is sent whenever it changes sends back what it got: without an end, if that were a change.
+    if (modes::to_json(scene) == modes::to_json(base.scene())) return {};
+    return [base, scene] { return Change{.scene = scene, .prepared = base.prepared(scene)}; };
+  }
+  internal::check_file(request, text);
+  if (message.device == folder_name) {
+    return [base, text, load = load_] {
+      const LoadedScan scan = load(text);
+      return Change{
+          .scene = base.scene(), .scan = scan, .prepared = prepare(base.scene(), scan.volume, base.half_extent_m)};
+    };
+  }
+  return [base, text] {
+    const auto structures = io::find_structures(std::vector<std::filesystem::path>{text}).structures;
+    if (structures.empty()) throw Refusal(say("igtl-no-labels", text));
+    const modes::Scene scene = with_boundaries(base.scene(), structures);
+    return Change{.scene = scene, .prepared = base.prepared(scene)};
+  };
+}
+
+void Requests::finish(const Change& change) {
+  if (change.scan) {
+    session_.set_scan(change.prepared.volume, change.scene, change.scan->frame);
+  } else {
+    session_.offer(change.prepared.volume);
+    session_.set_scene(change.scene);
+  }
+  if (!change.map.empty()) received_.use(change.map, change.file);
+  announcer_.scene_changed();
+}
+
+modes::Scene Requests::drawn_down(modes::Scene scene, std::uint64_t client) {
+  modes::Limits& asked = scene.limits;
+  const modes::Limits limits{.force_n = std::min(asked.force_n, limits_.force_n),
+                             .slew_n_per_ms = std::min(asked.slew_n_per_ms, limits_.slew_n_per_ms),
+                             .ramp_s = std::max(asked.ramp_s, limits_.ramp_s),
+                             .speed_m_per_s = std::min(asked.speed_m_per_s, limits_.speed_m_per_s)};
+  const double stiffness = std::min(scene.stiffness_n_per_m, stiffness_n_per_m_);
+  const bool same = limits.force_n == asked.force_n && limits.slew_n_per_ms == asked.slew_n_per_ms &&
+                    limits.ramp_s == asked.ramp_s && limits.speed_m_per_s == asked.speed_m_per_s &&
+                    stiffness == scene.stiffness_n_per_m;
+  if (!same) answer(client, Status::Code::configuration_error, "drawn down", say("igtl-limits-stay"));
+  asked = limits;
+  scene.stiffness_n_per_m = stiffness;
+  return scene;
+}
+
+void Requests::answer(std::uint64_t client, Status::Code code, const char* name, const Text& text) {
+  Bytes wire;
+  append(wire, {.type = "STATUS",
+                .device = program_name,
+                .content = content_of(Status{.code = code, .name = name, .text = text})});
+  server_.answer(client, name, std::move(wire));
+  if (last_told_ == text) return;  // a client may say the same without end
+  last_told_ = text;
+  tell(text);
+}
+
+void Requests::refuse(std::uint64_t client, const std::exception& error) {
+  answer(client, Status::Code::configuration_error, "refused", say("igtl-refused", error.what()));
+}
+
+}  // namespace palpate::plugin::igtl

@@ -1,0 +1,80 @@
+#pragma once
+
+/// What a client wants to be done, done: another scene, folder or structures, marks, a label map. Of the controlling
+/// thread. What takes long (reading, distances) is prepared by another thread, so that the heartbeat goes on. A request
+/// changes what is felt along the ramp. It can neither turn the force on nor raise a limit.
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/openigtlink/announcer.h"
+#include "plugin/openigtlink/received.h"
+#include "plugin/openigtlink/server.h"
+
+namespace palpate::plugin::igtl {
+
+/// Another scan, from a folder.
+struct LoadedScan {
+  std::shared_ptr<const io::Volume> volume;
+  ScanFrame frame;
+};
+/// Throws what loading throws. Called in another thread.
+using LoadScan = std::function<LoadedScan(const std::string& folder)>;
+
+namespace internal {
+
+/// Files are named by clients of this machine alone: another one's lie elsewhere, and are no business of a stranger.
+/// Throws Refusal.
+void check_file(const Server::Request& request, const std::string& file);
+
+}  // namespace internal
+
+class Requests {
+ public:
+  /// All have to outlive it. The limits and the stiffness of the session's scene are those that no request can raise.
+  Requests(LiveSession& session, Server& server, Announcer& announcer, Received& received, LoadScan load);
+  Requests(const Requests&) = delete;
+  Requests& operator=(const Requests&) = delete;
+  ~Requests() = default;
+
+  /// Takes what has come, and does what is ready.
+  void look();
+
+ private:
+  /// What a request comes to, once it is prepared.
+  struct Change {
+    modes::Scene scene;
+    std::optional<LoadedScan> scan = std::nullopt;  ///< none: the scan stays
+    PreparedScene prepared = {};                    ///< held until the session has taken it over
+    std::string map = {};                           ///< the name of a label map, if it is one,
+    std::filesystem::path file = {};                ///< and where it lies now
+  };
+  using Prepare = std::function<Change()>;
+
+  void begin(const Server::Request& request);
+  /// Of copies: the session goes on meanwhile. Empty if nothing changes.
+  Prepare work_for(const Server::Request& request);
+  void finish(const Change& change);
+  void answer(std::uint64_t client, Status::Code code, const char* name, const Text& text);
+  void refuse(std::uint64_t client, const std::exception& error);
+  modes::Scene drawn_down(modes::Scene scene, std::uint64_t client);
+
+  LiveSession& session_;
+  Server& server_;
+  Announcer& announcer_;
+  Received& received_;
+  LoadScan load_;
+  modes::Limits limits_;
+  double stiffness_n_per_m_;
+  std::vector<Server::Request> waiting_;
+  std::future<Change> change_;
+  std::uint64_t asked_by_ = 0;
+  std::string last_told_;
+};
+
+}  // namespace palpate::plugin::igtl
