@@ -165,4 +165,5 @@ The force balance, the reader of DICOM series, the haptic modes and the
 stylus drivers of Palpate as libraries, with their CMake package:
 find_package(palpate COMPONENTS solver io modes device).
 TEXT
+python3 plugin/packaging/slicer_zip.py "$out/slicer-palpate.zip" # for Slicer on any system: no package
 ls -l "$out"
