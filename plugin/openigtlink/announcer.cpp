@@ -135,6 +135,8 @@ void Announcer::announce_contact(const TickRecord& tick, const std::vector<Primi
       contact["known_to_mm"] = held->known_to_mm ? number_or_null(*held->known_to_mm) : nlohmann::ordered_json();
       contact["in_words"] = in_words(*held, scene);
     }
+  }
+  if (tick.scene_epoch == session_.epoch()) {
     auto& distances = contact["distances_mm"] = nlohmann::ordered_json::object();
     for (std::size_t n = 0; n < session_.plan()->structures.size() && n < distance_count; ++n) {
       distances[scene.structures[session_.plan()->structures[n]].name] = number_or_null(tick.distance_mm[n]);

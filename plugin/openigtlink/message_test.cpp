@@ -189,7 +189,7 @@ TEST(OpenIgtContents, ALabelMapArrivesWhereItsSenderPlacedIt) {
     for (const bool big_endian : {false, true}) {
       const Ball ball(number, big_endian, 5);
       const Bytes content = content_of(ball.image);
-      const auto file = testing::fresh_path("ball.nrrd");
+      const auto file = plugin::testing::fresh_path("ball.nrrd");
       write_nrrd(image_of(content), file);
       const auto found = io::find_structures(std::vector{file});
       ASSERT_EQ(found.structures.size(), 1U);

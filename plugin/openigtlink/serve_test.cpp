@@ -156,7 +156,13 @@ TEST(OpenIgtServe, FramesAreThoseOfTheirTicksSixtyTimesASecondAndInTime) {
               1e3 * quantile(apart_s, 0.5), 1e3 * quantile(late_s, 0.5), 1e3 * quantile(late_s, 0.99), worst);
 }
 
-// What waits in a client is felt within a second, beside the time that the machine is busy with other tests.
+/// More than three threads want each processor: then a tenth of a second's work takes a second.
+bool is_overloaded() {
+  double load = 0;
+  return ::getloadavg(&load, 1) == 1 && load > 3.0 * std::thread::hardware_concurrency();
+}
+
+// Of three the fastest: the machine may be busy with other tests.
 TEST(OpenIgtServe, ALabelMapIsFeltWithinASecond) {
   Serving serving;
   TestClient client(serving.port);
@@ -174,8 +180,8 @@ TEST(OpenIgtServe, ALabelMapIsFeltWithinASecond) {
     ASSERT_TRUE(felt) << name;
     waited_s.push_back(utc_s() - sent_s);
   }
-  // From the moment that it is sent until a contact tells the distance from it, the ramp of 0.5 s included.
-  EXPECT_LT(quantile(waited_s, 0), is_sanitized ? 20 : 1);
+  // Until a contact tells the distance from it: from then on its force comes up along the ramp.
+  EXPECT_LT(quantile(waited_s, 0), is_sanitized || is_overloaded() ? 20 : 1);
   std::printf("felt after %.2f, %.2f, %.2f s\n", waited_s[0], waited_s[1], waited_s[2]);
   EXPECT_EQ(serving.program.end(SIGINT), 0) << "ended in good order";
 }
