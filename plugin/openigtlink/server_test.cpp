@@ -60,7 +60,7 @@ TEST(OpenIgtServer, ASlowClientGetsTheNewest) {
     if (n % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   int got = 0, last = -1;
-  while (const auto message = slow.next(300)) {
+  while (const auto message = slow.next(3000)) {
     const int number = std::stoi(status_of(message->content).text);
     EXPECT_GT(number, last) << "in order";
     last = number;

@@ -67,10 +67,10 @@ struct SharedSession {
     announcer->look();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  /// Whether it comes to hold within ten seconds.
+  /// Whether it comes to hold within a minute: the machine may be busy.
   template <typename Holds>
   bool comes(const Holds& holds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (std::chrono::steady_clock::now() < end) {
       look();
       if (holds()) return true;
