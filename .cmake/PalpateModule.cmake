@@ -85,11 +85,6 @@ function(palpate_together target)
   endforeach()
 endfunction()
 
-# palpate_alone(<file>...): files with names of their own that another file of their folder has too.
-function(palpate_alone)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-endfunction()
-
 # The arrows: what a folder may depend on; all know solver/text. palpate_module() refuses any other, and the test `arrows` reads
 # the includes of every file, at any depth.
 set(PALPATE_ARROWS_solver "")

@@ -27,6 +27,10 @@ function(palpate_suite suite tests)
     math(EXPR cost "1000 + ${tests}")
   endif()
   set_tests_properties("${name}" PROPERTIES TIMEOUT ${longest} COST ${cost} ENVIRONMENT "PALPATE_TEST_SECONDS=${seconds}")
+  # Two fifths of all the time, by mostly waiting: `plugin/run check thorough` runs them, `plugin/run test` does not.
+  if(suite MATCHES "^(archive|CheckDevice|CommandDevices|CommandFuzz|EachDevice/FaultTable|Hostile|LiveSession|RandomFaults|Soak)$")
+    set_tests_properties("${name}" PROPERTIES LABELS thorough)
+  endif()
 endfunction()
 
 set(suite "")

@@ -18,11 +18,11 @@
 namespace palpate::device {
 namespace {
 
-struct Bench {
+struct ServiceBench {
   HaplyServer server;
   std::unique_ptr<Stylus> stylus;
 
-  explicit Bench(const FakeHaply& service = {}) : server(service) {
+  explicit ServiceBench(const FakeHaply& service = {}) : server(service) {
     stylus = make_haply({.host = "127.0.0.1", .port = server.port(), .guarded = false});
   }
   /// Ticks with this force (N, device frame) until something holds, at most five seconds.
@@ -47,7 +47,7 @@ TEST(HaplyService, SpeaksBothFormatsOverTheSocket) {
     service.version = {3, minor};
     service.spelling = minor == 1 ? "values" : "vector";
     service.place = {0.01, 0.02, 0.03};
-    Bench bench(service);
+    ServiceBench bench(service);
     bench.stylus->open();
     EXPECT_EQ(bench.stylus->specification().name, "Haply Inverse3");
     EXPECT_TRUE(bench.pushes(Vec3(0.1, 0.2, 0.3))) << minor;
@@ -61,7 +61,7 @@ TEST(HaplyService, SpeaksBothFormatsOverTheSocket) {
 }
 
 TEST(HaplyService, GoesIdleByItselfWhereNobodyAsks) {
-  Bench bench;
+  ServiceBench bench;
   const auto link = open_haply_service({.host = "127.0.0.1", .port = bench.server.port()});
   HaplyProtocol protocol({});
   protocol.connect(*link);
@@ -88,7 +88,7 @@ TEST(HaplyService, WhateverItDoesEndsWithoutForceAndNoTickWaits) {
                {"falls silent", [](HaplyServer& s) { s.with([](FakeHaply& f) { f.silent = true; }); }},
                {"loses the arm", [](HaplyServer& s) { s.with([](FakeHaply& f) { f.loses_device = true; }); }}};
   for (const auto& one : cases) {
-    Bench bench;
+    ServiceBench bench;
     bench.stylus->open();
     ASSERT_TRUE(bench.pushes(Vec3(0, 1, 0))) << one.what;
     one.cause(bench.server);
@@ -129,7 +129,7 @@ TEST(HaplyService, ZerosAreSentUntilNoForceActs) {
 }
 
 TEST(HaplyService, ComesBackByConnectingAgain) {
-  Bench bench;
+  ServiceBench bench;
   bench.stylus->open();
   ASSERT_TRUE(bench.pushes(Vec3(0, 1, 0)));
   bench.server.drop();

@@ -12,7 +12,7 @@
 namespace palpate::device {
 namespace {
 
-constexpr double tick = 1e-3;
+constexpr double filter_tick = 1e-3;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -28,7 +28,7 @@ struct Session {
 
   explicit Session(const Vec3& force = Vec3(0, 1, 0)) { input.force = force; }
 
-  const SafetyResult& step(double elapsed = tick) {
+  const SafetyResult& step(double elapsed = filter_tick) {
     input.time += elapsed;
     input.reading.time = input.time;
     input.reading.fresh = new_pose;
@@ -37,7 +37,7 @@ struct Session {
     return result = filter_force(limits, input, state);
   }
   const SafetyResult& run(double seconds) {
-    for (int i = 0; i < std::lround(seconds / tick); ++i) step();
+    for (int i = 0; i < std::lround(seconds / filter_tick); ++i) step();
     return result;
   }
   void activate() {
@@ -143,11 +143,11 @@ TEST(SafetyFilter, TakesTheForceAwayAtOnceWhereANumberIsMissing) {
 void expect_smooth_fall(Session& session, Fault fault, double within) {
   double previous = glm::length(session.result.force);
   const double slew = session.limits.slew + session.limits.force / session.limits.fall_time;
-  for (int i = 0; i < std::lround(within / tick); ++i) {
+  for (int i = 0; i < std::lround(within / filter_tick); ++i) {
     session.step();
     const double now = glm::length(session.result.force);
     ASSERT_LE(now, previous + 1e-12);
-    ASSERT_LE(previous - now, slew * tick + 1e-12);
+    ASSERT_LE(previous - now, slew * filter_tick + 1e-12);
     previous = now;
   }
   EXPECT_EQ(session.result.force, Vec3(0));
@@ -210,7 +210,7 @@ TEST(SafetyFilter, FallsWhenTheHandIsTooFast) {
   while (session.result.fault == Fault::none && speed < 2) {
     speed += 0.01;
     for (int i = 0; i < 20; ++i) {
-      session.input.reading.position.x += speed * tick;
+      session.input.reading.position.x += speed * filter_tick;
       session.step();
     }
   }
@@ -262,7 +262,7 @@ TEST(SafetyFilter, TheSpeedOfBeforeHomingIsForgotten) {
   Session session;
   session.activate();
   for (int i = 0; i < 50; ++i) {
-    session.input.reading.position.x += 0.9 * tick;
+    session.input.reading.position.x += 0.9 * filter_tick;
     session.step();
   }
   ASSERT_NEAR(session.result.speed, 0.9, 0.01);
@@ -324,7 +324,7 @@ TEST(SafetyFilter, HoldsItsLimitsAgainstAnything) {
   int with_force = 0;
   for (int i = 0; i < 400'000; ++i) {
     const bool wild = random() % 500 == 0;
-    const double elapsed = wild ? 0.05 * std::abs(normal(random)) : tick;
+    const double elapsed = wild ? 0.05 * std::abs(normal(random)) : filter_tick;
     input.time += elapsed;
     input.reading.fresh = random() % 4 != 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -364,7 +364,7 @@ TEST(SafetyFilter, IsAPureFunction) {
   session.activate();
   SafetyState one = session.state;
   SafetyState other = session.state;
-  session.input.time += tick;
+  session.input.time += filter_tick;
   const SafetyResult a = filter_force(session.limits, session.input, one);
   const SafetyResult b = filter_force(session.limits, session.input, other);
   EXPECT_EQ(a.force, b.force);

@@ -31,12 +31,12 @@ class Cursor {
 };
 
 // Up to the first zero byte.
-std::string_view text_of(std::span<const std::byte> bytes) {
+std::string_view csa_text(std::span<const std::byte> bytes) {
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   return all.substr(0, all.find('\0'));
 }
 
-std::optional<double> number_of(std::string_view text) {
+std::optional<double> csa_number(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -49,7 +49,7 @@ std::vector<double> csa_numbers(std::span<const std::byte> header, std::string_v
   Cursor cursor(header);
   const auto magic = cursor.take(8);
   const auto tags = cursor.take_u32();
-  if (!magic || text_of(magic->first(4)) != "SV10" || !tags || !cursor.take_u32()) return {};
+  if (!magic || csa_text(magic->first(4)) != "SV10" || !tags || !cursor.take_u32()) return {};
   for (std::uint32_t tag = 0; tag < *tags; ++tag) {
     const auto tag_name = cursor.take(64);
     const bool described = tag_name && cursor.take(12);  // multiplicity, VR, type
@@ -62,9 +62,9 @@ std::vector<double> csa_numbers(std::span<const std::byte> header, std::string_v
       const auto length = Cursor(lengths->subspan(4)).take_u32();
       const auto value = length ? cursor.take((static_cast<std::size_t>(*length) + 3) / 4 * 4) : std::nullopt;
       if (!value) return {};
-      if (const auto number = number_of(text_of(value->first(*length)))) numbers.push_back(*number);
+      if (const auto number = csa_number(csa_text(value->first(*length)))) numbers.push_back(*number);
     }
-    if (text_of(*tag_name) == name) return numbers;
+    if (csa_text(*tag_name) == name) return numbers;
   }
   return {};
 }

@@ -16,7 +16,7 @@ namespace {
 using Slice = SeriesSource::Slice;
 using Positions = std::vector<std::vector<Slice>>;
 
-std::optional<double> number_of(const std::string& text) {
+std::optional<double> frame_number_in(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
@@ -31,8 +31,9 @@ std::vector<std::string> ordered_values(const SeriesSource& source, const Positi
       if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
     }
   }
-  if (std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); })) {
-    std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return *number_of(a) < *number_of(b); });
+  if (std::all_of(values.begin(), values.end(), [](const auto& v) { return frame_number_in(v).has_value(); })) {
+    std::sort(values.begin(), values.end(),
+              [](const auto& a, const auto& b) { return *frame_number_in(a) < *frame_number_in(b); });
   }
   return values;
 }

@@ -17,8 +17,8 @@ namespace {
 
 using testdata::Grid;
 
-std::shared_ptr<const Volume> scan(const testdata::Phantom& phantom, const Grid& grid,
-                                   const testdata::Acquisition& acquisition = {}) {
+std::shared_ptr<const Volume> scan_for_differences(const testdata::Phantom& phantom, const Grid& grid,
+                                                   const testdata::Acquisition& acquisition = {}) {
   return std::make_shared<const Volume>(testdata::scan(phantom, testdata::make_geometry(grid), acquisition));
 }
 
@@ -26,7 +26,7 @@ TEST(CentralDifferences, AreHalfTheDifferenceOfTheNeighbors) {
   Grid grid;
   grid.size = {9, 8, 7};
   grid.spacing = {0.5, 0.7, 2};
-  const auto volume = scan(testdata::make_sphere(2), grid, {.noise = 300});
+  const auto volume = scan_for_differences(testdata::make_sphere(2), grid, {.noise = 300});
   const auto gradients = GradientKernel(volume, GradientKernel::CentralDifferences{}).whole();
   const auto v = [&](int i, int j, int k) { return volume->value_at(i, j, k); };
   for (int k = 1; k < 6; ++k) {

@@ -19,8 +19,8 @@ namespace {
 
 using testdata::Grid;
 
-std::shared_ptr<const Volume> scan(const testdata::Phantom& phantom, const Grid& grid,
-                                   const testdata::Acquisition& acquisition = {}) {
+std::shared_ptr<const Volume> scan_of_sphere(const testdata::Phantom& phantom, const Grid& grid,
+                                             const testdata::Acquisition& acquisition = {}) {
   return std::make_shared<const Volume>(testdata::scan(phantom, testdata::make_geometry(grid), acquisition));
 }
 
@@ -42,7 +42,7 @@ double slope_of_blurred_ball(double radius, double scale, double r) {
 /// The largest errors within half a voxel of a sphere's surface, against the derivative of Gaussian of the sphere
 /// itself: what box-shaped voxels and their spacing cost.
 Errors errors_on_sphere(const Grid& grid, double radius, double scale, double noise) {
-  const auto volume = scan(testdata::make_sphere(radius), grid, {.noise = noise});
+  const auto volume = scan_of_sphere(testdata::make_sphere(radius), grid, {.noise = noise});
   const GradientKernel kernel(volume, scale);
   const auto gradients = kernel.whole();
   Errors worst;

@@ -25,7 +25,7 @@ constexpr double most_layers = 255;
 /// Fields ("sizes: 512 512 3") and key-value pairs ("Segment0_Name:=liver") by their names.
 using Fields = HeaderFields;
 
-Fields fields_in(std::istream& file) {
+Fields nrrd_fields(std::istream& file) {
   Fields fields;
   std::string line;
   for (HeaderLines lines(file); lines.next(line);) {
@@ -39,7 +39,7 @@ Fields fields_in(std::istream& file) {
   return fields;  // a header alone ends where its file does
 }
 
-VoxelFile::Number number_of(const std::string& type) {
+VoxelFile::Number nrrd_number(const std::string& type) {
   using Number = VoxelFile::Number;
   // https://teem.sourceforge.net/nrrd/format.html, 5
   static const std::map<std::string, Number> types = [] {
@@ -233,7 +233,7 @@ VoxelFile::Packing packing_of(const std::string& encoding) {
 }
 
 // Where the voxels are: behind the header, which ends at `header_end`, or in a file beside it.
-void find_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& file) {
+void find_nrrd_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& file) {
   const std::string data = field(fields, {"data file", "datafile"});
   file.voxels_at = data.empty() ? file.path : beside(file.path, data);
   file.first = data.empty() ? header_end : 0;
@@ -268,12 +268,12 @@ std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path) {
   if (!stream.read(magic.data(), 4) || magic != "NRRD") return std::nullopt;
   std::string line;
   std::getline(stream, line);
-  const Fields fields = fields_in(stream);
+  const Fields fields = nrrd_fields(stream);
   stream.clear();  // a header alone may end without an empty line
   VoxelFile file;
   file.path = path;
   const auto header_end = static_cast<std::int64_t>(stream.tellg());
-  file.number = number_of(field(fields, {"type"}));
+  file.number = nrrd_number(field(fields, {"type"}));
   file.swapped =
       lower_case(field(fields, {"endian"})) == (std::endian::native == std::endian::little ? "big" : "little");
   file.names = names_in(fields);
@@ -286,7 +286,7 @@ std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path) {
     if (std::isfinite(one)) size[n] = static_cast<int>(std::clamp(one, 0.0, 65535.0));
   }
   place(map_of(fields, axes), size, file);
-  find_voxels(fields, header_end, file);
+  find_nrrd_voxels(fields, header_end, file);
   return file;
 }
 

@@ -12,33 +12,33 @@
 namespace palpate::io {
 namespace {
 
-constexpr int edge = NodeBricks::edge;
-constexpr std::size_t nodes = NodeBricks::nodes;
-constexpr int margin = 5;  // how many nodes beyond its brick a Newton step may look
-constexpr std::ptrdiff_t wide = edge + 2 * margin;
-constexpr float no_node = std::numeric_limits<float>::quiet_NaN();
+constexpr int newton_margin = 5;  // how many nodes beyond its brick a Newton step may look
+constexpr std::ptrdiff_t newton_width = brick_edge + 2 * newton_margin;
 
 /// f around a brick, interpolated.
 class Surroundings {
  public:
   Surroundings(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot)
-      : spacing_(bricks.lattice.spacing), numbers_(static_cast<std::size_t>(wide) * wide * wide) {
-    gather<margin, float>(bricks, f, slot, no_node, numbers_.data());
+      : spacing_(bricks.lattice.spacing),
+        numbers_(static_cast<std::size_t>(newton_width) * newton_width * newton_width) {
+    gather<newton_margin, float>(bricks, f, slot, no_node, numbers_.data());
   }
   float at(int i, int j, int k) const {
-    return numbers_[static_cast<std::size_t>(((k + margin) * wide + j + margin) * wide + i + margin)];
+    return numbers_[static_cast<std::size_t>(((k + newton_margin) * newton_width + j + newton_margin) * newton_width +
+                                             i + newton_margin)];
   }
   /// At a node's coordinates in the brick; the slope is per mm. NaN where it is not known.
   double sample(const Vec3& node, Vec3& slope) const {
     const Vec3 base = glm::floor(node);
-    const glm::ivec3 first = glm::ivec3(base) - 1 + margin;
-    if (!(first.x >= 0 && first.y >= 0 && first.z >= 0 && first.x + 3 < wide && first.y + 3 < wide &&
-          first.z + 3 < wide)) {
+    const glm::ivec3 first = glm::ivec3(base) - 1 + newton_margin;
+    if (!(first.x >= 0 && first.y >= 0 && first.z >= 0 && first.x + 3 < newton_width && first.y + 3 < newton_width &&
+          first.z + 3 < newton_width)) {
       return no_node;
     }
     const Vec3 t = node - base;
     const CubicSample sample =
-        cubic_sample(numbers_.data() + (first.z * wide + first.y) * wide + first.x, wide, wide * wide, t);
+        cubic_sample(numbers_.data() + (first.z * newton_width + first.y) * newton_width + first.x, newton_width,
+                     newton_width * newton_width, t);
     slope = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) / spacing_;
     return sample.value;
   }
@@ -90,17 +90,17 @@ void offer(const Vec3f& node, const Vec3f& point, float& least, Vec3f& closest) 
 /// Points on the edges to the neighbors on the other side, and by Newton's steps.
 void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest) {
   const Vec3& spacing = bricks.lattice.spacing;
-  const Vec3 corner = Vec3(bricks.place[slot] * edge) * spacing;
+  const Vec3 corner = Vec3(bricks.place[slot] * brick_edge) * spacing;
   const double near = 2.2 * std::max({spacing.x, spacing.y, spacing.z});
-  const float* const own = f.data() + slot * nodes;
-  if (std::none_of(own, own + nodes, [&](float here) { return std::abs(here) <= near; })) {
-    std::fill_n(closest, nodes, Vec3f(nowhere));
+  const float* const own = f.data() + slot * brick_nodes;
+  if (std::none_of(own, own + brick_nodes, [&](float here) { return std::abs(here) <= near; })) {
+    std::fill_n(closest, brick_nodes, Vec3f(nowhere));
     return;
   }
   const Surroundings around(bricks, f, slot);
-  for (int k = 0; k < edge; ++k) {
-    for (int j = 0; j < edge; ++j) {
-      for (int i = 0; i < edge; ++i) {
+  for (int k = 0; k < brick_edge; ++k) {
+    for (int j = 0; j < brick_edge; ++j) {
+      for (int i = 0; i < brick_edge; ++i) {
         const float here = around.at(i, j, k);
         Vec3f& best = closest[NodeBricks::at(i, j, k)];
         best = Vec3f(nowhere);
@@ -134,15 +134,15 @@ void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, 
 
 /// Takes the neighbors' closest points over where they are closer: forth and back through a brick. Whether any changed.
 bool spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::size_t slot, Vec3f* closest) {
-  constexpr std::ptrdiff_t side = edge + 2;
+  constexpr std::ptrdiff_t side = brick_edge + 2;
   std::array<Vec3f, static_cast<std::size_t>(side) * side * side> around;
   gather<1, Vec3f>(bricks, before, slot, Vec3f(nowhere), around.data());
   if (std::ranges::all_of(around, [](const Vec3f& point) { return point.x == nowhere; })) {
-    std::fill_n(closest, nodes, Vec3f(nowhere));
+    std::fill_n(closest, brick_nodes, Vec3f(nowhere));
     return false;
   }
   const Vec3f spacing(bricks.lattice.spacing);
-  const Vec3f corner = Vec3f(bricks.place[slot] * edge) * spacing;
+  const Vec3f corner = Vec3f(bricks.place[slot] * brick_edge) * spacing;
   const auto visit = [&](int i, int j, int k) {
     Vec3f* here = around.data() + ((k + 1) * side + j + 1) * side + i + 1;
     const Vec3f node = corner + Vec3f(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)) * spacing;
@@ -152,23 +152,23 @@ bool spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::siz
       offer(node, here[step], least, *here);
     }
   };
-  for (int k = 0; k < edge; ++k) {
-    for (int j = 0; j < edge; ++j) {
-      for (int i = 0; i < edge; ++i) visit(i, j, k);
+  for (int k = 0; k < brick_edge; ++k) {
+    for (int j = 0; j < brick_edge; ++j) {
+      for (int i = 0; i < brick_edge; ++i) visit(i, j, k);
     }
   }
-  for (int k = edge; k-- > 0;) {
-    for (int j = edge; j-- > 0;) {
-      for (int i = edge; i-- > 0;) visit(i, j, k);
+  for (int k = brick_edge; k-- > 0;) {
+    for (int j = brick_edge; j-- > 0;) {
+      for (int i = brick_edge; i-- > 0;) visit(i, j, k);
     }
   }
   bool changed = false;
-  for (int k = 0; k < edge; ++k) {
-    for (int j = 0; j < edge; ++j) {
-      for (int i = 0; i < edge; ++i) {
+  for (int k = 0; k < brick_edge; ++k) {
+    for (int j = 0; j < brick_edge; ++j) {
+      for (int i = 0; i < brick_edge; ++i) {
         Vec3f& point = closest[NodeBricks::at(i, j, k)];
         const Vec3f nearer = around[static_cast<std::size_t>(((k + 1) * side + j + 1) * side + i + 1)];
-        changed = changed || nearer != before[slot * nodes + NodeBricks::at(i, j, k)];
+        changed = changed || nearer != before[slot * brick_nodes + NodeBricks::at(i, j, k)];
         point = nearer;
       }
     }
@@ -201,21 +201,22 @@ std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<fl
                            },
                            {}, threads);
   };
-  std::vector<Vec3f> closest(count * nodes);
-  for_bricks([&](std::size_t slot) { points_near_surface(bricks, f, slot, closest.data() + slot * nodes); });
+  std::vector<Vec3f> closest(count * brick_nodes);
+  for_bricks([&](std::size_t slot) { points_near_surface(bricks, f, slot, closest.data() + slot * brick_nodes); });
   const Vec3& h = bricks.lattice.spacing;
-  const double brick_mm = edge * std::min({h.x, h.y, h.z});
+  const double brick_mm = brick_edge * std::min({h.x, h.y, h.z});
   const int passes = 2 + static_cast<int>(std::ceil(band_mm / brick_mm));
   std::vector<Vec3f> next(closest.size());
   std::vector<char> changed(count, 1), changed_now(count);
   for (int pass = 0; pass < passes; ++pass) {
     for_bricks([&](std::size_t slot) {
-      const Vec3f* const here = closest.data() + slot * nodes;
+      const Vec3f* const here = closest.data() + slot * brick_nodes;
       changed_now[slot] = 0;
       if (changed_around(bricks, changed, slot)) {
-        changed_now[slot] = spread(bricks, closest, slot, next.data() + slot * nodes) ? 1 : 0;
+        changed_now[slot] = spread(bricks, closest, slot, next.data() + slot * brick_nodes) ? 1 : 0;
       } else {
-        std::copy_n(here, nodes, next.data() + slot * nodes);  // what would come of the same once more
+        std::copy_n(here, brick_nodes,
+                    next.data() + slot * brick_nodes);  // what would come of the same once more
       }
     });
     closest.swap(next);

@@ -12,11 +12,8 @@
 namespace palpate::io {
 namespace {
 
-constexpr int edge = NodeBricks::edge;
-constexpr std::size_t nodes = NodeBricks::nodes;
-constexpr std::ptrdiff_t wide = edge + 4;
-constexpr std::size_t count_around = static_cast<std::size_t>(wide) * wide * wide;
-constexpr float no_node = std::numeric_limits<float>::quiet_NaN();
+constexpr std::ptrdiff_t coarse_width = brick_edge + 4;
+constexpr std::size_t coarse_count = static_cast<std::size_t>(coarse_width) * coarse_width * coarse_width;
 
 /// Of the eight bricks that a coarser one is made of, the one to read where `part` is missing: the nearest there is.
 int stand_in(const std::array<std::int32_t, 8>& from, int part) {
@@ -50,15 +47,16 @@ Coarser coarser(const DistanceBounds& fine, const std::vector<float>& f, float m
     }
     bricks.slot.push_back(static_cast<std::int32_t>(bricks.count()));
     bricks.place.push_back(place);
-    for (int n = 0; n < static_cast<int>(nodes); ++n) {
-      const glm::ivec3 node = 2 * glm::ivec3(n % edge, n / edge % edge, n / (edge * edge));
-      const glm::ivec3 part = node / edge;
+    for (int n = 0; n < static_cast<int>(brick_nodes); ++n) {
+      const glm::ivec3 node =
+          2 * glm::ivec3(n % brick_edge, n / brick_edge % brick_edge, n / (brick_edge * brick_edge));
+      const glm::ivec3 part = node / brick_edge;
       const int own = part.x + 2 * part.y + 4 * part.z;
       const int read = stand_in(from, own);
-      const glm::ivec3 first = edge * glm::ivec3(read % 2, read / 2 % 2, read / 4);
-      const glm::ivec3 in = glm::clamp(node - first, glm::ivec3(0), glm::ivec3(edge - 1));
-      const std::size_t of =
-          static_cast<std::size_t>(from[static_cast<std::size_t>(read)]) * nodes + NodeBricks::at(in.x, in.y, in.z);
+      const glm::ivec3 first = brick_edge * glm::ivec3(read % 2, read / 2 % 2, read / 4);
+      const glm::ivec3 in = glm::clamp(node - first, glm::ivec3(0), glm::ivec3(brick_edge - 1));
+      const std::size_t of = static_cast<std::size_t>(from[static_cast<std::size_t>(read)]) * brick_nodes +
+                             NodeBricks::at(in.x, in.y, in.z);
       level.bounds.lower.push_back(read == own ? fine.lower[of] : -most_mm);
       level.bounds.upper.push_back(read == own ? fine.upper[of] : most_mm);
       level.f.push_back(f[of]);
@@ -72,18 +70,18 @@ void refine(const NodeBricks& coarse, const std::vector<float>& numbers, const N
   for (std::size_t slot = 0; slot < fine.count(); ++slot) {
     const glm::ivec3 place = fine.place[slot];
     const glm::ivec3 from = place / 2;
-    const glm::ivec3 first = (place - from * 2) * (edge / 2) + 2;
-    std::array<float, count_around> around;
+    const glm::ivec3 first = (place - from * 2) * (brick_edge / 2) + 2;
+    std::array<float, coarse_count> around;
     gather<2, float>(coarse, numbers, static_cast<std::size_t>(coarse.slot_at(from.x, from.y, from.z)), no_node,
                      around.data());
-    for (int n = 0; n < static_cast<int>(nodes); ++n) {
-      const glm::ivec3 node(n % edge, n / edge % edge, n / (edge * edge));
+    for (int n = 0; n < static_cast<int>(brick_nodes); ++n) {
+      const glm::ivec3 node(n % brick_edge, n / brick_edge % brick_edge, n / (brick_edge * brick_edge));
       const glm::ivec3 cell = first + node / 2 - 1;
       const glm::dvec3 t = 0.5 * glm::dvec3(node - node / 2 * 2);
-      const CubicSample sample =
-          cubic_sample(around.data() + (cell.z * wide + cell.y) * wide + cell.x, wide, wide * wide, t);
+      const CubicSample sample = cubic_sample(around.data() + (cell.z * coarse_width + cell.y) * coarse_width + cell.x,
+                                              coarse_width, coarse_width * coarse_width, t);
       if (std::isfinite(sample.value))
-        into[slot * nodes + static_cast<std::size_t>(n)] = static_cast<float>(sample.value);
+        into[slot * brick_nodes + static_cast<std::size_t>(n)] = static_cast<float>(sample.value);
     }
   }
 }

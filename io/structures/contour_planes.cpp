@@ -16,7 +16,7 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-constexpr double finest_mm = 0.5;
+constexpr double finest_contour_mm = 0.5;
 constexpr double coarsest_mm = 1.5;
 
 /// Which columns of a row of nodes lie inside, by even-odd.
@@ -121,7 +121,7 @@ OutlinePlanes spaced_for(const ContourStack& stack, double reach_mm) {
   OutlinePlanes planes;
   NodeLattice& lattice = planes.lattice;
   lattice.axes = stack.axes;
-  const double in_plane = std::clamp(stack.step_mm, finest_mm, 1.0);
+  const double in_plane = std::clamp(stack.step_mm, finest_contour_mm, 1.0);
   // A power of two: so a lattice of every second node, and of every second of those, still has all planes.
   const unsigned parts =
       std::bit_ceil(static_cast<unsigned>(std::clamp(std::ceil(stack.step_mm / coarsest_mm), 1.0, 8.0)));

@@ -11,7 +11,6 @@
 namespace palpate::io {
 namespace {
 
-constexpr int edge = NodeBricks::edge;
 constexpr float known_to = 0.01F;  // of a voxel's diagonal: room for what is smooth
 
 /// The bricks of one layer (eight planes of nodes).
@@ -51,9 +50,9 @@ class PlaneWindow {
 
 /// Squared distances of a brick's nodes to what is inside and outside.
 struct BrickDistances {
-  std::array<float, NodeBricks::nodes> to_inside;
-  std::array<float, NodeBricks::nodes> to_outside;
-  std::array<float, NodeBricks::nodes> known;  ///< mm; NaN where it is not
+  std::array<float, brick_nodes> to_inside;
+  std::array<float, brick_nodes> to_outside;
+  std::array<float, brick_nodes> known;  ///< mm; NaN where it is not
 };
 
 void nearest_of_planes(const std::vector<std::pair<int, const PlaneDistances*>>& near, const NodeLattice& lattice,
@@ -61,22 +60,22 @@ void nearest_of_planes(const std::vector<std::pair<int, const PlaneDistances*>>&
   distances.to_inside.fill(PlaneDistances::far);
   distances.to_outside.fill(PlaneDistances::far);
   distances.known.fill(std::numeric_limits<float>::quiet_NaN());
-  const int columns = lattice.bricks.x * edge;
+  const int columns = lattice.bricks.x * brick_edge;
   for (const auto& [node, plane] : near) {
-    for (int k = 0; k < edge; ++k) {
-      const auto up = static_cast<float>((brick.z * edge + k - node) * lattice.spacing.z);
+    for (int k = 0; k < brick_edge; ++k) {
+      const auto up = static_cast<float>((brick.z * brick_edge + k - node) * lattice.spacing.z);
       const float farther = up * up;
-      for (int j = 0; j < edge; ++j) {
-        const auto first = static_cast<std::size_t>(brick.y * edge + j) * static_cast<std::size_t>(columns) +
-                           static_cast<std::size_t>(brick.x * edge);
+      for (int j = 0; j < brick_edge; ++j) {
+        const auto first = static_cast<std::size_t>(brick.y * brick_edge + j) * static_cast<std::size_t>(columns) +
+                           static_cast<std::size_t>(brick.x * brick_edge);
         const float* in = plane->to_inside.data() + first;
         const float* out = plane->to_outside.data() + first;
-        if (brick.z * edge + k == node && !plane->known.empty()) {
-          std::copy_n(plane->known.data() + first, edge, distances.known.data() + NodeBricks::at(0, j, k));
+        if (brick.z * brick_edge + k == node && !plane->known.empty()) {
+          std::copy_n(plane->known.data() + first, brick_edge, distances.known.data() + NodeBricks::at(0, j, k));
         }
         float* nearest_in = distances.to_inside.data() + NodeBricks::at(0, j, k);
         float* nearest_out = distances.to_outside.data() + NodeBricks::at(0, j, k);
-        for (int i = 0; i < edge; ++i) {
+        for (int i = 0; i < brick_edge; ++i) {
           nearest_in[i] = std::min(nearest_in[i], in[i] + farther);
           nearest_out[i] = std::min(nearest_out[i], out[i] + farther);
         }
@@ -92,7 +91,7 @@ std::int32_t take_brick(const OutlinePlanes& planes, const glm::ivec3& brick, co
   bool near = false;
   float nearest_inside = PlaneDistances::far;
   float nearest_outside = PlaneDistances::far;
-  for (std::size_t n = 0; n < NodeBricks::nodes; ++n) {
+  for (std::size_t n = 0; n < brick_nodes; ++n) {
     near = near || std::max(distances.to_inside[n], distances.to_outside[n]) < band;
     nearest_inside = std::min(nearest_inside, distances.to_inside[n]);
     nearest_outside = std::min(nearest_outside, distances.to_outside[n]);
@@ -104,7 +103,7 @@ std::int32_t take_brick(const OutlinePlanes& planes, const glm::ivec3& brick, co
   const Vec3& spacing = planes.lattice.spacing;
   // On its own side, and not on the surface itself.
   const float least = 0.01F * static_cast<float>(std::min({spacing.x, spacing.y, spacing.z}));
-  for (std::size_t n = 0; n < NodeBricks::nodes; ++n) {
+  for (std::size_t n = 0; n < brick_nodes; ++n) {
     const float in = std::sqrt(std::min(distances.to_inside[n], band));
     const float out = std::sqrt(std::min(distances.to_outside[n], band));
     float lower = -in;
@@ -128,7 +127,7 @@ std::int32_t take_brick(const OutlinePlanes& planes, const glm::ivec3& brick, co
 Layer make_layer(const OutlinePlanes& planes, int z, PlaneWindow& window) {
   Layer layer;
   const NodeLattice& lattice = planes.lattice;
-  const auto near = window.near(z * edge, z * edge + edge - 1);
+  const auto near = window.near(z * brick_edge, z * brick_edge + brick_edge - 1);
   BrickDistances distances;
   for (int y = 0; y < lattice.bricks.y; ++y) {
     for (int x = 0; x < lattice.bricks.x; ++x) {

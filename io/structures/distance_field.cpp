@@ -20,9 +20,8 @@
 namespace palpate::io {
 namespace {
 
-constexpr int edge = NodeBricks::edge;
-constexpr std::ptrdiff_t wide = edge + 3;
-constexpr std::size_t nodes_of_a_brick = static_cast<std::size_t>(wide) * wide * wide;
+constexpr std::ptrdiff_t cubic_width = brick_edge + 3;
+constexpr std::size_t nodes_of_a_brick = static_cast<std::size_t>(cubic_width) * cubic_width * cubic_width;
 
 /// A node's closest point and on which side of the surface the node is.
 struct Nearest {
@@ -33,20 +32,21 @@ struct Nearest {
 /// Signed distances of a brick's nodes and of those around it. A node that no brick holds takes the closest point of
 /// the nearest one that a brick does.
 void fill_brick(const NodeBricks& bricks, const std::vector<Nearest>& nearest, std::size_t slot, float* into) {
-  constexpr std::ptrdiff_t side = edge + 4;
+  constexpr std::ptrdiff_t side = brick_edge + 4;
   std::vector<Nearest> around(static_cast<std::size_t>(side) * side * side);
   gather<2, Nearest>(bricks, nearest, slot, Nearest{}, around.data());
   const Vec3f spacing(bricks.lattice.spacing);
-  const Vec3f corner = Vec3f(bricks.place[slot] * edge) * spacing;
-  for (int k = -1; k < edge + 2; ++k) {
-    for (int j = -1; j < edge + 2; ++j) {
-      for (int i = -1; i < edge + 2; ++i) {
+  const Vec3f corner = Vec3f(bricks.place[slot] * brick_edge) * spacing;
+  for (int k = -1; k < brick_edge + 2; ++k) {
+    for (int j = -1; j < brick_edge + 2; ++j) {
+      for (int i = -1; i < brick_edge + 2; ++i) {
         const auto held = [&](int x, int y, int z) {
           return around[static_cast<std::size_t>(((z + 2) * side + y + 2) * side + x + 2)];
         };
         Nearest here = held(i, j, k);
         if (here.point.x == nowhere) {
-          here = held(std::clamp(i, 0, edge - 1), std::clamp(j, 0, edge - 1), std::clamp(k, 0, edge - 1));
+          here = held(std::clamp(i, 0, brick_edge - 1), std::clamp(j, 0, brick_edge - 1),
+                      std::clamp(k, 0, brick_edge - 1));
         }
         const Vec3f node =
             corner + Vec3f(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)) * spacing;
@@ -66,10 +66,11 @@ NodeBricks bricks_within(const NodeBricks& bricks, const std::vector<Vec3f>& clo
   for (std::size_t slot = 0; slot < bricks.count(); ++slot) {
     const glm::ivec3 place = bricks.place[slot];
     float least = nowhere;
-    for (int n = 0; n < static_cast<int>(NodeBricks::nodes); ++n) {
-      const glm::ivec3 node = place * edge + glm::ivec3(n % edge, n / edge % edge, n / (edge * edge));
-      least = std::min(
-          least, glm::distance(Vec3f(node) * spacing, closest[slot * NodeBricks::nodes + static_cast<std::size_t>(n)]));
+    for (int n = 0; n < static_cast<int>(brick_nodes); ++n) {
+      const glm::ivec3 node =
+          place * brick_edge + glm::ivec3(n % brick_edge, n / brick_edge % brick_edge, n / (brick_edge * brick_edge));
+      least = std::min(least,
+                       glm::distance(Vec3f(node) * spacing, closest[slot * brick_nodes + static_cast<std::size_t>(n)]));
     }
     const glm::ivec3& size = bricks.lattice.bricks;
     std::int32_t& entry = near.slot[(static_cast<std::size_t>(place.z) * static_cast<std::size_t>(size.y) +
@@ -97,7 +98,7 @@ std::pair<Vec3, Vec3> region_of(const NodeBricks& bricks, const DistanceOptions&
   };
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 share((corner & 1) != 0 ? 1 : 0, (corner & 2) != 0 ? 1 : 0, (corner & 4) != 0 ? 1 : 0);
-    hold(bricks.lattice.position(share * Vec3(bricks.lattice.bricks * edge)));
+    hold(bricks.lattice.position(share * Vec3(bricks.lattice.bricks * brick_edge)));
     if (options.scan != nullptr) hold(options.scan->to_patient(share * Vec3(options.scan->dimensions - 1)));
   }
   constexpr double around_mm = 40;
@@ -142,23 +143,23 @@ DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions&
 bool DistanceField::sample_near(const Vec3& position_mm, Distance& distance) const noexcept {
   const Vec3 node = to_node_ * (position_mm - near_.lattice.origin);
   const glm::ivec3& bricks = near_.lattice.bricks;
-  const glm::ivec3 last = bricks * edge;
+  const glm::ivec3 last = bricks * brick_edge;
   if (!(node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < last.x && node.y < last.y && node.z < last.z)) {
     return false;
   }
   const glm::ivec3 cell(node);
-  const glm::uvec3 place = glm::uvec3(cell) / unsigned{edge};
+  const glm::uvec3 place = glm::uvec3(cell) / unsigned{brick_edge};
   const auto columns = static_cast<std::size_t>(bricks.x);
   const auto rows = static_cast<std::size_t>(bricks.y);
   const std::int32_t slot = near_.slot[(place.z * rows + place.y) * columns + place.x];
   if (slot < 0) {
     return false;
   }
-  const glm::ivec3 in = cell - glm::ivec3(place) * edge;
+  const glm::ivec3 in = cell - glm::ivec3(place) * brick_edge;
   const Vec3 t = node - Vec3(cell);
   const float* first = near_mm_.data() + static_cast<std::size_t>(slot) * nodes_of_a_brick +
-                       static_cast<std::size_t>((in.z * wide + in.y) * wide + in.x);
-  const CubicSample sample = cubic_sample(first, wide, wide * wide, t);
+                       static_cast<std::size_t>((in.z * cubic_width + in.y) * cubic_width + in.x);
+  const CubicSample sample = cubic_sample(first, cubic_width, cubic_width * cubic_width, t);
   distance.mm = sample.value;
   distance.gradient = from_node_ * Vec3(sample.slope[0], sample.slope[1], sample.slope[2]);
   return true;

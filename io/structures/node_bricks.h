@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,10 @@ struct NodeBricks {
     return (static_cast<std::size_t>(k) * wide + static_cast<std::size_t>(j)) * wide + static_cast<std::size_t>(i);
   }
 };
+
+inline constexpr int brick_edge = NodeBricks::edge;                        ///< nodes along each axis
+inline constexpr std::size_t brick_nodes = NodeBricks::nodes;              ///< in all
+inline constexpr float no_node = std::numeric_limits<float>::quiet_NaN();  ///< a number that no brick holds
 
 /// Copies `count` numbers, or writes `missing` where `from` is null. A call would cost more than so short a copy.
 template <int count, typename Number>

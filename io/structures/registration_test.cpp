@@ -147,7 +147,7 @@ TEST(Registrations, OfOtherFramesAndOtherPatientsDoNotCount) {
   EXPECT_EQ(joined.why_not, "");
 }
 
-std::string refusal_of(const std::vector<std::string>& matrices) {
+std::string refusal_to_register(const std::vector<std::string>& matrices) {
   const TestFolder folder;
   write(folder / "reg.dcm", "1.1", {{"1.2", matrices}});
   const Joined joined = joined_in(folder, "1.2", "1.1");
@@ -156,13 +156,13 @@ std::string refusal_of(const std::vector<std::string>& matrices) {
 
 TEST(Registrations, AreRefusedInWords) {
   constexpr const char* bent = "the registration reg.dcm scales or shears it: resample it on the scan";
-  EXPECT_EQ(refusal_of({"1.01\\0\\0\\0\\0\\1.01\\0\\0\\0\\0\\1.01\\0\\0\\0\\0\\1"}), bent);
-  EXPECT_EQ(refusal_of({"1\\0.01\\0\\0\\0\\1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1"}), bent);
-  EXPECT_EQ(refusal_of({"-1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1"}), bent) << "a mirror";
-  EXPECT_EQ(refusal_of({"1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1\\0\\0\\0\\0.001\\1"}), bent) << "a projection";
+  EXPECT_EQ(refusal_to_register({"1.01\\0\\0\\0\\0\\1.01\\0\\0\\0\\0\\1.01\\0\\0\\0\\0\\1"}), bent);
+  EXPECT_EQ(refusal_to_register({"1\\0.01\\0\\0\\0\\1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1"}), bent);
+  EXPECT_EQ(refusal_to_register({"-1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1"}), bent) << "a mirror";
+  EXPECT_EQ(refusal_to_register({"1\\0\\0\\0\\0\\1\\0\\0\\0\\0\\1\\0\\0\\0\\0.001\\1"}), bent) << "a projection";
   constexpr const char* none = "the registration reg.dcm has no matrix of 16 numbers: export it again";
-  EXPECT_EQ(refusal_of({"1\\0\\0"}), none);
-  EXPECT_EQ(refusal_of({}), none);
+  EXPECT_EQ(refusal_to_register({"1\\0\\0"}), none);
+  EXPECT_EQ(refusal_to_register({}), none);
   const TestFolder folder;
   write(folder / "reg.dcm", "1.1", {{"1.2", {}}}, "7", "1.2.840.10008.5.1.4.1.1.66.3");
   EXPECT_EQ(joined_in(folder, "1.2", "1.1").why_not, "the registration reg.dcm deforms it: resample it on the scan");

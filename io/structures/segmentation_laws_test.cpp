@@ -27,10 +27,10 @@ using internal::succeed;
 using internal::TestFolder;
 using internal::TestSegmentation;
 
-constexpr int columns = TestSegmentation::columns, rows = TestSegmentation::rows;
+constexpr int law_columns = TestSegmentation::columns, law_rows = TestSegmentation::rows;
 
 std::size_t index_of(int i, int j) {
-  return static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i);
+  return static_cast<std::size_t>(j) * law_columns + static_cast<std::size_t>(i);
 }
 
 /// As an attribute holds them (DS): at most 16 characters a number.
@@ -133,10 +133,11 @@ TEST(SegmentationLaws, VoxelsLieWhereTheirFramesSayInAnyOrientation) {
     for (const auto& [segment, slice] : order) {
       places.first.push_back(origin + static_cast<double>(slice) * step);
       std::vector<int> bits;
-      for (int at = 0; at < columns * rows; ++at) {
+      for (int at = 0; at < law_columns * law_rows; ++at) {
         bits.push_back(random.any(3) == 0 ? 1 : 0);
         if (bits.back() == 0) continue;
-        sums[static_cast<std::size_t>(segment - 1)].add(places.of(places.first.size() - 1, at % columns, at / columns));
+        sums[static_cast<std::size_t>(segment - 1)].add(
+            places.of(places.first.size() - 1, at % law_columns, at / law_columns));
       }
       segmentation.frames.push_back({segment, 0, [bits](int i, int j) { return bits[index_of(i, j)]; }});
     }
@@ -168,9 +169,9 @@ TEST(SegmentationLaws, VoxelsAreTheSameInEveryUncompressedTransferSyntax) {
       for (int slice = 0; slice < 4; ++slice) {
         places.first.emplace_back(0, 0, 2 * slice);
         std::vector<int> values;
-        for (int at = 0; at < columns * rows; ++at) {
+        for (int at = 0; at < law_columns * law_rows; ++at) {
           values.push_back(random.any(3) == 0 ? form.inside : 0);
-          if (values.back() != 0) sum.add(places.of(places.first.size() - 1, at % columns, at / columns));
+          if (values.back() != 0) sum.add(places.of(places.first.size() - 1, at % law_columns, at / law_columns));
         }
         segmentation.frames.push_back({1, 2.0 * slice, [values](int i, int j) { return values[index_of(i, j)]; }});
       }

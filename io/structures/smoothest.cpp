@@ -15,15 +15,12 @@
 namespace palpate::io {
 namespace {
 
-constexpr int edge = NodeBricks::edge;
-constexpr std::size_t nodes = NodeBricks::nodes;
-constexpr std::ptrdiff_t wide = edge + 4;
-constexpr std::size_t count_around = static_cast<std::size_t>(wide) * wide * wide;
-constexpr float no_node = std::numeric_limits<float>::quiet_NaN();
+constexpr std::ptrdiff_t bent_width = brick_edge + 4;
+constexpr std::size_t bent_count = static_cast<std::size_t>(bent_width) * bent_width * bent_width;
 constexpr float least_mm = 0.01F;
 constexpr float unsaid = 1e3F;  // mm: farther than any distance in the band
 
-using Around = std::array<float, count_around>;
+using BentNodes = std::array<float, bent_count>;
 
 /// Weights of the second differences along the axes, so that the largest is 1.
 struct Stencil {
@@ -39,38 +36,39 @@ Stencil stencil_of(const NodeLattice& lattice) {
 
 /// The weighted Laplacian at a node.
 inline float laplacian(const float* c, const Stencil& w) {
-  constexpr std::ptrdiff_t plane = wide * wide;
-  return -2.0F * (w.x + w.y + w.z) * c[0] + w.x * (c[-1] + c[1]) + w.y * (c[-wide] + c[wide]) +
+  constexpr std::ptrdiff_t plane = bent_width * bent_width;
+  return -2.0F * (w.x + w.y + w.z) * c[0] + w.x * (c[-1] + c[1]) + w.y * (c[-bent_width] + c[bent_width]) +
          w.z * (c[-plane] + c[plane]);
 }
 
 /// The rows of a brick that hold nodes which are free: no others change. Both ends included.
 struct Rows {
-  int low_j = 0, high_j = edge - 1, low_k = 0, high_k = edge - 1;
+  int low_j = 0, high_j = brick_edge - 1, low_k = 0, high_k = brick_edge - 1;
 };
 
 /// The weighted Laplacian of the Laplacian of a brick's nodes, from the numbers around them. Rows run on into each
 /// other: what that spoils is not read.
 PALPATE_FOR_PROCESSOR
 void bilaplacian(const float* around, const Stencil& w, const Rows& rows, float* into) {
-  constexpr std::ptrdiff_t plane = wide * wide;
-  const std::ptrdiff_t first = (rows.low_k + 1) * plane + (rows.low_j + 1) * wide + 1;
-  const std::ptrdiff_t last = (rows.high_k + 3) * plane + (rows.high_j + 4) * wide - 1;
-  std::array<float, count_around> curved;
+  constexpr std::ptrdiff_t plane = bent_width * bent_width;
+  const std::ptrdiff_t first = (rows.low_k + 1) * plane + (rows.low_j + 1) * bent_width + 1;
+  const std::ptrdiff_t last = (rows.high_k + 3) * plane + (rows.high_j + 4) * bent_width - 1;
+  std::array<float, bent_count> curved;
   const float middle = -2.0F * (w.x + w.y + w.z);
   float* out = curved.data();
   PALPATE_INDEPENDENT
   for (std::ptrdiff_t n = first; n < last; ++n) {
     const float* c = around + n;
-    out[n] = middle * c[0] + w.x * (c[-1] + c[1]) + w.y * (c[-wide] + c[wide]) + w.z * (c[-plane] + c[plane]);
+    out[n] =
+        middle * c[0] + w.x * (c[-1] + c[1]) + w.y * (c[-bent_width] + c[bent_width]) + w.z * (c[-plane] + c[plane]);
   }
   for (int k = rows.low_k; k <= rows.high_k; ++k) {
     for (int j = rows.low_j; j <= rows.high_j; ++j) {
-      const float* c = curved.data() + ((k + 2) * wide + j + 2) * wide + 2;
+      const float* c = curved.data() + ((k + 2) * bent_width + j + 2) * bent_width + 2;
       float* row = into + NodeBricks::at(0, j, k);
       PALPATE_INDEPENDENT
-      for (int i = 0; i < edge; ++i) {
-        row[i] = middle * c[i] + w.x * (c[i - 1] + c[i + 1]) + w.y * (c[i - wide] + c[i + wide]) +
+      for (int i = 0; i < brick_edge; ++i) {
+        row[i] = middle * c[i] + w.x * (c[i - 1] + c[i + 1]) + w.y * (c[i - bent_width] + c[i + bent_width]) +
                  w.z * (c[i - plane] + c[i + plane]);
       }
     }
@@ -81,12 +79,12 @@ void bilaplacian(const float* around, const Stencil& w, const Rows& rows, float*
 PALPATE_FOR_PROCESSOR
 float step_within(const float* slope, const float* kinks, float step, float onward, const Rows& rows,
                   const float* lower, const float* upper, const float* at, float* f, float* next_at) {
-  std::array<float, edge> turned{};
+  std::array<float, brick_edge> turned{};
   for (int k = rows.low_k; k <= rows.high_k; ++k) {
     for (int j = rows.low_j; j <= rows.high_j; ++j) {
       const std::size_t n = NodeBricks::at(0, j, k);
       PALPATE_INDEPENDENT
-      for (std::size_t i = 0; i < edge; ++i) {
+      for (std::size_t i = 0; i < brick_edge; ++i) {
         const float down = step * (slope[n + i] - kinks[n + i]);
         float next = at[n + i] - (down == down ? down : 0.0F);  // what reaches beyond the bricks stays
         next = next < lower[n + i] ? lower[n + i] : next;
@@ -122,15 +120,15 @@ class Smoothing {
     std::vector<char> any(bricks_.count(), 0);
     rows_.resize(bricks_.count());
     for_stretches(bricks_.count(), [&](std::size_t slot) {
-      const std::size_t first = slot * nodes;
+      const std::size_t first = slot * brick_nodes;
       const auto is_near = [&](float mm) { return std::abs(mm) < free_mm; };
-      std::array<bool, nodes> free{};
+      std::array<bool, brick_nodes> free{};
       if (std::any_of(far_.begin() + static_cast<std::ptrdiff_t>(first),
-                      far_.begin() + static_cast<std::ptrdiff_t>(first + nodes), is_near)) {
+                      far_.begin() + static_cast<std::ptrdiff_t>(first + brick_nodes), is_near)) {
         any[slot] = find_free(slot, free_mm, free, kinks_.data() + first) ? 1 : 0;
         rows_[slot] = rows_of(free);
       }
-      for (std::size_t n = 0; n < nodes; ++n) {
+      for (std::size_t n = 0; n < brick_nodes; ++n) {
         const std::size_t at = first + n;
         // On its own side, wherever a coarser lattice has put the surface.
         float held = far_[at];
@@ -160,10 +158,10 @@ class Smoothing {
       const double next_t = 0.5 * (1 + std::sqrt(1 + 4 * t * t));
       const auto onward = static_cast<float>((t - 1) / next_t);
       for_stretches(active_.size(), [&](std::size_t which) {
-        const std::size_t first = active_[which] * nodes;
-        Around around;
+        const std::size_t first = active_[which] * brick_nodes;
+        BentNodes around;
         gather<2, float>(bricks_, at, active_[which], no_node, around.data());
-        std::array<float, nodes> slope;
+        std::array<float, brick_nodes> slope;
         const Rows& rows = rows_[active_[which]];
         bilaplacian(around.data(), w, rows, slope.data());
         against[which] = static_cast<double>(step_within(slope.data(), kinks_.data() + first, step, onward, rows,
@@ -187,10 +185,11 @@ class Smoothing {
     const std::vector<Vec3f> closest = closest_points(bricks_, f_, band_mm, threads_);
     const Vec3f spacing(bricks_.lattice.spacing);
     for (std::size_t slot = 0; slot < bricks_.count(); ++slot) {
-      const glm::ivec3 corner = bricks_.place[slot] * edge;
-      for (int n = 0; n < static_cast<int>(nodes); ++n) {
-        const Vec3f node(corner + glm::ivec3(n % edge, n / edge % edge, n / (edge * edge)));
-        const std::size_t index = slot * nodes + static_cast<std::size_t>(n);
+      const glm::ivec3 corner = bricks_.place[slot] * brick_edge;
+      for (int n = 0; n < static_cast<int>(brick_nodes); ++n) {
+        const Vec3f node(corner +
+                         glm::ivec3(n % brick_edge, n / brick_edge % brick_edge, n / (brick_edge * brick_edge)));
+        const std::size_t index = slot * brick_nodes + static_cast<std::size_t>(n);
         const float distance = glm::distance(node * spacing, closest[index]);
         if (distance < unsaid) far_[index] = std::copysign(distance, f_[index]);
       }
@@ -201,11 +200,11 @@ class Smoothing {
   std::vector<float> take() { return std::move(f_); }
 
  private:
-  static Rows rows_of(const std::array<bool, nodes>& free) {
-    Rows rows{.low_j = edge, .high_j = -1, .low_k = edge, .high_k = -1};
-    for (int n = 0; n < static_cast<int>(nodes); ++n) {
+  static Rows rows_of(const std::array<bool, brick_nodes>& free) {
+    Rows rows{.low_j = brick_edge, .high_j = -1, .low_k = brick_edge, .high_k = -1};
+    for (int n = 0; n < static_cast<int>(brick_nodes); ++n) {
       if (!free[static_cast<std::size_t>(n)]) continue;
-      const int j = n / edge % edge, k = n / (edge * edge);
+      const int j = n / brick_edge % brick_edge, k = n / (brick_edge * brick_edge);
       rows = {.low_j = std::min(rows.low_j, j),
               .high_j = std::max(rows.high_j, j),
               .low_k = std::min(rows.low_k, k),
@@ -215,30 +214,32 @@ class Smoothing {
   }
 
   /// Which of a brick's nodes are free; whether any is. `kinks`: the Laplacian of what is bent at kinks alone.
-  bool find_free(std::size_t slot, float free_mm, std::array<bool, nodes>& free, float* kinks) const {
+  bool find_free(std::size_t slot, float free_mm, std::array<bool, brick_nodes>& free, float* kinks) const {
     constexpr float steep_enough = 0.5F;  // squared slope of a distance: 1 but for its kinks
-    constexpr std::ptrdiff_t plane = wide * wide;
+    constexpr std::ptrdiff_t plane = bent_width * bent_width;
     const Vec3f twice = 2.0F * Vec3f(bricks_.lattice.spacing);
-    Around around, bent{};
+    BentNodes around, bent{};
     gather<2, float>(bricks_, far_, slot, no_node, around.data());
     const auto is_smooth = [&](const float* c) {
-      const Vec3f slope = Vec3f(c[1] - c[-1], c[wide] - c[-wide], c[plane] - c[-plane]) / twice;
+      const Vec3f slope = Vec3f(c[1] - c[-1], c[bent_width] - c[-bent_width], c[plane] - c[-plane]) / twice;
       return !(glm::dot(slope, slope) <= steep_enough);
     };
-    for (int k = 1; k < wide - 1; ++k) {
-      for (int j = 1; j < wide - 1; ++j) {
-        for (int i = 1; i < wide - 1; ++i) {
-          const std::ptrdiff_t at = (k * wide + j) * wide + i;
+    for (int k = 1; k < bent_width - 1; ++k) {
+      for (int j = 1; j < bent_width - 1; ++j) {
+        for (int i = 1; i < bent_width - 1; ++i) {
+          const std::ptrdiff_t at = (k * bent_width + j) * bent_width + i;
           if (!is_smooth(around.data() + at))
             bent[static_cast<std::size_t>(at)] = laplacian(around.data() + at, stencil_);
         }
       }
     }
-    std::array<float, nodes> complete;  // NaN where a neighbor is no node
+    std::array<float, brick_nodes> complete;  // NaN where a neighbor is no node
     bilaplacian(around.data(), stencil_, Rows(), complete.data());
     bool any = false;
-    for (int n = 0; n < static_cast<int>(nodes); ++n) {
-      const std::ptrdiff_t in = ((n / (edge * edge) + 2) * wide + n / edge % edge + 2) * wide + n % edge + 2;
+    for (int n = 0; n < static_cast<int>(brick_nodes); ++n) {
+      const std::ptrdiff_t in =
+          ((n / (brick_edge * brick_edge) + 2) * bent_width + n / brick_edge % brick_edge + 2) * bent_width +
+          n % brick_edge + 2;
       const float* c = around.data() + in;
       const auto at = static_cast<std::size_t>(n);
       free[at] = std::abs(*c) < free_mm && is_smooth(c) && std::isfinite(complete[at]);

@@ -92,12 +92,14 @@ char letter_like(const Marked& shape) {
   char best = '?';
   int least = static_cast<int>(shape.pixels.size()) / 2;
   for (const char letter : {'R', 'L', 'A', 'P', 'F', 'H'}) {
-    Canvas canvas(40, 40, colors::black);
-    canvas.text({10, 30}, std::string(1, letter), 20, colors::yellow);
-    const int far = difference(shape, marked_in(canvas, {0, 0}, {40, 40}, is_yellow));
-    if (far >= least) continue;
-    least = far;
-    best = letter;
+    for (int part = 0; part < 16; ++part) {  // Cairo 1.18 draws text between pixels, too
+      Canvas canvas(40, 40, colors::black);
+      canvas.text({10 + part % 4 / 4.0, 30 + part / 4 / 4.0}, std::string(1, letter), 20, colors::yellow);
+      const int far = difference(shape, marked_in(canvas, {0, 0}, {40, 40}, is_yellow));
+      if (far >= least) continue;
+      least = far;
+      best = letter;
+    }
   }
   return best;
 }

@@ -28,9 +28,10 @@ namespace {
 
 constexpr std::size_t shown_at_once = 5;  // so many are shown without being asked for
 // Told apart by the color-blind, too: after Okabe and Ito.
-constexpr const char* colors[] = {"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7"};
+constexpr const char* structure_colors[] = {"#e69f00", "#56b4e9", "#009e73", "#f0e442",
+                                            "#0072b2", "#d55e00", "#cc79a7"};
 
-QString text(const std::string& utf8) {
+QString structure_text(const std::string& utf8) {
   return QString::fromStdString(utf8);
 }
 
@@ -128,7 +129,7 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
   QStringList notes;
   if (const QString problem = std::exchange(problem_, {}); !problem.isEmpty()) notes << problem;
   if (std::exchange(served_, false)) {
-    for (const io::SkippedFile& one : found.skipped) notes << text(one.reason);
+    for (const io::SkippedFile& one : found.skipped) notes << structure_text(one.reason);
   }
   const bool few = found.structures.size() + entries_.size() <= shown_at_once;
   for (const io::Structure& structure : found.structures) {
@@ -139,10 +140,11 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
     Entry entry{.structure = structure};
     entry.why_not = place_on(entry.structure, found.registrations, *scan_).why_not;
     for (std::size_t n = structure.warnings.size(); n < entry.structure.warnings.size(); ++n) {
-      const QString note = text(entry.structure.warnings[n]);
+      const QString note = structure_text(entry.structure.warnings[n]);
       if (!notes.contains(note)) notes << note;
     }
-    entry.color = structure.color.empty() ? colors[entries_.size() % std::size(colors)] : structure.color;
+    entry.color =
+        structure.color.empty() ? structure_colors[entries_.size() % std::size(structure_colors)] : structure.color;
     entry.structure.color = entry.color;
     entry.shown = entry.why_not.empty() && few;
     entries_.push_back(std::move(entry));
@@ -150,7 +152,7 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
   if (std::exchange(asked_, false) && found.structures.empty()) {
     tell(found.skipped.empty()
              ? tr("No structures there: no DICOM SEG or RTSTRUCT.")
-             : text(found.skipped.front().path.filename().string() + ": " + found.skipped.front().reason),
+             : structure_text(found.skipped.front().path.filename().string() + ": " + found.skipped.front().reason),
          true);
   } else {
     tell(notes.join(QLatin1Char('\n')), !notes.isEmpty());
@@ -202,20 +204,20 @@ void StructuresSection::list() {
 
 void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) const {
   const bool fits = entry.why_not.empty();
-  item.setText(0, text(entry.structure.name));
+  item.setText(0, structure_text(entry.structure.name));
   QPixmap swatch(12, 12);
-  swatch.fill(QColor(text(entry.color)));
+  swatch.fill(QColor(structure_text(entry.color)));
   item.setIcon(0, QIcon(swatch));
   item.setText(1, !entry.off.empty() ? tr("outside the scan")
                   : entry.measures   ? volume_in_words(entry.measures->volume_mm3)
                                      : QString());
   item.setFlags(fits ? Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable : Qt::ItemIsSelectable);
   item.setCheckState(0, entry.shown ? Qt::Checked : Qt::Unchecked);
-  QString tip = text(entry.structure.file.filename().string());
-  if (!entry.structure.code.empty()) tip += QLatin1Char('\n') + text(entry.structure.code);
-  if (!fits) tip += QLatin1Char('\n') + text(entry.why_not);
+  QString tip = structure_text(entry.structure.file.filename().string());
+  if (!entry.structure.code.empty()) tip += QLatin1Char('\n') + structure_text(entry.structure.code);
+  if (!fits) tip += QLatin1Char('\n') + structure_text(entry.why_not);
   if (!entry.off.empty()) tip += QLatin1Char('\n') + words(entry.off);
-  for (const Text& warning : entry.structure.warnings) tip += QLatin1Char('\n') + text(warning);
+  for (const Text& warning : entry.structure.warnings) tip += QLatin1Char('\n') + structure_text(warning);
   item.setToolTip(0, tip);
 }
 
@@ -277,7 +279,7 @@ void StructuresSection::draw() {
   std::vector<DrawnStructure> shown;
   for (Entry& entry : entries_) {
     if (!entry.shown || !entry.drawn.distance) continue;
-    entry.drawn.color = QColor(text(entry.color));
+    entry.drawn.color = QColor(structure_text(entry.color));
     shown.push_back(entry.drawn);
   }
   drawn_.set_structures(std::move(shown), opacity_->value() / 100.0);

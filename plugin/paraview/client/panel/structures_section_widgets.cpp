@@ -27,7 +27,7 @@ namespace {
 
 constexpr double first_margin_mm = 3, first_opacity = 0.4;
 
-QString text(const std::string& utf8) {
+QString widget_text(const std::string& utf8) {
   return QString::fromStdString(utf8);
 }
 
@@ -73,7 +73,7 @@ QWidget* StructuresSection::build_uses() {
   auto* const box = new QWidget(this);
   auto* const row = new QHBoxLayout(box);
   row->setContentsMargins(0, 0, 0, 0);
-  const auto name_of_chosen = [this] { return text(chosen()->structure.name); };
+  const auto name_of_chosen = [this] { return widget_text(chosen()->structure.name); };
   uses_.push_back(add_tool_button(*row, *this, "palpateStructureBoundary", tr("Boundary"),
                                   tr("Its edge is felt, as the wall of an organ"), [this, name_of_chosen] {
                                     use(tr("Boundary of %1").arg(name_of_chosen()),
@@ -115,7 +115,7 @@ void StructuresSection::fill_gates(QMenu& menu) {
   for (std::size_t n = 0; n < scene.modes.size(); ++n) {
     connect(menu.addAction(name_of(scene, n)), &QAction::triggered, this, [this, n] {
       if (!chosen()) return;
-      use(tr("%1 only inside %2").arg(name_of(model_.scene(), n), text(chosen()->structure.name)),
+      use(tr("%1 only inside %2").arg(name_of(model_.scene(), n), widget_text(chosen()->structure.name)),
           [n, structure = chosen()->structure](modes::Scene& changed) {
             if (n < changed.modes.size()) add_gate_of(changed, n, structure);
           });
@@ -148,13 +148,13 @@ void StructuresSection::dropEvent(QDropEvent* event) {
 void StructuresSection::choose_color(std::size_t n) {
   if (n >= entries_.size()) return;
   const io::Structure structure = entries_[n].structure;
-  const QColor chosen_color = QColorDialog::getColor(QColor(text(entries_[n].color)), this, text(structure.name),
-                                                     QColorDialog::DontUseNativeDialog);
+  const QColor chosen_color = QColorDialog::getColor(QColor(widget_text(entries_[n].color)), this,
+                                                     widget_text(structure.name), QColorDialog::DontUseNativeDialog);
   if (!chosen_color.isValid() || n >= entries_.size()) return;
   entries_[n].color = entries_[n].structure.color = chosen_color.name().toStdString();
   const auto in_scene = [&](const modes::SceneStructure& named) { return is_same(named, structure); };
   if (std::ranges::any_of(model_.scene().structures, in_scene)) {
-    model_.edit(tr("Color %1").arg(text(structure.name)), [&](modes::Scene& scene) {
+    model_.edit(tr("Color %1").arg(widget_text(structure.name)), [&](modes::Scene& scene) {
       std::ranges::find_if(scene.structures, in_scene)->color = entries_[n].color;
     });
   }

@@ -32,8 +32,8 @@ namespace palpate::plugin {
 namespace {
 
 constexpr double most_voxels = 4e6;
-constexpr double least_part = 0.05;  // of a surface's strength: less is not drawn
-constexpr int block = 4;             // lattice points across a block whose strength is looked up once
+constexpr double surface_least_part = 0.05;  // of a surface's strength: less is not drawn
+constexpr int surface_block = 4;             // lattice points across a block whose strength is looked up once
 
 /// Every `step`-th voxel, in indices of the scan.
 struct Coarse {
@@ -71,7 +71,7 @@ class BlockStrength {
   /// Of its most, 0 to 1.
   double part(const glm::vec3& index, const glm::dvec3& place) {
     if (!known_ || strength_.most_n() <= 0) return 1;
-    const std::array<int, 3> cell{static_cast<int>(index.x) / block, static_cast<int>(index.y) / block,
+    const std::array<int, 3> cell{static_cast<int>(index.x) / surface_block, static_cast<int>(index.y) / surface_block,
                                   static_cast<int>(index.z) / block};
     const auto found = blocks_.find(cell);
     if (found != blocks_.end()) return found->second;
@@ -102,7 +102,7 @@ void add_surface(const Coarse& coarse, const io::Geometry& geometry, double valu
     found.GetPoint(n, &at.x);
     const glm::dvec3 place = geometry.to_patient(at * glm::dvec3(coarse.step));
     surface.points.emplace_back(place);
-    there.push_back(strength.part(glm::vec3(at), place) > least_part);
+    there.push_back(strength.part(glm::vec3(at), place) > surface_least_part);
   }
   vtkNew<vtkIdList> corners;
   vtkCellArray* const polys = found.GetPolys();

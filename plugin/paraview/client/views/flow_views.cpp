@@ -15,7 +15,7 @@ namespace palpate::plugin {
 namespace {
 
 constexpr int arrows_across = 28;
-constexpr double least_part = 0.03;  // of the fastest: slower is not drawn
+constexpr double flow_least_part = 0.03;  // of the fastest: slower is not drawn
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void FlowViews::One::draw(const io::FieldSource& field, double fastest) {
       if (!sample.inside) continue;
       const glm::dvec3 in_plane = sample.vector - glm::dot(sample.vector, sight.along) * sight.along;
       const double speed = glm::length(in_plane);
-      if (speed < least_part * fastest) continue;
+      if (speed < flow_least_part * fastest) continue;
       const glm::dvec3 way = in_plane / speed;
       const double length = step * (0.25 + 0.75 * std::min(speed / fastest, 1.0));
       const glm::dvec3 tip = place + 0.5 * length * way;

@@ -221,7 +221,7 @@ void undo_belongs_to_a_scan() {
 }
 
 int views_open() {
-  return pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>().size();
+  return static_cast<int>(pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>().size());
 }
 
 std::string series_in_pipeline() {
