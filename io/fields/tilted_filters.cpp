@@ -1,6 +1,7 @@
 #include "io/fields/tilted_filters.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "io/fields/passes.h"
@@ -16,8 +17,8 @@ namespace {
 template <int Count, bool First>
 [[gnu::always_inline]] inline void add_row_taps(const float* __restrict in, const Tap* __restrict taps, int width,
                                                 float* __restrict sums) {
-  const float* at[Count];
-  float w0[Count], w1[Count];
+  std::array<const float*, Count> at;  // of no taps at all, too
+  std::array<float, Count> w0, w1;
   for (int n = 0; n < Count; ++n) {
     at[n] = in + taps[n].offset;
     w0[n] = taps[n].weight[0];
@@ -39,8 +40,8 @@ template <int Count, bool First>
 template <int Count, bool First>
 [[gnu::always_inline]] inline void add_column_taps(const float* __restrict rows, const Tap* __restrict taps, int width,
                                                    float* __restrict sums) {
-  const float* at[Count];
-  float w0[Count], w1[Count];
+  std::array<const float*, Count> at;  // of no taps at all, too
+  std::array<float, Count> w0, w1;
   for (int n = 0; n < Count; ++n) {
     at[n] = rows + taps[n].offset * (2 * tile_width);
     w0[n] = taps[n].weight[0];
