@@ -119,6 +119,38 @@ class AtVoxel {
   StoredPadding<Stored> padding_;
 };
 
+/// One row of a block; voxels are counted from its first.
+template <typename Stored>
+struct RowOfBlock {
+  const Volume& volume;
+  const Stored* voxels;
+  const AtVoxel<Stored>& at_voxel;
+  const std::array<Weights, 4>& weights;
+  Sides sides;
+  glm::ivec3 first;
+  std::array<int, 2> neighbors_j, neighbors_k;
+  glm::vec3* out;
+
+  void one_by_one(int from, int to) const noexcept {
+    for (int i = from; i < to; ++i) out[i] = at_voxel({first.x + i, first.y, first.z}, sides, weights);
+  }
+  void together(int from, int to) const noexcept {
+    const auto row = [&](int y, int z) { return voxels + volume.offset(first.x + from, y, z); };
+    const float share_j = neighbors_j[0] < first.y && first.y < neighbors_j[1] ? 0.5F : 1.0F;
+    run_row(Rows<Stored>{row(first.y, first.z), row(neighbors_j[0], first.z), row(neighbors_j[1], first.z), share_j,
+                         row(first.y, neighbors_k[1]), row(first.y, neighbors_k[0])},
+            weights[sides], to - from, out + from);
+  }
+  bool is_beside_padding(int from, int to) const noexcept {
+    const int x = first.x + from, count = to - from;
+    return at_voxel.holds_padding({x - 1, first.y, first.z}, count + 2) ||
+           at_voxel.holds_padding({x, neighbors_j[0], first.z}, count) ||
+           at_voxel.holds_padding({x, neighbors_j[1], first.z}, count) ||
+           at_voxel.holds_padding({x, first.y, neighbors_k[1]}, count) ||
+           at_voxel.holds_padding({x, first.y, neighbors_k[0]}, count);
+  }
+};
+
 /// Weights of the slices on both sides, where they are counted.
 Weights weights_of(const glm::dmat3& basis, const Vec3& up, const Vec3& down, Sides sides, double slope) {
   const glm::dmat3 inverse = glm::inverse(basis);
@@ -176,32 +208,18 @@ void CentralDifferences::run(const Volume& volume, const std::vector<Stored>& vo
       glm::vec3* const out = target.first + (k - block.first.z) * target.slice + (j - block.first.y) * target.row;
       const int before = std::max(j - 1, 0);
       const int after = std::min(j + 1, size.y - 1);
-      const auto one_by_one = [&](int from, int to) {
-        for (int i = from; i < to; ++i) out[i] = at_voxel({block.first.x + i, j, k}, sides, weights);
-      };
-      const auto together = [&](int from, int to) {
-        const auto row = [&](int y, int z) { return voxels.data() + volume.offset(block.first.x + from, y, z); };
-        const float share_j = before < j && j < after ? 0.5F : 1.0F;
-        run_row(Rows<Stored>{row(j, k), row(before, k), row(after, k), share_j, row(j, above_k), row(j, below_k)},
-                weights[sides], to - from, out + from);
-      };
-      const auto is_beside_padding = [&](int from, int to) {
-        const glm::ivec3 at(block.first.x + from, j, k);
-        const int count = to - from;
-        return at_voxel.holds_padding(at - glm::ivec3(1, 0, 0), count + 2) ||
-               at_voxel.holds_padding({at.x, before, k}, count) || at_voxel.holds_padding({at.x, after, k}, count) ||
-               at_voxel.holds_padding({at.x, j, above_k}, count) || at_voxel.holds_padding({at.x, j, below_k}, count);
-      };
-      one_by_one(0, first);
-      if (!may_be_padding || first == last || !is_beside_padding(first, last)) {
-        if (first < last) together(first, last);
+      const RowOfBlock<Stored> row{volume,          voxels.data(),      at_voxel, weights, sides, {block.first.x, j, k},
+                                   {before, after}, {below_k, above_k}, out};
+      row.one_by_one(0, first);
+      if (!may_be_padding || first == last || !row.is_beside_padding(first, last)) {
+        if (first < last) row.together(first, last);
       } else {
         for (int from = first; from < last; from += stretch) {
           const int to = std::min(from + stretch, last);
-          is_beside_padding(from, to) ? one_by_one(from, to) : together(from, to);
+          row.is_beside_padding(from, to) ? row.one_by_one(from, to) : row.together(from, to);
         }
       }
-      one_by_one(last, block.size.x);
+      row.one_by_one(last, block.size.x);
     }
   }
 }

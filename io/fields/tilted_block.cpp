@@ -145,12 +145,12 @@ class TiltedBlock {
 
   /// `box`: counted from the tile's first voxel.
   void fit_box(int k, const Block& box) {
-    constexpr int lanes = 8;
+    constexpr int at_once = 8;
     const BlockLayout layout({{tile_.first.x + box.first.x, tile_.first.y + box.first.y, slice_}, box.size}, kernel_,
-                             lanes);
+                             at_once);
     weights_.resize(std::max(weights_.size(), layout.moment_floats(2) + layout.scratch_floats(2)));
     const RowReader<Stored> mask(volume_, voxels_, true);
-    BlockSums<2, lanes, RowReader<Stored>>(kernel_, layout, mask, weights_.data() + layout.moment_floats(2))
+    BlockSums<2, at_once, RowReader<Stored>>(kernel_, layout, mask, weights_.data() + layout.moment_floats(2))
         .run(weights_.data());
     for (int j = 0; j < box.size.y; ++j) {
       const float* const sums = weights_.data() + layout.at(2, 0, j, 0);
