@@ -18,7 +18,7 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr double handle_pixels = 16;
+constexpr double grip_pixels = 16;
 constexpr double wheel_mm = 1, key_mm = 1;
 constexpr float before_all = 20;
 
@@ -62,7 +62,7 @@ struct StylusHand::State {
     const SessionStatus& look = touching.last();
     for (const glm::dvec3& part : {look.proxy_mm, look.probe_mm}) {
       const glm::dvec3 display = display_of(part);
-      if (std::hypot(display.x - at[0], display.y - at[1]) > handle_pixels) continue;
+      if (std::hypot(display.x - at[0], display.y - at[1]) > grip_pixels) continue;
       grip[0] = at[0] - display.x;
       grip[1] = at[1] - display.y;
       plane_through = part;

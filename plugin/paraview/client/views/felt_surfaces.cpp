@@ -72,7 +72,7 @@ class BlockStrength {
   double part(const glm::vec3& index, const glm::dvec3& place) {
     if (!known_ || strength_.most_n() <= 0) return 1;
     const std::array<int, 3> cell{static_cast<int>(index.x) / surface_block, static_cast<int>(index.y) / surface_block,
-                                  static_cast<int>(index.z) / block};
+                                  static_cast<int>(index.z) / surface_block};
     const auto found = blocks_.find(cell);
     if (found != blocks_.end()) return found->second;
     const io::Sample sample = source_.sample(place, strength_.reads());
