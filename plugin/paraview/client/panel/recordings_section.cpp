@@ -30,7 +30,7 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr int chart_pixels = 130;
+constexpr int comparison_pixels = 130;
 constexpr std::array speeds{0.1, 0.25, 0.5, 1.0, 2.0, 5.0};
 constexpr std::size_t most_points_drawn = 2000;
 
@@ -125,7 +125,7 @@ QWidget* RecordingsSection::build_player() {
   auto* const column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
-  force_ = new ChartPicture(chart_pixels, box);
+  force_ = new ChartPicture(comparison_pixels, box);
   force_->setObjectName(QStringLiteral("palpateRecordedForce"));
   connect(force_, &ChartPicture::picked, this, [this](double seconds) { seek(seconds); });
   column->addWidget(force_);
@@ -173,7 +173,7 @@ QWidget* RecordingsSection::build_comparison() {
   auto* const column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
-  chart_ = new ChartPicture(chart_pixels, box);
+  chart_ = new ChartPicture(comparison_pixels, box);
   chart_->setObjectName(QStringLiteral("palpateComparisonChart"));
   column->addWidget(chart_);
   add_save_buttons(
