@@ -97,7 +97,7 @@ void print_text(const std::vector<device::FoundDevice>& found, const device::Rea
   if (device::guardian_program().empty()) {
     std::puts("palpate-guardian was not found: after a crash only a device's own watchdog takes the force away.");
   } else if (!device::guardian_can_leave_group()) {
-    std::puts(
+    put("{}\n",
         "palpate-guardian stays in the session's control group: there is no systemd of this user to run it apart.");
   }
   if (const auto last = last_fault()) put("{}\n", describe(*last));
