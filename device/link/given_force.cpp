@@ -1,6 +1,7 @@
 #include "device/link/given_force.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "device/vectors.h"
 
@@ -24,8 +25,12 @@ void GivenForce::restart() noexcept {
 }
 
 Vec3 GivenForce::next(const Vec3& wanted, bool withheld, double now) noexcept {
-  // A device that waited so long may have taken its force away by itself.
-  if (now - given_time_ > ceiling::link_force_age_s) restart();
+  // A device that waited so long, or refused, may have taken its force away by itself, or hold it still. Only a zero is
+  // no step in both cases: the ramp begins at this time.
+  if (now - given_time_ > ceiling::link_force_age_s) {
+    restart();
+    time_ = now;
+  }
   const double elapsed = std::clamp(now - time_, 0.0, ceiling::slew_time_s);
   time_ = now;
   gain_ = withheld ? 0 : std::min(1.0, gain_ + elapsed / ceiling::resume_ramp_s);
@@ -52,7 +57,7 @@ void GivenForce::answered(ForceAnswer answer, const Vec3& force, std::uint64_t n
   if (refuses_) {
     zero_given_ = false;
     doubt();
-    restart();
+    given_time_ = -std::numeric_limits<double>::infinity();
     return;
   }
   taken_time_ = given_time_ = now;
