@@ -1,5 +1,6 @@
 #include "device/testing/public_wooden_haptics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -59,20 +60,21 @@ Vec3 public_wooden_amperes(PublicHost host, const Vec3& counts, const Vec3& forc
 }
 
 Vec3 public_wooden_counts(PublicHost host, const Vec3& position) {
-  // From the middle of the workspace: b near -10 degrees, c near 100.
-  Vec3 counts = host == PublicHost::haptikfabriken ? Vec3(0, 0, 6000) : Vec3(0);
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const Vec3 error = position - public_wooden_position(host, counts);
-    if (glm::length(error) < 1e-12) break;
-    glm::dmat3 jacobian;
-    for (int i = 0; i < 3; ++i) {
-      Vec3 step(0);
-      step[i] = 0.5;
-      jacobian[i] = public_wooden_position(host, counts + step) - public_wooden_position(host, counts - step);
-    }
-    counts += glm::inverse(jacobian) * error;
-  }
-  return counts;
+  // The two links as a triangle, with the elbow as it is in the middle of the workspace: b near -10 degrees, c near
+  // 100. In closed form: a search from the middle finds angles of other turns where an arm is folded.
+  const Vec3 tip = arm_from_device(position) + origin - Vec3(0, 0, ln);
+  const double out = std::hypot(tip.x, tip.y);
+  const double distance = std::hypot(out, tip.z);
+  const auto corner = [&](double beside, double opposite) {
+    const double cosine = (distance * distance + beside * beside - opposite * opposite) / (2 * distance * beside);
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+  };
+  const double direction = std::atan2(out, tip.z);
+  const double a = std::atan2(tip.y, tip.x);
+  const double b = direction - corner(lb, lc);
+  const double c = std::numbers::pi - direction - corner(lc, lb);
+  if (host == PublicHost::haptikfabriken) return gear * Vec3(a, b, c) / turn;
+  return gear * Vec3(-a, -b, std::numbers::pi / 2 - c) / turn;
 }
 
 Vec3 public_wooden_force(PublicHost host, const Vec3& counts, const Vec3& amperes) {

@@ -16,7 +16,7 @@ enum class PublicHost { woody_2016, haptikfabriken };
 Vec3 public_wooden_position(PublicHost host, const Vec3& counts);
 /// A, of the three motors for a force (N, device's frame).
 Vec3 public_wooden_amperes(PublicHost host, const Vec3& counts, const Vec3& force);
-/// The counts, not rounded, that a position has: the above turned round by Newton's method.
+/// The counts, not rounded, that a position has: the inverse of public_wooden_position(), on the arm's own branch.
 Vec3 public_wooden_counts(PublicHost host, const Vec3& position);
 /// N in the device's frame for motor currents.
 Vec3 public_wooden_force(PublicHost host, const Vec3& counts, const Vec3& amperes);

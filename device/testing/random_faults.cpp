@@ -64,6 +64,7 @@ class RandomSession {
       case 1:
         return event("the program stands still"), stand_still(chance() < 0.5 ? 0.15 : 1.2);
       case 2:
+        is_reached_ = is_reached_ && !rig_.unplug;
         return event("unplugged"), cause(rig_.unplug);
       case 3:
         return event("plugged in again"), replug();
@@ -71,7 +72,7 @@ class RandomSession {
         if (rig_.delay) rig_.delay(chance() < 0.5 ? 0 : 0.2 * chance() * chance());
         return event("answers are late");
       case 5:
-        return event("silent"), cause(chance() < 0.2 ? rig_.silence : std::function<void()>());
+        return event("silent"), fall_silent();
       case 6:
         return event("odd packets"), cause(chance() < 0.5 ? rig_.garble : rig_.shorten);
       case 7:
@@ -92,7 +93,9 @@ class RandomSession {
       case 14:
         return event("no number"), static_cast<void>(asked_ = Vec3(0, chance() < 0.2 ? 0.0 / 0.0 : 1, 0));
       case 15:
-        return event("the clock jumps"), rig_.pass(0.4 * chance());
+        rig_.pass(0.4 * chance());
+        went_on_ = rig_.now();
+        return event("the clock jumps");
       case 16:
         guard_died_ = rig_.now();
         rig_.guard->lives = false;
@@ -133,22 +136,33 @@ class RandomSession {
     }
     last_force_ = rig_.force();
   }
+  void fall_silent() {
+    if (chance() >= 0.2 || !rig_.silence) return;
+    rig_.silence();
+    is_deaf_ = true;
+    is_reached_ = false;
+  }
   void replug() {
     if (!rig_.replug) return;
     rig_.replug();
+    is_reached_ = !is_deaf_;
     reopen();
   }
 
   void stand_still(double seconds) {
     if (link_ == nullptr) return;
+    stands_still_ = true;
     for (double passed = 0; passed < seconds; passed += random_tick_s) {
       rig_.pass(random_tick_s);
       const bool looks = static_cast<int>(passed / random_tick_s) % GuardianWatch::look_every_ms == 0;
       if (looks && watch_.stopped() && rig_.guardian) rig_.guardian();
       look_at_device();
     }
-    const bool reached = rig_.guardian && !rig_.guardian_looks_on && seconds > 0.3;
-    if (reached && glm::length(rig_.force()) > 0)
+    stands_still_ = false;
+    went_on_ = rig_.now();
+    // No guardian takes a force away from a device that is unplugged or deaf: it tries until the device is back.
+    const bool can_take = rig_.guardian && !rig_.guardian_looks_on && is_reached_ && seconds > 0.3;
+    if (can_take && glm::length(rig_.force()) > 0)
       say_broken("a force stays while the program stands still", glm::length(rig_.force()), 0);
   }
 
@@ -193,7 +207,9 @@ class RandomSession {
     if (latched_n_ >= 0 && rig_.now() - latched_at_ > 0.004 && length > grown) {
       say_broken("a force that grows after a fault", length, grown);
     }
-    const bool is_unguarded = !rig_.guard->lives && rig_.now() - guard_died_ > ceiling::guardian_s + 0.1;
+    // Only a program that runs can miss its guardian. One that stood still sees it at its next exchanges.
+    const bool is_unguarded = !stands_still_ && !rig_.guard->lives && rig_.now() - went_on_ > 0.1 &&
+                              rig_.now() - guard_died_ > ceiling::guardian_s + 0.1;
     const bool is_seen = link_->state() != State::disconnected && link_->fault() != LinkFault::unplugged &&
                          link_->fault() != LinkFault::silent && link_->on_device() == OnDevice::pushing;
     if (is_unguarded && is_seen && length > 0) say_broken("a force without a guardian", length, 0);
@@ -212,7 +228,8 @@ class RandomSession {
   GuardianWatch watch_{&beat_};
   Vec3 asked_{0, 2.5, 0}, last_force_{0};
   bool servo_runs_ = true, panel_lives_ = true;
-  double guard_died_ = 0;
+  bool is_reached_ = true, is_deaf_ = false, stands_still_ = false;
+  double guard_died_ = 0, went_on_ = 0;
   double next_tick_ = 0, panel_time_ = 0, event_time_ = 0;
   double latched_n_ = -1, latched_at_ = 0;
   const char* event_ = "none";

@@ -44,6 +44,24 @@ Vec3 angles_at(const WoodenHapticsSettings& settings, const Vec3& position) {
   return wooden_haptics_angles(settings, host_counts(PublicHost::haptikfabriken, position));
 }
 
+/// Of the fake: everywhere in the cube that its hand can be in, the counts give the position back, and no part of the
+/// arm has turned by more than a quarter.
+TEST(WoodenHapticsKinematics, TheFakesCountsAreThoseOfAnArmThatStaysOnItsSide) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-0.06, 0.06);
+  for (int i = 0; i < 20'000; ++i) {
+    const double x = uniform(random), y = uniform(random), z = uniform(random);
+    const Vec3 position(x, y, z);
+    for (const PublicHost host : {PublicHost::haptikfabriken, PublicHost::woody_2016}) {
+      const Vec3 counts = public_wooden_counts(host, position);
+      ASSERT_LT(glm::length(public_wooden_position(host, counts) - position), 1e-12);
+      ASSERT_LT(std::abs(counts.x), 2000 * 16 / 4);
+      ASSERT_LT(std::abs(counts.y), 2000 * 12 / 4);
+      ASSERT_LT(std::abs(counts.z), 2000 * 12 / 4);
+    }
+  }
+}
+
 TEST(WoodenHapticsKinematics, PresetsAgreeWithTheirMakersHosts) {
   const struct {
     const char* preset;
