@@ -87,7 +87,8 @@ void offer(const Vec3f& node, const Vec3f& point, float& least, Vec3f& closest) 
   }
 }
 
-/// Points on the edges to the neighbors on the other side, and by Newton's steps.
+}  // namespace
+
 void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest) {
   const Vec3& spacing = bricks.lattice.spacing;
   const Vec3 corner = Vec3(bricks.place[slot] * brick_edge) * spacing;
@@ -131,6 +132,8 @@ void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, 
     }
   }
 }
+
+namespace {
 
 /// Takes the neighbors' closest points over where they are closer: forth and back through a brick. Whether any changed.
 bool spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::size_t slot, Vec3f* closest) {
@@ -190,26 +193,31 @@ bool changed_around(const NodeBricks& bricks, const std::vector<char>& changed, 
 
 }  // namespace
 
-std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<float>& f, double band_mm, int threads) {
+namespace {
+
+/// In stretches of bricks, so that a thread takes few of them up.
+template <typename Work>
+void for_bricks(std::size_t count, int threads, const Work& work) {
   constexpr std::size_t stretch = 32;
+  internal::parallel_for((count + stretch - 1) / stretch,
+                         [&](std::size_t n) {
+                           for (std::size_t slot = n * stretch; slot < std::min(count, (n + 1) * stretch); ++slot)
+                             work(slot);
+                         },
+                         {}, threads);
+}
+
+}  // namespace
+
+void spread_closest_points(const NodeBricks& bricks, double band_mm, int threads, std::vector<Vec3f>& closest) {
   const std::size_t count = bricks.count();
-  const auto for_bricks = [&](const auto& work) {
-    internal::parallel_for((count + stretch - 1) / stretch,
-                           [&](std::size_t n) {
-                             for (std::size_t slot = n * stretch; slot < std::min(count, (n + 1) * stretch); ++slot)
-                               work(slot);
-                           },
-                           {}, threads);
-  };
-  std::vector<Vec3f> closest(count * brick_nodes);
-  for_bricks([&](std::size_t slot) { points_near_surface(bricks, f, slot, closest.data() + slot * brick_nodes); });
   const Vec3& h = bricks.lattice.spacing;
   const double brick_mm = brick_edge * std::min({h.x, h.y, h.z});
   const int passes = 2 + static_cast<int>(std::ceil(band_mm / brick_mm));
   std::vector<Vec3f> next(closest.size());
   std::vector<char> changed(count, 1), changed_now(count);
   for (int pass = 0; pass < passes; ++pass) {
-    for_bricks([&](std::size_t slot) {
+    for_bricks(count, threads, [&](std::size_t slot) {
       const Vec3f* const here = closest.data() + slot * brick_nodes;
       changed_now[slot] = 0;
       if (changed_around(bricks, changed, slot)) {
@@ -222,6 +230,13 @@ std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<fl
     closest.swap(next);
     changed.swap(changed_now);
   }
+}
+
+std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<float>& f, double band_mm, int threads) {
+  std::vector<Vec3f> closest(bricks.count() * brick_nodes);
+  for_bricks(bricks.count(), threads,
+             [&](std::size_t slot) { points_near_surface(bricks, f, slot, closest.data() + slot * brick_nodes); });
+  spread_closest_points(bricks, band_mm, threads, closest);
   return closest;
 }
 

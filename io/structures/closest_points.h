@@ -21,4 +21,10 @@ inline constexpr float nowhere = 1e9F;
 /// (Danielsson, "Euclidean distance mapping", 1980). The same to the last bit on any number of threads.
 std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<float>& f, double band_mm, int threads);
 
+/// Its two parts. The first writes the closest points of one brick's nodes, nowhere where the surface is more than two
+/// nodes away: on the edges to the neighbors on the other side, and by Newton's steps.
+void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest);
+/// The second takes the neighbors' points over where they are closer.
+void spread_closest_points(const NodeBricks& bricks, double band_mm, int threads, std::vector<Vec3f>& closest);
+
 }  // namespace palpate::io

@@ -103,6 +103,17 @@ CoarseLattice coarse_lattice(const Vec3& low_mm, const Vec3& high_mm) {
   return lattice;
 }
 
+std::vector<Vec3f> closest_of(const CoarseLattice& coarse, const std::vector<Vec3f>& points) {
+  Filling filling{coarse, std::vector<Vec3f>(coarse.count(), Vec3f(nowhere))};
+  for (const Vec3f& point : points) {
+    const glm::ivec3 place = glm::clamp(glm::ivec3(glm::round((Vec3(point) - coarse.origin) / coarse.spacing)),
+                                        glm::ivec3(0), coarse.size - 1);
+    filling.offer(place.x, place.y, place.z, point);
+  }
+  sweep(filling);
+  return filling.closest;
+}
+
 std::vector<float> coarse_distances(const CoarseLattice& coarse, const NodeBricks& bricks, const std::vector<float>& f,
                                     const std::vector<Vec3f>& closest) {
   Filling filling{coarse, std::vector<Vec3f>(coarse.count(), Vec3f(nowhere))};

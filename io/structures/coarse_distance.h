@@ -22,6 +22,10 @@ struct CoarseLattice {
 /// Over a box, with as many nodes as make its interpolation good and its memory small.
 CoarseLattice coarse_lattice(const Vec3& low_mm, const Vec3& high_mm);
 
+/// Of each node the closest of some points (patient space, mm), from neighbor to neighbor; nowhere where there are
+/// none.
+std::vector<Vec3f> closest_of(const CoarseLattice& coarse, const std::vector<Vec3f>& points);
+
 /// Signed distances, mm, of its nodes, from the closest points of the bricks' nodes and from neighbor to neighbor
 /// (Danielsson 1980). `f` says on which side the bricks' nodes are.
 std::vector<float> coarse_distances(const CoarseLattice& coarse, const NodeBricks& bricks, const std::vector<float>& f,

@@ -12,7 +12,6 @@
 #include "io/messages.h"
 #include "io/structures/closest_points.h"
 #include "io/structures/coarse_distance.h"
-#include "io/structures/cubic.h"
 #include "io/structures/distance_bounds.h"
 #include "io/structures/label_planes.h"
 #include "io/structures/smoothest.h"
@@ -20,8 +19,7 @@
 namespace palpate::io {
 namespace {
 
-constexpr std::ptrdiff_t cubic_width = brick_edge + 3;
-constexpr std::size_t nodes_of_a_brick = static_cast<std::size_t>(cubic_width) * cubic_width * cubic_width;
+constexpr std::size_t nodes_of_a_brick = internal::DistanceParts::nodes_of_a_brick;
 
 /// A node's closest point and on which side of the surface the node is.
 struct Nearest {
@@ -107,8 +105,9 @@ std::pair<Vec3, Vec3> region_of(const NodeBricks& bricks, const DistanceOptions&
 
 }  // namespace
 
-DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions& options)
-    : reach_mm_(options.reach_mm), blend_mm_(blend_mm(planes.lattice)) {
+DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions& options) {
+  parts_.reach_mm = options.reach_mm;
+  parts_.blend_mm = blend_mm(planes.lattice);
   const DistanceBounds bounds = bounds_of(planes, options.threads);
   SmoothestOptions smooth;
   smooth.threads = options.threads;
@@ -118,102 +117,53 @@ DistanceField::DistanceField(const OutlinePlanes& planes, const DistanceOptions&
 
   const auto [low, high] = region_of(bounds.bricks, options);
   const CoarseLattice coarse = coarse_lattice(low, high);
-  far_ = {coarse.origin, coarse.spacing, coarse.size, coarse_distances(coarse, bounds.bricks, f, closest)};
+  parts_.far.origin = coarse.origin;
+  parts_.far.spacing = coarse.spacing;
+  parts_.far.size = coarse.size;
+  parts_.far.mm = std::make_shared<const std::vector<float>>(coarse_distances(coarse, bounds.bricks, f, closest));
 
   std::vector<std::size_t> kept;
-  const double cell_mm = glm::length(planes.lattice.spacing);
-  near_ = bricks_within(bounds.bricks, closest, reach_mm_ + blend_mm_ + cell_mm, kept);
+  parts_.near.lattice = planes.lattice;
+  parts_.near = bricks_within(bounds.bricks, closest, parts_.kept_within_mm(), kept);
+  parts_.origin = planes.lattice.origin;
   const Vec3 per_mm = 1.0 / planes.lattice.spacing;
-  to_node_ = glm::transpose(planes.lattice.axes);
-  from_node_ = planes.lattice.axes;
+  parts_.to_node = glm::transpose(planes.lattice.axes);
+  parts_.from_node = planes.lattice.axes;
   for (int axis = 0; axis < 3; ++axis) {
-    to_node_[axis] *= per_mm;
-    from_node_[axis] *= per_mm[axis];
+    parts_.to_node[axis] *= per_mm;
+    parts_.from_node[axis] *= per_mm[axis];
   }
   std::vector<Nearest> nearest(closest.size());
   for (std::size_t n = 0; n < nearest.size(); ++n) {
     nearest[n] = {closest[n], f[n]};
   }
-  near_mm_.resize(near_.count() * nodes_of_a_brick);
+  std::vector<float> mm(kept.size() * nodes_of_a_brick);
   for (std::size_t n = 0; n < kept.size(); ++n) {
-    fill_brick(bounds.bricks, nearest, kept[n], near_mm_.data() + n * nodes_of_a_brick);
+    fill_brick(bounds.bricks, nearest, kept[n], mm.data() + n * nodes_of_a_brick);
   }
-}
-
-bool DistanceField::sample_near(const Vec3& position_mm, Distance& distance) const noexcept {
-  const Vec3 node = to_node_ * (position_mm - near_.lattice.origin);
-  const glm::ivec3& bricks = near_.lattice.bricks;
-  const glm::ivec3 last = bricks * brick_edge;
-  if (!(node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < last.x && node.y < last.y && node.z < last.z)) {
-    return false;
-  }
-  const glm::ivec3 cell(node);
-  const glm::uvec3 place = glm::uvec3(cell) / unsigned{brick_edge};
-  const auto columns = static_cast<std::size_t>(bricks.x);
-  const auto rows = static_cast<std::size_t>(bricks.y);
-  const std::int32_t slot = near_.slot[(place.z * rows + place.y) * columns + place.x];
-  if (slot < 0) {
-    return false;
-  }
-  const glm::ivec3 in = cell - glm::ivec3(place) * brick_edge;
-  const Vec3 t = node - Vec3(cell);
-  const float* first = near_mm_.data() + static_cast<std::size_t>(slot) * nodes_of_a_brick +
-                       static_cast<std::size_t>((in.z * cubic_width + in.y) * cubic_width + in.x);
-  const CubicSample sample = cubic_sample(first, cubic_width, cubic_width * cubic_width, t);
-  distance.mm = sample.value;
-  distance.gradient = from_node_ * Vec3(sample.slope[0], sample.slope[1], sample.slope[2]);
-  return true;
-}
-
-Distance DistanceField::sample_far(const Vec3& position_mm) const noexcept {
-  const double per_mm = 1 / far_.spacing;
-  const Vec3 node = (position_mm - far_.origin) * per_mm;
-  // Beyond the lattice the distance goes on as it is at its edge, plus the way there.
-  const Vec3 held = glm::clamp(node, Vec3(1), Vec3(far_.size) - 2.001);
-  const glm::ivec3 cell(held);
-  const Vec3 t = held - Vec3(cell);
-  const std::ptrdiff_t row = far_.size.x;
-  const std::ptrdiff_t plane = row * far_.size.y;
-  const float* first = far_.mm.data() + static_cast<std::size_t>(cell.z - 1) * static_cast<std::size_t>(plane) +
-                       static_cast<std::size_t>(cell.y - 1) * static_cast<std::size_t>(row) +
-                       static_cast<std::size_t>(cell.x - 1);
-  const CubicSample sample = cubic_sample(first, row, plane, t);
-  Distance distance{.mm = sample.value, .gradient = Vec3(sample.slope[0], sample.slope[1], sample.slope[2]) * per_mm};
-  if (node != held) {
-    const Vec3 beyond = (node - held) * far_.spacing;
-    const double way = glm::length(beyond);
-    distance.mm -= way;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (node[axis] != held[axis]) distance.gradient[axis] = 0;  // held: only the way there changes
-    }
-    distance.gradient -= beyond / way;
-  }
-  return distance;
+  const auto page = std::make_shared<const std::vector<float>>(std::move(mm));
+  parts_.pages = {page};
+  for (std::size_t n = 0; n < kept.size(); ++n) parts_.brick.push_back(page->data() + n * nodes_of_a_brick);
 }
 
 Distance DistanceField::sample(const Vec3& position_mm) const noexcept {
   Distance near;
-  if (!sample_near(position_mm, near)) {
-    return sample_far(position_mm);
+  if (!parts_.sample_near(position_mm, near)) {
+    return parts_.sample_far(position_mm);
   }
-  const double t = (std::abs(near.mm) - reach_mm_) / blend_mm_;
+  const double t = (std::abs(near.mm) - parts_.reach_mm) / parts_.blend_mm;
   if (t <= 0) {
     return near;
   }
-  const Distance far = sample_far(position_mm);
+  const Distance far = parts_.sample_far(position_mm);
   if (t >= 1) {
     return far;
   }
   const double part = t * t * (3 - 2 * t);
-  const double slope = 6 * t * (1 - t) / blend_mm_ * (near.mm < 0 ? -1.0 : 1.0);
+  const double slope = 6 * t * (1 - t) / parts_.blend_mm * (near.mm < 0 ? -1.0 : 1.0);
   return {
       .mm = near.mm + part * (far.mm - near.mm),
       .gradient = near.gradient + part * (far.gradient - near.gradient) + (far.mm - near.mm) * slope * near.gradient};
-}
-
-std::size_t DistanceField::memory_bytes() const noexcept {
-  return near_mm_.capacity() * sizeof(float) + near_.slot.capacity() * sizeof(std::int32_t) +
-         near_.place.capacity() * sizeof(glm::ivec3) + far_.mm.capacity() * sizeof(float);
 }
 
 std::shared_ptr<const DistanceField> distance_of(const Mask& mask, const DistanceOptions& options) {

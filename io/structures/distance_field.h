@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <utility>
 
 #include "io/fields/field_source.h"
+#include "io/structures/distance_parts.h"
 #include "io/structures/mask.h"
-#include "io/structures/node_bricks.h"
 #include "io/structures/outline_planes.h"
 #include "io/structures/rigid_motion.h"
 
@@ -37,27 +37,16 @@ class DistanceField {
   /// From any number of threads; in the tick: no allocation, lock or exception.
   Distance sample(const Vec3& position_mm) const noexcept;
 
-  std::size_t bricks() const noexcept { return near_.count(); }
-  std::size_t memory_bytes() const noexcept;
-  double reach_mm() const noexcept { return reach_mm_; }
+  std::size_t bricks() const noexcept { return parts_.near.count(); }
+  /// Bricks that several fields share are counted in each.
+  std::size_t memory_bytes() const noexcept { return parts_.memory_bytes(); }
+  double reach_mm() const noexcept { return parts_.reach_mm; }
+
+  explicit DistanceField(internal::DistanceParts parts) : parts_(std::move(parts)) {}
+  const internal::DistanceParts& parts() const noexcept { return parts_; }
 
  private:
-  /// Whether a brick has the point: then its distance there.
-  bool sample_near(const Vec3& position_mm, Distance& distance) const noexcept;
-  Distance sample_far(const Vec3& position_mm) const noexcept;
-
-  double reach_mm_;
-  double blend_mm_;  ///< beyond the reach: from the bricks to the coarse lattice
-  NodeBricks near_;
-  glm::dmat3 to_node_;          ///< from mm to near_'s nodes
-  glm::dmat3 from_node_;        ///< a slope per node to a gradient per mm
-  std::vector<float> near_mm_;  ///< of each brick (8 + 3)^3 nodes: its cells need one before and two behind
-  struct Coarse {
-    Vec3 origin{0};
-    double spacing = 1;
-    glm::ivec3 size{0};
-    std::vector<float> mm;
-  } far_;
+  internal::DistanceParts parts_;
 };
 
 /// The field of a mask's surface. Throws std::invalid_argument where the mask is empty.

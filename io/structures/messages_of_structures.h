@@ -145,6 +145,30 @@ inline constexpr MessageRow structures[] = {
      "as it says",
      {{"outlines-a-microscope-slide", "it outlines a microscope's slide, not a scan: it cannot be felt"},
       {"holds-surfaces", "it holds surfaces (Surface Segmentation), which are not read: export it as SEG"}}},
+    {"an edit of a structure's outline asks for what it cannot do",
+     "as it says",
+     {{"trace-point-is-far",
+       "its point {} lies {} mm from the edge and its reach is {} mm: give it a larger reach, or add what is missing "
+       "(\"add\")"},
+      {"trace-would-leave-an-island",
+       "its point {} lies {} mm from the edge, and the edge there would be an island: give it a reach of {} mm or "
+       "more, "
+       "or add what is missing (\"add\")"},
+      {"edit-lies-off-the-scan", "its point {} lies off the scan"},
+      {"edit-is-too-large", "it changes more than can be kept: divide it into several"},
+      {"edit-leaves-nothing", "it leaves nothing of the structure"},
+      {"edit-of-nothing", "there is no structure yet to be changed: the first edit has to be \"contours\""},
+      {"contours-come-first", "contours make a new structure: they have to be the first edit of one without a file"},
+      {"edit-needs-the-scan", "the scan's own edge is needed and no scan is there"},
+      {"scan-edge-has-no-outline", "no edge of the structure lies within its radius"}}},
+    {"an edit is not written as it should be",
+     "as it says",
+     {{"edit-has-no-points", "it has no points"},
+      {"edit-has-many-points", "it has {} points; there may be {}"},
+      {"edit-has-no-number", "a number of it is not finite, or what is known to so many mm is negative"},
+      {"edit-length-is-off", "{} is {} mm; it has to be from {} to {} mm"},
+      {"trace-has-other-counts", "it has {} points and says of {} how well they are known: give one for each, or none"},
+      {"edits-are-many", "there are {} edits; there may be {}"}}},
 };
 
 }  // namespace palpate::io::messages

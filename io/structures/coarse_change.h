@@ -1,0 +1,28 @@
+#pragma once
+
+/// Brings the coarse lattice of a field up to date after an edit.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "io/structures/closest_points.h"
+#include "io/structures/distance_parts.h"
+#include "io/structures/field_change.h"
+
+namespace palpate::io::internal {
+
+struct CoarseChange {
+  const NodeLattice& lattice;  ///< of the points, mm along its axes from its origin
+  std::span<const Stretch> where;
+  double within_mm = 0;
+  std::vector<Vec3f> lost{};                                     ///< points of the surface that may be no more
+  std::vector<Vec3f> surface{};                                  ///< points of the surface as it is
+  std::function<double(const Vec3& at, double before)> after{};  ///< its sign is the new one
+};
+
+/// Distances are true within 20 mm of the change, and go over to those before within 12 mm more. `parts` has the new
+/// bricks already, and the lattice of before.
+void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "io/messages.h"
+#include "io/structures/edit_changes.h"
+
+namespace palpate::io::internal {
+namespace {
+
+constexpr std::size_t most_of_a_piece = 400;
+constexpr double usual_move_mm = 2;   // standard deviation of what a trace moves: how much an uncertain point weighs
+constexpr double carried = 0.45;      // of the reach: a bump of a single point is one piece up to 0.47 of it
+constexpr double well_met_mm = 0.03;  // nearer than this the points need no second round
+
+double wendland(double r) {
+  if (r >= 1) return 0;
+  const double in = (1 - r) * (1 - r);
+  return in * in * (4 * r + 1);
+}
+
+struct TracePoint {
+  Vec3 place{0};
+  double known_to_mm = 0;
+};
+
+/// In their order; a point within a quarter of the reach from one that is kept is left out.
+std::vector<TracePoint> thinned(const TraceEdit& edit) {
+  std::vector<TracePoint> kept;
+  const double apart = edit.reach_mm / 4;
+  for (std::size_t n = 0; n < edit.points_mm.size(); ++n) {
+    const Vec3& place = edit.points_mm[n];
+    const bool is_new = std::none_of(kept.rbegin(), kept.rend(),
+                                     [&](const TracePoint& one) { return glm::distance(one.place, place) < apart; });
+    if (is_new) kept.push_back({place, edit.known_to_mm.empty() ? 0 : edit.known_to_mm[n]});
+  }
+  return kept;
+}
+
+/// c of (W + diag(mu s^2)) c = -mm.
+Eigen::VectorXd weights_of(const std::vector<TracePoint>& points, const Eigen::VectorXd& mm, double reach_mm) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd w(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const TracePoint& point = points[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      w(i, j) = w(j, i) = wendland(glm::distance(point.place, points[static_cast<std::size_t>(j)].place) / reach_mm);
+    }
+    const double sigma = 0.5 * point.known_to_mm / usual_move_mm;
+    w(i, i) += sigma * sigma;
+  }
+  return w.ldlt().solve(-mm);
+}
+
+FieldChange change_of(const std::vector<TracePoint>& points, const Eigen::VectorXd& weights, double reach_mm) {
+  FieldChange change;
+  for (const TracePoint& point : points) change.where.push_back({point.place, point.place});
+  change.touched_mm = change.within_mm = reach_mm;
+  change.after = [&points, &weights, reach_mm](const Vec3& at, double before, std::span<const std::uint32_t> near) {
+    double sum = before;
+    for (const std::uint32_t n : near) {
+      const Vec3 away = at - points[n].place;
+      const double squared = glm::dot(away, away);
+      if (squared >= reach_mm * reach_mm) continue;
+      sum += weights[static_cast<Eigen::Index>(n)] * wendland(std::sqrt(squared) / reach_mm);
+    }
+    return sum;
+  };
+  return change;
+}
+
+/// Refuses a point that the edge would come to as an island: between it and the edge lies what is on the other side.
+void refuse_islands(const DistanceField& field, const std::vector<TracePoint>& points, const FieldChange& change,
+                    double reach_mm) {
+  std::vector<std::uint32_t> all(points.size());
+  for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const Distance there = field.parts().sample_nearest(points[n].place);
+    if (std::abs(there.mm) < carried * reach_mm) continue;
+    const double sign = there.mm > 0 ? 1 : -1;
+    const Vec3 to_edge = -there.mm * glm::normalize(there.gradient);
+    for (double part = 0.1; part < 1; part += 0.1) {
+      const Vec3 at = points[n].place + part * to_edge;
+      if (sign * change.after(at, field.parts().sample_nearest(at).mm, all) > 0.1) {
+        const double needed = std::ceil(std::abs(there.mm) / carried);
+        throw InvalidInput(say("trace-would-leave-an-island", n + 1, fmt::format("{:.1f}", std::abs(there.mm)),
+                               fmt::format("{:.0f}", needed)));
+      }
+    }
+  }
+}
+
+Eigen::VectorXd distances_at(const DistanceField& field, const std::vector<TracePoint>& points) {
+  Eigen::VectorXd mm(static_cast<Eigen::Index>(points.size()));
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    mm[static_cast<Eigen::Index>(n)] = field.parts().sample_nearest(points[n].place).mm;
+  }
+  return mm;
+}
+
+Field piece_traced(const Field& before, const std::vector<TracePoint>& points, double reach_mm, int threads) {
+  Eigen::VectorXd mm = distances_at(*before, points);
+  Eigen::VectorXd weights = weights_of(points, mm, reach_mm);
+  FieldChange change = change_of(points, weights, reach_mm);
+  refuse_islands(*before, points, change, reach_mm);
+  // Where the fit wants the points: on the edge, unless they are uncertain.
+  std::vector<std::uint32_t> all(points.size());
+  for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
+  Eigen::VectorXd wanted = mm;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const auto at = static_cast<Eigen::Index>(n);
+    wanted[at] = change.after(points[n].place, mm[at], all);
+  }
+  Field field = changed(before, change, threads);
+  // The field between its nodes is interpolated, and measured anew: where that missed the points, once more.
+  for (int round = 0; round < 2; ++round) {
+    mm = distances_at(*field, points) - wanted;
+    if (mm.cwiseAbs().maxCoeff() < well_met_mm) break;
+    weights = weights_of(points, mm, reach_mm);
+    field = changed(field, change, threads);
+  }
+  return field;
+}
+
+}  // namespace
+
+Field traced(const Field& before, const TraceEdit& edit, int threads, EditOutcome& outcome) {
+  for (std::size_t n = 0; n < edit.points_mm.size(); ++n) {
+    const double mm = std::abs(before->parts().sample_nearest(edit.points_mm[n]).mm);
+    if (!(mm <= edit.reach_mm)) {
+      throw InvalidInput(
+          say("trace-point-is-far", n + 1, fmt::format("{:.1f}", mm), fmt::format("{:g}", edit.reach_mm)));
+    }
+    outcome.largest_mm = std::max(outcome.largest_mm, mm);
+  }
+  const std::vector<TracePoint> points = thinned(edit);
+  outcome.points = points.size();
+  Field field = before;
+  for (std::size_t first = 0; first < points.size(); first += most_of_a_piece) {
+    const std::size_t end = std::min(first + most_of_a_piece, points.size());
+    const auto at = [&](std::size_t n) { return points.begin() + static_cast<std::ptrdiff_t>(n); };
+    std::vector<TracePoint> piece(at(first), at(end));
+    // What an earlier piece has put on the edge stays there.
+    for (std::size_t n = 0; n < first; ++n) {
+      const bool beside = std::any_of(at(first), at(end), [&](const TracePoint& one) {
+        return glm::distance(one.place, points[n].place) < edit.reach_mm;
+      });
+      if (beside) piece.push_back(points[n]);
+    }
+    field = piece_traced(field, piece, edit.reach_mm, threads);
+  }
+  return field;
+}
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,37 @@
+#pragma once
+
+/// How one edit changes a distance field, and the field that comes of it.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "io/structures/distance_field.h"
+
+namespace palpate::io::internal {
+
+/// A piece of a path; a point if both ends are the same.
+struct Stretch {
+  Vec3 from{0}, to{0};
+};
+double distance_to(const Stretch& stretch, const Vec3& place) noexcept;
+
+struct FieldChange {
+  std::vector<Stretch> where;
+  double touched_mm = 0;  ///< the surface before and after is the same farther than this from all stretches
+  double within_mm = 0;   ///< where `after` is asked, >= touched_mm
+  /// The number whose zero is the new surface: `before` farther than within_mm from all stretches. `near`: those that
+  /// may lie nearer.
+  std::function<double(const Vec3& at, double before, std::span<const std::uint32_t> near)> after;
+};
+
+/// The field of the new surface. The distance is measured anew wherever the nearest point of the surface, before or
+/// after, lies within touched_mm of a stretch; everywhere else it keeps its bits. Farther than 20 mm from the changed
+/// surface the coarse lattice gradually keeps what it had. Returns `before` where nothing changed. Throws InvalidInput
+/// where nothing would be left of the structure, or the change is too large.
+std::shared_ptr<const DistanceField> changed(const std::shared_ptr<const DistanceField>& before,
+                                             const FieldChange& change, int threads);
+
+}  // namespace palpate::io::internal

@@ -1,0 +1,74 @@
+#pragma once
+
+/// The bricks of a field around a change, while the distance is measured anew in them.
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "io/structures/closest_points.h"
+#include "io/structures/field_change.h"
+
+namespace palpate::io::internal {
+
+/// Where a brick's node stands in what the field stores of it.
+inline std::size_t stored_at(int i, int j, int k) {
+  return static_cast<std::size_t>(((k + 1) * DistanceParts::wide + j + 1) * DistanceParts::wide + i + 1);
+}
+
+/// The bricks around a change: a box of the field's bricks, and in it those that are measured anew.
+struct Patch {
+  const DistanceParts& old;
+  const FieldChange& change;
+  glm::ivec3 low{0};                               ///< of the box, in the field's bricks; may lie before them
+  NodeBricks bricks{};                             ///< measured anew; places count from `low`
+  std::vector<std::vector<std::uint32_t>> near{};  ///< by brick of the box: stretches that may lie within_mm of it
+  std::vector<float> f{};                          ///< of the nodes of `bricks`
+  std::vector<float> before_mm{};                  ///< likewise: the distance as it was
+  std::vector<Vec3f> closest{}, kept{};            ///< on the new surface; on the old one where it is still there
+  std::vector<Vec3f> lost{};                       ///< points of the old surface that may be no more
+  std::vector<float> mm{};                         ///< likewise: the distance as it is now
+
+  std::size_t box_at(const glm::ivec3& place) const {
+    const glm::ivec3& n = bricks.lattice.bricks;
+    return (static_cast<std::size_t>(place.z) * static_cast<std::size_t>(n.y) + static_cast<std::size_t>(place.y)) *
+               static_cast<std::size_t>(n.x) +
+           static_cast<std::size_t>(place.x);
+  }
+  bool holds(const glm::ivec3& place) const {
+    const glm::ivec3& n = bricks.lattice.bricks;
+    return place.x >= 0 && place.y >= 0 && place.z >= 0 && place.x < n.x && place.y < n.y && place.z < n.z;
+  }
+  /// The stored nodes of the field's brick at a place of the box; null where there is none.
+  const float* stored(const glm::ivec3& place) const {
+    const glm::ivec3 at = low + place;
+    const std::int32_t slot = old.near.slot_at(at.x, at.y, at.z);
+    return slot < 0 ? nullptr : old.brick[static_cast<std::size_t>(slot)];
+  }
+  /// Whether a point of the lattice (mm along its axes from the box) lies where the surface may change.
+  bool is_touched(const Vec3f& at) const {
+    const glm::ivec3 place(glm::floor(Vec3(at) / (bricks.lattice.spacing * static_cast<double>(NodeBricks::edge))));
+    if (!holds(place)) return false;
+    const Vec3 patient = bricks.lattice.origin + bricks.lattice.axes * Vec3(at);
+    return std::ranges::any_of(near[box_at(place)], [&](std::uint32_t n) {
+      return distance_to(change.where[n], patient) < change.touched_mm;
+    });
+  }
+};
+
+/// The box of bricks within `around_mm` of the stretches, and which of them lie within the change.
+Patch patch_around(const DistanceParts& old, const FieldChange& change, double around_mm);
+
+/// Evaluates the bricks within the change, and lists those that are measured anew: all within `around_mm` of one that
+/// the surface passes, before or after. Returns false where it passes none.
+bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char>& passed);
+
+/// Measures the distance in these bricks.
+void measure_anew(Patch& patch, const std::vector<char>& passed, int threads);
+
+/// The field with the changed bricks in the place of those before. Throws InvalidInput where none is left.
+DistanceParts stored(const Patch& patch, int threads);
+
+}  // namespace palpate::io::internal
