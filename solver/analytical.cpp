@@ -116,7 +116,7 @@ Vec3 part_of(const Placed& member, const Group& group) {
 
 Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexcept {
   Solution solution;
-  solution.solver = SolverKind::analytical;
+  solution.solver = &analytical_solver;
   const std::size_t n = balance.primitives.size();
   std::array<Placed, 16> few;
   std::array<const Group*, few.size()> group_of;  // of the few
@@ -169,5 +169,15 @@ Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexce
   }
   return solution;
 }
+
+const SolverType analytical_solver{
+    .name = "analytical",
+    .number = 1,
+    .summary = "one pass of movements: exact if no movement disturbs another, as in section 3.1",
+    .solves = Solves::section_3_1,
+    .is_usual = true,
+    .solve = [](const Balance& balance, std::span<Vec3> forces, Scratch*, const RunOptions&) noexcept {
+      return solve_analytical(balance, forces);
+    }};
 
 }  // namespace palpate::solver

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 
 namespace palpate::solver {
 
@@ -22,5 +22,7 @@ namespace palpate::solver {
 /// forces: as many as primitives; each one's force on the proxy, N. The balance has to be one that validate() accepts.
 /// No allocation; O(n) for any number of primitives that merge into at most 16. iterations is the number of movements.
 Solution solve_analytical(const Balance& balance, std::span<Vec3> forces) noexcept;
+
+extern const SolverType analytical_solver;
 
 }  // namespace palpate::solver

@@ -32,7 +32,7 @@ Answer solve(const std::vector<Primitive>& primitives, const Vec3& probe) {
 void expect_proxy(const std::vector<Primitive>& primitives, const Vec3& probe, const Vec3& proxy) {
   const Answer answer = solve(primitives, probe);
   ASSERT_EQ(answer.solution.outcome, Outcome::solved);
-  EXPECT_EQ(answer.solution.solver, SolverKind::analytical);
+  EXPECT_EQ(answer.solution.solver, &analytical_solver);
   EXPECT_LE(glm::length(answer.solution.proxy - proxy), 2e-18 + 4e-16 * glm::length(proxy));
   EXPECT_LE(answer.solution.error_bound, 1e-14);
   Vec3 sum{0};

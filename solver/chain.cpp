@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "solver/analytical.h"
-
 namespace palpate::solver {
 
 namespace {
@@ -11,46 +9,46 @@ namespace {
 // m: far below what a hand or a device can tell, far above what rounding does to a bound.
 constexpr double unfelt = 1e-9;
 
-Solution solve_in_order(const Balance& balance, const ChainOptions& options, ExactScratch& scratch,
-                        std::span<const Vec3> last_forces, std::span<Vec3> forces) {
-  Solution solution;
-  if (options.analytical) {
-    solution = solve_analytical(balance, forces);
-    if (solution.outcome == Outcome::solved) {
-      return solution;
-    }
-    if (!options.exact && !options.descent && solution.error_bound > 0 && solution.error_bound <= unfelt) {
-      // The others were left out because this one solves the configuration; rounding has loosened the bound.
-      solution.outcome = Outcome::capped;
-      return solution;
-    }
-  }
-  if (options.exact) {
-    const bool warm = options.warm_start && !forces.empty() && last_forces.size() == forces.size();
-    if (warm) {
-      std::copy(last_forces.begin(), last_forces.end(), forces.begin());
-    }
-    solution = solve_exact(balance, forces, scratch, warm ? Start::warm : Start::cold, options.exact_options);
-    if (solution.outcome == Outcome::solved || solution.outcome == Outcome::refused || !options.descent) {
-      return solution;
-    }
-  }
-  if (options.descent) {
-    solution = solve_descent(balance, options.descent_options, forces);
-  }
-  return solution;
-}
-
 }  // namespace
 
-Chain::Chain(const ChainOptions& options) : options_(options), scratch_(options.exact ? options.capacity : 0) {
+Chain::Chain(const ChainOptions& options) : options_(options) {
+  for (const SolverType* type : solver_types()) {
+    if (options.solvers.contains(*type)) {
+      members_.push_back({type, type->make_scratch == nullptr ? nullptr : type->make_scratch(options.capacity)});
+    }
+  }
   last_forces_.reserve(options.capacity);
   last_primitives_.reserve(options.capacity);
 }
 
+Solution Chain::solve_in_order(const Balance& balance, std::span<Vec3> forces) const noexcept {
+  const bool is_warm = options_.warm_start && !forces.empty() && last_forces_.size() == forces.size();
+  Solution solution;
+  for (const auto& [type, scratch] : members_) {
+    RunOptions options{.max_iterations = options_.max_iterations};
+    if (is_warm && type->reads_forces) {
+      std::copy(last_forces_.begin(), last_forces_.end(), forces.begin());
+      options.start = Start::warm;
+    }
+    solution = type->solve(balance, forces, scratch.get(), options);
+    if (solution.outcome == Outcome::solved || solution.outcome == Outcome::refused) {
+      return solution;
+    }
+  }
+  if (solution.outcome == Outcome::unsuitable && solution.error_bound > 0 && solution.error_bound <= unfelt) {
+    // All after this one were left out because it solves the configuration; rounding has loosened the bound.
+    solution.outcome = Outcome::capped;
+  }
+  return solution;
+}
+
 std::size_t Chain::memory_bytes() const noexcept {
-  return scratch_.memory_bytes() + last_forces_.capacity() * sizeof(Vec3) +
-         last_primitives_.capacity() * sizeof(Primitive);
+  std::size_t bytes = members_.capacity() * sizeof(Member) + last_forces_.capacity() * sizeof(Vec3) +
+                      last_primitives_.capacity() * sizeof(Primitive);
+  for (const Member& member : members_) {
+    bytes += member.scratch ? member.scratch->memory_bytes() : 0;
+  }
+  return bytes;
 }
 
 void Chain::forget() noexcept {
@@ -64,7 +62,7 @@ bool Chain::is_last(const Balance& balance) const noexcept {
   };
   return last_solution_.outcome == Outcome::solved && balance.stiffness == last_.stiffness &&
          balance.probe == last_.probe &&
-         (last_solution_.solver != SolverKind::descent || balance.previous_proxy == last_.previous_proxy) &&
+         (!last_solution_.solver->reads_previous_proxy || balance.previous_proxy == last_.previous_proxy) &&
          std::equal(balance.primitives.begin(), balance.primitives.end(), last_primitives_.begin(),
                     last_primitives_.end(), same);
 }
@@ -87,7 +85,7 @@ Solution Chain::solve(const Balance& balance, std::span<Vec3> forces) noexcept {
     std::copy(last_forces_.begin(), last_forces_.end(), forces.begin());
     return last_solution_;
   }
-  const Solution solution = solve_in_order(balance, options_, scratch_, last_forces_, forces);
+  const Solution solution = solve_in_order(balance, forces);
   if (solution.outcome == Outcome::solved || solution.outcome == Outcome::capped) {
     remember(balance, solution, forces);
   } else {

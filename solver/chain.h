@@ -5,22 +5,18 @@
 /// the promise by at most 1e-9 m, its answer is returned as Outcome::capped, with its true bound.
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "solver/descent.h"
-#include "solver/exact.h"
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 
 namespace palpate::solver {
 
 struct ChainOptions {
-  bool analytical = true;
-  bool exact = true;     ///< solves every balance
-  bool descent = false;  ///< the paper's numerical solver, kept as the reference
-  DescentOptions descent_options;
-  ExactOptions exact_options;
-  bool warm_start = true;     ///< the exact solver starts from the forces of the previous balance, if that had as many
+  SolverSet solvers = SolverSet::usual();
+  bool warm_start = true;     ///< from the forces of the previous balance, if that had as many
+  int max_iterations = 0;     ///< of each solver; 0: its own number
   std::size_t capacity = 64;  ///< primitives to reserve memory for
 };
 
@@ -33,21 +29,27 @@ class Chain {
   /// lock, throw or log for balances of up to the number of primitives reserved.
   ///
   /// The same balance twice in a row returns the same answer, so that a force at rest is constant to the last bit in
-  /// spite of the warm start. The previous proxy is not compared, unless descent solved the balance.
+  /// spite of the warm start. The previous proxy is not compared, unless the solver that answered reads it.
   Solution solve(const Balance& balance, std::span<Vec3> forces) noexcept;
 
-  /// Bytes on the heap; those of the exact solver only if it is switched on.
+  /// Bytes on the heap; those of a solver only if it is switched on.
   std::size_t memory_bytes() const noexcept;
 
   /// The next balance starts cold.
   void forget() noexcept;
 
  private:
+  struct Member {
+    const SolverType* type;
+    std::unique_ptr<Scratch> scratch;
+  };
+
+  Solution solve_in_order(const Balance& balance, std::span<Vec3> forces) const noexcept;
   bool is_last(const Balance& balance) const noexcept;
   void remember(const Balance& balance, const Solution& solution, std::span<const Vec3> forces) noexcept;
 
   ChainOptions options_;
-  ExactScratch scratch_;
+  std::vector<Member> members_;
   std::vector<Vec3> last_forces_;
   std::vector<Primitive> last_primitives_;
   Balance last_;  ///< its primitives are those above

@@ -8,16 +8,19 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "solver/analytical.h"
 #include "solver/certify.h"
 #include "solver/chain.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
 #include "solver/testing/problems.h"
 #include "solver/testing/values.h"
 
 namespace palpate::solver {
 namespace {
 
-constexpr ChainOptions descent_alone{
-    .analytical = false, .exact = false, .descent = true, .descent_options = {.max_iterations = 40}};
+const ChainOptions descent_alone{.solvers = {&descent_solver}, .max_iterations = 40};
+const ChainOptions exact_alone{.solvers = {&exact_solver}};
 
 struct ChainAnswer {
   Solution solution;
@@ -75,7 +78,8 @@ TEST(ChainLaws, ABalanceThatChangedInAnythingIsSolvedAnew) {
       const ChainAnswer after = answer_of(chain, scene.balance());
       Chain fresh(options);
       const ChainAnswer anew = answer_of(fresh, scene.balance());
-      const double alike = options.descent ? 0 : after.solution.error_bound + anew.solution.error_bound;
+      const double alike =
+          options.solvers.contains(descent_solver) ? 0 : after.solution.error_bound + anew.solution.error_bound;
       EXPECT_LE(glm::distance(after.solution.proxy, anew.solution.proxy), alike) << "change " << n;
       ASSERT_EQ(after.forces.size(), anew.forces.size());
       for (std::size_t i = 0; i < anew.forces.size(); ++i) {
@@ -106,7 +110,7 @@ TEST(ChainLaws, DescentStartsAnewFromAnotherPreviousProxy) {
   EachKind scene;
   scene.primitives.resize(1);
   ChainOptions options = descent_alone;
-  options.descent_options.max_iterations = 10000;
+  options.max_iterations = 0;
   Chain chain(options);
   ASSERT_EQ(answer_of(chain, scene.balance()).solution.outcome, Outcome::solved);
   scene.previous_proxy += Vec3{7e-4, 5e-4, 3e-4};
@@ -151,7 +155,7 @@ TEST(ChainLaws, ForgottenItIsAsFreshForEveryBalance) {
   for (const Family family : all_families) {
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
       const Problem problem = make_problem(family, seed);
-      Chain chain({.analytical = false}), fresh({.analytical = false});
+      Chain chain(exact_alone), fresh(exact_alone);
       answer_of(chain, problem.balance());
       chain.forget();
       const ChainAnswer after = answer_of(chain, problem.balance()), anew = answer_of(fresh, problem.balance());
@@ -177,7 +181,7 @@ TEST(ChainLaws, WithoutAWarmStartNothingIsRemembered) {
 /// What it is remembered for: the probe moves little from tick to tick.
 TEST(ChainLaws, AWarmStartSparesIterations) {
   EachKind scene;
-  Chain warm({.analytical = false}), cold({.analytical = false, .warm_start = false});
+  Chain warm(exact_alone), cold({.solvers = exact_alone.solvers, .warm_start = false});
   int warm_iterations = 0, cold_iterations = 0;
   for (int tick = 0; tick < 100; ++tick) {
     scene.probe += Vec3{2e-5, 1e-5, -1e-5};
@@ -201,8 +205,7 @@ TEST(ChainLaws, NoAnswerIsFartherFromTheProxyThanItsBound) {
       ExactScratch scratch(forces.size());
       const Solution exact = solve_exact(problem.balance(), forces, scratch);
       if (exact.outcome != Outcome::solved) continue;
-      for (const ChainOptions& options :
-           {ChainOptions{.exact = false}, ChainOptions{.analytical = false}, ChainOptions{}}) {
+      for (const ChainOptions& options : {ChainOptions{.solvers = {&analytical_solver}}, exact_alone, ChainOptions{}}) {
         Chain chain(options);
         const Solution solution = answer_of(chain, problem.balance()).solution;
         if (solution.outcome != Outcome::solved && solution.outcome != Outcome::capped) {
@@ -229,13 +232,13 @@ TEST(ChainLaws, TheExactSolverKeepsToTheCapThatIsSet) {
       const auto alone = [&problem](int cap) {
         ChainAnswer answer{{}, std::vector<Vec3>(problem.primitives.size())};
         ExactScratch scratch(problem.primitives.size());
-        answer.solution = solve_exact(problem.balance(), answer.forces, scratch, Start::cold, {.max_iterations = cap});
+        answer.solution = solve_exact(problem.balance(), answer.forces, scratch, {.max_iterations = cap});
         return answer;
       };
       const ChainAnswer whole = alone(400), cut = alone(1);
       if (cut.solution.iterations == whole.solution.iterations) continue;
       ++met;
-      Chain chain({.analytical = false, .exact_options = {.max_iterations = 1}});
+      Chain chain({.solvers = exact_alone.solvers, .max_iterations = 1});
       const ChainAnswer answer = answer_of(chain, problem.balance());
       EXPECT_EQ(answer.solution.iterations, cut.solution.iterations) << name_of(family) << " " << seed;
       EXPECT_EQ(answer.solution.outcome, cut.solution.outcome) << name_of(family) << " " << seed;
@@ -247,9 +250,12 @@ TEST(ChainLaws, TheExactSolverKeepsToTheCapThatIsSet) {
 }
 
 TEST(ChainLaws, ItsMemoryIsThatOfItsCapacity) {
-  const std::size_t of_each = sizeof(Vec3) + sizeof(Primitive);
-  EXPECT_EQ(Chain({.exact = false, .capacity = 64}).memory_bytes(), ExactScratch(0).memory_bytes() + 64 * of_each);
-  EXPECT_EQ(Chain({.capacity = 64}).memory_bytes(), ExactScratch(64).memory_bytes() + 64 * of_each);
+  const auto bytes = [](std::size_t capacity, const SolverSet& solvers) {
+    return Chain({.solvers = solvers, .capacity = capacity}).memory_bytes();
+  };
+  const SolverSet without_scratch{&analytical_solver}, with_scratch{&exact_solver};
+  EXPECT_EQ(bytes(64, without_scratch) - bytes(0, without_scratch), 64 * (sizeof(Vec3) + sizeof(Primitive)));
+  EXPECT_EQ(bytes(64, with_scratch) - bytes(64, without_scratch), ExactScratch(64).memory_bytes());
 }
 
 /// 16 units in the last place of the largest length that has a part, and of the way that the forces make.

@@ -7,6 +7,9 @@
 #include <cstdlib>
 #include <new>
 
+#include "solver/analytical.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
 #include "solver/testing/problems.h"
 #include "solver/testing/values.h"
 
@@ -49,7 +52,7 @@ void operator delete[](void* memory, std::size_t) noexcept {
 namespace palpate::solver {
 namespace {
 
-SolverKind solver_of(const ChainOptions& options, std::span<const Primitive> primitives) {
+const SolverType* solver_of(const ChainOptions& options, std::span<const Primitive> primitives) {
   Chain chain(options);
   std::vector<Vec3> forces(primitives.size());
   return chain.solve({400, {-mm, -2 * mm, 0}, Vec3{0}, primitives}, forces).solver;
@@ -58,16 +61,17 @@ SolverKind solver_of(const ChainOptions& options, std::span<const Primitive> pri
 TEST(Chain, TheFirstThatCanDoesAndTheOthersMayBeOff) {
   const std::array orthogonal{make_plane(1, Vec3{0}, {0, 1, 0})};
   const std::array oblique{make_plane(3, Vec3{0}, {1, 0, 0}), make_plane(3, Vec3{0}, {0.6, 0.8, 0})};
-  EXPECT_EQ(solver_of({}, orthogonal), SolverKind::analytical);
-  EXPECT_EQ(solver_of({}, oblique), SolverKind::exact);
-  EXPECT_EQ(solver_of({.analytical = false}, orthogonal), SolverKind::exact);
-  EXPECT_EQ(solver_of({.exact = false, .descent = true}, oblique), SolverKind::descent);
-  EXPECT_EQ(solver_of({.exact = false, .descent = true}, orthogonal), SolverKind::analytical);
+  EXPECT_EQ(solver_of({}, orthogonal), &analytical_solver);
+  EXPECT_EQ(solver_of({}, oblique), &exact_solver);
+  EXPECT_EQ(solver_of({.solvers = {&exact_solver}}, orthogonal), &exact_solver);
+  const ChainOptions without_exact{.solvers = {&descent_solver, &analytical_solver}};
+  EXPECT_EQ(solver_of(without_exact, oblique), &descent_solver);
+  EXPECT_EQ(solver_of(without_exact, orthogonal), &analytical_solver);
 }
 
 TEST(Chain, WithoutASolverThatCanItIsUnsuitable) {
   const std::array oblique{make_plane(3, Vec3{0}, {1, 0, 0}), make_plane(3, Vec3{0}, {0.6, 0.8, 0})};
-  Chain chain({.exact = false});
+  Chain chain({.solvers = {&analytical_solver}});
   std::array<Vec3, 2> forces;
   EXPECT_EQ(chain.solve({400, {-mm, -2 * mm, 0}, Vec3{0}, oblique}, forces).outcome, Outcome::unsuitable);
 }
@@ -78,7 +82,7 @@ TEST(Chain, RefusesRubbishBeforeAnySolver) {
   std::array<Vec3, 2> forces;
   const Solution solution = chain.solve({400, Vec3{0}, Vec3{0}, primitives}, forces);
   ASSERT_EQ(solution.outcome, Outcome::refused);
-  EXPECT_EQ(solution.solver, SolverKind::none);
+  EXPECT_EQ(solution.solver, nullptr);
   EXPECT_EQ(solution.rejection->primitive, 1U);
 }
 
@@ -105,12 +109,8 @@ TEST(Chain, DoesNotAllocateWithinItsCapacity) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const Problem problem = make_problem(family, seed);
       std::vector<Vec3> forces(problem.primitives.size());
-      Chain chain({.descent = true, .capacity = 100});
-      Chain descent({.analytical = false,
-                     .exact = false,
-                     .descent = true,
-                     .descent_options = {.max_iterations = 50},
-                     .capacity = 100});
+      Chain chain({.solvers = SolverSet::usual().with(descent_solver), .capacity = 100});
+      Chain descent({.solvers = {&descent_solver}, .max_iterations = 50, .capacity = 100});
       trap = true;
       for (int tick = 0; tick < 3; ++tick) {
         chain.solve(problem.balance(), forces);

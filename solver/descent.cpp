@@ -11,7 +11,7 @@ namespace palpate::solver {
 
 Solution solve_descent(const Balance& balance, const DescentOptions& options, std::span<Vec3> forces) noexcept {
   Solution solution;
-  solution.solver = SolverKind::descent;
+  solution.solver = &descent_solver;
   for (const Primitive& primitive : balance.primitives) {
     if (std::isinf(primitive.strength)) {
       return solution;
@@ -47,5 +47,18 @@ Solution solve_descent(const Balance& balance, const DescentOptions& options, st
   solution.error_bound = certify(balance, x, forces).error_bound;
   return solution;
 }
+
+const SolverType descent_solver{
+    .name = "descent",
+    .number = 3,
+    .summary = "the paper's numerical solver, kept as the reference: no hard constraints, off by millimeters at worst",
+    .reads_previous_proxy = true,
+    .solve = [](const Balance& balance, std::span<Vec3> forces, Scratch*, const RunOptions& options) noexcept {
+      DescentOptions own;
+      if (options.max_iterations > 0) {
+        own.max_iterations = options.max_iterations;
+      }
+      return solve_descent(balance, own, forces);
+    }};
 
 }  // namespace palpate::solver

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 
 namespace palpate::solver {
 
@@ -24,5 +24,7 @@ struct DescentOptions {
 ///
 /// Outcome::unsuitable where a strength is infinite. The balance has to be one that validate() accepts. No allocation.
 Solution solve_descent(const Balance& balance, const DescentOptions& options, std::span<Vec3> forces) noexcept;
+
+extern const SolverType descent_solver;
 
 }  // namespace palpate::solver

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <vector>
 
 #include "solver/certify.h"
 #include "solver/exact/answer.h"
-#include "solver/exact/sorted.h"
+#include "solver/exact/scratch.h"
 #include "solver/exact/walk.h"
 
 namespace palpate::solver {
@@ -17,42 +16,6 @@ using internal::FineVec3;
 using internal::ForceRegion;
 using internal::length_of;
 using internal::Placed;
-
-struct ExactScratch::Arrays {
-  std::vector<Placed> placed;
-  std::vector<Placed> moved;
-  std::vector<Vec3> forces;
-  std::vector<ForceRegion> hold;
-  std::vector<std::uint32_t> met;
-  internal::Sorted sorted;    // of many primitives
-  internal::Columns columns;  // of the same
-
-  void fit(std::size_t n) {
-    if (placed.size() < n) {
-      placed.resize(n);
-      moved.resize(n);
-      forces.resize(n);
-      hold.resize(n);
-      met.resize(n);
-      if (n > internal::most_unsorted) {
-        sorted.fit(n);
-        columns.fit(n);
-      }
-    }
-  }
-};
-
-ExactScratch::ExactScratch(std::size_t capacity) : arrays_(std::make_unique<Arrays>()) {
-  arrays_->fit(capacity);
-}
-ExactScratch::~ExactScratch() = default;
-std::size_t ExactScratch::memory_bytes() const noexcept {
-  const auto size = [](const auto& array) { return array.capacity() * sizeof array[0]; };
-  return sizeof(Arrays) + size(arrays_->placed) + size(arrays_->moved) + size(arrays_->forces) + size(arrays_->hold) +
-         size(arrays_->met) + arrays_->sorted.memory_bytes() + arrays_->columns.memory_bytes();
-}
-ExactScratch::ExactScratch(ExactScratch&&) noexcept = default;
-ExactScratch& ExactScratch::operator=(ExactScratch&&) noexcept = default;
 
 namespace {
 
@@ -107,7 +70,7 @@ Search::Search(const Balance& balance, std::span<Vec3> forces, ExactScratch::Arr
   walk_.forces = std::span(arrays.forces).first(n);
   walk_.hold = std::span(arrays.hold).first(n);
   walk_.met = std::span(arrays.met).first(n);
-  solution_.solver = SolverKind::exact;
+  solution_.solver = &exact_solver;
   solution_.outcome = Outcome::capped;
   solution_.error_bound = infinity;
   double force = 0;
@@ -384,17 +347,32 @@ Solution Search::run(Start start) {
 
 }  // namespace
 
-Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch, Start start,
-                     const ExactOptions& options) noexcept {
+Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch,
+                     const RunOptions& options) noexcept {
+  const int cap = options.max_iterations > 0 ? options.max_iterations : 400;
   ExactScratch::Arrays& arrays = scratch.arrays();
   if (balance.primitives.size() <= internal::most_unsorted) {
-    return Search(balance, forces, arrays, options.max_iterations).run(start);
+    return Search(balance, forces, arrays, cap).run(options.start);
   }
   arrays.fit(balance.primitives.size());
   const Balance sorted = arrays.sorted.take(balance, forces);
-  Solution solution = Search(sorted, arrays.sorted.forces(), arrays, options.max_iterations).run(start);
+  Solution solution = Search(sorted, arrays.sorted.forces(), arrays, cap).run(options.start);
   arrays.sorted.give_back(forces, solution);
   return solution;
 }
+
+const SolverType exact_solver{
+    .name = "exact",
+    .number = 2,
+    .summary = "walks down the energy from flat to flat: exact for any finite set of primitives",
+    .is_usual = true,
+    .reads_forces = true,
+    .make_scratch = [](std::size_t primitives) -> std::unique_ptr<Scratch> {
+      return std::make_unique<ExactScratch>(primitives);
+    },
+    .solve =
+        [](const Balance& balance, std::span<Vec3> forces, Scratch* scratch, const RunOptions& options) noexcept {
+          return solve_exact(balance, forces, static_cast<ExactScratch&>(*scratch), options);
+        }};
 
 }  // namespace palpate::solver

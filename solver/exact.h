@@ -29,28 +29,19 @@
 #include <memory>
 #include <span>
 
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 
 namespace palpate::solver {
 
-struct ExactOptions {
-  int max_iterations = 400;  ///< passes over all primitives, O(n) each, in the longest walk
-};
-
-enum class Start : std::uint8_t {
-  cold,  ///< the forces given are not read
-  warm   ///< from the forces given (N), for example those of the previous tick; any finite numbers will do
-};
-
 /// Memory for balances of up to `capacity` primitives; a larger balance makes it grow, which allocates.
-class ExactScratch {
+class ExactScratch final : public Scratch {
  public:
   explicit ExactScratch(std::size_t capacity = 64);
-  ~ExactScratch();
+  ~ExactScratch() override;
   ExactScratch(ExactScratch&&) noexcept;
   ExactScratch& operator=(ExactScratch&&) noexcept;
 
-  std::size_t memory_bytes() const noexcept;  ///< on the heap
+  std::size_t memory_bytes() const noexcept override;
 
   struct Arrays;
   Arrays& arrays() { return *arrays_; }
@@ -65,8 +56,11 @@ class ExactScratch {
 /// error_bound is certify()'s law, evaluated in double-double where the answer was found. Outcome::solved means: within
 /// promised_accuracy(), or as exact as data within 4 ulp allow (the bound may then be looser, and is still true).
 /// Outcome::refused means: the hard constraints have no common point, Flaw::incompatible. The balance must be one that
-/// validate() accepts. No allocation within the scratch's capacity.
-Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch, Start start = Start::cold,
-                     const ExactOptions& options = {}) noexcept;
+/// validate() accepts. No allocation within the scratch's capacity. max_iterations: passes over all primitives, O(n)
+/// each, in the longest walk; 400 by default.
+Solution solve_exact(const Balance& balance, std::span<Vec3> forces, ExactScratch& scratch,
+                     const RunOptions& options = {}) noexcept;
+
+extern const SolverType exact_solver;
 
 }  // namespace palpate::solver

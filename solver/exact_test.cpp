@@ -158,7 +158,7 @@ TEST(Exact, ColdWarmAndAnalyticalAnswersAgreeWithinTheirBounds) {
       Balance before = balance;
       before.probe += Vec3{3e-5, -4e-5, 0};
       solve_exact(before, from, scratch);
-      const Solution warm = solve_exact(balance, from, scratch, Start::warm);
+      const Solution warm = solve_exact(balance, from, scratch, {.start = Start::warm});
       ASSERT_EQ(warm.outcome, Outcome::solved) << name_of(family) << " " << seed;
       EXPECT_LE(glm::length(warm.proxy - cold.proxy), warm.error_bound + cold.error_bound)
           << name_of(family) << " " << seed;

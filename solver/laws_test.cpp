@@ -231,7 +231,8 @@ TEST(Laws, TheWorkIsWhatItWas) {
       cold += static_cast<std::uint64_t>(solve_exact(problem.balance(), forces, scratch).iterations);
       Random random(seed);
       problem.probe += random.unit_vector() * 1e-5;
-      warm += static_cast<std::uint64_t>(solve_exact(problem.balance(), forces, scratch, Start::warm).iterations);
+      warm += static_cast<std::uint64_t>(
+          solve_exact(problem.balance(), forces, scratch, {.start = Start::warm}).iterations);
     }
     EXPECT_LE(20 * cold, 21 * budget.cold) << name_of(budget.family) << " cold: " << cold;
     EXPECT_LE(20 * warm, 21 * budget.warm) << name_of(budget.family) << " warm: " << warm;

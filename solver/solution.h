@@ -9,10 +9,7 @@
 
 namespace palpate::solver {
 
-enum class SolverKind : std::uint8_t { none, analytical, exact, descent };
-
-/// "analytical", "exact", "descent" or "none".
-const char* name_of(SolverKind kind);
+struct SolverType;
 
 enum class Outcome : std::uint8_t {
   solved,      ///< proxy, forces and error bound are the answer
@@ -23,7 +20,7 @@ enum class Outcome : std::uint8_t {
 
 struct Solution {
   Outcome outcome = Outcome::unsuitable;
-  SolverKind solver = SolverKind::none;
+  const SolverType* solver = nullptr;  ///< which found it; null where none did
   int iterations = 0;
   Vec3 proxy{0};           ///< m
   double error_bound = 0;  ///< m: |proxy - exact proxy| is at most this

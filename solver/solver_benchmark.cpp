@@ -3,15 +3,16 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "solver/analytical.h"
 #include "solver/chain.h"
-#include "solver/descent.h"
 #include "solver/exact.h"
 #include "solver/testing/problems.h"
 
@@ -40,46 +41,20 @@ std::vector<Case> cases_of(Family family, ExactScratch& scratch) {
   return cases;
 }
 
-template <typename Solve>
-void run(benchmark::State& state, const Solve& solve) {
+void run(benchmark::State& state, const SolverType& type, Start start) {
   const Family family = all_families[static_cast<std::size_t>(state.range(0))];
   state.SetLabel(name_of(family));
-  ExactScratch scratch(128);
-  std::vector<Case> cases = cases_of(family, scratch);
+  ExactScratch of_start(128);
+  std::vector<Case> cases = cases_of(family, of_start);
+  const std::unique_ptr<Scratch> scratch = type.make_scratch == nullptr ? nullptr : type.make_scratch(128);
   std::size_t next = 0;
   for (auto _ : state) {
     Case& each = cases[next++ % cases.size()];
-    Solution solution = solve(each, scratch);
+    if (start == Start::warm) std::copy(each.start.begin(), each.start.end(), each.forces.begin());
+    Solution solution = type.solve(each.problem.balance(), each.forces, scratch.get(), {.start = start});
     benchmark::DoNotOptimize(solution);
   }
   state.SetItemsProcessed(state.iterations());
-}
-
-Solution analytically(Case& each, ExactScratch&) {
-  return solve_analytical(each.problem.balance(), each.forces);
-}
-Solution exactly_cold(Case& each, ExactScratch& scratch) {
-  return solve_exact(each.problem.balance(), each.forces, scratch);
-}
-Solution exactly_warm(Case& each, ExactScratch& scratch) {
-  std::copy(each.start.begin(), each.start.end(), each.forces.begin());
-  return solve_exact(each.problem.balance(), each.forces, scratch, Start::warm);
-}
-Solution by_descent(Case& each, ExactScratch&) {
-  return solve_descent(each.problem.balance(), {}, each.forces);
-}
-
-void analytical(benchmark::State& state) {
-  run(state, analytically);
-}
-void exact_cold(benchmark::State& state) {
-  run(state, exactly_cold);
-}
-void exact_warm(benchmark::State& state) {
-  run(state, exactly_warm);
-}
-void descent(benchmark::State& state) {
-  run(state, by_descent);
 }
 
 /// Balances of a walk into a wall that is kept out of over 3 mm and out again, with friction: a force and a plane for
@@ -122,11 +97,21 @@ void keep_out(benchmark::State& state) {
 constexpr auto last = static_cast<std::int64_t>(std::size(all_families)) - 1;
 static_assert(all_families[last] == Family::many);
 
-BENCHMARK(analytical)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
-BENCHMARK(exact_cold)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
-BENCHMARK(exact_warm)->DenseRange(0, last)->Unit(benchmark::kMicrosecond);
-// Not `many`: 10 000 steps each, and no answer.
-BENCHMARK(descent)->DenseRange(0, last - 1)->Unit(benchmark::kMicrosecond);
+[[maybe_unused]] const bool registered = [] {
+  for (const SolverType* const type : solver_types()) {
+    const std::string name(type->name);
+    // Of `many` descent takes 10 000 steps each, and has no answer.
+    const std::int64_t most = last - (type->reads_previous_proxy ? 1 : 0);
+    const auto add = [&](const std::string& called, Start start) {
+      benchmark::RegisterBenchmark(called.c_str(), run, std::cref(*type), start)
+          ->DenseRange(0, most)
+          ->Unit(benchmark::kMicrosecond);
+    };
+    add(type->reads_forces ? name + "_cold" : name, Start::cold);
+    if (type->reads_forces) add(name + "_warm", Start::warm);
+  }
+  return true;
+}();
 
 BENCHMARK(keep_out)->DenseRange(0, 5);
 

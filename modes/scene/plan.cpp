@@ -165,17 +165,21 @@ std::string count_in_words(const std::vector<Footprint>& footprints) {
 
 void choose_solvers(const Scene& scene, const std::vector<Footprint>& footprints, Plan& plan) {
   plan.solvers = scene.solvers;
-  if (!scene.solvers.analytical || !is_always_analytical(footprints)) {
+  if (!is_always_analytical(footprints)) {
     return;
   }
   const std::string why = count_in_words(footprints) + ": always analytical (section 3.1)";
-  if (plan.solvers.exact) {
-    plan.left_out.push_back({"exact solver", why, "its scratch memory; it would not be called"});
+  bool is_solved = false;  // by one that is asked before
+  for (const solver::SolverType* type : solver::solver_types()) {
+    if (is_solved && scene.solvers.contains(*type)) {
+      plan.left_out.push_back({std::string(type->name) + " solver", why,
+                               std::string(type->make_scratch == nullptr ? "nothing:" : "its scratch memory;") +
+                                   " it would not be called"});
+      plan.left_out.back().solver = type;
+      plan.solvers.set(*type, false);
+    }
+    is_solved = is_solved || (scene.solvers.contains(*type) && type->solves == solver::Solves::section_3_1);
   }
-  if (plan.solvers.descent) {
-    plan.left_out.push_back({"descent solver", why, "nothing: it would not be called"});
-  }
-  plan.solvers.exact = plan.solvers.descent = false;
 }
 
 /// The mode in the form for the tick; its structures are added to `index`.

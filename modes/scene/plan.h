@@ -18,19 +18,20 @@ namespace palpate::modes {
 
 /// Something that was left out of a plan: never computed, kept in memory or called.
 struct LeftOut {
-  std::string what;                           ///< "friction", "Hessian", "exact solver", ...
-  std::string why;                            ///< "strength is zero everywhere"
-  std::string saves;                          ///< "one gradient a tick", ...
-  io::FieldSet field = io::FieldSet::none;    ///< where it is a field: which
-  std::optional<std::size_t> mode = {};       ///< where it is a mode: which of the scene's
-  std::optional<io::SliceRange> slices = {};  ///< where it is slices of the scan: which
+  std::string what;                            ///< "friction", "Hessian", "exact solver", ...
+  std::string why;                             ///< "strength is zero everywhere"
+  std::string saves;                           ///< "one gradient a tick", ...
+  io::FieldSet field = io::FieldSet::none;     ///< where it is a field: which
+  std::optional<std::size_t> mode = {};        ///< where it is a mode: which of the scene's
+  const solver::SolverType* solver = nullptr;  ///< where it is a solver: which
+  std::optional<io::SliceRange> slices = {};   ///< where it is slices of the scan: which
 };
 
 /// Immutable once made: sessions share it between threads by pointer.
 struct Plan {
   io::FieldSet fields = io::FieldSet::none;  ///< sampled once a sub-step
   std::vector<ActiveMode> modes;             ///< in the scene's order
-  SolverSwitches solvers;                    ///< those that a tick of this scene can need
+  solver::SolverSet solvers;                 ///< those that a tick of this scene can need
   double stiffness_n_per_m = 0;
   Workspace workspace;
   Subdivision subdivision;

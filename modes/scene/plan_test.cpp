@@ -61,8 +61,8 @@ TEST(Plan, leaves_out_modes_that_can_never_be_felt_and_says_why) {
 TEST(Plan, keeps_the_general_solver_only_where_some_tick_can_need_it) {
   const auto exact = [](std::vector<Mode> modes, FieldSet available) {
     const Plan plan = plan_of(std::move(modes), available);
-    EXPECT_EQ(left_out(plan, "exact solver") == nullptr, plan.solvers.exact);
-    return plan.solvers.exact;
+    EXPECT_EQ(left_out(plan, "exact solver") == nullptr, plan.solvers.contains(solver::exact_solver));
+    return plan.solvers.contains(solver::exact_solver);
   };
   Mode both = mode("surface");
   both.side = Side::both;
@@ -89,22 +89,22 @@ TEST(Plan, says_what_its_modes_place_where_it_leaves_solvers_out) {
   both.side = Side::both;
   Scene scene = testing::scene_of({mode("surface"), both, mode("friction"), mode("friction"), mode("friction"),
                                    mode("force", 1, DirectionField::gradient), mode("surface", 0)});
-  scene.solvers.descent = true;
+  scene.solvers.set(solver::descent_solver);
   const Plan plan = make_plan(scene, scan, {});
   for (const char* solver : {"exact solver", "descent solver"}) {
     ASSERT_NE(left_out(plan, solver), nullptr) << solver;
     EXPECT_EQ(left_out(plan, solver)->why, "1 force + 2 plane + 3 point: always analytical (section 3.1)");
   }
-  EXPECT_FALSE(plan.solvers.exact || plan.solvers.descent);
-  EXPECT_TRUE(plan.solvers.analytical);
+  EXPECT_FALSE(plan.solvers.contains(solver::exact_solver) || plan.solvers.contains(solver::descent_solver));
+  EXPECT_TRUE(plan.solvers.contains(solver::analytical_solver));
   EXPECT_EQ(left_out(plan_of({}), "exact solver")->why, "no primitive: always analytical (section 3.1)");
   EXPECT_EQ(left_out(plan_of({}), "descent solver"), nullptr) << "the scene has it switched off";
 }
 
 TEST(Plan, without_the_analytical_solver_the_general_one_stays) {
   Scene scene = testing::scene_of({mode("surface")});
-  scene.solvers.analytical = false;
-  EXPECT_TRUE(make_plan(scene, scan, {}).solvers.exact);
+  scene.solvers.set(solver::analytical_solver, false);
+  EXPECT_TRUE(make_plan(scene, scan, {}).solvers.contains(solver::exact_solver));
 }
 
 TEST(Plan, of_every_starting_scene_feels_something) {

@@ -177,7 +177,7 @@ void validate(const Scene& scene) {
   check_positive("limits.ramp_s", scene.limits.ramp_s, "seconds");
   check_positive("limits.speed_limit_m_per_s", scene.limits.speed_m_per_s, "meters per second");
   check_workspace(scene.workspace);
-  if (!scene.solvers.analytical && !scene.solvers.exact && !scene.solvers.descent) {
+  if (scene.solvers.is_empty()) {
     refuse("solvers", say("all-are-switched-off"));
   }
   check_positive("subdivision.step_mm", scene.subdivision.step_mm, "mm of patient");

@@ -15,6 +15,7 @@
 #include "modes/scene/defaults.h"
 #include "modes/scene/transfer_function.h"
 #include "modes/scene/workspace.h"
+#include "solver/solver_type.h"
 
 namespace palpate::modes {
 
@@ -95,13 +96,6 @@ struct Limits {
   double speed_m_per_s = defaults::speed_limit_m_per_s;
 };
 
-/// Solvers that a scene allows; its plan switches off those that it can never need.
-struct SolverSwitches {
-  bool analytical = true;
-  bool exact = true;
-  bool descent = false;
-};
-
 /// A tick is cut into as many sub-steps as the probe's travel needs (haptic_step.h).
 struct Subdivision {
   double step_mm = defaults::sub_step_mm;          ///< probe travel of one sub-step, mm of patient
@@ -135,7 +129,7 @@ struct Scene {
   double stiffness_n_per_m = defaults::stiffness_n_per_m;
   Limits limits;
   WorkspaceSettings workspace;
-  SolverSwitches solvers;
+  solver::SolverSet solvers = solver::SolverSet::usual();  ///< allowed; the plan leaves out those that it cannot need
   Subdivision subdivision;
   io::Filter filter;  ///< of the scan's values, before anything reads them
   Sampling sampling;

@@ -198,12 +198,14 @@ Limits read_limits(const At& at) {
   return limits;
 }
 
-SolverSwitches read_solvers(const At& at) {
+solver::SolverSet read_solvers(const At& at) {
   Members members(at);
-  SolverSwitches solvers;
-  members.optional("analytical", solvers.analytical, boolean);
-  members.optional("exact", solvers.exact, boolean);
-  members.optional("descent", solvers.descent, boolean);
+  solver::SolverSet solvers = solver::SolverSet::usual();
+  for (const solver::SolverType* type : solver::solver_types()) {
+    bool is_on = solvers.contains(*type);
+    members.optional(std::string(type->name), is_on, boolean);
+    solvers.set(*type, is_on);
+  }
   members.done();
   return solvers;
 }

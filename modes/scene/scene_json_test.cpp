@@ -10,6 +10,9 @@
 #include <stdexcept>
 
 #include "io/fresh_folder.h"
+#include "solver/analytical.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
 #include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes {
@@ -148,7 +151,8 @@ TEST(SceneJson, what_is_not_said_takes_the_default) {
   EXPECT_EQ(scene.stiffness_n_per_m, 400.0);
   EXPECT_EQ(scene.limits.force_n, 3.0);
   EXPECT_FALSE(scene.gradient_scale_mm.has_value());
-  EXPECT_TRUE(scene.solvers.analytical && scene.solvers.exact && !scene.solvers.descent);
+  EXPECT_TRUE(scene.solvers.contains(solver::analytical_solver) && scene.solvers.contains(solver::exact_solver) &&
+              !scene.solvers.contains(solver::descent_solver));
   EXPECT_EQ(scene.sampling.value, io::ValueMethod::cubic);
   EXPECT_EQ(scene.sampling.gradient, io::GradientMethod::gaussian);
 }
@@ -264,10 +268,7 @@ TEST(SceneJson, a_scene_that_a_program_made_is_checked_too) {
       {"workspace.rotation: its axes are not of unit length and at right angles",
        [](Scene& s) { s.workspace.rotation[1] = s.workspace.rotation[0]; }},
       {"workspace.rotation: is a mirror image: right would be left", [](Scene& s) { s.workspace.rotation[1] *= -1; }},
-      {"solvers: all are switched off",
-       [](Scene& s) {
-         s.solvers = {false, false, false};
-       }},
+      {"solvers: all are switched off", [](Scene& s) { s.solvers = {}; }},
       {"subdivision.step_mm: 0 is not a number above 0; it is in mm of patient",
        [](Scene& s) { s.subdivision.step_mm = 0; }},
       {"subdivision.proxy_step_mm: 0 is not a number above 0; it is in mm of patient",

@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "modes/scene/scene.h"
+#include "solver/analytical.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
 #include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes {
@@ -277,7 +280,7 @@ TEST(SceneLimits, AColorIsSixHexadecimalDigits) {
 TEST(SceneLimits, ASolverIsLeft) {
   for (unsigned on = 0; on < 8; ++on) {
     const std::string said = said_of([&](Scene& scene) {
-      scene.solvers = {.analytical = (on & 1) != 0, .exact = (on & 2) != 0, .descent = (on & 4) != 0};
+      for (unsigned n = 0; n < 3; ++n) scene.solvers.set(*solver::solver_types()[n], ((on >> n) & 1) != 0);
     });
     EXPECT_EQ(said, on == 0 ? "solvers: all are switched off" : "");
   }
@@ -350,9 +353,9 @@ TEST(SceneLimits, DefaultsAreAsDocumented) {
   EXPECT_EQ(scene.limits.speed_m_per_s, 1);
   EXPECT_EQ(scene.workspace.scale, 1);
   EXPECT_FALSE(scene.workspace.fit);
-  EXPECT_TRUE(scene.solvers.analytical);
-  EXPECT_TRUE(scene.solvers.exact);
-  EXPECT_FALSE(scene.solvers.descent);
+  EXPECT_TRUE(scene.solvers.contains(solver::analytical_solver));
+  EXPECT_TRUE(scene.solvers.contains(solver::exact_solver));
+  EXPECT_FALSE(scene.solvers.contains(solver::descent_solver));
   EXPECT_EQ(scene.subdivision.step_mm, 0.1);
   EXPECT_EQ(scene.subdivision.most, 8);
   EXPECT_EQ(scene.subdivision.proxy_step_mm, 0.125);

@@ -140,8 +140,9 @@ Json json_of(const Scene& scene) {
                     {"ramp_s", scene.limits.ramp_s},
                     {"speed_limit_m_per_s", scene.limits.speed_m_per_s}};
   json["workspace"] = json_of(scene.workspace);
-  json["solvers"] = {
-      {"analytical", scene.solvers.analytical}, {"exact", scene.solvers.exact}, {"descent", scene.solvers.descent}};
+  for (const solver::SolverType* type : solver::solver_types()) {
+    json["solvers"][std::string(type->name)] = scene.solvers.contains(*type);
+  }
   json["subdivision"] = {{"step_mm", scene.subdivision.step_mm},
                          {"most", scene.subdivision.most},
                          {"proxy_step_mm", scene.subdivision.proxy_step_mm},

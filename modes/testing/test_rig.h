@@ -6,17 +6,12 @@
 
 #include "modes/scene/plan.h"
 #include "modes/tick/haptic_step.h"
+#include "solver/analytical.h"
 #include "solver/chain.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
 
 namespace palpate::modes::testing {
-
-inline solver::ChainOptions chain_options(const SolverSwitches& switches) {
-  solver::ChainOptions options;
-  options.analytical = switches.analytical;
-  options.exact = switches.exact;
-  options.descent = switches.descent;
-  return options;
-}
 
 /// Of the spring between hand and proxy, where a scene names no other.
 inline constexpr double stiffness_n_per_mm = 0.4;
@@ -25,7 +20,7 @@ inline constexpr double stiffness_n_per_mm = 0.4;
 class Hand {
  public:
   Hand(const Scene& scene, const io::FieldSource& source, const Workspace& workspace = {})
-      : plan(make_plan(scene, source.available(), workspace)), source_(source), chain_(chain_options(plan.solvers)) {}
+      : plan(make_plan(scene, source.available(), workspace)), source_(source), chain_({.solvers = plan.solvers}) {}
 
   const StepResult& move_to(const Vec3& probe_mm) {
     result = step(plan, source_, plan.workspace.to_device(probe_mm), touch, chain_, *scratch_);

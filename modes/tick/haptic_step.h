@@ -26,7 +26,7 @@
 #include "modes/tick/stopwatch.h"
 #include "modes/types/mode_type.h"
 #include "solver/primitive.h"
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 
 namespace palpate::solver {
 class Chain;
@@ -79,12 +79,12 @@ struct StepResult {
   /// solved; capped: the best answer, with its true bound; refused or unsuitable: a fault, whose proxy and force are
   /// those of the last good tick, for the safety filter to bring to zero.
   solver::Outcome outcome = solver::Outcome::solved;
-  solver::SolverKind solver = solver::SolverKind::none;
-  int iterations = 0;      ///< of the solver
-  double error_bound = 0;  ///< m
-  int sub_steps = 1;       ///< of the probe
-  int halts = 0;           ///< of the proxy
-  int capped = 0;          ///< sub-steps that hit a solver's cap
+  const solver::SolverType* solver = nullptr;  ///< of the last sub-step; null where none found it
+  int iterations = 0;                          ///< of the solver
+  double error_bound = 0;                      ///< m
+  int sub_steps = 1;                           ///< of the probe
+  int halts = 0;                               ///< of the proxy
+  int capped = 0;                              ///< sub-steps that hit a solver's cap
 };
 
 /// A scene on its data.

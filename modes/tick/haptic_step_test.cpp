@@ -242,7 +242,7 @@ TEST(HapticStep, a_probe_or_a_field_that_is_not_finite_is_refused_and_the_force_
     EXPECT_EQ(hand.result.force_n, force);
     if (std::isfinite(bad)) continue;  // so far away that it has no balance; the others are not tried
     EXPECT_EQ(hand.result.outcome, solver::Outcome::refused);
-    EXPECT_EQ(hand.result.solver, solver::SolverKind::none);
+    EXPECT_EQ(hand.result.solver, nullptr);
     EXPECT_EQ(hand.result.iterations, 0);
     EXPECT_EQ(hand.result.error_bound, 0);
     EXPECT_TRUE(hand.result.primitives.empty());

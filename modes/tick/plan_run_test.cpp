@@ -80,12 +80,12 @@ Counts count(const Scene& scene) {
     hand.move_to({24 * std::sin(0.003 * tick), 4 * std::sin(0.02 * tick), 1});
     counts.expected_samples += hand.result.sub_steps + hand.result.halts;
     counts.modes.insert(hand.result.mode_of.begin(), hand.result.mode_of.end());
-    counts.exact_called = counts.exact_called || hand.result.solver == solver::SolverKind::exact;
+    counts.exact_called = counts.exact_called || hand.result.solver == &solver::exact_solver;
   }
   counts.asked = source.asked;
   counts.samples = source.samples;
   counts.field_bytes = source.memory_bytes();
-  counts.chain_bytes = solver::Chain(testing::chain_options(counts.plan.solvers)).memory_bytes();
+  counts.chain_bytes = solver::Chain({.solvers = counts.plan.solvers}).memory_bytes();
   return counts;
 }
 
@@ -134,7 +134,7 @@ TEST(PlanRun, samples_and_keeps_nothing_of_the_slices_that_were_left_out) {
   ASSERT_GT(plan.slices.first, 0);
   ASSERT_LT(plan.slices.last, g.dimensions.z - 1);
   const Counted source(volume, plan.fields, plan.slices);
-  solver::Chain chain(testing::chain_options(plan.solvers));
+  solver::Chain chain({.solvers = plan.solvers});
   const auto scratch = std::make_unique<StepScratch>();
   Touch touch;
   std::mt19937_64 random(5);

@@ -160,7 +160,7 @@ TEST(StructureLaw, FrictionStandsWithItsWallWhereTheScanHasNone) {
   for (int n = 0; n < 500; ++n) {
     const double angle = 0.02 * n;
     hand.move_to(21.0 * Vec3(std::sin(angle), std::cos(angle), 0));
-    EXPECT_EQ(hand.result.solver, solver::SolverKind::analytical) << n;
+    EXPECT_EQ(hand.result.solver, &solver::analytical_solver) << n;
     held += hand.result.hold == HoldState::held ? 1 : 0;
     for (const solver::Primitive& primitive : hand.result.primitives) {
       EXPECT_EQ(primitive.position, hand.result.anchor_m) << "of all that is placed";
@@ -271,15 +271,15 @@ TEST(StructurePlan, LeavesOutWhatNoModeReads) {
   bool said = false;
   for (const LeftOut& left : plan.left_out) said = said || left.what == "structure \"spleen\"";
   EXPECT_TRUE(said);
-  EXPECT_TRUE(plan.solvers.analytical);
-  EXPECT_FALSE(plan.solvers.exact);
+  EXPECT_TRUE(plan.solvers.contains(solver::analytical_solver));
+  EXPECT_FALSE(plan.solvers.contains(solver::exact_solver));
 }
 
 /// Walls of one structure push along one direction; those of two can meet at any angle.
 TEST(StructurePlan, KeepsTheGeneralSolverWhereWallsOfTwoStructuresCanMeet) {
   const auto needs_exact = [](std::string modes, const std::string& more) {
     modes.append(", ").append(more);
-    return make_plan(scene_with(modes), BallSource().available(), {}).solvers.exact;
+    return make_plan(scene_with(modes), BallSource().available(), {}).solvers.contains(solver::exact_solver);
   };
   const std::string liver = R"({"type": "surface", "structure": "liver", "strength_n": 1})";
   const std::string spleen = R"({"type": "surface", "structure": "spleen", "strength_n": 1})";

@@ -14,7 +14,6 @@ namespace palpate::modes {
 namespace {
 
 using solver::PrimitiveType;
-using solver::SolverKind;
 using testing::Hand;
 
 /// A seeded walk through the tunnel, around and along the sphere.
@@ -47,13 +46,13 @@ Scene follow_and_force() {
 TEST(WindTunnel, follow_and_force_are_solved_by_the_analytical_solver_on_every_tick) {
   const testdata::FlowSource source({});
   Hand hand(follow_and_force(), source);
-  EXPECT_FALSE(hand.plan.solvers.exact);
-  EXPECT_FALSE(hand.plan.solvers.descent);
+  EXPECT_FALSE(hand.plan.solvers.contains(solver::exact_solver));
+  EXPECT_FALSE(hand.plan.solvers.contains(solver::descent_solver));
   TunnelWalk walk;
   for (int i = 0; i < 20000; ++i) {
     const StepResult& result = hand.move_to(walk.next());
     ASSERT_EQ(result.outcome, solver::Outcome::solved) << i;
-    ASSERT_EQ(result.solver, SolverKind::analytical) << i;
+    ASSERT_EQ(result.solver, &solver::analytical_solver) << i;
     ASSERT_LE(result.error_bound, 1e-12) << i;
     // Guided: across the flow at most the line's strength; along it, in free balance, the force's alone.
     const Vec3 along =
@@ -107,7 +106,7 @@ TEST(WindTunnel, with_surface_on_the_pressure_a_general_solver_takes_over_where_
   pressure.name = "pressure";
   scene.modes.push_back(pressure);
   Hand hand(scene, source);
-  EXPECT_TRUE(hand.plan.solvers.exact);
+  EXPECT_TRUE(hand.plan.solvers.contains(solver::exact_solver));
   TunnelWalk walk;
   int analytical = 0, general = 0, capped = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -122,10 +121,10 @@ TEST(WindTunnel, with_surface_on_the_pressure_a_general_solver_takes_over_where_
     const double failure =
         failure_of_one_pass(result, hand.plan.workspace.to_device(probe), hand.plan.stiffness_n_per_m);
     if (failure > 1e-12) {
-      ASSERT_EQ(result.solver, SolverKind::exact) << i << ", off by " << failure;
+      ASSERT_EQ(result.solver, &solver::exact_solver) << i << ", off by " << failure;
       ++general;
     } else if (failure < 1e-16) {
-      ASSERT_EQ(result.solver, SolverKind::analytical) << i;
+      ASSERT_EQ(result.solver, &solver::analytical_solver) << i;
       ++analytical;
     }
   }

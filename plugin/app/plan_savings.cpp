@@ -76,8 +76,7 @@ Cost cost_of(const modes::Scene& scene, const modes::Plan& plan, const std::shar
   const io::VolumeFields source = fields_without_worker(scene, volume, scan_fields(plan), plan.slices);
   const glm::dvec3 middle = middle_of(volume->geometry, plan);
   source.prepare(middle, 5);
-  solver::Chain chain(
-      {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
+  solver::Chain chain({.solvers = plan.solvers});
   modes::Touch touch;
   const auto scratch = std::make_unique<modes::StepScratch>();
   double best = std::numeric_limits<double>::infinity();
@@ -177,13 +176,13 @@ std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan
         saving.bytes = with.bytes - std::min(with.bytes, without->bytes);
         saving.saves = per_step(*saving.us, *saving.bytes);
       }
-    } else if (entry.what == "exact solver") {
-      saving.us = 0;  // the analytical solver answers every tick
-      saving.bytes = solver::Chain().memory_bytes() - solver::Chain({.exact = false}).memory_bytes();
-      saving.saves = size_of(*saving.bytes) + " of scratch memory; no time: it would not be called";
-    } else if (entry.what == "descent solver") {
-      saving.us = 0;
+    } else if (entry.solver != nullptr) {
+      saving.us = 0;  // one that is asked before answers every tick
       saving.bytes = 0;
+      if (entry.solver->make_scratch != nullptr) {
+        saving.bytes = entry.solver->make_scratch(solver::ChainOptions{}.capacity)->memory_bytes();
+        saving.saves = size_of(*saving.bytes) + " of scratch memory; no time: it would not be called";
+      }
     }
     savings.push_back(std::move(saving));
   }

@@ -10,6 +10,7 @@
 #include "modes/scene/plan.h"
 #include "modes/scene/scene_json.h"
 #include "modes/tick/haptic_step.h"
+#include "plugin/bench/solver_entrants.h"
 #include "solver/chain.h"
 #include "testdata/analytic.h"
 
@@ -26,10 +27,10 @@ constexpr const char* yielding = R"({"version": 1, "name": "skin", "modes": [{"t
 /// The haptic loop without a device.
 class Loop {
  public:
-  Loop(const char* scene, std::shared_ptr<const io::FieldSource> source, const solver::ChainOptions& options)
+  Loop(const char* scene, std::shared_ptr<const io::FieldSource> source, const solver::SolverSet& solvers)
       : source_(std::move(source)),
         plan_(modes::make_plan(modes::scene_from_json(scene, "study"), source_->available(), modes::Workspace{})),
-        chain_(options),
+        chain_({.solvers = solvers}),
         scratch_(std::make_unique<modes::StepScratch>()) {}
 
   /// A tick with the probe there (patient, mm); the coupling's force along patient axes, N.
@@ -56,9 +57,9 @@ std::shared_ptr<const io::FieldSource> slab() {
 
 constexpr double pressed_mm = 1.39 / 0.4;  // 1.39 N at 400 N/m
 
-double creep(const solver::ChainOptions& options, double seconds) {
+double creep(const solver::SolverSet& solvers, double seconds) {
   constexpr double radius = 10;
-  Loop loop(wall, std::make_shared<testdata::AnalyticSource>(testdata::make_shell(radius, 40), 1.5), options);
+  Loop loop(wall, std::make_shared<testdata::AnalyticSource>(testdata::make_shell(radius, 40), 1.5), solvers);
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise(0, 0.02);
   // From the cavity's middle outwards until the force is there, then at rest under noise.
@@ -77,8 +78,8 @@ double creep(const solver::ChainOptions& options, double seconds) {
   return 100 * (begin - end) / begin;
 }
 
-double drift(const solver::ChainOptions& options, double seconds) {
-  Loop loop(wall, slab(), options);
+double drift(const solver::SolverSet& solvers, double seconds) {
+  Loop loop(wall, slab(), solvers);
   for (double depth = -5; depth < pressed_mm; depth += 0.05) {
     loop.move({0, 0, -depth});
   }
@@ -91,8 +92,8 @@ double drift(const solver::ChainOptions& options, double seconds) {
   return largest * 1e-3;
 }
 
-double hysteresis(const solver::ChainOptions& options) {
-  Loop loop(wall, slab(), options);
+double hysteresis(const solver::SolverSet& solvers) {
+  Loop loop(wall, slab(), solvers);
   for (double depth = -5; depth < 2; depth += 0.01) {
     loop.move({0, 0, -depth});
   }
@@ -108,8 +109,8 @@ double hysteresis(const solver::ChainOptions& options) {
   return largest;
 }
 
-double pop_through(const solver::ChainOptions& options) {
-  Loop loop(yielding, slab(), options);
+double pop_through(const solver::SolverSet& solvers) {
+  Loop loop(yielding, slab(), solvers);
   double largest = 0;
   for (double depth = -5; depth < 15; depth += 0.005) {
     largest = std::max(largest, glm::length(loop.move({0, 0, -depth})));
@@ -117,8 +118,8 @@ double pop_through(const solver::ChainOptions& options) {
   return largest;
 }
 
-double rest_chatter(const solver::ChainOptions& options, double seconds) {
-  Loop loop(wall, std::make_shared<testdata::AnalyticSource>(testdata::make_sphere(25), 1.5), options);
+double rest_chatter(const solver::SolverSet& solvers, double seconds) {
+  Loop loop(wall, std::make_shared<testdata::AnalyticSource>(testdata::make_sphere(25), 1.5), solvers);
   for (double depth = -5; depth < 2; depth += 0.05) {
     loop.move({0.3, -25 + depth, 0.1});
   }
@@ -137,28 +138,22 @@ double rest_chatter(const solver::ChainOptions& options, double seconds) {
 }  // namespace
 
 std::vector<CreepStudyRow> study_creep(double seconds, const std::function<void(double)>& progress) {
-  struct Solvers {
-    const char* name;
-    solver::ChainOptions options;
-  };
-  const std::vector<Solvers> all{{"analytical, exact", {.analytical = true, .exact = true, .descent = false}},
-                                 {"exact", {.analytical = false, .exact = true, .descent = false}},
-                                 {"descent", {.analytical = false, .exact = false, .descent = true}}};
+  const std::vector<NamedSolvers> all = solvers_to_compare();
   std::vector<CreepStudyRow> rows;
-  const auto add = [&](const Solvers& solvers, const char* what, const char* how, double value, const char* unit,
+  const auto add = [&](const NamedSolvers& solvers, const char* what, const char* how, double value, const char* unit,
                        const char* ideal) {
     rows.push_back({solvers.name, what, how, value, unit, ideal});
     progress(static_cast<double>(rows.size()) / static_cast<double>(5 * all.size()));
   };
-  for (const Solvers& solvers : all) {
-    add(solvers, "creep", "cavity of 10 mm, 1.39 N, 0.02 mm rms of noise", creep(solvers.options, seconds), "% lost",
+  for (const NamedSolvers& solvers : all) {
+    add(solvers, "creep", "cavity of 10 mm, 1.39 N, 0.02 mm rms of noise", creep(solvers.solvers, seconds), "% lost",
         "0");
-    add(solvers, "drift", "flat slab, slide at 50 mm/s", drift(solvers.options, seconds), "m", "0");
-    add(solvers, "hysteresis", "flat slab, 2 mm in and out", hysteresis(solvers.options), "N",
+    add(solvers, "drift", "flat slab, slide at 50 mm/s", drift(solvers.solvers, seconds), "m", "0");
+    add(solvers, "hysteresis", "flat slab, 2 mm in and out", hysteresis(solvers.solvers), "N",
         "that of the yielding flank");
-    add(solvers, "pop-through", "flat slab of 1 N, pushed through at 5 mm/s", pop_through(solvers.options), "N",
+    add(solvers, "pop-through", "flat slab of 1 N, pushed through at 5 mm/s", pop_through(solvers.solvers), "N",
         "1, less at most k v dt = 0.002");
-    add(solvers, "rest chatter", "sphere of 25 mm, probe perfectly still", rest_chatter(solvers.options, seconds), "N",
+    add(solvers, "rest chatter", "sphere of 25 mm, probe perfectly still", rest_chatter(solvers.solvers, seconds), "N",
         "0, to the last bit");
   }
   return rows;

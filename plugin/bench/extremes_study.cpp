@@ -15,6 +15,7 @@
 #include "plugin/bench/solver_entrants.h"
 #include "plugin/report/text_file.h"
 #include "solver/certify.h"
+#include "solver/descent.h"
 #include "solver/testing/problems.h"
 #include "solver/testing/reference.h"
 
@@ -211,7 +212,7 @@ std::vector<Row> run(const Extreme& extreme, const std::vector<Entrant>& entrant
     }
     const solver::Reference reference = extreme.has_reference ? solve_reference(balance) : solver::Reference{};
     for (std::size_t e = 0; e < entrants.size(); ++e) {
-      if (entrants[e].name == "descent" && !extreme.for_descent) continue;
+      if (entrants[e].type == &solver::descent_solver && !extreme.for_descent) continue;
       std::vector<Vec3> forces(problem.primitives.size(), Vec3(0));
       entrants[e].prepare(problem, forces);
       const solver::Solution solution = entrants[e].solve(balance, forces);
@@ -226,7 +227,7 @@ std::vector<Row> run(const Extreme& extreme, const std::vector<Entrant>& entrant
 void run_extremes(const std::filesystem::path& folder) {
   std::vector<Entrant> entrants;
   for (Entrant& entrant : solver_entrants()) {
-    if (entrant.name == "analytical" || entrant.name == "exact cold" || entrant.name == "descent") {
+    if (entrant.type != nullptr && !entrant.is_variant) {
       entrants.push_back(std::move(entrant));
     }
   }

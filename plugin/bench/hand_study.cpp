@@ -14,7 +14,9 @@
 #include "modes/scene/scene_json.h"
 #include "modes/tick/haptic_step.h"
 #include "plugin/bench/arms.h"
+#include "plugin/bench/solver_entrants.h"
 #include "solver/chain.h"
+#include "solver/exact.h"
 #include "testdata/analytic.h"
 #include "testdata/flow.h"
 
@@ -66,17 +68,6 @@ Setting wind_tunnel() {
           }};
 }
 
-struct Solvers {
-  const char* name;
-  solver::ChainOptions chain;
-};
-
-std::vector<Solvers> solvers() {
-  return {{"analytical, exact", {.analytical = true, .exact = true, .descent = false}},
-          {"exact", {.analytical = false, .exact = true, .descent = false}},
-          {"descent", {.analytical = false, .exact = false, .descent = true}}};
-}
-
 struct HandOutcome {
   double rms_n = 0;
   double kept = 0;
@@ -125,8 +116,8 @@ std::vector<device::Waypoint> path_of(const Setting& setting, const modes::Works
   return path;
 }
 
-HandOutcome run_once(const Setting& setting, bool slide, const device::SimulatedDevice& model, const Solvers& solvers,
-                     double stiffness, double hold_s) {
+HandOutcome run_once(const Setting& setting, bool slide, const device::SimulatedDevice& model,
+                     const NamedSolvers& solvers, double stiffness, double hold_s) {
   modes::Scene scene = modes::scene_from_json(setting.scene, "study");
   scene.stiffness_n_per_m = stiffness;
   modes::Workspace workspace;
@@ -138,8 +129,8 @@ HandOutcome run_once(const Setting& setting, bool slide, const device::Simulated
   stylus.follow(path_of(setting, workspace, depth_m, slide, hold_s), device::PathInterpolation::linear);
   stylus.open();
 
-  solver::Chain chain(solvers.chain);
-  solver::Chain reference({.analytical = false, .exact = true, .descent = false});
+  solver::Chain chain({.solvers = solvers.solvers});
+  solver::Chain reference({.solvers = {&solver::exact_solver}});
   const auto scratch = std::make_unique<modes::StepScratch>();
   std::vector<solver::Vec3> reference_forces(modes::most_primitives);
   modes::Touch touch;
@@ -180,7 +171,7 @@ struct Held {
   bool slide;
   SimulatedArm arm;
   SimulatedHand hand;
-  Solvers solvers;
+  NamedSolvers solvers;
 };
 
 std::vector<Held> everything_held(const std::vector<Setting>& settings) {
@@ -189,7 +180,7 @@ std::vector<Held> everything_held(const std::vector<Setting>& settings) {
     for (const bool slide : {false, true}) {
       for (const SimulatedArm& arm : simulated_arms()) {
         for (const SimulatedHand& hand : simulated_hands()) {
-          for (const Solvers& chain : solvers()) all.push_back({&setting, slide, arm, hand, chain});
+          for (const NamedSolvers& chain : solvers_to_compare()) all.push_back({&setting, slide, arm, hand, chain});
         }
       }
     }
@@ -247,7 +238,7 @@ double band_rms(const std::vector<double>& signal, double rate, double low_hz, d
 const std::vector<std::string>& hand_study_solvers() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Solvers& one : solvers()) all.emplace_back(one.name);
+    for (const NamedSolvers& one : solvers_to_compare()) all.emplace_back(one.name);
     return all;
   }();
   return names;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "solver/descent.h"
+
 namespace palpate::plugin {
 namespace {
 
@@ -36,13 +38,15 @@ TEST(HandStudy, OnEveryArmAndHandASoftWallIsHeldAndSteady) {
   const auto rows = study_hand({.hands = 1, .hold_s = 2, .stiffness_n_per_m = {200}}, [](double) {});
   int walls = 0;
   for (const HandStudyRow& row : rows) {
-    if (row.solver == "descent" && row.scene != "surface + friction") continue;  // which loses that wall
+    if (row.solver == solver::descent_solver.name && row.scene != "surface + friction")
+      continue;  // which loses that wall
     ++walls;
     EXPECT_TRUE(is_steady(row)) << row.scene << ", " << row.motion << ", " << row.arm << ", " << row.hand << ", "
                                 << row.solver << ": kept " << row.kept << ", RMS " << row.median_rms_n << " N of "
                                 << row.steady_below_n;
   }
-  EXPECT_EQ(walls, 4 * 3 * (2 * 3 + 2 * 2));
+  const int solvers = static_cast<int>(hand_study_solvers().size());
+  EXPECT_EQ(walls, 4 * 3 * (2 * solvers + 2 * (solvers - 1)));
 }
 
 }  // namespace

@@ -73,7 +73,8 @@ Chart chart_of(std::span<const HandStudyRow> rows, const HandStudyRow& of, doubl
     for (std::size_t n = 0; n < hand_study_solvers().size(); ++n) {
       const std::string& solver = hand_study_solvers()[n];
       if (points.size() <= n) {
-        points.push_back({.label = solver, .color = palette[n], .style = Curve::Style::points, .width = 4});
+        points.push_back(
+            {.label = solver, .color = palette[n % palette.size()], .style = Curve::Style::points, .width = 4});
       }
       HandStudyRow one = of;
       one.arm = arm.name;
@@ -82,8 +83,10 @@ Chart chart_of(std::span<const HandStudyRow> rows, const HandStudyRow& of, doubl
       std::vector<double> steady;
       for (const SimulatedHand& hand : simulated_hands()) steady.push_back(steady_up_to(rows, one, hand.name));
       const auto [low, high] = std::ranges::minmax(steady);
-      reaches.push_back(
-          {.label = "", .x = {x, x}, .y = {std::max(low, least), std::max(high, least)}, .color = palette[n]});
+      reaches.push_back({.label = "",
+                         .x = {x, x},
+                         .y = {std::max(low, least), std::max(high, least)},
+                         .color = palette[n % palette.size()]});
       points[n].x.push_back(x);
       points[n].y.push_back(std::max(steady_up_to(rows, one, "usual"), least));
     }

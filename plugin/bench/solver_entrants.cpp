@@ -8,7 +8,6 @@
 #include <limits>
 #include <memory>
 
-#include "solver/analytical.h"
 #include "solver/descent.h"
 #include "solver/exact.h"
 #include "testdata/flow.h"
@@ -27,8 +26,34 @@ using solver::Vec3;
 using Forces = std::span<Vec3>;
 
 Entrant descent(std::string name, const solver::DescentOptions& options) {
-  return {std::move(name), [](const Problem&, Forces) {},
-          [options](const Balance& balance, Forces forces) { return solve_descent(balance, options, forces); }};
+  return {.name = std::move(name),
+          .type = &solver::descent_solver,
+          .prepare = [](const Problem&, Forces) {},
+          .solve = [options](const Balance& balance, Forces forces) { return solve_descent(balance, options, forces); },
+          .is_variant = true};
+}
+
+Entrant entrant_of(const solver::SolverType& type, solver::Start start) {
+  constexpr std::size_t primitives = 128;
+  const std::shared_ptr<solver::Scratch> scratch = type.make_scratch ? type.make_scratch(primitives) : nullptr;
+  const auto tick_before = [&type, scratch, start](const Problem& problem, Forces forces) {
+    if (start == solver::Start::cold) return;
+    constexpr double step = 5e-5;
+    Balance before = problem.balance();
+    before.probe += glm::normalize(Vec3(1, -2, 0.5)) * step;
+    const Solution solution = type.solve(before, forces, scratch.get(), {});
+    const bool usable = solution.outcome == solver::Outcome::solved || solution.outcome == solver::Outcome::capped;
+    if (!usable) std::fill(forces.begin(), forces.end(), Vec3(0));
+  };
+  const std::string name(type.name);
+  return {.name = !type.reads_forces ? name : name + (start == solver::Start::warm ? " warm" : " cold"),
+          .type = &type,
+          .prepare = tick_before,
+          .solve = [&type, scratch, start](
+                       const Balance& balance,
+                       Forces forces) { return type.solve(balance, forces, scratch.get(), {.start = start}); },
+          .scales = type.solves == solver::Solves::any && !type.reads_previous_proxy,
+          .is_variant = start == solver::Start::warm};
 }
 
 #ifdef PALPATE_NLOPT
@@ -85,9 +110,10 @@ Entrant simplex() {
   nlopt_set_initial_step1(optimizer.get(), 1e-3);
   nlopt_set_xtol_abs1(optimizer.get(), std::numeric_limits<double>::epsilon());
   nlopt_set_maxeval(optimizer.get(), solver::DescentOptions{}.max_iterations);
-  return {
-      "Nelder-Mead", [](const Problem&, Forces) {},
-      [optimizer](const Balance& balance, Forces forces) { return solve_simplex(optimizer.get(), balance, forces); }};
+  return {.name = "Nelder-Mead",
+          .prepare = [](const Problem&, Forces) {},
+          .solve = [optimizer](const Balance& balance,
+                               Forces forces) { return solve_simplex(optimizer.get(), balance, forces); }};
 }
 
 #endif
@@ -95,33 +121,27 @@ Entrant simplex() {
 }  // namespace
 
 std::vector<Entrant> solver_entrants() {
-  const auto nothing = [](const Problem&, Forces) {};
-  const auto scratch = std::make_shared<solver::ExactScratch>(128);
-  const auto tick_before = [scratch](const Problem& problem, Forces forces) {
-    constexpr double step = 5e-5;
-    Balance before = problem.balance();
-    before.probe += glm::normalize(Vec3(1, -2, 0.5)) * step;
-    const Solution solution = solve_exact(before, forces, *scratch);
-    const bool usable = solution.outcome == solver::Outcome::solved || solution.outcome == solver::Outcome::capped;
-    if (!usable) std::fill(forces.begin(), forces.end(), Vec3(0));
-  };
-  const auto exact = [scratch](solver::Start start) {
-    return [scratch, start](const Balance& balance, Forces forces) {
-      return solve_exact(balance, forces, *scratch, start);
-    };
-  };
   std::vector<Entrant> entrants;
-  entrants.push_back(
-      {"analytical", nothing, [](const Balance& balance, Forces forces) { return solve_analytical(balance, forces); }});
-  entrants.push_back({"exact cold", nothing, exact(solver::Start::cold), true});
-  entrants.push_back({"exact warm", tick_before, exact(solver::Start::warm), true});
-  entrants.push_back(descent("descent", {}));
+  for (const solver::SolverType* const type : solver::solver_types()) {
+    entrants.push_back(entrant_of(*type, solver::Start::cold));
+    if (type->reads_forces) entrants.push_back(entrant_of(*type, solver::Start::warm));
+  }
   entrants.push_back(descent("descent to 1 um", {.smallest_step = 1e-6}));
   entrants.push_back(descent("descent l x 0.95", {.reduction = 0.95}));
 #ifdef PALPATE_NLOPT
   entrants.push_back(simplex());
 #endif
   return entrants;
+}
+
+std::vector<NamedSolvers> solvers_to_compare() {
+  std::vector<NamedSolvers> all{{"", solver::SolverSet::usual()}};
+  for (const solver::SolverType* const type : solver::solver_types()) {
+    const std::string name(type->name);
+    if (type->is_usual) all.front().name += (all.front().name.empty() ? "" : ", ") + name;
+    if (type->solves == solver::Solves::any) all.push_back({name, {type}});
+  }
+  return all;
 }
 
 namespace {

@@ -7,23 +7,33 @@
 #include <string>
 #include <vector>
 
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 #include "solver/testing/problems.h"
 
 namespace palpate::plugin {
 
 struct Entrant {
   std::string name;
+  const solver::SolverType* type = nullptr;  ///< null: no solver of ours
   /// Fills the forces with what the solver starts from; not timed.
   std::function<void(const solver::Problem&, std::span<solver::Vec3> forces)> prepare;
   std::function<solver::Solution(const solver::Balance&, std::span<solver::Vec3> forces)> solve;
-  bool scales = false;  ///< worth trying on thousands of primitives
+  bool scales = false;      ///< worth trying on thousands of primitives
+  bool is_variant = false;  ///< of a solver that is in the list already
 };
 
-/// Analytical; exact, cold and warm (from the forces of a tick whose probe was 0.05 mm away, 50 mm/s at 1 kHz);
-/// descent with the paper's settings and two others; Nelder and Mead's simplex (1965), the paper's named alternative,
-/// where the program was built with NLopt.
+/// Every type of solver, those that can start warm cold and warm (from the forces of a tick whose probe was 0.05 mm
+/// away, 50 mm/s at 1 kHz); descent with two other settings; Nelder and Mead's simplex (1965), the paper's named
+/// alternative, if the program was built with NLopt.
 std::vector<Entrant> solver_entrants();
+
+struct NamedSolvers {
+  std::string name;
+  solver::SolverSet solvers;
+};
+
+/// Those that a haptic loop can run with: the usual chain, and each solver alone that solves balances of any kind.
+std::vector<NamedSolvers> solvers_to_compare();
 
 /// What a solver did in the wind tunnel: potential flow past a sphere (testdata/flow.h).
 struct WindTunnelResult {

@@ -38,8 +38,7 @@ modes::Scene wall_scene() {
 
 Slide slide_on(Wall wall, const io::FieldSource& source, const modes::Scene& scene, double speed_mm_per_s) {
   const modes::Plan plan = modes::make_plan(scene, source.available(), {});
-  solver::Chain chain(
-      {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
+  solver::Chain chain({.solvers = plan.solvers});
   modes::Touch touch;
   const auto scratch = std::make_unique<modes::StepScratch>();
   Slide result;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -24,15 +24,7 @@ struct Fields {
   double scale_mm = 2;
 };
 
-struct SolverChoice {
-  const char* name;
-  modes::SolverSwitches switches;
-  Color color;
-};
-
-const std::array solver_choices{SolverChoice{"analytical", {true, false, false}, colors::blue},
-                                SolverChoice{"exact", {false, true, false}, colors::green},
-                                SolverChoice{"descent", {false, false, true}, colors::vermilion}};
+constexpr Color palette[] = {colors::blue, colors::green, colors::vermilion, colors::purple, colors::orange};
 
 std::vector<Fields> all_fields() {
   std::vector<Fields> fields{{"central differences", io::GradientMethod::central_differences},
@@ -60,23 +52,28 @@ void run_whole_tick(const std::filesystem::path& folder) {
               .y = {.label = "off from the truth, rms (N)", .logarithmic = true},
               .curves = {},
               .marks = {}};
-  for (const SolverChoice& solver : solver_choices) {
-    chart.curves.push_back(
-        {.label = solver.name, .x = {}, .y = {}, .color = solver.color, .style = Curve::Style::points, .width = 4});
+  const auto types = solver::solver_types();
+  for (std::size_t s = 0; s < types.size(); ++s) {
+    chart.curves.push_back({.label = std::string(types[s]->name),
+                            .x = {},
+                            .y = {},
+                            .color = palette[s % std::size(palette)],
+                            .style = Curve::Style::points,
+                            .width = 4});
   }
   for (const Fields& choice : all_fields()) {
     io::FieldOptions options;
     options.gradient = choice.method;
     const io::VolumeFields source(volume, io::FieldSet::value | io::FieldSet::gradient, choice.scale_mm, options);
     source.prepare({0, 0, 0}, 30);
-    for (std::size_t s = 0; s < solver_choices.size(); ++s) {
+    for (std::size_t s = 0; s < types.size(); ++s) {
       modes::Scene scene = wall_scene();
-      scene.solvers = solver_choices[s].switches;
+      scene.solvers = {types[s]};
       const Slide slide = slide_on(Wall::convex, source, scene, 50);
       const double tick_us = percentiles_of(slide.ticks_us).median;
-      fmt::print("{:<22}{:<12}{:>16.4f}{:>14.4f}{:>14.3f}{:>16.2f}{:>9}\n", choice.name, solver_choices[s].name,
+      fmt::print("{:<22}{:<12}{:>16.4f}{:>14.4f}{:>14.3f}{:>16.2f}{:>9}\n", choice.name, types[s]->name,
                  slide.rms_true_n, slide.worst_force_n, slide.worst_deg, tick_us, slide.capped);
-      csv += fmt::format("\"{}\",{},{},{},{},{},{}\n", choice.name, solver_choices[s].name, slide.rms_true_n,
+      csv += fmt::format("\"{}\",{},{},{},{},{},{}\n", choice.name, types[s]->name, slide.rms_true_n,
                          slide.worst_force_n, slide.worst_deg, tick_us, slide.capped);
       chart.curves[s].x.push_back(tick_us);
       chart.curves[s].y.push_back(slide.rms_true_n);

@@ -39,11 +39,10 @@ std::vector<std::string> mode_names(const modes::Plan& plan, const modes::Scene&
   return names;
 }
 
-std::vector<std::string> solver_names(const modes::SolverSwitches& solvers) {
+std::vector<std::string> solver_names(const solver::SolverSet& solvers) {
   std::vector<std::string> names;
-  for (const auto& [on, name] :
-       {std::pair{solvers.analytical, "analytical"}, {solvers.exact, "exact"}, {solvers.descent, "descent"}}) {
-    if (on) names.emplace_back(name);
+  for (const solver::SolverType* type : solver::solver_types()) {
+    if (solvers.contains(*type)) names.emplace_back(type->name);
   }
   return names;
 }

@@ -1,5 +1,6 @@
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -48,15 +49,19 @@ void run(const SolveOptions& options) {
 }  // namespace
 
 void add_solve(CLI::App& program) {
-  static const std::map<std::string, SolverChoice> solvers{{"chain", SolverChoice::chain},
-                                                           {"analytical", SolverChoice::analytical},
-                                                           {"exact", SolverChoice::exact},
-                                                           {"descent", SolverChoice::descent}};
+  std::map<std::string, std::uint32_t> numbers{{"chain", 0}};
+  std::string names = "chain (default)";
+  for (const solver::SolverType* const type : solver::solver_types()) {
+    numbers[std::string(type->name)] = type->number;
+    names += (type == solver::solver_types().back() ? " or " : ", ") + std::string(type->name);
+  }
   CLI::App* command =
       program.add_subcommand("solve", "Solves force balances: JSON Lines on stdin, answers as JSON Lines on stdout");
   const auto options = std::make_shared<SolveOptions>();
-  command->add_option("--solver", options->solver, "chain (default), analytical, exact or descent")
-      ->transform(CLI::CheckedTransformer(solvers))
+  command
+      ->add_option_function<std::uint32_t>(
+          "--solver", [options](std::uint32_t number) { options->solver = solver::solver_of_number(number); }, names)
+      ->transform(CLI::CheckedTransformer(numbers))
       ->option_text("NAME");
   command->add_option("--repeat", options->repeat, "Solves of each balance; time_ns is the fastest")
       ->check(CLI::Range(1, 1000000000))

@@ -11,6 +11,7 @@
 #include "plugin/report/summary.h"
 #include "plugin/session/scan.h"
 #include "plugin/testing/command_rig.h"
+#include "solver/analytical.h"
 
 namespace palpate::plugin {
 namespace {
@@ -69,7 +70,7 @@ TEST(OlderFiles, ARecordingHasTheSummaryThatItHadThen) {
   const auto plan = plan_for(scene, felt_then(), recording.scenes[0].half_extent_m);
   const Summary summary = summarize(recording, *plan);
   EXPECT_EQ(summary.ticks, 800U);
-  EXPECT_EQ(summary.analytical, 800U);
+  EXPECT_EQ(summary.solver_ticks[solver::analytical_solver.number], 800U);
   EXPECT_NEAR(summary.duration_s, 4.0, 0.05);
   ASSERT_EQ(summary.holds.size(), 1U);
   const HeldStretch& held = summary.holds.front();

@@ -13,10 +13,7 @@
 #include <vector>
 
 #include "plugin/messages/messages.h"
-#include "solver/analytical.h"
 #include "solver/chain.h"
-#include "solver/descent.h"
-#include "solver/exact.h"
 
 namespace palpate::plugin {
 namespace {
@@ -164,37 +161,16 @@ Timed timed(const SolveOptions& options, std::size_t primitives, const Solve& so
 
 Timed solve(const solver::Balance& balance, const SolveOptions& options) {
   const std::size_t count = balance.primitives.size();
-  switch (options.solver) {
-    case SolverChoice::analytical:
-      return timed(options, count, [&](std::span<Vec3> forces) { return solve_analytical(balance, forces); });
-    case SolverChoice::exact: {
-      solver::ExactScratch scratch(count);
-      return timed(options, count, [&](std::span<Vec3> forces) { return solve_exact(balance, forces, scratch); });
-    }
-    case SolverChoice::descent:
-      return timed(options, count, [&](std::span<Vec3> forces) { return solve_descent(balance, {}, forces); });
-    case SolverChoice::chain:
-      break;
+  if (options.solver != nullptr) {
+    const auto scratch = options.solver->make_scratch == nullptr ? nullptr : options.solver->make_scratch(count);
+    return timed(options, count,
+                 [&](std::span<Vec3> forces) { return options.solver->solve(balance, forces, scratch.get(), {}); });
   }
   solver::ChainOptions cold;
   cold.warm_start = false;
   cold.capacity = count;
   solver::Chain chain(cold);
   return timed(options, count, [&](std::span<Vec3> forces) { return chain.solve(balance, forces); });
-}
-
-const char* name_of(SolverChoice choice) {
-  switch (choice) {
-    case SolverChoice::analytical:
-      return "analytical";
-    case SolverChoice::exact:
-      return "exact";
-    case SolverChoice::descent:
-      return "descent";
-    case SolverChoice::chain:
-      break;
-  }
-  return "chain";
 }
 
 Json finite_json_of(const Vec3& v) {
@@ -237,7 +213,8 @@ void answer(const Problem& problem, const SolveOptions& options, Json& out) {
     throw Refused(describe(solution.rejection.value()));
   }
   if (solution.outcome == solver::Outcome::unsuitable) {
-    throw Refused(say("solver-does-not-fit-this-configuration", name_of(options.solver)));
+    throw Refused(
+        say("solver-does-not-fit-this-configuration", options.solver == nullptr ? "chain" : options.solver->name));
   }
   if (!std::isfinite(solution.error_bound)) throw Refused(without_bound(balance, solution.proxy));
   out["proxy"] = finite_json_of(solution.proxy);

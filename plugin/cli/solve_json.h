@@ -13,16 +13,15 @@
 ///      error bound is that of the best answer found.
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "solver/solver_type.h"
+
 namespace palpate::plugin {
 
-enum class SolverChoice : std::uint8_t { chain, analytical, exact, descent };
-
 struct SolveOptions {
-  SolverChoice solver = SolverChoice::chain;
+  const solver::SolverType* solver = nullptr;  ///< null: the chain
   int repeat = 1;  ///< solves of each balance, every one cold; time_ns is the fastest of them
 };
 

@@ -8,9 +8,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "solver/analytical.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
 
 namespace palpate::plugin {
 namespace {
@@ -18,8 +23,8 @@ namespace {
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr std::array all_choices = {SolverChoice::chain, SolverChoice::analytical, SolverChoice::exact,
-                                    SolverChoice::descent};
+constexpr std::array<const solver::SolverType*, 4> all_choices = {nullptr, &solver::analytical_solver,
+                                                                  &solver::exact_solver, &solver::descent_solver};
 
 /// The answer as JSON; one line, an object, and of either kind.
 Json answer(std::string_view line, const SolveOptions& options = {}) {
@@ -56,7 +61,7 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 TEST(SolveJson, ThePlaneOfTheHelpTextForEverySolverThatFits) {
-  for (const SolverChoice choice : {SolverChoice::chain, SolverChoice::analytical, SolverChoice::exact}) {
+  for (const solver::SolverType* const choice : std::span(all_choices).first(3)) {
     const Json json = answer(pressed_plane, {.solver = choice});
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
@@ -69,7 +74,7 @@ TEST(SolveJson, ThePlaneOfTheHelpTextForEverySolverThatFits) {
     EXPECT_NEAR(json["force"][2].get<double>(), 0.8, 1e-14);
     ASSERT_EQ(json["forces"].size(), 1U);
     EXPECT_NEAR(json["forces"][0][2].get<double>(), 0.8, 1e-14);
-    EXPECT_EQ(json["solver"], choice == SolverChoice::exact ? "exact" : "analytical");
+    EXPECT_EQ(json["solver"], choice == &solver::exact_solver ? "exact" : "analytical");
     EXPECT_LT(json["error_bound"].get<double>(), 1e-14);
     EXPECT_TRUE(json["iterations"].is_number_integer());
     EXPECT_GE(json["time_ns"].get<std::int64_t>(), 0);
@@ -88,16 +93,16 @@ TEST(SolveJson, TheForcesGivenBalanceTheForceFed) {
 }
 
 TEST(SolveJson, ForcedSolversSayWhatDoesNotFit) {
-  EXPECT_EQ(error(oblique, {.solver = SolverChoice::analytical}),
+  EXPECT_EQ(error(oblique, {.solver = &solver::analytical_solver}),
             "the analytical solver does not fit this configuration");
   const std::string hard = with(R"("strength":2)", R"("strength":"inf")");
-  EXPECT_EQ(error(hard, {.solver = SolverChoice::descent}), "the descent solver does not fit this configuration");
+  EXPECT_EQ(error(hard, {.solver = &solver::descent_solver}), "the descent solver does not fit this configuration");
   EXPECT_EQ(answer(hard)["force"][2].get<double>(), 0.8);
 }
 
 TEST(SolveJson, DescentStartsFromThePreviousProxyAndStaysWithinItsBound) {
-  const Json exact = answer(oblique, {.solver = SolverChoice::exact});
-  const Json descent = answer(oblique, {.solver = SolverChoice::descent});
+  const Json exact = answer(oblique, {.solver = &solver::exact_solver});
+  const Json descent = answer(oblique, {.solver = &solver::descent_solver});
   EXPECT_EQ(descent["solver"], "descent");
   double squares = 0;
   for (const std::size_t axis : {0U, 1U, 2U}) {
@@ -105,11 +110,11 @@ TEST(SolveJson, DescentStartsFromThePreviousProxyAndStaysWithinItsBound) {
   }
   EXPECT_LE(std::sqrt(squares), descent["error_bound"].get<double>() + exact["error_bound"].get<double>());
   const std::string nothing = R"({"stiffness":400,"probe":[0,0,0],"previous":[0.1,0,0],"primitives":[]})";
-  EXPECT_GT(answer(nothing, {.solver = SolverChoice::descent})["iterations"], 50);
+  EXPECT_GT(answer(nothing, {.solver = &solver::descent_solver})["iterations"], 50);
 }
 
 TEST(SolveJson, RepeatingChangesNothingButTheTime) {
-  for (const SolverChoice choice : all_choices) {
+  for (const solver::SolverType* const choice : all_choices) {
     Json once = answer(oblique, {.solver = choice, .repeat = 1});
     Json often = answer(oblique, {.solver = choice, .repeat = 20});
     once.erase("time_ns");
@@ -191,7 +196,7 @@ TEST(SolveJson, NamesPrimitiveAndFieldOfEveryFlaw) {
   };
   for (const auto& [from, to, words] : cases) {
     EXPECT_THAT(error(with(from, to)), ::testing::StartsWith(words)) << from << " -> " << to;
-    for (const SolverChoice choice : all_choices) {
+    for (const solver::SolverType* const choice : all_choices) {
       EXPECT_EQ(error(with(from, to), {.solver = choice}), error(with(from, to)));
     }
   }
@@ -283,7 +288,7 @@ TEST(SolveJson, EveryMutatedLineIsAnswered) {
   int refused = 0;
   for (int n = 0; n < 40000; ++n) {
     const std::string line = mutated(seeds[random() % seeds.size()], random);
-    const SolverChoice choice = all_choices[random() % all_choices.size()];
+    const solver::SolverType* const choice = all_choices[random() % all_choices.size()];
     const Json json = answer(line, {.solver = choice});
     if (HasFailure()) FAIL() << line;
     json.contains("error") ? ++refused : ++solved;

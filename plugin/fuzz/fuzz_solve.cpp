@@ -1,6 +1,5 @@
 // libFuzzer's way into `palpate solve`: the first byte chooses the solver, the rest is a line. Every answer is one line
 // of JSON, with the error's words or with numbers.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,12 +10,12 @@
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using palpate::plugin::SolverChoice;
-  constexpr std::array choices{SolverChoice::chain, SolverChoice::analytical, SolverChoice::exact,
-                               SolverChoice::descent};
+  const auto solvers = palpate::solver::solver_types();
   if (size == 0) return 0;
+  const std::size_t choice = data[0] % (solvers.size() + 1);
   const std::string_view line(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const auto solved = palpate::plugin::solve_line(line, {.solver = choices[data[0] % choices.size()]});
+  const auto solved =
+      palpate::plugin::solve_line(line, {.solver = choice == solvers.size() ? nullptr : solvers[choice]});
   const auto answer = nlohmann::json::parse(solved.json, nullptr, false);
   if (answer.is_discarded() || solved.json.find('\n') != std::string::npos) std::abort();
   if (solved.solved == answer.contains("error")) std::abort();

@@ -4,11 +4,12 @@
 
 #include "plugin/cli/solve_json.h"
 #include "plugin/messages/provoked.h"
+#include "solver/analytical.h"
 
 namespace palpate::plugin::testing {
 namespace {
 
-std::string error_of(const std::string& line, SolverChoice solver = SolverChoice::chain) {
+std::string error_of(const std::string& line, const solver::SolverType* solver = nullptr) {
   return nlohmann::json::parse(solve_line(line, {.solver = solver}).json).value("error", "solved");
 }
 
@@ -40,7 +41,7 @@ std::vector<Provoked> provoke_balances() {
       {"solver-does-not-fit-this-configuration",
        error_of(balance(R"([{"type":"plane","strength":2,"position":[0,0,0],"direction":[0.1,0,1]},)"
                         R"({"type":"line","strength":0.2,"position":[0,0,0],"direction":[1,2,3]}])"),
-                SolverChoice::analytical)},
+                &solver::analytical_solver)},
   };
 }
 

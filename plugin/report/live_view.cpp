@@ -10,7 +10,7 @@
 #include "modes/scene/ct_tissues.h"
 #include "plugin/report/summary.h"
 #include "plugin/session/session.h"
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 #include "solver/text/printable.h"
 
 namespace palpate::plugin {
@@ -30,10 +30,10 @@ std::string tissue_name(const modes::Scene& scene, const std::string& unit, doub
 
 std::string live_line(const TickRecord& tick, const std::string& tissue, double longest_tick_us, std::uint64_t missed) {
   const double depth_mm = 1e3 * glm::length(vector_of(tick.proxy_m) - vector_of(tick.probe_m));
-  std::string line = fmt::format(
-      "{:7.1f} s  {:5.2f} N  {:5.1f} mm deep  {:<14} {:<10} +-{:.0e} m  tick {:6.1f} us  missed {}", tick.time_s,
-      glm::length(vector_of(tick.sent_n)), depth_mm, tissue,
-      solver::name_of(static_cast<solver::SolverKind>(tick.solver)), tick.error_bound_m, longest_tick_us, missed);
+  std::string line =
+      fmt::format("{:7.1f} s  {:5.2f} N  {:5.1f} mm deep  {:<14} {:<10} +-{:.0e} m  tick {:6.1f} us  missed {}",
+                  tick.time_s, glm::length(vector_of(tick.sent_n)), depth_mm, tissue,
+                  solver::name_of(solver::solver_of_number(tick.solver)), tick.error_bound_m, longest_tick_us, missed);
   if (fault_of(tick) != device::Fault::none) {
     line += fmt::format("  FAULT: {}", device::name_of(fault_of(tick)));
   } else if (state_of(tick) != device::State::active) {

@@ -10,6 +10,7 @@
 #include "device/safety/safety_filter.h"
 #include "plugin/session/session.h"
 #include "plugin/session/tick_ring.h"
+#include "solver/exact.h"
 #include "solver/solution.h"
 
 namespace palpate::plugin {
@@ -27,7 +28,7 @@ TickRecord record() {
   record.probe_m[1] = -0.008;
   record.proxy_m[1] = -0.002;  // 6 mm deep
   record.error_bound_m = 3e-15;
-  record.solver = static_cast<std::uint32_t>(solver::SolverKind::exact);
+  record.solver = solver::number_of(&solver::exact_solver);
   record.safety = pack_safety(device::State::active, device::Fault::none);
   return record;
 }

@@ -92,10 +92,7 @@ Summary summarize(const Recording& recording, const modes::Plan& plan) {
       case solver::Outcome::solved:
         break;
     }
-    const auto kind = static_cast<solver::SolverKind>(tick.solver);
-    summary.analytical += kind == solver::SolverKind::analytical ? 1 : 0;
-    summary.exact += kind == solver::SolverKind::exact ? 1 : 0;
-    summary.descent += kind == solver::SolverKind::descent ? 1 : 0;
+    if (tick.solver < summary.solver_ticks.size()) ++summary.solver_ticks[tick.solver];
     summary.peak_sent_n = std::max(summary.peak_sent_n, glm::length(vector_of(tick.sent_n)));
     summary.largest_error_bound_m = std::max(summary.largest_error_bound_m, tick.error_bound_m);
     summary.largest_residual_m = std::max(summary.largest_residual_m, tick.residual_n / plan.stiffness_n_per_m);
@@ -188,8 +185,14 @@ std::string to_text(const Summary& summary, const modes::Scene& scene, const std
     text += "\n";
   }
   text += "How it was solved\n";
-  text += fmt::format("  analytical {} ticks, exact {}, descent {}; work cap hit {}, refused {}\n", summary.analytical,
-                      summary.exact, summary.descent, summary.capped, summary.refused);
+  const char* before = "  ";
+  const char* after = " ticks";
+  for (const solver::SolverType* type : solver::solver_types()) {
+    text += fmt::format("{}{} {}{}", before, type->name, summary.solver_ticks[type->number], after);
+    before = ", ";
+    after = "";
+  }
+  text += fmt::format("; work cap hit {}, refused {}\n", summary.capped, summary.refused);
   text += fmt::format("  certified error of the proxy at most {:.1e} m; residual / k at most {:.1e} m\n\n",
                       summary.largest_error_bound_m, summary.largest_residual_m);
   text += fmt::format("Time of a tick   median {:.2f} us, 99 % {:.2f} us, 99.9 % {:.2f} us, largest {:.1f} us\n",
@@ -225,18 +228,17 @@ std::string to_json(const Summary& summary, const modes::Scene& scene) {
   }
   nlohmann::json scan_frames = nlohmann::json::array();
   for (const ScanFrame& frame : summary.scan_frames) scan_frames.push_back(frame.number);
+  nlohmann::json solver_frames{{"capped", summary.capped}, {"refused", summary.refused}};
+  for (const solver::SolverType* type : solver::solver_types()) {
+    solver_frames[std::string(type->name)] = summary.solver_ticks[type->number];
+  }
   const nlohmann::json json{{"scan_frames", scan_frames},
                             {"duration_s", summary.duration_s},
                             {"frames", summary.ticks},
                             {"holds", holds},
                             {"structures", structures},
                             {"peak_sent_n", summary.peak_sent_n},
-                            {"solver_frames",
-                             {{"analytical", summary.analytical},
-                              {"exact", summary.exact},
-                              {"descent", summary.descent},
-                              {"capped", summary.capped},
-                              {"refused", summary.refused}}},
+                            {"solver_frames", solver_frames},
                             {"largest_error_bound_m", summary.largest_error_bound_m},
                             {"largest_residual_m", summary.largest_residual_m},
                             {"tick_us",

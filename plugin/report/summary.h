@@ -2,6 +2,7 @@
 
 /// The summary of a session, in numbers and in words.
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -47,7 +48,8 @@ struct Summary {
   std::vector<Approach> approaches;             ///< one a structure that the scene reads
   std::vector<RegisteredStructure> registered;  ///< those that a registration put on the scan
   double peak_sent_n = 0;
-  std::size_t analytical = 0, exact = 0, descent = 0, capped = 0, refused = 0;  ///< ticks
+  std::array<std::size_t, 64> solver_ticks{};  ///< by solver::SolverType::number
+  std::size_t capped = 0, refused = 0;         ///< ticks
   double largest_error_bound_m = 0;
   double largest_residual_m = 0;    ///< |residual| / k
   Percentiles tick_us;              ///< all stages together

@@ -13,6 +13,9 @@
 
 #include "modes/testing/test_rig.h"
 #include "plugin/session/session.h"
+#include "solver/analytical.h"
+#include "solver/descent.h"
+#include "solver/exact.h"
 #include "testdata/analytic.h"
 
 namespace palpate::plugin {
@@ -53,7 +56,7 @@ class Made {
     tick.index = recording.ticks.size();
     tick.time_s = 2 + 1e-3 * static_cast<double>(tick.index);
     tick.share_count = 2;
-    tick.solver = static_cast<std::uint32_t>(solver::SolverKind::analytical);
+    tick.solver = solver::number_of(&solver::analytical_solver);
     recording.shares.push_back({.tick = tick.index, .mode = surface, .force_n = {0, surface_n, 0}});
     recording.shares.push_back({.tick = tick.index, .mode = 1, .force_n = {7, 0, 0}});
     recording.ticks.push_back(tick);
@@ -106,18 +109,18 @@ TEST(Summary, MissedTicksAreNotLostTicks) {
 
 TEST(Summary, SolversAndOutcomesAreCountedApart) {
   Made made;
-  const auto add = [&](int count, solver::SolverKind kind, solver::Outcome outcome) {
+  const auto add = [&](int count, const solver::SolverType* type, solver::Outcome outcome) {
     for (int n = 0; n < count; ++n) {
       TickRecord& tick = made.add(0, 0);
-      tick.solver = static_cast<std::uint32_t>(kind);
+      tick.solver = solver::number_of(type);
       tick.outcome = static_cast<std::uint32_t>(outcome);
     }
   };
-  add(1, solver::SolverKind::analytical, solver::Outcome::solved);
-  add(2, solver::SolverKind::exact, solver::Outcome::solved);
-  add(4, solver::SolverKind::descent, solver::Outcome::capped);
-  add(8, solver::SolverKind::none, solver::Outcome::refused);
-  add(16, solver::SolverKind::none, solver::Outcome::unsuitable);
+  add(1, &solver::analytical_solver, solver::Outcome::solved);
+  add(2, &solver::exact_solver, solver::Outcome::solved);
+  add(4, &solver::descent_solver, solver::Outcome::capped);
+  add(8, nullptr, solver::Outcome::refused);
+  add(16, nullptr, solver::Outcome::unsuitable);
   EXPECT_THAT(made.text(), HasSubstr("analytical 1 ticks, exact 2, descent 4; work cap hit 4, refused 24\n"));
   EXPECT_EQ(made.json()["solver_frames"],
             nlohmann::json({{"analytical", 1}, {"exact", 2}, {"descent", 4}, {"capped", 4}, {"refused", 24}}));

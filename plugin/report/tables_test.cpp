@@ -18,6 +18,8 @@
 #include "plugin/report/marks_text.h"
 #include "plugin/report/stroke_picture.h"
 #include "plugin/testing/test_files.h"
+#include "solver/analytical.h"
+#include "solver/exact.h"
 
 namespace palpate::plugin {
 namespace {
@@ -71,14 +73,14 @@ Profile profile() {
                          .proxy_mm = {1.5, 2.5, 3.5},
                          .value = 41,
                          .value_passed = 42,
-                         .solver = solver::SolverKind::analytical,
+                         .solver = &solver::analytical_solver,
                          .error_bound_m = 1e-13});
   made.stroke.push_back({.position_mm = {3, 5, 9},  // 7 mm on
                          .proxy_mm = {10, 20, 30},  // 7, 15 and 21 mm away
                          .force_n = {-0.3, 1.2, 0.4},
                          .value = 101,
                          .value_passed = 302,
-                         .solver = solver::SolverKind::exact,
+                         .solver = &solver::exact_solver,
                          .error_bound_m = 2e-13,
                          .boundary = 1,
                          .primitive = solver::PrimitiveType::plane});

@@ -56,7 +56,7 @@ TEST(PlainValues, AStrokesPointSaysNothing) {
   EXPECT_EQ(point.value, 0);
   EXPECT_EQ(point.value_passed, 0);
   EXPECT_TRUE(is_all_zero(point.distance_mm));
-  EXPECT_EQ(point.solver, solver::SolverKind::none);
+  EXPECT_EQ(point.solver, nullptr);
   EXPECT_EQ(point.error_bound_m, 0);
   EXPECT_FALSE(point.boundary || point.primitive);
   EXPECT_TRUE(is_all_zero(Contact()));

@@ -7,6 +7,7 @@
 
 #include "plugin/session/sampled_once.h"
 #include "solver/chain.h"
+#include "solver/exact.h"
 
 namespace palpate::plugin {
 namespace {
@@ -63,15 +64,11 @@ struct Session::Setting {
       : snapshot(published),
         source(std::move(sampled)),
         epoch(number),
-        chain({.analytical = published.plan->solvers.analytical,
-               .exact = published.plan->solvers.exact,
-               .descent = published.plan->solvers.descent}),
+        chain({.solvers = published.plan->solvers}),
         changing_chain(number == 0 ? nullptr
-                                   : std::make_unique<solver::Chain>(
-                                         solver::ChainOptions{.analytical = published.plan->solvers.analytical,
-                                                              .exact = true,
-                                                              .descent = published.plan->solvers.descent,
-                                                              .capacity = modes::most_primitives})) {}
+                                   : std::make_unique<solver::Chain>(solver::ChainOptions{
+                                         .solvers = published.plan->solvers.with(solver::exact_solver),
+                                         .capacity = modes::most_primitives})) {}
 
   Snapshot snapshot;
   /// The snapshot's source; one and the same for settings on the same data.
@@ -335,7 +332,7 @@ void Session::observe(const Beat& beat, const device::Reading& reading, const mo
   tick_.sub_steps = count(result.sub_steps);
   tick_.halts = count(result.halts);
   tick_.iterations = count(result.iterations);
-  tick_.solver = count(result.solver);
+  tick_.solver = solver::number_of(result.solver);
   tick_.outcome = count(result.outcome);
   tick_.buttons = reading.buttons | pressed_.load(std::memory_order_relaxed);
   tick_.fresh = reading.fresh ? 1 : 0;

@@ -12,7 +12,9 @@
 
 #include "device/simulated/replay_stylus.h"
 #include "plugin/testing/session_rig.h"
+#include "solver/analytical.h"
 #include "solver/chain.h"
+#include "solver/exact.h"
 
 namespace palpate::plugin {
 namespace {
@@ -71,7 +73,7 @@ TEST(SessionPlan, SamplesThePlansFieldsAndTheValueOnceAtEachPlace) {
 }
 
 TEST(SessionPlan, HoldsNoSolverThatWasLeftOutButWhileAChangeLasts) {
-  const std::size_t analytical = solver::Chain({.exact = false}).memory_bytes();
+  const std::size_t analytical = solver::Chain({.solvers = {&solver::analytical_solver}}).memory_bytes();
   const std::size_t all = solver::Chain().memory_bytes();
   const auto source = slab();
   const auto held = stylus(hold());
@@ -81,7 +83,7 @@ TEST(SessionPlan, HoldsNoSolverThatWasLeftOutButWhileAChangeLasts) {
     bool exact = false;
     for (int n = 0; n < ticks; ++n) {
       const std::uint32_t solver = session.tick().solver;
-      exact = exact || solver == static_cast<std::uint32_t>(solver::SolverKind::exact);
+      exact = exact || solver == solver::number_of(&solver::exact_solver);
     }
     session.collect();
     return exact;

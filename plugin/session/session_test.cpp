@@ -10,6 +10,8 @@
 #include "device/simulated/replay_stylus.h"
 #include "device/simulated/simulated_stylus.h"
 #include "modes/scene/scene_json.h"
+#include "solver/analytical.h"
+#include "solver/exact.h"
 #include "testdata/analytic.h"
 #include "testdata/flow.h"
 
@@ -158,8 +160,8 @@ TEST(Session, TheWindTunnelsTicksShowTheSolver) {
     }
     return count;
   };
-  const auto analytical = static_cast<std::size_t>(solver::SolverKind::analytical);
-  const auto exact = static_cast<std::size_t>(solver::SolverKind::exact);
+  const auto analytical = solver::number_of(&solver::analytical_solver);
+  const auto exact = solver::number_of(&solver::exact_solver);
   modes::Scene scene = modes::load_scene("flow");
   EXPECT_EQ(solvers_of(scene)[analytical], 4000);
   const modes::Scene with_surface = modes::scene_from_json(

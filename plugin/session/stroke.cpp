@@ -61,8 +61,7 @@ std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSour
   }
   std::vector<StrokePoint> stroke;
   stroke.reserve(static_cast<std::size_t>(count) + 1);
-  solver::Chain chain(
-      {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
+  solver::Chain chain({.solvers = plan.solvers});
   const auto scratch = std::make_unique<modes::StepScratch>();
   modes::Touch touch;
   for (double n = 0; n <= count; ++n) {

@@ -25,7 +25,7 @@ struct StrokePoint {
   double value = 0;                                       ///< of the scan at the proxy; NaN outside it
   std::array<double, io::most_structures> distance_mm{};  ///< of the proxy, from each of the plan's structures
   double value_passed = 0;                                ///< of the scan at the probe; NaN outside it
-  solver::SolverKind solver = solver::SolverKind::none;
+  const solver::SolverType* solver = nullptr;
   double error_bound_m = 0;
   std::optional<std::size_t> boundary;             ///< the scene's mode that pushes most, if any does
   std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with; set if boundary is

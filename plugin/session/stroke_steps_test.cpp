@@ -39,8 +39,7 @@ TEST(StrokeSteps, SayWhoPushesMostAndHowItWasSolved) {
     const modes::Plan plan = modes::make_plan(felt, source->available(), workspace);
     const glm::dvec3 from(2, 1, 12), to(-1, 3, -14);
     const std::vector<StrokePoint> stroke = run_stroke(plan, *source, from, to, 37);
-    solver::Chain chain(
-        {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
+    solver::Chain chain({.solvers = plan.solvers});
     const auto scratch = std::make_unique<modes::StepScratch>();
     modes::Touch touch;
     std::map<int, int> pushed;  // by mode; -1: none

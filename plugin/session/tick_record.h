@@ -54,7 +54,7 @@ struct TickRecord {
   std::uint32_t sub_steps = 0;
   std::uint32_t halts = 0;
   std::uint32_t iterations = 0;
-  std::uint32_t solver = 0;   ///< solver::SolverKind of the last sub-step
+  std::uint32_t solver = 0;   ///< solver::SolverType::number, of the last sub-step
   std::uint32_t outcome = 0;  ///< solver::Outcome of the last sub-step
   std::uint32_t safety = 0;   ///< the safety filter's state and cause
   std::uint32_t share_count = 0;

@@ -76,8 +76,7 @@ TEST(TickRecord, SaysWhatTheStepTheFilterAndTheStylusDid) {
   session.press(8);
 
   Diver beside;
-  solver::Chain chain(
-      {.analytical = plan.solvers.analytical, .exact = plan.solvers.exact, .descent = plan.solvers.descent});
+  solver::Chain chain({.solvers = plan.solvers});
   const auto scratch = std::make_unique<modes::StepScratch>();
   modes::Touch touch;
   device::EnergyState energy;

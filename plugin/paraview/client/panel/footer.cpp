@@ -19,7 +19,7 @@
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/widgets/release_button.h"
 #include "plugin/report/summary.h"
-#include "solver/solution.h"
+#include "solver/solver_type.h"
 
 namespace palpate::plugin {
 namespace {
@@ -255,7 +255,7 @@ void Footer::show_look(const SessionStatus& look) {
   const double error_mm = 1e3 * tick.error_bound_m;
   constexpr double small_mm = 1e-9;
   solver_->setText(tr("%1 solver, error below %2 mm")
-                       .arg(QString::fromLatin1(solver::name_of(static_cast<solver::SolverKind>(tick.solver))))
+                       .arg(QString::fromStdString(std::string(solver::name_of(solver::solver_of_number(tick.solver)))))
                        .arg(error_mm < small_mm ? small_mm : error_mm, 0, 'g', 2));
   tick_->setText(look.replayed ? tr("recorded: tick %1 µs").arg(look.tick_us, 0, 'f', 1)
                                : tr("tick %1 µs, %2 missed").arg(look.tick_us, 0, 'f', 1).arg(look.missed));
