@@ -2,48 +2,53 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "io/messages.h"
 
 namespace palpate::io {
-namespace {
 
-constexpr double least_sigma_mm = 0.1, most_sigma_mm = 10;
+// The list of filters comes from io/CMakeLists.txt: FILTER(gaussian) FILTER(median) ...
+#define FILTER(name) extern const FilterType name##_filter;
+PALPATE_FILTERS
+#undef FILTER
 
-}  // namespace
+std::span<const FilterType* const> filter_types() {
+#define FILTER(name) &name##_filter,
+  static constexpr std::array types{PALPATE_FILTERS};
+#undef FILTER
+  return types;
+}
+
+const FilterType* find_filter_type(std::string_view name) {
+  const auto types = filter_types();
+  const auto found = std::ranges::find(types, name, &FilterType::name);
+  return found == types.end() ? nullptr : *found;
+}
 
 bool Filter::operator==(const Filter& other) const noexcept {
-  return type == other.type && (!reads_sigma_mm(type) || sigma_mm == other.sigma_mm) &&
-         (!reads_sigma_value(type) || sigma_value == other.sigma_value) &&
-         (type != FilterType::median || width == other.width);
+  if (type != other.type || type == nullptr) return type == other.type;
+  return (!type->reads_sigma_mm || sigma_mm == other.sigma_mm) && (!type->reads_width || width == other.width) &&
+         (!type->reads_sigma_value || sigma_value == other.sigma_value);
 }
 
 std::string in_words(const Filter& filter) {
-  switch (filter.type) {
-    case FilterType::gaussian:
-      return fmt::format("Gaussian filter of {:.3g} mm", filter.sigma_mm);
-    case FilterType::median:
-      return fmt::format("median filter of {0} x {0} voxels", filter.width);
-    case FilterType::bilateral:
-      return fmt::format("bilateral filter of {:.3g} mm and {:.3g}", filter.sigma_mm, filter.sigma_value);
-    case FilterType::non_local_means:
-      return fmt::format("non-local means filter of {:.3g}", filter.sigma_value);
-    case FilterType::none:
-      break;
-  }
-  return "no filter";
+  return filter.type == nullptr ? "no filter" : filter.type->in_words(filter);
 }
 
 void validate(const Filter& filter) {
-  if (reads_sigma_mm(filter.type) && !(filter.sigma_mm >= least_sigma_mm && filter.sigma_mm <= most_sigma_mm)) {
+  constexpr double least_sigma_mm = 0.1, most_sigma_mm = 10;
+  if (filter.type == nullptr) return;
+  if (filter.type->reads_sigma_mm && !(filter.sigma_mm >= least_sigma_mm && filter.sigma_mm <= most_sigma_mm)) {
     throw InvalidInput(say("filter-width-in-mm", fmt::format("{}", filter.sigma_mm), fmt::format("{}", least_sigma_mm),
                            fmt::format("{}", most_sigma_mm)));
   }
-  if (reads_sigma_value(filter.type) && !(filter.sigma_value > 0 && filter.sigma_value <= 1e5)) {
+  if (filter.type->reads_sigma_value && !(filter.sigma_value > 0 && filter.sigma_value <= 1e5)) {
     throw InvalidInput(say("filter-difference-of-values", fmt::format("{}", filter.sigma_value)));
   }
-  if (filter.type == FilterType::median && filter.width != 3 && filter.width != 5) {
+  if (filter.type->reads_width && filter.width != 3 && filter.width != 5) {
     throw InvalidInput(say("filter-width-in-voxels", filter.width));
   }
 }

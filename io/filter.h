@@ -1,39 +1,52 @@
 #pragma once
 
 /// A filter of a scan's values against noise, which a stylus feels as roughness. It is a setting of the scene;
-/// fields/filtered.h applies it to a volume.
+/// fields/filtered.h applies it to a volume. Each type of filter is one file (fields/filters/<name>_filter.cpp), and
+/// one name in io/CMakeLists.txt.
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
+
+#include "io/geometry.h"
+
+namespace cv {
+class Mat;
+}
 
 namespace palpate::io {
 
-enum class FilterType : std::uint8_t {
-  none,
-  gaussian,        ///< mean of the neighborhood, in all three directions: less noise, softer edges
-  median,          ///< of a square of voxels in the slice: takes single wrong voxels away, keeps straight edges
-  bilateral,       ///< mean of those neighbors in the slice whose values are alike: keeps edges above the noise
-  non_local_means  ///< mean of places in the slice whose surroundings look alike: the slowest
-};
-
-/// Whether a filter of that type reads sigma_mm; sigma_value.
-constexpr bool reads_sigma_mm(FilterType type) {
-  return type == FilterType::gaussian || type == FilterType::bilateral;
-}
-constexpr bool reads_sigma_value(FilterType type) {
-  return type == FilterType::bilateral || type == FilterType::non_local_means;
-}
+struct FilterType;
 
 /// Every type reads some of these.
 struct Filter {
-  FilterType type = FilterType::none;
-  double sigma_mm = 1;      ///< gaussian, bilateral: standard deviation of the weights over the distance
-  int width = 3;            ///< median: voxels along an edge of the square, 3 or 5
-  double sigma_value = 30;  ///< bilateral, non_local_means: values that differ by less are alike; the scan's unit
+  const FilterType* type = nullptr;  ///< null: no filter
+  double sigma_mm = 1;               ///< standard deviation of the weights over the distance
+  int width = 3;                     ///< voxels along an edge of the square, 3 or 5
+  double sigma_value = 30;           ///< values that differ by less are alike; the scan's unit
 
   /// Of what the type reads.
   bool operator==(const Filter& other) const noexcept;
 };
+
+struct FilterType {
+  std::string_view name;     ///< as in scenes
+  std::string_view title;    ///< for people
+  std::string_view summary;  ///< one line for people: what it does to noise and edges
+  bool reads_sigma_mm = false, reads_width = false, reads_sigma_value = false;
+  bool reaches_across = false;  ///< whether its in_slice() is followed by a Gaussian of sigma_mm across the slices
+  std::string (*in_words)(const Filter& filter) = nullptr;
+  /// Of the rescaled values of one slice (CV_32F).
+  cv::Mat (*in_slice)(const cv::Mat& values, const Geometry& geometry, const Filter& filter) = nullptr;
+  /// Variance of its blur along a unit direction, mm^2; null where edges stay.
+  double (*blur)(const Geometry& geometry, const Filter& filter, const Vec3& direction) = nullptr;
+};
+
+/// All types of filter.
+std::span<const FilterType* const> filter_types();
+/// Null where there is none of that name.
+const FilterType* find_filter_type(std::string_view name);
 
 /// "Gaussian filter of 1 mm"; "no filter".
 std::string in_words(const Filter& filter);

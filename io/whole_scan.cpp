@@ -1,7 +1,6 @@
 #include "io/whole_scan.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "io/interchange/voxel_file.h"
@@ -12,9 +11,8 @@ namespace palpate::io {
 bool holds_whole_scans(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return false;
-  const auto ends = [&](const char* ending) { return has_ending(file, ending); };
-  const std::array endings{".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd"};
-  return std::ranges::any_of(endings, ends) || (internal::is_archive(file) && !ends(".dcm.gz"));
+  const auto ends = [&](const std::string& ending) { return has_ending(file, ending); };
+  return std::ranges::any_of(label_format_endings(), ends) || (internal::is_archive(file) && !ends(".dcm.gz"));
 }
 
 }  // namespace palpate::io

@@ -56,16 +56,6 @@ double phase_mm(const Geometry& g, ValueMethod value, const Vec3& normal) {
   return std::sqrt(sum);
 }
 
-/// Variance of a filter's blur along a unit direction, mm^2. A median rounds as much as the mean over its square does:
-/// both move a line of curvature c by c r^2 / 6, r being half of the width.
-double filter_blur(const Geometry& g, const Filter& filter, const Vec3& direction) {
-  if (filter.type == FilterType::gaussian) return filter.sigma_mm * filter.sigma_mm;
-  if (filter.type != FilterType::median) return 0;
-  const glm::dvec2 in_slice(glm::dot(g.direction_i, direction) * g.spacing_i,
-                            glm::dot(g.direction_j, direction) * g.spacing_j);
-  return filter.width * filter.width / 12.0 * glm::dot(in_slice, in_slice);
-}
-
 struct Pair {
   double angle = 0;       // of the pair's direction in the tangent plane
   double apart_mm = 0;    // between its points
@@ -137,7 +127,9 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
       pairs.push_back({.angle = angle, .apart_mm = 2 * reach * step, .difference = one.value - other.value});
       if (reach > reaches.front()) continue;
       const double width = reach * step;
-      const double variance = blur * step * step + filter_blur(geometry, filter, along);
+      const bool is_blurred = filter.type != nullptr && filter.type->blur != nullptr;
+      const double of_filter = is_blurred ? filter.type->blur(geometry, filter, along) : 0;
+      const double variance = blur * step * step + of_filter;
       bent += variance * (one.value + other.value - 2 * here.value) / (width * width);
       bent_count += 1;
     }

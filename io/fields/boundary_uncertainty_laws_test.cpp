@@ -121,9 +121,9 @@ TEST(BoundaryUncertaintyLaws, CurvatureShiftsByTheVarianceOfTheBlurAlongEachTang
     const Geometry& g = b.geometry;
     const glm::dmat3 voxel = b.tangent * extent_form(g, g.slice_spacing()) * b.tangent;
     const glm::dmat3 in_slice = b.tangent * extent_form(g, 0) * b.tangent;
-    const Filter gaussian{.type = FilterType::gaussian, .sigma_mm = 1.7};
-    const Filter median{.type = FilterType::median, .sigma_mm = 1.7, .width = 5};
-    const Filter bilateral{.type = FilterType::bilateral, .sigma_mm = 1.7, .width = 5};
+    const Filter gaussian{.type = find_filter_type("gaussian"), .sigma_mm = 1.7};
+    const Filter median{.type = find_filter_type("median"), .sigma_mm = 1.7, .width = 5};
+    const Filter bilateral{.type = find_filter_type("bilateral"), .sigma_mm = 1.7, .width = 5};
     const auto expect = [&](ValueMethod method, const Filter& filter, double mean) {
       const BoundaryUncertainty known = uncertainty_at(source, g, method, b.place, filter);
       EXPECT_NEAR(known.slope, slope, 1e-9 * slope) << seed;

@@ -50,7 +50,7 @@ std::vector<Case> cases() {
           {"ball of 12 mm, more noise", testdata::Ball{{0.3, -0.2, 0.1}, 12}, even, 40, -1000, 60},
           {"plane, slices of 3 mm", leaning, thick, 40, -1000, 40, 3},
           {"ball of 20 mm, tilted", testdata::Ball{{0.3, -0.2, 0.1}, 20}, tilted, 300, 40, 25},
-          {"plane, Gaussian", leaning, even, 40, -1000, 90, 0, {.type = FilterType::gaussian, .sigma_mm = 1}},
+          {"plane, Gaussian", leaning, even, 40, -1000, 90, 0, {.type = find_filter_type("gaussian"), .sigma_mm = 1}},
           {"ball of 12 mm, Gaussian",
            testdata::Ball{{0.3, -0.2, 0.1}, 12},
            even,
@@ -58,7 +58,7 @@ std::vector<Case> cases() {
            -1000,
            60,
            0,
-           {.type = FilterType::gaussian, .sigma_mm = 1}},
+           {.type = find_filter_type("gaussian"), .sigma_mm = 1}},
           {"ball of 20 mm, median",
            testdata::Ball{{0.3, -0.2, 0.1}, 20},
            even,
@@ -66,7 +66,7 @@ std::vector<Case> cases() {
            -1000,
            60,
            0,
-           {.type = FilterType::median, .width = 3}}};
+           {.type = find_filter_type("median"), .width = 3}}};
 }
 
 /// The place on a surface's normal at which the interpolated value passes the middle; NaN where it does not.

@@ -73,7 +73,7 @@ TEST(FilterReach, IsThreeDeviationsAlongTheStepsAndNoFartherThanAGap) {
     }
     const double sigma = any(0.2, 3);
     const auto smooth =
-        filtered(std::make_shared<const Volume>(volume), {.type = FilterType::gaussian, .sigma_mm = sigma});
+        filtered(std::make_shared<const Volume>(volume), {.type = find_filter_type("gaussian"), .sigma_mm = sigma});
     for (int k = 0; k < count; ++k) {
       const double expected = gaussian_by_definition(volume, values, k, sigma);
       for (const auto& [i, j] : {std::pair{0, 0}, {4, 3}, {2, 1}}) {
@@ -85,7 +85,8 @@ TEST(FilterReach, IsThreeDeviationsAlongTheStepsAndNoFartherThanAGap) {
 
 TEST(FilterReach, OfOneSliceAloneLeavesIt) {
   const Volume volume = slices_of_values({7}, {42}, 0);
-  const auto smooth = filtered(std::make_shared<const Volume>(volume), {.type = FilterType::gaussian, .sigma_mm = 2});
+  const auto smooth =
+      filtered(std::make_shared<const Volume>(volume), {.type = find_filter_type("gaussian"), .sigma_mm = 2});
   for (int n = 0; n < 20; ++n) EXPECT_FLOAT_EQ(static_cast<float>(smooth->value_at(n % 5, n / 5, 0)), 42);
 }
 
@@ -93,7 +94,8 @@ TEST(FilterReach, LeavesThePatientAsItWas) {
   Volume volume = slices_of_values({0, 1, 2}, {1, 2, 3}, 0);
   volume.patient_id = "4711";
   volume.patient_name = "Doe^Jane";
-  const auto smooth = filtered(std::make_shared<const Volume>(volume), {.type = FilterType::median, .width = 3});
+  const auto smooth =
+      filtered(std::make_shared<const Volume>(volume), {.type = find_filter_type("median"), .width = 3});
   EXPECT_EQ(smooth->patient_id, "4711");
   EXPECT_EQ(smooth->patient_name, "Doe^Jane");
   EXPECT_EQ(smooth->slope, 1);

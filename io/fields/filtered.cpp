@@ -6,20 +6,18 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/photo.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "io/errors.h"
+#include "io/fields/filters/gaussian_weights.h"
 #include "io/messages.h"
 #include "io/parallel.h"
 
 namespace palpate::io {
 namespace {
 
-constexpr double reach = 3;  // standard deviations
-constexpr int block = 16;    // slices computed at once
+constexpr int block = 16;  // slices computed at once
 
 std::size_t voxels_in_slice(const Volume& v) {
   return static_cast<std::size_t>(v.geometry.dimensions.x) * static_cast<std::size_t>(v.geometry.dimensions.y);
@@ -52,70 +50,6 @@ Slice read_slice(const Volume& v, int k) {
   return slice;
 }
 
-/// A Gaussian's weights at whole steps of `spacing`, as far as it reaches.
-cv::Mat weights(double sigma_mm, double spacing_mm) {
-  const int radius = static_cast<int>(std::ceil(reach * sigma_mm / spacing_mm));
-  cv::Mat row(2 * radius + 1, 1, CV_32F);
-  for (int n = -radius; n <= radius; ++n) {
-    const double away = n * spacing_mm / sigma_mm;
-    row.at<float>(n + radius) = static_cast<float>(std::exp(-0.5 * away * away));
-  }
-  return row / cv::sum(row)[0];
-}
-
-cv::Mat gaussian_in_slice(const cv::Mat& values, const Geometry& g, double sigma_mm) {
-  cv::Mat result;
-  cv::sepFilter2D(values, result, CV_32F, weights(sigma_mm, g.spacing_i), weights(sigma_mm, g.spacing_j), {-1, -1}, 0,
-                  cv::BORDER_REPLICATE);
-  return result;
-}
-
-/// The median as OpenCV has it for floats: of 3 or 5 voxels.
-cv::Mat median(const cv::Mat& values, int width) {
-  cv::Mat result;
-  cv::medianBlur(values, result, width);
-  return result;
-}
-
-cv::Mat bilateral(const cv::Mat& values, const Geometry& g, const Filter& filter) {
-  const double voxel = std::sqrt(g.spacing_i * g.spacing_j);  // OpenCV's neighborhoods are round in voxels
-  cv::Mat result;
-  cv::bilateralFilter(values, result, 2 * static_cast<int>(std::ceil(2 * filter.sigma_mm / voxel)) + 1,
-                      filter.sigma_value, filter.sigma_mm / voxel, cv::BORDER_REPLICATE);
-  return result;
-}
-
-cv::Mat non_local_means(const cv::Mat& values, double sigma_value) {
-  double low = 0, high = 0;
-  cv::minMaxLoc(values, &low, &high);
-  if (!(high > low)) return values;
-  // OpenCV's is for whole numbers: steps of a 64th of the noise, or coarser where the slice's values need more room.
-  const double step = std::max(sigma_value / 64, (high - low) / 65535);
-  cv::Mat whole, smooth, result;
-  values.convertTo(whole, CV_16U, 1 / step, -low / step);
-  constexpr int surroundings = 5, searched = 15;  // voxels
-  cv::fastNlMeansDenoising(whole, smooth, std::vector<float>{static_cast<float>(sigma_value / step)}, surroundings,
-                           searched, cv::NORM_L1);
-  smooth.convertTo(result, CV_32F, step, low);
-  return result;
-}
-
-cv::Mat in_slice(const cv::Mat& values, const Geometry& g, const Filter& filter) {
-  switch (filter.type) {
-    case FilterType::gaussian:
-      return gaussian_in_slice(values, g, filter.sigma_mm);
-    case FilterType::median:
-      return median(values, filter.width);
-    case FilterType::bilateral:
-      return bilateral(values, g, filter);
-    case FilterType::non_local_means:
-      return non_local_means(values, filter.sigma_value);
-    case FilterType::none:
-      break;
-  }
-  return values;
-}
-
 /// How far slice m lies from slice k along the steps, mm.
 double apart_mm(const Geometry& g, int k, int m) {
   return glm::length(g.slice_positions[static_cast<std::size_t>(m)] - g.slice_positions[static_cast<std::size_t>(k)]);
@@ -125,8 +59,9 @@ double apart_mm(const Geometry& g, int k, int m) {
 std::pair<int, int> reached(const Geometry& g, int k, double sigma_mm) {
   const auto is_gap = [&](int from) { return std::ranges::binary_search(g.gaps, from); };
   int first = k, last = k;
-  while (first > 0 && !is_gap(first - 1) && apart_mm(g, k, first - 1) <= reach * sigma_mm) --first;
-  while (last + 1 < g.dimensions.z && !is_gap(last) && apart_mm(g, k, last + 1) <= reach * sigma_mm) ++last;
+  while (first > 0 && !is_gap(first - 1) && apart_mm(g, k, first - 1) <= internal::gaussian_reach * sigma_mm) --first;
+  while (last + 1 < g.dimensions.z && !is_gap(last) && apart_mm(g, k, last + 1) <= internal::gaussian_reach * sigma_mm)
+    ++last;
   return {first, last};
 }
 
@@ -188,14 +123,14 @@ void keep_padding(const Volume& v, int k, const cv::Mat& is_padding, const Paddi
 
 std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int first, int last) {
   const Geometry& g = raw.geometry;
-  const bool across = filter.type == FilterType::gaussian;
+  const bool across = filter.type->reaches_across;
   const int from = across ? reached(g, first, filter.sigma_mm).first : first;
   const int to = across ? reached(g, last, filter.sigma_mm).second : last;
   std::vector<Slice> slices;
   slices.reserve(static_cast<std::size_t>(to - from) + 1);
   for (int k = from; k <= to; ++k) {
     Slice slice = read_slice(raw, k);
-    slice.values = in_slice(slice.values, g, filter);
+    slice.values = filter.type->in_slice(slice.values, g, filter);
     slices.push_back(std::move(slice));
   }
   const auto at = [&](int k) -> const Slice& { return slices[static_cast<std::size_t>(k - from)]; };
@@ -223,7 +158,7 @@ Filter filter_of(const Volume& volume) {
 std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volume, const Filter& filter,
                                        const Progress& progress) {
   std::shared_ptr<const Volume> raw = raw_of(volume);
-  if (filter.type == FilterType::none) return raw;
+  if (filter.type == nullptr) return raw;
   validate(filter);
   if (filter_of(*volume) == filter) return volume;
   if (raw->vectors) {

@@ -26,7 +26,8 @@ std::shared_ptr<const Volume> raw_of(const std::shared_ptr<const Volume>& volume
 /// What it was filtered with; none for any other.
 Filter filter_of(const Volume& volume);
 
-/// The same values, with the same bits, for the slices first ... last alone: rescaled, slice by slice.
+/// The same values, with the same bits, for the slices first ... last alone: rescaled, slice by slice. There has to be
+/// a filter.
 std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int first, int last);
 
 }  // namespace palpate::io

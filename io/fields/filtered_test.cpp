@@ -18,10 +18,10 @@
 namespace palpate::io {
 namespace {
 
-const std::array<Filter, 4> filters{Filter{.type = FilterType::gaussian, .sigma_mm = 1.3},
-                                    Filter{.type = FilterType::median, .width = 5},
-                                    Filter{.type = FilterType::bilateral, .sigma_mm = 1.5, .sigma_value = 60},
-                                    Filter{.type = FilterType::non_local_means, .sigma_value = 25}};
+const std::array<Filter, 4> filters{Filter{.type = find_filter_type("gaussian"), .sigma_mm = 1.3},
+                                    Filter{.type = find_filter_type("median"), .width = 5},
+                                    Filter{.type = find_filter_type("bilateral"), .sigma_mm = 1.5, .sigma_value = 60},
+                                    Filter{.type = find_filter_type("non_local_means"), .sigma_value = 25}};
 
 /// An uneven, tilted lattice with pixels that are not square, a gap, padding and noise.
 std::shared_ptr<const Volume> odd_scan(double noise = 25) {
@@ -123,7 +123,7 @@ TEST(Filtered, GaussianKeepsASlopeAndTakesThePartOfTheNoiseThatItsWidthSays) {
   grid.size = {48, 40, 36};
   grid.spacing = {0.8, 1.1, 1.5};
   const Geometry geometry = testdata::make_geometry(grid);
-  const Filter filter{.type = FilterType::gaussian, .sigma_mm = 1.9};
+  const Filter filter{.type = find_filter_type("gaussian"), .sigma_mm = 1.9};
   const Vec3 slope(3, -5, 7);
   const auto ramp = filtered(painted(geometry, [&](const Vec3& p) { return glm::dot(slope, p) + 40; }), filter);
   std::mt19937_64 random(7);
@@ -153,7 +153,7 @@ TEST(Filtered, GaussianSpreadsAlikeAlongAllAxes) {
   const Vec3 middle = geometry.to_patient({20, 20, 20});
   const auto spike =
       filtered(painted(geometry, [&](const Vec3& p) { return glm::distance(p, middle) < 0.1 ? 1e4 : 0; }),
-               {.type = FilterType::gaussian, .sigma_mm = 2});
+               {.type = find_filter_type("gaussian"), .sigma_mm = 2});
   Vec3 variance(0);
   double sum = 0;
   for (int k = 0; k < 41; ++k) {
@@ -181,7 +181,7 @@ TEST(Filtered, GaussianCountsASliceForTheRoomThatItHas) {
   }
   geometry.uniform = false;
   const auto ramp = filtered(painted(geometry, [](const Vec3& p) { return 100 * p.z; }),
-                             {.type = FilterType::gaussian, .sigma_mm = 2});
+                             {.type = find_filter_type("gaussian"), .sigma_mm = 2});
   // Where dense slices end, counting slices alone would draw the mean towards them, by about a millimeter.
   EXPECT_NEAR(at(*ramp, 2, 2, change) / 100, geometry.slice_positions[static_cast<std::size_t>(change)].z, 0.1);
 }
@@ -193,7 +193,7 @@ TEST(Filtered, NothingComesAcrossMissingSlices) {
   const Geometry geometry = testdata::make_geometry(grid);
   const double between = geometry.slice_positions[6].z;  // the first slice behind the gap
   const auto steps = filtered(painted(geometry, [&](const Vec3& p) { return p.z < between - 0.5 ? 0 : 100; }),
-                              {.type = FilterType::gaussian, .sigma_mm = 2});
+                              {.type = find_filter_type("gaussian"), .sigma_mm = 2});
   EXPECT_NEAR(at(*steps, 4, 4, 5), 0, 1e-3);
   EXPECT_NEAR(at(*steps, 4, 4, 6), 100, 1e-3);
 }
@@ -201,7 +201,7 @@ TEST(Filtered, NothingComesAcrossMissingSlices) {
 TEST(Filtered, MedianIsTheMiddleOfItsSquare) {
   const auto raw = odd_scan();
   for (const int width : {3, 5}) {
-    const auto smooth = filtered(raw, {.type = FilterType::median, .width = width});
+    const auto smooth = filtered(raw, {.type = find_filter_type("median"), .width = width});
     const int r = width / 2;
     for (int k = 0; k < 40 - 2; k += 7) {
       for (int j = 15; j < 22; ++j) {
@@ -223,7 +223,8 @@ TEST(Filtered, MedianIsTheMiddleOfItsSquare) {
 TEST(Filtered, BilateralIsTheMeanOfWhatIsNearAndAlike) {
   const auto raw = odd_scan();
   constexpr double sigma_mm = 1.3, sigma_value = 60;
-  const auto smooth = filtered(raw, {.type = FilterType::bilateral, .sigma_mm = sigma_mm, .sigma_value = sigma_value});
+  const auto smooth =
+      filtered(raw, {.type = find_filter_type("bilateral"), .sigma_mm = sigma_mm, .sigma_value = sigma_value});
   const double sigma = sigma_mm / std::sqrt(raw->geometry.spacing_i * raw->geometry.spacing_j);
   const int radius = static_cast<int>(std::ceil(2 * sigma));
   for (int k = 0; k < 40 - 2; k += 7) {
@@ -255,7 +256,7 @@ TEST(Filtered, NonLocalMeansTakesWhatIsAlikeFromSevenVoxelsAround) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(0, 20);
   const auto raw = painted(testdata::make_geometry(grid), [&](const Vec3&) { return normal(random); });
-  const auto smooth = filtered(raw, {.type = FilterType::non_local_means, .sigma_value = 20});
+  const auto smooth = filtered(raw, {.type = find_filter_type("non_local_means"), .sigma_value = 20});
   double before = 0, after = 0;
   for (int j = 10; j < 86; ++j) {
     for (int i = 10; i < 86; ++i) {
@@ -274,7 +275,7 @@ TEST(Filtered, NonLocalMeansKeepsValuesThatAreFarApart) {
   const double wall = geometry.to_patient({15.5, 0, 0}).x;
   for (const double high : {40.0, 5000.0, 60000.0}) {
     const auto raw = painted(geometry, [&](const Vec3& p) { return p.x < wall ? -300 : high; });
-    const auto smooth = filtered(raw, {.type = FilterType::non_local_means, .sigma_value = 1});
+    const auto smooth = filtered(raw, {.type = find_filter_type("non_local_means"), .sigma_value = 1});
     for (int j = 0; j < 32; ++j) {
       for (int i = 0; i < 32; ++i) ASSERT_NEAR(at(*smooth, i, j, 0), at(*raw, i, j, 0), 1) << high;
     }
@@ -319,9 +320,9 @@ TEST(Filtered, EdgePreservingFiltersTakeNoiseAndLeaveAWallWhereItIs) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal(0, 20);
   const auto raw = painted(geometry, [&](const Vec3& p) { return (p.x < wall ? 0 : 400) + normal(random); });
-  for (const Filter& filter : {Filter{.type = FilterType::bilateral, .sigma_mm = 2, .sigma_value = 80},
-                               Filter{.type = FilterType::non_local_means, .sigma_value = 20},
-                               Filter{.type = FilterType::median, .width = 5}}) {
+  for (const Filter& filter : {Filter{.type = find_filter_type("bilateral"), .sigma_mm = 2, .sigma_value = 80},
+                               Filter{.type = find_filter_type("non_local_means"), .sigma_value = 20},
+                               Filter{.type = find_filter_type("median"), .width = 5}}) {
     const auto smooth = filtered(raw, filter);
     double before = 0, after = 0;
     for (int j = 4; j < 44; ++j) {
@@ -338,12 +339,12 @@ TEST(Filtered, EdgePreservingFiltersTakeNoiseAndLeaveAWallWhereItIs) {
 
 TEST(Filtered, RefusesWhatCannotBeAndVelocity) {
   const auto raw = odd_scan();
-  for (const Filter& filter : {Filter{.type = FilterType::gaussian, .sigma_mm = 0},
-                               Filter{.type = FilterType::gaussian, .sigma_mm = std::nan("")},
-                               Filter{.type = FilterType::bilateral, .sigma_mm = 1, .sigma_value = -1},
-                               Filter{.type = FilterType::bilateral, .sigma_mm = 11, .sigma_value = 1},
-                               Filter{.type = FilterType::non_local_means, .sigma_value = 0},
-                               Filter{.type = FilterType::median, .width = 4}}) {
+  for (const Filter& filter : {Filter{.type = find_filter_type("gaussian"), .sigma_mm = 0},
+                               Filter{.type = find_filter_type("gaussian"), .sigma_mm = std::nan("")},
+                               Filter{.type = find_filter_type("bilateral"), .sigma_mm = 1, .sigma_value = -1},
+                               Filter{.type = find_filter_type("bilateral"), .sigma_mm = 11, .sigma_value = 1},
+                               Filter{.type = find_filter_type("non_local_means"), .sigma_value = 0},
+                               Filter{.type = find_filter_type("median"), .width = 4}}) {
     EXPECT_THROW(filtered(raw, filter), std::invalid_argument) << in_words(filter);
   }
   Volume flow = *raw;
@@ -359,12 +360,14 @@ TEST(Filtered, RefusesWhatCannotBeAndVelocity) {
 }
 
 TEST(Filtered, FiltersAreTheSameWhereWhatTheyReadIs) {
-  EXPECT_EQ((Filter{.type = FilterType::median, .sigma_mm = 1}), (Filter{.type = FilterType::median, .sigma_mm = 2}));
-  EXPECT_NE((Filter{.type = FilterType::median, .width = 3}), (Filter{.type = FilterType::median, .width = 5}));
-  EXPECT_NE((Filter{.type = FilterType::gaussian, .sigma_mm = 1}),
-            (Filter{.type = FilterType::gaussian, .sigma_mm = 2}));
-  EXPECT_NE((Filter{.type = FilterType::bilateral, .sigma_value = 1}),
-            (Filter{.type = FilterType::bilateral, .sigma_value = 2}));
+  EXPECT_EQ((Filter{.type = find_filter_type("median"), .sigma_mm = 1}),
+            (Filter{.type = find_filter_type("median"), .sigma_mm = 2}));
+  EXPECT_NE((Filter{.type = find_filter_type("median"), .width = 3}),
+            (Filter{.type = find_filter_type("median"), .width = 5}));
+  EXPECT_NE((Filter{.type = find_filter_type("gaussian"), .sigma_mm = 1}),
+            (Filter{.type = find_filter_type("gaussian"), .sigma_mm = 2}));
+  EXPECT_NE((Filter{.type = find_filter_type("bilateral"), .sigma_value = 1}),
+            (Filter{.type = find_filter_type("bilateral"), .sigma_value = 2}));
   EXPECT_NE((Filter{}), filters[0]);
 }
 

@@ -106,8 +106,6 @@ void find_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& file)
   }
 }
 
-}  // namespace
-
 std::optional<VoxelFile> open_meta_image(const std::filesystem::path& path, const std::filesystem::path& named) {
   if (!has_ending(named, ".mha") && !has_ending(named, ".mhd")) return std::nullopt;
   std::ifstream stream(path, std::ios::binary);
@@ -140,5 +138,10 @@ std::optional<VoxelFile> open_meta_image(const std::filesystem::path& path, cons
   find_voxels(fields, static_cast<std::int64_t>(stream.tellg()), file);
   return file;
 }
+
+}  // namespace
+
+extern const LabelFormat meta_image_format;
+const LabelFormat meta_image_format{.name = "MetaImage", .endings = {".mha", ".mhd"}, .open = open_meta_image};
 
 }  // namespace palpate::io

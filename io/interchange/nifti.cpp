@@ -256,8 +256,6 @@ std::map<int, LabelName> names_in(const std::string& text) {
   return names;
 }
 
-}  // namespace
-
 std::optional<VoxelFile> open_nifti(const std::filesystem::path& path, const std::filesystem::path& named) {
   if (!has_ending(named, ".nii") && !has_ending(named, ".nii.gz")) return std::nullopt;
   VoxelFile file;
@@ -296,5 +294,10 @@ std::optional<VoxelFile> open_nifti(const std::filesystem::path& path, const std
   place(map_of(header), {size(1), size(2), size(3)}, file);
   return file;
 }
+
+}  // namespace
+
+extern const LabelFormat nifti_format;
+const LabelFormat nifti_format{.name = "NIfTI", .endings = {".nii", ".nii.gz"}, .open = open_nifti};
 
 }  // namespace palpate::io

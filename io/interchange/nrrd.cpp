@@ -260,9 +260,7 @@ void find_nrrd_voxels(const Fields& fields, std::int64_t header_end, VoxelFile& 
   }
 }
 
-}  // namespace
-
-std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path) {
+std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path, const std::filesystem::path&) {
   std::ifstream stream(path, std::ios::binary);
   std::string magic(4, '\0');
   if (!stream.read(magic.data(), 4) || magic != "NRRD") return std::nullopt;
@@ -289,5 +287,10 @@ std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path) {
   find_nrrd_voxels(fields, header_end, file);
   return file;
 }
+
+}  // namespace
+
+extern const LabelFormat nrrd_format;
+const LabelFormat nrrd_format{.name = "NRRD", .endings = {".nrrd", ".nhdr"}, .open = open_nrrd};
 
 }  // namespace palpate::io

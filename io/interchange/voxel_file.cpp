@@ -148,10 +148,32 @@ void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file) {
 }
 
 std::optional<VoxelFile> open_voxel_file(const fs::path& path, const fs::path& named) {
-  auto file = open_nifti(path, named);
-  if (!file) file = open_nrrd(path);
-  if (!file) file = open_meta_image(path, named);
-  return file;
+  for (const LabelFormat* const format : label_formats()) {
+    if (auto file = format->open(path, named)) return file;
+  }
+  return std::nullopt;
+}
+
+// The list of formats comes from io/CMakeLists.txt: FORMAT(nifti) FORMAT(nrrd) ...
+#define FORMAT(name) extern const LabelFormat name##_format;
+PALPATE_LABEL_FORMATS
+#undef FORMAT
+
+std::span<const LabelFormat* const> label_formats() {
+#define FORMAT(name) &name##_format,
+  static constexpr std::array formats{PALPATE_LABEL_FORMATS};
+#undef FORMAT
+  return formats;
+}
+
+std::vector<std::string> label_format_endings() {
+  std::vector<std::string> all;
+  for (const LabelFormat* const format : label_formats()) {
+    for (const std::string_view ending : format->endings) {
+      if (!ending.empty()) all.emplace_back(ending);
+    }
+  }
+  return all;
 }
 
 }  // namespace palpate::io

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A lattice of values in a file that is no DICOM: NIfTI-1 and NIfTI-2 (.nii, .nii.gz), NRRD (.nrrd, .nhdr, .seg.nrrd),
-/// MetaImage (.mha, .mhd). It may be a scan or a map of labels.
+/// A lattice of values in a file that is no DICOM: NIfTI-1 and NIfTI-2, NRRD, MetaImage. It may be a scan or a map of
+/// labels.
 
 #include <array>
 #include <cstdint>
@@ -11,6 +11,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/geometry.h"
 #include "io/series.h"
@@ -73,9 +75,18 @@ std::size_t bytes_of(VoxelFile::Number number) noexcept;
 /// Null if its name or its first bytes are not those of such a file. `named` is its name as its user knows it, where
 /// that is not `path`. Throws DicomError, with a reason that does not name the file, if it cannot be read.
 std::optional<VoxelFile> open_voxel_file(const std::filesystem::path& path, const std::filesystem::path& named);
-std::optional<VoxelFile> open_nifti(const std::filesystem::path& path, const std::filesystem::path& named);
-std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path);
-std::optional<VoxelFile> open_meta_image(const std::filesystem::path& path, const std::filesystem::path& named);
+
+/// A format of scans and label maps: one file (interchange/<name>.cpp) and one name in io/CMakeLists.txt.
+struct LabelFormat {
+  std::string_view name;                      ///< for people
+  std::array<std::string_view, 4> endings{};  ///< of its files' names; the rest is empty
+  /// As open_voxel_file(). Null if the file is none of this format.
+  std::optional<VoxelFile> (*open)(const std::filesystem::path& path, const std::filesystem::path& named) = nullptr;
+};
+/// All formats, in the order in which a file is tried.
+std::span<const LabelFormat* const> label_formats();
+/// Of all formats: ".nii", ".nii.gz", ...
+std::vector<std::string> label_format_endings();
 
 /// An affine map from voxels along the file's axes to LPS, mm.
 struct VoxelMap {

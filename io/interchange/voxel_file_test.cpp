@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "io/errors.h"
 #include "io/testing/file_bytes.h"
@@ -24,6 +26,20 @@ std::string refusal(const VoxelMap& map, const glm::ivec3& size) {
   }
   EXPECT_EQ(file.geometry.slice_positions.size(), static_cast<std::size_t>(file.geometry.dimensions.z));
   return {};
+}
+
+TEST(LabelFormats, EachHasANameAndEndingsOfItsOwn) {
+  std::set<std::string_view> names, endings;
+  for (const LabelFormat* const format : label_formats()) {
+    EXPECT_TRUE(names.insert(format->name).second) << format->name;
+    EXPECT_FALSE(format->endings.front().empty()) << format->name;
+    for (const std::string_view ending : format->endings) {
+      if (ending.empty()) continue;
+      EXPECT_TRUE(endings.insert(ending).second) << ending;
+      EXPECT_EQ(ending.front(), '.');
+    }
+  }
+  EXPECT_EQ(label_format_endings().size(), endings.size());
 }
 
 TEST(VoxelLattice, HoldsAsManyVoxelsAsItSaysAndNotOneMore) {

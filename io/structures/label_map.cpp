@@ -129,7 +129,10 @@ std::optional<std::map<int, Box>> boxes_in(const VoxelFile& image) {
 /// "liver" for "liver.nii.gz": what a folder of one mask a file calls its organs.
 std::string organ_of(std::filesystem::path file) {
   file = file.filename();
-  for (const char* const ending : {".gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".seg"}) {
+  std::vector<std::string> endings = label_format_endings();
+  endings.insert(endings.begin(), ".gz");
+  endings.emplace_back(".seg");
+  for (const std::string& ending : endings) {
     if (file.extension() == ending && !file.stem().empty()) file = file.stem();
   }
   return file.string();

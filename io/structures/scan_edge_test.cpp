@@ -29,7 +29,7 @@ constexpr double within_mm = 5;
 std::shared_ptr<const Volume> scanned(const testdata::Phantom& phantom, const Geometry& geometry, double noise = 0,
                                       unsigned seed = 1) {
   const auto sharp = std::make_shared<const Volume>(testdata::scan(phantom, geometry, {.quantised = false}));
-  Volume volume = *filtered(sharp, {.type = FilterType::gaussian, .sigma_mm = scanner_mm});
+  Volume volume = *filtered(sharp, {.type = find_filter_type("gaussian"), .sigma_mm = scanner_mm});
   volume.filtered_from = nullptr;
   std::mt19937 random(seed);
   std::normal_distribution<float> normal(0, static_cast<float>(noise));

@@ -234,10 +234,14 @@ Sampling read_sampling(const At& at) {
 io::Filter read_filter(const At& at) {
   Members members(at);
   io::Filter filter;
-  filter.type = choice(members.get("type"), filter_type_names);
-  if (io::reads_sigma_mm(filter.type)) members.optional("sigma_mm", filter.sigma_mm, number);
-  if (io::reads_sigma_value(filter.type)) members.optional("sigma_value", filter.sigma_value, number);
-  if (filter.type == io::FilterType::median) members.optional("width", filter.width, integer);
+  std::vector<Named<const io::FilterType*>> names{{nullptr, "none"}};
+  for (const io::FilterType* const type : io::filter_types()) names.push_back({type, type->name});
+  filter.type = choice(members.get("type"), names);
+  if (filter.type != nullptr) {
+    if (filter.type->reads_sigma_mm) members.optional("sigma_mm", filter.sigma_mm, number);
+    if (filter.type->reads_sigma_value) members.optional("sigma_value", filter.sigma_value, number);
+    if (filter.type->reads_width) members.optional("width", filter.width, integer);
+  }
   members.done();
   return filter;
 }

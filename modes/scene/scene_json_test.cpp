@@ -63,7 +63,7 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
   EXPECT_EQ(scene.workspace.rotation[0].y, 1.0);
   EXPECT_EQ(scene.sampling.value, io::ValueMethod::trilinear);
   EXPECT_EQ(scene.sampling.gradient, io::GradientMethod::central_differences);
-  EXPECT_EQ(scene.filter, (io::Filter{.type = io::FilterType::bilateral, .sigma_mm = 0.7, .sigma_value = 41}));
+  EXPECT_EQ(scene.filter, (io::Filter{.type = io::find_filter_type("bilateral"), .sigma_mm = 0.7, .sigma_value = 41}));
   EXPECT_FALSE(scene.modes[1].enabled);
   EXPECT_EQ(scene.modes[1].gates[0].factor.interpolation(), Interpolation::monotone_cubic);
   EXPECT_EQ(scene.modes[3].direction, Vec3(0.1, 0, 2));
@@ -119,15 +119,16 @@ TEST(SceneJson, a_filter_has_what_its_type_reads) {
   const auto filter_of = [](const std::string& filter) {
     return scene_from_json(R"({"version": 1, "modes": [], "filter": )" + filter + "}", "mine.json").filter;
   };
-  using io::Filter, io::FilterType;
+  using io::Filter, io::find_filter_type;
   EXPECT_EQ(filter_of(R"({"type": "none"})"), Filter{});
-  EXPECT_EQ(filter_of(R"({"type": "gaussian", "sigma_mm": 2})"), (Filter{.type = FilterType::gaussian, .sigma_mm = 2}));
-  EXPECT_EQ(filter_of(R"({"type": "median", "width": 5})"), (Filter{.type = FilterType::median, .width = 5}));
+  EXPECT_EQ(filter_of(R"({"type": "gaussian", "sigma_mm": 2})"),
+            (Filter{.type = find_filter_type("gaussian"), .sigma_mm = 2}));
+  EXPECT_EQ(filter_of(R"({"type": "median", "width": 5})"), (Filter{.type = find_filter_type("median"), .width = 5}));
   EXPECT_EQ(filter_of(R"({"type": "non_local_means", "sigma_value": 9})"),
-            (Filter{.type = FilterType::non_local_means, .sigma_value = 9}));
-  for (const Filter& filter :
-       {Filter{.type = FilterType::gaussian, .sigma_mm = 0.1}, Filter{.type = FilterType::median, .width = 5},
-        Filter{.type = FilterType::non_local_means, .sigma_value = 0.3}, Filter{}}) {
+            (Filter{.type = find_filter_type("non_local_means"), .sigma_value = 9}));
+  for (const Filter& filter : {Filter{.type = find_filter_type("gaussian"), .sigma_mm = 0.1},
+                               Filter{.type = find_filter_type("median"), .width = 5},
+                               Filter{.type = find_filter_type("non_local_means"), .sigma_value = 0.3}, Filter{}}) {
     EXPECT_EQ(filter_from_json(to_json(filter)), filter);
   }
   const auto refused = [](const std::string& filter) {
@@ -278,7 +279,7 @@ TEST(SceneJson, a_scene_that_a_program_made_is_checked_too) {
       {"subdivision.most_halts: -1 is not between 0 and 1000", [](Scene& s) { s.subdivision.most_halts = -1; }},
       {"subdivision.most_halts: 1001 is not between 0 and 1000", [](Scene& s) { s.subdivision.most_halts = 1001; }},
       {"filter.width: a median of 4 voxels is not offered; give 3 or 5",
-       [](Scene& s) { s.filter = {.type = io::FilterType::median, .width = 4}; }},
+       [](Scene& s) { s.filter = {.type = io::find_filter_type("median"), .width = 4}; }},
       {"gradient_scale_mm: 0 is not a number above 0; it is in mm", [](Scene& s) { s.gradient_scale_mm = 0; }},
       {"tissues[1].name: is missing", [](Scene& s) { s.tissues[1].name.clear(); }},
       {"tissues[1].low: has to be below high", [](Scene& s) { s.tissues[1].low = s.tissues[1].high; }},

@@ -289,7 +289,7 @@ TEST(SceneLimits, ASolverIsLeft) {
 /// A filter that cannot be is refused under its own key.
 TEST(SceneLimits, AFilterIsChecked) {
   const std::string said =
-      said_of([](Scene& scene) { scene.filter = {.type = io::FilterType::gaussian, .sigma_mm = -1}; });
+      said_of([](Scene& scene) { scene.filter = {.type = io::find_filter_type("gaussian"), .sigma_mm = -1}; });
   EXPECT_EQ(said.rfind("filter.", 0), 0U) << said;
 }
 

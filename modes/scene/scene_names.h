@@ -37,12 +37,6 @@ inline constexpr std::array gradient_method_names{
     Named<io::GradientMethod>{io::GradientMethod::gaussian, "gaussian"},
     Named<io::GradientMethod>{io::GradientMethod::central_differences, "central_differences"},
     Named<io::GradientMethod>{io::GradientMethod::cubic, "cubic"}};
-inline constexpr std::array filter_type_names{
-    Named<io::FilterType>{io::FilterType::none, "none"}, Named<io::FilterType>{io::FilterType::gaussian, "gaussian"},
-    Named<io::FilterType>{io::FilterType::median, "median"},
-    Named<io::FilterType>{io::FilterType::bilateral, "bilateral"},
-    Named<io::FilterType>{io::FilterType::non_local_means, "non_local_means"}};
-
 template <typename Names, typename Enum>
 std::string name_in(const Names& names, Enum value) {
   for (const auto& entry : names) {

@@ -125,10 +125,10 @@ Json json_of(const WorkspaceSettings& workspace) {
 }
 
 Json json_of(const io::Filter& filter) {
-  Json json{{"type", name_in(filter_type_names, filter.type)}};
-  if (io::reads_sigma_mm(filter.type)) json["sigma_mm"] = filter.sigma_mm;
-  if (io::reads_sigma_value(filter.type)) json["sigma_value"] = filter.sigma_value;
-  if (filter.type == io::FilterType::median) json["width"] = filter.width;
+  Json json{{"type", std::string(filter.type->name)}};
+  if (filter.type->reads_sigma_mm) json["sigma_mm"] = filter.sigma_mm;
+  if (filter.type->reads_sigma_value) json["sigma_value"] = filter.sigma_value;
+  if (filter.type->reads_width) json["width"] = filter.width;
   return json;
 }
 
@@ -147,7 +147,7 @@ Json json_of(const Scene& scene) {
                          {"most", scene.subdivision.most},
                          {"proxy_step_mm", scene.subdivision.proxy_step_mm},
                          {"most_halts", scene.subdivision.most_halts}};
-  if (scene.filter.type != io::FilterType::none) json["filter"] = json_of(scene.filter);
+  if (scene.filter.type != nullptr) json["filter"] = json_of(scene.filter);
   json["sampling"] = {{"value", name_in(value_method_names, scene.sampling.value)},
                       {"gradient", name_in(gradient_method_names, scene.sampling.gradient)}};
   if (scene.gradient_scale_mm) {
@@ -205,7 +205,7 @@ void write(const Json& json, const std::string& indent, std::string& text) {
 }  // namespace
 
 std::string to_json(const io::Filter& filter) {
-  return filter.type == io::FilterType::none ? "" : json_of(filter).dump();
+  return filter.type == nullptr ? "" : json_of(filter).dump();
 }
 
 std::string to_json(const Scene& scene) {

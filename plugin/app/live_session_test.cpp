@@ -213,7 +213,7 @@ TEST(LiveSession, AFilterIsFeltAndItsRecordingRepeatedToTheLastBit) {
       testdata::scan(testdata::make_sphere(25), testdata::make_geometry({.size = glm::ivec3(60)}), {.noise = 80}));
   UnhurriedSession live;
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
-  scene.filter = {.type = io::FilterType::gaussian, .sigma_mm = 1};
+  scene.filter = {.type = io::find_filter_type("gaussian"), .sigma_mm = 1};
   live.set_scan(volume, scene);
   EXPECT_EQ(live.scan(), volume);
   EXPECT_EQ(io::filter_of(*live.felt_scan()), scene.filter);
@@ -224,7 +224,7 @@ TEST(LiveSession, AFilterIsFeltAndItsRecordingRepeatedToTheLastBit) {
   live.connect(pressing());
   live.record(file);
   ASSERT_TRUE(comes(live, [&] { return sent_n(live) > 0.3; }));
-  scene.filter = {.type = io::FilterType::median, .width = 5};
+  scene.filter = {.type = io::find_filter_type("median"), .width = 5};
   const auto ahead = io::filtered(volume, scene.filter);
   live.offer(ahead);
   live.set_scene(scene);

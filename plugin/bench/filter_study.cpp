@@ -100,15 +100,14 @@ double seconds_to_filter(const std::shared_ptr<const io::Volume>& volume, const 
 }  // namespace
 
 std::string run_filter_study() {
-  using io::FilterType;
   const std::array filters{
       io::Filter{},
-      io::Filter{.type = FilterType::gaussian, .sigma_mm = 0.7},
-      io::Filter{.type = FilterType::gaussian, .sigma_mm = 1.5},
-      io::Filter{.type = FilterType::median, .width = 3},
-      io::Filter{.type = FilterType::median, .width = 5},
-      io::Filter{.type = FilterType::bilateral, .sigma_mm = 1.5, .sigma_value = 2 * filter_noise_hu},
-      io::Filter{.type = FilterType::non_local_means, .sigma_value = filter_noise_hu}};
+      io::Filter{.type = io::find_filter_type("gaussian"), .sigma_mm = 0.7},
+      io::Filter{.type = io::find_filter_type("gaussian"), .sigma_mm = 1.5},
+      io::Filter{.type = io::find_filter_type("median"), .width = 3},
+      io::Filter{.type = io::find_filter_type("median"), .width = 5},
+      io::Filter{.type = io::find_filter_type("bilateral"), .sigma_mm = 1.5, .sigma_value = 2 * filter_noise_hu},
+      io::Filter{.type = io::find_filter_type("non_local_means"), .sigma_value = filter_noise_hu}};
   const auto wall = scan_of(testdata::HalfSpace{outward, 0}, 48);
   const auto ball = scan_of(testdata::Ball{{0, 0, 0}, ball_radius_mm}, 40);
   const auto large = scan_of(testdata::Ball{{0, 0, 0}, 100}, 256);
@@ -121,7 +120,7 @@ std::string run_filter_study() {
   for (const io::Filter& filter : filters) {
     const FilteredSlide flat = on_wall(io::filtered(wall, filter));
     const FilteredSlide round = on_ball(io::filtered(ball, filter));
-    const double seconds = filter.type == FilterType::none ? 0 : seconds_to_filter(large, filter);
+    const double seconds = filter.type == nullptr ? 0 : seconds_to_filter(large, filter);
     const double ns = 1e9 * seconds / (256.0 * 256.0 * 256.0);
     fmt::print("{:<36} {:>13.3f} {:>15.3f} {:>15.3f} {:>9.2f} {:>10.0f}\n", io::in_words(filter), flat.roughness_n,
                flat.off_mm, round.off_mm, seconds, ns);

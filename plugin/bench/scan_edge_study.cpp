@@ -37,7 +37,7 @@ std::shared_ptr<const io::Volume> scan_of_ball(const Ball& ball) {
                                   .bodies = {{testdata::Ball{ball.center, ball.radius}, inside_hu}}};
   const auto sharp =
       std::make_shared<const io::Volume>(testdata::scan(phantom, testdata::make_geometry(grid), {.quantised = false}));
-  io::Volume volume = *io::filtered(sharp, {.type = io::FilterType::gaussian, .sigma_mm = scanner_mm});
+  io::Volume volume = *io::filtered(sharp, {.type = io::find_filter_type("gaussian"), .sigma_mm = scanner_mm});
   volume.filtered_from = nullptr;
   std::mt19937 random(1);
   std::normal_distribution<float> normal(0, 1);

@@ -77,7 +77,7 @@ TEST(StructureCrossings, SayWhereTheScanShowsNone) {
 TEST(StructureCrossings, TellTheScansOwnEdgeAndNotTheFilters) {
   Study study = study_of_a_ball(60);
   const auto raw = crossings_along({-18, 0, 0}, {18, 0, 0}, study.felt);
-  study.felt.volume = io::filtered(study.felt.volume, {.type = io::FilterType::median});
+  study.felt.volume = io::filtered(study.felt.volume, {.type = io::find_filter_type("median")});
   const auto filtered = crossings_along({-18, 0, 0}, {18, 0, 0}, study.felt);
   ASSERT_EQ(filtered.size(), raw.size());
   for (std::size_t n = 0; n < raw.size(); ++n) {

@@ -97,7 +97,7 @@ TEST(PreparedAgain, IsWhatIsPreparedAnewAndReusesWhatIsTheSame) {
        },
        false, true},
       {"the reach", [](modes::Scene& s) { s.workspace.center_mm = glm::dvec3(4, -3, 70); }, false, true},
-      {"the filter", [](modes::Scene& s) { s.filter.type = io::FilterType::median; }, false, false}};
+      {"the filter", [](modes::Scene& s) { s.filter.type = io::find_filter_type("median"); }, false, false}};
   const VolumePointer volume = odd_ball(9), other = odd_ball(6);
   const PreparedScene first = prepare(scene, volume, half_extent_m);
   for (const Edit& edit : edits) {
@@ -123,7 +123,7 @@ TEST(PreparedAgain, IsWhatIsPreparedAnewAndReusesWhatIsTheSame) {
 /// A volume that was filtered ahead is taken where the scene has that very filter, and is filtered anew where not.
 TEST(PreparedAgain, TakesAVolumeThatWasFilteredAhead) {
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
-  scene.filter.type = io::FilterType::median;
+  scene.filter.type = io::find_filter_type("median");
   const VolumePointer volume = odd_ball(9);
   Prepared ahead;
   ahead.felt.volume = io::filtered(volume, scene.filter);

@@ -36,8 +36,7 @@ std::string describe_scan(const io::Volume& volume) {
   const io::Filter filter = io::filter_of(volume);
   return fmt::format("{}, {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm{}", volume.modality, geometry.dimensions.x,
                      geometry.dimensions.y, geometry.dimensions.z, geometry.spacing_i, geometry.spacing_j,
-                     glm::length(geometry.step),
-                     filter.type == io::FilterType::none ? "" : ", " + io::in_words(filter));
+                     glm::length(geometry.step), filter.type == nullptr ? "" : ", " + io::in_words(filter));
 }
 
 modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume) {

@@ -96,7 +96,8 @@ TEST(Scan, IsDescribedByItsVoxelsAndItsFilter) {
   io::Volume volume = testdata::scan(testdata::make_sphere(5),
                                      testdata::make_geometry({.size = {12, 10, 8}, .spacing = {0.75, 0.957, 2.5}}));
   EXPECT_EQ(describe_scan(volume), "CT, 12 x 10 x 8 voxels of 0.75 x 0.957 x 2.5 mm");
-  const auto filtered = io::filtered(std::make_shared<const io::Volume>(volume), {.type = io::FilterType::median});
+  const auto filtered =
+      io::filtered(std::make_shared<const io::Volume>(volume), {.type = io::find_filter_type("median")});
   EXPECT_EQ(describe_scan(*filtered),
             "CT, 12 x 10 x 8 voxels of 0.75 x 0.957 x 2.5 mm, " + io::in_words(io::filter_of(*filtered)));
 }

@@ -119,7 +119,7 @@ std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
 
 std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame, const io::Filter& filter,
                                             const io::Progress& progress) {
-  if (filter.type == io::FilterType::none) return load_scan(series, frame, progress);
+  if (filter.type == nullptr) return load_scan(series, frame, progress);
   return scans().get(key_of(series, frame, {}, filter),
                      [&] { return io::filtered(load_scan(series, frame, progress), filter, progress); });
 }

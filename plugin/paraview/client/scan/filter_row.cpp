@@ -30,6 +30,15 @@ namespace {
 
 constexpr double usual_sigma_mm = 1, usual_noise = 30;
 
+/// Null for the first line of the list, "None".
+const io::FilterType* type_chosen_in(const QComboBox& list) {
+  return io::find_filter_type(list.currentData().toString().toStdString());
+}
+
+QString name_of(const io::FilterType* type) {
+  return type == nullptr ? QString() : QString::fromStdString(std::string(type->name));
+}
+
 }  // namespace
 
 FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanModel& scans, ScanPipeline& readers,
@@ -44,14 +53,8 @@ FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanModel& 
   type_->setToolTip(
       tr("Reduces noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local "
          "means keep edges where they are; a Gaussian rounds them."));
-  using io::FilterType;
-  for (const auto& [type, name] : {std::pair{FilterType::none, tr("None")},
-                                   {FilterType::gaussian, tr("Gaussian")},
-                                   {FilterType::median, tr("Median")},
-                                   {FilterType::bilateral, tr("Bilateral")},
-                                   {FilterType::non_local_means, tr("Non-local means")}}) {
-    type_->addItem(name, static_cast<int>(type));
-  }
+  type_->addItem(tr("None"), QString());
+  for (const io::FilterType* const type : io::filter_types()) type_->addItem(tr(type->title.data()), name_of(type));
   row->addWidget(type_, 1);
   amount_ = new QDoubleSpinBox(this);
   amount_->setObjectName(QStringLiteral("palpateFilterAmount"));
@@ -96,54 +99,58 @@ void FilterRow::follow() {
 
 void FilterRow::show(const io::Filter& filter) {
   const QSignalBlocker quiet(type_), silent(amount_);
-  type_->setCurrentIndex(type_->findData(static_cast<int>(filter.type)));
+  type_->setCurrentIndex(type_->findData(name_of(filter.type)));
   offer_amount();
-  if (filter.type == io::FilterType::gaussian) amount_->setValue(filter.sigma_mm);
-  if (filter.type == io::FilterType::median) amount_->setValue(filter.width);
-  if (io::reads_sigma_value(filter.type)) amount_->setValue(filter.sigma_value);
+  if (filter.type == nullptr) return;
+  amount_->setValue(filter.type->reads_width         ? filter.width
+                    : filter.type->reads_sigma_value ? filter.sigma_value
+                                                     : filter.sigma_mm);
 }
 
 /// What the number means for the type that is chosen.
 void FilterRow::offer_amount() {
   const QSignalBlocker quiet(amount_);
-  const auto type = static_cast<io::FilterType>(type_->currentData().toInt());
-  amount_->setVisible(type != io::FilterType::none);
-  shown_->setVisible(type != io::FilterType::none);
-  switch (type) {
-    case io::FilterType::gaussian:
-      amount_->setDecimals(1);
-      amount_->setSingleStep(0.1);
-      amount_->setRange(0.3, 5);
-      amount_->setSuffix(tr(" mm"));
-      amount_->setToolTip(tr("Standard deviation of the Gaussian"));
-      amount_->setValue(usual_sigma_mm);
-      break;
-    case io::FilterType::median:
-      amount_->setDecimals(0);
-      amount_->setSingleStep(2);
-      amount_->setRange(3, 5);
-      amount_->setSuffix(tr(" voxels"));
-      amount_->setToolTip(tr("Edge of the square in the slice"));
-      amount_->setValue(3);
-      break;
-    default:
-      amount_->setDecimals(0);
-      amount_->setSingleStep(5);
-      amount_->setRange(1, 10000);
-      amount_->setSuffix(touching_.live().scan() && !touching_.live().scan()->unit.empty()
-                             ? QStringLiteral(" ") + QString::fromStdString(touching_.live().scan()->unit)
-                             : QString());
-      amount_->setToolTip(tr("Values that differ by less are taken for noise"));
-      amount_->setValue(usual_noise);
+  const io::FilterType* const type = type_chosen_in(*type_);
+  amount_->setVisible(type != nullptr);
+  shown_->setVisible(type != nullptr);
+  if (type == nullptr) return;
+  if (type->reads_width) {
+    amount_->setDecimals(0);
+    amount_->setSingleStep(2);
+    amount_->setRange(3, 5);
+    amount_->setSuffix(tr(" voxels"));
+    amount_->setToolTip(tr("Edge of the square in the slice"));
+    amount_->setValue(3);
+  } else if (type->reads_sigma_value) {
+    amount_->setDecimals(0);
+    amount_->setSingleStep(5);
+    amount_->setRange(1, 10000);
+    amount_->setSuffix(touching_.live().scan() && !touching_.live().scan()->unit.empty()
+                           ? QStringLiteral(" ") + QString::fromStdString(touching_.live().scan()->unit)
+                           : QString());
+    amount_->setToolTip(tr("Values that differ by less are taken for noise"));
+    amount_->setValue(usual_noise);
+  } else {
+    amount_->setDecimals(1);
+    amount_->setSingleStep(0.1);
+    amount_->setRange(0.3, 5);
+    amount_->setSuffix(tr(" mm"));
+    amount_->setToolTip(tr("Standard deviation of the Gaussian"));
+    amount_->setValue(usual_sigma_mm);
   }
 }
 
 io::Filter FilterRow::wanted() const {
-  io::Filter filter{.type = static_cast<io::FilterType>(type_->currentData().toInt())};
+  io::Filter filter{.type = type_chosen_in(*type_)};
   const double amount = amount_->value();
-  if (filter.type == io::FilterType::gaussian) filter.sigma_mm = amount;
-  if (filter.type == io::FilterType::median) filter.width = amount < 4 ? 3 : 5;
-  if (io::reads_sigma_value(filter.type)) filter.sigma_value = amount;
+  if (filter.type == nullptr) return filter;
+  if (filter.type->reads_width) {
+    filter.width = amount < 4 ? 3 : 5;
+  } else if (filter.type->reads_sigma_value) {
+    filter.sigma_value = amount;
+  } else {
+    filter.sigma_mm = amount;
+  }
   return filter;
 }
 
@@ -164,7 +171,7 @@ bool FilterRow::make_ready(const modes::Scene& scene, const std::function<void()
   loader_.cancel();
   progress_->hide();
   brought_back_ = false;
-  const bool is_quick = scene.filter.type == io::FilterType::none || scene.filter == model_.scene().filter;
+  const bool is_quick = scene.filter.type == nullptr || scene.filter == model_.scene().filter;
   if (is_quick || !touching_.live().scan() || touching_.expects_scan()) return false;
   brought_back_ = true;
   compute(scene.filter, ready);
@@ -217,7 +224,7 @@ void FilterRow::show_in_views() {
 
 QString FilterRow::in_words() const {
   const io::Filter& filter = model_.scene().filter;
-  if (filter.type == io::FilterType::none) return {};
+  if (filter.type == nullptr) return {};
   const QString words = QString::fromStdString(io::in_words(filter));
   return shown_->isChecked() ? words : tr("%1 (shown without it)").arg(words);
 }

@@ -68,7 +68,7 @@ plugin::Part PalpateDicomReader::Scan::load(int wanted_frame, const io::Filter& 
                         series().frames_per_position == 1 && !plugin::is_velocity(*catalogue, chosen) &&
                         extent[4] <= extent[5];
   if (!in_parts) return plugin::whole_part(plugin::load_scan(series(), wanted_frame, filter, progress), grid);
-  if (filter.type != io::FilterType::none) {
+  if (filter.type != nullptr) {
     throw InvalidInput(plugin::say("several-ranks-do-not-filter"));
   }
   if (const auto whole = plugin::held_scan(series(), wanted_frame)) return plugin::whole_part(whole, grid);
