@@ -20,12 +20,6 @@ namespace {
 
 constexpr double dragged_s = 0.02;  // a dragged change is there before the next one comes
 
-/// A scene with its coupling no stiffer than the stylus renders stably.
-modes::Scene suited(modes::Scene scene, const device::Specification& stylus) {
-  scene.stiffness_n_per_m = stiffness_for(scene, stylus);
-  return scene;
-}
-
 bool ended_in_fault(const TickRing& ring) {
   TickRecord tick;
   const std::uint64_t written = ring.written();
@@ -43,14 +37,13 @@ PreparedScene LiveSession::felt_of(const modes::Scene& scene, const std::shared_
   const device::Specification& stylus = is_connected() ? specification_ : device::SimulatedStylus().specification();
   const bool offered =
       offered_ && io::raw_of(offered_) == io::raw_of(volume) && io::filter_of(*offered_) == scene.filter;
-  return prepare(suited(scene, stylus), offered ? offered_ : volume, stylus.workspace_half_extent, before());
+  return prepare(suited_to(scene, stylus), offered ? offered_ : volume, stylus.workspace_half_extent, before());
 }
 
 Snapshot LiveSession::snapshot(double change_s) const {
-  return {.plan = felt_.plan,
-          .source = felt_.source,
-          .limits = limits_for(scene_.limits, specification_),
-          .change_s = change_s};
+  Snapshot snapshot = snapshot_of(scene_, felt_, specification_);
+  snapshot.change_s = change_s;
+  return snapshot;
 }
 
 double LiveSession::ramp_s() const {
@@ -61,16 +54,14 @@ std::vector<Text> LiveSession::drawn_down() const {
   return is_connected() ? plugin::drawn_down(scene_, specification_) : std::vector<Text>();
 }
 
-SceneRecord LiveSession::record_of_scene(std::uint32_t epoch, double change_s) const {
-  SceneRecord record = record_of(suited(scene_, specification_), felt_, specification_, scan_hash());
-  record.epoch = epoch;
-  record.change_s = change_s;
-  record.frame = frame_;
-  return record;
-}
-
-KnownTo LiveSession::known_to() const {
-  return known_to_of_ticks(felt_, scene_);
+AsRecorded LiveSession::as_recorded(double change_s) const {
+  return [this, change_s](std::uint32_t epoch) {
+    SceneRecord record = record_of(suited_to(scene_, specification_), felt_, specification_, scan_hash());
+    record.epoch = epoch;
+    record.change_s = change_s;
+    record.frame = frame_;
+    return RecordedScene{std::move(record), known_to_of_ticks(felt_, scene_)};
+  };
 }
 
 const std::string& LiveSession::scan_hash() const {
@@ -79,10 +70,7 @@ const std::string& LiveSession::scan_hash() const {
 }
 
 void LiveSession::publish(double change_s) {
-  if (!session_) return;
-  // Before the servo can take it, so that the recording has the scene of its every tick.
-  if (recorder_) recorder_->note(record_of_scene(last_epoch_ + 1, change_s), known_to());
-  last_epoch_ = session_->publish(snapshot(change_s));
+  if (is_connected()) last_epoch_ = running_->publish(snapshot(change_s), as_recorded(change_s));
 }
 
 void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene,
@@ -125,20 +113,16 @@ void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optio
     stylus_ = std::move(stylus);
     OpenStylus open(stylus_);
     specification_ = open.specification();  // of the device that is there
-    felt_ = prepare(suited(scene_, specification_), volume_, specification_.workspace_half_extent, this->before());
-    ring_ = std::make_unique<TickRing>();
+    felt_ = prepare(suited_to(scene_, specification_), volume_, specification_.workspace_half_extent, this->before());
+    RunningSession::Start start{
+        .snapshot = snapshot(ramp_s()), .as_recorded = as_recorded(ramp_s()), .is_released = start_ == Start::released};
     if (file) {
-      recorder_ = std::make_unique<Recorder>(*ring_, *file, header_for(scene_, specification_, scan_hash()));
-      recorder_->note(record_of_scene(0, ramp_s()), known_to());
-      recorder_->note(StylusRecord{.epoch = 0,
-                                   .name = specification_.name,
-                                   .force_axes = specification_.force_axes,
-                                   .maximum_force_n = specification_.maximum_force});
+      start.recording =
+          RecordingTo{*file, header_for(suited_to(scene_, specification_), specification_, scan_hash()), {}};
     }
-    session_ = std::make_unique<Session>(snapshot(ramp_s()), std::move(open), ring_.get());
-    if (start_ == Start::released) session_->disarm();  // before the first tick
+    running_ = std::make_unique<RunningSession>(std::move(open), start);
     const double period_s = 1 / specification_.rate;
-    servo_ = std::make_unique<Servo>(*session_, make_clock_(period_s), period_s);
+    running_->start_servo(make_clock_(period_s), period_s);
   } catch (...) {
     end();
     felt_ = before;
@@ -147,22 +131,20 @@ void LiveSession::begin(std::shared_ptr<device::Stylus> stylus, const std::optio
 }
 
 std::optional<RecorderStatus> LiveSession::end() noexcept {
-  servo_.reset();
-  session_.reset();
-  auto recorded = stop_recording();  // writes what is left
+  auto recorded = running_ ? running_->end() : std::nullopt;
   stylus_.reset();
   return recorded;
 }
 
 std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
-  if (servo_) {
+  if (is_connected()) {
     release();
     TickRecord tick;
     constexpr int longest_ms = 100;
     for (int ms = 0; ms < longest_ms; ++ms) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      const std::uint64_t written = ring_->written();
-      const bool zero = written > 0 && ring_->read(written - 1, tick) &&
+      const std::uint64_t written = running_->ring().written();
+      const bool zero = written > 0 && running_->ring().read(written - 1, tick) &&
                         std::all_of(std::begin(tick.sent_n), std::end(tick.sent_n), [](double n) { return n == 0; });
       if (zero && ms > 2) break;  // the release has been heard
     }
@@ -172,36 +154,37 @@ std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
 
 void LiveSession::feel() noexcept {
   start_ = Start::feeling;
-  if (session_) session_->arm();
+  if (is_connected()) running_->session().arm();
 }
 
 void LiveSession::release() noexcept {
   start_ = Start::released;
-  if (session_) session_->disarm();
+  if (is_connected()) running_->session().disarm();
 }
 
 void LiveSession::press(std::uint32_t buttons) noexcept {
-  if (session_) session_->press(buttons);
+  if (is_connected()) running_->session().press(buttons);
 }
 
 void LiveSession::clear_fault() noexcept {
   start_ = Start::released;
-  if (session_) session_->clear_fault();
+  if (is_connected()) running_->session().clear_fault();
 }
 
 void LiveSession::heartbeat() {
-  if (!servo_) return;
-  servo_->heartbeat();
-  session_->collect();
-  if (session_->faults() != faults_) {
-    faults_ = session_->faults();
-    last_fault_ = keep_fault(session_->fault_ticks(), specification_.name);
+  if (!is_connected()) return;
+  running_->servo()->heartbeat();
+  Session& session = running_->session();
+  session.collect();
+  if (session.faults() != faults_) {
+    faults_ = session.faults();
+    last_fault_ = keep_fault(session.fault_ticks(), specification_.name);
   }
 }
 
 std::optional<glm::dquat> LiveSession::orientation() noexcept {
-  if (!session_ || specification_.orientation_axes == 0) return {};
-  return session_->orientation();
+  if (!is_connected() || specification_.orientation_axes == 0) return {};
+  return running_->session().orientation();
 }
 
 void LiveSession::reopen() {
@@ -217,7 +200,7 @@ void LiveSession::record(const std::filesystem::path& file) {
   std::shared_ptr<device::Stylus> stylus = stylus_;
   const Start before = start_;
   disconnect();
-  start_ = ended_in_fault(*ring_) ? Start::released : before;
+  start_ = ended_in_fault(running_->ring()) ? Start::released : before;
   try {
     begin(stylus, file);
   } catch (...) {
@@ -227,15 +210,12 @@ void LiveSession::record(const std::filesystem::path& file) {
 }
 
 std::optional<RecorderStatus> LiveSession::stop_recording() {
-  if (!recorder_) return {};
-  const RecorderStatus status = recorder_->finish();
-  recorder_.reset();
-  return status;
+  return running_ ? running_->stop_recording() : std::nullopt;
 }
 
 std::optional<RecorderStatus> LiveSession::recording() const {
-  if (!recorder_) return {};
-  return recorder_->status();
+  if (!running_ || running_->recorder() == nullptr) return {};
+  return running_->recorder()->status();
 }
 
 }  // namespace palpate::plugin

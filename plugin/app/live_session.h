@@ -17,10 +17,8 @@
 #include "io/volume.h"
 #include "modes/scene/scene.h"
 #include "plugin/app/fault_report.h"
-#include "plugin/recording/recorder.h"
+#include "plugin/app/running_session.h"
 #include "plugin/session/scan.h"
-#include "plugin/session/servo.h"
-#include "plugin/session/session.h"
 
 namespace palpate::plugin {
 
@@ -77,7 +75,7 @@ class LiveSession {
   /// Lets the force fall to zero, closes the stylus and ends the recording, if there is one; returns its status. Blocks
   /// for a tenth of a second.
   std::optional<RecorderStatus> disconnect() noexcept;
-  bool is_connected() const noexcept { return servo_ != nullptr; }
+  bool is_connected() const noexcept { return running_ && running_->servo() != nullptr; }
   const device::Specification& specification() const noexcept { return specification_; }
 
   /// What is wrong with the stylus, in a sentence; empty if nothing is (device::Stylus::trouble()).
@@ -101,9 +99,11 @@ class LiveSession {
   void heartbeat();
 
   /// The ticks of the session; null if none has begun yet. Every connect() begins a new session.
-  const TickRing* ticks() const noexcept { return ring_.get(); }
-  std::uint64_t missed() const noexcept { return servo_ ? servo_->missed() : 0; }
-  const device::RealtimeStatus* realtime() const noexcept { return servo_ ? &servo_->realtime() : nullptr; }
+  const TickRing* ticks() const noexcept { return running_ ? &running_->ring() : nullptr; }
+  std::uint64_t missed() const noexcept { return is_connected() ? running_->servo()->missed() : 0; }
+  const device::RealtimeStatus* realtime() const noexcept {
+    return is_connected() ? &running_->servo()->realtime() : nullptr;
+  }
 
   /// Begins to record. A recording can only be repeated to the last bit from the first tick of a session; so the
   /// session begins again, its force ramped down and up. After a fault it begins without a force, until feel(). Throws
@@ -118,8 +118,7 @@ class LiveSession {
   Prepared before() const { return {.felt = felt_, .scene = scene_}; }
   Snapshot snapshot(double change_s) const;
   double ramp_s() const;
-  SceneRecord record_of_scene(std::uint32_t epoch, double change_s) const;
-  KnownTo known_to() const;
+  AsRecorded as_recorded(double change_s) const;
   void publish(double change_s);
   void begin(std::shared_ptr<device::Stylus> stylus, const std::optional<std::filesystem::path>& file);
   std::optional<RecorderStatus> end() noexcept;
@@ -139,11 +138,7 @@ class LiveSession {
   device::Specification specification_;
   std::optional<FaultReport> last_fault_;
   int faults_ = 0;  // of the session, that were kept
-  // In the order in which they lean on each other.
-  std::unique_ptr<TickRing> ring_;
-  std::unique_ptr<Recorder> recorder_;
-  std::unique_ptr<Session> session_;
-  std::unique_ptr<Servo> servo_;
+  std::unique_ptr<RunningSession> running_;  // the last one; its ring is read after it has ended, too
 };
 
 }  // namespace palpate::plugin

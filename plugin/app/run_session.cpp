@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 #include <thread>
+#include <utility>
 
-#include "modes/scene/scene_json.h"
 #include "plugin/app/fault_report.h"
 #include "plugin/app/interruptible.h"
 #include "plugin/app/recording_header.h"
@@ -16,7 +16,7 @@
 #include "plugin/messages/tell.h"
 #include "plugin/report/held_boundary.h"
 #include "plugin/report/live_view.h"
-#include "plugin/session/servo.h"
+#include "plugin/session/felt_limits.h"
 
 namespace palpate::plugin {
 namespace {
@@ -56,9 +56,10 @@ class Watch {
   bool told_ = false;
 };
 
-void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, Watch& watch,
-                       SessionRunResult& result) {
-  Servo servo(session, rate_hz);
+void run_at_clock_pace(const SessionRun& run, RunningSession& running, Watch& watch, SessionRunResult& result) {
+  running.start_servo();
+  Servo& servo = *running.servo();
+  Session& session = running.session();
   result.realtime = servo.realtime();
   if (!result.realtime.advice.empty()) {
     tell(say("real-time", result.realtime.advice));
@@ -72,19 +73,19 @@ void run_at_clock_pace(const SessionRun& run, Session& session, double rate_hz, 
   }
   servo.stop();
   session.collect();
-  if (const auto fault = keep_fault(session.fault_ticks(), run.stylus->specification().name)) tell(describe(*fault));
+  if (const auto fault = keep_fault(session.fault_ticks(), running.specification().name)) tell(describe(*fault));
   if (const Text trouble = run.stylus->trouble(); !trouble.empty()) tell(trouble);
   result.missed = servo.missed();
 }
 
-void run_in_arithmetic(const SessionRun& run, Session& session, double rate_hz, Watch& watch, Recorder& recorder) {
-  const auto ticks = static_cast<std::uint64_t>(run.seconds * rate_hz);
+void run_in_arithmetic(const SessionRun& run, RunningSession& running, Watch& watch) {
+  const auto ticks = static_cast<std::uint64_t>(run.seconds * running.specification().rate);
   for (std::uint64_t n = 0; n < ticks && !Interruptible::interrupted(); ++n) {
     if (n % ticks_between_looks == 0) {
-      recorder.wait_for_room();
+      running.recorder()->wait_for_room();
       watch.look();
     }
-    session.tick();
+    running.session().tick();
   }
 }
 
@@ -95,32 +96,8 @@ std::string in_words(const SessionRunResult& result, const std::filesystem::path
                      result.missed, result.recorder.lost);
 }
 
-modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) {
+void tell_drawn_down(const modes::Scene& scene, const device::Specification& stylus) {
   for (const Text& text : drawn_down(scene, stylus)) tell(text);
-  scene.stiffness_n_per_m = stiffness_for(scene, stylus);
-  return scene;
-}
-
-Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus) {
-  return {.plan = felt.plan,
-          .source = felt.source,
-          .limits = limits_for(scene.limits, stylus),
-          .change_s = limits_for(scene.limits, stylus).ramp_time};
-}
-
-Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume,
-                     StructureFiles& files) {
-  const modes::Scene scene = files.with_paths(modes::scene_from_json(record.scene, "the recording's scene"));
-  device::Specification stylus;
-  stylus.maximum_force = record.maximum_force_n;
-  Snapshot snapshot = snapshot_of(scene, prepare(scene, volume, record.half_extent_m, record.registered), stylus);
-  snapshot.change_s = record.change_s;
-  return snapshot;
-}
-
-Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume) {
-  StructureFiles none;
-  return snapshot_of(record, volume, none);
 }
 
 bool stderr_is_terminal() {
@@ -131,31 +108,30 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
   OpenStylus open = OpenStylus::of(run.stylus);
   const device::Specification specification = open.specification();
   SessionRunResult result;
-  TickRing ring;
   RecorderOptions how;
   // Nothing waits for the clock: then nothing is too late, either.
   if (!run.at_clock_pace) how.most_behind = std::numeric_limits<std::uint64_t>::max();
-  Recorder recorder(ring, file, header_for(run.scene, specification, run.scan_hash, static_cast<double>(run.seed)),
-                    how);
-  SceneRecord record = record_of(run.scene, run.felt, specification, run.scan_hash);
-  record.frame = run.frame;
-  recorder.note(record, known_to_of_ticks(run.felt, run.scene));
-  recorder.note(StylusRecord{.epoch = 0,
-                             .name = specification.name,
-                             .force_axes = specification.force_axes,
-                             .maximum_force_n = specification.maximum_force});
+  const auto as_recorded = [&](std::uint32_t) {
+    SceneRecord record = record_of(run.scene, run.felt, specification, run.scan_hash);
+    record.frame = run.frame;
+    return RecordedScene{std::move(record), known_to_of_ticks(run.felt, run.scene)};
+  };
+  const RecordingHeader header = header_for(run.scene, specification, run.scan_hash, static_cast<double>(run.seed));
+  RunningSession running(std::move(open), {.snapshot = snapshot_of(run.scene, run.felt, specification),
+                                           .as_recorded = as_recorded,
+                                           .recording = RecordingTo{file, header, how}});
   {
     const Interruptible interruptible;
-    Session session(snapshot_of(run.scene, run.felt, specification), std::move(open), &ring);
-    Watch watch(run, ring, recorder);
+    Watch watch(run, running.ring(), *running.recorder());
     if (run.at_clock_pace) {
-      run_at_clock_pace(run, session, specification.rate, watch, result);
+      run_at_clock_pace(run, running, watch, result);
     } else {
-      run_in_arithmetic(run, session, specification.rate, watch, recorder);
+      run_in_arithmetic(run, running, watch);
     }
     result.interrupted = Interruptible::interrupted();
+    running.stop();
   }
-  result.recorder = recorder.finish();
+  result.recorder = running.end().value();
   return result;
 }
 

@@ -11,10 +11,8 @@
 #include "device/link/realtime.h"
 #include "device/stylus.h"
 #include "modes/scene/scene.h"
-#include "plugin/recording/recorder.h"
+#include "plugin/app/running_session.h"
 #include "plugin/session/scan.h"
-#include "plugin/session/session.h"
-#include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
 
@@ -44,18 +42,8 @@ SessionRunResult run_session(const SessionRun& run, const std::filesystem::path&
 /// "2000 ticks in session.h5; missed ticks 3, ticks lost 0"
 std::string in_words(const SessionRunResult& result, const std::filesystem::path& file);
 
-/// The scene with its coupling no stiffer than the stylus renders stably (device/safety/stiffness.h). Says on stderr
-/// what of its limits is drawn down.
-modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
-
-/// The snapshot of a scene on a scan for a stylus.
-Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus);
-
-/// The snapshot of a recorded scene, on the scan that it was recorded on, with its structures from these files. Throws
-/// std::invalid_argument if the scene is invalid, or if a structure is in none of the files.
-Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume, StructureFiles& files);
-/// The same of a scene without structures, or with those of this machine's.
-Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume);
+/// Says on stderr what of a scene's limits is drawn down for the stylus.
+void tell_drawn_down(const modes::Scene& scene, const device::Specification& stylus);
 
 /// Whether stderr is a terminal.
 bool stderr_is_terminal();

@@ -16,10 +16,8 @@
 
 #include "device/simulated/simulated_stylus.h"
 #include "modes/scene/scene_json.h"
-#include "plugin/app/run_session.h"
+#include "plugin/app/running_session.h"
 #include "plugin/bench/heap_use.h"
-#include "plugin/recording/recorder.h"
-#include "plugin/session/servo.h"
 #include "testdata/analytic.h"
 #include "testdata/scan.h"
 
@@ -130,29 +128,26 @@ class Judge {
 class Probing {
  public:
   explicit Probing(const SoakOptions& options)
-      : options_(options), random_(options.seed), stylus_(make_stylus()), ring_(1U << 16U), replayer_(Scans{}) {
-    new_part(0);
-    specification_ = stylus_->specification();
-    recorder_->note(StylusRecord{0, specification_.name, specification_.force_axes, specification_.maximum_force});
-    SceneRecord first = record_of(scene_names[0], nothing);
-    recorder_->note(first);
-    session_ = std::make_unique<Session>(scans_(first), stylus_, &ring_);
+      : options_(options), random_(options.seed), stylus_(make_stylus()), replayer_(Scans{}) {
+    OpenStylus open(stylus_);
+    specification_ = open.specification();
+    const SceneRecord first = record_of(scene_names[0], nothing);
+    running_.emplace(
+        std::move(open),
+        RunningSession::Start{.snapshot = scans_(first), .as_recorded = as_recorded(first), .recording = new_part()});
     if (options.at_clock_pace) {
-      servo_.emplace(*session_, options.rate_hz);
+      running_->start_servo();
       heart_ = std::jthread([this](const std::stop_token& stop) {
-        for (; !stop.stop_requested(); std::this_thread::sleep_for(std::chrono::milliseconds(50))) servo_->heartbeat();
+        for (; !stop.stop_requested(); std::this_thread::sleep_for(std::chrono::milliseconds(50)))
+          running_->servo()->heartbeat();
       });
     }
     next_unplug_ = draw_unplug();
   }
-  ~Probing() {
-    heart_ = {};
-    if (servo_) servo_->stop();
-  }
   Probing(const Probing&) = delete;
   Probing& operator=(const Probing&) = delete;
 
-  double now_s() const { return static_cast<double>(ring_.written()) / options_.rate_hz; }
+  double now_s() const { return static_cast<double>(running_->ring().written()) / options_.rate_hz; }
 
   /// Goes on to a time, with whatever is unplugged on the way.
   void go_on_to(double time_s) {
@@ -165,22 +160,19 @@ class Probing {
   }
   void publish(const char* scene, const char* scan) {
     const SceneRecord record = record_of(scene, scan);
-    recorder_->note(record);
-    session_->publish(scans_(record));
+    running_->publish(scans_(record), as_recorded(record));
     ++result.scenes;
   }
   /// Ends a cycle: no scan, the part closed, everything that was left freed; then replays the part.
   void end_cycle(Judge& judge) {
     publish(scene_names[0], nothing);
     pass_until(now_s() + rest_s);
-    session_->collect();
+    running_->session().collect();
     const std::filesystem::path file = part_file_;
-    const RecorderStatus status = recorder_->finish();
+    const RecorderStatus status = running_->stop_recording().value();
     if (status.stopped) throw Refusal(status.why);
-    const std::uint64_t next = recorder_->next();
-    recorder_.reset();
     result.points.push_back({now_s(), live_heap_bytes(), resident_bytes()});
-    new_part(next);
+    running_->record_to(new_part());
     {
       const Recording part = read_recording(file);
       judge.look_at(part);
@@ -189,11 +181,9 @@ class Probing {
     std::filesystem::remove(file);
   }
   void finish(Judge& judge) {
-    if (servo_) {
-      servo_->stop();
-    }
+    heart_ = {};
+    running_->end();
     const std::filesystem::path file = part_file_;
-    recorder_->finish();
     const Recording part = read_recording(file);
     judge.look_at(part);
     replayer_.feed(part);
@@ -219,11 +209,12 @@ class Probing {
             .half_extent_m = specification_.workspace_half_extent,
             .maximum_force_n = specification_.maximum_force};
   }
-  void new_part(std::uint64_t first_tick) {
+  static AsRecorded as_recorded(const SceneRecord& record) {
+    return [record](std::uint32_t) { return RecordedScene{record, {}}; };
+  }
+  RecordingTo new_part() {
     part_file_ = options_.folder / fmt::format("part-{:04}.h5", parts_++);
-    recorder_ = std::make_unique<Recorder>(ring_, part_file_,
-                                           RecordingHeader{.device = "simulated", .rate_hz = options_.rate_hz},
-                                           RecorderOptions{.first_tick = first_tick});
+    return {.file = part_file_, .header = {.device = "simulated", .rate_hz = options_.rate_hz}, .options = {}};
   }
   double draw_unplug() {
     return std::exponential_distribution<double>(1 / options_.seconds_between_unplugs)(random_) + 1;
@@ -232,28 +223,25 @@ class Probing {
   void unplug() {
     stylus_->inject(device::SimulatedFault::unplugged);
     pass_until(now_s() + 0.3);
-    recorder_->note(StylusRecord{++stylus_epoch_, "none", 3, 0});
-    wait_for_stylus(session_->change_stylus(nullptr));
-    session_->collect();
+    wait_for_stylus(running_->change_stylus(nullptr, {.name = "none", .force_axes = 3, .maximum_force = 0}));
+    running_->session().collect();
     stylus_->inject(device::SimulatedFault::none);
-    recorder_->note(
-        StylusRecord{++stylus_epoch_, specification_.name, specification_.force_axes, specification_.maximum_force});
-    wait_for_stylus(session_->change_stylus(stylus_));
-    session_->clear_fault();
-    session_->arm();
+    wait_for_stylus(running_->change_stylus(stylus_, specification_));
+    running_->session().clear_fault();
+    running_->session().arm();
     ++result.unplugs;
   }
   void wait_for_stylus(std::uint32_t epoch) {
-    while (!session_->holds_stylus(epoch)) pass_until(now_s() + 0.01);
+    while (!running_->session().holds_stylus(epoch)) pass_until(now_s() + 0.01);
   }
   void pass_until(double time_s) {
     const auto end = static_cast<std::uint64_t>(std::llround(time_s * options_.rate_hz));
-    while (ring_.written() < end) {
-      if (servo_) {
+    while (running_->ring().written() < end) {
+      if (running_->servo() != nullptr) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
       } else {
-        if (ring_.written() % 256 == 0) recorder_->wait_for_room();
-        session_->tick();
+        if (running_->ring().written() % 256 == 0) running_->recorder()->wait_for_room();
+        running_->session().tick();
       }
     }
   }
@@ -262,17 +250,14 @@ class Probing {
   std::mt19937_64 random_;
   std::shared_ptr<device::SimulatedStylus> stylus_;
   device::Specification specification_;
-  TickRing ring_;
   Scans scans_;
   Replayer replayer_;
-  std::unique_ptr<Recorder> recorder_;
   std::filesystem::path part_file_;
   int parts_ = 0;
-  std::uint32_t next_epoch_ = 0, stylus_epoch_ = 0;
+  std::uint32_t next_epoch_ = 0;
   double next_unplug_ = 0;
-  std::unique_ptr<Session> session_;
-  std::optional<Servo> servo_;
-  std::jthread heart_;
+  std::optional<RunningSession> running_;
+  std::jthread heart_;  // last: it ends before what it beats for
 };
 
 /// The points once warm: the first third has filled what is filled once.

@@ -16,6 +16,11 @@ double stiffness_for(const modes::Scene& scene, const device::Specification& sty
   return std::min({scene.stiffness_n_per_m, device, ceiling::stiffness_n_per_m});
 }
 
+modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus) {
+  scene.stiffness_n_per_m = stiffness_for(scene, stylus);
+  return scene;
+}
+
 device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device) noexcept {
   device::SafetyLimits limits;
   limits.device_force = std::min(device.maximum_force, ceiling::force_n);

@@ -15,6 +15,9 @@ namespace palpate::plugin {
 /// N/m: the scene's stiffness, or the most that the stylus renders stably if that is less.
 double stiffness_for(const modes::Scene& scene, const device::Specification& stylus) noexcept;
 
+/// The scene with that stiffness.
+modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
+
 /// The safety filter's limits for a scene on a device: never above what the program allows and the device can do.
 device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device) noexcept;
 
