@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "io/dicom/series_source.h"
 #include "io/dicom/slice_reader.h"
@@ -14,6 +15,7 @@
 #include "io/messages.h"
 #include "io/pages.h"
 #include "io/parallel.h"
+#include "io/rescaled.h"
 
 namespace palpate::io {
 namespace {
@@ -238,7 +240,9 @@ Volume load(const Series& series, const LoadOptions& options) {
   Volume volume = load_unnamed(series, options);
   volume.patient_id = series.identity.patient_id;
   volume.patient_name = series.identity.patient_name;
-  return volume;
+  volume.body_part = series.details.body_part;
+  volume.description = series.description;
+  return options.is_rescaled ? rescaled(std::move(volume)) : volume;
 }
 
 }  // namespace palpate::io

@@ -36,6 +36,8 @@ struct Volume {
   std::string unit;                    ///< "HU", or empty where the modality has none
   std::string frame_of_reference_uid;  ///< empty where it is not said
   std::string modality;                ///< DICOM Modality: "CT", "MR", ...
+  std::string body_part,
+      description;  ///< BodyPartExamined, SeriesDescription: what they scan decides the starting scene
   /// Who was scanned, to be compared with what structures say; never written or shown.
   std::string patient_id, patient_name;
   /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).

@@ -169,6 +169,8 @@ std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volu
   result->unit = raw->unit;
   result->frame_of_reference_uid = raw->frame_of_reference_uid;
   result->modality = raw->modality;
+  result->body_part = raw->body_part;
+  result->description = raw->description;
   result->patient_id = raw->patient_id;
   result->patient_name = raw->patient_name;
   result->warnings = raw->warnings;

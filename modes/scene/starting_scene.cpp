@@ -26,7 +26,7 @@ constexpr std::array parts{
     Part{"SKULL", "ct-skin-and-bone"}, Part{"CRANI", "ct-skin-and-bone"}, Part{"KOPF", "ct-skin-and-bone"}};
 
 /// Of the first word that names a part of the body; null where none does.
-const char* scene_of(const std::string& text) {
+const Part* part_in(const std::string& text) {
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   for (auto at = text.begin(); at != text.end();) {
     at = std::find_if(at, text.end(), is_letter);
@@ -35,21 +35,37 @@ const char* scene_of(const std::string& text) {
     std::ranges::transform(word, word.begin(),
                            [](char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); });
     for (const Part& part : parts) {
-      if (word.starts_with(part.begins)) return part.scene;
+      if (word.starts_with(part.begins)) return &part;
     }
     at = end;
   }
   return nullptr;
 }
 
+const Part* part_of(const std::string& body_part, const std::string& description) {
+  const Part* const part = part_in(body_part);
+  return part != nullptr ? part : part_in(description);
+}
+
+std::string scene_of(const std::string& modality, const std::string& body_part, const std::string& description) {
+  if (modality != "CT") return "mr-brain";
+  const Part* const part = part_of(body_part, description);
+  return part != nullptr ? part->scene : "ct-skin-and-bone";
+}
+
 }  // namespace
 
 std::string starting_scene(const io::Series& series) {
-  if (series.modality != "CT") return "mr-brain";
-  for (const std::string* text : {&series.details.body_part, &series.description}) {
-    if (const char* scene = scene_of(*text)) return scene;
-  }
-  return "ct-skin-and-bone";
+  return scene_of(series.modality, series.details.body_part, series.description);
+}
+
+std::string starting_scene(const io::Volume& volume) {
+  return volume.vectors ? "flow" : scene_of(volume.modality, volume.body_part, volume.description);
+}
+
+std::string part_of_body(const io::Volume& volume) {
+  const Part* const part = part_of(volume.body_part, volume.description);
+  return part != nullptr ? std::string(part->begins) : std::string();
 }
 
 std::vector<OfferedScene> offered_scenes(const std::string& first, const std::string& modality, bool has_vectors) {

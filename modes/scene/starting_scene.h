@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/series.h"
+#include "io/volume.h"
 
 namespace palpate::modes {
 
@@ -13,6 +14,11 @@ namespace palpate::modes {
 /// spine or head, from BodyPartExamined, else from the first word of SeriesDescription that names one. Where nothing
 /// does it is the scene of the modality.
 std::string starting_scene(const io::Series& series);
+/// The same of a scan that is loaded: of the series that it is of, or "flow" for a velocity field.
+std::string starting_scene(const io::Volume& volume);
+/// The first word that names a part of the body, in capitals; empty where none does: all that a starting scene depends
+/// on beside the modality.
+std::string part_of_body(const io::Volume& volume);
 
 /// A starting scene as it is offered for a scan.
 struct OfferedScene {

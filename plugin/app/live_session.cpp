@@ -13,6 +13,7 @@
 #include "plugin/app/recording_header.h"
 #include "plugin/messages/messages.h"
 #include "plugin/report/held_boundary.h"
+#include "plugin/session/felt_limits.h"
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {

@@ -18,7 +18,7 @@
 #include "modes/scene/scene.h"
 #include "plugin/app/fault_report.h"
 #include "plugin/app/running_session.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 
@@ -137,7 +137,7 @@ class LiveSession {
   std::shared_ptr<device::Stylus> stylus_;
   device::Specification specification_;
   std::optional<FaultReport> last_fault_;
-  int faults_ = 0;  // of the session, that were kept
+  int faults_ = 0;                           // of the session, that were kept
   std::unique_ptr<RunningSession> running_;  // the last one; its ring is read after it has ended, too
 };
 

@@ -10,7 +10,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "modes/tick/haptic_step.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "solver/chain.h"
 
 namespace palpate::plugin {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "modes/testing/test_rig.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {

@@ -5,7 +5,7 @@
 #include "device/stylus.h"
 #include "modes/scene/scene.h"
 #include "plugin/recording/recording.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 

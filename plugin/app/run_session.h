@@ -12,7 +12,7 @@
 #include "device/stylus.h"
 #include "modes/scene/scene.h"
 #include "plugin/app/running_session.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 

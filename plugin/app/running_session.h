@@ -14,7 +14,7 @@
 #include "modes/scene/scene.h"
 #include "plugin/recording/recorder.h"
 #include "plugin/session/open_stylus.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/servo.h"
 #include "plugin/session/session.h"
 #include "plugin/session/structure_files.h"
@@ -33,7 +33,8 @@ struct RecordedScene {
   SceneRecord record;
   KnownTo known_to;
 };
-/// A snapshot as a recording holds it, given its number (TickRecord::scene_epoch). Asked only while there is a recording.
+/// A snapshot as a recording holds it, given its number (TickRecord::scene_epoch). Asked only while there is a
+/// recording.
 using AsRecorded = std::function<RecordedScene(std::uint32_t epoch)>;
 
 struct RecordingTo {
@@ -48,7 +49,7 @@ class RunningSession {
     Snapshot snapshot;
     AsRecorded as_recorded;
     std::optional<RecordingTo> recording = {};  ///< from the first tick
-    bool is_released = false;  ///< without a force until Session::arm()
+    bool is_released = false;                   ///< without a force until Session::arm()
   };
   /// Throws what Recorder does. The session ticks from start_servo() on, or when its owner calls Session::tick().
   RunningSession(OpenStylus stylus, const Start& start);

@@ -24,9 +24,10 @@
 #include "io/fresh_folder.h"
 #include "io/load.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/series_option.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 extern char** environ;  // NOLINT: POSIX's
 

@@ -21,6 +21,7 @@
 #include "io/fresh_folder.h"
 #include "io/structures/structure.h"
 #include "modes/scene/scene_json.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/run_session.h"
 #include "plugin/bench/ball_rays.h"
 #include "plugin/bench/scan_edge_study.h"

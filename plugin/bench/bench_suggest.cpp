@@ -15,9 +15,9 @@
 #include "io/fields/gradient.h"
 #include "io/quantile.h"
 #include "modes/scene/suggest.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/bench/ray_study.h"
 #include "plugin/options/series_option.h"
-#include "plugin/session/scan.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {

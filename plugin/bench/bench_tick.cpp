@@ -14,6 +14,7 @@
 #include "io/fresh_folder.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/run_session.h"
 #include "plugin/bench/place_study.h"
 #include "plugin/bench/sphere_study.h"

@@ -9,11 +9,12 @@
 #include <numeric>
 #include <vector>
 
+#include "io/bounding_box.h"
 #include "io/fields/volume_fields.h"
 #include "io/quantile.h"
 #include "modes/scene/defaults.h"
 #include "modes/scene/suggest.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/stroke.h"
 
 namespace palpate::plugin {
@@ -61,7 +62,7 @@ struct Ray {
 };
 
 /// From the sides of the box to its middle, along the points of a Fibonacci sphere.
-Ray ray_of(int n, const Box& box) {
+Ray ray_of(int n, const io::Box& box) {
   const dvec3 middle = 0.5 * (box.low + box.high);
   const double height = 1 - 2 * (n + 0.5) / rays_of_scan, turn = std::numbers::pi * (3 - std::sqrt(5.0)) * n;
   const double across = std::sqrt(1 - height * height);
@@ -141,7 +142,7 @@ void run_ray_study(const std::string& name, const std::shared_ptr<const io::Volu
   std::vector<Kind> kinds{{"thin", [](const Passage& p) { return p.to_mm - p.from_mm < thin_mm; }, 0, 0, {}},
                           {"faint", [](const Passage& p) { return p.peak_hu < faint_hu; }, 0, 0, {}},
                           {"all", [](const Passage&) { return true; }, 0, 0, {}}};
-  const Box box = bounding_box(volume->geometry);
+  const io::Box box = io::bounding_box(volume->geometry);
   std::vector<std::size_t> crossings(suggestion.scene.modes.size());
   for (int n = 0; n < rays_of_scan; ++n) {
     const Ray ray = ray_of(n, box);

@@ -17,6 +17,7 @@
 #include "io/load.h"
 #include "io/series.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/scan_choice.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"

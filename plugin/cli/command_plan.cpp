@@ -9,6 +9,7 @@
 #include "modes/scene/plan.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/plan_device.h"
 #include "plugin/app/plan_savings.h"
 #include "plugin/app/run_session.h"
@@ -16,7 +17,8 @@
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/options/stylus_option.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/felt_limits.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 namespace {
@@ -68,8 +70,10 @@ void run(const PlanOptions& options) {
   if (!options.scene.empty()) modes::load_scene(options.scene);
   const device::Specification device = make_stylus(options.stylus)->specification();
   const io::Series series = choose_series(options.series);
-  const auto volume = std::make_shared<const io::Volume>(load_series(series, options.series.frame));
-  const modes::Scene scene = suited_to(scene_for(scene_name(options.scene, series, *volume), *volume), device);
+  const auto volume = std::make_shared<const io::Volume>(open_scan(series, options.series.frame));
+  const modes::Scene asked = scene_for(options.scene, *volume);
+  tell_drawn_down(asked, device);
+  const modes::Scene scene = suited_to(asked, device);
   const auto plan = plan_for(scene, *volume, device.workspace_half_extent);
 
   Json json{{"fields", modes::names_of(plan->fields)},

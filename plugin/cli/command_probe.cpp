@@ -6,6 +6,7 @@
 
 #include "io/fresh_folder.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
 #include "plugin/options/put.h"
 #include "plugin/options/session_option.h"

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/vector_text.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
@@ -16,7 +17,7 @@
 #include "plugin/report/stroke_picture.h"
 #include "plugin/report/structure_crossings.h"
 #include "plugin/report/summary.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 namespace {
@@ -121,8 +122,8 @@ void run(const ProfileOptions& options) {
     throw WrongUsage(say("speed-has-to-be-above-0-mm"));
   }
   const io::Series series = choose_series(options.series);
-  const auto volume = std::make_shared<const io::Volume>(load_series(series, options.series.frame));
-  const modes::Scene scene = scene_for(scene_name(options.scene, series, *volume), *volume);
+  const auto volume = std::make_shared<const io::Volume>(open_scan(series, options.series.frame));
+  const modes::Scene scene = scene_for(options.scene, *volume);
   const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.1));
   warn_of_structures(felt);
   Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, options.speed),

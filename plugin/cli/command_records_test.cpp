@@ -23,7 +23,7 @@
 #include "plugin/recording/recorded_session.h"
 #include "plugin/recording/recording.h"
 #include "plugin/report/summary.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/stroke.h"
 #include "plugin/testing/command_rig.h"
 #include "plugin/testing/expect_near.h"

@@ -10,6 +10,7 @@
 
 #include "modes/scene/scene_json.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/run_session.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
@@ -44,7 +45,7 @@ SnapshotMaker on_series(const io::Series& series, int otherwise, StructureFiles 
     const int told = record.frame ? record.frame->number : otherwise;
     const int number = told < series.frames_per_position ? told : otherwise;
     if (number != felt.number) {
-      felt = {number, std::make_shared<const io::Volume>(load_series(series, number)), {}};
+      felt = {number, std::make_shared<const io::Volume>(open_scan(series, number)), {}};
       felt.hash = hash_of(*felt.volume);
     }
     if (record.scan_hash != felt.hash) {

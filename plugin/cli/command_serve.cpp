@@ -4,6 +4,7 @@
 
 #include "plugin/app/errors.h"
 #include "plugin/app/live_session.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/tell.h"
 #include "plugin/openigtlink/say.h"
@@ -22,7 +23,7 @@ struct ServeCommand {
 igtl::LoadedScan load_folder(const std::string& folder) {
   const SeriesOption option{.path = folder};
   const io::Series series = choose_series(option);
-  return {.volume = std::make_shared<const io::Volume>(load_series(series, 0)),
+  return {.volume = std::make_shared<const io::Volume>(open_scan(series, 0)),
           .frame = {.number = 0, .count = series.frames_per_position}};
 }
 

@@ -12,6 +12,7 @@
 #include "io/errors.h"
 #include "io/structures/structure.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"

@@ -12,6 +12,7 @@
 #include "modes/scene/scene_json.h"
 #include "modes/scene/suggest.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"

@@ -9,7 +9,7 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/recording/recording.h"
 #include "plugin/report/summary.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/testing/command_rig.h"
 #include "solver/analytical.h"
 

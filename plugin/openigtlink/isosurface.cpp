@@ -129,7 +129,7 @@ class Nets {
 
 }  // namespace
 
-Surface isosurface(const Distance& distance, const Box& box) {
+Surface isosurface(const Distance& distance, const io::Box& box) {
   for (double step = 1;; step *= 2) {
     const Lattice lattice{box.low - 2 * step, step};
     const glm::ivec3 size(glm::ceil((box.high - box.low) / step) + 4.0);

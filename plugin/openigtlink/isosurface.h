@@ -5,8 +5,8 @@
 
 #include <functional>
 
+#include "io/bounding_box.h"
 #include "plugin/openigtlink/surface.h"
-#include "plugin/session/scan.h"
 
 namespace palpate::plugin::igtl {
 
@@ -18,6 +18,6 @@ struct SurfaceDistance {
 
 /// In the frame of the box, with cells of 1 mm, or of 2, 4 ... mm if there would be more than 60 000 of them. Cells
 /// whose middle is farther from the surface than their corners are not looked at.
-Surface isosurface(const std::function<SurfaceDistance(const glm::dvec3&)>& distance, const Box& box);
+Surface isosurface(const std::function<SurfaceDistance(const glm::dvec3&)>& distance, const io::Box& box);
 
 }  // namespace palpate::plugin::igtl

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device/simulated/simulated_stylus.h"
+#include "io/bounding_box.h"
 #include "plugin/app/errors.h"
 #include "plugin/app/vector_text.h"
 #include "plugin/messages/messages.h"
@@ -18,7 +19,7 @@
 namespace palpate::plugin {
 namespace {
 
-std::vector<PathPoint> path_for(const ProbePathOption& option, const PreparedScene& felt, const Box& box) {
+std::vector<PathPoint> path_for(const ProbePathOption& option, const PreparedScene& felt, const io::Box& box) {
   if (!option.file.empty()) {
     return read_path_csv(option.file);
   }

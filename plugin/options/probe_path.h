@@ -7,7 +7,7 @@
 
 #include "io/volume.h"
 #include "modes/scene/scene.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace CLI {
 class App;

@@ -1,23 +1,17 @@
 #include "plugin/options/series_option.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
-#include <utility>
 
 #include "io/errors.h"
-#include "io/load.h"
-#include "modes/scene/starting_scene.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/scan_choice.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/scan_values.h"
-#include "solver/text/printable.h"
 
 namespace palpate::plugin {
 namespace {
@@ -75,35 +69,7 @@ io::Series choose_series(const SeriesOption& option) {
 }
 
 io::Volume load_series(const SeriesOption& option) {
-  return load_series(choose_series(option), option.frame);
-}
-
-io::Volume load_series(const io::Series& series, int frame) {
-  io::LoadOptions how;
-  how.frame = frame;
-  how.progress = terminal_progress("reading slices");
-  io::Volume volume = scan_values(io::load(series, how));
-  const auto show = [](const std::string& warning) {
-    std::fprintf(stderr, "palpate: warning: %s\n", printable(warning).c_str());
-  };
-  std::for_each(series.warnings.begin(), series.warnings.end(), show);
-  std::for_each(volume.warnings.begin(), volume.warnings.end(), show);
-  return volume;
-}
-
-io::Progress terminal_progress(std::string what) {
-  if (::isatty(STDERR_FILENO) == 0) return {};
-  return [what = std::move(what), shown = -1](double done) mutable {
-    const int percent = static_cast<int>(100 * done);
-    if (percent != shown)
-      std::fprintf(stderr, "\r%s %3d %%%s", what.c_str(), percent, percent == 100 ? "\r\033[K" : "");
-    shown = percent;
-    return true;
-  };
-}
-
-std::string scene_name(const std::string& given, const io::Series& series, const io::Volume& volume) {
-  return given.empty() && !volume.vectors ? modes::starting_scene(series) : given;
+  return open_scan(choose_series(option), option.frame);
 }
 
 }  // namespace palpate::plugin

@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "io/progress.h"
 #include "io/series.h"
 #include "io/volume.h"
 
@@ -29,16 +28,7 @@ io::Series choose_series(const SeriesOption& option);
 /// The same among series already found.
 io::Series choose_series(const SeriesOption& option, const io::Catalogue& catalogue);
 
-/// The chosen series, chosen frame; warnings go to stderr, and progress where stderr is a terminal.
+/// The chosen frame of the chosen series, as open_scan().
 io::Volume load_series(const SeriesOption& option);
-/// The same of a series that was chosen already.
-io::Volume load_series(const io::Series& series, int frame);
-
-/// What --scene names, or the starting scene that suits the series where it is empty: for scene_for(). Still empty for
-/// a velocity field.
-std::string scene_name(const std::string& given, const io::Series& series, const io::Volume& volume);
-
-/// A progress line on stderr, with `what` before the percentage; an empty one where stderr is no terminal.
-io::Progress terminal_progress(std::string what);
 
 }  // namespace palpate::plugin

@@ -3,7 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "device/simulated/simulated_stylus.h"
-#include "plugin/session/scan.h"
+#include "plugin/app/open_scan.h"
+#include "plugin/session/felt_limits.h"
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {
@@ -26,20 +27,21 @@ ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<
   const bool simulated_only = dynamic_cast<const device::SimulatedStylus*>(stylus.get()) != nullptr;
   if (!simulated_only) stylus->open();
   const io::Series series = choose_series(option.series);
-  const auto volume = std::make_shared<const io::Volume>(load_series(series, option.series.frame));
+  const auto volume = std::make_shared<const io::Volume>(open_scan(series, option.series.frame));
   const device::Specification specification = stylus->specification();
-  ReadySession ready{
-      .volume = volume,
-      .run = {.scene = suited_to(scene_for(scene_name(option.scene, series, *volume), *volume), specification),
-              .felt = {},
-              .scan_hash = hash_of(*volume),
-              .unit = volume->unit,
-              .frame = {.number = option.series.frame, .count = series.frames_per_position},
-              .stylus = stylus,
-              .seed = option.stylus.seed,
-              .seconds = option.seconds,
-              .at_clock_pace = true,
-              .live = option.live || stderr_is_terminal()}};
+  const modes::Scene asked = scene_for(option.scene, *volume);
+  tell_drawn_down(asked, specification);
+  ReadySession ready{.volume = volume,
+                     .run = {.scene = suited_to(asked, specification),
+                             .felt = {},
+                             .scan_hash = hash_of(*volume),
+                             .unit = volume->unit,
+                             .frame = {.number = option.series.frame, .count = series.frames_per_position},
+                             .stylus = stylus,
+                             .seed = option.stylus.seed,
+                             .seconds = option.seconds,
+                             .at_clock_pace = true,
+                             .live = option.live || stderr_is_terminal()}};
   SessionRun& run = ready.run;
   run.felt = prepare(run.scene, volume, specification.workspace_half_extent);
   warn_of_structures(run.felt);

@@ -34,7 +34,7 @@ struct ReadySession {
   bool simulated = false;  ///< the stylus is only arithmetic
 };
 
-/// Loads the scan and plans the scene. Throws what load_series(), scene_for() and follow_probe_path() throw.
+/// Loads the scan and plans the scene. Throws what open_scan(), scene_for() and follow_probe_path() throw.
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus);
 
 }  // namespace palpate::plugin

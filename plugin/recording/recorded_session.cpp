@@ -7,7 +7,7 @@
 
 #include "modes/scene/scene_json.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/tick_record.h"
 
 namespace palpate::plugin {

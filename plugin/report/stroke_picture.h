@@ -11,7 +11,7 @@
 
 #include "modes/scene/plan.h"
 #include "plugin/report/chart.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/stroke.h"
 
 namespace palpate::plugin {

@@ -10,7 +10,7 @@
 
 #include "modes/scene/scene_json.h"
 #include "plugin/report/summary.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/testing/test_files.h"
 #include "testdata/scan.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/structures/scan_edge.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 

@@ -13,13 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "io/bounding_box.h"
 #include "io/fields/gradient.h"
 #include "io/fields/volume_fields.h"
 #include "io/fields/voxel_fields.h"
 #include "modes/scene/felt_strength.h"
 #include "modes/scene/plan.h"
 #include "plugin/report/canvas.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 namespace {
@@ -166,7 +167,7 @@ class Painter {
   io::VolumeFields values_;
   io::GradientKernel kernel_;
   io::VoxelFields voxels_;
-  Box box_;
+  io::Box box_;
   double low_ = 0, high_ = 1;
 };
 

@@ -8,12 +8,12 @@
 #include <memory>
 #include <string>
 
+#include "io/bounding_box.h"
 #include "plugin/recording/marks.h"
 #include "plugin/recording/recorder.h"
 #include "plugin/recording/replay.h"
 #include "plugin/session/path.h"
 #include "plugin/session/press_path.h"
-#include "plugin/session/scan.h"
 #include "plugin/session/servo_clock.h"
 #include "plugin/session/session.h"
 #include "plugin/session/stroke.h"
@@ -66,7 +66,7 @@ TEST(PlainValues, AStrokesPointSaysNothing) {
   EXPECT_EQ(of_path.buttons, 0U);
   EXPECT_EQ(PressPath().inward, glm::dvec3(0, 0, 1)) << "a unit vector from the start";
   EXPECT_EQ(PressPath().contact_mm, origin);
-  EXPECT_TRUE(is_all_zero(Box()));
+  EXPECT_TRUE(is_all_zero(io::Box()));
 }
 
 TEST(PlainValues, ARecordingsPartsSayWhatIsTrueWithoutThem) {

@@ -13,7 +13,7 @@
 #include "io/fields/filtered.h"
 #include "io/structures/structured_fields.h"
 #include "modes/scene/scene_json.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/scene_fit.h"
 #include "plugin/testing/registered_study.h"
 #include "testdata/scan.h"

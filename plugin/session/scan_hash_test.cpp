@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin/session/scan_values.h"
+#include "io/rescaled.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {
@@ -32,7 +32,7 @@ TEST(ScanHash, IsTheSameHoweverTheValuesAreStored) {
   io::Volume stored = ball();
   stored.padding = {-2000, -1900};
   ASSERT_NE(stored.intercept, 0);
-  const io::Volume rescaled = scan_values(stored);
+  const io::Volume rescaled = io::rescaled(stored);
   ASSERT_EQ(rescaled.intercept, 0);
   io::Volume floats = rescaled;
   const auto& shorts = std::get<std::vector<std::int16_t>>(rescaled.voxels);

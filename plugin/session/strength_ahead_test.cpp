@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/stroke.h"
 #include "testdata/scan.h"
 

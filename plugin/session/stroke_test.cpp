@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "testdata/analytic.h"
 #include "testdata/scan.h"
 

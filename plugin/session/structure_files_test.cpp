@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {

@@ -10,11 +10,11 @@
 
 #include "io/fields/filtered.h"
 #include "io/load.h"
+#include "io/rescaled.h"
 #include "io/whole_scan.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/paraview/common/read_part.h"
 #include "plugin/paraview/common/shared_voxels.h"
-#include "plugin/session/scan_values.h"
 
 namespace palpate::plugin {
 namespace {
@@ -113,7 +113,7 @@ std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
     io::LoadOptions how;
     how.frame = frame;
     how.progress = progress;
-    return std::make_shared<const io::Volume>(scan_values(io::load(series, how)));
+    return std::make_shared<const io::Volume>(io::load(series, how));
   });
 }
 
@@ -127,14 +127,14 @@ std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
 std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std::array<int, 6>& extent,
                                             const io::Progress& progress) {
   return scans().get(key_of(series, 0, extent), [&] {
-    return std::make_shared<const io::Volume>(scan_values(read_part(series, extent, progress)));
+    return std::make_shared<const io::Volume>(io::rescaled(read_part(series, extent, progress)));
   });
 }
 
 std::shared_ptr<const io::Volume> load_slices(const io::Series& series, int first, int count) {
   io::LoadOptions how;
   how.slices = {first, count};
-  return std::make_shared<const io::Volume>(scan_values(io::load(series, how)));
+  return std::make_shared<const io::Volume>(io::load(series, how));
 }
 
 std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice) {

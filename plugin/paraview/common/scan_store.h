@@ -21,7 +21,7 @@ namespace palpate::plugin {
 PALPATESERVER_EXPORT std::shared_ptr<const io::Catalogue> find_scans(const std::filesystem::path& path,
                                                                      const io::Progress& progress = {});
 
-/// The voxels of one frame of a series, in scan_values() form. A second caller waits for the first; if the first
+/// The voxels of one frame of a series, rescaled (io/rescaled.h). A second caller waits for the first; if the first
 /// cancels, the second loads. Throws as io::load(). From any thread.
 PALPATESERVER_EXPORT std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
                                                                  const io::Progress& progress = {});

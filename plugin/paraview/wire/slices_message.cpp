@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "io/errors.h"
+#include "modes/scene/starting_scene.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/session/scan_hash.h"
@@ -86,6 +87,7 @@ std::string text_of_head(const io::Volume& volume) {
             {"rescale", {volume.slope, volume.intercept}},
             {"unit", volume.unit},
             {"modality", volume.modality},
+            {"body_part", modes::part_of_body(volume)},
             {"frame_of_reference_uid", volume.frame_of_reference_uid},
             {"patient", {hashed_id(volume.patient_id), hashed_name(volume.patient_name)}}};
   if (volume.padding) head["padding"] = {volume.padding->first, volume.padding->second};
@@ -101,6 +103,7 @@ io::Volume volume_of_head(const std::string& text) {
     volume.intercept = head.at("rescale").at(1);
     volume.unit = head.at("unit");
     volume.modality = head.at("modality");
+    volume.body_part = head.value("body_part", "");
     volume.frame_of_reference_uid = head.at("frame_of_reference_uid");
     volume.patient_id = head.at("patient").at(0);
     volume.patient_name = head.at("patient").at(1);

@@ -27,7 +27,7 @@ struct SlicesAnswered {
   std::vector<std::uint64_t> hashes;  ///< hash_of_slice() of each slice, also with What::voxels
   std::string structures;             ///< for What::structures: text_of()
   std::vector<unsigned char> bytes;   ///< for What::structure_pieces
-  io::Volume::Voxels voxels;          ///< in scan_values() form; slices read apart may differ in type
+  io::Volume::Voxels voxels;          ///< rescaled; slices read apart may differ in type
 };
 
 /// Takes the slices from the store of the process if it holds the scan. Otherwise it reads only the slices that are

@@ -11,6 +11,7 @@
 
 #include <utility>
 
+#include "plugin/app/open_scan.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/layout/host_layout.h"
@@ -28,7 +29,6 @@
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
-#include "plugin/session/scan.h"
 
 // A scan comes, its frame changes, it goes.
 

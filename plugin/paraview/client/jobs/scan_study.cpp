@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "modes/scene/suggest.h"
-#include "plugin/session/scan.h"
+#include "plugin/app/open_scan.h"
 
 namespace palpate::plugin {
 namespace {

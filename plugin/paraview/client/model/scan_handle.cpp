@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "modes/scene/starting_scene.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/app/scan_choice.h"
-#include "plugin/session/scan.h"
 
 namespace palpate::plugin {
 
@@ -31,9 +31,9 @@ QString ScanHandle::in_words() const {
 
 ScanHandle handle_of(const SeriesRef& of, std::shared_ptr<const io::Volume> volume, int frame, int frames) {
   ScanHandle handle{.of = of, .volume = std::move(volume), .frame = frame, .frames = frames};
+  handle.scene = modes::starting_scene(*handle.volume);
   if (const io::Series* const series = of.details()) {
     handle.series = QString::fromStdString(scan_label(*series));
-    if (!handle.volume->vectors) handle.scene = modes::starting_scene(*series);
     handle.frames = series->frames_per_position;
     handle.frame_names = series->frame_names;
   } else {

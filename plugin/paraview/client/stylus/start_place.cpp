@@ -8,8 +8,9 @@
 #include <queue>
 #include <vector>
 
+#include "io/bounding_box.h"
 #include "io/fields/volume_fields.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 namespace {
@@ -20,7 +21,7 @@ constexpr double finger_mm = 15;
 /// Cells of even size over the scan's box.
 class Grid {
  public:
-  explicit Grid(const Box& box) : low_(box.low) {
+  explicit Grid(const io::Box& box) : low_(box.low) {
     const glm::dvec3 size = glm::max(box.high - box.low, glm::dvec3(1e-3));
     const double cell = std::max({size.x, size.y, size.z}) / most_cells;
     count_ = glm::max(glm::ivec3(glm::ceil(size / cell)), glm::ivec3(1));

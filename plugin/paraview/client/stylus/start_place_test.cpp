@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 namespace {

@@ -23,7 +23,7 @@
 #include "plugin/paraview/client/views/felt_surfaces.h"
 #include "plugin/paraview/client/views/overlay_layer.h"
 #include "plugin/paraview/client/words/mode_words.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 namespace {

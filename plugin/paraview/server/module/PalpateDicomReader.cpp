@@ -29,6 +29,7 @@
 #include "io/filter.h"
 #include "io/whole_scan.h"
 #include "modes/scene/scene_json.h"
+#include "modes/scene/starting_scene.h"
 #include "plugin/app/scan_choice.h"
 #include "plugin/paraview/common/body_mask.h"
 #include "plugin/paraview/common/display_image.h"
@@ -344,6 +345,7 @@ int PalpateDicomReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
     plugin::show_volume(part, scan_->grid, extent, series.unit.empty() ? "Value" : series.unit, image);
     image.GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), frame);
     add_note(image, "Modality", series.modality);
+    add_note(image, "BodyPart", modes::part_of_body(*part.volume));
     if (static_cast<std::size_t>(frame) < series.frame_names.size()) {
       add_note(image, "Frame", series.frame_names[static_cast<std::size_t>(frame)]);
     }

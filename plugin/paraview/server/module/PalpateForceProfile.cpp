@@ -17,7 +17,7 @@
 
 #include "plugin/paraview/server/module/scan_of_image.h"
 #include "plugin/report/summary.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 #include "plugin/session/stroke.h"
 
 using namespace palpate;

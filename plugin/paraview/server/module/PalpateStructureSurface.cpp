@@ -13,9 +13,9 @@
 #include <limits>
 #include <utility>
 
+#include "io/bounding_box.h"
 #include "plugin/paraview/common/structure_shapes.h"
 #include "plugin/paraview/server/module/scan_of_image.h"
-#include "plugin/session/scan.h"
 #include "plugin/session/scene_structures.h"
 
 using namespace palpate;
@@ -59,7 +59,7 @@ plugin::LoadedStructure load(const modes::SceneStructure& structure, const io::V
 }
 
 /// A box around the surface, within the scan's and a little around it.
-std::pair<glm::dvec3, glm::dvec3> box_of(const io::DistanceField& distance, const plugin::Box& scan) {
+std::pair<glm::dvec3, glm::dvec3> box_of(const io::DistanceField& distance, const io::Box& scan) {
   constexpr double step_mm = 4;
   constexpr double around_mm = 3;
   glm::dvec3 low(std::numeric_limits<double>::infinity());
@@ -94,7 +94,7 @@ int PalpateStructureSurface::RequestData(vtkInformation*, vtkInformationVector**
       structure.name = fmt::format("#{}", segment_number_);
     }
     const plugin::LoadedStructure loaded = load(structure, *scan);
-    const auto [low, high] = box_of(*loaded.distance, plugin::bounding_box(scan->geometry));
+    const auto [low, high] = box_of(*loaded.distance, io::bounding_box(scan->geometry));
     if (low.x < high.x) vtkPolyData::GetData(output)->ShallowCopy(plugin::surface_of(*loaded.distance, low, high));
   } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());

@@ -20,7 +20,7 @@
 #include "modes/types/mode_type.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/server/module/scan_of_image.h"
-#include "plugin/session/scan.h"
+#include "plugin/session/prepared_scene.h"
 
 namespace palpate::plugin {
 namespace {

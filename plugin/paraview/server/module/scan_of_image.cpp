@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/common/shared_voxels.h"
-#include "plugin/session/scan.h"
 
 namespace palpate::plugin {
 namespace {
@@ -67,6 +67,7 @@ std::shared_ptr<const io::Volume> scan_of(vtkImageData& image) {
   io::Volume volume;
   volume.geometry = geometry_of(image);
   volume.modality = note_of(image, "Modality");
+  volume.body_part = note_of(image, "BodyPart");
   volume.unit = std::string(scalars->GetName()) == "HU" ? "HU" : "";
   std::vector<float> values(static_cast<std::size_t>(scalars->GetNumberOfTuples()));
   const auto range = vtk::DataArrayValueRange<1>(scalars);

@@ -1,4 +1,4 @@
-#include "plugin/session/scan_values.h"
+#include "io/rescaled.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,15 @@
 #include <variant>
 #include <vector>
 
-namespace palpate::plugin {
+namespace palpate::io {
 namespace {
 
-bool is_integer(double value) {
+bool is_whole_number(double value) {
   return std::abs(value) < 1e9 && std::floor(value) == value;
 }
 
 template <typename To, typename From>
-std::vector<To> rescaled(std::vector<From> stored, double slope, double intercept) {
+std::vector<To> rescale_all(std::vector<From> stored, double slope, double intercept) {
   const auto rescale = [=](From v) { return static_cast<To>(slope * static_cast<double>(v) + intercept); };
   if constexpr (std::is_same_v<To, From>) {
     std::transform(stored.begin(), stored.end(), stored.begin(), rescale);
@@ -29,28 +29,26 @@ std::vector<To> rescaled(std::vector<From> stored, double slope, double intercep
 }
 
 template <typename Stored>
-io::Volume::Voxels in_scan_unit(std::vector<Stored> stored, double slope, double intercept) {
+Volume::Voxels in_scan_unit(std::vector<Stored> stored, double slope, double intercept) {
   if constexpr (!std::is_same_v<Stored, float>) {
-    if (is_integer(slope) && is_integer(intercept) && !stored.empty()) {
+    if (is_whole_number(slope) && is_whole_number(intercept) && !stored.empty()) {
       const auto [low, high] = std::minmax_element(stored.begin(), stored.end());
       const auto [least, most] = std::minmax({slope * *low + intercept, slope * *high + intercept});
       using Limits = std::numeric_limits<std::int16_t>;
       if (least >= Limits::min() && most <= Limits::max()) {
-        return rescaled<std::int16_t>(std::move(stored), slope, intercept);
+        return rescale_all<std::int16_t>(std::move(stored), slope, intercept);
       }
     }
   }
-  return rescaled<float>(std::move(stored), slope, intercept);
+  return rescale_all<float>(std::move(stored), slope, intercept);
 }
 
 }  // namespace
 
-io::Volume scan_values(io::Volume volume) {
+Volume rescaled(Volume volume) {
   if (volume.slope == 1 && volume.intercept == 0) return volume;
   volume.voxels = std::visit(
-      [&](auto& stored) -> io::Volume::Voxels {
-        return in_scan_unit(std::move(stored), volume.slope, volume.intercept);
-      },
+      [&](auto& stored) -> Volume::Voxels { return in_scan_unit(std::move(stored), volume.slope, volume.intercept); },
       volume.voxels);
   if (volume.padding) {
     const auto& [first, last] = *volume.padding;
@@ -61,4 +59,4 @@ io::Volume scan_values(io::Volume volume) {
   return volume;
 }
 
-}  // namespace palpate::plugin
+}  // namespace palpate::io

@@ -1,53 +1,15 @@
-#include "plugin/session/scan.h"
-
-#include <fmt/format.h>
+#include "plugin/session/prepared_scene.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
 
+#include "io/bounding_box.h"
 #include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
 #include "io/structures/structured_fields.h"
-#include "modes/scene/scene_json.h"
 #include "modes/tick/reach.h"
-#include "plugin/messages/tell.h"
 
 namespace palpate::plugin {
-
-Box bounding_box(const io::Geometry& geometry) {
-  Box box{glm::dvec3(std::numeric_limits<double>::infinity()), glm::dvec3(-std::numeric_limits<double>::infinity())};
-  for (const int k : {0, geometry.dimensions.z - 1}) {
-    for (const int j : {0, geometry.dimensions.y - 1}) {
-      for (const int i : {0, geometry.dimensions.x - 1}) {
-        const glm::dvec3 corner = geometry.to_patient({i, j, k});
-        box.low = glm::min(box.low, corner);
-        box.high = glm::max(box.high, corner);
-      }
-    }
-  }
-  return box;
-}
-
-std::string describe_scan(const io::Volume& volume) {
-  const io::Geometry& geometry = volume.geometry;
-  const io::Filter filter = io::filter_of(volume);
-  return fmt::format("{}, {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm{}", volume.modality, geometry.dimensions.x,
-                     geometry.dimensions.y, geometry.dimensions.z, geometry.spacing_i, geometry.spacing_j,
-                     glm::length(geometry.step), filter.type == nullptr ? "" : ", " + io::in_words(filter));
-}
-
-modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume) {
-  if (!file_or_name.empty()) {
-    return modes::load_scene(file_or_name);
-  }
-  if (volume.vectors) {
-    return modes::load_scene("flow");
-  }
-  return modes::load_scene(volume.modality == "CT" ? "ct-skin-and-bone" : "mr-brain");
-}
 
 namespace {
 
@@ -59,7 +21,7 @@ io::FieldSet available_fields(const modes::Scene& scene, const io::Volume& volum
 
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m) {
-  const Box box = bounding_box(volume.geometry);
+  const io::Box box = io::bounding_box(volume.geometry);
   modes::Plan plan = modes::make_plan(scene, available_fields(scene, volume),
                                       modes::place_workspace(scene.workspace, box.low, box.high, device_half_extent_m));
   modes::leave_out_slices(volume.geometry, device_half_extent_m, plan);
@@ -98,12 +60,6 @@ std::vector<RegisteredStructure> registered_of(const PreparedScene& felt) {
     if (structure.registered) registered.push_back(*structure.registered);
   }
   return registered;
-}
-
-void warn_of_structures(const PreparedScene& felt) {
-  for (const LoadedStructure& structure : felt.structures) {
-    for (const Text& warning : structure.warnings) tell(at_place("palpate: warning", warning));
-  }
 }
 
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,

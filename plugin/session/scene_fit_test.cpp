@@ -1,6 +1,6 @@
-/// What a scan is made into before it is felt: its values, its box, its words, and the scene that suits it.
+/// Whether a scene can be felt on a scan; what the panel adds to a scene for a structure; motions in words.
 
-#include "plugin/session/scan.h"
+#include "plugin/session/scene_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -18,101 +18,13 @@
 #include <variant>
 #include <vector>
 
-#include "io/fields/filtered.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/session/registered_structure.h"
-#include "plugin/session/scan_values.h"
-#include "plugin/session/scene_fit.h"
 #include "plugin/session/study_structures.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {
 namespace {
-
-io::Volume stored(io::Volume::Voxels voxels, double slope, double intercept, const glm::ivec3& size) {
-  io::Volume volume;
-  volume.geometry.dimensions = size;
-  for (int k = 0; k < size.z; ++k) volume.geometry.slice_positions.emplace_back(0, 0, k);
-  volume.voxels = std::move(voxels);
-  volume.slope = slope;
-  volume.intercept = intercept;
-  return volume;
-}
-
-/// Whole numbers stay whole where 16 bits hold them, and every value is the one that it was.
-TEST(ScanValues, AreTheStoredOnesRescaled) {
-  struct Case {
-    double slope, intercept;
-    std::int16_t low, high;
-    bool is_whole;
-  };
-  for (const Case& c :
-       {Case{2, -1024, -5, 3000, true}, Case{-2, 100, -5, 3000, true}, Case{1, 0.5, -5, 3000, false},
-        Case{0.5, 0, -5, 3000, false}, Case{1, 32767 - 3000, -5, 3000, true}, Case{1, 32768 - 3000, -5, 3000, false},
-        Case{1, -32768 + 5, -5, 3000, true}, Case{1, -32769 + 5, -5, 3000, false},
-        Case{-1, -32768 + 3000, -5, 3000, true}, Case{-1, -32769 + 3000, -5, 3000, false}}) {
-    std::vector<std::int16_t> voxels{c.low, 7, c.high, 11, -1, 40, 99, 1000};
-    io::Volume before = stored(voxels, c.slope, c.intercept, {2, 2, 2});
-    before.padding = {-4, 30};
-    const io::Volume after = scan_values(before);
-    EXPECT_EQ(after.slope, 1);
-    EXPECT_EQ(after.intercept, 0);
-    EXPECT_EQ(std::holds_alternative<std::vector<std::int16_t>>(after.voxels), c.is_whole) << c.slope << c.intercept;
-    for (int n = 0; n < 8; ++n) {
-      const double wanted = c.slope * voxels[static_cast<std::size_t>(n)] + c.intercept;
-      EXPECT_EQ(after.value_at(n % 2, n / 2 % 2, n / 4), wanted) << c.slope << " " << c.intercept;
-      EXPECT_EQ(before.value_at(n % 2, n / 2 % 2, n / 4), wanted);
-    }
-    ASSERT_TRUE(after.padding);
-    const double first = c.slope * -4 + c.intercept, last = c.slope * 30 + c.intercept;
-    EXPECT_EQ(after.padding->first, std::min(first, last));
-    EXPECT_EQ(after.padding->second, std::max(first, last));
-  }
-}
-
-TEST(Scan, ItsBoxHoldsTheCentersOfItsCornerVoxels) {
-  testdata::Grid grid;
-  grid.size = {17, 9, 13};
-  grid.spacing = {0.7, 1.3, 2.1};
-  grid.center = {10, -20, 30};
-  grid.tilt_degrees = 12;
-  const io::Geometry geometry =
-      testdata::make_geometry(testdata::rotated(grid, glm::normalize(glm::dvec3(2, 1, -1)), 40));
-  glm::dvec3 low(1e9), high(-1e9);
-  for (int k = 0; k < 13; ++k) {
-    for (int j = 0; j < 9; ++j) {
-      for (int i = 0; i < 17; ++i) {
-        const glm::dvec3 at = geometry.to_patient(glm::dvec3(i, j, k));
-        low = glm::min(low, at);
-        high = glm::max(high, at);
-      }
-    }
-  }
-  EXPECT_LT(glm::distance(bounding_box(geometry).low, low), 1e-9);
-  EXPECT_LT(glm::distance(bounding_box(geometry).high, high), 1e-9);
-}
-
-TEST(Scan, IsDescribedByItsVoxelsAndItsFilter) {
-  io::Volume volume = testdata::scan(testdata::make_sphere(5),
-                                     testdata::make_geometry({.size = {12, 10, 8}, .spacing = {0.75, 0.957, 2.5}}));
-  EXPECT_EQ(describe_scan(volume), "CT, 12 x 10 x 8 voxels of 0.75 x 0.957 x 2.5 mm");
-  const auto filtered =
-      io::filtered(std::make_shared<const io::Volume>(volume), {.type = io::find_filter_type("median")});
-  EXPECT_EQ(describe_scan(*filtered),
-            "CT, 12 x 10 x 8 voxels of 0.75 x 0.957 x 2.5 mm, " + io::in_words(io::filter_of(*filtered)));
-}
-
-TEST(Scan, WithoutASceneIsFeltAsItsModalitySuits) {
-  io::Volume volume = testdata::scan(testdata::make_sphere(5), testdata::make_geometry({.size = glm::ivec3(8)}));
-  const auto felt_as = [&] { return modes::to_json(scene_for("", volume)); };
-  const auto named = [](const char* name) { return modes::to_json(modes::load_scene(name)); };
-  EXPECT_EQ(felt_as(), named("ct-skin-and-bone"));
-  EXPECT_EQ(modes::to_json(scene_for("ct-bone", volume)), named("ct-bone"));
-  volume.modality = "MR";
-  EXPECT_EQ(felt_as(), named("mr-brain"));
-  volume.vectors = std::make_shared<const io::VectorComponents>();
-  EXPECT_EQ(felt_as(), named("flow"));
-}
 
 /// What keeps a whole scene from being felt is named, and it is nothing as soon as one of its modes can be.
 TEST(SceneFit, NamesTheFieldsThatEveryModeLacks) {
@@ -180,37 +92,6 @@ TEST(RegisteredStructure, ItsTurnIsToldFromAHundredthOfADegreeOn) {
     io::RigidMotion motion;
     motion.turn = glm::dmat3({cosine, 0, -sine}, {0, 1, 0}, {sine, 0, cosine});
     EXPECT_EQ(in_words(motion), std::string("0.0, 0.0, 0.0 mm") + words) << degrees;
-  }
-}
-
-/// No voxel at all is no value that does not fit, and zeros of either kind stay.
-TEST(ScanValues, OfNoVoxelsAreNone) {
-  const io::Volume none = scan_values(stored(std::vector<std::uint16_t>(), 2, 1, {0, 0, 0}));
-  EXPECT_EQ(none.slope, 1);
-  EXPECT_EQ(none.intercept, 0);
-  EXPECT_FALSE(none.padding);
-}
-
-/// The same of words without a sign, and of floats, which stay floats.
-TEST(ScanValues, OfEveryKindOfVoxelAreTheStoredOnesRescaled) {
-  std::mt19937 random(4);
-  for (const auto& [slope, intercept] : {std::pair{1.0, -1024.0}, {3.0, 0.0}, {-2.0, 7.0}, {0.25, -0.5}, {1.0, 0.0}}) {
-    std::vector<std::uint16_t> words(60);
-    std::vector<float> floats(60);
-    for (std::size_t n = 0; n < words.size(); ++n) {
-      words[n] = static_cast<std::uint16_t>(random() % 10000);
-      floats[n] = static_cast<float>(words[n]) / 8;
-    }
-    const io::Volume of_words = scan_values(stored(words, slope, intercept, {5, 4, 3}));
-    const io::Volume of_floats = scan_values(stored(floats, slope, intercept, {5, 4, 3}));
-    for (std::size_t n = 0; n < words.size(); ++n) {
-      const int i = static_cast<int>(n) % 5, j = static_cast<int>(n) / 5 % 4, k = static_cast<int>(n) / 20;
-      ASSERT_EQ(of_words.value_at(i, j, k), slope * words[n] + intercept);
-      ASSERT_EQ(of_floats.value_at(i, j, k), slope * static_cast<double>(floats[n]) + intercept);
-    }
-    EXPECT_TRUE(std::holds_alternative<std::vector<float>>(of_floats.voxels));
-    const bool is_whole = slope == std::floor(slope) && intercept == std::floor(intercept);
-    EXPECT_EQ(std::holds_alternative<std::vector<float>>(of_words.voxels), !is_whole);
   }
 }
 

@@ -1,11 +1,10 @@
 #pragma once
 
-/// A loaded scan and what the session needs to know of it.
+/// A scene made ready on a scan: its plan, and the fields and structures that the plan reads.
 
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "io/fields/field_source.h"
@@ -15,21 +14,6 @@
 #include "plugin/session/scene_structures.h"
 
 namespace palpate::plugin {
-
-/// Corners of the box around all voxel centers, patient space, mm.
-struct Box {
-  glm::dvec3 low{0};
-  glm::dvec3 high{0};
-};
-Box bounding_box(const io::Geometry& geometry);
-
-/// The scan in words, for reports: "CT, 256 x 256 x 108 voxels of 0.957 x 0.957 x 1.5 mm". Names no patient and no
-/// path.
-std::string describe_scan(const io::Volume& volume);
-
-/// The scene named by --scene (a file or a starting scene). If the name is empty: the starting scene that suits the
-/// modality, or the one for a velocity field. Throws std::invalid_argument as modes::load_scene() does.
-modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume);
 
 /// The plan of a scene on a scan with the fields that this scan has (vectors if it is a velocity field), for a device
 /// with this reach.
@@ -49,9 +33,6 @@ struct PreparedScene {
 /// Structures in `recorded` are put where they were then.
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, std::span<const RegisteredStructure> recorded = {});
-
-/// Writes to stderr what a user should know of how the scene's structures lie on the scan.
-void warn_of_structures(const PreparedScene& felt);
 
 /// What was prepared before. `felt.volume` alone may be given too: a volume that was filtered ahead.
 struct Prepared {
