@@ -10,6 +10,7 @@ const ModeType friction_mode{.name = "friction",
                              .summary = "resists every movement by a constant force, lift-off too",
                              .keys = Key::strength | Key::gates,
                              .strength_of = Datum::value,
+                             .finds_places = false,
                              .reads = [](const Mode&) { return io::FieldSet::none; },
                              .footprint =
                                  [](const Mode&) {

@@ -25,6 +25,7 @@ const ModeType landmark_mode{.name = "landmark",
                              .summary = "a point, line or plane of the user's own, at its own place",
                              .keys = Key::strength | Key::gates | Key::landmark,
                              .strength_of = Datum::value,
+                             .finds_places = false,
                              .reads = [](const Mode&) { return io::FieldSet::none; },
                              .footprint =
                                  [](const Mode& mode) {

@@ -25,6 +25,11 @@ const ModeType* find_mode_type(std::string_view name) {
   return nullptr;
 }
 
+bool reads_key(const Mode& mode, Key key) {
+  const ModeType* const type = find_mode_type(mode.type);
+  return type != nullptr && contains(type->keys, key);
+}
+
 std::string mode_type_names() {
   std::string names;
   for (const ModeType* type : mode_types()) {

@@ -115,6 +115,8 @@ struct ModeType {
   std::string_view summary;          ///< one line for people: what it feels like
   Key keys = Key::none;              ///< what it reads of a scene's mode
   Datum strength_of = Datum::value;  ///< the datum of its strength where the scene names none
+  /// Whether a session may begin where it is felt: not so of friction, which is felt everywhere, nor of landmarks.
+  bool finds_places = true;
   /// Fields it samples beside those that its strength and gates read.
   io::FieldSet (*reads)(const Mode& mode) = nullptr;
   Footprint (*footprint)(const Mode& mode) = nullptr;
@@ -126,6 +128,8 @@ struct ModeType {
 std::span<const ModeType* const> mode_types();
 /// Null where there is none of that name.
 const ModeType* find_mode_type(std::string_view name);
+/// Whether the type of a scene's mode reads that key: of boundaries between tissues Key::tissues. False for no type.
+bool reads_key(const Mode& mode, Key key);
 /// "follow, force, ...": for messages.
 std::string mode_type_names();
 

@@ -118,7 +118,8 @@ std::string display_name(const modes::Scene& scene, std::size_t mode) {
   const modes::Mode& named = scene.modes[mode];
   if (!named.name.empty()) return named.name;
   if (named.structure.empty()) return named.type;
-  return named.type == "surface" ? named.structure : fmt::format("{} {}", named.type, named.structure);
+  return modes::reads_key(named, modes::Key::structure) ? named.structure
+                                                        : fmt::format("{} {}", named.type, named.structure);
 }
 
 std::string distance_in_words(double distance_mm, const std::string& structure) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "modes/scene/boundary_names.h"
+#include "modes/types/mode_type.h"
 #include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
@@ -40,10 +41,10 @@ void scale_strength(modes::Mode& mode, double newtons) {
 
 std::optional<std::size_t> way_back_of(const modes::Scene& scene, std::size_t mode) {
   const modes::Mode& there = scene.modes[mode];
-  if (there.type != "surface" || there.from.empty()) return std::nullopt;
+  if (!modes::reads_key(there, modes::Key::tissues) || there.from.empty()) return std::nullopt;
   for (std::size_t n = mode + 1; n < scene.modes.size(); ++n) {
     const modes::Mode& back = scene.modes[n];
-    if (back.type == "surface" && back.from == there.to && back.to == there.from) return n;
+    if (modes::reads_key(back, modes::Key::tissues) && back.from == there.to && back.to == there.from) return n;
   }
   return std::nullopt;
 }

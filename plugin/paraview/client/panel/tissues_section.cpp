@@ -235,7 +235,7 @@ void TissuesSection::build_rows() {
   for (const modes::Mode& mode : scene.modes) shown_types_.push_back(kind_of(mode));
   // Where it has no boundaries, as in a flow, whatever else it has.
   const auto is_boundary = [](const modes::Mode& mode) {
-    return mode.type == "surface" || modes::contains(modes::find_mode_type(mode.type)->keys, modes::Key::margin);
+    return modes::reads_key(mode, modes::Key::tissues) || modes::reads_key(mode, modes::Key::margin);
   };
   const bool any_surface = std::ranges::any_of(scene.modes, is_boundary);
   std::vector<bool> has_row(scene.modes.size(), false);

@@ -100,7 +100,7 @@ std::vector<bool> inverted(std::vector<bool> marked) {
 bool is_felt(const modes::Plan& plan, const io::FieldSource& fields, const glm::dvec3& place) {
   const io::Sample sample = fields.sample(place, plan.fields);
   return sample.inside && std::ranges::any_of(plan.modes, [&](const modes::ActiveMode& mode) {
-           return mode.type->name != "landmark" && mode.type->name != "friction" && mode.strength(sample) > 0;
+           return mode.type->finds_places && mode.strength(sample) > 0;
          });
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "modes/types/mode_type.h"
 #include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
@@ -38,7 +39,7 @@ void color_volume(vtkSMProxy& representation, const modes::Scene& scene, double 
   std::vector<Coat> coats;
   for (const modes::Mode& mode : scene.modes) {
     const double value = felt_value(mode);
-    if (mode.type != "surface" || !mode.enabled || !(value > low && value < high)) continue;
+    if (!modes::reads_key(mode, modes::Key::tissues) || !mode.enabled || !(value > low && value < high)) continue;
     coats.push_back({value, color_of(mode), 0});
   }
   vtkSMProxy* const colors = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
