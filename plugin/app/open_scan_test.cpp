@@ -4,12 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <memory>
 #include <string>
 
 #include "io/bounding_box.h"
 #include "io/fields/filtered.h"
+#include "io/interchange/voxel_file.h"
 #include "io/load.h"
 #include "modes/scene/scene_json.h"
 #include "modes/scene/starting_scene.h"
@@ -89,6 +92,16 @@ TEST(OpenScan, TheStartingSceneOfAVolumeIsThatOfItsSeries) {
       }
     }
   }
+}
+
+/// ParaView asks a list of its own for the reader of a file.
+TEST(OpenScan, ParaViewListsTheEndingsOfEveryFormat) {
+  std::ifstream file(PALPATE_SOURCES "/plugin/paraview/server/module/reader.xml");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string endings;
+  for (const std::string& ending : io::label_format_endings())
+    endings += (endings.empty() ? "" : " ") + ending.substr(1);
+  EXPECT_NE(text.find("extensions=\"" + endings + "\""), std::string::npos) << endings;
 }
 
 }  // namespace
