@@ -9,9 +9,11 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/structures/structure.h"
+#include "modes/scene/starting_scene.h"
 #include "plugin/paraview/server/module/PalpateDicomReader.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
 #include "plugin/paraview/wire/slices_message.h"
@@ -115,6 +117,20 @@ TEST(ServedStructures, TheHeadTellsFrameOfReferenceAndNoPatient) {
   EXPECT_THAT(head, Not(HasSubstr("Doe")));
   EXPECT_THAT(head, Not(HasSubstr("\"7\"")));
   EXPECT_EQ(volume_of_head(head).frame_of_reference_uid, "1.1");
+}
+
+/// A scan from a server opens with the scene that it opens with from a folder; of its description only the word that
+/// names a part of the body is told.
+TEST(ServedStructures, TheHeadTellsThePartOfTheBody) {
+  io::Volume volume = *testing::registered_scan();
+  for (const auto& [body_part, description] :
+       {std::pair{"CHEST", ""}, {"", "Thorax of J. Roe"}, {"FOOT", "LWS"}, {"", "routine, J. Roe"}}) {
+    volume.body_part = body_part;
+    volume.description = description;
+    const std::string head = text_of_head(volume);
+    EXPECT_THAT(head, Not(HasSubstr("Roe")));
+    EXPECT_EQ(modes::starting_scene(volume_of_head(head)), modes::starting_scene(volume)) << description;
+  }
 }
 
 }  // namespace

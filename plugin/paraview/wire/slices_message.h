@@ -34,8 +34,8 @@ struct SlicesAnswered {
 /// asked for. Series with several images at a position are loaded whole.
 SlicesAnswered answer(const io::Series& series, const SlicesAsked& asked);
 
-/// A volume without its voxels: geometry, rescale, unit, modality, padding, frame of reference, and hashes of the
-/// patient's name and id (study_structures.h). Numbers come back to the last bit. volume_of_head() throws
+/// A volume without its voxels: geometry, rescale, unit, modality, part of the body, padding, frame of reference, and
+/// hashes of the patient's name and id (study_structures.h). Numbers come back to the last bit. volume_of_head() throws
 /// std::invalid_argument for any other text.
 std::string text_of_head(const io::Volume& volume);
 PALPATESERVER_EXPORT io::Volume volume_of_head(const std::string& text);
