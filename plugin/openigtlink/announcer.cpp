@@ -86,7 +86,9 @@ void Announcer::look() {
   publisher_.set_orientation(session_.orientation());
   follow_marks();
   announce_surfaces();
-  const TickRing& ticks = *session_.ticks();
+  const TickRing* const ring = session_.ticks();
+  if (ring == nullptr) return;
+  const TickRing& ticks = *ring;
   const std::uint64_t written = ticks.written();
   TickRecord tick;
   std::vector<PrimitiveRecord> shares;
@@ -164,7 +166,9 @@ void Announcer::announce_marks() {
 }
 
 void Announcer::follow_marks() {
-  const TickRing& ticks = *session_.ticks();
+  const TickRing* const ring = session_.ticks();
+  if (ring == nullptr) return;
+  const TickRing& ticks = *ring;
   TickRecord tick;
   std::vector<PrimitiveRecord> shares;
   for (next_tick_ = std::max(next_tick_, ticks.oldest()); next_tick_ < ticks.written(); ++next_tick_) {
