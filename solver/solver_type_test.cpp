@@ -110,14 +110,14 @@ TEST(SolverType, AChainAsksInTheOrderOfTheList) {
     set.set(*alone, false);
     EXPECT_TRUE(set.is_empty());
   }
-  // Of section 3.1: every solver solves it, so the first of those that are on answers.
-  const std::vector<Primitive> plane{make_plane(1, Vec3{0}, {0, 1, 0})};
+  // What every solver solves: the first of those that are on answers.
+  const std::vector<Primitive> force{make_directed_force(1, {0, 1, 0})};
   for (std::size_t first = 0; first < solver_types().size(); ++first) {
     SolverSet set;
     for (const SolverType* const type : solver_types().subspan(first)) set.set(*type);
     Chain chain({.solvers = set});
     std::vector<Vec3> forces(1);
-    EXPECT_EQ(chain.solve({400, {0, -1e-3, 0}, Vec3{0}, plane}, forces).solver, solver_types()[first]);
+    EXPECT_EQ(chain.solve({400, {0, -1e-3, 0}, Vec3{0}, force}, forces).solver, solver_types()[first]);
   }
 }
 
