@@ -242,7 +242,8 @@ Volume load(const Series& series, const LoadOptions& options) {
   volume.patient_name = series.identity.patient_name;
   volume.body_part = series.details.body_part;
   volume.description = series.description;
-  return options.is_rescaled ? rescaled(std::move(volume)) : volume;
+  if (options.is_rescaled) return rescaled(std::move(volume));
+  return volume;
 }
 
 }  // namespace palpate::io

@@ -106,7 +106,7 @@ TEST(TickRecord, SaysWhatTheStepTheFilterAndTheStylusDid) {
     ASSERT_EQ(record.sub_steps, static_cast<std::uint32_t>(step.sub_steps));
     ASSERT_EQ(record.halts, static_cast<std::uint32_t>(step.halts));
     ASSERT_EQ(record.iterations, static_cast<std::uint32_t>(step.iterations));
-    ASSERT_EQ(record.solver, static_cast<std::uint32_t>(step.solver));
+    ASSERT_EQ(record.solver, solver::number_of(step.solver));
     ASSERT_EQ(record.outcome, static_cast<std::uint32_t>(step.outcome));
     ASSERT_EQ(record.from_brick, step.sample.from_brick ? 1U : 0U);
     ASSERT_EQ(record.buttons, reading.buttons | 8U);
