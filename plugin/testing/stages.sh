@@ -64,7 +64,7 @@ stage_tsan() {
 # Each of the fuzzers for 30 s, in the sanitizers' build.
 stage_fuzz() {
   configure asan &&
-    cmake --build --preset asan --target fuzz_reader fuzz_scene fuzz_solve fuzz_recording palpate palpate-testdata write_seeds -- --quiet &&
+    cmake --build --preset asan --target fuzz_reader fuzz_scene fuzz_solve fuzz_recording fuzz_openigtlink palpate palpate-testdata write_seeds -- --quiet &&
     plugin/testing/fuzz build/asan 30
 }
 # tidy_files ARGUMENT...: clang-tidy over the product, ParaView's part too where its packages are.
