@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "modes/scene/edit_text.h"
 #include "modes/scene/scene_json.h"
 #include "solver/text/testing/shown.h"
 
@@ -59,6 +60,7 @@ std::vector<Provoked> provoke_scenes_of_programs() {
   };
   return {
       {"no-such-scene-file-can-be-read", said_when([] { load_scene("absent"); })},
+      {"no-such-edits-can-be-read", said_when([] { load_edits("absent"); })},
       {"missing-strength", refusal([](Scene& scene) { scene.modes[0].strength_n = {}; })},
       {"not-finite", refusal([](Scene& scene) { scene.workspace.center_mm = glm::dvec3(std::nan("")); })},
       {"workspace-fit-the-scan-or-the-device",

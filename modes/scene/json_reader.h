@@ -61,12 +61,12 @@ inline glm::dvec3 vector3(const At& at) {
   return {number(at[0]), number(at[1]), number(at[2])};
 }
 
-/// The members of an object; done() refuses those that nobody asked for.
+/// The members of an object; done() refuses those that nobody asked for. `whole`: what a text without a path is called.
 class Members {
  public:
-  explicit Members(const At& at) : at_(at) {
+  explicit Members(const At& at, const char* whole = "scene") : at_(at) {
     if (!at.value.is_object()) {
-      refuse(at.path.empty() ? "scene" : at.path, say("not-an-object-in-braces"));
+      refuse(at.path.empty() ? whole : at.path, say("not-an-object-in-braces"));
     }
   }
 

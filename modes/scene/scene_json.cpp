@@ -5,6 +5,7 @@
 
 #include "modes/messages.h"
 #include "modes/scene/json_reader.h"
+#include "modes/scene/json_text.h"
 #include "modes/scene/scene_names.h"
 #include "modes/types/mode_type.h"
 
@@ -279,41 +280,11 @@ Scene read_scene(const nlohmann::json& json) {
   return scene;
 }
 
-/// The text as JSON; of a key that is given twice the library would silently keep the last.
-nlohmann::json parse(std::string_view text) {
-  std::vector<std::set<std::string>> open;
-  const auto check = [&open](int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-    if (event == nlohmann::json::parse_event_t::object_start) {
-      open.emplace_back();
-    } else if (event == nlohmann::json::parse_event_t::object_end) {
-      open.pop_back();
-    } else if (event == nlohmann::json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second) {
-      refuse(parsed.get<std::string>(), say("given-twice"));
-    }
-    return true;
-  };
-  return nlohmann::json::parse(text, check);
-}
-
-/// What `read` gives, with every error naming the source.
-template <typename Read>
-auto read_from(const std::string& source, const Read& read) {
-  try {
-    return read();
-  } catch (const nlohmann::json::exception& error) {
-    const std::string what = error.what();
-    const auto end_of_code = what.find("] ");
-    throw InvalidInput(say("not-json", source, end_of_code == std::string::npos ? what : what.substr(end_of_code + 2)));
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(at_place(source, error.text()));
-  }
-}
-
 }  // namespace
 
 Scene scene_from_json(std::string_view text, const std::string& source) {
   return read_from(source, [&] {
-    Scene scene = read_scene(parse(text));
+    Scene scene = read_scene(parsed(text));
     validate(scene);
     return scene;
   });
@@ -322,7 +293,7 @@ Scene scene_from_json(std::string_view text, const std::string& source) {
 io::Filter filter_from_json(std::string_view text) {
   if (text.empty()) return {};
   return read_from("filter", [&] {
-    const io::Filter filter = read_filter({parse(text), ""});
+    const io::Filter filter = read_filter({parsed(text), ""});
     io::validate(filter);
     return filter;
   });

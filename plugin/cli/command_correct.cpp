@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/errors.h"
+#include "io/fields/volume_fields.h"
+#include "io/structures/edits.h"
+#include "io/structures/label_image.h"
+#include "modes/scene/edit_text.h"
+#include "plugin/app/errors.h"
+#include "plugin/cli/commands.h"
+#include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
+#include "plugin/options/series_option.h"
+#include "plugin/options/structure_option.h"
+#include "plugin/session/study_registrations.h"
+#include "plugin/session/study_structures.h"
+#include "solver/text/printable.h"
+
+namespace palpate::plugin {
+namespace {
+
+struct CorrectOptions {
+  SeriesOption series;
+  std::string structure;
+  std::filesystem::path edits, output;
+  bool rtstruct = false, force = false;
+};
+
+/// Puts the structure on the scan, and says on stderr what a user should know of it.
+void place_structure(io::Structure& structure, const io::Volume& scan) {
+  StudyRegistrations beside(terminal_progress("looking for registrations"));
+  const Placed placed = place_on(structure, beside.beside(structure, scan), scan);
+  if (!placed.why_not.empty()) throw InputRefused(placed.why_not);
+  if (const Text off = off_scan(structure, io::box_of(structure), scan.geometry); !off.empty()) throw InputRefused(off);
+  for (const Text& warning : structure.warnings) {
+    std::fprintf(stderr, "palpate: warning: %s\n", printable(std::string(warning)).c_str());
+  }
+}
+
+/// What is corrected, and its label. A new structure is called as its file.
+struct Corrected {
+  std::shared_ptr<const io::DistanceField> field;  ///< null: it is made of contours
+  io::StructureLabel label;
+};
+
+Corrected what_is_corrected(const CorrectOptions& options, const io::Volume& scan) {
+  if (options.structure.empty()) {
+    std::string name = options.output.filename().string();
+    name.resize(std::min(name.find('.', 1), name.size()));
+    return {.field = nullptr, .label = {.name = name}};
+  }
+  io::Structure structure = choose_structure(options.structure);
+  place_structure(structure, scan);
+  io::DistanceOptions distance;
+  distance.scan = &scan.geometry;
+  return {.field = io::load_distance(structure, distance), .label = io::label_of(structure)};
+}
+
+io::Edited edited(const Corrected& before, const std::vector<io::Edit>& edits,
+                  const std::shared_ptr<const io::Volume>& scan) {
+  std::optional<io::VolumeFields> fields;
+  std::optional<io::ScanValues> values;
+  const auto asks_the_scan = [](const io::Edit& edit) { return std::holds_alternative<io::ScanEdgeEdit>(edit); };
+  if (std::ranges::any_of(edits, asks_the_scan)) {
+    fields.emplace(scan, io::FieldSet::value | io::FieldSet::gradient, 1,
+                   io::FieldOptions{.gradient = io::GradientMethod::cubic, .brick_bytes = 0});
+    values.emplace(io::ScanValues{*fields, scan->geometry});
+  }
+  io::EditOptions options;
+  options.scan = values ? &*values : nullptr;
+  options.distance.scan = &scan->geometry;
+  return io::apply_edits(before.field, edits, options);
+}
+
+void print(const std::vector<io::Edit>& edits, const io::Edited& done) {
+  for (std::size_t n = 0; n < edits.size(); ++n) {
+    const io::EditOutcome& outcome = done.outcomes[n];
+    put("edit {}: {}: the edge moved by {:.2f} mm at most", n + 1, io::name_of(edits[n]), outcome.largest_mm);
+    if (outcome.points > 0) put(", through {} points", outcome.points);
+    if (outcome.without_edge > 0) put("; at {} the scan has no edge, and it stays", outcome.without_edge);
+    put("\n");
+  }
+}
+
+void run_correct(const CorrectOptions& options) try {
+  const io::StructureForm form = io::form_of(options.output, options.rtstruct);
+  const std::vector<io::Edit> edits = modes::load_edits(options.edits);
+  const bool anew = !edits.empty() && std::holds_alternative<io::ContoursEdit>(edits.front());
+  if (options.structure.empty() && !anew) throw WrongUsage(say("edits-need-a-structure"));
+  const io::Series series = choose_series(options.series);
+  const auto scan = std::make_shared<const io::Volume>(load_series(series, options.series.frame));
+  const Corrected before = what_is_corrected(options, *scan);
+  const io::Edited after = [&] {
+    try {
+      return edited(before, edits, scan);
+    } catch (const InvalidInput& error) {
+      throw InputRefused(at_place(options.edits.string(), error.text()));
+    }
+  }();
+  const io::SignedDistance distance = [field = after.field](const io::Vec3& at) { return field->sample(at).mm; };
+  io::write_structure(before.label, series, scan->geometry, distance, {}, form, options.output,
+                      {.overwrite = options.force, .software_version = PALPATE_VERSION, .frame = options.series.frame},
+                      terminal_progress("sampling the outline"));
+  print(edits, after);
+  put("{}: \"{}\", {} edit{}\n", options.output.string(), before.label.name, edits.size(),
+      edits.size() == 1 ? "" : "s");
+} catch (const io::DicomError& error) {
+  throw InputRefused(error.text());
+}
+
+}  // namespace
+
+void add_correct(CLI::App& program) {
+  const auto options = std::make_shared<CorrectOptions>();
+  CLI::App* command =
+      program.add_subcommand("correct", "Applies edits to a structure's outline and writes it on the scan's grid");
+  command->footer(
+      "OUT by its ending: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct; .nii, .nii.gz, .nrrd, .seg.nrrd and "
+      ".mha "
+      "are label maps.\n"
+      "A SEG or RTSTRUCT goes into the scan's study, and refers to its images and to the outline that was corrected.\n"
+      "EDITS: {\"version\": 1, \"edits\": [...]}, applied in their order, in patient space (LPS, mm):\n"
+      "  {\"type\": \"trace\", \"points_mm\": [[x, y, z], ...], \"known_to_mm\": [...], \"reach_mm\": 8}\n"
+      "  {\"type\": \"add\" or \"remove\", \"path_mm\": [[x, y, z], ...], \"radius_mm\": 3}\n"
+      "  {\"type\": \"scan_edge\", \"center_mm\": [x, y, z], \"radius_mm\": 10, \"most_mm\": 3}\n"
+      "  {\"type\": \"contours\", \"loops_mm\": [[[x, y, z], ...], ...]}: a new structure; the first edit, without "
+      "--structure");
+  add_series_option(*command, options->series);
+  command->add_option("--structure", options->structure,
+                      "What is corrected: FILE or FILE:SEGMENT; left out where contours make it");
+  command->add_option("--edits", options->edits, "A JSON file")->required();
+  command->add_option("-o,--output", options->output, "The file that is written")->required();
+  command->add_flag("--rtstruct", options->rtstruct, "Write contours (RTSTRUCT) as .dcm");
+  command->add_flag("--force", options->force, "Overwrite the file if there is one; never the one that was corrected");
+  command->callback([options] { run_correct(*options); });
+}
+
+}  // namespace palpate::plugin
