@@ -87,9 +87,9 @@ void expect_measures(const Structure& structure, const Sum& sum, double step_mm)
   EXPECT_LT(glm::distance(measures.box_high_mm, sum.high), 1e-5);
 }
 
-class Random {
+class RandomNumbers {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  explicit RandomNumbers(unsigned seed) : engine_(seed) {}
   int any(int count) { return std::uniform_int_distribution<int>(0, count - 1)(engine_); }
   Vec3 unit() {
     std::normal_distribution<double> normal;
@@ -113,7 +113,7 @@ TEST(SegmentationLaws, VoxelsLieWhereTheirFramesSayInAnyOrientation) {
                                                   {{0, 1, 0}, {0, 0, -1}},  // sagittal
                                                   {{-1, 0, 0}, {0, 1, 0}},  // axial, slices toward the feet
                                                   {{1, 0, 0}, {0, 0, 1}}};  // coronal, slices toward the front
-  Random random(7);
+  RandomNumbers random(7);
   for (int n = 0; n < 5; ++n) {
     const Vec3 i = random.unit();
     orientations.emplace_back(i, glm::normalize(glm::cross(random.unit(), i)));
@@ -162,7 +162,7 @@ TEST(SegmentationLaws, VoxelsAreTheSameInEveryUncompressedTransferSyntax) {
     for (const E_TransferSyntax syntax :
          {EXS_LittleEndianExplicit, EXS_LittleEndianImplicit, EXS_DeflatedLittleEndianExplicit}) {
       SCOPED_TRACE(form.type + " " + std::to_string(form.bits) + ", " + DcmXfer(syntax).getXferName());
-      Random random(11);
+      RandomNumbers random(11);
       Places places{{1, 0, 0}, {0, 1, 0}, {}};
       Sum sum;
       TestSegmentation segmentation{.type = form.type, .bits = form.bits, .syntax = syntax};

@@ -16,6 +16,7 @@
 #include "io/structures/label_image.h"
 #include "modes/scene/edit_text.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
@@ -97,7 +98,7 @@ void run_correct(const CorrectOptions& options) try {
   const bool anew = !edits.empty() && std::holds_alternative<io::ContoursEdit>(edits.front());
   if (options.structure.empty() && !anew) throw WrongUsage(say("edits-need-a-structure"));
   const io::Series series = choose_series(options.series);
-  const auto scan = std::make_shared<const io::Volume>(load_series(series, options.series.frame));
+  const auto scan = std::make_shared<const io::Volume>(open_scan(series, options.series.frame));
   const Corrected before = what_is_corrected(options, *scan);
   const io::Edited after = [&] {
     try {
