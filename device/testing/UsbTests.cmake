@@ -35,6 +35,6 @@ foreach(case falcon:run falcon:unplug falcon:sigint falcon:sigterm falcon:sigkil
   else()
     add_test(NAME ${test} COMMAND ${UMOCKDEV_WRAPPER} $<TARGET_FILE:device_umockdev> $<TARGET_FILE:device_client> ${words})
     # Several at once would starve each other of the time that a silent device is told by.
-    set_tests_properties(${test} PROPERTIES TIMEOUT 20 RUN_SERIAL TRUE LABELS thorough)
+    set_tests_properties(${test} PROPERTIES TIMEOUT 20 RUN_SERIAL TRUE LABELS usb)
   endif()
 endforeach()
