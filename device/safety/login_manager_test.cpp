@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "device/link/driver_clock.h"
@@ -37,17 +39,21 @@ class FakeSystemd {
                                      "receive_sender=\"*\"/><allow own=\"*\"/></policy></busconfig>");
     daemon_ = fork();
     if (daemon_ == 0) {
-      dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);  // it says which limits it may not raise
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // also where the test is ended by its limit
+      const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+      dup2(nowhere, STDOUT_FILENO);  // else CTest waits for the daemon, too
+      dup2(nowhere, STDERR_FILENO);  // it says which limits it may not raise
       execlp("dbus-daemon", "dbus-daemon", ("--config-file=" + config).c_str(), "--nofork", "--nopidfile", nullptr);
       _exit(127);
     }
     const std::string address = "unix:path=" + socket;
     setenv("DBUS_SYSTEM_BUS_ADDRESS", address.c_str(), 1);
     setenv("DBUS_SESSION_BUS_ADDRESS", address.c_str(), 1);
-    while (access(socket.c_str(), F_OK) != 0 && waitpid(daemon_, nullptr, WNOHANG) == 0) sleep_seconds(1e-3);
-    sd_bus_open_system(&bus_);
+    // The socket is there a moment before anybody listens.
+    while (sd_bus_open_system(&bus_) < 0 && waitpid(daemon_, nullptr, WNOHANG) == 0) sleep_seconds(1e-3);
+    if (bus_ == nullptr) throw std::runtime_error("no bus: dbus-daemon is needed");
     for (const char* name : {"org.freedesktop.login1", "org.freedesktop.systemd1"}) {
-      EXPECT_GE(sd_bus_request_name(bus_, name, 0), 0) << "dbus-daemon is needed";
+      EXPECT_GE(sd_bus_request_name(bus_, name, 0), 0);
     }
     for (const char* path : {"/org/freedesktop/login1", "/org/freedesktop/systemd1"}) {
       sd_bus_add_object(bus_, nullptr, path, &FakeSystemd::answer, this);
