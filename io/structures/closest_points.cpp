@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "io/parallel.h"
 #include "io/structures/cubic.h"
@@ -209,13 +210,15 @@ void for_bricks(std::size_t count, int threads, const Work& work) {
 
 }  // namespace
 
-void spread_closest_points(const NodeBricks& bricks, double band_mm, int threads, std::vector<Vec3f>& closest) {
+void spread_closest_points(const NodeBricks& bricks, double band_mm, int threads, std::vector<Vec3f>& closest,
+                           std::vector<char> unsettled) {
   const std::size_t count = bricks.count();
   const Vec3& h = bricks.lattice.spacing;
   const double brick_mm = brick_edge * std::min({h.x, h.y, h.z});
   const int passes = 2 + static_cast<int>(std::ceil(band_mm / brick_mm));
   std::vector<Vec3f> next(closest.size());
-  std::vector<char> changed(count, 1), changed_now(count);
+  std::vector<char> changed = std::move(unsettled), changed_now(count);
+  changed.resize(count, 1);
   for (int pass = 0; pass < passes; ++pass) {
     for_bricks(count, threads, [&](std::size_t slot) {
       const Vec3f* const here = closest.data() + slot * brick_nodes;

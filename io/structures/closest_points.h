@@ -24,7 +24,9 @@ std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<fl
 /// Its two parts. The first writes the closest points of one brick's nodes, nowhere where the surface is more than two
 /// nodes away: on the edges to the neighbors on the other side, and by Newton's steps.
 void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest);
-/// The second takes the neighbors' points over where they are closer.
-void spread_closest_points(const NodeBricks& bricks, double band_mm, int threads, std::vector<Vec3f>& closest);
+/// The second takes the neighbors' points over where they are closer. `unsettled`: the bricks in which a node may be
+/// farther from its own point than from a neighbor's; without any of them it is all.
+void spread_closest_points(const NodeBricks& bricks, double band_mm, int threads, std::vector<Vec3f>& closest,
+                           std::vector<char> unsettled = {});
 
 }  // namespace palpate::io

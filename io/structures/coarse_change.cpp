@@ -29,6 +29,20 @@ std::vector<Vec3f> thinned(const std::vector<Vec3f>& points, const NodeLattice& 
   return kept;
 }
 
+constexpr int block = 4;  // nodes along i and j that share their stretches
+
+/// The stretches one of which is the nearest to any place within so many mm of a middle.
+std::vector<Stretch> nearest_around(std::span<const Stretch> where, const Vec3& middle, double within_mm) {
+  std::vector<double> away(where.size());
+  std::ranges::transform(where, away.begin(), [&](const Stretch& one) { return distance_to(one, middle); });
+  const double most = *std::ranges::min_element(away) + 2 * within_mm + 1e-6;
+  std::vector<Stretch> near;
+  for (std::size_t n = 0; n < where.size(); ++n) {
+    if (away[n] <= most) near.push_back(where[n]);
+  }
+  return near;
+}
+
 }  // namespace
 
 void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts) {
@@ -55,11 +69,23 @@ void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts
                         static_cast<std::size_t>(size.z));
   std::vector<char> any(static_cast<std::size_t>(size.z));
   const CoarseLattice box{.origin = far.origin + Vec3(first) * far.spacing, .spacing = far.spacing, .size = size};
-  const std::vector<Vec3f> near_surface = closest_of(box, surface), near_lost = closest_of(box, lost);
+  std::vector<Vec3f> near_surface, near_lost;
+  parallel_for(
+      2, [&](std::size_t n) { (n == 0 ? near_surface : near_lost) = closest_of(box, n == 0 ? surface : lost); }, {},
+      threads);
+  const glm::ivec2 blocks = (glm::ivec2(size) + block - 1) / block;
+  const double half_block_mm = 0.5 * std::sqrt(2.0) * (block - 1) * far.spacing;
   parallel_for(
       static_cast<std::size_t>(size.z),
       [&](std::size_t k) {
         float* into = mm.data() + k * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+        std::vector<std::vector<Stretch>> near_block(static_cast<std::size_t>(blocks.x * blocks.y));
+        for (int n = 0; n < blocks.x * blocks.y; ++n) {
+          const Vec3 middle(Vec3(first) + Vec3(n % blocks.x * block + 0.5 * (block - 1),
+                                               n / blocks.x * block + 0.5 * (block - 1), static_cast<double>(k)));
+          near_block[static_cast<std::size_t>(n)] =
+              nearest_around(change.where, far.origin + middle * far.spacing, half_block_mm);
+        }
         for (int j = 0; j < size.y; ++j) {
           for (int i = 0; i < size.x; ++i, ++into) {
             const glm::ivec3 node = first + glm::ivec3(i, j, static_cast<int>(k));
@@ -68,7 +94,9 @@ void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts
             const Vec3 at = far.origin + Vec3(node) * far.spacing;
             if (glm::any(glm::lessThan(at, low - around)) || glm::any(glm::greaterThan(at, high + around))) continue;
             double away = nowhere;
-            for (const Stretch& stretch : change.where) away = std::min(away, distance_to(stretch, at));
+            for (const Stretch& stretch : near_block[static_cast<std::size_t>(j / block * blocks.x + i / block)]) {
+              away = std::min(away, distance_to(stretch, at));
+            }
             away -= change.within_mm;
             if (away > true_within_mm + fades_over_mm) continue;
             Distance near;

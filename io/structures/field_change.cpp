@@ -15,6 +15,12 @@ double distance_to(const Stretch& stretch, const Vec3& place) noexcept {
   return glm::length(way - part * along);
 }
 
+bool lies_within(const Stretch& stretch, const Vec3& place, double mm) noexcept {
+  if (stretch.from != stretch.to) return distance_to(stretch, place) < mm;
+  const Vec3 way = place - stretch.from;
+  return glm::dot(way, way) < mm * mm;
+}
+
 std::shared_ptr<const DistanceField> changed(const std::shared_ptr<const DistanceField>& before,
                                              const FieldChange& change, int threads) {
   const DistanceParts& old = before->parts();

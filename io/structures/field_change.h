@@ -17,6 +17,8 @@ struct Stretch {
   Vec3 from{0}, to{0};
 };
 double distance_to(const Stretch& stretch, const Vec3& place) noexcept;
+/// Whether a place is nearer to it than so many mm.
+bool lies_within(const Stretch& stretch, const Vec3& place, double mm) noexcept;
 
 struct FieldChange {
   std::vector<Stretch> where;

@@ -53,7 +53,7 @@ struct Patch {
     if (!holds(place)) return false;
     const Vec3 patient = bricks.lattice.origin + bricks.lattice.axes * Vec3(at);
     return std::ranges::any_of(near[box_at(place)], [&](std::uint32_t n) {
-      return distance_to(change.where[n], patient) < change.touched_mm;
+      return lies_within(change.where[n], patient, change.touched_mm);
     });
   }
 };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/fresh_folder.h"
+#include "plugin/bench/bench_correct.h"
 #include "plugin/bench/bench_fields.h"
 #include "plugin/bench/bench_load.h"
 #include "plugin/bench/bench_soak.h"
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
   CLI::App program{"Measures error against run time, as tables, CSV files and pictures.", "palpate-bench"};
   program.set_version_flag("--version", version_text());
   add_stability(program);
+  add_bench_correct(program);
   add_bench_fields(program);
   add_bench_load(program);
   add_bench_soak(program);

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace palpate::plugin {
+
+/// `palpate-bench correct`: what an edit of an outline costs.
+void add_bench_correct(CLI::App& bench);
+
+}  // namespace palpate::plugin
