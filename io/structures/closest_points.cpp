@@ -150,11 +150,16 @@ bool spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::siz
   const auto visit = [&](int i, int j, int k) {
     Vec3f* here = around.data() + ((k + 1) * side + j + 1) * side + i + 1;
     const Vec3f node = corner + Vec3f(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)) * spacing;
-    const Vec3f away = node - *here;
-    float least = glm::dot(away, away);
-    for (const std::ptrdiff_t step : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}, -side, side, -side * side, side * side}) {
-      offer(node, here[step], least, *here);
+    // All distances before the first comparison: they do not wait for each other.
+    constexpr std::array<std::ptrdiff_t, 7> steps{0, -1, 1, -side, side, -side * side, side * side};
+    std::array<float, steps.size()> squared;
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+      const Vec3f away = node - here[steps[n]];
+      squared[n] = glm::dot(away, away);
     }
+    std::size_t nearest = 0;
+    for (std::size_t n = 1; n < steps.size(); ++n) nearest = squared[n] < squared[nearest] ? n : nearest;
+    if (nearest != 0) *here = here[steps[nearest]];
   };
   for (int k = 0; k < brick_edge; ++k) {
     for (int j = 0; j < brick_edge; ++j) {

@@ -47,8 +47,6 @@ std::vector<Stretch> nearest_around(std::span<const Stretch> where, const Vec3& 
 
 void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts) {
   DistanceParts::Coarse& far = parts.far;
-  const std::vector<Vec3f> lost = thinned(change.lost, change.lattice);
-  const std::vector<Vec3f> surface = thinned(change.surface, change.lattice);
   Vec3 low(1e9), high(-1e9);
   for (const Stretch& stretch : change.where) {
     low = glm::min(low, glm::min(stretch.from, stretch.to));
@@ -71,8 +69,12 @@ void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts
   const CoarseLattice box{.origin = far.origin + Vec3(first) * far.spacing, .spacing = far.spacing, .size = size};
   std::vector<Vec3f> near_surface, near_lost;
   parallel_for(
-      2, [&](std::size_t n) { (n == 0 ? near_surface : near_lost) = closest_of(box, n == 0 ? surface : lost); }, {},
-      threads);
+      2,
+      [&](std::size_t n) {
+        (n == 0 ? near_surface : near_lost) =
+            closest_of(box, thinned(n == 0 ? change.surface : change.lost, change.lattice));
+      },
+      {}, threads);
   const glm::ivec2 blocks = (glm::ivec2(size) + block - 1) / block;
   const double half_block_mm = 0.5 * std::sqrt(2.0) * (block - 1) * far.spacing;
   parallel_for(

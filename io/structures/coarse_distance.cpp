@@ -1,6 +1,7 @@
 #include "io/structures/coarse_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -54,15 +55,34 @@ void seed(const NodeBricks& bricks, const std::vector<Vec3f>& closest, Filling& 
 
 void sweep(Filling& filling) {
   const glm::ivec3 size = filling.lattice.size;
+  std::array<std::ptrdiff_t, 13> steps;
+  for (int n = 0; n < 13; ++n) {
+    const std::ptrdiff_t row = size.x, plane = row * size.y;
+    steps[static_cast<std::size_t>(n)] = (n / 9 - 1) * plane + (n / 3 % 3 - 1) * row + n % 3 - 1;
+  }
   const auto visit = [&](int i, int j, int k, int behind) {
+    const Vec3f node = filling.position(i, j, k);
+    Vec3f best = filling.closest[filling.at(i, j, k)];
+    float least = glm::dot(node - best, node - best);
+    const auto take = [&](const Vec3f& point) {
+      const float squared = glm::dot(node - point, node - point);
+      if (!(squared < least)) return;
+      least = squared;
+      best = point;
+    };
     // The thirteen neighbors that were visited before, in this direction.
-    for (int n = 0; n < 13; ++n) {
-      const int x = i + behind * (n % 3 - 1), y = j + behind * (n / 3 % 3 - 1), z = k + behind * (n / 9 - 1);
-      if (x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z) {
-        const Vec3f point = filling.closest[filling.at(x, y, z)];
-        if (point.x != nowhere) filling.offer(i, j, k, point);
+    Vec3f* const here = filling.closest.data() + filling.at(i, j, k);
+    if (i > 0 && j > 0 && k > 0 && i + 1 < size.x && j + 1 < size.y && k + 1 < size.z) {
+      for (const std::ptrdiff_t step : steps) take(here[behind * step]);
+    } else {
+      for (int n = 0; n < 13; ++n) {
+        const int x = i + behind * (n % 3 - 1), y = j + behind * (n / 3 % 3 - 1), z = k + behind * (n / 9 - 1);
+        if (x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z) {
+          take(filling.closest[filling.at(x, y, z)]);
+        }
       }
     }
+    *here = best;
   };
   for (int k = 0; k < size.z; ++k) {
     for (int j = 0; j < size.y; ++j) {

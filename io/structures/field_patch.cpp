@@ -11,14 +11,26 @@ namespace {
 
 constexpr double most_bricks = 3e5;
 
-/// The numbers of one brick before and after. Whether the surface before or after may pass through it.
-bool evaluate(const Patch& patch, const glm::ivec3& place, float* before, float* after) {
+/// The nodes of a brick beside which the surface moves; none where `low` is above `high`.
+struct Moved {
+  glm::ivec3 low{brick_edge}, high{-1};
+
+  bool any() const { return low.x <= high.x; }
+  /// How far they are from the nearest node of the brick so many bricks away, mm.
+  double distance_to(const glm::ivec3& away, const Vec3& spacing) const {
+    const glm::ivec3 first = away * brick_edge, last = first + brick_edge - 1;
+    return glm::length(Vec3(glm::max(glm::max(first - high, low - last), glm::ivec3(0))) * spacing);
+  }
+};
+
+/// The numbers of one brick before and after.
+Moved evaluate(const Patch& patch, const glm::ivec3& place, float* before, float* after) {
   const float* stored = patch.stored(place);
   const NodeLattice& lattice = patch.bricks.lattice;
   const Vec3 corner = Vec3(place * brick_edge);
   const auto& near = patch.near[patch.box_at(place)];
   const double around = 2.2 * std::max({lattice.spacing.x, lattice.spacing.y, lattice.spacing.z});
-  bool surface = false;
+  Moved moved;
   for (int k = 0; k < brick_edge; ++k) {
     for (int j = 0; j < brick_edge; ++j) {
       for (int i = 0; i < brick_edge; ++i) {
@@ -26,12 +38,16 @@ bool evaluate(const Patch& patch, const glm::ivec3& place, float* before, float*
         const Vec3 at = lattice.position(corner + Vec3(i, j, k));
         before[n] = stored != nullptr ? stored[stored_at(i, j, k)] : static_cast<float>(patch.old.sample_far(at).mm);
         after[n] = near.empty() ? before[n] : static_cast<float>(patch.change.after(at, before[n], near));
-        surface = surface || (after[n] != before[n] && (std::abs(after[n]) < around || std::abs(before[n]) < around ||
-                                                        (after[n] > 0) != (before[n] > 0)));
+        if (after[n] == before[n] ||
+            !(std::abs(after[n]) < around || std::abs(before[n]) < around || (after[n] > 0) != (before[n] > 0))) {
+          continue;
+        }
+        moved.low = glm::min(moved.low, glm::ivec3(i, j, k));
+        moved.high = glm::max(moved.high, glm::ivec3(i, j, k));
       }
     }
   }
-  return surface;
+  return moved;
 }
 
 }  // namespace
@@ -90,25 +106,23 @@ bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char
     }
   }
   std::vector<float> before(inside.size() * brick_nodes), after(inside.size() * brick_nodes);
-  std::vector<char> surface(inside.size());
+  std::vector<Moved> moved(inside.size());
   parallel_for(
       inside.size(),
       [&](std::size_t n) {
-        surface[n] =
-            evaluate(patch, inside[n], before.data() + n * brick_nodes, after.data() + n * brick_nodes) ? 1 : 0;
+        moved[n] = evaluate(patch, inside[n], before.data() + n * brick_nodes, after.data() + n * brick_nodes);
       },
       {}, threads);
   const Vec3 brick_mm = patch.bricks.lattice.spacing * static_cast<double>(brick_edge);
   const glm::ivec3 reach(glm::ceil(around_mm / brick_mm));
   NodeBricks& bricks = patch.bricks;
   for (std::size_t n = 0; n < inside.size(); ++n) {
-    if (surface[n] == 0) continue;
+    if (!moved[n].any()) continue;
     for (int z = -reach.z; z <= reach.z; ++z) {
       for (int y = -reach.y; y <= reach.y; ++y) {
         for (int x = -reach.x; x <= reach.x; ++x) {
           const glm::ivec3 away(x, y, z), place = inside[n] + away;
-          const Vec3 apart = Vec3(glm::max(glm::abs(away) - 1, glm::ivec3(0))) * brick_mm;
-          if (!patch.holds(place) || glm::length(apart) > around_mm) continue;
+          if (!patch.holds(place) || moved[n].distance_to(away, bricks.lattice.spacing) > around_mm) continue;
           std::int32_t& slot = bricks.slot[patch.box_at(place)];
           if (slot >= 0) continue;
           slot = static_cast<std::int32_t>(bricks.count());
@@ -129,7 +143,7 @@ bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char
     const auto at = static_cast<std::size_t>(slot);
     std::copy_n(before.data() + n * brick_nodes, brick_nodes, patch.before_mm.data() + at * brick_nodes);
     std::copy_n(after.data() + n * brick_nodes, brick_nodes, patch.f.data() + at * brick_nodes);
-    passed[at] = surface[n];
+    passed[at] = moved[n].any() ? 1 : 0;
     done[at] = 1;
   }
   parallel_for(

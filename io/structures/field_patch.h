@@ -62,7 +62,7 @@ struct Patch {
 Patch patch_around(const DistanceParts& old, const FieldChange& change, double around_mm);
 
 /// Evaluates the bricks within the change, and lists those that are measured anew: all within `around_mm` of one that
-/// the surface passes, before or after. Returns false where it passes none.
+/// the surface passes, before or after, and by so far of where it moves. Returns false where it passes none.
 bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char>& passed);
 
 /// Measures the distance in these bricks.
