@@ -52,9 +52,8 @@ struct Patch {
     const glm::ivec3 place(glm::floor(Vec3(at) / (bricks.lattice.spacing * static_cast<double>(NodeBricks::edge))));
     if (!holds(place)) return false;
     const Vec3 patient = bricks.lattice.origin + bricks.lattice.axes * Vec3(at);
-    return std::ranges::any_of(near[box_at(place)], [&](std::uint32_t n) {
-      return lies_within(change.where[n], patient, change.touched_mm);
-    });
+    return std::ranges::any_of(
+        near[box_at(place)], [&](std::uint32_t n) { return lies_within(change.where[n], patient, change.touched_mm); });
   }
 };
 
