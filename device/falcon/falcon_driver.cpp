@@ -10,8 +10,6 @@ namespace palpate::device {
 
 namespace {
 
-constexpr double reply_time = 0.020;    // s after which a reply is given up and the Falcon asked again
-constexpr double surplus_time = 0.005;  // s that a reply given up is waited for once another has come
 // A hand at the edge of the reach trembles in and out of it with 8 to 12 Hz. A doubt that took the force away lasts
 // until the hand has been inside for longer than a period of that.
 constexpr double brief_doubt = 0.020;   // s
@@ -30,17 +28,15 @@ void FalconProtocol::connect(Link& link) {
   status_.news = news;
   replies_ = {};
   robot_position_ = newton_start;
-  command_due_ = true;
-  asked_again_ = false;
+  exchange_.restart();
   doubt_.forget();
 }
 
 void FalconProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
-  if (const std::optional<FalconReply> reply = replies_.feed(packet)) {
-    command_due_ = true;
-    replied_ = now;
-    take(*reply, now);
-  }
+  const std::uint64_t before = replies_.received();
+  const std::optional<FalconReply> reply = replies_.feed(packet);
+  exchange_.answered(replies_.received() - before, now);
+  if (reply) take(*reply, now);
 }
 
 void FalconProtocol::take(const FalconReply& reply, double now) noexcept {
@@ -52,7 +48,11 @@ void FalconProtocol::take(const FalconReply& reply, double now) noexcept {
   if (!homed) {
     if (status_.state != State::homing) return fail(LinkFault::unhomed);
     // Counts mean nothing before; the pose stays where it was.
-    ++status_.news;
+    if (exchange_.is_current()) ++status_.news;
+    return;
+  }
+  if (!exchange_.is_current()) {
+    status_.doubtful = true;
     return;
   }
   Vec3 angles;
@@ -83,13 +83,9 @@ void FalconProtocol::fail(LinkFault fault) noexcept {
 }
 
 std::size_t FalconProtocol::step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept {
-  if (!command_due_ && now - sent_ < reply_time) return 0;
-  // A reply given up may only be late. Each reply asks for a command, so a surplus one would stay in the pipe for ever
-  // and make every force a tick older: wait until it has come.
-  if (asked_again_ && command_due_ && now - replied_ < surplus_time) return 0;
-  asked_again_ = !command_due_;
-  // A command that is repeated for want of a reply carries no force: nobody knows where the grip is.
-  const bool may_push = command_due_ && status_.state == State::idle;
+  if (!exchange_.is_due(now)) return 0;
+  // The same force at the motors is another one at the grip where the grip has moved on.
+  const bool may_push = exchange_.is_current() && status_.state == State::idle;
   FalconCommand command;
   command.lights = status_.state == State::idle ? falcon_green : falcon_red;
   const auto torques =
@@ -99,8 +95,7 @@ std::size_t FalconProtocol::step(const Vec3& force, double now, std::span<std::u
   status_.withheld = !torques;
   const auto bytes = encode(command);
   std::copy(bytes.begin(), bytes.end(), packet.begin());
-  command_due_ = false;
-  sent_ = now;
+  exchange_.sent(now);
   return bytes.size();
 }
 

@@ -7,6 +7,7 @@
 #include "device/falcon/falcon.h"
 #include "device/falcon/falcon_protocol.h"
 #include "device/link/link_stylus.h"
+#include "device/link/lock_step.h"
 #include "device/link/pose_doubt.h"
 #include "device/link/protocol.h"
 
@@ -50,10 +51,7 @@ class FalconProtocol final : public Protocol {
   PoseDoubt doubt_{1e6};    // at the edge of the reach poses come and go
   double doubt_began_ = 0;  // s
   double doubted_ = 0;      // s: of the last pose in doubt
-  bool command_due_ = true;
-  bool asked_again_ = false;
-  double sent_ = 0;
-  double replied_ = 0;
+  LockStep exchange_;
 };
 
 }  // namespace palpate::device

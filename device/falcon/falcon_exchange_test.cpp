@@ -68,25 +68,39 @@ TEST(FalconExchange, IsAskedAgainAfterTwentyMilliseconds) {
   EXPECT_FALSE(one.step());
 }
 
-/// A reply that was given up may only be late. When another has come it is waited for, until none has come for 5 ms;
-/// then the Falcon is commanded again.
-TEST(FalconExchange, ASurplusReplyIsWaitedForFiveMilliseconds) {
+/// A reply that was given up may only be late. When another has come it is waited for, until none has come for 50 ms.
+/// Then the Falcon is commanded again, and pushed by when two replies in turn were on time.
+TEST(FalconExchange, AReplyGivenUpIsWaitedForFiftyMilliseconds) {
   for (const bool comes : {true, false}) {
     Exchange one;
     one.begin();
     one.now += 20.05 * ms;
     ASSERT_TRUE(one.step());
+    const std::uint64_t news = one.protocol.status().news;
+    const Vec3 before = one.protocol.status().position;
     one.now += ms;
-    one.reply();
+    one.reply({300, 300, 300});
     const double replied = one.now;
-    for (one.now = replied; one.now < replied + 4.9 * ms; one.now += 0.5 * ms) ASSERT_FALSE(one.step());
-    if (comes) one.reply();
-    one.now = replied + 5.1 * ms;
-    EXPECT_EQ(one.pushes(one.step()), !comes) << "a surplus reply begins the wait anew";
-    one.now += 5.1 * ms;
-    EXPECT_EQ(one.pushes(one.step()), comes);
-    one.reply();
-    EXPECT_TRUE(one.pushes(one.step())) << "from here on one for one";
+    for (one.now = replied; one.now < replied + 49.9 * ms; one.now += 0.5 * ms) ASSERT_FALSE(one.step());
+    EXPECT_TRUE(one.protocol.status().doubtful);
+    EXPECT_EQ(one.protocol.status().news, news) << "nobody knows of when it tells";
+    EXPECT_EQ(one.protocol.status().position, before);
+    if (comes) {
+      one.reply({300, 300, 300});
+    } else {
+      one.now = replied + 50.1 * ms;
+    }
+    for (int on_time = 0; on_time < 2; ++on_time) {
+      const auto command = one.step();
+      ASSERT_TRUE(command) << comes;
+      EXPECT_FALSE(one.pushes(command)) << comes << on_time;
+      EXPECT_FALSE(one.step());
+      one.now += ms;
+      one.reply();
+    }
+    EXPECT_EQ(one.protocol.status().news, news + 1);
+    EXPECT_FALSE(one.protocol.status().doubtful);
+    EXPECT_TRUE(one.pushes(one.step()));
   }
 }
 
@@ -108,6 +122,7 @@ TEST(FalconExchange, EachLegHasToBeHomed) {
   for (unsigned legs = 0; legs < 7; ++legs) {
     Exchange one;
     const auto flags = static_cast<std::uint8_t>(legs << 4);
+    one.step();
     one.reply({100, 100, 100}, flags);
     EXPECT_EQ(one.protocol.status().state, State::homing);
     EXPECT_EQ(one.protocol.status().position, Vec3(0));
@@ -129,6 +144,7 @@ TEST(FalconExchange, TheMotorsGiveTheForceThatWasAskedFor) {
   settings.maximum_force = 2.25;
   settings.motor_gain = 7000;
   Exchange one(settings);
+  one.step();
   for (int n = 0; n < 200; ++n) {
     const Vec3 place = 0.03 * Vec3(uniform(random), uniform(random), uniform(random));
     const auto exact = public_falcon_counts(place + Vec3(0, 0, settings.geometry.center));
@@ -151,6 +167,7 @@ TEST(FalconExchange, TheMotorsGiveTheForceThatWasAskedFor) {
 TEST(FalconExchange, TellsItsButtons) {
   Exchange one;
   for (unsigned pressed = 0; pressed < 16; ++pressed) {
+    one.step();
     one.reply({}, static_cast<std::uint8_t>(all_homed | pressed));
     EXPECT_EQ(one.protocol.status().buttons, (pressed & 4) != 0 ? pressed | 1 : pressed);
   }
@@ -185,6 +202,7 @@ TEST(FalconExchange, ConnectedAnewItKnowsNothingOfBefore) {
   for (int n = 0; n < 3; ++n) {
     one.now += 2 * ms;
     one.reply({4000, -4000, -4000});
+    one.step();
   }
   EXPECT_EQ(one.protocol.status().fault, LinkFault::unreachable_pose);
 }

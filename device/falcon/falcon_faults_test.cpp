@@ -65,25 +65,27 @@ TEST(FalconDriver, SplitRepliesLoseNothing) {
   }
 }
 
+/// What is asked again may only be late: it is waited for, so each costs 70 ms.
 TEST(FalconDriver, LostAndGarbledRepliesAreAskedForAgain) {
-  Bench bench;
-  bench.home();
-  bench.fake.falcon.faults.drop_every = 37;
-  bench.fake.falcon.faults.garble_every = 53;
-  int fresh = 0;
-  double worst_gap = 0;
-  double last = 0;
-  bench.run(2, [&](const Reading& reading) {
-    if (reading.fresh) {
-      ++fresh;
-      if (last > 0) worst_gap = std::max(worst_gap, reading.time - last);
-      last = reading.time;
-    }
-    return Vec3(0);
-  });
-  EXPECT_EQ(bench.stylus->fault(), LinkFault::none) << name_of(bench.stylus->fault());
-  EXPECT_GT(fresh, 800);
-  EXPECT_LT(worst_gap, 0.05);
+  for (const bool lost : {true, false}) {
+    Bench bench;
+    bench.home();
+    (lost ? bench.fake.falcon.faults.drop_every : bench.fake.falcon.faults.garble_every) = 37;
+    int fresh = 0;
+    double worst_gap = 0;
+    double last = 0;
+    bench.run(2, [&](const Reading& reading) {
+      if (reading.fresh) {
+        ++fresh;
+        if (last > 0) worst_gap = std::max(worst_gap, reading.time - last);
+        last = reading.time;
+      }
+      return Vec3(0);
+    });
+    EXPECT_EQ(bench.stylus->fault(), LinkFault::none) << name_of(bench.stylus->fault());
+    EXPECT_GT(fresh, 500);
+    EXPECT_LT(worst_gap, 0.08);
+  }
 }
 
 TEST(FalconDriver, NoReplyStaysInThePipeAfterADelay) {
@@ -192,6 +194,7 @@ TEST(FalconDriver, AFaultIsKeptWhateverItRepliesAfterwards) {
     return std::string(command.begin(), command.begin() + static_cast<std::ptrdiff_t>(size));
   };
   const std::string none = std::string("<AAAAAAAAAAAA") + flags(1 + 8) + "A>";  // the homing bit and the red light
+  protocol.step(Vec3(0), bench.time, command);
   EXPECT_EQ(exchange(0), none);
   EXPECT_NE(exchange(0x70), none);
   EXPECT_EQ(protocol.status().state, State::idle);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "device/falcon/falcon_driver.h"
+#include "device/link/lock_step.h"
 #include "device/messages.h"
 
 namespace palpate::device {
@@ -73,7 +74,11 @@ bool answers_run_packets(Link& link) {
   const auto command = encode(FalconCommand{});
   for (int attempt = 0; attempt < 10 && !link.lost(); ++attempt) {
     if (!send_now(link, command)) continue;
-    if (replies.feed(receive_bytes(link, falcon_packet_size, 0.020))) return true;
+    if (!replies.feed(receive_bytes(link, falcon_packet_size, LockStepTimes().overdue))) continue;
+    // Replies given up may only be late. Each would be taken for one to a command that is sent later.
+    const auto is_on_its_way = [&] { return !receive_bytes(link, falcon_packet_size, LockStep::longest_way).empty(); };
+    for (int given_up = attempt; given_up > 0 && is_on_its_way();) --given_up;
+    return true;
   }
   return false;
 }

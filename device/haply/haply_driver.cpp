@@ -23,7 +23,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double answer_time = 0.020;  // s after which a message without an answer is sent again
 constexpr double noticeable = 0.1;     // N: a force that the service must tell back
 constexpr int unheeded_at_most = 100;  // answers
 // A service that does not heed forces may begin to at any time: until it does it is asked for no more than this.
@@ -243,8 +242,8 @@ void HaplyProtocol::connect(Link& link) {
   choose(devices);
   const std::string message = first_message();
   link.send({reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
-  in_flight_ = 1;
-  sent_ = link.now();
+  exchange_.restart();
+  exchange_.sent(link.now());
 }
 
 std::string HaplyProtocol::first_message() const {
@@ -283,10 +282,10 @@ void HaplyProtocol::take_event(const Json& event) {
   if (is_brake && (id.empty() || id == device_.id)) fail(LinkFault::own_safety);
 }
 
-void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/) noexcept {
+void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
   const Json message = Json::parse(packet.begin(), packet.end(), nullptr, false);
   if (at(message, "name") != nullptr) return take_event(message);
-  if (in_flight_ > 0) --in_flight_;
+  exchange_.answered(1, now);
   if (!message.is_object() || status_.state == State::fault) return;
   const Json* const arm = find_device(message, "inverse3", device_.id);
   if (arm == nullptr) {
@@ -306,10 +305,13 @@ void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double /*now*/
   if (position == nullptr) return;
   const Vec3 place = to_device_frame(vector_of(*position));
   if (!is_finite(place) || glm::length(place) > farthest) return fail(LinkFault::unreachable_pose);
-  status_.position = place;
+  status_.doubtful = !exchange_.is_current();
   status_.buttons = buttons_of(message);
-  if (const auto orientation = orientation_of(message)) status_.orientation = *orientation;
-  ++status_.news;
+  if (exchange_.is_current()) {
+    status_.position = place;
+    if (const auto orientation = orientation_of(message)) status_.orientation = *orientation;
+    ++status_.news;
+  }
   if (const Json* const force = at(*arm, "state", "current_cursor_force")) judge_force(vector_of(*force));
 }
 
@@ -342,10 +344,8 @@ void HaplyProtocol::judge_force(const Vec3& acting) noexcept {
 }
 
 std::size_t HaplyProtocol::step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept {
-  // Messages are answered one for one: after a late answer the surplus one is waited for, or every force would stay a
-  // message older.
-  if (in_flight_ > 0 && now - sent_ < answer_time) return 0;
-  const bool may_push = in_flight_ == 0 && status_.state == State::idle && !resumes_;
+  if (!exchange_.is_due(now)) return 0;
+  const bool may_push = exchange_.is_current() && status_.state == State::idle && !resumes_;
   const double most = on_trial_ ? std::min(trial_force, settings_.maximum_force) : settings_.maximum_force;
   const Vec3 sent = may_push ? to_service_frame(clamp_length(force, most)) : Vec3(0);
   std::shift_right(sent_forces_.begin(), sent_forces_.end(), 1);
@@ -355,8 +355,7 @@ std::size_t HaplyProtocol::step(const Vec3& force, double now, std::span<std::ui
   text.add("\",\"commands\":{\"set_cursor_force\":{\"").add(vector_key_);
   text.add("\":{\"x\":").add(sent.x).add(",\"y\":").add(sent.y);
   text.add(",\"z\":").add(sent.z).add("}}}}]}");
-  ++in_flight_;
-  sent_ = now;
+  exchange_.sent(now);
   status_.withheld = !may_push;
   resumes_ = false;
   return text.size();

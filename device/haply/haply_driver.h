@@ -10,6 +10,7 @@
 
 #include "device/haply/haply.h"
 #include "device/link/link_stylus.h"
+#include "device/link/lock_step.h"
 
 namespace palpate::device {
 
@@ -80,8 +81,7 @@ class HaplyProtocol final : public Protocol {
   bool has_grip_ = false;              // a VerseGrip, which tells how it is turned
   const char* vector_key_ = "vector";  // of 3.5; 3.1 says "values"
   bool switched_key_ = false;
-  int in_flight_ = 0;  // messages sent and not answered yet
-  double sent_ = 0;
+  LockStep exchange_;
   bool hears_events_ = true;
   // N, the service's frame: the last that were sent, the newest first. What acts is told late.
   std::array<Vec3, 4> sent_forces_{};

@@ -67,6 +67,7 @@ TEST(HaplyLimits, ACoordinateThatIsNotToldIsZero) {
   session.answer(arm_at({0.1, 0.2, 0.3}));
   Json message = arm_at(Vec3(0));
   message["inverse3"][0]["state"]["cursor_position"] = {{"y", 0.25}};
+  session.step();
   session.answer(message);
   EXPECT_EQ(session.status().position, Vec3(0, 0, -0.25));
 }

@@ -72,13 +72,22 @@ std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> repor
     milliamperes_ = {};
     force_ = Vec3(0);
   }
-  if (faults.silent || waits_for_output_ || now < next_report_ + faults.report_delay) return std::nullopt;
+  if (faults.silent) return std::nullopt;
+  if (!waits_for_output_ && now >= next_report_) make_report(now);
+  if (to_host_.empty() || to_host_.front().ready > now) return std::nullopt;
+  const std::vector<std::uint8_t> made = std::move(to_host_.front().bytes);
+  to_host_.pop_front();
+  std::copy(made.begin(), made.end(), report.begin());
+  return made.size();
+}
+
+void FakeWoodenHaptics::make_report(double now) {
   hand_.advance(now, force_);
   if (options_.report_size != 8 && !button_was_pressed_ && now >= options_.button_time) {
     button_was_pressed_ = button_latched_ = true;
   }
   const std::size_t size = options_.report_size;
-  std::fill(report.begin(), report.begin() + static_cast<std::ptrdiff_t>(size), std::uint8_t{0});
+  std::vector<std::uint8_t> report(size);
   const std::array<int, 3> counts = true_counts();
   for (std::size_t i = 0; i < 3; ++i) {
     const int value = faults.impossible_pose ? 30'000 : counts[i] - zero_[i];
@@ -93,11 +102,12 @@ std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> repor
   waits_for_output_ = true;
   ++reports_;
   const auto nth = [&](int every) { return every > 0 && reports_ % static_cast<std::uint64_t>(every) == 0; };
-  if (nth(faults.drop_every)) return std::nullopt;
+  if (nth(faults.drop_every)) return;
   if (nth(faults.garble_every)) {
-    for (std::uint8_t& byte : report.first(size)) byte ^= 0x5a;
+    for (std::uint8_t& byte : report) byte ^= 0x5a;
   }
-  return nth(faults.short_every) ? 5 : size;
+  if (nth(faults.short_every)) report.resize(5);
+  to_host_.push_back({std::move(report), now + faults.report_delay});
 }
 
 void FakeWoodenHaptics::write(std::span<const std::uint8_t> report, double now) {

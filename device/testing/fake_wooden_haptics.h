@@ -3,6 +3,8 @@
 /// A WoodenHaptics arm as its reports show it, with a hand on it: lock-step, calibration button, watchdog of 0.5 s.
 
 #include <array>
+#include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "device/testing/fake_hand.h"
@@ -24,7 +26,7 @@ struct FakeWoodenHapticsOptions {
 
 struct FakeWoodenHapticsFaults {
   bool silent = false;
-  double report_delay = 0;  ///< s on top of the millisecond between reports
+  double report_delay = 0;  ///< s that a report is on its way
   int short_every = 0;      ///< each n-th report is cut to 5 bytes
   int drop_every = 0;       ///< each n-th report is lost on the way
   int garble_every = 0;     ///< each n-th report has its bytes turned over
@@ -56,6 +58,7 @@ class FakeWoodenHaptics final : public FakeHid {
 
  private:
   std::array<int, 3> true_counts() const;
+  void make_report(double now);
   bool watchdog_bites(double now) const { return now - last_output_ > 0.5; }
 
   FakeWoodenHapticsOptions options_;
@@ -64,6 +67,11 @@ class FakeWoodenHaptics final : public FakeHid {
   bool button_latched_ = false;
   bool button_was_pressed_ = false;
   bool waits_for_output_ = false;
+  struct Report {
+    std::vector<std::uint8_t> bytes;
+    double ready;
+  };
+  std::deque<Report> to_host_;
   double next_report_ = 0;
   double last_output_ = 0;
   double pushed_until_ = 0;

@@ -50,7 +50,8 @@ void WoodenHapticsProtocol::connect(Link& link) {
   status_.news = news;
   report_size_ = 0;
   calibrated_ = keeps_home_;
-  button_ = reply_due_ = started_ = false;
+  button_ = started_ = false;
+  exchange_.restart();
   starts_ = 0;
   doubt_.forget();
   std::array<std::uint8_t, 64> packet{};
@@ -99,7 +100,7 @@ void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double
     calibrated_ = true;
   }
   report_size_ = packet.size();
-  reply_due_ = true;
+  exchange_.answered(1, now);
   if (packet.size() != report_2016) {
     status_.buttons = settings_.stylus_button && word(packet, 3) > pressed_counts ? 1 : 0;
     const bool pressed = word(packet, 6) == button_pressed;
@@ -116,8 +117,12 @@ void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double
 void WoodenHapticsProtocol::take(const std::array<int, 3>& counts, double now) noexcept {
   if (status_.state == State::fault) return;
   if (!calibrated_ || button_) {
-    ++status_.news;
+    if (exchange_.is_current()) ++status_.news;
     status_.state = State::homing;
+    return;
+  }
+  if (!exchange_.is_current()) {
+    status_.doubtful = true;
     return;
   }
   std::array<int, 3> homed{};
@@ -147,20 +152,22 @@ std::size_t WoodenHapticsProtocol::step(const Vec3& force, double now, std::span
     started_ = true;
     sent_ = now;
   }
-  if (!reply_due_ && now - sent_ < start_time) return 0;
+  const bool is_due = report_size_ != 0 ? exchange_.is_due(now) : now - sent_ >= start_time;
+  if (!is_due) return 0;
   // Before the first report its length is not known: both kinds of firmware are offered theirs in turn.
   const std::size_t size = report_size_ != 0 ? report_size_ : (starts_++ % 4 == 3 ? report_2016 : report_hid);
   std::fill(packet.begin(), packet.begin() + static_cast<std::ptrdiff_t>(size), std::uint8_t{0});
-  status_.withheld = !reply_due_ || button_ || status_.state != State::idle;
-  if (reply_due_ && button_) {
+  const bool is_current = report_size_ != 0 && exchange_.is_current();
+  status_.withheld = !is_current || button_ || status_.state != State::idle;
+  if (is_current && button_) {
     put_word(packet, 3, set_encoders);
     for (std::size_t i = 0; i < 3; ++i) put_word(packet, 4 + i, settings_.home_counts[i]);
-  } else if (reply_due_ && status_.state == State::idle) {
+  } else if (is_current && status_.state == State::idle) {
     const Vec3 torques = wooden_haptics_torques(settings_, angles_, clamp_length(force, settings_.maximum_force));
     const std::array<int, 3> currents = within_load(wooden_haptics_currents(settings_, torques), now - sent_);
     for (std::size_t i = 0; i < 3; ++i) put_word(packet, i, currents[i]);
   }
-  reply_due_ = false;
+  if (report_size_ != 0) exchange_.sent(now);
   sent_ = now;
   return size;
 }

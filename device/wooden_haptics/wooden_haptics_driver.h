@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "device/link/link_stylus.h"
+#include "device/link/lock_step.h"
 #include "device/link/pose_doubt.h"
 #include "device/link/protocol.h"
 #include "device/safety/sustained.h"
@@ -39,7 +40,8 @@ class WoodenHapticsProtocol final : public Protocol {
   bool button_ = false;  // the calibration button's latch, as the last report has it
   Vec3 angles_{0};
   PoseDoubt doubt_{0.25};  // reports have no checksum: many that cannot be mean that others are wrong, too
-  bool reply_due_ = false;
+  /// The firmware waits for an output after each report. Where it does not, the newest report tells of now.
+  LockStep exchange_{{.overdue = 0.010, .speaks_unasked = true}};
   bool started_ = false;
   double sent_ = 0;
   std::array<SustainedLoad, 3> loads_;  // of the motors

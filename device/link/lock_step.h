@@ -1,0 +1,51 @@
+#pragma once
+
+/// Of a device that answers each command once and in turn: when the next command is due, and how old the pose in an
+/// answer is. No answer tells which command it belongs to, so they are counted. An answer that is overdue is lost, or
+/// on its way. If it were taken for lost and came, each later pose would be taken for a newer one than it is, and would
+/// stay so. So a lost answer costs a pause, in which it is waited for.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace palpate::device {
+
+struct LockStepTimes {
+  double overdue = 0.020;       ///< s after which a command is repeated, and the pose in its answer is too old
+  bool speaks_unasked = false;  ///< an answer to no command is a pose of now
+};
+
+class LockStep {
+ public:
+  /// s: a missing answer that has not come for so long after another one, is lost. One that takes longer leaves the
+  /// link without a pose for longer than Protocol::longest_silence().
+  static constexpr double longest_way = 0.050;
+
+  explicit LockStep(const LockStepTimes& times = {}) : times_(times) {}
+
+  /// Nothing was sent, and nothing is on its way.
+  void restart() noexcept { *this = LockStep(times_); }
+  /// Whether a command is due: the last one was answered, or is overdue.
+  bool is_due(double now) noexcept;
+  /// A command was sent, when one was due.
+  void sent(double now) noexcept;
+  /// This many answers came.
+  void answered(std::uint64_t count, double now) noexcept;
+  /// Whether the last answer tells of now: it and the one before it came in time, and none is missing. If not, nobody
+  /// knows where the hand is.
+  bool is_current() const noexcept { return on_time_ >= enough_on_time; }
+
+ private:
+  static constexpr int enough_on_time = 2;
+
+  LockStepTimes times_;
+  std::array<double, 16> sent_{};  // s: commands without an answer, the oldest first
+  std::size_t owed_ = 0;
+  int on_time_ = 1;  // answers in a row
+  double last_sent_ = 0;
+  double last_answer_ = 0;
+  bool misses_others_ = false;  // an answer came after another one was overdue
+};
+
+}  // namespace palpate::device
