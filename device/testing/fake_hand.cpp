@@ -11,18 +11,26 @@ FakeHand::FakeHand(const ArmModel& arm, const HandModel& hand, std::span<const W
 
 void FakeHand::advance(double now, const Vec3& force) noexcept {
   constexpr double step = 50e-6;
+  constexpr int steps =
+      20;  // between two places of the target: a path and a tremor of 12 Hz are straight in a millisecond
   if (!started_) {
     started_ = true;
     start_ = now;
   }
   while (time_ + step <= now - start_) {
+    if (steps_to_target_ == 0) {
+      steps_to_target_ = steps;
+      const double there = time_ + steps * step;
+      const Waypoint aim = point_on(path_, PathInterpolation::minimum_jerk, there);
+      const Vec3 thrown = flung_from_ + (there - flung_at_) * flung_;
+      const Vec3 target = flung_ != Vec3(0) ? thrown : aim.position + tremor_(there);
+      buttons_ = aim.buttons;
+      target_velocity_ = (target - target_) / (steps * step);
+    }
+    --steps_to_target_;
     time_ += step;
-    const Waypoint aim = point_on(path_, PathInterpolation::minimum_jerk, time_);
-    const Vec3 thrown = flung_from_ + (time_ - flung_at_) * flung_;
-    const Vec3 target = flung_ != Vec3(0) ? thrown : aim.position + tremor_(time_);
-    buttons_ = aim.buttons;
-    step_body(arm_, hand_, force, target, (target - target_) / step, step, body_);
-    target_ = target;
+    target_ += step * target_velocity_;
+    step_body(arm_, hand_, force, target_, target_velocity_, step, body_);
   }
 }
 

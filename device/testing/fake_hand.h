@@ -22,6 +22,7 @@ class FakeHand {
     body_.velocity = flung_ = velocity;
     flung_from_ = body_.position;
     flung_at_ = time_;
+    steps_to_target_ = 0;
   }
   const BodyState& body() const noexcept { return body_; }
   double time() const noexcept { return time_; }
@@ -34,6 +35,8 @@ class FakeHand {
   std::vector<Waypoint> path_;
   BodyState body_;
   Vec3 target_{0};
+  Vec3 target_velocity_{0};
+  int steps_to_target_ = 0;
   Vec3 flung_{0};
   Vec3 flung_from_{0};
   double flung_at_ = 0;

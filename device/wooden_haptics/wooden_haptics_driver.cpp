@@ -92,7 +92,12 @@ std::array<int, 3> WoodenHapticsProtocol::within_load(std::array<int, 3> milliam
 
 void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double now) noexcept {
   const bool known = packet.size() == report_2016 || packet.size() == report_hid || packet.size() == report_teensy;
-  if (!known || (report_size_ != 0 && packet.size() != report_size_)) return;
+  if (!known || (report_size_ != 0 && packet.size() != report_size_)) {
+    if (report_size_ == 0) return;
+    exchange_.answered(1, now);  // an answer all the same
+    status_.doubtful = true;
+    return;
+  }
   const std::array<int, 3> counts{word(packet, 0), word(packet, 1), word(packet, 2)};
   if (report_size_ == 0 && packet.size() == report_2016 && !keeps_home_) {
     // No button: the arm was opened in its home pose.
