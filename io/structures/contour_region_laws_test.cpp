@@ -30,7 +30,8 @@ struct Drawing {
     return {40 + x * std::cos(turned) - y * std::sin(turned), -90 + x * std::sin(turned) + y * std::cos(turned)};
   }
   ContourPolygon drawn(ContourPolygon polygon) {
-    std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()));
+    std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()),
+                polygon.end());
     if (random() % 2 == 0) std::ranges::reverse(polygon);
     return polygon;
   }

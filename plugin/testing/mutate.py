@@ -25,7 +25,7 @@ import tempfile
 import threading
 import time
 
-from slips import NOT_MUTATED, masked, slips_by_line
+from slips import COMPILES_ALIKE, NOT_MUTATED, enumerations, masked, slips_by_line
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "mutate"
@@ -33,6 +33,7 @@ EQUIVALENT = ROOT / ".ci" / "equivalent_mutants"
 SLIP_H = ROOT / "plugin" / "testing" / "slip.h"
 LONGEST_SUITE_S = 900
 PLACES = 4096  # `most` in slip.h
+TIMED_OUT = 1000
 
 # A module's own tests, and what they need. The later ones are tested with all before them.
 MODULES = {
@@ -43,7 +44,8 @@ MODULES = {
     "plugin": ("plugin_tests", "solver;io;device;modes;testdata;plugin"),
 }
 # Folders whose tests are a program of their own, which alone judges them.
-OWN_TESTS = {"io/archive/": "archive_tests", "io/results/": "archive_tests"}
+OWN_TESTS = {"io/archive/": "archive_tests", "io/results/": "archive_tests", "plugin/paraview/client/model/": "paraview_model_tests"}
+NEEDS_PARAVIEW = {"paraview_model_tests"}
 
 
 class Mutant:
@@ -52,6 +54,7 @@ class Mutant:
         self.name, self.after, self.together = slip
         self.place = None  # of its byte among those that tell what was run
         self.marked = False  # it is compiled alone, but its line tells that it is run
+        self.no_code = False  # it does not compile
 
     def key(self):
         return (self.path, self.before.strip(), self.after.strip())
@@ -66,7 +69,7 @@ def git(*arguments):
 
 def survivors_told(file):
     """The keys of the slips that survived in a run whose output is in a file. The line numbers there are of no account."""
-    told = re.findall(r"^(?:survived|not run): ([^:\n]+):\d+: .*\n    - (.*)\n    \+ ?(.*)$", pathlib.Path(file).read_text(), flags=re.M)
+    told = re.findall(r"^(?:survived|not run|unsteady): ([^:\n]+):\d+: .*\n    - (.*)\n    \+ ?(.*)$", pathlib.Path(file).read_text(), flags=re.M)
     return {(path, before.strip(), after.strip()) for path, before, after in told}
 
 
@@ -91,10 +94,19 @@ def changed_lines(since):
     return lines
 
 
-def mutants_by_line(path, wanted=None):
+def mutants_by_line(path, enums, wanted=None):
     text = (ROOT / path).read_text()
     lines = text.splitlines()
-    return [[Mutant(path, number, lines[number - 1], slip) for slip in slips] for number, slips in slips_by_line(text, wanted)]
+    return [[Mutant(path, number, lines[number - 1], slip) for slip in slips] for number, slips in slips_by_line(text, wanted, enums)]
+
+
+def all_enumerations():
+    """The values of each enumeration of the product; of two with one name, none."""
+    found = {}
+    for path in git("ls-files", "*.h", "*.cpp").split():
+        for name, values in enumerations((ROOT / path).read_text(errors="replace")).items():
+            found.setdefault(name, []).append(values)
+    return {name: values[0] for name, values in found.items() if len(values) == 1}
 
 
 def equivalents():
@@ -143,7 +155,7 @@ class Bench:
 
     def __init__(self, target, modules):
         self.target, self.tree = target, WORK / target
-        self.build, self.log = self.tree / "build", ""
+        self.build, self.logs = self.tree / "build", threading.local()
         self.program = self.build / "bin" / target
         names = git("ls-files", "-co", "--exclude-standard").split("\n")
         self.files = [name for name in names if name and (ROOT / name).is_file()]
@@ -153,8 +165,13 @@ class Bench:
             self.write(name, (ROOT / name).read_bytes())
         # A slip may leave a variable unused: that is for the tests to see, not for the compiler.
         if self.run(["cmake", "--preset", "release", "-DPALPATE_TESTS=ON", f"-DPALPATE_MODULES={modules}",
-                     "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_CXX_FLAGS=-w -Wno-narrowing"], 600) != 0:
-            sys.exit(f"mutate: cmake failed:\n{self.log[-2000:]}")
+                     "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_CXX_FLAGS=-w -Wno-narrowing",
+                     f"-DPALPATE_PARAVIEW={'ON' if target in NEEDS_PARAVIEW else 'OFF'}"], 600) != 0:
+            sys.exit(f"mutate: cmake failed:\n{self.log()[-2000:]}")
+
+    def log(self):
+        """What the last command of this thread printed."""
+        return getattr(self.logs, "last", "")
 
     def write(self, name, data):
         """Changes a file of the copy if its contents differ: its time would have all compiled again."""
@@ -165,18 +182,18 @@ class Bench:
             shutil.copymode(ROOT / name, copy)
 
     def run(self, command, seconds, **more):
-        """The exit code of a command in the copy; -1 where it took too long."""
+        """The exit code of a command in the copy; TIMED_OUT where it took too long."""
         process = subprocess.Popen(command, cwd=self.tree, env={**os.environ, **self.environment, **more},
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         try:
             out, _ = process.communicate(timeout=seconds)
-            self.log = out.decode(errors="replace")
+            self.logs.last = out.decode(errors="replace")
             return process.returncode
         except BaseException as error:
             os.killpg(process.pid, 9)  # with what a slip has started
             process.communicate()
             if isinstance(error, subprocess.TimeoutExpired):
-                return -1
+                return TIMED_OUT
             raise
 
     def make(self, **more):
@@ -196,17 +213,18 @@ class Bench:
                 self.write(path, with_slips(path, by_file.get(path, [])).encode())
             if self.make():
                 break
-            named = set(re.findall(r"((?:solver|io|modes|device|plugin)/[\w./]+):(\d+)", self.log))
+            named = set(re.findall(r"((?:solver|io|modes|device|plugin)/[\w./]+):(\d+)", self.log()))
             wrong = [mutant for mutant in left if (mutant.path, str(mutant.number)) in named]
             if not wrong:  # an error without a line of a slip: all of the files that it names
                 files = {path for path, _ in named}
                 wrong = [mutant for mutant in left if mutant.path in files]
                 if not wrong:
-                    sys.exit(f"mutate: {self.target} does not build without any slip:\n{self.log[-2000:]}")
+                    sys.exit(f"mutate: {self.target} does not build without any slip:\n{self.log()[-2000:]}")
                 for mutant in wrong:
                     mutant.marked = True
             for mutant in wrong:
-                if mutant.marked:
+                mutant.no_code = mutant.name in COMPILES_ALIKE
+                if mutant.marked or mutant.no_code:
                     left.remove(mutant)
                 mutant.marked = True
         for mutant in mutants:
@@ -228,19 +246,22 @@ class Bench:
                 if self.passes([suite], LONGEST_SUITE_S, PALPATE_SLIPS_RUN=places.name):
                     self.suites[suite] = (time.time() - began, pathlib.Path(places.name).read_bytes())
                 else:
-                    print(f"{suite} fails without any slip, and is left out:\n{self.log[-800:]}", flush=True)
+                    print(f"{suite} fails without any slip, and is left out:\n{self.log()[-800:]}", flush=True)
 
         serve(look, [suite for suite in suites if not re.search(r"Shared|DISABLED_", suite)], jobs, time.time() + 7200)
         print(f"{self.target}: {len(self.suites)} suites take {sum(seconds for seconds, _ in self.suites.values()):.0f} s", flush=True)
 
     def passes(self, suites, seconds, **more):
-        chosen = ":".join(f"{suite}.*" for suite in suites) + "-*.DISABLED_*"
-        with tempfile.TemporaryDirectory() as folder:  # tests of two slips at once do not share files
-            return self.run([str(self.program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + chosen], seconds,
-                            TMPDIR=folder, TEST_TMPDIR=folder, PALPATE_TEST_SECONDS=str(LONGEST_SUITE_S), **more) == 0
+        return self.outcome_of([f"{suite}.*" for suite in suites], seconds, **more) == 0
 
-    def judge(self, mutant, **more):
-        """seen, survived, or not run (by no test)."""
+    def outcome_of(self, tests, seconds, **more):
+        """The exit code of the program for these tests."""
+        with tempfile.TemporaryDirectory() as folder:  # tests of two slips at once do not share files
+            return self.run([str(self.program), "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_filter={':'.join(tests)}-*.DISABLED_*"],
+                            seconds, TMPDIR=folder, TEST_TMPDIR=folder, PALPATE_TEST_SECONDS=str(LONGEST_SUITE_S), **more)
+
+    def judge(self, mutant, without_it=True, **more):
+        """seen, timed out (seen, too), survived, not run (by no test), or unsteady: its test fails without the slip, too."""
         running = [suite for suite, (_, ran) in self.suites.items() if mutant.place is None or ran[mutant.place]]
         if not running:
             return "not run"
@@ -248,20 +269,29 @@ class Bench:
         near = [suite for suite in running if names & set(suite.split("/"))]
         far = sorted((suite for suite in running if suite not in near), key=lambda suite: self.suites[suite][0])
         quick = [suite for suite in far if self.suites[suite][0] < 0.5]
+        unsteady = False
         for suites in (near, quick, [suite for suite in far if suite not in quick]):
             usual = sum(self.suites[suite][0] for suite in suites)
-            if suites and not self.passes(suites, 20 + 5 * usual, **more):  # a slip may also make them run for ever
-                return "seen"
-        return "survived"
+            code = self.outcome_of([f"{suite}.*" for suite in suites], 20 + 5 * usual, **more) if suites else 0
+            if code == TIMED_OUT:  # a slip may also make them run for ever
+                return "timed out"
+            if code != 0:
+                failed = re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", self.log(), flags=re.M) or [f"{suite}.*" for suite in suites]
+                if not without_it or self.outcome_of(sorted(set(failed)), 20 + 5 * usual) == 0:
+                    return "seen"
+                unsteady = True
+        return "unsteady" if unsteady else "survived"
 
     def judge_alone(self, mutant):
-        """The same of a slip that is compiled by itself; or not C++."""
+        """The same of a slip that is compiled by itself, and so cannot be left out; or not C++."""
+        if mutant.no_code:
+            return "not C++"
         lines = (ROOT / mutant.path).read_text().split("\n")
         lines[mutant.number - 1] = mutant.after
         before = (self.tree / mutant.path).read_bytes()
         self.write(mutant.path, "\n".join(lines).encode())
         try:
-            return self.judge(mutant) if self.make(CCACHE_DISABLE="1") else "not C++"
+            return self.judge(mutant, without_it=False) if self.make(CCACHE_DISABLE="1") else "not C++"
         finally:
             self.write(mutant.path, before)
 
@@ -287,13 +317,14 @@ def serve(function, items, jobs, deadline):
 
 
 def try_slips(bench, mutants, jobs, seconds):
-    """Says which slips survive, and returns how many had which outcome."""
-    total, lock = {}, threading.Lock()
+    """Says which slips survive, and returns how many had which outcome; also by kind."""
+    total, by_kind, lock = {}, {}, threading.Lock()
 
     def tell(mutant, outcome):
         with lock:
             total[outcome] = total.get(outcome, 0) + 1
-            if outcome in ("survived", "not run"):
+            by_kind.setdefault(mutant.name, {}).setdefault(outcome, []).append(mutant)
+            if outcome in ("survived", "not run", "unsteady"):
                 print(f"{outcome}: {mutant}", flush=True)
 
     bench.compile_together(mutants)
@@ -304,6 +335,8 @@ def try_slips(bench, mutants, jobs, seconds):
     deadline = time.time() + seconds
     serve(lambda mutant: tell(mutant, bench.judge(mutant, PALPATE_SLIP=str(mutant.place))), together, jobs, deadline)
     serve(lambda mutant: tell(mutant, bench.judge_alone(mutant)), alone, 1, deadline)
+    for name, outcomes in sorted(by_kind.items()):
+        print(f"{bench.target}: {name}: " + ", ".join(f"{len(found)} {outcome}" for outcome, found in sorted(outcomes.items())), flush=True)
     return total
 
 
@@ -335,7 +368,8 @@ def main():
                  if is_mutated(path) and (ROOT / path).exists()}
 
     generator = random.Random(options.seed)
-    lines = [line for path in sorted(files) for line in mutants_by_line(path, files[path])]
+    enums = all_enumerations()
+    lines = [line for path in sorted(files) for line in mutants_by_line(path, enums, files[path])]
     if options.again:
         # Of all lines: those that have changed since would have the seed choose others.
         told = survivors_told(options.again)
@@ -354,11 +388,12 @@ def main():
         own = [mutant for mutant in chosen if target_of(mutant.path)[0] == target]
         for outcome, count in try_slips(Bench(target, modules), own, options.jobs, options.seconds).items():
             total[outcome] = total.get(outcome, 0) + count
-    seen, survived = total.get("seen", 0), total.get("survived", 0) + total.get("not run", 0)
+    seen, survived = total.get("seen", 0) + total.get("timed out", 0), total.get("survived", 0) + total.get("not run", 0)
     score = seen / (seen + survived) if seen + survived else 1.0
-    print(f"{sum(total.values())} of {chosen_count} slips tried in {time.time() - began:.0f} s: {seen} seen, {survived} survived "
+    print(f"{sum(total.values())} of {chosen_count} slips tried in {time.time() - began:.0f} s: {seen} seen "
+          f"({total.get('timed out', 0)} of them by taking too long), {survived} survived "
           f"({total.get('not run', 0)} of them run by no test), {total['equivalent']} known to change nothing, "
-          f"{total.get('not C++', 0)} not C++")
+          f"{total.get('not C++', 0)} not C++, {total.get('unsteady', 0)} at a test that fails without the slip, too")
     print(f"score {score:.3f}")
     sys.exit(1 if score < options.least else 0)
 

@@ -3,7 +3,7 @@
 
 import re
 
-NOT_MUTATED = re.compile(r"(_test|_benchmark|_main)\.(cpp|h)$|/(testing|peers|fuzz|paraview|bench)/")
+NOT_MUTATED = re.compile(r"(_test|_benchmark)\.(cpp|h)$|/(testing|peers|fuzz|bench)/|/paraview/(?!client/model/)")
 SKIPPED_LINE = re.compile(r"^\s*(#|using |namespace|template|static_assert|friend |public:|private:|case |///|//|\*)")
 
 # Each: a name, what is looked for in code without comments and strings, what takes its place, and what lets either be chosen.
@@ -35,7 +35,18 @@ SWAPS = [
     ("down for up", r"\+\+(?=[A-Za-z])", "--", "slip::Up{@} ->* "),
     ("false for true", r"\btrue\b", "false", "(!slip::on(@))"),
     ("true for false", r"\bfalse\b", "true", "(slip::on(@))"),
+    ("term left out", r" \+ ", None, " + slip::NoPlus{@} + "),
+    ("term left out", r" - ", None, " - slip::NoMinus{@} - "),
 ]
+# Of these the line that chooses the slip compiles if and only if the slip does.
+COMPILES_ALIKE = {"another variable", "arguments swapped", "call left out", "return before it"}
+KEYWORDS = {"if", "for", "while", "switch", "return", "sizeof", "catch", "decltype", "alignof", "noexcept", "throw", "else", "new", "delete",
+            "using", "typename", "case", "struct", "class", "enum", "namespace", "operator", "const", "auto", "template", "public", "void"}
+DECLARED = re.compile(r"(?<![\w.>:])(?:const )?([A-Za-z_][\w:]*(?:<[\w:, ]+>)?)[&*]? ([a-z]\w*)(?= = |[,;){]|$)")
+DECLARATION = re.compile(r"^(?:const )?[A-Za-z_][\w:<>, ]*[&*]* \w+$")
+CALL = re.compile(r"(?<![\w.>:])((?:[a-z_]\w*::)*[a-z_]\w*)\(")
+VARIABLE = re.compile(r"(?<![\w.>:&\[])([a-z]\w*)(?![\w(:{]| [-+*/|&]?= )")
+ENUM = re.compile(r"\benum class (\w+)(?: : [\w:]+)? \{([^}]*)\}")
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|\d+)(?![\w.])")
 ROOM = re.compile(r"^\s*[\w:<>]+ \w+\[$|\bstd::array<[\w:]+, $")  # an array's length: more of it changes nothing
 STATEMENT = re.compile(r"^\s+(?:[\w.\[\]>-]+ [+\-*/|&]?= .*|(?:\+\+|--)?[\w.:>-]+\([^;]*\)|(?:\+\+|--)[\w.>-]+);\s*$")
@@ -102,12 +113,91 @@ def either(line, code, match, other):
     return f"{line[:first]}(slip::on(@) ? (({left}){other}({right})) : (({left}){match.group()}({right}))){line[last:]}"
 
 
-def slips_of(line, code):
-    """(name, line with the slip, line that chooses it or None) for each slip that a line of code can have."""
-    found = []
+def term_end(code, begin):
+    """Where the term of a sum that starts at `begin` ends; None where that is on another line."""
+    depth = 0
+    for at in range(begin, len(code)):
+        if code[at] in "([{":
+            depth += 1
+        elif code[at] in ")]}":
+            if depth == 0:
+                return at
+            depth -= 1
+        elif depth == 0 and (code[at] in ",;" or re.match(r" (?:[+\-<>=?:|&]|!=)", code[at:])):
+            return at
+    return None
+
+
+def clauses_left_out(line, code):
+    """Of `a && b` and `a || b` either clause alone."""
+    for match in re.finditer(r" (?:&&|\|\|) ", code):
+        found = operands(code, *match.span())
+        if not found:
+            continue
+        first, last = found
+        left, right, operator = line[first : match.start()], line[match.end() : last], match.group()
+        neutral = "slip::on(@) || " if "&" in operator else "!slip::on(@) && "
+        yield f"{line[:first]}({left}){line[last:]}", f"{line[:first]}(({left}){operator}({neutral}({right}))){line[last:]}"
+        yield f"{line[:first]}({right}){line[last:]}", f"{line[:first]}(({neutral}({left})){operator}({right})){line[last:]}"
+
+
+def calls_changed(line, code):
+    """(name, line with the slip, line that chooses it): neighbours among the arguments swapped, and a function of one left out."""
+    for match in CALL.finditer(code):
+        end = closing(code, match.end() - 1)
+        if not end or match.group(1) in KEYWORDS:
+            continue
+        places = [match.end() - 1, *end[1], end[0]]
+        arguments = [line[a + 1 : b].strip() for a, b in zip(places, places[1:])]
+        if any(not argument or DECLARATION.match(argument) for argument in arguments):
+            continue
+        if len(arguments) == 1 and re.search(r"[=(,?:+\-*/<>&|] ?$|return $", code[: match.start()]) and arguments[0][0] not in "[{":
+            before, after, call = line[: match.start()], line[end[0] + 1 :], line[match.start() : end[0] + 1]
+            yield "call left out", f"{before}({arguments[0]}){after}", f"{before}(slip::on(@) ? ({arguments[0]}) : {call}){after}"
+        for n, (one, two) in enumerate(zip(arguments, arguments[1:])):
+            before, after = line[: places[n] + 1] + (" " if n else ""), line[places[n + 2] :]
+            either_way = f"slip::on(@) ? ({two}) : ({one}), slip::on(@) ? ({one}) : ({two})"
+            yield "arguments swapped", f"{before}{two}, {one}{after}", before + either_way + after
+
+
+def other_words(line, code, variables, enums):
+    """(name, line with the slip, line that chooses it): another variable of a type, another value of an enumeration."""
+    declared_here = {match.group(2) for match in DECLARED.finditer(code)}
+    for match in VARIABLE.finditer(code):
+        name, before, after = match.group(), line[: match.start()], line[match.end() :]
+        others = [other for other, kind in variables.items() if other != name and kind == variables.get(name)]
+        if name in variables and name not in declared_here and others:
+            yield "another variable", before + others[-1] + after, f"{before}(slip::on(@) ? {others[-1]} : {name}){after}"
+    for match in re.finditer(r"\b((?:\w+::)*(\w+)::)(\w+)\b(?![(:])", code):
+        values = enums.get(match.group(2), [])
+        if match.group(3) in values and len(values) > 1:
+            other = match.group(1) + values[(values.index(match.group(3)) + 1) % len(values)]
+            before, after = line[: match.start()], line[match.end() :]
+            yield "another enumerator", before + other + after, f"{before}(slip::on(@) ? {other} : {match.group()}){after}"
+
+
+def slips_of(line, code, variables=None, enums=None):
+    """(name, line with the slip, line that chooses it or None) for each slip that a line of code can have.
+
+    `variables` has the type of each that may be in scope, `enums` the values of each enumeration."""
+    found = [("clause left out", *slip) for slip in clauses_left_out(line, code)]
+    found += [*calls_changed(line, code), *other_words(line, code, variables or {}, enums or {})]
+    for match in re.finditer(r" \? ", code):
+        both = operands(code, *match.span())
+        if both and " : " in code[match.end() :]:
+            before, condition, after = line[: both[0]], line[both[0] : match.start()], line[match.start() :]
+            found.append(("branches swapped", f"{before}!({condition}){after}", f"{before}(slip::on(@) != static_cast<bool>({condition})){after}"))
+    for match in re.finditer(r"\bfor \(.*?[\w\])](?= < )", code):
+        before, after = line[: match.end()], line[match.end() :]
+        found.append(("end of a loop", f"{before} + 1{after}", f"{before} + (slip::on(@) ? 1 : 0){after}"))
     for name, pattern, other, chooses in SWAPS:
         for match in re.finditer(pattern, code):
             before, after = line[: match.start()], line[match.end() :]
+            if other is None:
+                end = term_end(code, match.end())
+                if end:
+                    found.append((name, before + line[end:], before + chooses + after))
+                continue
             together = None
             if chooses:
                 together = before + chooses + after
@@ -144,7 +234,29 @@ def slips_of(line, code):
         indent = re.match(r"\s*", line).group()
         end = code.rindex(";") + 1
         found.append(("statement left out", indent + ";", f"{indent}{{ if (!slip::on(@)) {line[len(indent):end]} }}{line[end:]}"))
+        for value in ("", " {}"):  # one of them does not compile
+            found.append(("return before it", f"{indent}return{value};", f"{indent}if (slip::on(@)) return{value}; {line[len(indent):]}"))
     return found
+
+
+def enumerations(text):
+    """The values of each `enum class` in a text."""
+    return {name: re.findall(r"\w+", re.sub(r"=[^,]*", "", values)) for name, values in ENUM.findall(masked(text))}
+
+
+def variables_before(codes, number):
+    """The types of the variables in scope on a line (from 1), by indentation, of those that its function declares above it. A
+    function begins in the first column."""
+    first = next((n for n in range(number - 2, -1, -1) if re.match(r"[A-Za-z\[]", codes[n])), number - 1)
+    declared = []
+    for code in codes[first:number]:
+        indent = len(code) - len(code.lstrip())
+        if code.strip():
+            declared = [known for known in declared if known[0] <= indent]
+        inner = indent + bool(re.match(r"\s*(?:for|if|while|switch) \(|\S.*\($|\S.*\{$", code))
+        declared += [(inner, name, kind) for kind, name in DECLARED.findall(code) if kind not in KEYWORDS]
+    here = {name for _, name in DECLARED.findall(codes[number - 1])}
+    return {name: kind for _, name, kind in declared if name not in here}
 
 
 def at_run_time(line):
@@ -154,13 +266,14 @@ def at_run_time(line):
     return re.sub(r"\bconstexpr\b", "const", re.sub(r"\bstatic constexpr\b", "static inline const", line))
 
 
-def slips_by_line(text, wanted=None):
+def slips_by_line(text, wanted=None, enums=None):
     """(line number, its slips) of each line that can have one; only of the lines `wanted`, if these are given."""
-    result = []
-    for number, (line, code) in enumerate(zip(text.splitlines(), masked(text).splitlines()), 1):
+    result, codes = [], masked(text).splitlines()
+    for number, (line, code) in enumerate(zip(text.splitlines(), codes), 1):
         if (wanted is not None and number not in wanted) or SKIPPED_LINE.match(line):
             continue
-        slips = [(name, after, at_run_time(together)) for name, after, together in slips_of(line, code) if after != line]
+        found = slips_of(line, code, variables_before(codes, number), enums)
+        slips = [(name, after, at_run_time(together)) for name, after, together in found if after != line]
         if slips:
             result.append((number, slips))
     return result

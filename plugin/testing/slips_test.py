@@ -9,7 +9,7 @@ import pathlib
 import subprocess
 import sys
 
-from slips import slips_by_line
+from slips import enumerations, slips_by_line
 
 HERE = pathlib.Path(__file__).resolve().parent
 EXAMPLE = """  double sum = 7 - scale * n / 3.0;
@@ -24,16 +24,25 @@ EXAMPLE = """  double sum = 7 - scale * n / 3.0;
   for (int i = 0; i < n && i <= 3; ++i) {
     sum = sum / 1.5 + (i > 1 ? v.z : -v.x);
   }
+  for (int i = 0; i < n; ++i) sum += mixed(sum, scale) + std::floor(scale);
+  sum = n > 4 ? sum - scale : sum + v.y;
+  const Kind kind = n > 2 ? Kind::third : Kind::first;
+  if (kind == Kind::first) sum += 3;
+  const int most = 3;
+  sum = sum * most + n;
   bool odd = false;
   odd = true;
   return other && odd ? sum : 2 * sum - (n % 2 == 0 ? 0.25 : scale);
 """
-HEAD = """#include <cstdio>
+HEAD = """#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 struct Vector {
   double x = 0, y = 0, z = 0;
   double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
+enum class Kind { first, second, third };
+double mixed(double a, double b) { return 2 * a - b; }
 using Function = double (*)(const Vector&, int, double);
 """
 MAIN = """int main(int, char** arguments) {
@@ -44,6 +53,10 @@ MAIN = """int main(int, char** arguments) {
 """
 
 
+# Written as the tool sees a function: with its head, of which nothing is changed.
+HEADED = "double f(const Vector& v, int n, double scale) {\n" + EXAMPLE
+
+
 def with_line(number, line):
     lines = EXAMPLE.split("\n")
     return "\n".join([*lines[: number - 1], line, *lines[number:]])
@@ -52,7 +65,9 @@ def with_line(number, line):
 def main():
     compiler, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
-    slips = [(number, *slip) for number, found in slips_by_line(EXAMPLE) for slip in found]
+    enums = enumerations(HEAD)
+    slips = [(number - 1, *slip) for number, found in slips_by_line(HEADED, range(2, 99), enums) for slip in found
+             if not slip[1].strip() == "return;"]  # the function returns a value
     bodies = [EXAMPLE]
     for n, (number, _, written, chosen) in enumerate(slips):
         bodies += [with_line(number, written), with_line(number, chosen.replace("{@}", f"{{{n}}}").replace("on(@)", f"on({n})"))]
@@ -79,7 +94,7 @@ def main():
         if expected != plain:
             acting.add(name)
     print(f"{len(slips)} slips, {wrong} wrong; {len(acting)} kinds change what is printed")
-    sys.exit(wrong > 0 or len(acting) < 24)
+    sys.exit(wrong > 0 or len(acting) < 32)
 
 
 if __name__ == "__main__":
