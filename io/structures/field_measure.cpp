@@ -128,7 +128,8 @@ std::vector<Vec3f> nearest_on(const Patch& patch, const std::vector<float>& f, c
         for (std::size_t at = slot * brick_nodes; at < (slot + 1) * brick_nodes; ++at) {
           if (patch.kept[at].x != nowhere) continue;
           unsettled[slot] = 1;
-          if (any |= std::abs(f[at]) < around) break;  // its nearest point may be gone
+          any = any || std::abs(f[at]) < around;  // its nearest point may be gone
+          if (any) break;
         }
         if (!any) return;
         std::array<Vec3f, brick_nodes> found;
