@@ -77,25 +77,25 @@ PALPATE_SWAP(Equal, ==, !=)
 PALPATE_SWAP(Different, !=, ==)
 #undef PALPATE_SWAP
 
-#define PALPATE_FIRST_ALONE(Name, op)                                                            \
-  struct Name {                                                                                  \
-    int number;                                                                                  \
-  };                                                                                             \
-  template <class L>                                                                             \
-  struct Left##Name {                                                                            \
-    L&& value;                                                                                   \
-    int number;                                                                                  \
-  };                                                                                             \
-  template <class L>                                                                             \
-  Left##Name<L> operator op(L&& left, Name tag) {                                                \
-    return {std::forward<L>(left), tag.number};                                                  \
-  }                                                                                              \
-  template <class L, class R>                                                                    \
-  auto operator op(Left##Name<L> left, R&& right)                                                \
-      ->std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))> {          \
+#define PALPATE_FIRST_ALONE(Name, op)                                                             \
+  struct Name {                                                                                   \
+    int number;                                                                                   \
+  };                                                                                              \
+  template <class L>                                                                              \
+  struct Left##Name {                                                                             \
+    L&& value;                                                                                    \
+    int number;                                                                                   \
+  };                                                                                              \
+  template <class L>                                                                              \
+  Left##Name<L> operator op(L&& left, Name tag) {                                                 \
+    return {std::forward<L>(left), tag.number};                                                   \
+  }                                                                                               \
+  template <class L, class R>                                                                     \
+  auto operator op(Left##Name<L> left, R&& right)                                                 \
+      ->std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))> {           \
     using Result = std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))>; \
-    if (on(left.number)) return static_cast<Result>(std::forward<L>(left.value));                \
-    return std::forward<L>(left.value) op std::forward<R>(right);                                \
+    if (on(left.number)) return static_cast<Result>(std::forward<L>(left.value));                 \
+    return std::forward<L>(left.value) op std::forward<R>(right);                                 \
   }
 PALPATE_FIRST_ALONE(NoPlus, +)
 PALPATE_FIRST_ALONE(NoMinus, -)
