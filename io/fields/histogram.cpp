@@ -69,7 +69,7 @@ LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& 
 
 std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const GradientKernel& kernel,
                                                   const Bins& values, std::span<const double> least_magnitudes,
-                                                  const Progress& progress, int threads) {
+                                                  const Progress& progress, int threads, const EdgeUse& use) {
   check(values, "values");
   constexpr std::uint64_t enough_voxels = 1'000'000;  // far more than the bins can show
   const internal::EvenlySpread counted(volume.offset(0, 0, volume.geometry.dimensions.z), enough_voxels);
@@ -83,6 +83,7 @@ std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const Gr
   std::mutex adding;
   const auto count_block = [&](const Block& block, std::span<const glm::vec3> gradients) {
     std::vector<Edge> found;
+    std::vector<CountedEdge> used;
     auto gradient = gradients.begin();
     for (int k = block.first.z; k < block.first.z + block.size.z; ++k) {
       for (int j = block.first.y; j < block.first.y + block.size.y; ++j) {
@@ -92,12 +93,13 @@ std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const Gr
           const auto magnitude = static_cast<double>(glm::length(*gradient));
           if (!(magnitude > least_of_all) || volume.is_padding(i, j, k)) continue;
           const LowHigh sides = low_high_at(volume, {i, j, k}, Vec3(*gradient), kernel.scale_mm());
-          found.push_back({static_cast<std::size_t>(values.bin_of(sides.high)) * columns +
-                               static_cast<std::size_t>(values.bin_of(sides.low)),
-                           magnitude});
+          const int low = values.bin_of(sides.low), high = values.bin_of(sides.high);
+          found.push_back({static_cast<std::size_t>(high) * columns + static_cast<std::size_t>(low), magnitude});
+          if (use && magnitude > least_magnitudes.front()) used.push_back({{i, j, k}, *gradient, low, high});
         }
       }
     }
+    if (use) use(used);
     const std::scoped_lock lock(adding);
     for (std::size_t h = 0; h < all.size(); ++h) {
       for (const Edge& edge : found) {

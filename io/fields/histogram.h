@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -53,6 +55,15 @@ struct LowHighHistogram {
   }
 };
 
+/// A voxel that a low-high histogram counts.
+struct CountedEdge {
+  glm::ivec3 voxel{0};
+  glm::vec3 gradient{0};  ///< patient space, per mm
+  int low = 0, high = 0;  ///< bins
+};
+/// What gets the edges above the first least magnitude, some at a time, in no order; may be called by several threads.
+using EdgeUse = std::function<void(std::span<const CountedEdge>)>;
+
 /// Counts the voxels whose gradient is steeper than the least magnitude (per mm), padding left out. Of a volume of more
 /// than some millions of voxels an evenly spread part is counted. `threads` 0: all cores; the counts do not depend on
 /// them. Throws std::invalid_argument for empty bins, Cancelled.
@@ -61,6 +72,7 @@ LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& 
 /// The same for several least magnitudes, in one pass over the volume: one histogram for each.
 std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const GradientKernel& kernel,
                                                   const Bins& values, std::span<const double> least_magnitudes,
-                                                  const Progress& progress = {}, int threads = 0);
+                                                  const Progress& progress = {}, int threads = 0,
+                                                  const EdgeUse& use = {});
 
 }  // namespace palpate::io

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "modes/scene/site.h"
+
 namespace palpate::modes {
 
 /// A boundary between two tissues, by their typical values.
@@ -14,15 +16,28 @@ struct NamedPair {
   double low = 0;
   double high = 0;
   std::string within = {};  ///< the tissue that both sides are part of, of a wall within one: "lung or foam"
+  SiteCounts sites = {};  ///< of a CT: where its edges lie; all 0 where that is not known
 };
 
-/// One name for each, all different. HU: "Skin", "Lung or foam", "Lung surface", "Soft tissue", "Bone", "Metal", and
-/// "Bone at air" where no soft tissue lies between, as in a sinus, or seems to; those that would share a name end in
-/// the denser tissue's HU. Fat beside soft tissue is "Soft tissue" too; any other wall within a tissue is "Wall in lung
-/// or foam". Other units: "Skin?" for the boundary that rises least from the darkest, and else which
-/// tissues it lies between, in order of brightness; nothing in the values says more. Values in names are whole, or to a
+/// One name for each, all different.
+///
+/// HU: a boundary of air is named by all sites where it is met, each with more than a thousandth of its edges: "Skin",
+/// "Skin, lung surface and table". It is "Bone at air" where no soft tissue lies between, as in a sinus, or seems to;
+/// "Airways in the lung" or "Foam or cloth" where its denser side is light too. Where the sites are not known its
+/// values name it. Others are "Soft tissue", "Bone", "Dense bone", "Metal"; those that would share a name end in the
+/// denser tissue's HU. Fat beside soft tissue is "Soft tissue" too; any other wall within a tissue is "Wall in lung or
+/// foam".
+///
+/// Other units: nothing in the values says more than which tissues a boundary lies between, in order of brightness.
+/// What is likely is asked: "Skin?" for the boundary that rises least from the darkest; and of a head, "Scalp and brain
+/// surface?" for it and "Gray and white matter?" for that between the next two. Values in names are whole, or to a
 /// hundredth of `range`, that of the scan's values, where that is less.
-std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, bool hounsfield, double range);
+struct NamingOptions {
+  bool hounsfield = false;
+  bool is_head = false;
+  double range = 0;
+};
+std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, const NamingOptions& options);
 
 /// Of the same boundary, felt on the way back.
 std::string way_back_name(const std::string& name);

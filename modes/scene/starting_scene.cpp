@@ -68,6 +68,11 @@ std::string part_of_body(const io::Volume& volume) {
   return part != nullptr ? std::string(part->begins) : std::string();
 }
 
+bool is_of_head(const io::Volume& volume) {
+  const Part* const part = part_of(volume.body_part, volume.description);
+  return part != nullptr && part->scene == std::string_view("ct-skin-and-bone");
+}
+
 std::vector<OfferedScene> offered_scenes(const std::string& first, const std::string& modality, bool has_vectors) {
   std::vector<OfferedScene> offered;
   for (const std::string& name : starting_scenes()) {

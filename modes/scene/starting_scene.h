@@ -20,6 +20,9 @@ std::string starting_scene(const io::Volume& volume);
 /// on beside the modality.
 std::string part_of_body(const io::Volume& volume);
 
+/// Whether it says that it is of the head.
+bool is_of_head(const io::Volume& volume);
+
 /// A starting scene as it is offered for a scan.
 struct OfferedScene {
   std::string name;

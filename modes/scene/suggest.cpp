@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -13,10 +15,15 @@
 #include "modes/scene/boundary_names.h"
 #include "modes/scene/ct_tissues.h"
 #include "modes/scene/defaults.h"
+#include "modes/scene/edge_sites.h"
 #include "modes/scene/faint_walls.h"
 #include "modes/scene/merge_boundaries.h"
 #include "modes/scene/number_text.h"
+
+#include "modes/scene/regions.h"
 #include "modes/scene/scan_noise.h"
+#include "modes/scene/starting_scene.h"
+#include "modes/scene/tissue_colors.h"
 #include "modes/scene/tissue_hills.h"
 
 namespace palpate::modes {
@@ -37,10 +44,9 @@ constexpr double boundary_share = 0.02;  // of the voxels at boundaries
 // has a small part of the gradient, and is a boundary all the same.
 constexpr double ramp_from = 0.08, ramp_to = 0.2;
 constexpr double least_in_noise = 4;        // standard deviations of the gradient, where a faint wall is felt
+constexpr double reach_of_sides = 3;        // of the gradient's scale: within it both sides of an edge are found
 constexpr std::size_t most_boundaries = 8;  // as many as have a color
-// Okabe and Ito's colors: told apart by the color-blind too. Source: "Color universal design", 2008.
-constexpr std::array<const char*, most_boundaries> colors{"#e69f00", "#0072b2", "#009e73", "#d55e00",
-                                                          "#56b4e9", "#cc79a7", "#f0e442", "#999999"};
+static_assert(most_boundaries == tissue_colors.size());
 
 std::vector<std::string> names_of(const std::vector<double>& typical, const io::Volume& volume, double range) {
   std::vector<std::string> names;
@@ -208,17 +214,46 @@ Mode friction_above(const FoundBoundary& boundary, const Suggestion& suggestion)
   return mode;
 }
 
+/// Where the edges lie whose two sides are within the boundary's two tissues.
+SiteCounts sites_of(const FoundBoundary& boundary, const Suggestion& suggestion, const internal::EdgeSites& sites) {
+  const io::Bins& values = suggestion.edges.values;
+  const Tissue &low = suggestion.scene.tissues[boundary.low], &high = suggestion.scene.tissues[boundary.high];
+  return sites.count(values.bin_of(low.low), values.bin_of(low.high) + 1, values.bin_of(high.low),
+                      values.bin_of(high.high) + 1);
+}
+
+/// Each its tissue's; those of a tissue that another has already been given the color of, one that is left.
+std::vector<const char*> colors_for(const std::vector<std::string>& names) {
+  std::vector<const char*> colors(names.size(), nullptr);
+  std::vector<const char*> left(tissue_colors.begin(), tissue_colors.end());
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    const auto own = std::ranges::find(left, color_of(kind_of(names[n])));
+    if (own == left.end()) continue;
+    colors[n] = *own;
+    left.erase(own);
+  }
+  for (const char*& color : colors) {
+    if (color != nullptr) continue;
+    color = left.back();
+    left.pop_back();
+  }
+  return colors;
+}
+
 /// A surface for each boundary, then the ways back, then the friction of the outermost of the first `between_tissues`
 /// boundaries: the others are faint walls. `noise_gradients`: of each boundary.
 void add_modes(Suggestion& suggestion, std::size_t between_tissues, const std::vector<double>& noise_gradients,
-               double range, double scale_mm, bool is_ct) {
+               const NamingOptions& naming, double scale_mm) {
+  const bool is_ct = naming.hounsfield;
   std::vector<FoundBoundary>& boundaries = suggestion.boundaries;
   std::vector<NamedPair> pairs;
   pairs.reserve(boundaries.size());
   for (const FoundBoundary& boundary : boundaries) {
-    pairs.push_back({suggestion.typical[boundary.low], suggestion.typical[boundary.high], boundary.within});
+    pairs.push_back(
+        {suggestion.typical[boundary.low], suggestion.typical[boundary.high], boundary.within, boundary.sites});
   }
-  const std::vector<std::string> names = boundary_names(pairs, is_ct, range);
+  const std::vector<std::string> names = boundary_names(pairs, naming);
+  const std::vector<const char*> colors = colors_for(names);
   std::vector<Mode>& modes = suggestion.scene.modes;
   for (const bool up : {true, false}) {
     for (std::size_t b = 0; b < boundaries.size(); ++b) {
@@ -256,11 +291,19 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   }
   const double steepest_of_least = least_step * range / (scale_mm * std::sqrt(2 * std::numbers::pi));
   const std::array least_gradients{steepest_of_least, internal::least_gradient_of_walls(noise, scale_mm)};
+  const bool is_ct = volume->unit == "HU";
+  std::optional<internal::Regions> regions;
+  std::optional<internal::EdgeSites> sites;
+  io::EdgeUse use;
+  if (is_ct) {
+    regions.emplace(*volume, threads);
+    sites.emplace(*volume, *regions, reach_of_sides * scale_mm);
+    use = [&](std::span<const io::CountedEdge> counted) { sites->add(counted); };
+  }
   std::vector<io::LowHighHistogram> edges =
       io::low_high_histograms(*volume, kernel, {spread.low - margin * range, spread.high + margin * range, value_bins},
-                              least_gradients, progress, threads);
+                              least_gradients, progress, threads, use);
   suggestion.edges = std::move(edges[0]);
-  const bool is_ct = volume->unit == "HU";
   const TissueHills found =
       internal::tissue_hills(suggestion.edges, {0, value_bins}, bins_of_least_step(suggestion.edges.values),
                              std::max(bandwidth_of_range * range, 0.75 * spread.noise), is_ct);
@@ -275,7 +318,10 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   const std::size_t between_tissues = suggestion.boundaries.size();
   add_faint_walls(internal::faint_walls(edges[1], found, noise.between(limits), range, counts.all, is_ct), range,
                   suggestion, noise_gradients);
-  add_modes(suggestion, between_tissues, noise_gradients, range, scale_mm, is_ct);
+  if (sites) {
+    for (FoundBoundary& boundary : suggestion.boundaries) boundary.sites = sites_of(boundary, suggestion, *sites);
+  }
+  add_modes(suggestion, between_tissues, noise_gradients, {is_ct, is_of_head(*volume), range}, scale_mm);
   suggestion.scene.description =
       "Tissues and boundaries as they were found in the scan: rename, switch and reshape them.";
   return suggestion;

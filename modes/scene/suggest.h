@@ -13,6 +13,7 @@
 
 #include "io/fields/histogram.h"
 #include "io/progress.h"
+#include "modes/scene/site.h"
 #include "modes/scene/scene.h"
 
 namespace palpate::modes {
@@ -26,6 +27,7 @@ struct FoundBoundary {
                       ///< softer tissue of bone; scan's unit
   double share = 0;   ///< of all voxels at boundaries between tissues
   std::string within = {};  ///< the tissue that both sides are part of, of a fainter wall within one
+  SiteCounts sites = {};  ///< of a CT: where its edges lie
 };
 
 struct Suggestion {
@@ -37,7 +39,8 @@ struct Suggestion {
 };
 
 /// Tissues of a CT are named by their HU (air, lung or foam, fat, soft tissue, bone, metal), others by their rank.
-/// Every boundary becomes a surface with a name, a switch, and a color that the color-blind can tell from the others.
+/// Every boundary becomes a surface with a name (boundary_names.h), a switch, and its tissue's color (tissue_colors.h);
+/// where two are of one tissue, the second has a color that the color-blind can tell from the others.
 /// Its strength rises with the gradient and begins at the boundary's middle, so that it is felt there. The way back,
 /// from the higher to the lower values, is a second surface of the same color, switched off, since a hand comes from
 /// outside. A scan without boundaries gives a scene without modes. Throws io::Cancelled.

@@ -1,0 +1,41 @@
+#pragma once
+
+/// Where the edges of a CT lie: at the skin, at the lung, at other air inside the body, at the table.
+
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "io/fields/histogram.h"
+#include "modes/scene/site.h"
+#include "modes/scene/regions.h"
+
+namespace palpate::modes::internal {
+
+Site site_of(const Sides& sides) noexcept;
+
+/// Remembers the place of every edge that a histogram counts.
+class EdgeSites {
+ public:
+  /// The volume and the regions have to outlive it. `reach_mm`: how far from an edge its two sides are looked for.
+  EdgeSites(const io::Volume& volume, const Regions& regions, double reach_mm);
+
+  /// Of one block; may be called by several threads at a time.
+  void add(std::span<const io::CountedEdge> edges);
+  /// Of the edges whose low side lies in bins [low_first, low_end), and their high side likewise.
+  SiteCounts count(int low_first, int low_end, int high_first, int high_end) const;
+
+ private:
+  struct SitedEdge {
+    std::uint16_t low, high;
+    Site site;
+  };
+  const io::Volume& volume_;
+  const Regions& regions_;
+  double reach_mm_;
+  std::mutex adding_;
+  std::vector<SitedEdge> edges_;
+};
+
+}  // namespace palpate::modes::internal
