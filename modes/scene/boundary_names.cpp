@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "modes/scene/ct_tissues.h"
 #include "modes/scene/number_text.h"
@@ -13,25 +15,47 @@ namespace {
 
 constexpr double least_share = 0.001;  // of a boundary's edges: less is noise
 
-/// The sites where a boundary is met, in the order in which a hand meets them; empty where that is not known.
-std::vector<std::string> sites_of(const SiteCounts& counts, bool is_bone) {
-  struct Word {
-    Site site;
-    const char* name;
-  };
-  constexpr std::array soft{Word{Site::skin, "skin"}, Word{Site::lung, "lung surface"},
-                            Word{Site::inner_air, "air inside the body"}, Word{Site::cloth, "foam or cloth"},
-                            Word{Site::table, "table"}};
+struct SiteWord {
+  Site site;
+  std::string_view word;
+};
+// In the order in which a hand meets them.
+constexpr std::array site_words{SiteWord{Site::skin, "skin"}, SiteWord{Site::lung, "lung surface"},
+                                SiteWord{Site::inner_air, "air inside the body"}, SiteWord{Site::table, "table"},
+                                SiteWord{Site::cloth, "foam or cloth"}};
+constexpr std::string_view bone_at_air = "bone at air";
+
+bool is_of_body(Site site) {
+  return site == Site::skin || site == Site::lung || site == Site::inner_air;
+}
+
+/// Where a boundary is met, in words; empty where that is not known.
+std::vector<std::string> words_of(const SiteCounts& counts, bool is_bone) {
   double all = 0;
   for (const std::uint64_t count : counts) all += static_cast<double>(count);
-  std::vector<std::string> names;
-  for (const Word& word : soft) {
-    if (!(static_cast<double>(counts[static_cast<std::size_t>(word.site)]) > least_share * all)) continue;
-    const bool is_body = word.site == Site::skin || word.site == Site::lung || word.site == Site::inner_air;
-    const std::string name = is_bone && is_body ? "bone at air" : word.name;
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  const auto is_met = [&](Site site) {
+    return static_cast<double>(counts[static_cast<std::size_t>(site)]) > least_share * all;
+  };
+  std::vector<std::string> words;
+  for (const SiteWord& one : site_words) {
+    // What lies on a table is part of it.
+    if (!is_met(one.site) || (one.site == Site::cloth && is_met(Site::table))) continue;
+    const std::string word(is_bone && is_of_body(one.site) ? bone_at_air : one.word);
+    if (std::ranges::find(words, word) == words.end()) words.push_back(word);
   }
-  return names;
+  return words;
+}
+
+std::string lowered(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  return lower;
+}
+
+std::string capitalized(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
 }
 
 /// "Skin, lung surface and table".
@@ -40,8 +64,19 @@ std::string joined(const std::vector<std::string>& names) {
   for (std::size_t n = 0; n < names.size(); ++n) {
     text += (n == 0 ? "" : n + 1 == names.size() ? " and " : ", ") + names[n];
   }
-  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  return text;
+  return capitalized(std::move(text));
+}
+
+/// The words of a name that joined() made; empty where it is another's.
+std::vector<std::string_view> parts_of(std::string_view name) {
+  std::vector<std::string_view> parts;
+  while (!name.empty()) {
+    const std::size_t comma = name.find(", "), last = name.find(" and ");
+    const std::size_t end = std::min({comma, last, name.size()});
+    parts.push_back(name.substr(0, end));
+    name.remove_prefix(end == name.size() ? end : end == comma ? end + 2 : end + 5);
+  }
+  return parts;
 }
 
 /// Of a boundary of air to what is light too.
@@ -68,8 +103,8 @@ std::string ct_name(const NamedPair& boundary) {
   if (high == "bone" && low == "bone") return "Dense bone";
   if (high == "lung or foam") return light_name(boundary.sites);
   if (from_air || from_lung) {
-    const std::vector<std::string> sites = sites_of(boundary.sites, high == "bone");
-    if (!sites.empty()) return joined(sites);
+    const std::vector<std::string> words = words_of(boundary.sites, high == "bone");
+    if (!words.empty()) return joined(words);
   }
   if (high == "bone") return from_air || from_lung ? "Bone at air" : "Bone";
   if (from_lung) return "Lung surface";
@@ -135,6 +170,23 @@ std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, c
     if (shared(with_high, b)) names[b] += " from " + number_text(boundaries[b].low, range);
   }
   return names;
+}
+
+std::string name_at(const std::string& name, Site site) {
+  const std::string_view back = ", from inside";
+  const bool is_back = name.ends_with(back);
+  const std::string whole = name.substr(0, name.size() - (is_back ? back.size() : 0));
+  bool is_bone = false;
+  for (const std::string_view part : parts_of(whole)) {
+    const std::string lower = lowered(part);
+    is_bone = is_bone || lower == bone_at_air;
+    if (lower != bone_at_air && std::ranges::find(site_words, lower, &SiteWord::word) == site_words.end()) return name;
+  }
+  const auto word = std::ranges::find(site_words, site, &SiteWord::site);
+  if (whole.empty() || word == site_words.end()) return name;
+  std::string text(is_bone && is_of_body(site) ? bone_at_air : word->word);
+  if (std::isupper(static_cast<unsigned char>(whole.front())) != 0) text = capitalized(std::move(text));
+  return is_back ? way_back_name(text) : text;
 }
 
 std::string way_back_name(const std::string& name) {

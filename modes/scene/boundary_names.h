@@ -16,7 +16,7 @@ struct NamedPair {
   double low = 0;
   double high = 0;
   std::string within = {};  ///< the tissue that both sides are part of, of a wall within one: "lung or foam"
-  SiteCounts sites = {};  ///< of a CT: where its edges lie; all 0 where that is not known
+  SiteCounts sites = {};    ///< of a CT: where its edges lie; all 0 where that is not known
 };
 
 /// One name for each, all different.
@@ -38,6 +38,10 @@ struct NamingOptions {
   double range = 0;
 };
 std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, const NamingOptions& options);
+
+/// What a boundary of this name is called at one site: "Skin" there, of "Skin, lung surface and table", and of "skin"
+/// alone it is the table's where the table is met. A name that is not made of such words stays, as it does elsewhere.
+std::string name_at(const std::string& name, Site site);
 
 /// Of the same boundary, felt on the way back.
 std::string way_back_name(const std::string& name);

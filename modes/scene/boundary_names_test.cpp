@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+#include <vector>
+
 namespace palpate::modes {
 namespace {
 
@@ -39,6 +43,48 @@ TEST(BoundaryNames, of_walls_within_a_tissue_tell_which) {
   const std::vector<NamedPair> mr{{10, 300}, {300, 800}, {250, 340, "tissue 2 of 3"}};
   EXPECT_EQ(boundary_names(mr, {.range = 1000}),
             (Names{"Skin?", "Tissue 2 to 3", "Wall in tissue 2 of 3, 250 to 340"}));
+}
+
+TEST(BoundaryNames, of_air_in_a_ct_tell_every_site_where_it_is_met) {
+  const auto name = [](double low, double high, const SiteCounts& sites) {
+    const NamedPair pair{.low = low, .high = high, .sites = sites};
+    return boundary_names(std::array{pair}, {.hounsfield = true, .range = 1000}).front();
+  };
+  // skin, lung, inner air, table, cloth, elsewhere
+  EXPECT_EQ(name(-1000, 40, {900, 0, 0, 0, 0, 100}), "Skin");
+  EXPECT_EQ(name(-1000, 40, {500, 300, 20, 100, 30, 0}), "Skin, lung surface, air inside the body and table");
+  EXPECT_EQ(name(-850, 40, {0, 300, 0, 0, 0, 0}), "Lung surface");
+  EXPECT_EQ(name(-1000, 40, {10000, 0, 9, 0, 0, 0}), "Skin") << "less than a thousandth is noise";
+  EXPECT_EQ(name(-1000, 40, {10000, 0, 11, 0, 0, 0}), "Skin and air inside the body");
+  EXPECT_EQ(name(-1000, 700, {500, 0, 20, 100, 0, 0}), "Bone at air and table");
+  EXPECT_EQ(name(-1000, 200, {0, 0, 0, 100, 0, 0}), "Table");
+  EXPECT_EQ(name(-1000, -850, {0, 100, 0, 0, 0, 0}), "Airways in the lung");
+  EXPECT_EQ(name(-1000, -850, {0, 0, 0, 0, 100, 0}), "Foam or cloth");
+  EXPECT_EQ(name(40, 700, {500, 0, 0, 0, 0, 0}), "Bone") << "not of air";
+}
+
+TEST(BoundaryNames, are_at_one_site_that_sites) {
+  const std::string all = "Skin, lung surface and table";
+  EXPECT_EQ(name_at(all, Site::skin), "Skin");
+  EXPECT_EQ(name_at(all, Site::lung), "Lung surface");
+  EXPECT_EQ(name_at(all, Site::table), "Table");
+  EXPECT_EQ(name_at(all, Site::inner_air), "Air inside the body");
+  EXPECT_EQ(name_at(all, Site::elsewhere), all);
+  EXPECT_EQ(name_at("skin and lung surface", Site::lung), "lung surface");
+  EXPECT_EQ(name_at("skin", Site::table), "table");
+  EXPECT_EQ(name_at("Skin, from inside", Site::lung), "Lung surface, from inside");
+  EXPECT_EQ(name_at("Bone at air and table", Site::inner_air), "Bone at air");
+  EXPECT_EQ(name_at("Bone at air and table", Site::table), "Table");
+  for (const std::string& name :
+       {std::string("Bone"), std::string("My skin"), std::string("Skin and liver"), std::string()}) {
+    for (const Site site : {Site::skin, Site::table}) EXPECT_EQ(name_at(name, site), name);
+  }
+}
+
+TEST(BoundaryNames, of_a_head_are_questions_about_the_brain) {
+  const std::vector<NamedPair> boundaries{{300, 800}, {10, 300}, {10, 800}};
+  EXPECT_EQ(boundary_names(boundaries, {.is_head = true, .range = 1000}),
+            (Names{"Gray and white matter?", "Scalp and brain surface?", "Tissue 1 to 3"}));
 }
 
 TEST(BoundaryNames, tell_the_way_back) {

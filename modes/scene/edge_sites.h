@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "io/fields/histogram.h"
-#include "modes/scene/site.h"
 #include "modes/scene/regions.h"
+#include "modes/scene/site.h"
 
 namespace palpate::modes::internal {
 
 Site site_of(const Sides& sides) noexcept;
+
+/// Of the gradient's scale: within it both sides of an edge are found.
+inline constexpr double reach_of_sides = 3;
 
 /// Remembers the place of every edge that a histogram counts.
 class EdgeSites {

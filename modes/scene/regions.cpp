@@ -19,7 +19,6 @@ constexpr double cell_mm = 2.5;
 constexpr float most_air_hu = -400, most_empty_hu = -900;
 constexpr float least_lung_hu = -960, most_lung_hu = -500;
 constexpr double thick_mm = 15;
-constexpr double least_lung_ml = 50;
 // Air in a body may be as thick as this, in a table not. Around it even a thin wall is the body's.
 constexpr double thick_air_mm = 50;
 // A thin thing that lies on the body is part of it, as an ear is, unless it is as long as a table.
@@ -122,11 +121,12 @@ bool is_rooms(const Grid& grid, std::span<const std::size_t> air) {
   return 2 * empty > sides;
 }
 
-bool is_lung(const Grid& grid, std::span<const std::size_t> air, double cell_ml) {
+/// Whether it is thick somewhere, and most of it has a lung's values: gas that is thin has them too, from its walls.
+bool is_lung(const Grid& grid, std::span<const std::size_t> air, const std::vector<char>& thick) {
   const auto has_its_values = [&](std::size_t at) {
     return grid.values[at] > least_lung_hu && grid.values[at] < most_lung_hu;
   };
-  return static_cast<double>(air.size()) * cell_ml > least_lung_ml &&
+  return std::ranges::any_of(air, [&](std::size_t at) { return thick[at] != 0; }) &&
          2 * static_cast<std::size_t>(std::ranges::count_if(air, has_its_values)) > air.size();
 }
 
@@ -204,7 +204,13 @@ std::vector<char> body_of(const Grid& grid, const std::vector<char>& solid, cons
     if (!is_on_body || longest_mm(grid, thin) > most_of_body_mm) continue;
     for (const std::size_t cell : thin) body[cell] = 2;
   }
-  return body;
+  // Where no body outweighs what is thin, as beside a dry skull, which of the two is the table is a guess.
+  std::ptrdiff_t bodies = 0, solids = 0;
+  for (std::size_t at = 0; at < grid.count(); ++at) {
+    solids += solid[at];
+    bodies += solid[at] != 0 && body[at] != 0 ? 1 : 0;
+  }
+  return 2 * bodies > solids ? body : solid;
 }
 
 /// Whether most of the solids around some air are the body's: else it is within the table.
@@ -219,13 +225,17 @@ bool is_within_body(const Grid& grid, std::span<const std::size_t> air, const st
   return body > 0;
 }
 
+std::vector<char> mask_of(const Grid& grid, std::span<const Cells> components) {
+  std::vector<char> mask(grid.count());
+  for (const Cells& cells : components) {
+    for (const std::size_t at : cells) mask[at] = 1;
+  }
+  return mask;
+}
+
 /// Those of the components of air that are thick, as no table's is.
 std::vector<char> thick_air(const Grid& grid, std::span<const Cells> inside) {
-  std::vector<char> all(grid.count());
-  for (const Cells& air : inside) {
-    for (const std::size_t at : air) all[at] = 1;
-  }
-  const std::vector<char> cores = eroded(grid, std::move(all), depth_of(grid, thick_air_mm));
+  const std::vector<char> cores = eroded(grid, mask_of(grid, inside), depth_of(grid, thick_air_mm));
   std::vector<char> thick(grid.count());
   for (const Cells& air : inside) {
     if (std::ranges::none_of(air, [&](std::size_t at) { return cores[at] != 0; })) continue;
@@ -234,7 +244,7 @@ std::vector<char> thick_air(const Grid& grid, std::span<const Cells> inside) {
   return thick;
 }
 
-std::vector<Region> regions_of(const Grid& grid, double cell_ml) {
+std::vector<Region> regions_of(const Grid& grid) {
   std::vector<char> air(grid.count()), solid(grid.count());
   for (std::size_t at = 0; at < grid.count(); ++at) {
     air[at] = grid.values[at] < most_air_hu ? 1 : 0;
@@ -251,9 +261,10 @@ std::vector<Region> regions_of(const Grid& grid, double cell_ml) {
   for (std::size_t at = 0; at < grid.count(); ++at) {
     if (solid[at] != 0) regions[at] = body[at] != 0 ? Region::body : Region::table;
   }
+  const std::vector<char> thick = eroded(grid, mask_of(grid, inside), depth_of(grid, thick_mm));
   for (const Cells& cells : inside) {
     const Region region = !is_within_body(grid, cells, regions) ? Region::table
-                          : is_lung(grid, cells, cell_ml)       ? Region::lung
+                          : is_lung(grid, cells, thick)         ? Region::lung
                                                                 : Region::inner_air;
     for (const std::size_t at : cells) regions[at] = region;
   }
@@ -269,7 +280,7 @@ Regions::Regions(const io::Volume& volume, int threads) {
   const Grid grid = coarse(volume, voxels_per_cell_, threads);
   cells_ = grid.size;
   cell_ml_ = 1e-3 * grid.mm.x * grid.mm.y * grid.mm.z;
-  regions_ = regions_of(grid, cell_ml_);
+  regions_ = regions_of(grid);
 }
 
 Region Regions::at(const glm::dvec3& index) const noexcept {

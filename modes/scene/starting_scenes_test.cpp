@@ -11,6 +11,7 @@
 
 #include "io/fields/volume_fields.h"
 #include "modes/scene/scene_json.h"
+#include "modes/scene/tissue_colors.h"
 #include "modes/testing/test_rig.h"
 #include "testdata/scan.h"
 
@@ -45,6 +46,16 @@ double yields_n(const StartingCase& boundary) {
     most = std::max(most, glm::length(hand.force()));
   }
   return most;
+}
+
+/// So a tissue keeps its color when the proposed scene follows the starting one.
+TEST(StartingScenes, have_the_colors_of_their_tissues) {
+  for (const std::string& name : starting_scenes()) {
+    for (const Mode& mode : load_scene(name).modes) {
+      if (mode.type != "surface" || name == "ct-vessels") continue;
+      EXPECT_EQ(mode.color, color_of(kind_of(mode.name))) << name << ": " << mode.name;
+    }
+  }
 }
 
 TEST(StartingScenes, let_the_boundaries_of_their_part_of_the_body_be_felt) {

@@ -44,7 +44,6 @@ constexpr double boundary_share = 0.02;  // of the voxels at boundaries
 // has a small part of the gradient, and is a boundary all the same.
 constexpr double ramp_from = 0.08, ramp_to = 0.2;
 constexpr double least_in_noise = 4;        // standard deviations of the gradient, where a faint wall is felt
-constexpr double reach_of_sides = 3;        // of the gradient's scale: within it both sides of an edge are found
 constexpr std::size_t most_boundaries = 8;  // as many as have a color
 static_assert(most_boundaries == tissue_colors.size());
 
@@ -219,7 +218,7 @@ SiteCounts sites_of(const FoundBoundary& boundary, const Suggestion& suggestion,
   const io::Bins& values = suggestion.edges.values;
   const Tissue &low = suggestion.scene.tissues[boundary.low], &high = suggestion.scene.tissues[boundary.high];
   return sites.count(values.bin_of(low.low), values.bin_of(low.high) + 1, values.bin_of(high.low),
-                      values.bin_of(high.high) + 1);
+                     values.bin_of(high.high) + 1);
 }
 
 /// Each its tissue's; those of a tissue that another has already been given the color of, one that is left.
@@ -297,7 +296,7 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   io::EdgeUse use;
   if (is_ct) {
     regions.emplace(*volume, threads);
-    sites.emplace(*volume, *regions, reach_of_sides * scale_mm);
+    sites.emplace(*volume, *regions, internal::reach_of_sides * scale_mm);
     use = [&](std::span<const io::CountedEdge> counted) { sites->add(counted); };
   }
   std::vector<io::LowHighHistogram> edges =

@@ -13,8 +13,8 @@
 
 #include "io/fields/histogram.h"
 #include "io/progress.h"
-#include "modes/scene/site.h"
 #include "modes/scene/scene.h"
+#include "modes/scene/site.h"
 
 namespace palpate::modes {
 
@@ -27,7 +27,7 @@ struct FoundBoundary {
                       ///< softer tissue of bone; scan's unit
   double share = 0;   ///< of all voxels at boundaries between tissues
   std::string within = {};  ///< the tissue that both sides are part of, of a fainter wall within one
-  SiteCounts sites = {};  ///< of a CT: where its edges lie
+  SiteCounts sites = {};    ///< of a CT: where its edges lie
 };
 
 struct Suggestion {

@@ -312,6 +312,18 @@ TEST(Suggest, finds_no_more_boundaries_than_there_are_colors) {
   EXPECT_EQ(colors.size(), 8U);
 }
 
+TEST(Suggest, gives_a_boundary_its_tissues_color) {
+  const Suggestion found = suggest(scanned(testdata::make_chest(), {.size = {180, 190, 40}, .spacing = {2, 2, 2}}, 20));
+  std::map<std::string, std::string> colors;
+  for (const FoundBoundary& boundary : found.boundaries) {
+    colors[found.scene.modes[boundary.mode].name] = found.scene.modes[boundary.mode].color;
+  }
+  EXPECT_EQ(colors, (std::map<std::string, std::string>{{"Skin, air inside the body and table", "#e69f00"},
+                                                        {"Lung surface", "#56b4e9"},
+                                                        {"Soft tissue", "#009e73"},
+                                                        {"Bone", "#0072b2"}}));
+}
+
 TEST(Suggest, finds_nothing_where_there_is_nothing) {
   testdata::Phantom even;
   even.background = 40;

@@ -135,7 +135,7 @@ void Announcer::announce_contact(const TickRecord& tick, const std::vector<Primi
       const modes::Mode& mode = scene.modes[held->mode];
       contact["boundary"] = mode.name.empty() ? mode.type : mode.name;
       contact["known_to_mm"] = held->known_to_mm ? number_or_null(*held->known_to_mm) : nlohmann::ordered_json();
-      contact["in_words"] = in_words(*held, scene);
+      contact["in_words"] = in_words(*held);
     }
   }
   if (tick.scene_epoch == session_.epoch()) {

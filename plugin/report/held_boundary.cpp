@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "io/fields/filtered.h"
+#include "modes/scene/boundary_names.h"
 #include "plugin/report/summary.h"
 #include "plugin/session/strength_ahead.h"
 #include "plugin/session/stroke.h"
@@ -18,6 +20,16 @@ constexpr double felt_n = 0.05;  // below, a boundary is not said to be felt
 bool is_surface(const modes::Plan& plan, std::size_t mode) {
   return std::any_of(plan.modes.begin(), plan.modes.end(),
                      [&](const modes::ActiveMode& active) { return active.scene_index == mode && active.holds; });
+}
+
+/// The edge of a structure is the structure's wherever it lies.
+std::string name_at_site(std::size_t mode, const PreparedScene& felt, const modes::Scene& scene,
+                         const glm::dvec3& place_mm, const modes::SiteMap* sites) {
+  std::string name = display_name(scene, mode);
+  if (sites == nullptr || !felt.volume || !sites->is_of(io::raw_of(felt.volume))) return name;
+  if (!scene.modes[mode].structure.empty()) return name;
+  const io::Sample sample = felt.source->sample(place_mm, felt.source->available() & io::FieldSet::gradient);
+  return modes::name_at(name, sites->at(place_mm, sample.gradient));
 }
 
 }  // namespace
@@ -62,10 +74,10 @@ std::function<double(const TickRecord&, std::span<const PrimitiveRecord>)> known
 
 std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> shares, const PreparedScene& felt,
                                           const modes::Scene& scene, const glm::dvec3& proxy_mm,
-                                          const glm::dvec3& probe_mm) {
+                                          const glm::dvec3& probe_mm, const modes::SiteMap* sites) {
   const auto mode = felt.plan ? holding_surface(shares, *felt.plan) : std::nullopt;
   if (!mode) return std::nullopt;
-  HeldBoundary held{.mode = *mode};
+  HeldBoundary held{.mode = *mode, .name = name_at_site(*mode, felt, scene, proxy_mm, sites)};
   for (const modes::ActiveMode& active : felt.plan->modes) {
     if (active.scene_index != *mode) continue;
     held.full_strength_n = active.strength.most_n();
@@ -78,9 +90,8 @@ std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> share
   return held;
 }
 
-std::string in_words(const HeldBoundary& held, const modes::Scene& scene) {
-  return display_name(scene, held.mode) +
-         (held.known_to_mm ? fmt::format(", known to \u00b1{:.2g} mm", *held.known_to_mm) : "") +
+std::string in_words(const HeldBoundary& held) {
+  return held.name + (held.known_to_mm ? fmt::format(", known to \u00b1{:.2g} mm", *held.known_to_mm) : "") +
          strength_to_text(held.strength_n, held.full_strength_n);
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "modes/scene/site_map.h"
 #include "plugin/session/prepared_scene.h"
 #include "plugin/session/tick_record.h"
 
@@ -29,17 +30,19 @@ std::function<double(const TickRecord&, std::span<const PrimitiveRecord>)> known
 
 struct HeldBoundary {
   std::size_t mode = 0;               ///< index into the scene's modes
+  std::string name;                   ///< of the mode; at the site where it is met, where that is known: "Skin"
   double strength_n = 0;              ///< the most that it takes on the way in: strength_ahead_n()
   double full_strength_n = 0;         ///< the most that its transfer function gives
   std::optional<double> known_to_mm;  ///< as known_to_mm() has it
 };
 
-/// None if nothing holds the proxy. Takes some 150 samples: for a picture, not for a tick.
+/// None if nothing holds the proxy. Takes some 150 samples: for a picture, not for a tick. `sites`: of the scan; may be
+/// null, or of another scan, and then does not count.
 std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> shares, const PreparedScene& felt,
                                           const modes::Scene& scene, const glm::dvec3& proxy_mm,
-                                          const glm::dvec3& probe_mm);
+                                          const glm::dvec3& probe_mm, const modes::SiteMap* sites = nullptr);
 
 /// "skin, known to ±0.2 mm; 0.31 of its 2.5 N: thin or faint there".
-std::string in_words(const HeldBoundary& held, const modes::Scene& scene);
+std::string in_words(const HeldBoundary& held);
 
 }  // namespace palpate::plugin

@@ -25,10 +25,18 @@ const modes::Scene& scene() {
   return skin;
 }
 
-/// Pressed 1 mm beyond the top of a ball of 20 mm: what is told there.
-std::optional<HeldBoundary> pressed_on(double value_hu, double noise_hu) {
-  const auto volume = std::make_shared<const io::Volume>(testdata::scan(
-      testdata::make_sphere(20, value_hu), testdata::make_geometry({.size = glm::ivec3(56)}), {.noise = noise_hu}));
+struct Press {
+  testdata::Phantom phantom;
+  double noise_hu = 20;
+  double from_mm = 24, to_mm = 19;  ///< from the phantom's middle
+  bool has_sites = false;
+};
+
+/// What is told at the end of a press along a line through the middle of a phantom.
+std::optional<HeldBoundary> held_after(const Press& press) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(press.phantom, testdata::make_geometry({.size = glm::ivec3(56)}), {.noise = press.noise_hu}));
+  const modes::SiteMap sites(volume);
   const PreparedScene felt = prepare(scene(), volume, glm::dvec3(0.1));
   solver::Chain chain;
   const auto scratch = std::make_unique<modes::StepScratch>();
@@ -36,8 +44,9 @@ std::optional<HeldBoundary> pressed_on(double value_hu, double noise_hu) {
   const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, -1, 0.2));
   glm::dvec3 probe_mm(0);
   modes::StepResult result;
-  for (double away = 4; away >= -1; away -= 0.05) {
-    probe_mm = (20 + away) * up;
+  constexpr int steps = 100;
+  for (int n = 0; n <= steps; ++n) {
+    probe_mm = (press.from_mm + (press.to_mm - press.from_mm) * n / steps) * up;
     result = modes::step(*felt.plan, *felt.source, felt.plan->workspace.to_device(probe_mm), touch, chain, *scratch);
   }
   std::vector<PrimitiveRecord> shares;
@@ -47,7 +56,28 @@ std::optional<HeldBoundary> pressed_on(double value_hu, double noise_hu) {
     for (int axis = 0; axis < 3; ++axis) share.force_n[axis] = result.shares[n][axis];
     shares.push_back(share);
   }
-  return held_boundary(shares, felt, scene(), felt.plan->workspace.to_patient(result.proxy_m), probe_mm);
+  return held_boundary(shares, felt, scene(), felt.plan->workspace.to_patient(result.proxy_m), probe_mm,
+                       press.has_sites ? &sites : nullptr);
+}
+
+/// Pressed 1 mm beyond the top of a ball of 20 mm.
+std::optional<HeldBoundary> pressed_on(double value_hu, double noise_hu) {
+  return held_after({.phantom = testdata::make_sphere(20, value_hu), .noise_hu = noise_hu});
+}
+
+/// One mode is felt at both, and its name says the outer alone.
+TEST(HeldBoundary, IsNamedByTheSiteWhereItIsMet) {
+  const auto skin = held_after({.phantom = testdata::make_sphere(20), .has_sites = true});
+  ASSERT_TRUE(skin);
+  EXPECT_EQ(skin->name, "skin");
+  const Press from_within{.phantom = testdata::make_shell(14, 26), .from_mm = 8, .to_mm = 15, .has_sites = true};
+  const auto inside = held_after(from_within);
+  ASSERT_TRUE(inside);
+  EXPECT_EQ(inside->name, "air inside the body");
+  EXPECT_EQ(in_words(*inside).find("air inside the body, known to"), 0U);
+  Press unknown = from_within;
+  unknown.has_sites = false;
+  EXPECT_EQ(held_after(unknown).value().name, "skin") << "the mode's own, where no map says more";
 }
 
 TEST(HeldBoundary, IsTheSurfaceWithItsWholeStrengthWhereTheContrastIsWhole) {
@@ -60,8 +90,8 @@ TEST(HeldBoundary, IsTheSurfaceWithItsWholeStrengthWhereTheContrastIsWhole) {
   ASSERT_TRUE(held->known_to_mm);
   EXPECT_GT(*held->known_to_mm, 0.03);
   EXPECT_LT(*held->known_to_mm, 0.2);
-  EXPECT_EQ(in_words(*held, scene()).find("skin, known to ±0."), 0U);
-  EXPECT_EQ(in_words(*held, scene()).find("thin"), std::string::npos);
+  EXPECT_EQ(in_words(*held).find("skin, known to ±0."), 0U);
+  EXPECT_EQ(in_words(*held).find("thin"), std::string::npos);
 }
 
 TEST(HeldBoundary, SaysWhatAFaintBoundaryLacksAndThatNoiseMakesItLessKnown) {
@@ -70,7 +100,7 @@ TEST(HeldBoundary, SaysWhatAFaintBoundaryLacksAndThatNoiseMakesItLessKnown) {
   const auto faint = pressed_on(-400, 20);
   ASSERT_TRUE(faint);
   EXPECT_NEAR(faint->strength_n, 1.0, 0.08);
-  EXPECT_NE(in_words(*faint, scene()).find(" of its 1.5 N: thin or faint there"), std::string::npos);
+  EXPECT_NE(in_words(*faint).find(" of its 1.5 N: thin or faint there"), std::string::npos);
   const auto noisy = pressed_on(-400, 60);
   ASSERT_TRUE(noisy && noisy->known_to_mm && faint->known_to_mm);
   EXPECT_GT(*noisy->known_to_mm, 1.3 * *faint->known_to_mm);

@@ -111,6 +111,7 @@ void PanelParts::study(const std::shared_ptr<const io::Volume>& volume) {
         proposed.workspace = model.scene().workspace;
         tissues->set_proposed(proposed);
         curves->set_study(study, unit);
+        touching.set_sites(study->sites);
         // What is felt or was edited already is not taken away from under the hand.
         if (model.is_edited() || touching.live().is_connected()) return;
         model.propose(proposed);

@@ -40,6 +40,7 @@ ScanStudy study_scan(const std::shared_ptr<const io::Volume>& volume, const io::
   constexpr double suggesting = 0.6;  // of the work
   ScanStudy study;
   study.suggested = modes::suggest(volume, [&](double done) { return progress(suggesting * done); }).scene;
+  study.sites = std::make_shared<const modes::SiteMap>(volume);
   // The steps in a flow's speed are no boundaries: it is felt along.
   if (study.suggested.modes.empty() || volume->vectors) study.suggested = scene_for("", *volume);
   const auto [low, high] = range_of(*volume);

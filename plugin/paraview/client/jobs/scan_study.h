@@ -10,6 +10,7 @@
 #include "io/progress.h"
 #include "io/volume.h"
 #include "modes/scene/scene.h"
+#include "modes/scene/site_map.h"
 
 namespace palpate::plugin {
 
@@ -23,6 +24,7 @@ struct ScanStudy {
   modes::Scene suggested;  ///< a starting scene where nothing was found
   Counts values;           ///< in the scan's unit
   Counts magnitudes;       ///< of the gradient, per mm
+  std::shared_ptr<const modes::SiteMap> sites;
 };
 
 /// Throws io::Cancelled.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "device/simulated/simulated_stylus.h"
+#include "modes/scene/site_map.h"
 #include "modes/scene/workspace.h"
 #include "plugin/app/live_session.h"
 #include "plugin/app/stylus_choice.h"
@@ -63,6 +64,8 @@ class SessionController : public QObject {
   void set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
   /// Gives the scan through the filter of a scene that is about to be set.
   void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
+  /// Where in the scan its boundaries are met, once that is known: what holds is named by it.
+  void set_sites(std::shared_ptr<const modes::SiteMap> sites) { sites_ = std::move(sites); }
   /// Until the next set_scan() a scene only has to be valid, because it is meant for the scan that will come.
   void expect_scan() { expects_scan_ = true; }
   bool expects_scan() const { return expects_scan_; }
@@ -166,6 +169,7 @@ class SessionController : public QObject {
   bool mouse_off_ = false;
   glm::dvec3 clutched_at_mm_{0};
   SessionStatus look_;
+  std::shared_ptr<const modes::SiteMap> sites_;
   std::function<SessionStatus()> instead_;
   QString recording_to_;
   QTimer heart_, looks_;
