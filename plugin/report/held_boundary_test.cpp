@@ -25,7 +25,7 @@ const modes::Scene& scene() {
   return skin;
 }
 
-struct Press {
+struct PhantomPress {
   testdata::Phantom phantom;
   double noise_hu = 20;
   double from_mm = 24, to_mm = 19;  ///< from the phantom's middle
@@ -33,7 +33,7 @@ struct Press {
 };
 
 /// What is told at the end of a press along a line through the middle of a phantom.
-std::optional<HeldBoundary> held_after(const Press& press) {
+std::optional<HeldBoundary> held_after(const PhantomPress& press) {
   const auto volume = std::make_shared<const io::Volume>(
       testdata::scan(press.phantom, testdata::make_geometry({.size = glm::ivec3(56)}), {.noise = press.noise_hu}));
   const modes::SiteMap sites(volume);
@@ -70,12 +70,12 @@ TEST(HeldBoundary, IsNamedByTheSiteWhereItIsMet) {
   const auto skin = held_after({.phantom = testdata::make_sphere(20), .has_sites = true});
   ASSERT_TRUE(skin);
   EXPECT_EQ(skin->name, "skin");
-  const Press from_within{.phantom = testdata::make_shell(14, 26), .from_mm = 8, .to_mm = 15, .has_sites = true};
+  const PhantomPress from_within{.phantom = testdata::make_shell(14, 26), .from_mm = 8, .to_mm = 15, .has_sites = true};
   const auto inside = held_after(from_within);
   ASSERT_TRUE(inside);
   EXPECT_EQ(inside->name, "air inside the body");
   EXPECT_EQ(in_words(*inside).find("air inside the body, known to"), 0U);
-  Press unknown = from_within;
+  PhantomPress unknown = from_within;
   unknown.has_sites = false;
   EXPECT_EQ(held_after(unknown).value().name, "skin") << "the mode's own, where no map says more";
 }

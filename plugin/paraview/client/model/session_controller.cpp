@@ -366,7 +366,8 @@ void SessionController::look() {
   if (const auto plan = live_.plan(); plan && tick.scene_epoch == live_.epoch()) {
     look_.nearest = nearest_structure(tick, model_.scene(), plan->structures);
   }
-  const auto held = held_boundary(look_.shares, live_.felt(), live_.scene(), look_.proxy_mm, look_.probe_mm, sites_.get());
+  const auto held =
+      held_boundary(look_.shares, live_.felt(), live_.scene(), look_.proxy_mm, look_.probe_mm, sites_.get());
   look_.held = held ? in_words(*held) : "";
   // On an edge the value is one of neither side: half-way from air to muscle it is fat's.
   if (held && live_.scene().modes[held->mode].structure.empty()) look_.tissue = "between tissues";
