@@ -75,7 +75,7 @@ TEST_F(ForceDimension, PoseAndForceChangeFramesAndNothingElse) {
   } axes[] = {{{0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, 1}}};
   for (const auto& axis : axes) {
     for (int i = 0; i < 3; ++i) drd->place[i] = 0.02 * axis.theirs[i];
-    push(*stylus, 2.0 * axis.ours);
+    push(*stylus, 2.0 * axis.ours, 400);
     EXPECT_EQ(stylus->read().position, 0.02 * axis.ours);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(drd->force[i], 2 * axis.theirs[i]);
   }
@@ -89,7 +89,7 @@ TEST_F(ForceDimension, IsBroughtUpWithItsOwnWatchdogLimitAndGravity) {
   EXPECT_EQ(drd->gravity, 1);
   EXPECT_EQ(stylus->specification().maximum_force, 5);
   EXPECT_EQ(stylus->specification().name, "Force Dimension omega.3");
-  push(*stylus, Vec3(30, 40, 0));
+  push(*stylus, Vec3(30, 40, 0), 400);
   EXPECT_NEAR(drd->force[1], 3, 1e-12);
   EXPECT_NEAR(drd->force[2], 4, 1e-12);
 }

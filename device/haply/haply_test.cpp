@@ -52,7 +52,7 @@ TEST(Haply, PosesAndForcesChangeFrames) {
   Bench bench;
   bench.service.place = {0.01, 0.02, 0.03};
   bench.stylus->open();
-  bench.run(0.05, Vec3(0.1, 0.2, 0.3));
+  bench.run(0.4, Vec3(0.1, 0.2, 0.3));
   EXPECT_LT(glm::distance(bench.stylus->read().position, Vec3(0.01, 0.03, -0.02)), 1e-12);
   EXPECT_LT(glm::distance(bench.force(), Vec3(0.1, -0.3, 0.2)), 1e-5);
   EXPECT_EQ(bench.stylus->state(), State::idle);
@@ -74,7 +74,7 @@ TEST(Haply, SpeaksBothSpellingsOfAForce) {
     bench.service.version = {3, minor};
     bench.service.spelling = minor == 1 ? "values" : "vector";
     bench.stylus->open();
-    bench.run(0.02, Vec3(1, 0, 0));
+    bench.run(0.4, Vec3(1, 0, 0));
     EXPECT_EQ(bench.force(), Vec3(1, 0, 0)) << minor;
   }
 }
@@ -146,7 +146,7 @@ TEST(Haply, WhatGoesWrongEndsWithoutForce) {
   for (const auto& one : cases) {
     Bench bench;
     bench.stylus->open();
-    bench.run(0.1, Vec3(1, 0, 0));
+    bench.run(0.4, Vec3(1, 0, 0));
     ASSERT_EQ(bench.force(), Vec3(1, 0, 0));
     one.cause(bench.service);
     bench.run(0.3, Vec3(1, 0, 0));

@@ -11,12 +11,13 @@ namespace {
 
 // A pose may be on its way while a zero is given. The second pose after it was sent after the zero was taken.
 constexpr std::uint64_t poses_until_taken = 2;
+constexpr double never = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 void GivenForce::start(double now) noexcept {
   *this = {};
-  given_time_ = time_ = taken_time_ = now;
+  taken_time_ = now;
 }
 
 void GivenForce::restart() noexcept {
@@ -25,8 +26,8 @@ void GivenForce::restart() noexcept {
 }
 
 Vec3 GivenForce::next(const Vec3& wanted, bool withheld, double now) noexcept {
-  // A device that waited so long, or refused, may have taken its force away by itself, or hold it still. Only a zero is
-  // no step in both cases: the ramp begins at this time.
+  // A device that was just opened, waited so long, or refused, may have taken its force away by itself, or hold it
+  // still. Only a zero is no step in both cases: the ramp begins at this time.
   if (now - given_time_ > ceiling::link_force_age_s) {
     restart();
     time_ = now;
@@ -57,7 +58,7 @@ void GivenForce::answered(ForceAnswer answer, const Vec3& force, std::uint64_t n
   if (refuses_) {
     zero_given_ = false;
     doubt();
-    given_time_ = -std::numeric_limits<double>::infinity();
+    given_time_ = never;
     return;
   }
   taken_time_ = given_time_ = now;

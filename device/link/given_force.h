@@ -4,6 +4,8 @@
 /// the device is known, or the worst is assumed. No force changes faster than the slew ceiling. Every zero that was put
 /// in for any reason (a late servo, a doubtful pose, a device that refused or did not answer) is followed by a ramp.
 
+#include <limits>
+
 #include "device/link/driver.h"
 #include "device/safety/on_device.h"
 #include "device/safety/safety_limits.h"
@@ -32,9 +34,9 @@ class GivenForce {
   void restart() noexcept;
 
   OnDevice on_device_ = OnDevice::unknown;
-  Vec3 given_{0};          // N
-  double given_time_ = 0;  // s
-  double gain_ = 1;
+  Vec3 given_{0};                                                 // N
+  double given_time_ = -std::numeric_limits<double>::infinity();  // s: of `given_`, since when it is known to lie there
+  double gain_ = 0;
   double time_ = 0;  // s: of the last next()
   bool zero_given_ = false;
   std::uint64_t zero_news_ = 0;  // poses when the first zero in a row was given

@@ -74,6 +74,30 @@ TEST(GivenForce, NoStepAboveTheSlewCeilingReachesADevice) {
   }
 }
 
+/// A device may hold the force of a program that was killed: whatever is asked for in the moment when it is opened, the
+/// first force that it takes is a zero, and the ramp begins there.
+TEST(GivenForce, OpenedItBeginsWithAZeroAndARamp) {
+  for (const double first : {0.0, 0.5e-3, 0.019, 0.3}) {
+    for (const int waits : {0, 1, 30}) {
+      GivenForce given;
+      given.start(7);
+      double now = 7 + first;
+      for (int n = 0; n < waits; ++n, now += tick_s) {
+        given.answered(ForceAnswer::waiting, given.next(Vec3(0, 3, 0), false, now), 0, now);
+      }
+      const double began = now;
+      for (int n = 0; n < 400; ++n, now += tick_s) {
+        const Vec3 force = given.next(Vec3(0, 3, 0), false, now);
+        given.answered(ForceAnswer::taken, force, 0, now);
+        if (n == 0) {
+          EXPECT_EQ(force, Vec3(0));
+        }
+        EXPECT_NEAR(force.y, 3 * std::min(1.0, (now - began) / ceiling::resume_ramp_s), 1e-9) << n;
+      }
+    }
+  }
+}
+
 /// After a zero for any reason and of any length the force comes back along the ramp, and whole.
 TEST(GivenForce, EveryZeroThatIsPutInIsFollowedByARamp) {
   for (const ForceAnswer cause :

@@ -62,7 +62,7 @@ TEST(LinkStylusLayers, TurnsEachAxisByItsOwnSign) {
   LinkBench bench;
   const auto stylus = unthreaded(bench, {.signs = {.position = {1, -1, 1}, .force = {-1, 1, -1}}});
   bench.position = Vec3(0.01, 0.02, 0.03);
-  for (int n = 0; n < 5; ++n) {
+  for (int n = 0; n < 400; ++n) {
     stylus->write_force(Vec3(1, 2, 3));
     stylus->service(exchange_s);
   }
@@ -188,7 +188,7 @@ TEST(LinkStylusLayers, TheFirstFaultIsKeptUntilItIsOpenedAnew) {
   stylus->open();
   EXPECT_EQ(stylus->fault(), LinkFault::none);
   EXPECT_EQ(stylus->state(), State::idle);
-  push(bench, *stylus, 1, 0.1);
+  push(bench, *stylus, 1, 0.3);
   EXPECT_EQ(bench.force, Vec3(0, 1, 0));
 }
 
@@ -208,7 +208,7 @@ TEST(LinkStylusLayers, OpenedAnewItKnowsNothingOfBefore) {
   EXPECT_FALSE(reading.fresh);
   stylus->service(exchange_s);
   EXPECT_EQ(bench.force, Vec3(0));
-  push(bench, *stylus, 8, 0.1);
+  push(bench, *stylus, 8, 0.3);
   EXPECT_EQ(bench.force, Vec3(0, 8, 0));
 }
 
@@ -236,7 +236,7 @@ TEST(LinkStylusLayers, ClosingGivesZerosUntilTheDeviceHasTakenThem) {
   for (const bool speaks : {true, false}) {
     LinkBench bench;
     const auto stylus = unthreaded(bench);
-    push(bench, *stylus, 1, 0.1);
+    push(bench, *stylus, 1, 0.3);
     ASSERT_EQ(bench.force, Vec3(0, 1, 0));
     stylus->write_force(Vec3(0, 1, 0));  // news that closing does not heed
     bench.speaks = speaks;

@@ -28,7 +28,7 @@ TEST(LinkStylus, AThreadWhoseDeviceIsGoneDoesNotSpin) {
 TEST(LinkStylus, NothingIsPushedAgainAfterTheMachineSlept) {
   LinkBench bench;
   const auto stylus = unthreaded(bench);
-  push(bench, *stylus, 1, 0.1);
+  push(bench, *stylus, 1, 0.3);
   ASSERT_EQ(bench.force, Vec3(0, 1, 0));
   asleep_s += 30;
   push(bench, *stylus, 1, 0.1);

@@ -90,7 +90,7 @@ TEST(WoodenHapticsDriver, KeepsItsHomeWhenItIsOpenedAgain) {
     bench.run(1.2);
     bench.stylus->close();
     bench.stylus->open();
-    bench.run(0.1, Vec3(0, 1, 0));
+    bench.run(0.4, Vec3(0, 1, 0));
     ASSERT_EQ(bench.stylus->state(), State::idle) << size;
     EXPECT_LT(glm::distance(bench.stylus->read().position, bench.arm.hand().body().position), 0.2e-3) << size;
     EXPECT_LT(glm::distance(bench.arm.force(), Vec3(0, 1, 0)), 0.02) << size;

@@ -47,7 +47,7 @@ TEST(WoodenHapticsDriver, SpeaksTheShortReportsOf2016) {
   options.arm = arm_with_home_at(Vec3(0), 8);
   Bench bench(options);
   bench.stylus->open();
-  bench.run(0.2, Vec3(0, 1, 0));
+  bench.run(0.4, Vec3(0, 1, 0));
   EXPECT_EQ(bench.stylus->state(), State::idle);
   EXPECT_LT(glm::length(bench.stylus->read().position - bench.arm.hand().body().position), 0.2e-3);
   EXPECT_LT(glm::length(bench.arm.force() - Vec3(0, 1, 0)), 0.02);
