@@ -6,12 +6,42 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <optional>
 #include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "device/testing/fake_rigs.h"
 
 namespace palpate::device {
 namespace {
+
+/// What the page says of an event on a device; nothing where it has no such row or column.
+std::optional<std::string> cell_of_page(const std::string& device, const std::string& event) {
+  static const std::vector<std::vector<std::string>> lines = [] {
+    std::vector<std::vector<std::string>> cells;
+    std::ifstream page(std::string(PALPATE_SOURCES) + "/plugin/docs/safety.md");
+    for (std::string line; std::getline(page, line);) {
+      if (!line.starts_with("| ")) continue;
+      std::istringstream parts(line.substr(2));
+      cells.emplace_back();
+      for (std::string cell; std::getline(parts, cell, '|');) {
+        cell.erase(0, cell.find_first_not_of(' '));
+        cell.erase(cell.find_last_not_of(' ') + 1);
+        cells.back().push_back(cell);
+      }
+    }
+    return cells;
+  }();
+  const auto header = std::ranges::find_if(lines, [](const auto& cells) { return cells.front() == "event"; });
+  if (header == lines.end()) return {};
+  const auto column = std::ranges::find(*header, device) - header->begin();
+  const auto row = std::find_if(header, lines.end(), [&](const auto& cells) { return cells.front() == event; });
+  if (row == lines.end() || column >= static_cast<std::ptrdiff_t>(row->size())) return {};
+  return (*row)[static_cast<std::size_t>(column)];
+}
 
 class FaultTable : public ::testing::TestWithParam<const char*> {};
 
@@ -24,6 +54,9 @@ TEST_P(FaultTable, NoEventRaisesAForceStepsItOrLeavesIt) {
     if (row.event == "stopped, and no guardian") {
       EXPECT_EQ(row.left_n, 0) << row.device << ": the program goes on, and knows that it was stopped";
     }
+    EXPECT_EQ(cell_of_page(row.device, row.event), brief(row))
+        << row.device << ": " << row.event
+        << ": plugin/docs/safety.md has another table than `palpate-faults --markdown`";
     events.insert(row.event);
   }
   const bool has_motors = GetParam() != std::string("space_mouse");

@@ -74,7 +74,10 @@ int play(Stylus& stylus, const std::string& scenario) {
   stylus.open();
   tick(stylus, Vec3(0), 10, State::idle);
   failures += expect(stylus.state() == State::idle, "homed within 10 s");
-  const double pushing = scenario == "run" ? 1 : 0.5;  // s
+  // As the panel does, and the guardian: a search opens each node and lets go of it. Who holds the device must not
+  // notice.
+  failures += expect(find_devices().size() == 1, "found while it is held");
+  constexpr double pushing = 1;  // s: the ramp after a delay lasts a quarter of it
   const Run run = push(stylus, pushing, scenario.starts_with("sig") ? 5 : 1);
   std::printf("client: %d new poses in %.2f s, state %s\n", run.fresh, run.seconds, name_of(stylus.state()));
   std::fflush(stdout);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include "device/safety/safety_filter.h"
@@ -285,6 +286,49 @@ std::string missed_goal(const FaultRow& row) {
     std::snprintf(text, sizeof text, "the force is gone, where it goes on");
   }
   return text;
+}
+
+std::string brief(const FaultRow& row) {
+  char force[24] = "", text[64] = "";
+  constexpr double rounding = 1.02;
+  if (row.largest_after_n > rounding * row.before_n)
+    std::snprintf(force, sizeof force, "%.1f N, ", row.largest_after_n);
+  const double zero_s = row.zero_taken_s.value_or(0);
+  const bool is_timed = row.ended_by == EndedBy::program || row.ended_by == EndedBy::guardian;
+  if (!is_timed) {
+    std::snprintf(text, sizeof text, "%s%s", force, name_of(row.ended_by));
+  } else {
+    const char* const guardian = row.ended_by == EndedBy::guardian ? ", guardian" : "";
+    std::snprintf(text, sizeof text, "%s%.2f s%s", force, zero_s, guardian);
+  }
+  return text;
+}
+
+std::string fault_matrix(std::span<const FaultRow> rows) {
+  std::vector<std::string> devices, events;
+  const auto note = [](std::vector<std::string>& list, const std::string& name) {
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+  };
+  for (const FaultRow& row : rows) note(devices, row.device);
+  for (const FaultEvent& event : fault_events()) note(events, event.name);
+  std::ostringstream text, line;
+  text << "| event |";
+  line << "|---|";
+  for (const std::string& device : devices) {
+    text << ' ' << device << " |";
+    line << "---|";
+  }
+  text << '\n' << line.str() << '\n';
+  for (const std::string& event : events) {
+    text << "| " << event << " |";
+    for (const std::string& device : devices) {
+      const auto found = std::find_if(rows.begin(), rows.end(),
+                                      [&](const FaultRow& row) { return row.device == device && row.event == event; });
+      text << ' ' << (found == rows.end() ? std::string() : brief(*found)) << " |";
+    }
+    text << '\n';
+  }
+  return text.str();
 }
 
 std::vector<FaultRow> fault_table(const std::string& kind) {

@@ -38,6 +38,13 @@ struct FaultRow {
 /// the guardian sees; no step above the slew ceiling; no torque. Empty if all are met.
 std::string missed_goal(const FaultRow& row);
 
+/// How the event ends on this device, in few words: "goes on"; "device"; the time until the force is zero, and whether
+/// the guardian takes it; before it the largest force, where it is above the force at the event.
+std::string brief(const FaultRow& row);
+
+/// These rows as a table in Markdown: a row for each event, a column for each device.
+std::string fault_matrix(std::span<const FaultRow> rows);
+
 /// The rows of one device of rig_kinds().
 std::vector<FaultRow> fault_table(const std::string& kind);
 

@@ -1,5 +1,6 @@
-// palpate-faults [KIND] [--json]: plays every event of the fault table against the fake of each device, or of one, and
-// prints what remains in the hand. `palpate devices --faults` runs it. 1 if a goal is missed.
+// palpate-faults [KIND] [--json | --markdown]: plays every event of the fault table against the fake of each device, or
+// of one, and prints what remains in the hand. `palpate devices --faults` runs it. 1 if a goal is missed. --markdown
+// prints the table of plugin/docs/safety.md.
 //
 // palpate-faults --random COUNT [SEED]: plays as many random sequences of events, of this seed and the next ones.
 // Prints the seed of each that breaks a law; 1 if one does.
@@ -64,11 +65,13 @@ int main(int count, char** arguments) {
   if (count >= 3 && arguments[1] == std::string_view("--random")) {
     return play_random(std::stoull(arguments[2]), count > 3 ? std::stoull(arguments[3]) : 1);
   }
-  bool as_json = false;
+  bool as_json = false, as_matrix = false;
   std::string_view wanted;
   for (int n = 1; n < count; ++n) {
     if (arguments[n] == std::string_view("--json")) {
       as_json = true;
+    } else if (arguments[n] == std::string_view("--markdown")) {
+      as_matrix = true;
     } else {
       wanted = arguments[n];
     }
@@ -81,6 +84,10 @@ int main(int count, char** arguments) {
   }
   bool missed = false;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  if (as_matrix) {
+    std::fputs(fault_matrix(rows).c_str(), stdout);
+    return 0;
+  }
   if (!as_json) {
     std::printf("%-17s %-35s %8s %8s  %-8s %8s  %s\n", "device", "event", "before", "largest", "zero", "step",
                 "ended by");

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <list>
+#include <memory>
 #include <mutex>
 #include <span>
 
@@ -28,7 +29,11 @@ constexpr const char* record =
     "A: speed=12\\n\nH: descriptors=1201000200000040030448cb00050102030109022000010100802d0904000002ffffff00"
     "0705810240000007050202400000\n\n";
 
+/// A transfer is that of one open node, as the kernel has it: a session and its guardian may have the node open at the
+/// same time, and neither reaps or ends what the other has submitted. Nobody says that a node was closed: transfers
+/// that are left hold their client, so that no later one is taken for it.
 struct Urb {
+  std::shared_ptr<UMockdevIoctlClient> client;
   UMockdevIoctlData* request = nullptr;
   UMockdevIoctlData* buffer = nullptr;
   bool cancelled = false;
@@ -52,8 +57,9 @@ struct UmockdevFalcon::Parts {
   bool unplugged() const { return play.unplugged(monotonic_time()); }
 
   /// False where the client died in the middle of it: its memory can no longer be read.
-  bool submit(UMockdevIoctlData* argument) {
+  bool submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
     Urb submitted;
+    submitted.client = {static_cast<UMockdevIoctlClient*>(g_object_ref(client)), g_object_unref};
     submitted.request = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
     if (submitted.request == nullptr) return false;
     usbdevfs_urb& urb = submitted.urb();
@@ -75,10 +81,15 @@ struct UmockdevFalcon::Parts {
     return true;
   }
 
-  /// The first transfer that is through by now.
-  std::list<Urb>::iterator completed() {
+  /// The first transfer of this client that is through by now; of a device that is gone, any.
+  std::list<Urb>::iterator completed(const UMockdevIoctlClient* client) {
     for (auto it = urbs.begin(); it != urbs.end(); ++it) {
+      if (it->client.get() != client) continue;
       usbdevfs_urb& urb = it->urb();
+      if (unplugged()) {
+        urb.status = -ESHUTDOWN;
+        return it;
+      }
       if (it->cancelled) {
         urb.status = -ENOENT;
         return it;
@@ -93,11 +104,10 @@ struct UmockdevFalcon::Parts {
   }
 
   /// The result of an ioctl: 0, or -errno.
-  int answer(unsigned long request, UMockdevIoctlData* argument) {
+  int answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument) {
     if (unplugged() && request != USBDEVFS_REAPURBNDELAY) return -ENODEV;
     switch (request) {
       case USBDEVFS_GET_CAPABILITIES: {
-        urbs.clear();  // a new client: what a dead one submitted died with it
         UMockdevIoctlData* capabilities = umockdev_ioctl_data_resolve(argument, 0, 4, nullptr);
         if (capabilities == nullptr) return -EFAULT;
         *reinterpret_cast<guint32*>(capabilities->data) =
@@ -114,15 +124,11 @@ struct UmockdevFalcon::Parts {
       case USBDEVFS_CLEAR_HALT:
         return 0;
       case USBDEVFS_SUBMITURB:
-        return submit(argument) ? 0 : -EFAULT;
+        return submit(client, argument) ? 0 : -EFAULT;
       case USBDEVFS_REAPURB:
       case USBDEVFS_REAPURBNDELAY: {
-        if (unplugged()) {
-          if (urbs.empty()) return -ENODEV;
-          urbs.front().urb().status = -ESHUTDOWN;
-        }
-        const auto done = unplugged() ? urbs.begin() : completed();
-        if (done == urbs.end()) return -EAGAIN;
+        const auto done = completed(client);
+        if (done == urbs.end()) return unplugged() ? -ENODEV : -EAGAIN;
         UMockdevIoctlData* reaped = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
         if (reaped == nullptr) return -EFAULT;
         umockdev_ioctl_data_set_ptr(reaped, 0, done->request);
@@ -132,7 +138,7 @@ struct UmockdevFalcon::Parts {
       case USBDEVFS_DISCARDURB: {
         const gulong wanted = *reinterpret_cast<gulong*>(argument->data);
         for (Urb& urb : urbs) {
-          if (urb.request->client_addr != wanted) continue;
+          if (urb.client.get() != client || urb.request->client_addr != wanted) continue;
           urb.cancelled = true;
           return 0;
         }
@@ -150,7 +156,8 @@ namespace {
 gboolean on_ioctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, void* parts) {
   auto& self = *static_cast<UmockdevFalcon::Parts*>(parts);
   const std::lock_guard lock(self.play.mutex);
-  const int result = self.answer(umockdev_ioctl_client_get_request(client), umockdev_ioctl_client_get_arg(client));
+  const int result =
+      self.answer(client, umockdev_ioctl_client_get_request(client), umockdev_ioctl_client_get_arg(client));
   umockdev_ioctl_client_complete(client, result < 0 ? -1 : 0, result < 0 ? -result : 0);
   return TRUE;
 }
