@@ -63,14 +63,18 @@ function(palpate_fuzzer name)
   target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
 endfunction()
 
-# palpate_together(<target>): the files of each folder are compiled together, which halves the time of a cold build: most of a file's
-# time is what it includes. So names in unnamed namespaces are unique within a folder.
+# palpate_together(<target> [<file>...]): the files of each folder are compiled together, which halves the time of a cold build: most of
+# a file's time is what it includes. So names in unnamed namespaces are unique within a folder. Where a target has a part of the
+# files alone, they are grouped as among all of them, so that no two meet there that do not meet in the whole.
 function(palpate_together target)
   if(NOT PALPATE_TOGETHER)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  get_target_property(sources ${target} SOURCES)
+  set(sources ${ARGN})
+  if(NOT sources)
+    get_target_property(sources ${target} SOURCES)
+  endif()
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source NORMALIZE)
@@ -160,6 +164,7 @@ function(palpate_tests name)
   endif()
   cmake_parse_arguments(ARG "" "SECONDS" "SOURCES;LINK" ${ARGN})
   find_package(GTest REQUIRED)
+  set(all ${ARG_SOURCES})
   if(PALPATE_TEST_FILES)
     set(tests 0)
     foreach(source IN LISTS ARG_SOURCES)
@@ -181,7 +186,7 @@ function(palpate_tests name)
   endif()
   add_executable(${name}_tests ${ARG_SOURCES})
   target_link_libraries(${name}_tests PRIVATE palpate_compile_options palpate_test_limit ${ARG_LINK} GTest::gmock GTest::gtest_main)
-  palpate_together(${name}_tests)
+  palpate_together(${name}_tests ${all})
   palpate_test_code(${name}_tests)
   # Real series are never copied into the project.
   target_compile_definitions(${name}_tests PRIVATE PALPATE_SHARED_DATA="${PALPATE_SHARED_DATA}")
