@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -13,12 +15,25 @@
 #include <thread>
 
 #include "device/haply/haply.h"
+#include "device/link/realtime.h"
 #include "device/testing/haply_server.h"
 
 namespace palpate::device {
 namespace {
 
+/// Ticks as a servo does, where that is allowed: on a busy machine one that is late by 20 ms takes the force away each
+/// time, and the ramp begins anew.
+class ServoHere {
+ public:
+  ServoHere() { make_thread_realtime(50); }
+  ~ServoHere() {
+    const sched_param none{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
+  }
+};
+
 struct ServiceBench {
+  ServoHere servo;
   HaplyServer server;
   std::unique_ptr<Stylus> stylus;
 

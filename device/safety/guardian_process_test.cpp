@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <string>
 #include <thread>
@@ -60,7 +61,8 @@ class GuardianOfProcess : public ::testing::Test {
       unsetenv(name);
     }
   }
-  /// A session that pushes for half a second and then ends as the scenario says.
+  /// A session that pushes for a second and then ends as the scenario says; of "push", until it is ended from here.
+  /// When a busy machine lets a force act for how long is nobody's to say, so what needs one waits for it.
   void start(const char* kind, const char* scenario) {
     client_ = fork();
     if (client_ != 0) return;
@@ -77,16 +79,19 @@ class GuardianOfProcess : public ::testing::Test {
     waitpid(client_, nullptr, 0);
     client_ = 0;
   }
-  /// Waits for it to die by itself.
-  void wait_for_death() {
-    int status = 0;
-    waitpid(client_, &status, 0);
-    client_ = 0;
-    EXPECT_TRUE(WIFSIGNALED(status)) << said();
-  }
-  bool is_stopped() const {
-    int status = 0;
-    return waitpid(client_, &status, WUNTRACED | WNOHANG) == client_ && WIFSTOPPED(status);
+  /// Stops or kills a session that was started with "push" while a force acts. False where none comes.
+  bool end_while_it_pushes(const std::function<double()>& force_n, int signal) {
+    constexpr double enough_n = 0.2;
+    for (int tries = 0; tries < 20; ++tries) {
+      if (!comes([&] { return force_n() > enough_n; })) return false;
+      kill(client_, signal);
+      int status = 0;
+      waitpid(client_, &status, WUNTRACED);
+      if (signal == SIGKILL) client_ = 0;
+      if (signal == SIGKILL || force_n() > enough_n) return true;
+      kill(client_, SIGCONT);  // held up just then, it had taken the force away by itself
+    }
+    return false;
   }
   pid_t client() const { return client_; }
   std::string said() const {
@@ -106,26 +111,26 @@ class GuardianOfProcess : public ::testing::Test {
 
 TEST_F(GuardianOfProcess, TakesTheForceFromATouchWhoseSessionIsKilled) {
   setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
-  start("touch", "sigkill");
-  ASSERT_TRUE(comes([&] { return hd->force[1] == 1; })) << said();
-  wait_for_death();
+  start("touch", "push");
+  ASSERT_TRUE(end_while_it_pushes([&] { return hd->force[1]; }, SIGKILL)) << said();
   EXPECT_TRUE(comes([&] { return hd->force[1] == 0; })) << "the device itself holds its last force";
 }
 
 TEST_F(GuardianOfProcess, TakesTheForceFromATouchWhoseSessionIsStopped) {
   setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
-  start("touch", "sigstop");
-  ASSERT_TRUE(comes([&] { return is_stopped(); })) << said();
+  start("touch", "push");
+  ASSERT_TRUE(end_while_it_pushes([&] { return hd->force[1]; }, SIGSTOP)) << said();
   EXPECT_TRUE(comes([&] { return hd->force[1] == 0; }));
 }
 
 TEST_F(GuardianOfProcess, TriesUntilATouchOfAStoppedSessionCanBeReached) {
   setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
-  start("touch", "sigstop");
-  ASSERT_TRUE(comes([&] { return hd->force[1] == 1; })) << said();
+  start("touch", "push");
+  ASSERT_TRUE(comes([&] { return hd->force[1] > 0; })) << said();
   hd->present = 0;
+  ASSERT_TRUE(end_while_it_pushes([&] { return hd->force[1]; }, SIGSTOP)) << said();
   ASSERT_TRUE(comes([&] { return said().find("COULD NOT BE REACHED") != std::string::npos; })) << said();
-  EXPECT_EQ(hd->force[1], 1);
+  EXPECT_GT(hd->force[1], 0);
   hd->error = 0;
   hd->present = 1;
   EXPECT_TRUE(comes([&] { return hd->force[1] == 0; }));
@@ -135,18 +140,18 @@ TEST_F(GuardianOfProcess, TriesUntilATouchOfAStoppedSessionCanBeReached) {
 TEST_F(GuardianOfProcess, WithoutAGuardianATouchKeepsItsForce) {
   setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
   setenv("PALPATE_GUARDIAN", "", 1);
-  start("touch", "sigkill");
-  wait_for_death();
+  start("touch", "push");
+  ASSERT_TRUE(end_while_it_pushes([&] { return hd->force[1]; }, SIGSTOP)) << said();
+  end();
   while (waitpid(-1, nullptr, 0) > 0) {
   }
-  EXPECT_EQ(hd->force[1], 1) << "what the other tests see goes by the guardian alone";
+  EXPECT_GT(hd->force[1], 0) << "what the other tests see goes by the guardian alone";
 }
 
 TEST_F(GuardianOfProcess, StopsAForceDimensionWhoseSessionIsKilled) {
   setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
-  start("force_dimension", "sigkill");
-  ASSERT_TRUE(comes([&] { return drd->force[2] == 1; })) << said();
-  wait_for_death();
+  start("force_dimension", "push");
+  ASSERT_TRUE(end_while_it_pushes([&] { return drd->force[2]; }, SIGKILL)) << said();
   EXPECT_TRUE(comes([&] { return drd->stopped == 1 && drd->forces_on == 0; })) << "beside its firmware's watchdog";
 }
 
@@ -170,7 +175,7 @@ TEST_F(GuardianOfProcess, WhatProvesNothingIsNoGuardian) {
 TEST_F(GuardianOfProcess, ItsDeathIsAFault) {
   setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
   start("force_dimension", "unplug");  // pushes until there is a fault
-  ASSERT_TRUE(comes([&] { return drd->force[2] == 1; })) << said();
+  ASSERT_TRUE(comes([&] { return drd->force[2] > 0.2; })) << said();
   std::ifstream children("/proc/" + std::to_string(client()) + "/task/" + std::to_string(client()) + "/children");
   pid_t guardian = 0;
   for (pid_t child = 0; children >> child;) {
@@ -190,8 +195,8 @@ TEST_F(GuardianOfProcess, SaysOfAHaplyWhetherTheServiceTookTheForceAway) {
     service.idle_after = service_ends_it ? 0.05 : 60;
     HaplyServer server(service);
     setenv("PALPATE_HAPLY", ("localhost:" + std::to_string(server.port())).c_str(), 1);
-    start("haply", "sigstop");
-    ASSERT_TRUE(comes([&] { return is_stopped(); })) << said();
+    start("haply", "push");
+    ASSERT_TRUE(end_while_it_pushes([&] { return glm::length(server.acting()); }, SIGSTOP)) << said();
     const std::string told = service_ends_it ? "stands still while it pushes; zero force was sent"
                                              : "THE STYLUS COULD NOT BE REACHED: switch it off";
     EXPECT_TRUE(comes([&] { return said().find(told) != std::string::npos; })) << said();

@@ -1,7 +1,8 @@
 // A session's part of the tests that go through the real libraries: opens a device as palpate does, pushes, ends.
 //   device_client KIND SCENARIO [FILE]
 // KIND: falcon (FILE: firmware), wooden_haptics (FILE: settings), space_mouse, haply, touch, force_dimension.
-// SCENARIO: run | unplug | replug | replug_close | sigint | sigterm | sigkill | sigstop | denied.
+// SCENARIO: run | unplug | replug | replug_close | sigint | sigterm | sigkill | sigstop | denied, or push: until it is
+// ended from without.
 
 #include <csignal>
 #include <cstdio>
@@ -78,6 +79,11 @@ int play(Stylus& stylus, const std::string& scenario) {
   // notice.
   failures += expect(find_devices().size() == 1, "found while it is held");
   constexpr double pushing = 1;  // s: the ramp after a delay lasts a quarter of it
+  if (scenario == "push") {
+    const Run held = push(stylus, 60, 20);
+    std::printf("client: nobody ended it in %.1f s, state %s\n", held.seconds, name_of(stylus.state()));
+    return 1;
+  }
   const Run run = push(stylus, pushing, scenario.starts_with("sig") ? 5 : 1);
   std::printf("client: %d new poses in %.2f s, state %s\n", run.fresh, run.seconds, name_of(stylus.state()));
   std::fflush(stdout);
@@ -130,6 +136,7 @@ int play(std::unique_ptr<Stylus> stylus, const std::string& scenario) {
 int main(int count, char** arguments) {
   const std::string kind = count > 1 ? arguments[1] : "";
   const std::string scenario = count > 2 ? arguments[2] : "";
+  make_thread_realtime(50);  // as a servo, below the thread that drives the device
   try {
     if (kind == "falcon") {
       FalconSettings settings;

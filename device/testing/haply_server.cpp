@@ -158,7 +158,10 @@ class HaplyServer::Impl {
     shared.service = service;
     accept();
     accept_hearer();
-    thread_ = std::thread([this] { context_.run(); });
+    thread_ = std::thread([this] {
+      make_thread_realtime(65);  // above its clients: a real service is not silent because the machine is busy
+      context_.run();
+    });
   }
   ~Impl() {
     context_.stop();
