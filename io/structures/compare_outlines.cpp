@@ -3,10 +3,8 @@
 #define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost's own, which they say of each other
 
 #include <algorithm>
-#include <boost/geometry/core/cs.hpp>
-#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry.hpp>  // whole: which part a distance is in differs between Boost 1.74 and 1.83
 #include <boost/geometry/index/rtree.hpp>
-#include <boost/geometry/strategies/strategies.hpp>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
