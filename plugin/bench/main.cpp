@@ -8,6 +8,7 @@
 #include "io/fresh_folder.h"
 #include "plugin/bench/bench_correct.h"
 #include "plugin/bench/bench_fields.h"
+#include "plugin/bench/bench_forces.h"
 #include "plugin/bench/bench_load.h"
 #include "plugin/bench/bench_soak.h"
 #include "plugin/bench/bench_solvers.h"
@@ -59,6 +60,7 @@ int main(int argc, char** argv) {
   add_stability(program);
   add_bench_correct(program);
   add_bench_fields(program);
+  add_bench_forces(program);
   add_bench_load(program);
   add_bench_soak(program);
   add_bench_solvers(program);

@@ -53,6 +53,9 @@ inline constexpr MessageRow structures[] = {
      "name the folder or the file with the structures",
      {{"no-structures-in-what-was-given",
        "no structures in what was given: no DICOM SEG, RTSTRUCT or label map that can be read"}}},
+    {"labels are compared with a scan (`palpate-bench forces --structures`)",
+     "name labels that were drawn on that scan; `palpate structures LABELS --scan SERIES` says how they lie",
+     {{"no-structure-lies-on-the-scan", "none of the structures given lies on the scan with a voxel inside"}}},
 };
 
 }  // namespace palpate::plugin::messages

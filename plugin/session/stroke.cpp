@@ -52,7 +52,7 @@ std::array<double, io::most_structures> distances_at(const modes::Plan& plan, co
 }  // namespace
 
 std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
-                                    const glm::dvec3& to_mm, double speed_mm_per_s) {
+                                    const glm::dvec3& to_mm, double speed_mm_per_s, StrokeDetail detail) {
   const double length = glm::distance(from_mm, to_mm);
   const double count = std::ceil(length / speed_mm_per_s * ticks_per_s);
   if (!(count >= 1) || count > most_ticks) {
@@ -77,13 +77,14 @@ std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSour
     stroke.push_back({.position_mm = position,
                       .proxy_mm = proxy,
                       .force_n = plan.workspace.direction_to_patient(result.force_n),
-                      .value = value_at(source, proxy),
-                      .distance_mm = distances_at(plan, source, proxy),
-                      .value_passed = value_at(source, position),
                       .solver = result.solver,
                       .error_bound_m = result.error_bound,
                       .boundary = most ? std::optional<std::size_t>(result.mode_of[*most]) : std::nullopt,
                       .primitive = most ? std::optional(result.primitives[*most].type) : std::nullopt});
+    if (detail == StrokeDetail::forces_alone) continue;
+    stroke.back().value = value_at(source, proxy);
+    stroke.back().distance_mm = distances_at(plan, source, proxy);
+    stroke.back().value_passed = value_at(source, position);
   }
   return stroke;
 }

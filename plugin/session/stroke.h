@@ -31,9 +31,13 @@ struct StrokePoint {
   std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with; set if boundary is
 };
 
+/// What is read beside the forces: all of StrokePoint, or neither values nor distances.
+enum class StrokeDetail { all, forces_alone };
+
 /// Throws std::runtime_error where the stroke has no length or more than 10 000 000 ticks.
 std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
-                                    const glm::dvec3& to_mm, double speed_mm_per_s);
+                                    const glm::dvec3& to_mm, double speed_mm_per_s,
+                                    StrokeDetail detail = StrokeDetail::all);
 
 /// A stretch of the stroke in which one boundary holds the proxy back.
 struct Contact {

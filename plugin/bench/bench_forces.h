@@ -1,0 +1,13 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace palpate::plugin {
+
+/// `palpate-bench forces [SERIES --structures PATH] [--paths N] [--seed N] [-o DIR]`: how far the force that is felt is
+/// from the one that should be, along random straight paths.
+void add_bench_forces(CLI::App& bench);
+
+}  // namespace palpate::plugin

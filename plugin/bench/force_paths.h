@@ -1,0 +1,44 @@
+#pragma once
+
+/// Straight paths from outside a body to places in its organs, planned at random under a rule, as a needle's are
+/// (Mastmeyer et al., Scientific Reports 7:671, 2017).
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace palpate::plugin {
+
+/// Patient space, mm.
+struct PlannedPath {
+  glm::dvec3 from_mm{0};
+  glm::dvec3 to_mm{0};
+  std::size_t target = 0;  ///< index into PathWorld::targets
+};
+
+struct PathTarget {
+  std::string name;
+  std::function<glm::dvec3(std::mt19937_64&)> place_in;  ///< any place inside, all alike
+  bool is_bone = false;                                  ///< then the path may pass through bone
+};
+
+struct PathWorld {
+  std::vector<PathTarget> targets;
+  std::function<bool(const glm::dvec3&)> is_outside;  ///< of the body
+  std::function<bool(const glm::dvec3&)> is_bone;
+  std::function<bool(const glm::dvec3&)> is_known;  ///< whether the scan has this place
+  glm::dvec3 stretch{1};                            ///< of directions that are alike over a sphere: a slab is entered from its sides
+  double most_mm = 200;                             ///< in the body
+  double before_mm = 6;                             ///< of the path, outside
+};
+
+/// The path of this number, which depends on the seed and the number alone. The targets take turns. Empty where no way
+/// to the target was found that keeps the rule.
+std::optional<PlannedPath> plan_path(const PathWorld& world, std::uint64_t seed, std::size_t number);
+
+}  // namespace palpate::plugin
