@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "io/quantile.h"
@@ -23,6 +24,9 @@ constexpr double outlier = 3.0;                               // standard deviat
 constexpr double cubic_phase = 0.02, cubic_coarse_phase = 0.05, trilinear_phase = 0.04;
 constexpr double coarse = 1.5;  // times the finest spacing
 // Variance of the blur, in voxels squared: of the voxel's box and of the interpolation.
+// Of an edge's rise, in standard deviations of the value: less may be noise alone. The rise is that of a mean over a
+// disk, whose noise is less than half of the value's.
+constexpr double least_rise_in_noise = 1.8;
 constexpr double cubic_blur = 1.0 / 12 + 0.58 * 0.58, trilinear_blur = 1.0 / 12 + 1.0 / 6;
 
 /// Two unit vectors perpendicular to a unit vector and to each other.
@@ -30,6 +34,11 @@ std::array<Vec3, 2> tangents_of(const Vec3& normal) {
   const Vec3 other = std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   const Vec3 first = glm::normalize(glm::cross(normal, other));
   return {first, glm::cross(normal, first)};
+}
+
+/// Variance of a filter's blur along a unit direction, mm^2.
+double filter_blur(const Geometry& geometry, const Filter& filter, const Vec3& direction) {
+  return filter.type != nullptr && filter.type->blur != nullptr ? filter.type->blur(geometry, filter, direction) : 0;
 }
 
 /// Extent of a voxel along a unit direction, mm: how far one goes to the next voxel.
@@ -91,6 +100,96 @@ double noise_of(const std::vector<Pair>& pairs) {
   return count > 2 ? std::sqrt(sum / (count - 2) / 2) : 0;
 }
 
+/// The mean value over a small disk of the tangent plane, on the way along the normal: less noise than at one point.
+class NormalProfile {
+ public:
+  NormalProfile(const FieldSource& source, const Geometry& geometry, const Vec3& place, const Vec3& normal)
+      : source_(source), place_(place), normal_(normal), step_mm_(profile_step * voxel_along(geometry, normal)) {
+    const auto tangents = tangents_of(normal);
+    for (std::size_t n = 0; n < around_.size(); ++n) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(around_.size());
+      const Vec3 along = std::cos(angle) * tangents[0] + std::sin(angle) * tangents[1];
+      around_[n] = disk * (n % 2 == 0 ? 1.0 : 0.5) * voxel_along(geometry, along) * along;
+    }
+  }
+
+  /// NaN outside the scan.
+  double at(int step) const {
+    const Vec3 middle = place_ + step * step_mm_ * normal_;
+    double sum = 0;
+    const auto add = [&](const Vec3& place) {
+      const Sample sample = source_.sample(place, FieldSet::value);
+      sum += sample.inside ? sample.value : std::numeric_limits<double>::quiet_NaN();
+    };
+    add(middle);
+    for (const Vec3& away : around_) add(middle + away);
+    return sum / static_cast<double>(around_.size() + 1);
+  }
+  double step_mm() const noexcept { return step_mm_; }
+
+ private:
+  static constexpr double profile_step = 0.25, disk = 1.6;  // voxels
+  const FieldSource& source_;
+  Vec3 place_, normal_;
+  double step_mm_;
+  std::array<Vec3, 16> around_;
+};
+
+/// The step nearest to the place from which the value rises as steeply as the gradient says: 0 where it does so at the
+/// place; empty where it does so nowhere near.
+std::optional<int> edge_near(const NormalProfile& profile, double slope, double gradient) {
+  constexpr double alike = 0.7, reach_mm = 8;
+  if (slope >= alike * gradient) return 0;
+  const double rise = alike * gradient * profile.step_mm();
+  for (int n = 1; n * profile.step_mm() <= reach_mm; ++n) {
+    if (profile.at(n) - profile.at(n - 1) >= rise) return n;
+    if (profile.at(1 - n) - profile.at(-n) >= rise) return -n;
+  }
+  return std::nullopt;
+}
+
+/// The edge that a boundary belongs to.
+struct Edge {
+  double beyond_mm = 0;  ///< from where the value is in the middle of its two sides to the place, along the normal
+  double rise = 0;       ///< from the one side to the other
+  double steepest = 0;   ///< unit per mm
+};
+
+/// Empty where nobody can tell.
+std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double gradient, double value) {
+  constexpr double flat = 0.1;  // of the steepest rise: there the side is reached
+  constexpr int most_steps = 40;
+  const auto nearest = edge_near(profile, slope, gradient);
+  if (!nearest) return std::nullopt;
+  struct Point {
+    int step;
+    double value;
+  };
+  std::vector<Point> points{{*nearest, profile.at(*nearest)}};
+  double steepest = std::max(slope, gradient) * profile.step_mm() * 0.5, steepest_seen = 0;
+  for (const int way : {-1, 1}) {
+    for (int n = 1; n <= most_steps; ++n) {
+      const Point& last = way < 0 ? points.front() : points.back();
+      const Point next{last.step + way, profile.at(last.step + way)};
+      const double rise = way * (next.value - last.value);
+      if (!(rise > flat * steepest)) break;  // outside the scan, too
+      steepest = std::max(steepest, rise);
+      steepest_seen = std::max(steepest_seen, rise);
+      points.insert(way < 0 ? points.begin() : points.end(), next);
+    }
+  }
+  const double middle = 0.5 * (points.front().value + points.back().value);
+  const auto above = std::ranges::find_if(points, [&](const Point& point) { return point.value >= middle; });
+  if (points.size() < 2 || above == points.begin()) return std::nullopt;
+  const Point& below = *(above - 1);
+  const double at = below.step + (middle - below.value) / (above->value - below.value);
+  // What the disk adds to the value at the place, it adds in the middle, too.
+  const double place = *nearest == 0 && slope > 0 ? (value - profile.at(0)) / slope : 0;
+  return Edge{.beyond_mm = place - at * profile.step_mm(),
+              .rise = points.back().value - points.front().value,
+              .steepest = steepest_seen / profile.step_mm()};
+}
+
 }  // namespace
 
 BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& geometry, ValueMethod value,
@@ -113,7 +212,8 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   };
   add_slope(place_mm);
   std::vector<Pair> pairs;
-  double bent = 0, bent_count = 0;  // sum of blur variance (mm^2) times the value's second difference (unit per mm^2)
+  // Sum of blur variance (mm^2) times the value's second difference (unit per mm^2), and of the latter alone.
+  double bent = 0, bend = 0, bent_count = 0;
   const double blur = value == ValueMethod::cubic ? cubic_blur : trilinear_blur;
   for (std::size_t n = 0; n < directions; ++n) {
     const double angle = std::numbers::pi * static_cast<double>(n) / directions;
@@ -127,10 +227,9 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
       pairs.push_back({.angle = angle, .apart_mm = 2 * reach * step, .difference = one.value - other.value});
       if (reach > reaches.front()) continue;
       const double width = reach * step;
-      const bool is_blurred = filter.type != nullptr && filter.type->blur != nullptr;
-      const double of_filter = is_blurred ? filter.type->blur(geometry, filter, along) : 0;
-      const double variance = blur * step * step + of_filter;
-      bent += variance * (one.value + other.value - 2 * here.value) / (width * width);
+      const double second = (one.value + other.value - 2 * here.value) / (width * width);
+      bent += (blur * step * step + filter_blur(geometry, filter, along)) * second;
+      bend += second;
       bent_count += 1;
     }
     // The slope of neighbors on the tangent plane, half a voxel aside: more of them, less noise.
@@ -143,9 +242,17 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   if (!(result.slope > 0)) return result;
   result.noise_mm = result.noise / result.slope;
   result.sampling_mm = phase_mm(geometry, value, normal);
-  result.curvature_mm = bent_count > 0 ? -bent / bent_count / result.slope : 0;
+  const NormalProfile profile(source, geometry, place_mm, normal);
+  const auto edge = edge_at(profile, result.slope, glm::length(here.gradient), here.value);
+  if (!edge || edge->rise < least_rise_in_noise * result.noise) return result;
+  result.level_mm = edge->beyond_mm;
+  // A scanner's blur is seen in the edge's own width, and is taken to be alike in all directions.
+  const double width = edge->rise / (edge->steepest * std::sqrt(2 * std::numbers::pi));
+  const double of_scanner = std::max(0.0, width * width - blur * voxel * voxel - filter_blur(geometry, filter, normal));
+  result.curvature_mm = bent_count > 0 ? -(bent + of_scanner * bend) / bent_count / result.slope : 0;
   // The measured noise has the phase's part in it, unless the boundary runs along the voxels.
-  result.two_sigma_mm = 2 * std::max(result.noise_mm, result.sampling_mm) + std::abs(result.curvature_mm);
+  result.two_sigma_mm =
+      2 * std::max(result.noise_mm, result.sampling_mm) + std::abs(result.curvature_mm + result.level_mm);
   return result;
 }
 

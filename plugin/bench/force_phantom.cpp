@@ -114,8 +114,8 @@ ForceRow row_of(const Scanned& how, const modes::Scene& scene, std::uint64_t see
   return {how.name, [=] { return felt_on_scan(scene, scan_of(how, seed)); }};
 }
 
-PathTarget target_in(std::string name, const testdata::Ball& ball, double inner_mm = 0) {
-  return {std::move(name),
+PathTarget target_in(const std::string& name, const testdata::Ball& ball, double inner_mm = 0) {
+  return {name,
           [=](std::mt19937_64& random) {
             std::normal_distribution<double> any;
             std::uniform_real_distribution<double> even(0, 1);
