@@ -24,9 +24,11 @@ constexpr double outlier = 3.0;                               // standard deviat
 constexpr double cubic_phase = 0.02, cubic_coarse_phase = 0.05, trilinear_phase = 0.04;
 constexpr double coarse = 1.5;  // times the finest spacing
 // Variance of the blur, in voxels squared: of the voxel's box and of the interpolation.
-// Of an edge's rise, in standard deviations of the value: less may be noise alone. The rise is that of a mean over a
-// disk, whose noise is less than half of the value's.
-constexpr double least_rise_in_noise = 1.8;
+// Of an edge's rise, in standard deviations of the value: less may be noise alone. Source: Rose, "The sensitivity
+// performance of the human eye on an absolute scale", J. Opt. Soc. Am. 38 (1948): 3 to 5.
+constexpr double least_rise_in_noise = 4.5;
+// Noise of the mean over a disk (NormalProfile), over that of the value.
+constexpr double disk_noise = 0.45;
 constexpr double cubic_blur = 1.0 / 12 + 0.58 * 0.58, trilinear_blur = 1.0 / 12 + 1.0 / 6;
 
 /// Two unit vectors perpendicular to a unit vector and to each other.
@@ -100,6 +102,8 @@ double noise_of(const std::vector<Pair>& pairs) {
   return count > 2 ? std::sqrt(sum / (count - 2) / 2) : 0;
 }
 
+constexpr double disk_radius = 1.6;  // voxels
+
 /// The mean value over a small disk of the tangent plane, on the way along the normal: less noise than at one point.
 class NormalProfile {
  public:
@@ -109,7 +113,7 @@ class NormalProfile {
     for (std::size_t n = 0; n < around_.size(); ++n) {
       const double angle = 2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(around_.size());
       const Vec3 along = std::cos(angle) * tangents[0] + std::sin(angle) * tangents[1];
-      around_[n] = disk * (n % 2 == 0 ? 1.0 : 0.5) * voxel_along(geometry, along) * along;
+      around_[n] = disk_radius * (n % 2 == 0 ? 1.0 : 0.5) * voxel_along(geometry, along) * along;
     }
   }
 
@@ -126,9 +130,11 @@ class NormalProfile {
     return sum / static_cast<double>(around_.size() + 1);
   }
   double step_mm() const noexcept { return step_mm_; }
+  /// Mean square of the disk's radii, voxels.
+  static constexpr double mean_square = disk_radius * disk_radius * 8 * (1 + 0.25) / 17;
 
  private:
-  static constexpr double profile_step = 0.25, disk = 1.6;  // voxels
+  static constexpr double profile_step = 0.25;  // voxels
   const FieldSource& source_;
   Vec3 place_, normal_;
   double step_mm_;
@@ -211,9 +217,11 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
     slope_count += 1;
   };
   add_slope(place_mm);
+  const NormalProfile profile(source, geometry, place_mm, normal);
+  const double middle = profile.at(0);
   std::vector<Pair> pairs;
   // Sum of blur variance (mm^2) times the value's second difference (unit per mm^2), and of the latter alone.
-  double bent = 0, bend = 0, bent_count = 0;
+  double bent = 0, bend = 0, bend_noise = 0, bent_count = 0;
   const double blur = value == ValueMethod::cubic ? cubic_blur : trilinear_blur;
   for (std::size_t n = 0; n < directions; ++n) {
     const double angle = std::numbers::pi * static_cast<double>(n) / directions;
@@ -227,7 +235,10 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
       pairs.push_back({.angle = angle, .apart_mm = 2 * reach * step, .difference = one.value - other.value});
       if (reach > reaches.front()) continue;
       const double width = reach * step;
-      const double second = (one.value + other.value - 2 * here.value) / (width * width);
+      // From the mean over the disk, whose noise is less; curvature is in that mean, too.
+      const double second = (one.value + other.value - 2 * middle) /
+                            (width * width - NormalProfile::mean_square * step * step);
+      bend_noise += 1 / (width * width);
       bent += (blur * step * step + filter_blur(geometry, filter, along)) * second;
       bend += second;
       bent_count += 1;
@@ -242,7 +253,6 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   if (!(result.slope > 0)) return result;
   result.noise_mm = result.noise / result.slope;
   result.sampling_mm = phase_mm(geometry, value, normal);
-  const NormalProfile profile(source, geometry, place_mm, normal);
   const auto edge = edge_at(profile, result.slope, glm::length(here.gradient), here.value);
   if (!edge || edge->rise < least_rise_in_noise * result.noise) return result;
   result.level_mm = edge->beyond_mm;
@@ -250,9 +260,14 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   const double width = edge->rise / (edge->steepest * std::sqrt(2 * std::numbers::pi));
   const double of_scanner = std::max(0.0, width * width - blur * voxel * voxel - filter_blur(geometry, filter, normal));
   result.curvature_mm = bent_count > 0 ? -(bent + of_scanner * bend) / bent_count / result.slope : 0;
-  // The measured noise has the phase's part in it, unless the boundary runs along the voxels.
-  result.two_sigma_mm =
-      2 * std::max(result.noise_mm, result.sampling_mm) + std::abs(result.curvature_mm + result.level_mm);
+  // The measured noise has the phase's part in it, unless the boundary runs along the voxels. The shift is measured,
+  // too: its noise is that of the second differences and of the middle.
+  const double bend_hu = result.noise * std::sqrt(4 * disk_noise * disk_noise + 2.0 / directions) * bend_noise / bent_count;
+  const double of_bend = bend_hu * (blur * voxel * voxel + of_scanner) / result.slope;
+  const double of_level = disk_noise * std::numbers::sqrt2 / 2 * result.noise_mm;
+  const double sigma = std::max(result.noise_mm, result.sampling_mm);
+  result.two_sigma_mm = 2 * std::sqrt(sigma * sigma + of_bend * of_bend + of_level * of_level) +
+                        std::abs(result.curvature_mm + result.level_mm);
   return result;
 }
 
