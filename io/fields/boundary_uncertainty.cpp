@@ -27,15 +27,24 @@ constexpr double coarse = 1.5;  // times the finest spacing
 // Of an edge's rise, in standard deviations of the value: less may be noise alone. Source: Rose, "The sensitivity
 // performance of the human eye on an absolute scale", J. Opt. Soc. Am. 38 (1948): 3 to 5.
 constexpr double least_rise_in_noise = 4.5;
-// Noise of the mean over a disk (NormalProfile), over that of the value.
-constexpr double disk_noise = 0.45;
-constexpr double cubic_blur = 1.0 / 12 + 0.58 * 0.58, trilinear_blur = 1.0 / 12 + 1.0 / 6;
+// A disk of the tangent plane: eight places at its radius and eight half as far, and the middle. The mean square of
+// their distances, voxels squared.
+constexpr double disk_radius = 1.6;  // voxels
+constexpr double disk_mean_square = disk_radius * disk_radius * 8 * (1 + 0.25) / 17;
+constexpr double box_blur = 1.0 / 12, cubic_blur = box_blur + 0.58 * 0.58, trilinear_blur = box_blur + 1.0 / 6;
 
 /// Two unit vectors perpendicular to a unit vector and to each other.
 std::array<Vec3, 2> tangents_of(const Vec3& normal) {
   const Vec3 other = std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   const Vec3 first = glm::normalize(glm::cross(normal, other));
   return {first, glm::cross(normal, first)};
+}
+
+/// 95 of 100 normal deviates around a bias are within this of zero; never too narrow, and at most 5 % too wide.
+double within_95(double bias, double sigma) {
+  constexpr double both_sides = 1.96, one_side = 1.645;
+  const double apart = sigma > 0 ? bias / sigma : 0;
+  return std::abs(bias) + sigma * (one_side + (both_sides - one_side) * std::exp(-3 * apart * apart));
 }
 
 /// Variance of a filter's blur along a unit direction, mm^2.
@@ -73,6 +82,35 @@ struct Pair {
   double difference = 0;  // of their values
 };
 
+/// Second differences along the directions of a tangent plane.
+struct Bend {
+  std::vector<double> second;  // unit per mm^2, of each direction
+  double noise = 0;            // of their mean, over the value's
+};
+
+struct PairSum {
+  double apart_mm = 0;
+  double sum = 0;  // of the values
+};
+
+/// Against the mean over a disk, which has less noise than the place itself; the disk's own bend is taken out of it.
+Bend bend_of(const std::vector<PairSum>& pairs, double disk_mean, double disk_noise) {
+  Bend bend;
+  if (pairs.empty()) return bend;
+  const auto count = static_cast<double>(pairs.size());
+  double sum = 0, per_mm2 = 0;
+  for (const PairSum& pair : pairs) {
+    sum += pair.sum / count;
+    per_mm2 += 4 / (pair.apart_mm * pair.apart_mm) / count;
+  }
+  constexpr double part = disk_mean_square / (reaches.front() * reaches.front());
+  const double middle = (disk_mean - 0.5 * part * sum) / (1 - part);
+  for (const PairSum& pair : pairs)
+    bend.second.push_back(4 * (pair.sum - 2 * middle) / (pair.apart_mm * pair.apart_mm));
+  bend.noise = per_mm2 * std::sqrt(4 * disk_noise * disk_noise / ((1 - part) * (1 - part)) + 2 / count);
+  return bend;
+}
+
 /// Standard deviation of the value: of the pairs' differences less a tilt of the plane, without outliers.
 double noise_of(const std::vector<Pair>& pairs) {
   // Least squares of difference = apart (a cos + b sin).
@@ -102,8 +140,6 @@ double noise_of(const std::vector<Pair>& pairs) {
   return count > 2 ? std::sqrt(sum / (count - 2) / 2) : 0;
 }
 
-constexpr double disk_radius = 1.6;  // voxels
-
 /// The mean value over a small disk of the tangent plane, on the way along the normal: less noise than at one point.
 class NormalProfile {
  public:
@@ -117,21 +153,21 @@ class NormalProfile {
     }
   }
 
-  /// NaN outside the scan.
+  /// NaN where less than half of the disk lies in the scan.
   double at(int step) const {
     const Vec3 middle = place_ + step * step_mm_ * normal_;
-    double sum = 0;
+    double sum = 0, count = 0;
     const auto add = [&](const Vec3& place) {
       const Sample sample = source_.sample(place, FieldSet::value);
-      sum += sample.inside ? sample.value : std::numeric_limits<double>::quiet_NaN();
+      if (!sample.inside) return;
+      sum += sample.value;
+      count += 1;
     };
     add(middle);
     for (const Vec3& away : around_) add(middle + away);
-    return sum / static_cast<double>(around_.size() + 1);
+    return 2 * count > static_cast<double>(around_.size()) ? sum / count : std::numeric_limits<double>::quiet_NaN();
   }
   double step_mm() const noexcept { return step_mm_; }
-  /// Mean square of the disk's radii, voxels.
-  static constexpr double mean_square = disk_radius * disk_radius * 8 * (1 + 0.25) / 17;
 
  private:
   static constexpr double profile_step = 0.25;  // voxels
@@ -161,6 +197,28 @@ struct Edge {
   double steepest = 0;   ///< unit per mm
 };
 
+/// Which part of a side's value a blur lets it reach: 1 unless the value turns back before long. `end`: where it stops
+/// rising, `way`: to which side, `half`: the edge; `width`: one standard deviation of the blur. All in steps.
+double part_reached(const NormalProfile& profile, int end, int way, double middle, double half, double width) {
+  constexpr double thick = 6;      // standard deviations: more reaches all of its value
+  constexpr double point = 2.355;  // a blurred plate without thickness is as wide, between half of its value
+  for (int step = end; way * (step - half) < thick * width; step += way) {
+    const double there = profile.at(step);
+    if (!(way * (there - middle) <= 0)) continue;
+    // A thin plate's blur looks narrower, and the plate thicker than it is. The root is within 4 % of the thickness.
+    const double before = profile.at(step - way);
+    const double plate = way * (step - way * (middle - there) / (before - there) - half);
+    double sigma = width, part = 1;
+    for (int n = 0; n < 50; ++n) {
+      const double t = std::cbrt(std::max(0.1, std::pow(plate / sigma, 3) - std::pow(point, 3)));
+      part = std::erf(t / (2 * std::numbers::sqrt2));
+      sigma = width * (1 - std::exp(-0.5 * t * t)) / part;
+    }
+    return std::max(part, 0.4);
+  }
+  return 1;
+}
+
 /// Empty where nobody can tell.
 std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double gradient, double value) {
   constexpr double flat = 0.1;  // of the steepest rise: there the side is reached
@@ -174,21 +232,33 @@ std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double g
   std::vector<Point> points{{*nearest, profile.at(*nearest)}};
   double steepest = std::max(slope, gradient) * profile.step_mm() * 0.5, steepest_seen = 0;
   for (const int way : {-1, 1}) {
-    for (int n = 1; n <= most_steps; ++n) {
+    for (int n = 1;; ++n) {
+      if (n > most_steps) return std::nullopt;  // it rises for so long that it has no sides
       const Point& last = way < 0 ? points.front() : points.back();
       const Point next{last.step + way, profile.at(last.step + way)};
       const double rise = way * (next.value - last.value);
-      if (!(rise > flat * steepest)) break;  // outside the scan, too
+      if (!std::isfinite(rise)) return std::nullopt;  // the scan ends before the side does
+      if (!(rise > flat * steepest)) break;
       steepest = std::max(steepest, rise);
       steepest_seen = std::max(steepest_seen, rise);
       points.insert(way < 0 ? points.begin() : points.end(), next);
     }
   }
-  const double middle = 0.5 * (points.front().value + points.back().value);
-  const auto above = std::ranges::find_if(points, [&](const Point& point) { return point.value >= middle; });
-  if (points.size() < 2 || above == points.begin()) return std::nullopt;
-  const Point& below = *(above - 1);
-  const double at = below.step + (middle - below.value) / (above->value - below.value);
+  const double low = points.front().value, high = points.back().value;
+  const auto crossing = [&](double level) -> std::optional<double> {
+    const auto above = std::ranges::find_if(points, [&](const Point& point) { return point.value >= level; });
+    if (above == points.begin() || above == points.end()) return std::nullopt;
+    const Point& below = *(above - 1);
+    return below.step + (level - below.value) / (above->value - below.value);
+  };
+  const auto half = crossing(0.5 * (low + high));
+  if (!half) return std::nullopt;
+  const double width = (high - low) / (steepest_seen * std::sqrt(2 * std::numbers::pi));  // steps, of the blur
+  const double raised = part_reached(profile, points.back().step, 1, 0.5 * (low + high), *half, width);
+  const double lowered = part_reached(profile, points.front().step, -1, 0.5 * (low + high), *half, width);
+  // Sides that are thinner than the blur do not reach their values.
+  const double middle = 0.5 * (low + high) + 0.5 * (high - low) * (1 / raised - 1 / lowered);
+  const double at = crossing(middle).value_or(*half);
   // What the disk adds to the value at the place, it adds in the middle, too.
   const double place = *nearest == 0 && slope > 0 ? (value - profile.at(0)) / slope : 0;
   return Edge{.beyond_mm = place - at * profile.step_mm(),
@@ -218,10 +288,9 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   };
   add_slope(place_mm);
   const NormalProfile profile(source, geometry, place_mm, normal);
-  const double middle = profile.at(0);
   std::vector<Pair> pairs;
-  // Sum of blur variance (mm^2) times the value's second difference (unit per mm^2), and of the latter alone.
-  double bent = 0, bend = 0, bend_noise = 0, bent_count = 0;
+  std::vector<PairSum> nearest;
+  std::vector<Vec3> nearest_ways;
   const double blur = value == ValueMethod::cubic ? cubic_blur : trilinear_blur;
   for (std::size_t n = 0; n < directions; ++n) {
     const double angle = std::numbers::pi * static_cast<double>(n) / directions;
@@ -234,14 +303,8 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
       if (!one.inside || !other.inside) continue;
       pairs.push_back({.angle = angle, .apart_mm = 2 * reach * step, .difference = one.value - other.value});
       if (reach > reaches.front()) continue;
-      const double width = reach * step;
-      // From the mean over the disk, whose noise is less; curvature is in that mean, too.
-      const double second = (one.value + other.value - 2 * middle) /
-                            (width * width - NormalProfile::mean_square * step * step);
-      bend_noise += 1 / (width * width);
-      bent += (blur * step * step + filter_blur(geometry, filter, along)) * second;
-      bend += second;
-      bent_count += 1;
+      nearest.push_back({.apart_mm = 2 * reach * step, .sum = one.value + other.value});
+      nearest_ways.push_back(along);
     }
     // The slope of neighbors on the tangent plane, half a voxel aside: more of them, less noise.
     add_slope(place_mm + 0.5 * step * along);
@@ -253,21 +316,31 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   if (!(result.slope > 0)) return result;
   result.noise_mm = result.noise / result.slope;
   result.sampling_mm = phase_mm(geometry, value, normal);
+  // Noise of the mean over a disk, over that of the value: interpolation and filter join the noise of neighbors.
+  const double joined = blur - box_blur + filter_blur(geometry, filter, tangents[0]) / (voxel * voxel);
+  const double disk_noise = 1 / std::sqrt(1 + 0.5 * disk_radius * disk_radius / joined);
   const auto edge = edge_at(profile, result.slope, glm::length(here.gradient), here.value);
   if (!edge || edge->rise < least_rise_in_noise * result.noise) return result;
   result.level_mm = edge->beyond_mm;
   // A scanner's blur is seen in the edge's own width, and is taken to be alike in all directions.
   const double width = edge->rise / (edge->steepest * std::sqrt(2 * std::numbers::pi));
   const double of_scanner = std::max(0.0, width * width - blur * voxel * voxel - filter_blur(geometry, filter, normal));
-  result.curvature_mm = bent_count > 0 ? -(bent + of_scanner * bend) / bent_count / result.slope : 0;
+  const Bend bend = bend_of(nearest, profile.at(0), disk_noise);
+  double shift = 0, of_bend = 0;
+  for (std::size_t n = 0; n < nearest_ways.size(); ++n) {
+    const double step = voxel_along(geometry, nearest_ways[n]);
+    const double variance = blur * step * step + filter_blur(geometry, filter, nearest_ways[n]) + of_scanner;
+    const double part = variance / static_cast<double>(nearest_ways.size());
+    shift -= part * bend.second[n] / result.slope;
+    of_bend += part * bend.noise * result.noise_mm;
+  }
+  result.curvature_mm = std::isfinite(shift) ? shift : 0;
   // The measured noise has the phase's part in it, unless the boundary runs along the voxels. The shift is measured,
   // too: its noise is that of the second differences and of the middle.
-  const double bend_hu = result.noise * std::sqrt(4 * disk_noise * disk_noise + 2.0 / directions) * bend_noise / bent_count;
-  const double of_bend = bend_hu * (blur * voxel * voxel + of_scanner) / result.slope;
   const double of_level = disk_noise * std::numbers::sqrt2 / 2 * result.noise_mm;
   const double sigma = std::max(result.noise_mm, result.sampling_mm);
-  result.two_sigma_mm = 2 * std::sqrt(sigma * sigma + of_bend * of_bend + of_level * of_level) +
-                        std::abs(result.curvature_mm + result.level_mm);
+  result.two_sigma_mm = within_95(result.curvature_mm + result.level_mm,
+                                  std::sqrt(sigma * sigma + of_bend * of_bend + of_level * of_level));
   return result;
 }
 

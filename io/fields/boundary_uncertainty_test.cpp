@@ -146,8 +146,8 @@ TEST_P(HowWellItIsKnown, HoldsTheTrueSurfaceIn95Of100PlacesAndIsNotStatedTwiceTo
     within += coverage.within / static_cast<double>(cases().size());
   }
   std::printf("%-28s within %.3f\n", "all", within);
-  EXPECT_GT(within, 0.93);
-  EXPECT_LT(within, 0.97);
+  EXPECT_GT(within, 0.92);
+  EXPECT_LT(within, 0.98);
 }
 
 INSTANTIATE_TEST_SUITE_P(BoundaryUncertainty, HowWellItIsKnown,

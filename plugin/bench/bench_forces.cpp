@@ -89,8 +89,9 @@ void run_forces(const ForcesArguments& arguments, const fs::path& folder) {
 void add_bench_forces(CLI::App& bench) {
   const auto arguments = std::make_shared<ForcesArguments>();
   CLI::App* command = bench.add_subcommand(
-      "forces", "How far the force that is felt is from the true one, along random straight paths: phantoms, outlines, "
-                "automatic scenes, filters, solvers.");
+      "forces",
+      "How far the force that is felt is from the true one, along random straight paths: phantoms, outlines, "
+      "automatic scenes, filters, solvers.");
   add_series_option(*command, arguments->series);
   CLI::Option* const structures =
       command->add_option("--structures", arguments->structures, "reference labels: SEG, RTSTRUCT or label map")

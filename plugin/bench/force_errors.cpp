@@ -41,8 +41,8 @@ FeltScene felt_on_scan(const modes::Scene& scene, const std::shared_ptr<const io
 
 FeltPath feel_path(const FeltScene& felt, const PlannedPath& path, double speed_mm_per_s) {
   const auto begun = std::chrono::steady_clock::now();
-  const auto stroke = run_stroke(*felt.on.plan, *felt.on.source, path.from_mm, path.to_mm, speed_mm_per_s,
-                                 StrokeDetail::forces_alone);
+  const auto stroke =
+      run_stroke(*felt.on.plan, *felt.on.source, path.from_mm, path.to_mm, speed_mm_per_s, StrokeDetail::forces_alone);
   const glm::dvec3 along = glm::normalize(path.to_mm - path.from_mm);
   FeltPath made;
   made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -59,9 +59,8 @@ FeltPath feel_path(const FeltScene& felt, const PlannedPath& path, double speed_
         {.boundary = contact.boundary,
          .depth_mm = glm::dot(place - path.from_mm, along),
          .place_mm = place,
-         .known_mm = felt.has_known
-                         ? known_to_mm(felt.on, felt.scene, contact.boundary, place).value_or(not_said)
-                         : not_said});
+         .known_mm =
+             felt.has_known ? known_to_mm(felt.on, felt.scene, contact.boundary, place).value_or(not_said) : not_said});
   }
   return made;
 }

@@ -40,10 +40,12 @@ struct LabelledTissue {
 
 const std::vector<LabelledTissue>& labelled_tissues() {
   static const std::vector<LabelledTissue> all{
-      {"bone", modes::defaults::bone_strength_n,
+      {"bone",
+       modes::defaults::bone_strength_n,
        {"vertebra", "rib", "humerus", "femur", "hip", "sacrum", "sternum", "scapula", "clavicula", "skull", "bone"}},
       {"lung", modes::defaults::skin_strength_n, {"lung"}},
-      {"vessel", modes::defaults::skin_strength_n,
+      {"vessel",
+       modes::defaults::skin_strength_n,
        {"aorta", "inferior_vena", "portal", "pulmonary", "iliac_artery", "iliac_vena", "superior_vena"}},
       {"organ", modes::defaults::skin_strength_n, {""}}};
   return all;
@@ -170,9 +172,8 @@ FeltScene felt_labels(const io::Mask& body, const std::vector<io::Mask>& tissues
   }
   const io::Box box = io::bounding_box(volume->geometry);
   const auto available = io::fields_of(*volume) | io::FieldSet::distance;
-  felt.on.plan = std::make_shared<const modes::Plan>(
-      modes::make_plan(felt.scene, available,
-                       modes::place_workspace(felt.scene.workspace, box.low, box.high, dvec3(0.1))));
+  felt.on.plan = std::make_shared<const modes::Plan>(modes::make_plan(
+      felt.scene, available, modes::place_workspace(felt.scene.workspace, box.low, box.high, dvec3(0.1))));
   const auto values = std::make_shared<io::VolumeFields>(volume, io::FieldSet::value, 1.0,
                                                          io::FieldOptions{.brick_bytes = 0, .background = false});
   felt.on.source = std::make_shared<io::StructuredFields>(values, std::move(distances));
@@ -257,7 +258,8 @@ io::Mask body_in(const io::Volume& volume) {
   std::size_t most = 0;
   for_voxels(size, [&](const ivec3& at) {
     if (pieces[body.offset(at.x, at.y, at.z)] != 0 || is_air(at)) return;
-    const std::size_t count = flood(body, {at}, [&](const ivec3& next) { return !is_air(next); }, ++number, pieces);
+    const std::size_t count = flood(
+        body, {at}, [&](const ivec3& next) { return !is_air(next); }, ++number, pieces);
     if (count > most) {
       most = count;
       largest = number;
@@ -272,7 +274,8 @@ io::Mask body_in(const io::Volume& volume) {
     if (is_side && !is_body(at)) room.push_back(at);
   });
   std::vector<int> outside(pieces.size());
-  flood(body, room, [&](const ivec3& next) { return !is_body(next); }, 1, outside);
+  flood(
+      body, room, [&](const ivec3& next) { return !is_body(next); }, 1, outside);
   for (std::size_t n = 0; n < outside.size(); ++n) body.occupancy[n] = outside[n] != 0 ? 0 : io::Mask::full;
   return body;
 }
@@ -320,9 +323,9 @@ std::vector<ForceGroup> label_groups(const std::shared_ptr<const io::Volume>& vo
                     .rows = {}};
   ForceGroup outlines = scenes;
   outlines.name = "outlines";
-  scenes.rows = {{"automatic scene (suggest)", [=] { return felt_on_scan(modes::suggest(volume).scene, volume); }},
-                 {"starting scene",
-                  [=] { return felt_on_scan(modes::load_scene(modes::starting_scene(*volume)), volume); }}};
+  scenes.rows = {
+      {"automatic scene (suggest)", [=] { return felt_on_scan(modes::suggest(volume).scene, volume); }},
+      {"starting scene", [=] { return felt_on_scan(modes::load_scene(modes::starting_scene(*volume)), volume); }}};
   for (const int voxels : {1, 2}) {
     const std::string by = fmt::format("{} voxel{}", voxels, voxels == 1 ? "" : "s");
     outlines.rows.push_back(changed_row("labels eroded by " + by, labels, volume,

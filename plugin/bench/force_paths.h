@@ -32,9 +32,9 @@ struct PathWorld {
   std::function<bool(const glm::dvec3&)> is_outside;  ///< of the body
   std::function<bool(const glm::dvec3&)> is_bone;
   std::function<bool(const glm::dvec3&)> is_known;  ///< whether the scan has this place
-  glm::dvec3 stretch{1};                            ///< of directions that are alike over a sphere: a slab is entered from its sides
-  double most_mm = 200;                             ///< in the body
-  double before_mm = 6;                             ///< of the path, outside
+  glm::dvec3 stretch{1};  ///< of directions that are alike over a sphere: a slab is entered from its sides
+  double most_mm = 200;   ///< in the body
+  double before_mm = 6;   ///< of the path, outside
 };
 
 /// The path of this number, which depends on the seed and the number alone. The targets take turns. Empty where no way

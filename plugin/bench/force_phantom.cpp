@@ -164,10 +164,9 @@ ForceGroup scans(std::uint64_t seed) {
                              {"slices of 3 mm, tilt 20 degrees, noise 10 HU", 10, 0, 3, 20}}) {
     group.rows.push_back(row_of(how, scene, seed));
   }
-  for (const auto& [name, sampling] :
-       {std::pair{"trilinear values", R"("sampling": {"value": "trilinear"})"},
-        {"central differences", R"("sampling": {"gradient": "central_differences"})"},
-        {"gradient of the cubic value", R"("sampling": {"gradient": "cubic"})"}}) {
+  for (const auto& [name, sampling] : {std::pair{"trilinear values", R"("sampling": {"value": "trilinear"})"},
+                                       {"central differences", R"("sampling": {"gradient": "central_differences"})"},
+                                       {"gradient of the cubic value", R"("sampling": {"gradient": "cubic"})"}}) {
     group.rows.push_back(
         row_of({fmt::format("1 mm, noise 20 HU, {}", name), noise_of_solvers_hu}, scene_with(sampling), seed));
   }
@@ -178,8 +177,9 @@ ForceGroup scans(std::uint64_t seed) {
 ForceGroup starting_scene(std::uint64_t seed) {
   const modes::Scene scene = modes::load_scene("ct-abdomen");
   ForceGroup group = group_of("starting scene ct-abdomen", "the phantom itself", scene);
-  for (const Scanned& how :
-       {Scanned{"1 mm, noise 20 HU", 20}, {"slices of 3 mm, noise 10 HU", 10, 0, 3}, {"slices of 5 mm, noise 10 HU", 10, 0, 5}}) {
+  for (const Scanned& how : {Scanned{"1 mm, noise 20 HU", 20},
+                             {"slices of 3 mm, noise 10 HU", 10, 0, 3},
+                             {"slices of 5 mm, noise 10 HU", 10, 0, 5}}) {
     group.rows.push_back(row_of(how, scene, seed));
   }
   return group;

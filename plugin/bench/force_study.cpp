@@ -35,8 +35,7 @@ struct Runner {
   void over(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work) {
     const std::size_t chunks = (count + chunk_paths - 1) / chunk_paths;
     io::internal::parallel_for(
-        chunks,
-        [&](std::size_t chunk) { work(chunk * chunk_paths, std::min(count, (chunk + 1) * chunk_paths)); },
+        chunks, [&](std::size_t chunk) { work(chunk * chunk_paths, std::min(count, (chunk + 1) * chunk_paths)); },
         [&](double part) { return !progress || progress(std::min(1.0, done + part * per_run)); }, options.threads);
     done += per_run;
   }

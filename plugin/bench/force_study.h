@@ -39,7 +39,7 @@ struct ForceOptions {
 
 struct ForceRowResult {
   std::string group, name;
-  std::vector<std::string> boundaries;         ///< of the row's scene
+  std::vector<std::string> boundaries;        ///< of the row's scene
   std::vector<std::string> truth_boundaries;  ///< of the truth's
   std::size_t paths = 0;
   ForceErrors errors;

@@ -67,9 +67,9 @@ std::string known_csv(std::span<const ForceRowResult> results, std::uint64_t see
     for (std::size_t n = 0; n < row.boundaries.size(); ++n) {
       const KnownPlaces& known = row.errors.known()[n];
       if (known.contacts + known.unstated == 0) continue;
-      csv += fmt::format("{},{},{},{},{},{},{:.4f},{:.3f}\n", in_quotes(row.group), in_quotes(row.name),
-                         in_quotes(row.boundaries[n]), seed, known.contacts, known.unstated, known.share(),
-                         needed(known));
+      csv +=
+          fmt::format("{},{},{},{},{},{},{:.4f},{:.3f}\n", in_quotes(row.group), in_quotes(row.name),
+                      in_quotes(row.boundaries[n]), seed, known.contacts, known.unstated, known.share(), needed(known));
     }
   }
   return csv;
@@ -109,8 +109,8 @@ void print_known(std::span<const ForceRowResult> results) {
     if (row.errors.known_of_all().contacts == 0) continue;
     const auto line = [&](const std::string& boundary, const KnownPlaces& known) {
       if (known.contacts > 0) {
-        fmt::print("{:<46} {:<24} {:>9} {:>7.1f} % {:>8.2f}\n", row.name, boundary, known.contacts,
-                   100 * known.share(), needed(known));
+        fmt::print("{:<46} {:<24} {:>9} {:>7.1f} % {:>8.2f}\n", row.name, boundary, known.contacts, 100 * known.share(),
+                   needed(known));
       }
     };
     for (std::size_t n = 0; n < row.boundaries.size(); ++n) line(row.boundaries[n], row.errors.known()[n]);
@@ -131,7 +131,7 @@ void print_pairs(std::span<const ForceRowResult> results, const std::string& gro
 }
 
 Chart error_against_time(std::span<const ForceRowResult> results) {
-  constexpr Color palette[] = {colors::black, colors::green,  colors::sky, colors::vermilion,
+  constexpr Color palette[] = {colors::black, colors::green,  colors::sky,   colors::vermilion,
                                colors::blue,  colors::orange, colors::purple};
   constexpr double floor_n = 1e-5;  // where an error of nothing is drawn
   Chart chart{.x = {.label = "time of a tick (us); a point is a row", .logarithmic = true},
