@@ -14,11 +14,15 @@
 
 #include "io/fresh_folder.h"
 #include "io/structures/structure.h"
+#include "plugin/app/errors.h"
 #include "plugin/app/interruptible.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/bench/force_labels.h"
 #include "plugin/bench/force_phantom.h"
 #include "plugin/bench/force_tables.h"
+#include "plugin/bench/trajectories.h"
+#include "plugin/messages/messages.h"
+#include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/text_file.h"
 
@@ -34,12 +38,15 @@ struct ForcesArguments {
   std::uint64_t seed = 1;
   int threads = 0;
   std::string only;
+  fs::path trajectory;
+  std::string columns = usual_columns, scene;
+  double stiffness_n_per_mm = 0.5;
   std::string output;
 };
 
 std::vector<ForceGroup> groups_of(const ForcesArguments& arguments) {
   std::vector<ForceGroup> groups = phantom_groups(arguments.seed);
-  if (!arguments.series.path.empty()) {
+  if (!arguments.structures.empty()) {
     const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
     const io::StructureCatalogue found = io::find_structures(arguments.structures);
     fmt::print("On {}\n", describe_scan(*volume));
@@ -84,6 +91,25 @@ void run_forces(const ForcesArguments& arguments, const fs::path& folder) {
   write_png(error_against_time(results), folder / "force-error-time.png", 960, 640);
 }
 
+void run_trajectory(const ForcesArguments& arguments, const fs::path& folder) {
+  if (arguments.series.path.empty()) throw WrongUsage(say("trajectories-need-a-scan"));
+  const auto samples = read_trajectory(arguments.trajectory, arguments.columns);
+  const auto volume = std::make_shared<const io::Volume>(load_series(arguments.series));
+  const FeltScene felt = felt_on_scan(scene_for(arguments.scene, *volume), volume);
+  const ForceErrors errors = compare_with_measured(samples, felt, arguments.stiffness_n_per_mm);
+  const std::string file = arguments.trajectory.filename().string();
+  put("{} samples of {}, felt on {} with the scene \"{}\" and {} N/mm\n", samples.size(), file, describe_scan(*volume),
+      felt.scene.name, arguments.stiffness_n_per_mm);
+  put("force error: RMS {:.3f} N, 95 % within {:.3f} N, largest {:.2f} N, {:.1f} % above {} N\n", errors.rms_n(),
+      errors.p95_n(), errors.largest_n(), 100 * errors.affected(), affected_n);
+  if (folder.empty()) return;
+  write_text(
+      folder / "trajectory.csv",
+      fmt::format("samples,stiffness_n_per_mm,rms_n,p95_n,largest_n,affected\n{},{},{:.6f},{:.3f},{:.6f},{:.6f}\n",
+                  samples.size(), arguments.stiffness_n_per_mm, errors.rms_n(), errors.p95_n(), errors.largest_n(),
+                  errors.affected()));
+}
+
 }  // namespace
 
 void add_bench_forces(CLI::App& bench) {
@@ -96,7 +122,19 @@ void add_bench_forces(CLI::App& bench) {
   CLI::Option* const structures =
       command->add_option("--structures", arguments->structures, "reference labels: SEG, RTSTRUCT or label map")
           ->check(CLI::ExistingPath);
-  command->get_option("SERIES")->required(false)->needs(structures);
+  CLI::Option* const trajectory = command->add_option(
+      "--trajectories", arguments->trajectory, "a measured stroke over what SERIES scanned: text, one sample a line");
+  command->get_option("SERIES")->required(false);
+  structures->needs("SERIES")->excludes(trajectory);
+  command->add_option("--columns", arguments->columns, "of the stroke's lines; mm and N; - leaves one out")
+      ->needs(trajectory)
+      ->capture_default_str();
+  command->add_option("--scene", arguments->scene, "with which the stroke is felt: a file or a starting scene")
+      ->needs(trajectory);
+  command->add_option("--stiffness", arguments->stiffness_n_per_mm, "of the stroke's hand, N/mm")
+      ->needs(trajectory)
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
   command->add_option("--paths", arguments->paths, "paths of all rows together")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->capture_default_str();
@@ -107,7 +145,9 @@ void add_bench_forces(CLI::App& bench) {
   command->add_option("--only", arguments->only, "groups whose name has this in it");
   command->add_option("-o,--output", arguments->output, "also write CSV and a picture to this new or empty folder");
   command->callback([arguments] {
-    io::write_all_or_none(arguments->output, [&](const fs::path& folder) { run_forces(*arguments, folder); });
+    io::write_all_or_none(arguments->output, [&](const fs::path& folder) {
+      arguments->trajectory.empty() ? run_forces(*arguments, folder) : run_trajectory(*arguments, folder);
+    });
   });
 }
 

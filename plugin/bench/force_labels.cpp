@@ -125,7 +125,7 @@ Labelled labelled(const io::Volume& volume, const io::StructureCatalogue& struct
     io::StructureBox box;
     try {
       box = io::box_of(structure);
-      field = io::load_distance(structure, {.scan = &volume.geometry});
+      field = io::load_distance(structure);
     } catch (const std::runtime_error&) {  // an empty label
       continue;
     }

@@ -160,6 +160,9 @@ std::vector<Provoked> of_recordings(const std::string& scan, const std::filesyst
 std::vector<Provoked> of_others(const std::string& scan) {
   const auto no_file = fresh_path("folder.json");
   std::filesystem::create_directory(no_file);
+  const auto forces = [](const std::string& rest) {
+    return output_of(PALPATE_BENCH " forces --trajectories " + rest);
+  };
   return {
       {"device-there-is-no-device", said("probe " + scan + " --device hand -o " + fresh_path("h").string())},
       {"jpeg-lossless-needs-dcmcjpeg", output_of("PATH= " PALPATE_BENCH " load --jpeg-lossless " + scan)},
@@ -169,6 +172,16 @@ std::vector<Provoked> of_others(const std::string& scan) {
       {"cannot-be-written", said("suggest " + scan + " -o " + no_file.string())},
       {"lines-not-solved", said("solve < " + letter())},
       {"tick-needs-a-scan", output_of(PALPATE_BENCH " tick")},
+      {"trajectories-need-a-scan", forces("/absent")},
+      {"cannot-open-the-trajectory", forces("/absent " + scan)},
+      {"trajectory-columns-are-wrong", forces("/absent --columns x " + scan)},
+      {"trajectory-line-has-other-columns", forces(file_with("few.traj", "1 2 3\n") + " " + scan)},
+      {"trajectory-line-holds-no-number", forces(file_with("word.traj", "0 1 2 3 4 5 up\n") + " " + scan)},
+      {"trajectory-time-does-not-ascend",
+       forces(file_with("back.traj", "1 1 2 3 4 5 6\n0 1 2 3 4 5 6\n") + " " + scan)},
+      {"trajectory-has-too-few-samples", forces(file_with("one.traj", "0 1 2 3 4 5 6\n") + " " + scan)},
+      {"no-structure-lies-on-the-scan",
+       output_of(PALPATE_BENCH " forces " + small_ball() + " --structures " + file_with("none.txt", "no labels"))},
       {"there-is-no-scan-to-feel-yet", said_when([] {
          LiveSession session;
          session.connect(std::make_shared<device::SimulatedStylus>());
