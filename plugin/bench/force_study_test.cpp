@@ -78,8 +78,10 @@ TEST(ForcePaths, LeadFromOutsideToTheTargetByTheRuleAndDependOnSeedAndNumberAlon
     EXPECT_NE(testdata::value_at(torso, path->to_mm), testdata::air_hu);
     const std::string& target = world.targets[path->target].name;
     double densest = -1e9;
-    for (double part = 0; part <= 1; part += 0.002) {
-      densest = std::max(densest, testdata::value_at(torso, glm::mix(path->from_mm, path->to_mm, part)));
+    constexpr int parts = 500;
+    for (int at = 0; at <= parts; ++at) {
+      const double part = static_cast<double>(at) / parts;
+      densest = std::max(densest, testdata::value_at(torso, (1 - part) * path->from_mm + part * path->to_mm));
     }
     EXPECT_EQ(densest > 500, target == "bone") << target << ": through bone only where bone is the target";
   }
@@ -114,8 +116,9 @@ TEST(ForceStudy, FindsTheErrorThatMathematicsGives) {
   EXPECT_EQ(same.affected(), 0);
   EXPECT_EQ(same.first_contact_mm(0.95), 0);
   // Where both hold, on paths to near the middle; before that one holds by itself, with less.
-  EXPECT_NEAR(smaller.largest_n(), k_n_per_mm * smaller_mm, 0.01);
-  EXPECT_NEAR(smaller.p95_n(), k_n_per_mm * smaller_mm, 0.01);
+  // A path beside the middle meets the two at places that are a little more apart.
+  EXPECT_NEAR(smaller.largest_n(), k_n_per_mm * smaller_mm, 0.03);
+  EXPECT_NEAR(smaller.p95_n(), k_n_per_mm * smaller_mm, 0.03);
   EXPECT_LT(smaller.rms_n(), k_n_per_mm * smaller_mm);
   EXPECT_GT(smaller.rms_n(), 0.7 * k_n_per_mm * smaller_mm);
   EXPECT_NEAR(smaller.first_contact_mm(0.5), smaller_mm, 0.06);

@@ -88,7 +88,7 @@ TEST(Trajectories, WhatIsNoStrokeIsRefusedByFileAndLine) {
   EXPECT_THAT(refusal_of(good + std::string("0.1 1 2 3 4 5 6\0\n", 17)), HasSubstr("line 2"));
   EXPECT_THAT(refusal_of(good + good), HasSubstr("line 2: the time 0 s"));
   EXPECT_THAT(refusal_of("1 1 2 3 4 5 6\n0.5 1 2 3 4 5 6\n"), HasSubstr("line 2: the time 0.5 s"));
-  for (const std::string few : {std::string(), std::string("# nothing\n"), good}) {
+  for (const std::string& few : {std::string(), std::string("# nothing\n"), good}) {
     EXPECT_THAT(refusal_of(few), HasSubstr("samples; two or more")) << few;
   }
   EXPECT_THAT(refusal_of(std::string(100000, '7')), HasSubstr("line 1: 1 numbers"));
