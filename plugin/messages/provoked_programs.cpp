@@ -160,9 +160,7 @@ std::vector<Provoked> of_recordings(const std::string& scan, const std::filesyst
 std::vector<Provoked> of_others(const std::string& scan) {
   const auto no_file = fresh_path("folder.json");
   std::filesystem::create_directory(no_file);
-  const auto forces = [](const std::string& rest) {
-    return output_of(PALPATE_BENCH " forces --trajectories " + rest);
-  };
+  const auto forces = [](const std::string& rest) { return output_of(PALPATE_BENCH " forces --trajectories " + rest); };
   return {
       {"device-there-is-no-device", said("probe " + scan + " --device hand -o " + fresh_path("h").string())},
       {"jpeg-lossless-needs-dcmcjpeg", output_of("PATH= " PALPATE_BENCH " load --jpeg-lossless " + scan)},
