@@ -113,6 +113,7 @@ std::shared_ptr<const io::Volume> load_scan(const io::Series& series, int frame,
     io::LoadOptions how;
     how.frame = frame;
     how.progress = progress;
+    how.is_rescaled = true;
     return std::make_shared<const io::Volume>(io::load(series, how));
   });
 }
@@ -134,6 +135,7 @@ std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std:
 std::shared_ptr<const io::Volume> load_slices(const io::Series& series, int first, int count) {
   io::LoadOptions how;
   how.slices = {first, count};
+  how.is_rescaled = true;
   return std::make_shared<const io::Volume>(io::load(series, how));
 }
 
