@@ -16,7 +16,7 @@ namespace palpate::modes::internal {
 Site site_of(const Sides& sides) noexcept;
 
 /// Of the gradient's scale: within it both sides of an edge are found.
-inline constexpr double reach_of_sides = 3;
+inline constexpr double reach_of_sides = 4;
 
 /// Remembers the place of every edge that a histogram counts.
 class EdgeSites {

@@ -263,14 +263,14 @@ SkinContacts skin_contacts(const std::shared_ptr<const io::Volume>& volume) {
       };
       const auto boundary = std::ranges::find_if(found.boundaries, is_its);
       if (boundary == found.boundaries.end()) continue;
-      const Site site = site_of(regions.sides(g, edge.voxel, glm::dvec3(edge.gradient), 3 * scale_mm));
+      const Site site = site_of(regions.sides(g, edge.voxel, glm::dvec3(edge.gradient), reach_of_sides * scale_mm));
       if (name_at(found.scene.modes[boundary->mode].name, site) != "Skin") continue;
       ++contacts.all;
       const Vec3 at = g.to_patient(Vec3(edge.voxel)), out = -glm::normalize(glm::dvec3(edge.gradient));
       // The map's cells are 2.5 mm: the room's air may lie beside the way out.
       bool has_room = false;
       const glm::ivec3 around(glm::ceil(glm::dvec3(2.5 / g.spacing_i, 2.5 / g.spacing_j, 0)));
-      for (double mm = 0; mm <= 3 * scale_mm + 2.5 && !has_room; mm += 0.5) {
+      for (double mm = 0; mm <= reach_of_sides * scale_mm + 2.5 && !has_room; mm += 0.5) {
         const glm::ivec3 middle(glm::round(g.to_index(at + mm * out)));
         for (int n = 0; n < 9 && !has_room; ++n) {
           has_room = room.has(middle + around * glm::ivec3(n % 3 - 1, n / 3 - 1, 0));
