@@ -11,6 +11,102 @@
         <source>Keep</source>
         <translation>Behalten</translation>
     </message>
+    <message>
+        <source>Waiting for %1</source>
+        <translation>Warten auf %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2 images, %3 MiB</source>
+        <translation>%1 von %2 Bildern, %3 MiB</translation>
+    </message>
+    <message>
+        <source>%1 images, %2 MiB</source>
+        <translation>%1 Bilder, %2 MiB</translation>
+    </message>
+    <message>
+        <source>On disk: %1 series, %2 MiB</source>
+        <translation>Auf der Platte: %1 Serien, %2 MiB</translation>
+    </message>
+    <message>
+        <source>The archives that were entered here or with `palpate archive add`</source>
+        <translation>Die Archive, die hier oder mit `palpate archive add` eingetragen wurden</translation>
+    </message>
+    <message>
+        <source>Echo</source>
+        <translation>Echo</translation>
+    </message>
+    <message>
+        <source>Whether the archive answers and knows us (C-ECHO)</source>
+        <translation>Ob das Archiv antwortet und uns kennt (C-ECHO)</translation>
+    </message>
+    <message>
+        <source>Add…</source>
+        <translation>Eintragen…</translation>
+    </message>
+    <message>
+        <source>Enters an archive, or changes the one of that name</source>
+        <translation>Trägt ein Archiv ein oder ändert das mit diesem Namen</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>Patient</translation>
+    </message>
+    <message>
+        <source>Part of the name, family name first</source>
+        <translation>Teil des Namens, Nachname zuerst</translation>
+    </message>
+    <message>
+        <source>Patient&apos;s id</source>
+        <translation>Patienten-ID</translation>
+    </message>
+    <message>
+        <source>The whole id; * stands for anything</source>
+        <translation>Die ganze ID; * steht für Beliebiges</translation>
+    </message>
+    <message>
+        <source>Description</source>
+        <translation>Beschreibung</translation>
+    </message>
+    <message>
+        <source>Part of the study&apos;s description</source>
+        <translation>Teil der Studienbeschreibung</translation>
+    </message>
+    <message>
+        <source>Date</source>
+        <translation>Datum</translation>
+    </message>
+    <message>
+        <source>Of the study: 2026, 2026-01, 2026-01-04, or a span 20260101-20260131</source>
+        <translation>Der Studie: 2026, 2026-01, 2026-01-04 oder ein Zeitraum 20260101-20260131</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Alle</translation>
+    </message>
+    <message>
+        <source>Modality</source>
+        <translation>Modalität</translation>
+    </message>
+    <message>
+        <source>Fetch and open</source>
+        <translation>Holen und öffnen</translation>
+    </message>
+    <message>
+        <source>The series that is marked, or the whole study. A double click does the same.</source>
+        <translation>Die markierte Serie oder die ganze Studie. Ein Doppelklick tut dasselbe.</translation>
+    </message>
+    <message>
+        <source>Keeps what was fetched on this machine when the program ends. Otherwise it is deleted then.</source>
+        <translation>Behält das Geholte auf diesem Rechner, wenn das Programm endet. Sonst wird es dann gelöscht.</translation>
+    </message>
+    <message>
+        <source>Empty</source>
+        <translation>Leeren</translation>
+    </message>
+    <message>
+        <source>Deletes all that was fetched, but for the scan that is open</source>
+        <translation>Löscht alles Geholte außer der offenen Aufnahme</translation>
+    </message>
 </context>
 <context>
     <name>BoundaryRow</name>
@@ -88,10 +184,6 @@
     <message>
         <source>Opens a folder of DICOM files, with all its subfolders</source>
         <translation>Öffnet einen Ordner mit DICOM-Dateien, mit allen Unterordnern</translation>
-    </message>
-    <message>
-        <source>No folder was opened yet</source>
-        <translation>Noch wurde kein Ordner geöffnet</translation>
     </message>
     <message>
         <source>Window </source>
@@ -200,6 +292,10 @@
     <message>
         <source>Marks (%1)</source>
         <translation>Marken (%1)</translation>
+    </message>
+    <message>
+        <source>No folder has been opened yet</source>
+        <translation>Noch wurde kein Ordner geöffnet</translation>
     </message>
 </context>
 <context>
@@ -403,6 +499,18 @@
         <source>%1 (shown without it)</source>
         <translation>%1 (ohne ihn gezeigt)</translation>
     </message>
+    <message>
+        <source>Edge of the square in the slice</source>
+        <translation>Kante des Quadrats in der Schicht</translation>
+    </message>
+    <message>
+        <source>Values that differ by less are taken for noise</source>
+        <translation>Werte, die sich um weniger unterscheiden, gelten als Rauschen</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the Gaussian</source>
+        <translation>Standardabweichung der Gauß-Kurve</translation>
+    </message>
 </context>
 <context>
     <name>Footer</name>
@@ -510,6 +618,30 @@
         <source>outside the scan</source>
         <translation>außerhalb der Aufnahme</translation>
     </message>
+    <message>
+        <source>Distance to the nearest structure of the scene; in color within its margin</source>
+        <translation>Abstand zur nächsten Struktur der Szene; farbig innerhalb ihres Saums</translation>
+    </message>
+    <message>
+        <source>Which solver balanced the forces, and how far from the exact balance the proxy can be</source>
+        <translation>Welcher Löser die Kräfte ausglich und wie weit der Stellvertreter vom genauen Gleichgewicht entfernt sein kann</translation>
+    </message>
+    <message>
+        <source>Median time of a tick of the servo, and deadlines that it missed</source>
+        <translation>Mittlere Dauer eines Regeltakts und versäumte Termine</translation>
+    </message>
+    <message>
+        <source>%1 solver, error below %2 mm</source>
+        <translation>Löser %1, Fehler unter %2 mm</translation>
+    </message>
+    <message>
+        <source>recorded: tick %1 µs</source>
+        <translation>aufgezeichnet: Takt %1 µs</translation>
+    </message>
+    <message>
+        <source>tick %1 µs, %2 missed</source>
+        <translation>Takt %1 µs, %2 versäumt</translation>
+    </message>
 </context>
 <context>
     <name>ForceStrip</name>
@@ -543,6 +675,10 @@
     <message>
         <source>Last frame</source>
         <translation>Letzte Phase</translation>
+    </message>
+    <message>
+        <source>The frame that is shown and felt: the same as ParaView&apos;s time</source>
+        <translation>Das Bild der Folge, das gezeigt und gefühlt wird: dasselbe wie die Zeit von ParaView</translation>
     </message>
 </context>
 <context>
@@ -622,12 +758,20 @@
         <translation>Zeigt erst, was an ein Archiv gesendet würde, und für welchen Patienten</translation>
     </message>
     <message>
-        <source>nothing felt</source>
+        <source>no boundary felt</source>
         <translation>nichts gefühlt</translation>
     </message>
     <message>
         <source>%1 N</source>
         <translation>%1 N</translation>
+    </message>
+    <message>
+        <source>%1 without contact</source>
+        <translation>%1 ohne Berührung</translation>
+    </message>
+    <message>
+        <source>%1, of which %2 along the surface</source>
+        <translation>%1, davon %2 auf der Oberfläche</translation>
     </message>
     <message>
         <source>%1 along the surface</source>
@@ -685,12 +829,26 @@
         <source>%1 paths</source>
         <translation>%1 Pfade</translation>
     </message>
+    <message>
+        <source>%1
+%2 s after the session began</source>
+        <translation>%1
+%2 s nach Beginn der Sitzung</translation>
+    </message>
 </context>
 <context>
     <name>MarksSender</name>
     <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Der Bericht wird geschrieben</translation>
+    </message>
+    <message>
+        <source>%1 of %2 files</source>
+        <translation>%1 von %2 Dateien</translation>
     </message>
 </context>
 <context>
@@ -803,6 +961,28 @@
         <source>(any)</source>
         <translation>(alle)</translation>
     </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
+    </message>
+    <message>
+        <source>%1: %2 (saves %3)</source>
+        <translation>%1: %2 (spart %3)</translation>
+    </message>
+    <message>
+        <source>Everything is needed; nothing was left out.</source>
+        <translation>Alles wird gebraucht; nichts wurde weggelassen.</translation>
+    </message>
+    <message>
+        <source>Left out, because nothing here needs it:
+• %1</source>
+        <translation>Weggelassen, weil hier nichts es braucht:
+• %1</translation>
+    </message>
 </context>
 <context>
     <name>PalpatePanel</name>
@@ -813,6 +993,10 @@
 </context>
 <context>
     <name>PanelParts</name>
+    <message>
+        <source>drawing</source>
+        <translation>Zeichnen</translation>
+    </message>
     <message>
         <source>Scan</source>
         <translation>Aufnahme</translation>
@@ -901,6 +1085,10 @@
         <source>Also shown, not felt: %1.</source>
         <translation>Auch gezeigt, nicht gefühlt: %1.</translation>
     </message>
+    <message>
+        <source>no such folder, or no right to it</source>
+        <translation>kein solcher Ordner, oder kein Recht, ihn zu lesen</translation>
+    </message>
 </context>
 <context>
     <name>ProfileSection</name>
@@ -960,6 +1148,10 @@
         <source>Force against depth along a stroke through the scan, as it would be felt now</source>
         <translation>Kraft über der Tiefe längs eines Strichs durch die Aufnahme, wie sie jetzt zu fühlen wäre</translation>
     </message>
+    <message>
+        <source>The stroke would take %1 s: choose nearer points or a higher speed, so that it takes at most %2 s.</source>
+        <translation>Der Zug würde %1 s dauern: wählen Sie nähere Punkte oder eine höhere Geschwindigkeit, damit er höchstens %2 s dauert.</translation>
+    </message>
 </context>
 <context>
     <name>RecordingsSection</name>
@@ -1002,6 +1194,18 @@
     <message>
         <source>%1 of %2 s</source>
         <translation>%1 von %2 s</translation>
+    </message>
+    <message>
+        <source>Compares with another recording of the same stroke, place by place, at any speed</source>
+        <translation>Vergleicht mit einer anderen Aufzeichnung desselben Zuges, Ort für Ort, bei beliebiger Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>Disconnect the stylus: the views show what is felt</source>
+        <translation>Trennen Sie den Stift: die Ansichten zeigen, was gefühlt wird</translation>
+    </message>
+    <message>
+        <source>Blue: %1, orange: %2. %3</source>
+        <translation>Blau: %1, orange: %2. %3</translation>
     </message>
 </context>
 <context>
@@ -1193,12 +1397,68 @@
         <source>All values</source>
         <translation>Alle Werte</translation>
     </message>
+    <message>
+        <source>Places under the pointer in RAS</source>
+        <translation>Orte unter dem Zeiger in RAS</translation>
+    </message>
+    <message>
+        <source>Right, anterior and superior are positive; DICOM and radiology write L/R, P/A, H/F instead.</source>
+        <translation>Rechts, vorn und oben sind positiv; DICOM und Radiologie schreiben stattdessen L/R, P/A, H/F.</translation>
+    </message>
+    <message>
+        <source>A copy on this machine…</source>
+        <translation>Eine Kopie auf diesem Rechner…</translation>
+    </message>
+    <message>
+        <source>A folder of this machine that holds the same scan: it is then not fetched from the server.</source>
+        <translation>Ein Ordner dieses Rechners mit derselben Aufnahme: sie wird dann nicht vom Server geholt.</translation>
+    </message>
+    <message>
+        <source>Folder of this machine with the scan that the server shows</source>
+        <translation>Ordner dieses Rechners mit der Aufnahme, die der Server zeigt</translation>
+    </message>
+    <message>
+        <source> of the server</source>
+        <translation> des Servers</translation>
+    </message>
 </context>
 <context>
     <name>SendDialog</name>
     <message>
         <source>To</source>
         <translation>Bis</translation>
+    </message>
+    <message>
+        <source>Send marks</source>
+        <translation>Markierungen senden</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>Patient</translation>
+    </message>
+    <message>
+        <source>Study</source>
+        <translation>Studie</translation>
+    </message>
+    <message>
+        <source>What</source>
+        <translation>Was</translation>
+    </message>
+    <message>
+        <source>A report (SR) of %1 marks, %2 distances and %3 paths, and %4 pictures of the marks</source>
+        <translation>Ein Bericht (SR) mit %1 Markierungen, %2 Abständen und %3 Wegen, und %4 Bilder der Markierungen</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>They go into this study as measured by research software, not a medical device; the report says so. The pictures show the scan, and no name.</source>
+        <translation>Sie kommen in diese Studie als mit Forschungssoftware gemessen, nicht mit einem Medizinprodukt; der Bericht sagt das. Die Bilder zeigen die Aufnahme und keinen Namen.</translation>
+    </message>
+    <message>
+        <source>Send</source>
+        <translation>Senden</translation>
     </message>
 </context>
 <context>
@@ -1221,6 +1481,12 @@
     <message>
         <source>★ Best to feel first: %1</source>
         <translation>★ Zuerst zu fühlen: %1</translation>
+    </message>
+    <message>
+        <source>%1
+ID %2, study of %3</source>
+        <translation>%1
+ID %2, Studie vom %3</translation>
     </message>
 </context>
 <context>
@@ -1263,6 +1529,10 @@
 </context>
 <context>
     <name>SessionState</name>
+    <message>
+        <source>%1 took %2 s</source>
+        <translation>%1 dauerte %2 s</translation>
+    </message>
     <message>
         <source>Off: no stylus is connected</source>
         <translation>Aus: kein Stift ist verbunden</translation>
@@ -1451,6 +1721,22 @@
     <message>
         <source>Color %1</source>
         <translation>Farbe von %1</translation>
+    </message>
+    <message>
+        <source>%1, and %2 that cannot be felt here</source>
+        <translation>%1, und %2, die hier nicht gefühlt werden können</translation>
+    </message>
+    <message>
+        <source>A tick shows it in the views. A double click chooses its color.</source>
+        <translation>Ein Häkchen zeigt sie in den Ansichten. Ein Doppelklick wählt ihre Farbe.</translation>
+    </message>
+    <message>
+        <source>The margin of a keep-out; the footer warns inside it</source>
+        <translation>Der Saum einer Sperre; die Fußzeile warnt darin</translation>
+    </message>
+    <message>
+        <source>Structures (*.dcm *);;All files (*)</source>
+        <translation>Strukturen (*.dcm *);;Alle Dateien (*)</translation>
     </message>
 </context>
 <context>
@@ -1715,6 +2001,136 @@
     <message>
         <source>MR vessels</source>
         <translation>MR Gefäße</translation>
+    </message>
+</context>
+<context>
+    <name>ArchiveDialog</name>
+    <message>
+        <source>Add an archive</source>
+        <translation>Archiv eintragen</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>What to call it here</source>
+        <translation>Wie es hier heißen soll</translation>
+    </message>
+    <message>
+        <source>Host</source>
+        <translation>Rechner</translation>
+    </message>
+    <message>
+        <source>Its machine&apos;s name or address</source>
+        <translation>Name oder Adresse seines Rechners</translation>
+    </message>
+    <message>
+        <source>Port</source>
+        <translation>Port</translation>
+    </message>
+    <message>
+        <source>Its DICOM port</source>
+        <translation>Sein DICOM-Port</translation>
+    </message>
+    <message>
+        <source>Its AE title</source>
+        <translation>Sein AE-Titel</translation>
+    </message>
+    <message>
+        <source>The archive&apos;s AE title (ask its administrator)</source>
+        <translation>Der AE-Titel des Archivs (beim Betreiber erfragen)</translation>
+    </message>
+    <message>
+        <source>Our AE title</source>
+        <translation>Unser AE-Titel</translation>
+    </message>
+    <message>
+        <source>What this program is called; it has to be known there</source>
+        <translation>Wie dieses Programm heißt; das Archiv muss den Titel kennen</translation>
+    </message>
+    <message>
+        <source>Fetch with C-GET, where the archive has it</source>
+        <translation>Mit C-GET holen, wenn das Archiv es kann</translation>
+    </message>
+    <message>
+        <source>Then no connection to this machine is needed; otherwise the archive sends to our port (C-MOVE)</source>
+        <translation>Dann ist keine Verbindung zu diesem Rechner nötig; sonst sendet das Archiv an unseren Port (C-MOVE)</translation>
+    </message>
+    <message>
+        <source>Our port</source>
+        <translation>Unser Port</translation>
+    </message>
+    <message>
+        <source>For C-MOVE: it has to be entered in the archive, with our AE title and this machine&apos;s address</source>
+        <translation>Für C-MOVE: muss im Archiv eingetragen sein, mit unserem AE-Titel und der Adresse dieses Rechners</translation>
+    </message>
+    <message>
+        <source>Echo</source>
+        <translation>Echo</translation>
+    </message>
+    <message>
+        <source>Whether it answers and knows us (C-ECHO)</source>
+        <translation>Ob es antwortet und uns kennt (C-ECHO)</translation>
+    </message>
+    <message>
+        <source>…</source>
+        <translation>…</translation>
+    </message>
+    <message>
+        <source>Certificates and keys (*.pem *.crt *.cer *.key);;All files (*)</source>
+        <translation>Zertifikate und Schlüssel (*.pem *.crt *.cer *.key);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>TLS: authority</source>
+        <translation>TLS: Aussteller</translation>
+    </message>
+    <message>
+        <source>Speak TLS: the certificate (PEM) of who signed the archive&apos;s. Empty: no TLS.</source>
+        <translation>TLS verwenden: das Zertifikat (PEM) der Stelle, die das des Archivs ausgestellt hat. Leer: kein TLS.</translation>
+    </message>
+    <message>
+        <source>TLS: certificate</source>
+        <translation>TLS: Zertifikat</translation>
+    </message>
+    <message>
+        <source>Our own certificate (PEM), where the archive asks for it; C-MOVE needs one</source>
+        <translation>Unser eigenes Zertifikat (PEM), wenn das Archiv es verlangt; C-MOVE braucht eines</translation>
+    </message>
+    <message>
+        <source>TLS: key</source>
+        <translation>TLS: Schlüssel</translation>
+    </message>
+    <message>
+        <source>Its private key (PEM), without a pass phrase</source>
+        <translation>Sein privater Schlüssel (PEM), ohne Kennwort</translation>
+    </message>
+    <message>
+        <source>The machine that the archive&apos;s certificate is for, where it is not its host</source>
+        <translation>Der Rechner, für den das Zertifikat des Archivs gilt, wenn es ein anderer ist</translation>
+    </message>
+    <message>
+        <source>TLS: name</source>
+        <translation>TLS: Name</translation>
+    </message>
+</context>
+<context>
+    <name>ServerScan</name>
+    <message>
+        <source>Looking for a copy here</source>
+        <translation>Eine Kopie wird hier gesucht</translation>
+    </message>
+    <message>
+        <source>Fetching from the server</source>
+        <translation>Wird vom Server geholt</translation>
+    </message>
+    <message>
+        <source>Comparing with the server</source>
+        <translation>Wird mit dem Server verglichen</translation>
+    </message>
+    <message>
+        <source>Comparing the copy here</source>
+        <translation>Die Kopie hier wird verglichen</translation>
     </message>
 </context>
 </TS>

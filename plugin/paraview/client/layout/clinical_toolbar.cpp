@@ -106,7 +106,7 @@ void ClinicalToolbar::add_open() {
     for (const QString& folder : recent_folders()) {
       connect(recent->addAction(folder), &QAction::triggered, this, [this, folder] { emit folder_wanted(folder); });
     }
-    if (recent->isEmpty()) recent->addAction(tr("No folder was opened yet"))->setEnabled(false);
+    if (recent->isEmpty()) recent->addAction(tr("No folder has been opened yet"))->setEnabled(false);
   });
   open->setMenu(recent);
   qobject_cast<QToolButton*>(widgetForAction(open))->setPopupMode(QToolButton::MenuButtonPopup);

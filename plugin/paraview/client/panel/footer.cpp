@@ -80,8 +80,7 @@ void Footer::add_values(QGridLayout& grid) {
   felt_->setText(tr("No scan is open."));
   grid.addWidget(felt_, 8, 0, 1, 3);
   distance_ = make_value(this, "palpateDistance",
-                         tr("From the proxy to the structure that is nearest, of those that the scene reads; in color "
-                            "within its margin"));
+                         tr("Distance to the nearest structure of the scene; in color within its margin"));
   distance_->hide();
   grid.addWidget(distance_, 9, 0, 1, 3);
 }

@@ -96,7 +96,7 @@ QWidget* StructuresSection::build_uses() {
   margin_->setDecimals(1);
   margin_->setValue(first_margin_mm);
   margin_->setSuffix(tr(" mm"));
-  margin_->setToolTip(tr("The margin that a keep-out gets: nearer than that is warned of"));
+  margin_->setToolTip(tr("The margin of a keep-out; the footer warns inside it"));
   row->addWidget(margin_);
   auto* const gate = add_tool_button(*row, *this, "palpateStructureGate", tr("Only inside"),
                                      tr("A mode of the scene is felt inside it only"), [] {});

@@ -53,7 +53,7 @@ ArchiveDialog::ArchiveDialog(Background<double>& echoing, QWidget* parent) : QDi
   name_ = line("palpateArchiveName", tr("Name"), tr("What to call it here"));
   host_ = line("palpateArchiveHost", tr("Host"), tr("Its machine's name or address"));
   port_ = port("palpateArchivePort", tr("Port"), defaults.port, tr("Its DICOM port"));
-  called_ = line("palpateArchiveCalled", tr("Its AE title"), tr("What it is called; ask who runs it"));
+  called_ = line("palpateArchiveCalled", tr("Its AE title"), tr("The archive's AE title (ask its administrator)"));
   calling_ =
       line("palpateArchiveCalling", tr("Our AE title"), tr("What this program is called; it has to be known there"));
   uses_get_ = new QCheckBox(tr("Fetch with C-GET, where the archive has it"), this);
