@@ -758,6 +758,10 @@
         <translation>Zeigt erst, was an ein Archiv gesendet würde, und für welchen Patienten</translation>
     </message>
     <message>
+        <source>nothing felt</source>
+        <translation>nichts gefühlt</translation>
+    </message>
+    <message>
         <source>no boundary felt</source>
         <translation>nichts gefühlt</translation>
     </message>
