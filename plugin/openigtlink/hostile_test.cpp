@@ -28,7 +28,7 @@ double soak_seconds() {
 /// The bytes of a tick in a session with or without them: what the servo did, not what it waited for.
 struct Ticks {
   std::uint64_t count = 0, faults = 0, missed = 0;
-  double median_us = 0, p999_us = 0;
+  double median_us = 0, p99_us = 0, p999_us = 0;
 };
 
 Ticks ticks_of(const std::filesystem::path& file) {
@@ -44,6 +44,7 @@ Ticks ticks_of(const std::filesystem::path& file) {
   }
   std::sort(us.begin(), us.end());
   ticks.median_us = us[us.size() / 2];
+  ticks.p99_us = us[us.size() * 99 / 100];
   ticks.p999_us = us[us.size() * 999 / 1000];
   return ticks;
 }
@@ -114,39 +115,52 @@ class Hostile {
   std::vector<std::thread> threads_;
 };
 
-Ticks session(bool hostile, std::string& said) {
-  const auto recording = fresh_path("soak.h5"), output = fresh_path("soak.txt");
-  const int port = testing::free_port();
-  testing::Program program(PALPATE_PROGRAM,
+/// A session that is served on a port.
+struct Served {
+  explicit Served(const std::string& name) : recording(fresh_path(name + ".h5")), output(fresh_path(name + ".txt")) {}
+  std::filesystem::path recording, output;
+  int port = testing::free_port();
+  testing::Program program{PALPATE_PROGRAM,
                            "serve " + plugin::testing::phantom().string() +
                                " --scene ct-skin-and-bone --from 0,-29,0 --to " + "0,0,0 --seconds " +
                                std::to_string(soak_seconds()) + " --port " + std::to_string(port) + " -o " +
                                recording.string(),
-                           output);
+                           output};
+};
+
+/// The ticks of one of two sessions that run side by side while clients are hostile to one of them: to this one, or to
+/// the other. Clients and servers take as much of the processors in both cases.
+Ticks session(bool hostile, std::string& said) {
+  Served looked_at("looked_at"), other("other");
   {
-    std::unique_ptr<Hostile> clients;
-    if (hostile) clients = std::make_unique<Hostile>(port);
-    EXPECT_EQ(program.wait(), 0);
-    if (clients) {
-      EXPECT_GT(clients->done(), 50U) << "else nothing was tried";
-    }
+    const Hostile clients(hostile ? looked_at.port : other.port);
+    EXPECT_EQ(looked_at.program.wait(), 0);
+    EXPECT_EQ(other.program.wait(), 0);
+    EXPECT_GT(clients.done(), 50U) << "else nothing was tried";
   }
-  said = plugin::testing::text_in(output);
-  return ticks_of(recording);
+  said = plugin::testing::text_in(looked_at.output);
+  const Ticks ticks = ticks_of(looked_at.recording);
+  std::printf("%s: %llu ticks, missed %llu, p50 %.1f us, p99 %.1f us, p99.9 %.1f us\n",
+              hostile ? "to it        " : "to the other ", static_cast<unsigned long long>(ticks.count),
+              static_cast<unsigned long long>(ticks.missed), ticks.median_us, ticks.p99_us, ticks.p999_us);
+  return ticks;
 }
 
+/// Its ticks take no longer than beside the same clients of another session: by the median and by the slowest in a
+/// thousand. What two sessions without clients of their own differ by is noise of this machine.
 TEST(OpenIgtHostile, ClientsNeverTouchTheTick) {
-  std::string said_alone, said;
-  const Ticks alone = session(false, said_alone), beside = session(true, said);
-  std::printf("alone:   %llu ticks, missed %llu, p50 %.1f us, p99.9 %.1f us\n",
-              static_cast<unsigned long long>(alone.count), static_cast<unsigned long long>(alone.missed),
-              alone.median_us, alone.p999_us);
-  std::printf("hostile: %llu ticks, missed %llu, p50 %.1f us, p99.9 %.1f us\n%s",
-              static_cast<unsigned long long>(beside.count), static_cast<unsigned long long>(beside.missed),
-              beside.median_us, beside.p999_us, said.c_str());
+  std::string said_before, said, said_after;
+  const Ticks before = session(false, said_before), beside = session(true, said), after = session(false, said_after);
+  std::printf("%s", said.c_str());
   EXPECT_EQ(beside.faults, 0U) << said;
   EXPECT_GT(beside.count + beside.missed, 900 * soak_seconds());
-  EXPECT_LT(beside.median_us, 2 * alone.median_us + 20);
+  constexpr double a_hair_us = 20;  // a fiftieth of a tick's time
+  EXPECT_LT(beside.median_us, 2 * std::max(before.median_us, after.median_us) + a_hair_us);
+  EXPECT_LT(beside.p99_us, 2 * std::max(before.p99_us, after.p99_us) + a_hair_us);
+  constexpr std::uint64_t many = 60'000;  // of few ticks the slowest in a thousand are three: any other program's doing
+  if (beside.count > many) {
+    EXPECT_LT(beside.p999_us, 2 * std::max(before.p999_us, after.p999_us) + a_hair_us);
+  }
   for (const char* part : {"palpate: ", "messages sent, ", "replaced by newer ones; ", "requests, ",
                            "outrun by newer ones; ", "refused, ", "passed over; ", "clients cut or turned away"}) {
     EXPECT_NE(said.find(part), std::string::npos) << part;
