@@ -35,7 +35,7 @@ if(PALPATE_WERROR)
 endif()
 if(PALPATE_WERROR AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   # What these say changes with what the compiler inlines: told, but no errors.
-  target_compile_options(palpate_compile_options INTERFACE -Wno-error=array-bounds -Wno-error=dangling-reference
+  target_compile_options(palpate_compile_options INTERFACE -Wno-error=array-bounds -Wno-error=dangling-reference -Wno-error=free-nonheap-object
     -Wno-error=maybe-uninitialized -Wno-error=restrict -Wno-error=stringop-overflow -Wno-error=stringop-overread)
 endif()
 if(PALPATE_SANITIZE)
