@@ -10,6 +10,7 @@
 
 #include "io/fields/boundary_uncertainty.h"
 #include "io/fields/cubic_spline.h"
+#include "io/fields/volume_fields.h"
 
 namespace palpate::io {
 namespace {
@@ -176,6 +177,12 @@ double shift_mm(const Geometry& g, const DistanceField& structure, const Vec3& p
 }
 
 }  // namespace
+
+std::shared_ptr<const FieldSource> edge_fields(const std::shared_ptr<const Volume>& scan) {
+  constexpr double any_scale_mm = 1;  // read by other gradients
+  return std::make_shared<const VolumeFields>(scan, FieldSet::value | FieldSet::gradient, any_scale_mm,
+                                              FieldOptions{.gradient = GradientMethod::cubic, .brick_bytes = 0});
+}
 
 std::optional<ScanEdge> scan_edge(const ScanValues& scan, const DistanceField& structure, const Vec3& place_mm,
                                   const Vec3& way, double within_mm) {

@@ -12,9 +12,11 @@
 /// directions, of the blur's variance times the curvature. That is taken out. The blur is the voxel's, the
 /// interpolation's, and what the width of the edge says of the scanner's; the curvature is the structure's.
 
+#include <memory>
 #include <optional>
 
 #include "io/fields/field_source.h"
+#include "io/volume.h"
 #include "io/geometry.h"
 #include "io/structures/distance_field.h"
 
@@ -32,6 +34,9 @@ struct ScanValues {
   const FieldSource& source;  ///< the cubic value and its own gradient (GradientMethod::cubic)
   const Geometry& geometry;
 };
+
+/// The fields of a scan that an edge is looked for in.
+std::shared_ptr<const FieldSource> edge_fields(const std::shared_ptr<const Volume>& scan);
 
 /// The edge nearest to a place on the structure's surface (mm, patient space) along a way (unit), within so many mm to
 /// both sides. It rises or falls by six times the noise at least. None if there is no such edge, if the way runs

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "io/errors.h"
-#include "io/fields/volume_fields.h"
 #include "io/structures/edits.h"
 #include "io/structures/label_image.h"
 #include "modes/scene/edit_text.h"
@@ -22,9 +20,6 @@
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
 #include "plugin/options/structure_option.h"
-#include "plugin/session/study_registrations.h"
-#include "plugin/session/study_structures.h"
-#include "solver/text/printable.h"
 
 namespace palpate::plugin {
 namespace {
@@ -35,17 +30,6 @@ struct CorrectOptions {
   std::filesystem::path edits, output;
   bool rtstruct = false, force = false;
 };
-
-/// Puts the structure on the scan, and says on stderr what a user should know of it.
-void place_structure(io::Structure& structure, const io::Volume& scan) {
-  StudyRegistrations beside(terminal_progress("looking for registrations"));
-  const Placed placed = place_on(structure, beside.beside(structure, scan), scan);
-  if (!placed.why_not.empty()) throw InputRefused(placed.why_not);
-  if (const Text off = off_scan(structure, io::box_of(structure), scan.geometry); !off.empty()) throw InputRefused(off);
-  for (const Text& warning : structure.warnings) {
-    std::fprintf(stderr, "palpate: warning: %s\n", printable(std::string(warning)).c_str());
-  }
-}
 
 /// What is corrected, and its label. A new structure is called as its file.
 struct Corrected {
@@ -59,8 +43,7 @@ Corrected what_is_corrected(const CorrectOptions& options, const io::Volume& sca
     name.resize(std::min(name.find('.', 1), name.size()));
     return {.field = nullptr, .label = {.name = name}};
   }
-  io::Structure structure = choose_structure(options.structure);
-  place_structure(structure, scan);
+  const io::Structure structure = choose_structure(options.structure, scan);
   io::DistanceOptions distance;
   distance.scan = &scan.geometry;
   return {.field = io::load_distance(structure, distance), .label = io::label_of(structure)};
@@ -68,12 +51,11 @@ Corrected what_is_corrected(const CorrectOptions& options, const io::Volume& sca
 
 io::Edited edited(const Corrected& before, const std::vector<io::Edit>& edits,
                   const std::shared_ptr<const io::Volume>& scan) {
-  std::optional<io::VolumeFields> fields;
+  std::shared_ptr<const io::FieldSource> fields;
   std::optional<io::ScanValues> values;
   const auto asks_the_scan = [](const io::Edit& edit) { return std::holds_alternative<io::ScanEdgeEdit>(edit); };
   if (std::ranges::any_of(edits, asks_the_scan)) {
-    fields.emplace(scan, io::FieldSet::value | io::FieldSet::gradient, 1,
-                   io::FieldOptions{.gradient = io::GradientMethod::cubic, .brick_bytes = 0});
+    fields = io::edge_fields(scan);
     values.emplace(io::ScanValues{*fields, scan->geometry});
   }
   io::EditOptions options;

@@ -23,6 +23,7 @@ void add_replay(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_compare_structures(CLI::App& structures);  ///< a subcommand of `structures`
 void add_correct(CLI::App& program);
+void add_suspects(CLI::App& program);
 void add_solve(CLI::App& program);
 void add_devices(CLI::App& program);
 void add_archive(CLI::App& program);

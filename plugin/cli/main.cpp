@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   add_serve(program);
   add_replay(program);
   add_compare(program);
+  add_suspects(program);
   add_correct(program);
   add_devices(program);
   add_archive(program);

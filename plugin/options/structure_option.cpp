@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <vector>
 
 #include "io/errors.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/messages/messages.h"
+#include "plugin/session/study_registrations.h"
+#include "plugin/session/study_structures.h"
+#include "solver/text/printable.h"
 
 namespace palpate::plugin {
 namespace {
@@ -50,6 +55,18 @@ io::Structure choose_structure(const std::string& text) {
   if (!segment.empty()) throw InputRefused(say("file-has-no-such-structure", name, segment, known));
   if (found.structures.size() > 1) throw WrongUsage(say("file-holds-several-structures", name, name, known));
   return found.structures.front();
+}
+
+io::Structure choose_structure(const std::string& text, const io::Volume& scan) {
+  io::Structure structure = choose_structure(text);
+  StudyRegistrations beside(terminal_progress("looking for registrations"));
+  const Placed placed = place_on(structure, beside.beside(structure, scan), scan);
+  if (!placed.why_not.empty()) throw InputRefused(placed.why_not);
+  if (const Text off = off_scan(structure, io::box_of(structure), scan.geometry); !off.empty()) throw InputRefused(off);
+  for (const Text& warning : structure.warnings) {
+    std::fprintf(stderr, "palpate: warning: %s\n", printable(std::string(warning)).c_str());
+  }
+  return structure;
 }
 
 }  // namespace palpate::plugin
