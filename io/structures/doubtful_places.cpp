@@ -20,10 +20,11 @@ constexpr double apart_mm = 2;              // between places
 constexpr double beside_mm = 2 * apart_mm;  // places so near are one
 constexpr double least_edge_mm2 = 30;       // a smaller place is noise of a few samples
 constexpr double least_no_edge_mm2 = 100;
-constexpr double small_part = 0.1;      // of the largest one's volume
-constexpr double alike_part = 0.25;     // of the usual rise over an edge
-constexpr double beyond_edge_mm = 2.5;  // where the tissue on a side of an edge is read
-constexpr double mean_of_mm = 1;        // of a tissue: the mean of values so far apart
+constexpr double small_part = 0.1;        // of the largest one's volume
+constexpr double least_with_edges = 0.3;  // of the outline; an organ lies at others of its own values
+constexpr double alike_part = 0.25;       // of the usual rise over an edge
+constexpr double beyond_edge_mm = 2.5;    // where the tissue on a side of an edge is read
+constexpr double mean_of_mm = 1;          // of a tissue: the mean of values so far apart
 
 /// What the scan says at a place of the outline.
 struct Asked {
@@ -65,7 +66,7 @@ void ask(const ScanValues& scan, const DistanceField& structure, Asked& one) {
 /// The structure's own tissue and how much an edge of it usually rises.
 struct Usual {
   double value = 0, rise = 0;
-  bool has_edges = false;  ///< most of the outline has one
+  bool has_edges = false;  ///< enough of the outline has one: where it has none is told from where it never has
 };
 
 Usual usual_of(const std::vector<Asked>& all) {
@@ -80,7 +81,7 @@ Usual usual_of(const std::vector<Asked>& all) {
   if (values.empty()) return {};
   return {.value = quantile(values, 0.5),
           .rise = rises.empty() ? 0 : quantile(rises, 0.5),
-          .has_edges = 2 * rises.size() > asked};
+          .has_edges = least_with_edges * static_cast<double>(asked) < static_cast<double>(rises.size())};
 }
 
 /// Whether what ends at the edge is more like the structure than what begins there.

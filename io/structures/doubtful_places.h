@@ -6,8 +6,8 @@
 /// At places of the outline every 2 mm the scan's own edge is looked for along the normal, within 6 mm (scan_edge.h).
 /// An edge counts if the tissue on its inner side is more like the structure's than that on its outer side. A place is
 /// doubtful if the edge lies farther away than twice its own +- and than half a voxel. It is doubtful without an edge,
-/// too, if most of the outline has one and the tissue is alike on both sides. Doubtful places of one kind and side that
-/// lie beside each other are one.
+/// too, if a third of the outline has one and the tissue is alike on both sides. Doubtful places of one kind and side
+/// that lie beside each other are one.
 
 #include <cstddef>
 #include <cstdint>

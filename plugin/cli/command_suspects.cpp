@@ -96,7 +96,7 @@ void add_suspects(CLI::App& program) {
   command->footer(
       "The scan's own edge is looked for along the outline's normal, every 2 mm and within 6 mm.\n"
       "kind           edge: the scan's edge lies beside the outline, by more than twice its +- and than half a voxel\n"
-      "               no_edge: there is none on over 1 cm2 although most of the outline has one, and the tissue is\n"
+      "               no_edge: there is none on over 1 cm2 although a third of the outline has one, and the tissue is\n"
       "               alike on both sides; island, hole: smaller than a tenth of the largest part\n"
       "position_mm    on the outline, in patient space (LPS); normal: of the outline there, outwards\n"
       "mean_mm        from the outline to the scan's edge; positive: it lies outside. Of islands and holes: volume by "
