@@ -190,8 +190,8 @@ void add_regions(const std::vector<Asked>& all, const std::vector<Doubt>& doubts
 }
 
 /// Small parts and holes: which places lie on one of them, and each as a place.
-std::vector<char> add_parts(const DistanceField& structure, const std::vector<OutlinePlace>& outline,
-                            std::vector<DoubtfulPlace>& places) {
+std::vector<char> add_parts(const ScanValues& scan, const DistanceField& structure,
+                            const std::vector<OutlinePlace>& outline, std::vector<DoubtfulPlace>& places) {
   std::vector<std::size_t> of_place;
   const std::vector<OutlinePart> parts = outline_parts(structure, outline, &of_place);
   double most_mm3 = 0;
@@ -213,6 +213,8 @@ std::vector<char> add_parts(const DistanceField& structure, const std::vector<Ou
   }
   for (std::size_t n = 0; n < parts.size(); ++n) {
     if (is_small[n] == 0 || !(small[n].area_mm2 > 0)) continue;
+    // Beyond the scan's ends a structure goes on as it ends there, in parts that nobody outlined.
+    if (!scan.source.sample(parts[n].deepest_mm, FieldSet::value).inside) continue;
     const double sign = parts[n].is_hole ? 1 : -1;  // where the edge would go to if it were not there
     small[n].kind = parts[n].is_hole ? DoubtKind::hole : DoubtKind::island;
     small[n].mean_mm = sign * parts[n].volume_mm3 / small[n].area_mm2;
@@ -238,7 +240,7 @@ DoubtfulPlaces doubtful_places(const ScanValues& scan, const DistanceField& stru
                                int threads) {
   DoubtfulPlaces found;
   const std::vector<OutlinePlace> outline = outline_places(structure, apart_mm);
-  const std::vector<char> on_small = add_parts(structure, outline, found.places);
+  const std::vector<char> on_small = add_parts(scan, structure, outline, found.places);
   std::vector<Asked> all(outline.size());
   internal::parallel_for(
       all.size(),
