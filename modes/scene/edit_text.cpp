@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "modes/messages.h"
-#include "modes/scene/json_reader.h"
+#include "modes/scene/edit_json.h"
 #include "modes/scene/json_text.h"
 
 namespace palpate::modes {
@@ -76,7 +76,60 @@ io::Edit read_edit(const At& at) {
   refuse(members.path_of("type"), say("there-is-no-such-name", type, known));
 }
 
+using Json = nlohmann::ordered_json;
+
+Json json_of_places(const std::vector<io::Vec3>& places) {
+  Json json = Json::array();
+  for (const io::Vec3& at : places) json.push_back({at.x, at.y, at.z});
+  return json;
+}
+
+Json json_of_edit(const io::TraceEdit& edit) {
+  Json json{{"points_mm", json_of_places(edit.points_mm)}};
+  if (!edit.known_to_mm.empty()) json["known_to_mm"] = edit.known_to_mm;
+  json["reach_mm"] = edit.reach_mm;
+  return json;
+}
+
+Json json_of_edit(const io::AddEdit& edit) {
+  return {{"path_mm", json_of_places(edit.tube.path_mm)}, {"radius_mm", edit.tube.radius_mm}};
+}
+
+Json json_of_edit(const io::RemoveEdit& edit) {
+  return {{"path_mm", json_of_places(edit.tube.path_mm)}, {"radius_mm", edit.tube.radius_mm}};
+}
+
+Json json_of_edit(const io::ScanEdgeEdit& edit) {
+  return {{"center_mm", {edit.center_mm.x, edit.center_mm.y, edit.center_mm.z}},
+          {"radius_mm", edit.radius_mm},
+          {"most_mm", edit.most_mm}};
+}
+
+Json json_of_edit(const io::ContoursEdit& edit) {
+  Json loops = Json::array();
+  for (const std::vector<io::Vec3>& loop : edit.loops_mm) loops.push_back(json_of_places(loop));
+  return {{"loops_mm", std::move(loops)}};
+}
+
 }  // namespace
+
+std::vector<io::Edit> edits_at(const At& at) {
+  return each_of<io::Edit>(at, read_edit);
+}
+
+Json json_of_edits(const std::vector<io::Edit>& edits) {
+  Json json = Json::array();
+  for (const io::Edit& edit : edits) {
+    Json entry{{"type", io::name_of(edit)}};
+    entry.update(std::visit([](const auto& one) { return json_of_edit(one); }, edit));
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::string to_json(const std::vector<io::Edit>& edits) {
+  return Json{{"version", edit_text_version}, {"edits", json_of_edits(edits)}}.dump();
+}
 
 std::vector<io::Edit> edits_from_json(std::string_view text, const std::string& source) {
   return read_from(source, [&] {
@@ -84,7 +137,7 @@ std::vector<io::Edit> edits_from_json(std::string_view text, const std::string& 
     Members members({json, ""}, "edits");
     const int version = integer(members.get("version"));
     if (version != edit_text_version) refuse("version", say("not-known", version, edit_text_version));
-    std::vector<io::Edit> edits = each_of<io::Edit>(members.get("edits"), read_edit);
+    std::vector<io::Edit> edits = edits_at(members.get("edits"));
     members.done();
     return edits;
   });

@@ -19,6 +19,9 @@ inline constexpr int edit_text_version = 1;
 /// "mend.json: edits[1].type: there is no "cut"; there are: trace, add, ...".
 std::vector<io::Edit> edits_from_json(std::string_view text, const std::string& source);
 
+/// The same text again, with every number to its last bit.
+std::string to_json(const std::vector<io::Edit>& edits);
+
 /// The edits in a file. Throws InvalidInput that names the file.
 std::vector<io::Edit> load_edits(const std::filesystem::path& file);
 

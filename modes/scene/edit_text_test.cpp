@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "modes/scene/scene_json.h"
 #include "solver/text/testing/shown.h"
 
 namespace palpate::modes {
@@ -39,7 +42,42 @@ TEST(EditText, HoldsEditsOfEveryKindInTheirOrder) {
       io::ScanEdgeEdit{.center_mm = Vec3(7, 8, 9), .radius_mm = 11, .most_mm = 2},
       io::ContoursEdit{{{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Vec3(0, 0, 2)}}}};
   EXPECT_EQ(edits, wanted);
+  EXPECT_EQ(edits_from_json(to_json(wanted), "again"), wanted);
   EXPECT_TRUE(edits_from_json(R"({"version": 1, "edits": []})", "mend.json").empty());
+}
+
+TEST(EditText, ASceneHoldsTheEditsOfAStructureToTheLastBit) {
+  std::mt19937 random(44);
+  std::uniform_real_distribution<double> any(-300, 300);
+  io::TraceEdit trace;
+  for (int n = 0; n < 50; ++n) {
+    trace.points_mm.emplace_back(any(random), any(random), any(random));
+    trace.known_to_mm.push_back(std::abs(any(random)) / 300);
+  }
+  Scene scene = scene_from_json(R"({"version": 1, "structures": [
+    {"name": "liver", "file": "/l.dcm", "segment": 1, "edits": [{"type": "add", "path_mm": [[0.1, 0.2, 0.3]],
+     "radius_mm": 4}]}, {"name": "spleen", "file": "/s.dcm", "segment": 2}],
+    "modes": [{"type": "surface", "structure": "liver", "strength_n": 1}]})",
+                                "scene");
+  ASSERT_EQ(scene.structures[0].edits.size(), 1U);
+  EXPECT_TRUE(scene.structures[1].edits.empty());
+  scene.structures[1].edits = {trace, io::RemoveEdit{{.path_mm = {trace.points_mm[3]}, .radius_mm = 1.0 / 3}}};
+  const std::string text = to_json(scene);
+  const Scene again = scene_from_json(text, "again");
+  for (const std::size_t n : {0U, 1U}) EXPECT_EQ(again.structures[n].edits, scene.structures[n].edits);
+  EXPECT_EQ(to_json(again), text);
+  const auto refused = [](const std::string& edits) {
+    return testing::said_when([&] {
+      scene_from_json(R"({"version": 1, "modes": [], "structures": [
+        {"name": "liver", "file": "/l.dcm", "segment": 1, "edits": )" +
+                          edits + "}]}",
+                      "scene");
+    });
+  };
+  EXPECT_EQ(refused(R"([{"type": "add", "path_mm": [[1, 2, 3]], "radius_mm": 1}, {"type": "smooth"}])"),
+            "scene: structures[0].edits[1].type: there is no \"smooth\"; there are: trace, add, remove, scan_edge, "
+            "contours");
+  EXPECT_EQ(refused("{}"), "scene: structures[0].edits: is not a list");
 }
 
 TEST(EditText, NamesTheKeyThatIsWrong) {

@@ -12,6 +12,7 @@
 
 #include "io/fields/field_options.h"
 #include "io/filter.h"
+#include "io/structures/edit.h"
 #include "modes/scene/defaults.h"
 #include "modes/scene/transfer_function.h"
 #include "modes/scene/workspace.h"
@@ -87,6 +88,7 @@ struct SceneStructure {
   std::optional<int> segment_number;
   std::string color;                ///< "#rrggbb", or empty
   std::optional<double> margin_mm;  ///< the user is told when the stylus is nearer than this
+  std::vector<io::Edit> edits{};    ///< of its outline, in their order; its file stays as it is
 };
 
 struct Limits {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "modes/messages.h"
+#include "modes/scene/edit_json.h"
 #include "modes/scene/json_reader.h"
 #include "modes/scene/json_text.h"
 #include "modes/scene/scene_names.h"
@@ -170,6 +171,7 @@ SceneStructure read_structure(const At& at) {
   }
   members.optional("color", structure.color, text);
   members.optional("margin_mm", structure.margin_mm, number);
+  members.optional("edits", structure.edits, edits_at);
   members.done();
   return structure;
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "modes/scene/edit_json.h"
 #include "modes/scene/scene_json.h"
 #include "modes/scene/scene_names.h"
 #include "modes/types/mode_type.h"
@@ -109,6 +110,7 @@ Json json_of(const SceneStructure& structure) {
   if (structure.margin_mm) {
     json["margin_mm"] = *structure.margin_mm;
   }
+  if (!structure.edits.empty()) json["edits"] = json_of_edits(structure.edits);
   return json;
 }
 

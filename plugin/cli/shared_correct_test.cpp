@@ -32,7 +32,6 @@ using io::testing::says;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::Outcome;
-using testing::output_of;
 using testing::palpate;
 
 const fs::path outlines = fs::path(PALPATE_SHARED_DATA) / "structures";
@@ -151,10 +150,10 @@ TEST(SharedCorrect, ASegIsWrittenThatOthersAcceptAndThatIsReadAgainVoxelForVoxel
   const io::Structure mended = io::find_structures(std::array{folder / "mended.dcm"}).structures.at(0);
   EXPECT_EQ(mended.name, "Liver");
   EXPECT_THAT(mended.code, HasSubstr("T-62000"));
-  if (output_of("which dciodvfy").find("/dciodvfy") == std::string::npos) {
+  if (testing::output_of("which dciodvfy").find("/dciodvfy") == std::string::npos) {
     GTEST_SKIP() << "dciodvfy is not installed: apt-get install dicom3tools";
   }
-  const std::string verdict = output_of("dciodvfy " + (folder / "mended.dcm").string());
+  const std::string verdict = testing::output_of("dciodvfy " + (folder / "mended.dcm").string());
   EXPECT_THAT(verdict, HasSubstr("Segmentation"));
   EXPECT_THAT(verdict, Not(HasSubstr("Error")));
 }

@@ -6,9 +6,14 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <variant>
 
 #include "io/errors.h"
+#include "io/fields/filtered.h"
+#include "io/structures/edits.h"
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
 #include "plugin/session/shared_distance.h"
@@ -92,6 +97,32 @@ std::optional<RegisteredStructure> place(io::Structure& structure, const modes::
       .structure = wanted.name, .file_hash = hash_of_file(placed.registration), .motion = structure.motion};
 }
 
+/// Brings a structure to the scene's edits: from the last edit on that both have, or from the outline of its file.
+void edit(LoadedStructure& structure, const modes::SceneStructure& wanted, const io::Volume& volume) {
+  std::vector<std::shared_ptr<const io::DistanceField>> fields = std::move(structure.before_edits);
+  fields.push_back(structure.distance);
+  const auto [first_other, ignored] = std::ranges::mismatch(structure.edits, wanted.edits);
+  fields.resize(static_cast<std::size_t>(first_other - structure.edits.begin()) + 1);
+  std::shared_ptr<const io::FieldSource> values;
+  std::optional<io::ScanValues> scan;
+  for (std::size_t n = fields.size() - 1; n < wanted.edits.size(); ++n) {
+    if (std::holds_alternative<io::ScanEdgeEdit>(wanted.edits[n]) && !scan) {
+      // Not owned: nothing of it is kept beyond this call.
+      values = io::edge_fields(io::raw_of(std::shared_ptr<const io::Volume>(std::shared_ptr<void>(), &volume)));
+      scan.emplace(io::ScanValues{*values, volume.geometry});
+    }
+    try {
+      fields.push_back(io::apply_edit(fields.back(), wanted.edits[n], {.scan = scan ? &*scan : nullptr}));
+    } catch (const InvalidInput& error) {
+      refuse(wanted, at_place(fmt::format("edit {}", n + 1), error.text()));
+    }
+  }
+  structure.edits = wanted.edits;
+  structure.distance = fields.back();
+  fields.pop_back();
+  structure.before_edits = std::move(fields);
+}
+
 }  // namespace
 
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
@@ -109,6 +140,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
     });
     if (known != before.end()) {
       loaded.push_back(*known);
+      edit(loaded.back(), wanted, volume);
       continue;
     }
     io::Structure structure = find_structure(wanted, file);
@@ -120,6 +152,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       }
       loaded.push_back(
           {file.string(), segment, structure.warnings, registered, shared_distance(structure, volume.geometry, reach)});
+      edit(loaded.back(), wanted, volume);
     } catch (const io::DicomError& error) {
       refuse(wanted, error.text());
     }

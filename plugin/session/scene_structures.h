@@ -24,12 +24,16 @@ struct LoadedStructure {
   std::vector<Text> warnings;  ///< of how it lies on the scan
   std::optional<RegisteredStructure> registered;
   std::shared_ptr<const io::DistanceField> distance;
+  std::vector<io::Edit> edits{};  ///< of its outline, which `distance` has
+  /// The field before the first edit, and after each but the last: to undo an edit is to take one of them.
+  std::vector<std::shared_ptr<const io::DistanceField>> before_edits{};
 };
 
-/// The structures that the plan reads, in its order. Reuses those in `before` that are still the same. Throws
-/// std::invalid_argument that names the structure, if it has no such file or segment, is empty, is of another patient,
-/// or lies in another frame of reference than the scan and no registration beside it joins the two. Those in `recorded`
-/// are put where they were then; no registration is looked for.
+/// The structures that the plan reads, in its order. Reuses those in `before` that are still the same, and the fields
+/// of the edits that both begin with. Throws std::invalid_argument that names the structure, if it has no such file or
+/// segment, is empty, is of another patient, an edit of it cannot be done, or it lies in another frame of reference
+/// than the scan and no registration beside it joins the two. Those in `recorded` are put where they were then; no
+/// registration is looked for.
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded = {});

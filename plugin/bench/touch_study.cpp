@@ -1,0 +1,275 @@
+#include "plugin/bench/touch_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "device/simulated/simulated_stylus.h"
+#include "io/fields/filtered.h"
+#include "io/quantile.h"
+#include "io/structures/edits.h"
+#include "io/structures/outline_places.h"
+#include "modes/scene/scene_json.h"
+#include "plugin/app/running_session.h"
+#include "plugin/report/chart.h"
+#include "plugin/session/prepared_scene.h"
+#include "plugin/session/session.h"
+#include "testdata/scan.h"
+
+namespace palpate::plugin {
+namespace {
+
+using Truth = std::function<double(const glm::dvec3&)>;  // signed distance, mm, positive inside
+
+constexpr double organ_mm = 20, organ_hu = 60, around_hu = -100, noise_hu = 12, scanner_mm = 0.6;
+constexpr double pixel_mm = 0.5;   // of a screen on which a slice of 256 mm is 512 pixels wide
+constexpr double speed_mm_s = 20;  // of the hand along the edge
+constexpr double tremor_mm = 0.2, drift_mm = 1;
+constexpr double press_mm = 1.5;   // how far into the edge the hand aims that feels it
+constexpr double sample_s = 0.05;  // a point of the trace
+constexpr double reach_mm = 12;
+constexpr double off_mm = 1;  // of an outline: there it is corrected
+
+double organ(const glm::dvec3& at) {
+  return organ_mm - glm::length(at);
+}
+
+struct SpoiltOutline {
+  const char* what;
+  Truth mm;
+};
+
+std::vector<SpoiltOutline> spoilt_outlines() {
+  const glm::dvec3 way = glm::normalize(glm::dvec3(1, -0.4, 0.2)), top = organ_mm * way;
+  return {
+      {"a cap of 5 mm cut off", [=](const glm::dvec3& at) { return std::min(organ(at), glm::dot(top - at, way) - 5); }},
+      {"a dent of 5 mm",
+       [=](const glm::dvec3& at) { return std::min(organ(at), glm::distance(at, top + 5.0 * way) - 10); }},
+      {"a bulge of 4 mm",
+       [=](const glm::dvec3& at) { return std::max(organ(at), 8 - glm::distance(at, top - 4.0 * way)); }},
+      {"a shift of 2.5 mm", [=](const glm::dvec3& at) { return organ(at - 2.5 * way); }},
+      {"rough by a voxel and more", [=](const glm::dvec3& at) {
+         return organ(at) + 1.6 * std::sin(0.7 * at.x) * std::sin(0.8 * at.y) * std::sin(0.75 * at.z);
+       }}};
+}
+
+std::shared_ptr<const io::Volume> organ_scan(const io::Geometry& geometry) {
+  const testdata::Phantom phantom{.background = around_hu, .bodies = {{testdata::Ball{{0, 0, 0}, organ_mm}, organ_hu}}};
+  const auto sharp = std::make_shared<const io::Volume>(testdata::scan(phantom, geometry, {.quantised = false}));
+  io::Volume volume = *io::filtered(sharp, {.type = io::find_filter_type("gaussian"), .sigma_mm = scanner_mm});
+  volume.filtered_from = nullptr;
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0, noise_hu);
+  for (float& value : std::get<std::vector<float>>(volume.voxels)) value += noise(random);
+  return std::make_shared<const io::Volume>(std::move(volume));
+}
+
+std::shared_ptr<const io::DistanceField> outline_of(const io::Geometry& geometry, const Truth& mm) {
+  io::Mask mask;
+  mask.geometry = geometry;
+  mask.size = geometry.dimensions;
+  for (int k = 0; k < mask.size.z; ++k) {
+    for (int j = 0; j < mask.size.y; ++j) {
+      for (int i = 0; i < mask.size.x; ++i) {
+        mask.occupancy.push_back(mm(geometry.to_patient(glm::dvec3(i, j, k))) > 0 ? io::Mask::full : 0);
+      }
+    }
+  }
+  return io::distance_of(mask, {.reach_mm = 8});
+}
+
+/// Where the hand aims: along the true edge, slice by slice, wherever the outline is off; one way and back again.
+std::vector<glm::dvec3> way_over(const io::DistanceField& truth, const io::DistanceField& outline) {
+  std::vector<glm::dvec3> way;
+  for (const io::OutlinePlace& place : io::outline_places(truth, 2)) {
+    const glm::dvec3 true_place = organ_mm * glm::normalize(place.place_mm);
+    // A trace is for one side of an organ.
+    if (std::abs(outline.sample(true_place).mm) > off_mm && true_place.x > 0) way.push_back(true_place);
+  }
+  const auto slice = [](const glm::dvec3& at) { return static_cast<int>(std::floor(at.z / 2)); };
+  std::ranges::sort(way, [&](const glm::dvec3& a, const glm::dvec3& b) {
+    if (slice(a) != slice(b)) return slice(a) < slice(b);
+    const double turn = slice(a) % 2 == 0 ? 1 : -1;
+    return turn * std::atan2(a.y, a.x) < turn * std::atan2(b.y, b.x);
+  });
+  return way;
+}
+
+/// Some slow sines along each axis.
+class Drift {
+ public:
+  explicit Drift(std::mt19937& random) {
+    std::uniform_real_distribution<double> hertz(0.1, 0.5), phase(0, 2 * glm::pi<double>());
+    for (auto& axis : sines_) {
+      for (auto& sine : axis) sine = {2 * glm::pi<double>() * hertz(random), phase(random)};
+    }
+  }
+  glm::dvec3 operator()(double time) const {
+    glm::dvec3 mm(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const auto& [frequency, phase] : sines_[static_cast<std::size_t>(axis)]) {
+        mm[axis] += drift_mm * std::sqrt(2.0 / 3) * std::sin(frequency * time + phase);
+      }
+    }
+    return mm;
+  }
+
+ private:
+  std::array<std::array<std::pair<double, double>, 3>, 3> sines_;
+};
+
+constexpr const char* nothing_felt = R"({"version": 1, "modes": []})";
+constexpr const char* edge_felt = R"({"version": 1, "modes": [{"type": "surface", "side": "entering",
+  "strength_n": {"of": "value", "nodes": [[-24, 0], [-16, 1.5]]}}]})";
+
+/// What a hand traces.
+struct HandTrace {
+  std::vector<glm::dvec3> points_mm;
+  double path_mm = 0;
+};
+
+HandTrace trace_by_hand(const std::vector<glm::dvec3>& way, const std::shared_ptr<const io::Volume>& scan, bool felt,
+                        unsigned seed) {
+  std::mt19937 random(seed);
+  const Drift drift(random);
+  std::uniform_real_distribution<double> aim(-pixel_mm, pixel_mm);
+  modes::Scene scene = modes::scene_from_json(felt ? edge_felt : nothing_felt, "touch study");
+  scene.workspace.center_mm = glm::dvec3(0);
+  device::SimulatedDevice model;
+  model.hand.tremor_rms = 1e-3 * tremor_mm;
+  model.hand.tremor_seed = seed;
+  const auto stylus = std::make_shared<device::SimulatedStylus>(model);
+  const device::Specification specification = stylus->specification();
+  const PreparedScene prepared = prepare(scene, scan, specification.workspace_half_extent);
+  const modes::Workspace& workspace = prepared.plan->workspace;
+  std::vector<device::Waypoint> waypoints;
+  constexpr double step_s = 0.02, begin_s = 1;
+  const auto go_to = [&](double time, const glm::dvec3& mm) {
+    waypoints.push_back({.time = time, .position = workspace.to_device(mm)});
+  };
+  const auto aimed = [&](const glm::dvec3& edge) {
+    const glm::dvec3 seen = edge + glm::dvec3(aim(random), aim(random), aim(random));
+    return felt ? seen - press_mm * glm::normalize(edge) : seen;
+  };
+  // From outside, so that the edge is met on the way in.
+  go_to(0, way.front() + 8.0 * glm::normalize(way.front()));
+  double time = begin_s;
+  glm::dvec3 from = aimed(way.front());
+  go_to(time, from + drift(time));
+  for (std::size_t n = 1; n < way.size(); ++n) {
+    const glm::dvec3 to = aimed(way[n]);
+    const double length = std::max(glm::distance(way[n - 1], way[n]), 0.1);
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / (speed_mm_s * step_s))));
+    for (int step = 1; step <= steps; ++step) {
+      time += length / speed_mm_s / steps;
+      go_to(time, glm::mix(from, to, static_cast<double>(step) / steps) + drift(time));
+    }
+    from = to;
+  }
+  stylus->follow(waypoints, device::PathInterpolation::linear);
+  Session session(snapshot_of(scene, prepared, specification), stylus);
+  HandTrace trace;
+  const auto every = static_cast<int>(sample_s * specification.rate);
+  const auto first = static_cast<int>((begin_s + 0.1) * specification.rate);
+  for (int tick = 0; tick < static_cast<int>(time * specification.rate); ++tick) {
+    const TickRecord record = session.tick();
+    if (tick < first || (tick - first) % every != 0) continue;
+    const glm::dvec3 at = workspace.to_patient(vector_of(record.proxy_m));
+    if (!trace.points_mm.empty()) trace.path_mm += glm::distance(at, trace.points_mm.back());
+    trace.points_mm.push_back(at);
+  }
+  return trace;
+}
+
+/// Distances of an outline from the truth, where it was off.
+std::vector<double> errors_over(const std::vector<glm::dvec3>& way, const io::DistanceField& outline) {
+  std::vector<double> errors;
+  for (const io::OutlinePlace& place : io::outline_places(outline, 1)) {
+    const glm::dvec3 on_edge = organ_mm * glm::normalize(place.place_mm);
+    const bool is_over =
+        std::ranges::any_of(way, [&](const glm::dvec3& at) { return glm::distance(at, on_edge) < 1.5; });
+    if (is_over) errors.push_back(std::abs(organ(place.place_mm)));
+  }
+  return errors;
+}
+
+double mean_of(const std::vector<double>& all) {
+  double sum = 0;
+  for (const double one : all) sum += one;
+  return all.empty() ? 0 : sum / static_cast<double>(all.size());
+}
+
+/// Part of the corrected edge that lies nearer to the truth than so many mm.
+Curve parts_within(std::vector<double> errors, const std::string& label, const Color& color) {
+  std::ranges::sort(errors);
+  Curve curve{.label = label, .x = {}, .y = {}, .color = color};
+  for (int percent = 0; percent <= 100; ++percent) {
+    curve.x.push_back(io::quantile_of_sorted(errors, percent / 100.0));
+    curve.y.push_back(percent);
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::string study_touch(const TouchStudyOptions& options, const std::filesystem::path& folder) {
+  const io::Geometry geometry = testdata::make_geometry({.size = glm::ivec3(70)});
+  const auto scan = organ_scan(geometry);
+  const auto truth = outline_of(geometry, organ);
+  std::string csv = "error,hand,before_mean_mm,before_largest_mm,after_mean_mm,after_largest_mm,path_mm,points\n";
+  fmt::print(
+      "\nA ball of {:.0f} mm on voxels of 1 mm, outlines spoilt, traced by {} hands (tremor {} mm, drift {} mm, aim "
+      "+- {} mm):\ndistance to the true edge in the corrected region, mm\n\n{:28} {:6} {:>15} {:>15} {:>8} {:>7}\n",
+      organ_mm, options.hands, tremor_mm, drift_mm, pixel_mm, "error", "hand", "before", "after", "path mm", "points");
+  std::vector<double> all_before, all_after[2];
+  for (const SpoiltOutline& spoilt : spoilt_outlines()) {
+    const auto outline = outline_of(geometry, spoilt.mm);
+    const std::vector<glm::dvec3> way = way_over(*truth, *outline);
+    const std::vector<double> before = errors_over(way, *outline);
+    all_before.insert(all_before.end(), before.begin(), before.end());
+    for (const bool felt : {false, true}) {
+      std::vector<double> after;
+      double path_mm = 0, points = 0;
+      for (int hand = 0; hand < options.hands; ++hand) {
+        const HandTrace trace = trace_by_hand(way, scan, felt, static_cast<unsigned>(hand + 1));
+        const auto corrected = io::apply_edit(
+            outline, io::TraceEdit{.points_mm = trace.points_mm, .known_to_mm = {}, .reach_mm = reach_mm});
+        const std::vector<double> of_hand = errors_over(way, *corrected);
+        after.insert(after.end(), of_hand.begin(), of_hand.end());
+        path_mm += trace.path_mm / options.hands;
+        points += static_cast<double>(trace.points_mm.size()) / options.hands;
+      }
+      const auto largest = [](const std::vector<double>& all) { return all.empty() ? 0 : std::ranges::max(all); };
+      const char* hand = felt ? "feels" : "sees";
+      fmt::print("{:28} {:6} {:7.2f} {:7.2f} {:7.2f} {:7.2f} {:8.0f} {:7.0f}\n", spoilt.what, hand, mean_of(before),
+                 largest(before), mean_of(after), largest(after), path_mm, points);
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", spoilt.what, hand, mean_of(before), largest(before),
+                         mean_of(after), largest(after), path_mm, points);
+      auto& all = all_after[felt ? 1 : 0];
+      all.insert(all.end(), after.begin(), after.end());
+    }
+  }
+  fmt::print("\nall: {:.2f} mm before, {:.2f} mm by the hand that sees, {:.2f} mm by the hand that feels, too\n",
+             mean_of(all_before), mean_of(all_after[0]), mean_of(all_after[1]));
+  if (!folder.empty()) {
+    Chart chart{.title = "A simulated hand corrects spoilt outlines",
+                .x = {.label = "distance to the true edge (mm)", .minimum = 0, .maximum = 4},
+                .y = {.label = "part of the corrected edge (%)", .minimum = 0, .maximum = 100},
+                .curves = {parts_within(all_before, "before", colors::black),
+                           parts_within(all_after[0], "sees the edge", colors::sky),
+                           parts_within(all_after[1], "sees and feels it", colors::vermilion)},
+                .marks = {}};
+    write_png(chart, folder / "touch.png");
+  }
+  return csv;
+}
+
+}  // namespace palpate::plugin

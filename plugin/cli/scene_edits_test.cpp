@@ -1,0 +1,186 @@
+// A scene whose structure carries edits: what is felt is what `palpate correct` writes, and a recording repeats it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "io/load.h"
+#include "io/structures/label_image.h"
+#include "io/testing/outlined_scan.h"
+#include "modes/scene/scene_json.h"
+#include "plugin/app/open_scan.h"
+#include "plugin/recording/recording.h"
+#include "plugin/session/scene_structures.h"
+#include "plugin/session/tick_record.h"
+#include "plugin/testing/command_rig.h"
+
+namespace palpate::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::palpate;
+using testing::phantom;
+
+/// The phantom's core as a label map, and a scene that feels its edge.
+struct EditedScene {
+  fs::path folder = testing::fresh_path("edited_scene");
+  io::Series series = io::find_series(std::array{phantom()}).series.at(0);
+
+  EditedScene() {
+    fs::create_directories(folder);
+    const auto core = [](const io::Vec3& at) { return 15 - glm::length(at); };
+    write_label_map(sample_labels({.name = "core"}, series.geometry, core), folder / "core.nii.gz",
+                    io::testing::by_test);
+  }
+  Json scene(const Json& edits) const {
+    return {{"version", 1},
+            {"structures", {{{"name", "core"}, {"file", "core.nii.gz"}, {"segment", 1}, {"edits", edits}}}},
+            {"modes", {{{"type", "surface"}, {"structure", "core"}, {"strength_n", 1.5}}}}};
+  }
+  std::string write(const std::string& name, const Json& json) const {
+    std::ofstream(folder / name) << json;
+    return (folder / name).string();
+  }
+};
+
+/// A hill of 4 mm on the side that the probe comes from, a hole beside it, and the scan's own edge elsewhere.
+Json all_edits() {
+  Json hill = Json::array();
+  for (int i = -3; i <= 3; ++i) {
+    for (int j = -3; j <= 3; ++j) {
+      const double aside = 4.0 * (i * i + j * j), hill_mm = std::max(0.0, 4 * (1 - aside / 64));
+      const double radius = 15 + hill_mm;
+      if (aside < 36) hill.push_back({2 * i, -std::sqrt(radius * radius - aside), 2 * j});
+    }
+  }
+  return {{{"type", "trace"}, {"points_mm", hill}, {"reach_mm", 10}},
+          {{"type", "remove"}, {"path_mm", {{0, 15, 0}, {0, 12, 3}}}, {"radius_mm", 3}},
+          {{"type", "scan_edge"}, {"center_mm", {15, 0, 0}}, {"radius_mm", 6}, {"most_mm", 2}}};
+}
+
+modes::Plan plan_of_the_structure() {
+  modes::Plan plan;
+  plan.structures = {0};
+  return plan;
+}
+
+TEST(SceneEdits, WhatIsFeltIsWhatCorrectWrites) {
+  const EditedScene edited;
+  const modes::Scene scene = modes::load_scene(edited.write("scene.json", edited.scene(all_edits())));
+  const io::Volume scan = open_scan(edited.series, 0);
+  const auto felt = load_structures(scene, plan_of_the_structure(), scan, {}).front();
+  const std::string edits = edited.write("edits.json", {{"version", 1}, {"edits", all_edits()}});
+  const std::string written = (edited.folder / "mended.nii.gz").string();
+  const Outcome outcome = palpate("correct " + phantom().string() + " --structure " +
+                                  (edited.folder / "core.nii.gz").string() + " --edits " + edits + " -o " + written);
+  ASSERT_EQ(outcome.exit, 0) << outcome.output;
+  const auto mended = io::load(io::find_series(std::array{fs::path(written)}).series.at(0));
+  const glm::ivec3 size = scan.geometry.dimensions;
+  ASSERT_EQ(mended.geometry.dimensions, size);
+  std::size_t inside = 0, other = 0, of_the_hill = 0;
+  for (int k = 0; k < size.z; ++k) {
+    for (int j = 0; j < size.y; ++j) {
+      for (int i = 0; i < size.x; ++i) {
+        const io::Vec3 at = scan.geometry.to_patient({i, j, k});
+        const glm::ivec3 voxel(glm::round(mended.geometry.to_voxel(at)));
+        const bool is_written = mended.value_at(voxel.x, voxel.y, voxel.z) > 0.5;
+        const double mm = felt.distance->sample(at).mm;
+        inside += is_written ? 1 : 0;
+        of_the_hill += is_written && at.y < -16 ? 1 : 0;
+        if (is_written == (mm > 0)) continue;
+        ++other;
+        EXPECT_LT(std::abs(mm), 0.02) << "the two keep their distances to different reaches";
+      }
+    }
+  }
+  EXPECT_GT(inside, 12000U);
+  EXPECT_GT(of_the_hill, 100U);
+  EXPECT_LT(other, 5U);
+}
+
+TEST(SceneEdits, UndoAndRedoGiveTheBitsAndOnlyNewEditsAreApplied) {
+  const EditedScene edited;
+  modes::Scene scene = modes::load_scene(edited.write("scene.json", edited.scene(all_edits())));
+  const io::Volume scan = open_scan(edited.series, 0);
+  const modes::Plan plan = plan_of_the_structure();
+  const std::vector<io::Edit> all = scene.structures[0].edits;
+  std::vector<LoadedStructure> now;
+  std::vector<std::shared_ptr<const io::DistanceField>> after;
+  for (std::size_t count = 0; count <= all.size(); ++count) {
+    scene.structures[0].edits.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+    now = load_structures(scene, plan, scan, now);
+    after.push_back(now.front().distance);
+  }
+  for (std::size_t count = all.size(); count-- > 0;) {
+    scene.structures[0].edits.resize(count);
+    now = load_structures(scene, plan, scan, now);
+    EXPECT_EQ(now.front().distance, after[count]) << "an undone edit leaves the field that was before it";
+  }
+  scene.structures[0].edits = all;
+  now = load_structures(scene, plan, scan, now);
+  const auto at_once = load_structures(scene, plan, scan, {});
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-24, 24);
+  for (int n = 0; n < 20000; ++n) {
+    const io::Vec3 at(any(random), any(random), any(random));
+    const io::Distance redone = now.front().distance->sample(at), fresh = at_once.front().distance->sample(at);
+    const io::Distance first = after.back()->sample(at);
+    ASSERT_EQ(std::memcmp(&redone, &first, sizeof redone), 0);
+    ASSERT_EQ(std::memcmp(&redone, &fresh, sizeof redone), 0);
+  }
+}
+
+/// Where the hand is when it is first pushed, in the device's frame.
+glm::dvec3 first_push_m(const fs::path& recording) {
+  for (const TickRecord& tick : read_recording(recording.string()).ticks) {
+    if (glm::length(vector_of(tick.force_n)) > 0.1) return vector_of(tick.probe_m);
+  }
+  return glm::dvec3(NAN);
+}
+
+TEST(SceneEdits, TheEditedEdgeIsFeltAndARecordingRepeatsItToTheBit) {
+  const EditedScene edited;
+  const auto felt = [&](const Json& edits, const std::string& name) {
+    const std::string scene = edited.write(name + ".json", edited.scene(edits));
+    const fs::path out = edited.folder / name;
+    const Outcome outcome =
+        palpate("probe " + phantom().string() + testing::forehead + "--scene " + scene + " -o " + out.string());
+    EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    const std::string recording = (out / "recording.h5").string();
+    const Outcome again =
+        palpate("replay " + recording + " " + phantom().string() + " --structures " + edited.folder.string());
+    EXPECT_EQ(again.exit, 0) << again.output;
+    EXPECT_THAT(again.output, HasSubstr("the same to the last bit"));
+    return first_push_m(recording);
+  };
+  const glm::dvec3 as_outlined = felt(Json::array(), "as_outlined"), on_the_hill = felt(all_edits(), "edited");
+  EXPECT_NEAR(1e3 * glm::distance(as_outlined, on_the_hill), 4, 0.5) << "the hill is 4 mm high";
+}
+
+TEST(SceneEdits, AnEditThatCannotBeDoneIsRefusedByTheStructuresName) {
+  const EditedScene edited;
+  const Json far{{"type", "trace"}, {"points_mm", {{28, 0, 0}}}, {"reach_mm", 4}};
+  const std::string scene = edited.write("far.json", edited.scene({far}));
+  const Outcome outcome = palpate("probe " + phantom().string() + testing::forehead + "--scene " + scene + " -o " +
+                                  (edited.folder / "none").string());
+  EXPECT_NE(outcome.exit, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("structure \"core\": edit 1: trace: its point 1 lies "));
+  EXPECT_FALSE(fs::exists(edited.folder / "none"));
+}
+
+}  // namespace
+}  // namespace palpate::plugin
