@@ -69,7 +69,9 @@ std::vector<char> touched_parts(const DistanceField& field, const SeededEdit& ed
   parts = outline_parts(field, places, &of_place);
   std::vector<char> touched(parts.size());
   for (std::size_t n = 0; n < places.size(); ++n) {
-    if (edit.distance_to(places[n].place_mm) < edit.reach_mm + 1) touched[of_place[n]] = 1;
+    if (edit.distance_to(places[n].place_mm) >= edit.reach_mm + 1) continue;
+    touched[of_place[n]] = 1;
+    if (parts[of_place[n]].is_hole) touched[0] = 1;  // the largest part is what the hole lies in
   }
   return touched;
 }

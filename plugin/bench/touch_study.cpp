@@ -35,7 +35,7 @@ constexpr double speed_mm_s = 20;  // of the hand along the edge
 constexpr double tremor_mm = 0.2, drift_mm = 1;
 constexpr double press_mm = 1.5;   // how far into the edge the hand aims that feels it
 constexpr double sample_s = 0.05;  // a point of the trace
-constexpr double reach_mm = 12;
+constexpr double reach_mm = 16;
 constexpr double off_mm = 1;  // of an outline: there it is corrected
 
 double organ(const glm::dvec3& at) {

@@ -96,7 +96,7 @@ TEST(SceneEdits, WhatIsFeltIsWhatCorrectWrites) {
     for (int j = 0; j < size.y; ++j) {
       for (int i = 0; i < size.x; ++i) {
         const io::Vec3 at = scan.geometry.to_patient({i, j, k});
-        const glm::ivec3 voxel(glm::round(mended.geometry.to_voxel(at)));
+        const glm::ivec3 voxel(glm::round(mended.geometry.to_index(at)));
         const bool is_written = mended.value_at(voxel.x, voxel.y, voxel.z) > 0.5;
         const double mm = felt.distance->sample(at).mm;
         inside += is_written ? 1 : 0;
@@ -168,13 +168,15 @@ TEST(SceneEdits, TheEditedEdgeIsFeltAndARecordingRepeatsItToTheBit) {
     return first_push_m(recording);
   };
   const glm::dvec3 as_outlined = felt(Json::array(), "as_outlined"), on_the_hill = felt(all_edits(), "edited");
-  EXPECT_NEAR(1e3 * glm::distance(as_outlined, on_the_hill), 4, 0.5) << "the hill is 4 mm high";
+  // `probe` presses 6 mm beside the hill's top, along y: there the hill is 1.75 mm high.
+  const double outlined_mm = std::sqrt(15.0 * 15 - 36), edited_mm = std::sqrt(16.75 * 16.75 - 36);
+  EXPECT_NEAR(1e3 * glm::distance(as_outlined, on_the_hill), edited_mm - outlined_mm, 0.25);
 }
 
 TEST(SceneEdits, AnEditThatCannotBeDoneIsRefusedByTheStructuresName) {
   const EditedScene edited;
   const Json far{{"type", "trace"}, {"points_mm", {{28, 0, 0}}}, {"reach_mm", 4}};
-  const std::string scene = edited.write("far.json", edited.scene({far}));
+  const std::string scene = edited.write("far.json", edited.scene(Json::array({far})));
   const Outcome outcome = palpate("probe " + phantom().string() + testing::forehead + "--scene " + scene + " -o " +
                                   (edited.folder / "none").string());
   EXPECT_NE(outcome.exit, 0);
