@@ -93,8 +93,10 @@ TEST(SharedCorrect, ALiverWhoseCapWasCutOffIsFoundMendedWrittenAndReadAgain) {
   EXPECT_LE(rank, 2U) << found["places"].dump(1);
 
   std::vector<io::Vec3> traced;
+  const double slices_mm = std::abs(scan.slice_positions.back().z - middle);  // beyond them nothing is written
   for (const io::OutlinePlace& place : edge) {
-    if (place.place_mm.x < plane + 1) traced.push_back(place.place_mm);
+    const bool in_scan = std::abs(place.place_mm.z - middle) < slices_mm - 2;
+    if (in_scan && place.place_mm.x < plane + 1) traced.push_back(place.place_mm);
   }
   ASSERT_GT(traced.size(), 50U);
   const std::string mend = edits_in(folder, {trace_of(traced, 12)});
@@ -144,8 +146,9 @@ TEST(SharedCorrect, ASegIsWrittenThatOthersAcceptAndThatIsReadAgainVoxelForVoxel
     return Json::parse(palpate("structures compare --json " + a.string() + " " + b.string(), false).output);
   };
   const Json both = compared(folder / "mended.dcm", folder / "mended.nii.gz");
-  EXPECT_EQ(both["volume_mm3"][0], both["volume_mm3"][1]);
-  EXPECT_LT(both["largest_mm"].get<double>(), 0.01);
+  const double volume = both["volume_mm3"][0];  // the spacing of a NIfTI is rounded to 32 bits
+  EXPECT_NEAR(volume, both["volume_mm3"][1].get<double>(), 1e-6 * volume);
+  EXPECT_LT(both["largest_mm"].get<double>(), 0.05) << "a voxel more would be 0.4";
   EXPECT_GT(compared(liver, folder / "mended.dcm")["largest_mm"].get<double>(), 4);
   const io::Structure mended = io::find_structures(std::array{folder / "mended.dcm"}).structures.at(0);
   EXPECT_EQ(mended.name, "Liver");
