@@ -18,19 +18,19 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr double ball_mm = 34, most_mm = 44;
+constexpr double edited_ball_mm = 34, half_width_mm = 44;
 
 std::shared_ptr<const io::DistanceField> ball_of_voxels() {
   io::Mask mask;
-  mask.geometry.dimensions = glm::ivec3(static_cast<int>(2 * most_mm));
+  mask.geometry.dimensions = glm::ivec3(static_cast<int>(2 * half_width_mm));
   for (int k = 0; k < mask.geometry.dimensions.z; ++k) {
-    mask.geometry.slice_positions.push_back(glm::dvec3(-most_mm, -most_mm, k - most_mm) + 0.5);
+    mask.geometry.slice_positions.push_back(glm::dvec3(-half_width_mm, -half_width_mm, k - half_width_mm) + 0.5);
   }
   mask.size = mask.geometry.dimensions;
   for (int k = 0; k < mask.size.z; ++k) {
     for (int j = 0; j < mask.size.y; ++j) {
       for (int i = 0; i < mask.size.x; ++i) {
-        const bool inside = glm::length(mask.geometry.to_patient(glm::dvec3(i, j, k))) < ball_mm;
+        const bool inside = glm::length(mask.geometry.to_patient(glm::dvec3(i, j, k))) < edited_ball_mm;
         mask.occupancy.push_back(inside ? io::Mask::full : 0);
       }
     }
@@ -39,11 +39,12 @@ std::shared_ptr<const io::DistanceField> ball_of_voxels() {
 }
 
 /// Along a wavy ring that stands 1.5 mm out of the ball.
-io::TraceEdit ring(int points) {
+io::TraceEdit wavy_ring(int points) {
   io::TraceEdit trace;
   for (int n = 0; n < points; ++n) {
     const double turn = 2 * glm::pi<double>() * 0.94 * n / points;
-    trace.points_mm.push_back((ball_mm + 1.5) * glm::dvec3(std::cos(turn), std::sin(turn), 0.1 * std::sin(3 * turn)));
+    trace.points_mm.push_back((edited_ball_mm + 1.5) *
+                              glm::dvec3(std::cos(turn), std::sin(turn), 0.1 * std::sin(3 * turn)));
   }
   return trace;
 }
@@ -73,19 +74,20 @@ std::string tabulate_edit_costs(int rounds) {
   std::string csv = "edit,wall_ms,processor_ms\n";
   fmt::print(
       "What an edit costs on a ball of {:.0f} mm, voxels of 1 mm: the best of {} rounds\n\n{:30} {:>10} {:>14}\n",
-      ball_mm, rounds, "edit", "ms", "processor ms");
+      edited_ball_mm, rounds, "edit", "ms", "processor ms");
   const auto row = [&](const char* what, const io::Edit& edit) {
     const EditCost cost = cost_of_edit(field, edit, rounds);
     fmt::print("{:30} {:10.0f} {:14.0f}\n", what, cost.wall_ms, cost.processor_ms);
     csv += fmt::format("{},{},{}\n", what, cost.wall_ms, cost.processor_ms);
   };
   row("trace of 20 points", [] {
-    io::TraceEdit trace = ring(200);
+    io::TraceEdit trace = wavy_ring(200);
     trace.points_mm.resize(20);
     return trace;
   }());
-  row("trace of 200 points", ring(200));
-  const io::Tube tube{.path_mm = {{ball_mm - 4, 0, 0}, {ball_mm, 8, 0}, {ball_mm - 2, 16, 0}}, .radius_mm = 4};
+  row("trace of 200 points", wavy_ring(200));
+  const io::Tube tube{.path_mm = {{edited_ball_mm - 4, 0, 0}, {edited_ball_mm, 8, 0}, {edited_ball_mm - 2, 16, 0}},
+                      .radius_mm = 4};
   row("add along 18 mm", io::AddEdit{tube});
   row("remove along 18 mm", io::RemoveEdit{tube});
   return csv;

@@ -29,16 +29,16 @@ namespace {
 
 using Truth = std::function<double(const glm::dvec3&)>;  // signed distance, mm, positive inside
 
-constexpr double organ_mm = 20, organ_hu = 60, around_hu = -100, noise_hu = 12, scanner_mm = 0.6;
+constexpr double organ_mm = 20, organ_hu = 60, around_hu = -100, touch_noise_hu = 12, touch_blur_mm = 0.6;
 constexpr double pixel_mm = 0.5;   // of a screen on which a slice of 256 mm is 512 pixels wide
 constexpr double speed_mm_s = 20;  // of the hand along the edge
-constexpr double tremor_mm = 0.2, drift_mm = 1;
+constexpr double hand_tremor_mm = 0.2, hand_drift_mm = 1;
 constexpr double press_mm = 1.5;   // how far into the edge the hand aims that feels it
 constexpr double sample_s = 0.05;  // a point of the trace
 constexpr double reach_mm = 16;
-constexpr double off_mm = 1;  // of an outline: there it is corrected
+constexpr double corrected_beyond_mm = 1;  // of an outline: there it is corrected
 
-double organ(const glm::dvec3& at) {
+double true_organ(const glm::dvec3& at) {
   return organ_mm - glm::length(at);
 }
 
@@ -49,25 +49,25 @@ struct SpoiltOutline {
 
 std::vector<SpoiltOutline> spoilt_outlines() {
   const glm::dvec3 way = glm::normalize(glm::dvec3(1, -0.4, 0.2)), top = organ_mm * way;
-  return {
-      {"a cap of 5 mm cut off", [=](const glm::dvec3& at) { return std::min(organ(at), glm::dot(top - at, way) - 5); }},
-      {"a dent of 5 mm",
-       [=](const glm::dvec3& at) { return std::min(organ(at), glm::distance(at, top + 5.0 * way) - 10); }},
-      {"a bulge of 4 mm",
-       [=](const glm::dvec3& at) { return std::max(organ(at), 8 - glm::distance(at, top - 4.0 * way)); }},
-      {"a shift of 2.5 mm", [=](const glm::dvec3& at) { return organ(at - 2.5 * way); }},
-      {"rough by a voxel and more", [=](const glm::dvec3& at) {
-         return organ(at) + 1.6 * std::sin(0.7 * at.x) * std::sin(0.8 * at.y) * std::sin(0.75 * at.z);
-       }}};
+  return {{"a cap of 5 mm cut off",
+           [=](const glm::dvec3& at) { return std::min(true_organ(at), glm::dot(top - at, way) - 5); }},
+          {"a dent of 5 mm",
+           [=](const glm::dvec3& at) { return std::min(true_organ(at), glm::distance(at, top + 5.0 * way) - 10); }},
+          {"a bulge of 4 mm",
+           [=](const glm::dvec3& at) { return std::max(true_organ(at), 8 - glm::distance(at, top - 4.0 * way)); }},
+          {"a shift of 2.5 mm", [=](const glm::dvec3& at) { return true_organ(at - 2.5 * way); }},
+          {"rough by a voxel and more", [=](const glm::dvec3& at) {
+             return true_organ(at) + 1.6 * std::sin(0.7 * at.x) * std::sin(0.8 * at.y) * std::sin(0.75 * at.z);
+           }}};
 }
 
 std::shared_ptr<const io::Volume> organ_scan(const io::Geometry& geometry) {
   const testdata::Phantom phantom{.background = around_hu, .bodies = {{testdata::Ball{{0, 0, 0}, organ_mm}, organ_hu}}};
   const auto sharp = std::make_shared<const io::Volume>(testdata::scan(phantom, geometry, {.quantised = false}));
-  io::Volume volume = *io::filtered(sharp, {.type = io::find_filter_type("gaussian"), .sigma_mm = scanner_mm});
+  io::Volume volume = *io::filtered(sharp, {.type = io::find_filter_type("gaussian"), .sigma_mm = touch_blur_mm});
   volume.filtered_from = nullptr;
   std::mt19937 random(1);
-  std::normal_distribution<float> noise(0, noise_hu);
+  std::normal_distribution<float> noise(0, touch_noise_hu);
   for (float& value : std::get<std::vector<float>>(volume.voxels)) value += noise(random);
   return std::make_shared<const io::Volume>(std::move(volume));
 }
@@ -92,7 +92,7 @@ std::vector<glm::dvec3> way_over(const io::DistanceField& truth, const io::Dista
   for (const io::OutlinePlace& place : io::outline_places(truth, 2)) {
     const glm::dvec3 true_place = organ_mm * glm::normalize(place.place_mm);
     // A trace is for one side of an organ.
-    if (std::abs(outline.sample(true_place).mm) > off_mm && true_place.x > 0) way.push_back(true_place);
+    if (std::abs(outline.sample(true_place).mm) > corrected_beyond_mm && true_place.x > 0) way.push_back(true_place);
   }
   const auto slice = [](const glm::dvec3& at) { return static_cast<int>(std::floor(at.z / 2)); };
   std::ranges::sort(way, [&](const glm::dvec3& a, const glm::dvec3& b) {
@@ -116,7 +116,7 @@ class Drift {
     glm::dvec3 mm(0);
     for (int axis = 0; axis < 3; ++axis) {
       for (const auto& [frequency, phase] : sines_[static_cast<std::size_t>(axis)]) {
-        mm[axis] += drift_mm * std::sqrt(2.0 / 3) * std::sin(frequency * time + phase);
+        mm[axis] += hand_drift_mm * std::sqrt(2.0 / 3) * std::sin(frequency * time + phase);
       }
     }
     return mm;
@@ -144,7 +144,7 @@ HandTrace trace_by_hand(const std::vector<glm::dvec3>& way, const std::shared_pt
   modes::Scene scene = modes::scene_from_json(felt ? edge_felt : nothing_felt, "touch study");
   scene.workspace.center_mm = glm::dvec3(0);
   device::SimulatedDevice model;
-  model.hand.tremor_rms = 1e-3 * tremor_mm;
+  model.hand.tremor_rms = 1e-3 * hand_tremor_mm;
   model.hand.tremor_seed = seed;
   const auto stylus = std::make_shared<device::SimulatedStylus>(model);
   const device::Specification specification = stylus->specification();
@@ -196,7 +196,7 @@ std::vector<double> errors_over(const std::vector<glm::dvec3>& way, const io::Di
     const glm::dvec3 on_edge = organ_mm * glm::normalize(place.place_mm);
     const bool is_over =
         std::ranges::any_of(way, [&](const glm::dvec3& at) { return glm::distance(at, on_edge) < 1.5; });
-    if (is_over) errors.push_back(std::abs(organ(place.place_mm)));
+    if (is_over) errors.push_back(std::abs(true_organ(place.place_mm)));
   }
   return errors;
 }
@@ -223,12 +223,13 @@ Curve parts_within(std::vector<double> errors, const std::string& label, const C
 std::string study_touch(const TouchStudyOptions& options, const std::filesystem::path& folder) {
   const io::Geometry geometry = testdata::make_geometry({.size = glm::ivec3(70)});
   const auto scan = organ_scan(geometry);
-  const auto truth = outline_of(geometry, organ);
+  const auto truth = outline_of(geometry, true_organ);
   std::string csv = "error,hand,before_mean_mm,before_largest_mm,after_mean_mm,after_largest_mm,path_mm,points\n";
   fmt::print(
       "\nA ball of {:.0f} mm on voxels of 1 mm, outlines spoilt, traced by {} hands (tremor {} mm, drift {} mm, aim "
       "+- {} mm):\ndistance to the true edge in the corrected region, mm\n\n{:28} {:6} {:>15} {:>15} {:>8} {:>7}\n",
-      organ_mm, options.hands, tremor_mm, drift_mm, pixel_mm, "error", "hand", "before", "after", "path mm", "points");
+      organ_mm, options.hands, hand_tremor_mm, hand_drift_mm, pixel_mm, "error", "hand", "before", "after", "path mm",
+      "points");
   std::vector<double> all_before, all_after[2];
   for (const SpoiltOutline& spoilt : spoilt_outlines()) {
     const auto outline = outline_of(geometry, spoilt.mm);
