@@ -16,9 +16,9 @@
 #include <optional>
 
 #include "io/fields/field_source.h"
-#include "io/volume.h"
 #include "io/geometry.h"
 #include "io/structures/distance_field.h"
+#include "io/volume.h"
 
 namespace palpate::io {
 
