@@ -126,9 +126,8 @@ class Tree {
 
   void add_point(const MarkedPoint& point, const std::string& unit) {
     begin_group(point.name);
-    if (!point.structure.empty()) {
-      add_text(DSRTypes::RT_contains, CODE_DCM_Comment, "Felt boundary: " + point.structure);
-    }
+    add_text(DSRTypes::RT_contains, CODE_DCM_Comment,
+             point.structure.empty() ? "No boundary felt" : "Felt boundary: " + point.structure);
     add_coordinates(DSRTypes::RT_contains, CODE_DCM_ImageRegion, {point.position_mm});
     if (point.value) {
       const bool is_hu = unit == "HU";

@@ -9,12 +9,13 @@ const ModeType keep_in_mode{
     .summary = "resists and pushes back over a margin before the way out of a structure",
     .keys = Key::strength | Key::gates | Key::margin,
     .strength_of = Datum::value,
+    .margin_side = -1,
     .reads = [](const Mode&) { return io::FieldSet::distance; },
     .footprint =
         [](const Mode&) {
           return Footprint{solver::PrimitiveType::plane, Axis::structure, true};
         },
     .place = [](const ActiveMode& mode, const Place& place,
-                PrimitiveList& primitives) noexcept { place_keep(mode, place, -1.0, primitives); }};
+                PrimitiveList& primitives) noexcept { place_keep(mode, place, keep_in_mode.margin_side, primitives); }};
 
 }  // namespace palpate::modes

@@ -117,6 +117,7 @@ struct ModeType {
   Datum strength_of = Datum::value;  ///< the datum of its strength where the scene names none
   /// Whether a session may begin where it is felt: not so of friction, which is felt everywhere, nor of landmarks.
   bool finds_places = true;
+  double margin_side = 1;  ///< of Key::margin: 1: the margin lies outside the structure; -1: inside
   /// Fields it samples beside those that its strength and gates read.
   io::FieldSet (*reads)(const Mode& mode) = nullptr;
   Footprint (*footprint)(const Mode& mode) = nullptr;

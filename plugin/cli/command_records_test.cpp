@@ -109,8 +109,8 @@ TEST(CommandNumbers, ReplayTellsWhatTheRecordingTells) {
 TEST(CommandNumbers, TheMarksWordsHaveTheNumbersOfTheirJson) {
   const fs::path path = fresh_path("pressed.csv"), out = fresh_path("pressed");
   std::ofstream(path) << "time_s,x_mm,y_mm,z_mm,buttons\n0,0,-29,0,0\n0.3,0,-23,0,0\n0.5,0,-23,0,2\n0.6,0,-23,0,0\n"
-                         "0.9,8,-22,0,2\n1,8,-22,0,0\n1.1,-4,-29,3,2\n1.2,-4,-29,3,0\n1.3,8,-22,0,2\n1.7,-8,-22,0,0\n"
-                         "1.8,-8,-22,0,0\n";
+                         "0.9,8,-22,0,2\n1,8,-22,0,0\n1.1,-4,-29,3,2\n1.4,-4,-29,3,0\n1.5,8,-22,0,2\n1.9,-8,-22,0,0\n"
+                         "2,-8,-22,0,0\n";
   ASSERT_EQ(palpate("probe " + phantom().string() + " --path " + path.string() + " -o " + out.string()).exit, 0);
   const std::string command = "marks " + (out / "recording.h5").string() + " " + phantom().string();
   const Json told = Json::parse(palpate(command + " --json", false).output);

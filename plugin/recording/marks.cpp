@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "modes/tick/haptic_step.h"
+#include "modes/types/mode_type.h"
 #include "plugin/recording/recorded_session.h"
 
 namespace palpate::plugin {
@@ -17,22 +18,34 @@ namespace {
 constexpr double still_mm = 2;        // a hand that presses a button moves so far
 constexpr double path_step_mm = 0.2;  // shorter steps are tremor, and would add to a path's length
 
+constexpr double tap_s = 0.25;   // a key is not tapped longer: nobody draws a path in that time
+constexpr double held_n = 0.05;  // below, a boundary is not said to be felt
+
+bool is_boundary(const modes::Mode& mode) {
+  using modes::Key;
+  return modes::reads_key(mode, Key::side) || modes::reads_key(mode, Key::margin) ||
+         modes::reads_key(mode, Key::landmark);
+}
+
 std::string boundary_of(const MarkPresses::Moment& moment) {
-  double strongest = 0;
+  double strongest = held_n;
   std::string name;
   for (const PrimitiveRecord& share : moment.shares) {
     const glm::dvec3 force(share.force_n[0], share.force_n[1], share.force_n[2]);
     const bool is_of_scene = share.mode < moment.scene.modes.size();  // else of the scene that is being left
     if (!is_of_scene || glm::length(force) <= strongest) continue;
-    strongest = glm::length(force);
     const modes::Mode& mode = moment.scene.modes[share.mode];
+    if (!is_boundary(mode)) continue;
+    strongest = glm::length(force);
     name = mode.name.empty() ? mode.type : mode.name;
   }
   return name;
 }
 
-void step(MarkedPath& path, const glm::dvec3& to) {
-  path.length_mm += glm::distance(path.points_mm.back(), to);
+void step(MarkedPath& path, const glm::dvec3& to, bool touched) {
+  const double mm = glm::distance(path.points_mm.back(), to);
+  path.length_mm += mm;
+  if (touched) path.touched_mm += mm;
   path.points_mm.push_back(to);
 }
 
@@ -60,7 +73,8 @@ std::optional<MarkMade> MarkPresses::take(const Moment& moment) {
     moved_ = false;
   }
   moved_ = moved_ || glm::distance(at, mark_.position_mm) > still_mm;
-  if (glm::distance(at, path_.points_mm.back()) >= path_step_mm) step(path_, at);
+  touches_ = !boundary_of(moment).empty();
+  if (glm::distance(at, path_.points_mm.back()) >= path_step_mm) step(path_, at, touches_);
   path_.end_s = moment.time_s;
   last_mm_ = at;
   return std::nullopt;
@@ -68,9 +82,16 @@ std::optional<MarkMade> MarkPresses::take(const Moment& moment) {
 
 std::optional<MarkMade> MarkPresses::finish() {
   if (!std::exchange(down_, false)) return std::nullopt;
-  if (!moved_) return std::move(mark_);
-  if (path_.points_mm.back() != last_mm_) step(path_, last_mm_);
+  if (!moved_ || path_.end_s - path_.begin_s < tap_s) return std::move(mark_);
+  if (path_.points_mm.back() != last_mm_) step(path_, last_mm_, touches_);
   return std::move(path_);
+}
+
+PathContact contact_of(const MarkedPath& path) {
+  constexpr double little = 0.05;  // of its length: where it begins and ends
+  if (std::isnan(path.touched_mm)) return PathContact::unknown;
+  if (path.touched_mm >= (1 - little) * path.length_mm) return PathContact::all_along;
+  return path.touched_mm <= little * path.length_mm ? PathContact::nowhere : PathContact::partly;
 }
 
 Marks marks_of(const RecordedSession& session) {

@@ -26,9 +26,11 @@ struct FeltMark {
   std::uint64_t tick = 0;  ///< index of the tick
   double time_s = 0;       ///< since the session or its recording began
   glm::dvec3 position_mm{0};
-  std::string boundary;  ///< the mode that pushed most, by its name or type; empty: nothing was felt
-  double value = 0;      ///< of the scan; NaN outside
-  double force_n = 0;    ///< N, of what the stylus was fed
+  /// The boundary that held the stylus with more than 0.05 N, the strongest of them, by its mode's name or type; empty:
+  /// none did. What is felt everywhere, as friction, is no boundary.
+  std::string boundary;
+  double value = 0;    ///< of the scan; NaN outside
+  double force_n = 0;  ///< N, of what the stylus was fed
 };
 
 /// The path of the proxy while the button was held down.
@@ -37,7 +39,12 @@ struct MarkedPath {
   double begin_s = 0, end_s = 0;
   std::vector<glm::dvec3> points_mm;
   double length_mm = 0;
+  double touched_mm = 0;  ///< of its length, where a boundary held the stylus; NaN: not known
 };
+
+/// Whether a boundary held the stylus all along a path, nowhere, or on parts of it.
+enum class PathContact { all_along, nowhere, partly, unknown };
+PathContact contact_of(const MarkedPath& path);
 
 /// Between two marks.
 struct MarkedDistance {
@@ -61,8 +68,8 @@ struct Marks {
 /// What a press made; it has no name yet.
 using MarkMade = std::variant<FeltMark, MarkedPath>;
 
-/// Follows the mark button from tick to tick. A press during which the proxy stays within 2 mm makes a mark at the
-/// place where the press began; any other makes a path.
+/// Follows the mark button from tick to tick. A press that is shorter than 0.25 s, or during which the proxy stays within
+/// 2 mm, makes a mark at the place where it began; any other makes a path.
 class MarkPresses {
  public:
   struct Moment {
@@ -81,7 +88,7 @@ class MarkPresses {
   bool is_down() const { return down_; }
 
  private:
-  bool down_ = false, moved_ = false;
+  bool down_ = false, moved_ = false, touches_ = false;
   FeltMark mark_;
   MarkedPath path_;
   glm::dvec3 last_mm_{0};

@@ -55,7 +55,7 @@ Recording random_presses(std::mt19937& random, int ticks) {
     proxy_m += (moves ? 2e-4 : 4e-5) * glm::dvec3(normal(random), normal(random), normal(random));
     TickRecord tick;
     tick.index = 100 + static_cast<std::uint64_t>(n);
-    tick.time_s = 4 + 2e-3 * n;
+    tick.time_s = 4 + 2e-2 * n;
     tick.scene_epoch = 3;
     tick.value = normal(random);
     tick.buttons = (down ? mark_button : 0) | (random() % 2 == 0 ? 5 : 0);  // others mark nothing
@@ -85,6 +85,13 @@ Marks marks_by_hand(const Recording& recording) {
     share += tick.share_count;
   }
   const std::size_t size = recording.ticks.size();
+  const auto is_held = [&](std::size_t tick) {
+    for (std::size_t n = 0; n < recording.ticks[tick].share_count; ++n) {
+      const PrimitiveRecord& one = recording.shares[first_share[tick] + n];
+      if (one.mode == 0 && std::hypot(one.force_n[0], one.force_n[1], one.force_n[2]) > 0.05) return true;
+    }
+    return false;
+  };
   for (std::size_t begin = 0; begin < size; ++begin) {
     if ((recording.ticks[begin].buttons & 2) == 0) continue;
     std::size_t end = begin;
@@ -98,21 +105,22 @@ Marks marks_by_hand(const Recording& recording) {
       moved = moved || glm::distance(at, place_of(first)) > 2;
       if (glm::distance(at, path.points_mm.back()) >= 0.2 || (n + 1 == end && at != path.points_mm.back())) {
         path.length_mm += glm::distance(at, path.points_mm.back());
+        if (is_held(n)) path.touched_mm += glm::distance(at, path.points_mm.back());
         path.points_mm.push_back(at);
       }
     }
-    if (moved) {
+    if (moved && path.end_s - path.begin_s >= 0.25) {
       path.name = "Path " + std::to_string(marks.paths.size() + 1);
       marks.paths.push_back(path);
     } else {
-      double strongest = 0;
+      double strongest = 0.05;
       std::string boundary;
       for (std::size_t n = 0; n < first.share_count; ++n) {
         const PrimitiveRecord& one = recording.shares[first_share[begin] + n];
         const double length = std::hypot(one.force_n[0], one.force_n[1], one.force_n[2]);
-        if (one.mode >= 2 || length <= strongest) continue;
+        if (one.mode != 0 || length <= strongest) continue;  // friction is no boundary
         strongest = length;
-        boundary = one.mode == 0 ? "skin" : "friction";
+        boundary = "skin";
       }
       marks.points.push_back({.name = "Mark " + std::to_string(marks.points.size() + 1),
                               .tick = first.index,
@@ -158,6 +166,7 @@ TEST(MarksOf, ARecordingAreItsPresses) {
       EXPECT_NEAR(one.begin_s, other.begin_s, 1e-12);
       EXPECT_NEAR(one.end_s, other.end_s, 1e-12);
       EXPECT_NEAR(one.length_mm, other.length_mm, 1e-9);
+      EXPECT_NEAR(one.touched_mm, other.touched_mm, 1e-9);
       ASSERT_EQ(one.points_mm.size(), other.points_mm.size());
       for (std::size_t p = 0; p < one.points_mm.size(); ++p) {
         EXPECT_LT(glm::distance(one.points_mm[p], other.points_mm[p]), 1e-9);

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,9 @@ modes::Scene skin_and_bone() {
   modes::Scene scene;
   scene.modes.push_back({.type = "surface", .name = "skin"});
   scene.modes.push_back({.type = "surface"});
+  scene.modes.push_back({.type = "friction", .name = "friction"});
+  scene.modes.push_back({.type = "force", .name = "push"});
+  scene.modes.push_back({.type = "keep_out", .name = "liver"});
   return scene;
 }
 
@@ -27,11 +31,12 @@ struct Hand {
   const modes::Scene scene = skin_and_bone();
   MarkPresses presses;
   std::uint64_t tick = 0;
+  double step_s = 1e-3;
 
   std::optional<MarkMade> at(const glm::dvec3& place, bool down, const std::vector<PrimitiveRecord>& shares = {}) {
     TickRecord record;
     record.index = tick;
-    record.time_s = 1e-3 * static_cast<double>(tick++);
+    record.time_s = step_s * static_cast<double>(tick++);
     record.value = 41;
     record.sent_n[1] = -0.5;
     record.buttons = down ? mark_button : 1;  // the first button marks nothing
@@ -88,8 +93,61 @@ TEST(MarkPresses, KeptDownWhileItMovesItIsAPathAsLongAsItsWay) {
   EXPECT_NEAR(path.end_s - path.begin_s, 3, 1e-9);
 }
 
+/// What is felt everywhere, and what is too faint to be felt, is no boundary; nor is a mode of the scene before.
+TEST(MarkPresses, SayWhichBoundaryHeldAndThatNoneDid) {
+  struct Case {
+    std::uint32_t mode;
+    double force_n;
+    const char* boundary;
+  };
+  for (const Case& one : {Case{0, 0.06, "skin"}, Case{0, 0.04, ""}, Case{2, 3, ""}, Case{3, 3, ""}, Case{4, 3, "liver"},
+                          Case{7, 3, ""}}) {
+    Hand hand;
+    PrimitiveRecord share;
+    share.mode = one.mode;
+    share.force_n[1] = one.force_n;
+    hand.at({1, 2, 3}, true, {share});
+    const auto made = hand.at({1, 2, 3}, false);
+    EXPECT_EQ(std::get<FeltMark>(made.value()).boundary, one.boundary) << one.mode << ", " << one.force_n << " N";
+  }
+}
+
+TEST(MarkPresses, TellHowMuchOfAPathWasInContact) {
+  for (const auto& [held_steps, contact] :
+       {std::pair{0, PathContact::nowhere}, {50, PathContact::partly}, {100, PathContact::all_along}}) {
+    Hand hand{.step_s = 0.01};
+    PrimitiveRecord skin, friction;
+    skin.force_n[1] = 0.5;
+    friction.mode = 2;
+    friction.force_n[1] = 0.5;
+    hand.at({0, 0, 0}, true, {friction});
+    for (int n = 1; n <= 100; ++n) {
+      hand.at({0.3 * n, 0, 0}, true, n <= held_steps ? std::vector{skin, friction} : std::vector{friction});
+    }
+    const auto made = hand.presses.finish();
+    const auto& path = std::get<MarkedPath>(made.value());
+    EXPECT_NEAR(path.touched_mm, 0.3 * held_steps, 1e-9);
+    EXPECT_EQ(contact_of(path), contact) << held_steps;
+  }
+  EXPECT_EQ(contact_of({.length_mm = 3, .touched_mm = std::nan("")}), PathContact::unknown);
+}
+
+TEST(MarkPresses, ATapIsAMarkHoweverFastTheHandMoves) {
+  for (const double tap_s : {0.05, 0.24, 0.26, 1.0}) {
+    Hand hand;
+    hand.step_s = tap_s / 100;
+    for (int n = 0; n <= 100; ++n) hand.at({0.1 * n, 0, 0}, true);
+    const auto made = hand.at({10, 0, 0}, false);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(std::holds_alternative<FeltMark>(*made), tap_s < 0.25) << tap_s;
+    if (tap_s < 0.25) {
+      EXPECT_EQ(std::get<FeltMark>(*made).position_mm, glm::dvec3(0, 0, 0));
+    }
+  }
+}
+
 TEST(MarkPresses, TremorAddsNothingToAPath) {
-  Hand hand;
+  Hand hand{.step_s = 0.01};
   for (int n = 0; n <= 100; ++n) hand.at({0.1 * n, n % 2 == 0 ? 0.0 : 0.05, 0}, true);
   const auto made = hand.presses.finish();
   ASSERT_TRUE(made && std::holds_alternative<MarkedPath>(*made));
@@ -137,7 +195,7 @@ TEST(Marks, WhatLiesBetweenThemGoesWithThem) {
 /// last is where it let go.
 TEST(MarkPresses, TwoMillimetersTellAMarkFromAPath) {
   for (const double moved_mm : {1.99, 2.01}) {
-    Hand hand;
+    Hand hand{.step_s = 0.2};
     hand.at({0, 0, 0}, true);
     hand.at({0, moved_mm, 0}, true);
     hand.at({0, 0.1, 0}, true);
@@ -146,7 +204,7 @@ TEST(MarkPresses, TwoMillimetersTellAMarkFromAPath) {
     EXPECT_EQ(std::holds_alternative<MarkedPath>(*made), moved_mm > 2) << moved_mm;
   }
   const auto points_of = [](std::initializer_list<double> way) {
-    Hand hand;
+    Hand hand{.step_s = 0.2};
     for (const double x : way) hand.at({x, 0, 0}, true);
     const auto made = hand.presses.finish();
     std::vector<double> places;

@@ -24,8 +24,11 @@ Json json_of_all(const Marks& marks) {
   for (const MarkedPath& path : marks.paths) {
     Json points = Json::array();
     for (const glm::dvec3& point : path.points_mm) points.push_back(json_of(point));
-    json["paths"].push_back(
-        {{"name", path.name}, {"begin_s", path.begin_s}, {"end_s", path.end_s}, {"points_mm", points}});
+    json["paths"].push_back({{"name", path.name},
+                             {"begin_s", path.begin_s},
+                             {"end_s", path.end_s},
+                             {"touched_mm", std::isnan(path.touched_mm) ? Json() : Json(path.touched_mm)},
+                             {"points_mm", points}});
   }
   for (const MarkedDistance& of : marks.distances) json["distances"].push_back(Json::array({of.from, of.to}));
   for (const MarkedAngle& of : marks.angles) json["angles"].push_back(Json::array({of.from, of.at, of.to}));
@@ -80,6 +83,8 @@ Marks marks_of_json(const Json& json) {
     MarkedPath path{.name = of.at("name").get<std::string>(),
                     .begin_s = number_of(of.at("begin_s")),
                     .end_s = number_of(of.at("end_s"))};
+    const Json touched = of.value("touched_mm", Json());  // not known in marks of before 0.2
+    path.touched_mm = touched.is_null() ? std::numeric_limits<double>::quiet_NaN() : number_of(touched);
     for (const Json& point : of.at("points_mm")) path.points_mm.push_back(place_of(point));
     if (path.points_mm.size() < 2) refuse("a path has no length");
     for (std::size_t n = 1; n < path.points_mm.size(); ++n) {

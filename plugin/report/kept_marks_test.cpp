@@ -53,6 +53,7 @@ TEST(KeptMarks, ComeBackToTheLastBit) {
   EXPECT_DOUBLE_EQ(marks.paths[0].length_mm, 17);
   EXPECT_EQ(marks.paths[0].name, "Path 1");
   EXPECT_EQ(marks.paths[0].begin_s, 1);
+  EXPECT_EQ(marks.paths[0].touched_mm, wanted.paths[0].touched_mm);
   EXPECT_EQ(marks.paths[0].end_s, 2);
   ASSERT_EQ(marks.distances.size(), 1U);
   EXPECT_DOUBLE_EQ(marks.distances[0].mm, 5);

@@ -1,11 +1,31 @@
 #include "plugin/report/mark_results.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "plugin/report/mark_pictures.h"
+#include "plugin/report/summary.h"
 
 namespace palpate::plugin {
+namespace {
+
+std::string contact_in_words(const MarkedPath& path) {
+  switch (contact_of(path)) {
+    case PathContact::nowhere:
+      return ", without contact";
+    case PathContact::partly:
+      return fmt::format(", {:.1f} mm of it in contact", path.touched_mm);
+    case PathContact::all_along:
+      return ", along a boundary";
+    case PathContact::unknown:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
 
 io::MeasurementReport report_of(const Marks& marks) {
   io::MeasurementReport report{.software_version = PALPATE_VERSION};
@@ -20,8 +40,25 @@ io::MeasurementReport report_of(const Marks& marks) {
     const FeltMark& to = marks.points[distance.to];
     report.lengths.push_back({from.name + " to " + to.name, {from.position_mm, to.position_mm}, distance.mm});
   }
-  for (const MarkedPath& path : marks.paths) report.lengths.push_back({path.name, path.points_mm, path.length_mm});
+  for (const MarkedPath& path : marks.paths) {
+    report.lengths.push_back({path.name + contact_in_words(path), path.points_mm, path.length_mm});
+  }
   return report;
+}
+
+std::string report_in_words(const io::MeasurementReport& report, const std::string& unit) {
+  std::string text;
+  for (const io::MarkedPoint& point : report.points) {
+    text += fmt::format("{}: {}", point.name, patient_coordinates(point.position_mm));
+    text += point.structure.empty() ? ", no boundary felt" : ", felt boundary: " + point.structure;
+    if (point.value) text += fmt::format(", value {:.6g}{}", *point.value, unit.empty() ? "" : " " + unit);
+    if (point.force_n) text += fmt::format(", {:.2f} N", *point.force_n);
+    text += '\n';
+  }
+  for (const io::MeasuredLength& length : report.lengths) {
+    text += fmt::format("{}: {:.1f} mm\n", length.name, length.length_mm);
+  }
+  return text;
 }
 
 std::vector<std::filesystem::path> write_results(const io::Series& series,

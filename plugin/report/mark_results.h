@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "io/results/measurement_report.h"
@@ -15,6 +16,9 @@ namespace palpate::plugin {
 
 /// The marks, distances and paths for a report. Angles are left out: TID 1500 has no length for them.
 io::MeasurementReport report_of(const Marks& marks);
+
+/// What the report says, a line for each mark, distance and path. `unit`: of the scan.
+std::string report_in_words(const io::MeasurementReport& report, const std::string& unit);
 
 /// Writes the report, and a picture of each mark, into an existing folder. Returns the files, the report first. Throws
 /// what io::write_measurement_report() throws.

@@ -88,6 +88,7 @@ std::string marks_as_json(const Marks& marks, const std::string& unit) {
                              {"begin_s", path.begin_s},
                              {"end_s", path.end_s},
                              {"length_mm", path.length_mm},
+                             {"touched_mm", std::isnan(path.touched_mm) ? Json() : Json(path.touched_mm)},
                              {"points_mm", points}});
   }
   for (const MarkedDistance& distance : marks.distances) {

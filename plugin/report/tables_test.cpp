@@ -213,7 +213,12 @@ Marks marks() {
        .force_n = 0.5},
       {.name = "B", .time_s = 2.5, .position_mm = {4, 5, -6}, .boundary = "bone", .value = 300, .force_n = 0.75},
       {.name = "C", .time_s = 3.5, .position_mm = {7, 8, 9}, .value = std::nan(""), .force_n = 0}};
-  all.paths = {{.name = "P", .begin_s = 4.5, .end_s = 5.5, .points_mm = {{11, 12, 13}, {14, 16, 13}}, .length_mm = 5}};
+  all.paths = {{.name = "P",
+                .begin_s = 4.5,
+                .end_s = 5.5,
+                .points_mm = {{11, 12, 13}, {14, 16, 13}},
+                .length_mm = 5,
+                .touched_mm = 2}};
   all.distances = {{.from = 1, .to = 2, .mm = 15.5}};
   all.angles = {{.from = 2, .at = 0, .to = 1, .degrees = 77.5}};
   return all;
@@ -269,7 +274,7 @@ TEST(Tables, TheMarksJsonIsWhatItIsCalled) {
   EXPECT_EQ(json["marks"][0], Json::parse(R"({"name": "A, left", "tick": 7, "time_s": 1.25, "position_mm": [1, -2, 3],
       "boundary": "skin", "value": 41.5, "force_n": 0.5})"));
   EXPECT_TRUE(json["marks"][2]["value"].is_null());
-  EXPECT_EQ(json["paths"], Json::parse(R"([{"name": "P", "begin_s": 4.5, "end_s": 5.5, "length_mm": 5,
+  EXPECT_EQ(json["paths"], Json::parse(R"([{"name": "P", "begin_s": 4.5, "end_s": 5.5, "length_mm": 5, "touched_mm": 2,
       "points_mm": [[11, 12, 13], [14, 16, 13]]}])"));
   EXPECT_EQ(json["distances"], Json::parse(R"([{"from": "B", "to": "C", "length_mm": 15.5}])"));
   EXPECT_EQ(json["angles"], Json::parse(R"([{"at": "A, left", "degrees": 77.5}])"));
@@ -310,9 +315,22 @@ TEST(Tables, AReportsPointsAndLengthsAreTheMarks) {
   EXPECT_EQ(report.lengths[0].name, "B to C");
   EXPECT_THAT(report.lengths[0].points_mm, ElementsAre(glm::dvec3(4, 5, -6), glm::dvec3(7, 8, 9)));
   EXPECT_EQ(report.lengths[0].length_mm, 15.5);
-  EXPECT_EQ(report.lengths[1].name, "P");
+  EXPECT_EQ(report.lengths[1].name, "P, 2.0 mm of it in contact");
   EXPECT_THAT(report.lengths[1].points_mm, ElementsAre(glm::dvec3(11, 12, 13), glm::dvec3(14, 16, 13)));
   EXPECT_EQ(report.lengths[1].length_mm, 5);
+}
+
+/// It is shown before it is sent.
+TEST(Tables, AReportIsReadInWords) {
+  Marks all = marks();
+  all.paths.push_back({.name = "Q", .points_mm = {{0, 0, 0}, {0, 3, 0}}, .length_mm = 3});
+  EXPECT_EQ(report_in_words(report_of(all), "HU"),
+            "A, left: L 1.0 A 2.0 H 3.0 mm, felt boundary: skin, value 41.5 HU, 0.50 N\n"
+            "B: L 4.0 P 5.0 F 6.0 mm, felt boundary: bone, value 300 HU, 0.75 N\n"
+            "C: L 7.0 P 8.0 H 9.0 mm, no boundary felt, 0.00 N\n"
+            "B to C: 15.5 mm\n"
+            "P, 2.0 mm of it in contact: 5.0 mm\n"
+            "Q, without contact: 3.0 mm\n");
 }
 
 /// What else a stroke's charts show: who pushes where, what tissue is crossed, and how far each axis reaches.

@@ -20,10 +20,10 @@ constexpr double finest_mm = 0.25;
 constexpr int most_across_a_sheet = 600, most_across_a_box = 160;
 constexpr int block = 8;  // nodes a side: sampled once where the surface is far away
 
-/// Nodes of a lattice, and the distance at each of them near the surface; elsewhere only its sign is right.
+/// Nodes of a lattice, and the distance at each of them near where it is `at_mm`; elsewhere only its side is right.
 template <typename PlaceOf>
 vtkSmartPointer<vtkImageData> sampled(const io::DistanceField& distance, const glm::ivec3& size, double step,
-                                      const PlaceOf& place_of) {
+                                      const PlaceOf& place_of, double at_mm = 0) {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(size.x, size.y, size.z);
   image->SetSpacing(step, step, step);
@@ -39,7 +39,8 @@ vtkSmartPointer<vtkImageData> sampled(const io::DistanceField& distance, const g
     for (int k = first.z; k < end.z; ++k) {
       for (int j = first.y; j < end.y; ++j) {
         for (int i = first.x; i < end.x; ++i) {
-          const double mm = std::abs(middle) > far_mm ? middle : distance.sample(place_of(glm::dvec3(i, j, k))).mm;
+          const double mm =
+              std::abs(middle - at_mm) > far_mm ? middle : distance.sample(place_of(glm::dvec3(i, j, k))).mm;
           values[(static_cast<std::ptrdiff_t>(k) * size.y + j) * size.x + i] = static_cast<float>(mm);
         }
       }
@@ -54,15 +55,15 @@ int nodes(double size_mm, double step) {
 
 }  // namespace
 
-vtkSmartPointer<vtkPolyData> outline_of(const io::DistanceField& distance, const Sheet& sheet) {
+vtkSmartPointer<vtkPolyData> outline_of(const io::DistanceField& distance, const Sheet& sheet, double at_mm) {
   const double step = std::max(finest_mm, std::max(sheet.size_mm.x, sheet.size_mm.y) / most_across_a_sheet);
   const auto place_of = [&](const glm::dvec3& node) {
     return sheet.corner + step * (node.x * sheet.right + node.y * sheet.up);
   };
   vtkNew<vtkFlyingEdges2D> contour;
   contour->SetInputData(
-      sampled(distance, {nodes(sheet.size_mm.x, step), nodes(sheet.size_mm.y, step), 1}, step, place_of));
-  contour->SetValue(0, 0.0);
+      sampled(distance, {nodes(sheet.size_mm.x, step), nodes(sheet.size_mm.y, step), 1}, step, place_of, at_mm));
+  contour->SetValue(0, at_mm);
   contour->ComputeScalarsOff();
   contour->Update();
   vtkSmartPointer<vtkPolyData> lines = contour->GetOutput();

@@ -21,8 +21,9 @@ struct Sheet {
   glm::dvec2 size_mm{0};
 };
 
-/// Lines in the plane, patient space; none if the structure does not meet the plane.
-PALPATESERVER_EXPORT vtkSmartPointer<vtkPolyData> outline_of(const io::DistanceField& distance, const Sheet& sheet);
+/// Lines in the plane, patient space, where the distance is `at_mm`; none if that is nowhere in the plane.
+PALPATESERVER_EXPORT vtkSmartPointer<vtkPolyData> outline_of(const io::DistanceField& distance, const Sheet& sheet,
+                                                             double at_mm = 0);
 
 /// Its surface within a box, patient space.
 PALPATESERVER_EXPORT vtkSmartPointer<vtkPolyData> surface_of(const io::DistanceField& distance,

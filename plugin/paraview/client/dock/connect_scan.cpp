@@ -9,6 +9,8 @@
 
 #include <QProgressBar>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "plugin/app/open_scan.h"
@@ -26,7 +28,7 @@
 #include "plugin/paraview/client/scan/first_folder.h"
 #include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/mapping.h"
-#include "plugin/paraview/client/views/image_lattice.h"
+#include "plugin/paraview/client/views/color_maps.h"
 #include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
@@ -53,6 +55,8 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   if (!pqActiveObjects::instance().activeServer()) return;
   const bool restored = brought != Brought::by_opening && kept.is_open();
   touching.release();
+  // Before the scene: what is chosen here is of the scan before.
+  look_box->set_looks(readers.views().looks(), readers.views().first_look());
   if (!restored) {
     modes::Scene scene = scene_for(handle.scene, *handle.volume);
     scene.workspace.fit = true;
@@ -66,11 +70,7 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   show_marks(handle);
   open_views.set(readers.views().views());
   curves->profile().forget();
-  look_box->set_looks(readers.views().looks(), readers.views().first_look());
   read_opacity();
-  const ImageLattice lattice = lattice_of(*vtkSMSourceProxy::SafeDownCast(readers.source()->getProxy()));
-  low = lattice.values.low;
-  high = lattice.values.high;
   flow.set_volume(handle.volume);
   filter->refresh();
   draw_contours();
@@ -85,8 +85,22 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
 void PanelParts::show_frame(const ScanHandle& handle) {
   touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
   flow.set_volume(handle.volume);
+  show_frame_values();
   draw_contours();
   note_scan(handle);
+}
+
+/// A frame may be a tenth as bright as the one before: windows and looks are its own, as far as nobody chose others.
+void PanelParts::show_frame_values() {
+  const auto look = static_cast<std::size_t>(std::max(look_box->currentIndex(), 0));
+  const bool is_named = look_box->currentIndex() >= 0 && look < readers.views().looks().size();
+  if (!readers.source()) return;
+  readers.views().show_frame_values(*vtkSMSourceProxy::SafeDownCast(readers.source()->getProxy()));
+  if (readers.views().looks().empty()) return;
+  const std::optional<std::size_t> chosen =
+      look_box->currentIndex() < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(look_box->currentIndex()));
+  look_box->set_looks(readers.views().looks(), chosen);
+  if (is_named) change_volume([&](vtkSMProxy& volume) { set_volume_look(volume, readers.views().looks().at(look)); });
 }
 
 void PanelParts::note_scan(const ScanHandle& handle) {

@@ -5,11 +5,10 @@
 #include <vtkSMProxy.h>
 
 #include "plugin/paraview/client/dock/parts.h"
-#include "plugin/paraview/client/layout/volume_look_box.h"
 #include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/structures_section.h"
-#include "plugin/paraview/client/views/boundary_colors.h"
+#include "plugin/paraview/client/views/volume_opacity.h"
 
 // A scene is edited: the views follow.
 
@@ -17,9 +16,8 @@ namespace palpate::plugin {
 
 void PanelParts::connect_scene() {
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) {
-    if (pace == Pace::stepped) color_views();
     if (const auto felt = touching.live().felt_scan(); felt && felt != studied.lock()) study(felt);
-    draw_contours();
+    draw_contours(pace);
   });
   QObject::connect(profile, &ProfileSection::picking, &dock, [this](bool on) {
     touching.keep_mouse_off(on);
@@ -39,14 +37,8 @@ void PanelParts::connect_scene() {
   readers.views().set_slice_shown([this](SliceView& slice) { open_views.show_slice(slice); });
 }
 
-void PanelParts::draw_contours() {
-  contours.set_felt(touching.live().felt_scan(), model.scene(), touching.live().plan());
-}
-
-/// Where the volume is shown by what is felt, and not as somebody has chosen.
-void PanelParts::color_views() {
-  if (!look_box->is_felt()) return;
-  change_volume([this](vtkSMProxy& volume) { color_volume(volume, model.scene(), low, high); });
+void PanelParts::draw_contours(Pace pace) {
+  contours.set_felt(touching.live().felt_scan(), model.scene(), touching.live().plan(), pace);
 }
 
 void PanelParts::change_volume(const std::function<void(vtkSMProxy&)>& change) {

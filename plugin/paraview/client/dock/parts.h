@@ -24,6 +24,7 @@
 #include "plugin/paraview/client/remote/server_watch.h"
 #include "plugin/paraview/client/stylus/stylus_views.h"
 #include "plugin/paraview/client/views/boundary_contours.h"
+#include "plugin/paraview/client/views/drawing_watch.h"
 #include "plugin/paraview/client/views/flow_views.h"
 #include "plugin/paraview/client/views/mark_views.h"
 #include "plugin/paraview/client/views/reference_lines.h"
@@ -63,7 +64,8 @@ struct PanelParts {
         contours(open_views),
         crosshair(open_views),
         drawn_marks(open_views, [this]() -> const Marks& { return marks.marks(); }),
-        views(open_views, touching, model) {}
+        views(open_views, touching, model),
+        drawing(open_views, [this](double seconds) { touching.note_work(tr("drawing"), seconds); }) {}
 
   void build();
   // build_column.cpp
@@ -96,8 +98,8 @@ struct PanelParts {
   void send_marks();
   // connect_scene.cpp
   void connect_scene();
-  void draw_contours();
-  void color_views();
+  void draw_contours(Pace pace = Pace::stepped);
+  void show_frame_values();
   void change_volume(const std::function<void(vtkSMProxy&)>& change);
   void read_opacity();
   // connect_session.cpp
@@ -119,6 +121,7 @@ struct PanelParts {
   ReferenceLines crosshair;
   MarkViews drawn_marks;
   StylusViews views;
+  DrawingWatch drawing;
   QTimer next_turn;  // of a picture that comes in turns
   ServerWatch servers;
   ServerStructures served;
@@ -145,7 +148,6 @@ struct PanelParts {
   VolumeLookBox* look_box = nullptr;
   bool leaving = false;                     // a server
   QString opening;                          // whose scan is coming, in words
-  double low = 0, high = 1;                 // of what the scan holds
   std::weak_ptr<const io::Volume> studied;  // for its tissues
   std::uint64_t followed = 0;               // last tick of a recording that the slices followed
   ScanLoader studies;                       // last: its thread is to end before all that its callbacks use

@@ -758,7 +758,7 @@
         <translation>Zeigt erst, was an ein Archiv gesendet würde, und für welchen Patienten</translation>
     </message>
     <message>
-        <source>nothing felt</source>
+        <source>no boundary felt</source>
         <translation>nichts gefühlt</translation>
     </message>
     <message>

@@ -5,8 +5,10 @@
 #include <pqServerManagerModel.h>
 #include <pqTabbedMultiViewWidget.h>
 
+#include <QAction>
 #include <QCoreApplication>
 #include <QDockWidget>
+#include <QKeySequence>
 #include <QMainWindow>
 #include <QSettings>
 #include <QStatusBar>
@@ -66,8 +68,18 @@ void HostLayout::place_first() {
   }
 }
 
+/// ParaView's Ctrl+S exports the values of the scan; what a user means is all that is here.
+void HostLayout::let_key_save_state() {
+  auto* const data = window_.findChild<QAction*>(QStringLiteral("actionFileSaveData"));
+  auto* const state = window_.findChild<QAction*>(QStringLiteral("actionFileSaveServerState"));
+  if (!data || !state) return;
+  data->setShortcut({});
+  state->setShortcut(QKeySequence::Save);
+}
+
 void HostLayout::begin() {
   place_first();
+  let_key_save_state();
   if (has_pipeline() || QSettings().value(remembered(), false).toBool()) {
     emit advanced_changed(true);
     return;

@@ -31,6 +31,7 @@ class HostLayout : public QObject {
 
  private:
   void begin();
+  void let_key_save_state();
   void place_first();
   void hide_host();
   void show_host();

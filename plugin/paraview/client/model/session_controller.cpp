@@ -260,11 +260,14 @@ void SessionController::follow_marks() {
   if (!is_pressed && !presses_.is_down()) return;
   if (is_pressed && std::exchange(letting_mark_go_, false)) live_.press(0);
   const modes::Workspace reach = modes::between(before_, now_, tick.change_part);
-  const auto made = presses_.take({.tick = tick,
-                                   .time_s = tick.time_s,
-                                   .proxy_mm = reach.to_patient(vector_of(tick.proxy_m)),
-                                   .shares = look_.shares,
-                                   .scene = live_.scene()});
+  auto made = presses_.take({.tick = tick,
+                             .time_s = tick.time_s,
+                             .proxy_mm = reach.to_patient(vector_of(tick.proxy_m)),
+                             .shares = look_.shares,
+                             .scene = live_.scene()});
+  if (auto* const mark = made ? std::get_if<FeltMark>(&*made) : nullptr; mark && !mark->boundary.empty()) {
+    mark->boundary = name_at_place(mark->boundary, live_.felt(), mark->position_mm, sites_.get());
+  }
   if (made) emit marked(*made);
 }
 
@@ -348,6 +351,9 @@ void SessionController::look() {
   }
   if (!ticks.empty()) look_.tick_us = io::quantile(std::move(ticks), 0.5);
   const TickRecord& tick = look_.tick;
+  const bool is_silent = fault_of(tick) == device::Fault::commander_silent;
+  if (!is_silent) look_.held_up.clear();
+  if (is_silent && look_.held_up.isEmpty()) look_.held_up = slow_.in_words();
   look_.feels = feels();
   look_.workspace = modes::between(before_, now_, tick.change_part);
   look_.probe_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(tick.probe_m));

@@ -20,6 +20,7 @@
 #include "plugin/app/live_session.h"
 #include "plugin/app/stylus_choice.h"
 #include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/paraview/client/model/slow_work.h"
 #include "plugin/recording/marks.h"
 #include "plugin/report/nearest_structure.h"
 
@@ -49,6 +50,7 @@ struct SessionStatus {
   std::optional<glm::dquat> orientation;  ///< of the stylus in the patient, where it tells: its z along the handle
   QString homing;                         ///< how the stylus is homed
   QString trouble;                        ///< what is wrong with it, and what to do; empty: nothing
+  QString held_up;                        ///< why the panel stopped answering, as far as known: "drawing took 2.3 s"
 
   bool is_seen() const { return fresh && (connected || replayed); }
 };
@@ -66,6 +68,9 @@ class SessionController : public QObject {
   void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
   /// Where in the scan its boundaries are met, once that is known: what holds is named by it.
   void set_sites(std::shared_ptr<const modes::SiteMap> sites) { sites_ = std::move(sites); }
+  /// Work of the panel's thread that has just ended, as "drawing": if the force goes because the panel did not answer, it
+  /// is named.
+  void note_work(const QString& what, double seconds) { slow_.note(what, seconds); }
   /// Until the next set_scan() a scene only has to be valid, because it is meant for the scan that will come.
   void expect_scan() { expects_scan_ = true; }
   bool expects_scan() const { return expects_scan_; }
@@ -170,6 +175,7 @@ class SessionController : public QObject {
   glm::dvec3 clutched_at_mm_{0};
   SessionStatus look_;
   std::shared_ptr<const modes::SiteMap> sites_;
+  SlowWork slow_;
   std::function<SessionStatus()> instead_;
   QString recording_to_;
   QTimer heart_, looks_;

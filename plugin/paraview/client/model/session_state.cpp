@@ -27,8 +27,11 @@ StateLine state_line_of(const SessionStatus& look) {
     const bool lost = device == device::State::fault || device == device::State::disconnected;
     const QString advice = QString::fromStdString(device::advice_for(fault));
     // The stylus knows more than that it is lost.
-    return {SessionState::stopped,
-            translated("Stopped: %1").arg(lost && !look.trouble.isEmpty() ? look.trouble : advice), true, lost};
+    QString why = lost && !look.trouble.isEmpty() ? look.trouble : advice;
+    if (fault == device::Fault::commander_silent && !look.held_up.isEmpty()) {
+      why += QStringLiteral(" (%1)").arg(look.held_up);
+    }
+    return {SessionState::stopped, translated("Stopped: %1").arg(why), true, lost};
   }
   if (look.clutched) return {SessionState::ready, translated("Ready: clutched, move your hand or the view freely")};
   if (!look.fresh) return {SessionState::ready, translated("Ready: the stylus is starting")};

@@ -112,6 +112,21 @@ MarksSection::Row MarksSection::row_of(const QTreeWidgetItem& item) const {
   return all[static_cast<std::size_t>(at)];
 }
 
+QString MarksSection::path_in_words(const MarkedPath& path) const {
+  const QString length = length_in_words(path.length_mm);
+  switch (contact_of(path)) {
+    case PathContact::all_along:
+      return tr("%1 along the surface").arg(length);
+    case PathContact::nowhere:
+      return tr("%1 without contact").arg(length);
+    case PathContact::partly:
+      return tr("%1, of which %2 along the surface").arg(length, length_in_words(path.touched_mm));
+    case PathContact::unknown:
+      break;
+  }
+  return length;
+}
+
 void MarksSection::fill(QTreeWidgetItem& item, const Row& row) {
   const Marks& marks = model_.marks();
   const auto name = [&](std::size_t mark) { return text(marks.points[mark].name); };
@@ -121,7 +136,7 @@ void MarksSection::fill(QTreeWidgetItem& item, const Row& row) {
     case Kind::mark: {
       const FeltMark& mark = marks.points[row.index];
       item.setText(0, text(mark.name));
-      QStringList parts{mark.boundary.empty() ? tr("nothing felt") : text(mark.boundary)};
+      QStringList parts{mark.boundary.empty() ? tr("no boundary felt") : text(mark.boundary)};
       if (std::isfinite(mark.value)) parts << QStringLiteral("%1 %2").arg(mark.value, 0, 'g', 4).arg(unit()).trimmed();
       parts << tr("%1 N").arg(mark.force_n, 0, 'f', 2);
       what = parts.join(QStringLiteral(" · "));
@@ -132,7 +147,7 @@ void MarksSection::fill(QTreeWidgetItem& item, const Row& row) {
     case Kind::path: {
       const MarkedPath& path = marks.paths[row.index];
       item.setText(0, text(path.name));
-      what = tr("%1 along the surface").arg(length_in_words(path.length_mm));
+      what = path_in_words(path);
       tip = tr("%1 to %2").arg(place_in_words(path.points_mm.front()), place_in_words(path.points_mm.back()));
       item.setFlags(item.flags() | Qt::ItemIsEditable);
       break;

@@ -48,6 +48,7 @@ class MarksSection : public QWidget {
 
   void build();
   void list();
+  QString path_in_words(const MarkedPath& path) const;
   void fill(QTreeWidgetItem& item, const Row& row);
   std::vector<Row> rows() const;
   void follow_choice();

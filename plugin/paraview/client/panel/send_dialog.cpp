@@ -4,12 +4,14 @@
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QStringList>
 
 #include <utility>
 
 #include "plugin/paraview/client/words/patient_words.h"
+#include "plugin/report/mark_results.h"
 
 namespace palpate::plugin {
 namespace {
@@ -44,6 +46,13 @@ SendDialog::SendDialog(const io::Series& series, const Marks& marks, std::vector
            .arg(marks.distances.size())
            .arg(marks.paths.size())
            .arg(marks.points.size()));
+  auto* const report = new QPlainTextEdit(this);
+  report->setObjectName(QStringLiteral("palpateSendReport"));
+  report->setReadOnly(true);
+  report->setLineWrapMode(QPlainTextEdit::NoWrap);
+  report->setPlainText(QString::fromStdString(
+      report_in_words(report_of(marks), series.modality == "CT" ? std::string("HU") : std::string())));
+  form->addRow(tr("Report"), report);
   archives_->setObjectName(QStringLiteral("palpateSendArchive"));
   for (const io::Archive& one : entered_) {
     archives_->addItem(QStringLiteral("%1 (%2:%3)")
@@ -60,7 +69,7 @@ SendDialog::SendDialog(const io::Series& series, const Marks& marks, std::vector
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   form->addRow(buttons);
-  constexpr int wide = 420;
+  constexpr int wide = 560;
   setMinimumWidth(wide);
 }
 

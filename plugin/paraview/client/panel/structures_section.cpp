@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "device/simulated/simulated_stylus.h"
+#include "modes/types/mode_type.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/common/structure_shapes.h"
@@ -275,11 +276,26 @@ void StructuresSection::look_whether_off(Entry& entry) {
   tell(before.isEmpty() ? words(entry.off) : before + QLatin1Char('\n') + words(entry.off), true);
 }
 
+/// Where the margins of what the scene makes of a structure begin, as its distance has it.
+std::vector<double> StructuresSection::margins_of(const io::Structure& structure) const {
+  const modes::Scene& scene = model_.scene();
+  std::vector<double> margins;
+  for (const modes::SceneStructure& named : scene.structures) {
+    if (!is_same(named, structure)) continue;
+    for (const modes::Mode& mode : scene.modes) {
+      if (!mode.enabled || mode.structure != named.name || !modes::reads_key(mode, modes::Key::margin)) continue;
+      margins.push_back(-modes::find_mode_type(mode.type)->margin_side * mode.margin_mm);
+    }
+  }
+  return margins;
+}
+
 void StructuresSection::draw() {
   std::vector<DrawnStructure> shown;
   for (Entry& entry : entries_) {
     if (!entry.shown || !entry.drawn.distance) continue;
     entry.drawn.color = QColor(structure_text(entry.color));
+    entry.drawn.margins_mm = margins_of(entry.structure);
     shown.push_back(entry.drawn);
   }
   drawn_.set_structures(std::move(shown), opacity_->value() / 100.0);

@@ -82,6 +82,7 @@ class StructuresSection : public QWidget {
   void make_next();
   void take_made(const Made& made);
   void look_whether_off(Entry& entry);
+  std::vector<double> margins_of(const io::Structure& structure) const;
   void draw();
   void choose_color(std::size_t n);
   Entry* chosen();

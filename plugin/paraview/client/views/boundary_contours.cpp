@@ -16,8 +16,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <string>
 #include <utility>
 
+#include "modes/scene/scene_json.h"
 #include "plugin/paraview/client/jobs/latest_job.h"
 #include "plugin/paraview/client/views/felt_contours.h"
 #include "plugin/paraview/client/views/felt_surfaces.h"
@@ -29,6 +32,7 @@ namespace palpate::plugin {
 namespace {
 
 constexpr double most_points = 600;  // across a slice
+constexpr std::size_t most_kept = 6;
 
 SlicePoints points_of(const SliceView& slice, const io::Volume& volume) {
   const glm::dvec2 half = slice.half_size_mm();
@@ -47,6 +51,7 @@ SlicePoints points_of(const SliceView& slice, const io::Volume& volume) {
 }  // namespace
 
 struct BoundaryContours::Felt {
+  std::string key;  ///< of the scene
   std::shared_ptr<const io::Volume> volume;
   modes::Scene scene;
   std::shared_ptr<const modes::Plan> plan;
@@ -57,6 +62,7 @@ struct BoundaryContours::One {
   struct Drawn {
     std::shared_ptr<const Felt> felt;
     std::vector<FeltContour> contours;
+    int slice = -1;  ///< that they lie on
   };
 
   explicit One(const ClinicalView& of)
@@ -64,7 +70,10 @@ struct BoundaryContours::One {
         view(of.view),
         layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())),
         job([this](const std::shared_ptr<const Drawn>& drawn, const QString&) {
-          if (drawn) draw(*drawn);
+          if (!drawn) return;
+          kept.push_front(drawn);
+          if (kept.size() > most_kept) kept.pop_back();
+          draw(*drawn);
         }) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(lines);
@@ -77,12 +86,28 @@ struct BoundaryContours::One {
   }
 
   void draw(const Drawn& drawn);
+  /// The lines of a scene on the slice that is shown; null where they are not kept.
+  std::shared_ptr<const Drawn> kept_of(const Felt& felt) const {
+    const auto is_it = [&](const auto& drawn) {
+      return drawn->felt && drawn->slice == slice->slice() && drawn->felt->volume == felt.volume &&
+             drawn->felt->key == felt.key;
+    };
+    const auto found = std::ranges::find_if(kept, is_it);
+    return found == kept.end() ? nullptr : *found;
+  }
+  /// Lines of another slice, or of another scan, are not to be seen over this one while its own are computed.
+  void hide_others(const std::shared_ptr<const io::Volume>& volume) {
+    if (drawn_slice != slice->slice() || drawn_volume.lock() != volume) actor->VisibilityOff();
+  }
 
   QPointer<SliceView> slice;
   QPointer<pqRenderView> view;
   OverlayLayer layer;
   vtkNew<vtkPolyData> lines;
   vtkNew<vtkActor> actor;
+  int drawn_slice = -1;
+  std::weak_ptr<const io::Volume> drawn_volume;
+  std::deque<std::shared_ptr<const Drawn>> kept;
   LatestJob<Drawn> job;  // last: it ends before what it draws
 };
 
@@ -104,6 +129,10 @@ void BoundaryContours::One::draw(const Drawn& drawn) {
   lines->SetPoints(points);
   lines->SetLines(cells);
   lines->GetCellData()->SetScalars(colors);
+  drawn_slice = drawn.slice;
+  drawn_volume.reset();
+  if (drawn.felt) drawn_volume = drawn.felt->volume;
+  actor->SetVisibility(slice && drawn_slice == slice->slice() ? 1 : 0);
   if (view) view->render();
 }
 
@@ -122,8 +151,9 @@ void BoundaryContours::set_views(const std::vector<ClinicalView>& views) {
 }
 
 void BoundaryContours::set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
-                                const std::shared_ptr<const modes::Plan>& plan) {
+                                const std::shared_ptr<const modes::Plan>& plan, Pace pace) {
   auto felt = std::make_shared<Felt>();
+  felt->key = modes::to_json(scene);
   felt->volume = volume;
   felt->scene = scene;
   felt->plan = plan;
@@ -142,7 +172,11 @@ void BoundaryContours::set_felt(const std::shared_ptr<const io::Volume>& volume,
   }
   felt_ = std::move(felt);
   surfaces_->set_felt(volume, scene, plan, felt_->source);
-  for (const auto& one : views_) draw(*one);
+  for (const auto& one : views_) {
+    if (pace == Pace::stepped) one->job.drop();
+    if (!volume) one->kept.clear();
+    draw(*one);
+  }
 }
 
 void BoundaryContours::set_visible(bool visible) {
@@ -174,9 +208,15 @@ void BoundaryContours::draw(One& one) {
     one.draw({});
     return;
   }
-  one.job.ask([felt = felt_, points = points_of(*one.slice, *felt_->volume)]() -> One::Drawn {
-    return {felt, felt_contours(felt->scene, *felt->plan, *felt->source, points)};
-  });
+  if (const auto kept = one.kept_of(*felt_)) {
+    one.job.drop();
+    return one.draw(*kept);
+  }
+  one.hide_others(felt_->volume);
+  one.job.ask(
+      [felt = felt_, points = points_of(*one.slice, *felt_->volume), slice = one.slice->slice()]() -> One::Drawn {
+        return {felt, felt_contours(felt->scene, *felt->plan, *felt->source, points), slice};
+      });
 }
 
 }  // namespace palpate::plugin

@@ -11,6 +11,7 @@
 #include "io/volume.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
+#include "plugin/app/live_session.h"
 #include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/views/clinical_views.h"
 
@@ -26,9 +27,11 @@ class BoundaryContours {
   BoundaryContours& operator=(const BoundaryContours&) = delete;
 
   /// Sets what is drawn: the boundaries that this plan of the scene has in the volume. They are computed in the
-  /// background; the old lines stay meanwhile. Without a volume or a plan nothing is drawn.
+  /// background; lines of the same slice and scan stay meanwhile, others are hidden at once. What was computed of the
+  /// scenes before is kept, so that a step back is seen at once; only while a node is dragged are lines of a scene
+  /// before seen. Without a volume or a plan nothing is drawn.
   void set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
-                const std::shared_ptr<const modes::Plan>& plan);
+                const std::shared_ptr<const modes::Plan>& plan, Pace pace);
   void set_visible(bool visible);
   /// Surfaces instead of the scan in the volume view.
   void set_surfaces(bool visible);

@@ -85,6 +85,18 @@ void ClinicalViews::refresh_values() {
   }
 }
 
+void ClinicalViews::show_frame_values(vtkSMSourceProxy& image) {
+  const Values values = lattice_of(image).values;
+  if (values.speeds || windows_.empty()) return;
+  const auto is_now = [this](const NamedWindow& of) {
+    return of.window.level == window_->window.level && of.window.width == window_->window.width;
+  };
+  const auto chosen = static_cast<std::size_t>(std::ranges::find_if(windows_, is_now) - windows_.begin());
+  windows_ = windows_for(values);
+  if (!looks_.empty()) looks_ = volume_looks_for(values);
+  if (chosen < windows_.size()) set_window(windows_[chosen].window);
+}
+
 void ClinicalViews::show_point(const glm::dvec3& place) {
   for (const auto& slice : slices_) {
     if (slice) slice->show_point(place);

@@ -99,6 +99,9 @@ class ClinicalViews {
   void set_slice_shown(std::function<void(SliceView&)> shown) { window_->slice_shown = std::move(shown); }
   /// Another frame is shown: what is told of the place under the pointer follows.
   void refresh_values();
+  /// The same, read completely: windows and looks are offered anew for its values. The window that was one of those
+  /// offered before becomes the frame's own of that name; speeds keep theirs, which are to be compared.
+  void show_frame_values(vtkSMSourceProxy& image);
 
  private:
   struct Making;

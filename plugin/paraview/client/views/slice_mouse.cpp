@@ -57,6 +57,7 @@ bool SliceMouse::press() {
   const int* const at = interactor_->GetEventPosition();
   if (owner_.bar_->is_under(at[0])) {
     drag_ = Drag::scroll;
+    owner_.pointer_ = {at[0], at[1]};
     owner_.scroll_to(owner_.bar_->part_at(at[1]));
     return true;
   }
@@ -79,16 +80,14 @@ bool SliceMouse::let_go() {
 
 bool SliceMouse::move() {
   const int* const at = interactor_->GetEventPosition();
-  if (drag_ == Drag::window) {
-    drag_to(at[0], at[1]);
-    return true;
-  }
-  if (drag_ == Drag::scroll) {
-    owner_.scroll_to(owner_.bar_->part_at(at[1]));
+  // First: what a drag changes is told of together with where the pointer is now.
+  owner_.pointer_ = {at[0], at[1]};
+  if (drag_ == Drag::window || drag_ == Drag::scroll) {
+    drag_ == Drag::window ? drag_to(at[0], at[1]) : owner_.scroll_to(owner_.bar_->part_at(at[1]));
+    owner_.refresh_pointer();
     return true;
   }
   if (drag_ == Drag::pick) pick(Pick::moved);
-  owner_.pointer_ = {at[0], at[1]};
   owner_.refresh_pointer();
   if (owner_.window_->pointed) owner_.window_->pointed(owner_.place_under(at[0], at[1]));
   if (interactor_->GetShiftKey() && drag_ == Drag::none && owner_.window_->pointed_with_shift) {

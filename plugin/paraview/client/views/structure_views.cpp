@@ -10,6 +10,7 @@
 #include <vtkRenderer.h>
 #include <vtkSMRenderViewProxy.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -21,8 +22,9 @@
 namespace palpate::plugin {
 namespace {
 
-/// Of a slice the part in which a structure can be; without a size where it cannot.
-Sheet sheet_of(const SliceView& slice, const DrawnStructure& structure) {
+/// Of a slice the part in which a structure can be, and what lies within a margin of it; without a size where it
+/// cannot.
+Sheet sheet_of(const SliceView& slice, const DrawnStructure& structure, double margin_mm) {
   const glm::dvec3 middle = slice.place_at({0, 0});
   const glm::dvec3 right = glm::normalize(slice.place_at({1, 0}) - middle);
   const glm::dvec3 up = glm::normalize(slice.place_at({0, 1}) - middle);
@@ -36,6 +38,8 @@ Sheet sheet_of(const SliceView& slice, const DrawnStructure& structure) {
     low = glm::min(low, off);
     high = glm::max(high, off);
   }
+  low -= margin_mm;
+  high += margin_mm;
   if (low.z > 0 || high.z < 0) return {};
   return {.corner = middle + low.x * right + low.y * up,
           .right = right,
@@ -106,16 +110,22 @@ void StructureViews::set_structures(std::vector<DrawnStructure> structures, doub
 }
 
 void StructureViews::show(SliceView& slice) {
-  constexpr float line_pixels = 2;
+  constexpr float line_pixels = 2, margin_pixels = 1;
+  constexpr double margin_opacity = 0.7;
   for (const auto& one : views_) {
     if (one->slice != &slice) continue;
     one->clear();
     for (const DrawnStructure& structure : structures_) {
-      const Sheet sheet = sheet_of(slice, structure);
-      if (sheet.size_mm.x <= 0 || sheet.size_mm.y <= 0) continue;
-      vtkProperty& look = *one->add(outline_of(*structure.distance, sheet), structure.color).GetProperty();
-      look.SetLighting(false);
-      look.SetLineWidth(line_pixels);
+      std::vector<double> lines{0};
+      lines.insert(lines.end(), structure.margins_mm.begin(), structure.margins_mm.end());
+      for (const double at_mm : lines) {
+        const Sheet sheet = sheet_of(slice, structure, std::max(-at_mm, 0.0));
+        if (sheet.size_mm.x <= 0 || sheet.size_mm.y <= 0) continue;
+        vtkProperty& look = *one->add(outline_of(*structure.distance, sheet, at_mm), structure.color).GetProperty();
+        look.SetLighting(false);
+        look.SetLineWidth(at_mm == 0 ? line_pixels : margin_pixels);
+        look.SetOpacity(at_mm == 0 ? 1 : margin_opacity);
+      }
     }
   }
 }

@@ -23,6 +23,8 @@ struct DrawnStructure {
   glm::dvec3 low_mm{0}, high_mm{0};  ///< of a box around all of it
   vtkSmartPointer<vtkPolyData> surface;
   QColor color;
+  /// Where the force of a keep-out or keep-in begins, as the distance has it, mm: inside positive; each is a thin line.
+  std::vector<double> margins_mm = {};
   bool operator==(const DrawnStructure&) const = default;
 };
 

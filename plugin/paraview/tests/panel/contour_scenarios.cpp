@@ -7,6 +7,7 @@
 #include <vtkActorCollection.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
+#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -20,6 +21,8 @@
 #include <QFile>
 #include <QImage>
 #include <QLineEdit>
+#include <QRegularExpression>
+#include <QRegularExpressionMatch>
 #include <QStringList>
 
 #include <algorithm>
@@ -31,6 +34,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -198,11 +202,65 @@ void boundaries_are_seen_on_every_slice() {
   }
 }
 
+/// In every picture that is drawn while slices are leafed through: the lines that are seen are those of its slice.
+void lines_are_of_the_slice_that_is_shown() {
+  scan_is_shown();
+  const auto height = [] {
+    const QString place = place_text("Axial");  // "H 0.5 mm" and more
+    const double mm = place.section(' ', 1, 1).toDouble();
+    return place.startsWith('F') ? -mm : mm;
+  };
+  wait_for(
+      "there are lines", [] { return drawn_in("Axial").size() > 100; }, 20);
+  int pictures = 0, with_lines = 0, stale = 0;
+  const palpate::plugin::EventWatch drawn(
+      render_view("Axial").getRenderViewProxy()->GetRenderWindow(), vtkCommand::EndEvent, [&] {
+        const std::vector<Piece> lines = drawn_in("Axial");
+        ++pictures;
+        with_lines += lines.empty() ? 0 : 1;
+        const double at = height();
+        stale += std::ranges::any_of(lines, [at](const Piece& line) { return std::abs(line.middle[2] - at) > 0.3; });
+      });
+  for (const int steps : {1, 1, 2, -3, 1, 4, -5}) {
+    turn_wheel("Axial", steps);
+    wait_for(
+        "the lines come", [] { return drawn_in("Axial").size() > 100; }, 20);
+  }
+  expect(pictures > 7 && with_lines > 5, "pictures were drawn, with lines: " + std::to_string(with_lines));
+  expect(stale == 0, "none has lines of another slice: " + std::to_string(stale) + " of " + std::to_string(pictures));
+}
+
+/// Both, in one picture: where the pointer is now, in the slice that is shown now.
+void the_place_under_a_dragged_handle_is_told() {
+  scan_is_shown();
+  QWidget& axial = view("Axial");
+  const QPoint from(axial.width() - 4, axial.height() / 2);
+  const QString before = place_text("Axial");
+  drag(axial, from, from + QPoint(0, -axial.height() / 4), false);
+  wait_for(
+      "the slice is another", [&] { return place_text("Axial") != before; }, 20);
+  const auto number_after = [](const QString& text, const char* letters) {
+    const QRegularExpressionMatch found =
+        QRegularExpression(QStringLiteral("[%1] ?([0-9.]+)").arg(QLatin1String(letters))).match(text);
+    expect(found.hasMatch(), "a place is told: " + text.toStdString());
+    return found.captured(1).toDouble();
+  };
+  const double slice_mm = number_after(place_text("Axial"), "HF");
+  const QString first = pointer_text("Axial");
+  expect(std::abs(number_after(first, "HF") - slice_mm) < 0.6, "of the slice that is shown: " + first.toStdString());
+  const double a_mm = number_after(first, "AP");
+  // Straight up from the middle: towards the front.
+  expect(a_mm > 5, "where the pointer is, and not where it was pressed: " + first.toStdString());
+  let_go();
+}
+
 }  // namespace
 
 const Scenarios& contour_scenarios() {
   static const Scenarios scenarios{
       {"boundaries_are_drawn_where_they_are_felt", boundaries_are_drawn_where_they_are_felt},
+      {"lines_are_of_the_slice_that_is_shown", lines_are_of_the_slice_that_is_shown},
+      {"the_place_under_a_dragged_handle_is_told", the_place_under_a_dragged_handle_is_told},
       {"boundaries_are_seen_on_every_slice", boundaries_are_seen_on_every_slice}};
   return scenarios;
 }

@@ -17,6 +17,7 @@
 #include <vtkSMViewLayoutProxy.h>
 #include <vtkSMViewProxy.h>
 
+#include <QAction>
 #include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
@@ -211,6 +212,13 @@ void the_layout_is_clinical() {
     expect_all_in_sight(name);
   }
   save_screen("layout");
+  const auto key_of = [](const char* name) {
+    const auto* const of = window().findChild<QAction*>(QLatin1String(name));
+    expect(of != nullptr, std::string("there is an action ") + name);
+    return of->shortcut();
+  };
+  expect(key_of("actionFileSaveServerState") == QKeySequence(QKeySequence::Save), "Ctrl+S saves the state");
+  expect(key_of("actionFileSaveData").isEmpty(), "and nothing else");
 
   expect(views_in_sight() == 4, "four views are in sight");
   const int wide = view("Axial").width();

@@ -16,6 +16,8 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
 #include <vtkVolume.h>
 #include <vtkVolumeCollection.h>
@@ -220,6 +222,41 @@ void surfaces_are_seen_where_they_are_felt() {
       "another look shows the scan", [] { return scan_is_drawn(renderer()) && surface_seen().most_mm == 0; }, 20);
 }
 
+/// Colors and opacity of the volume, as its representation has them.
+std::vector<double> volume_colors() {
+  vtkSMProxy& shown = *reader().getRepresentation(&render_view("Volume"))->getProxy();
+  std::vector<double> numbers;
+  for (const auto& [function, property] :
+       {std::pair{"LookupTable", "RGBPoints"}, {"ScalarOpacityFunction", "Points"}}) {
+    vtkSMProxy* const of = vtkSMPropertyHelper(&shown, function).GetAsProxy();
+    const std::vector<double> points = vtkSMPropertyHelper(of, property).GetDoubleArray();
+    numbers.insert(numbers.end(), points.begin(), points.end());
+  }
+  numbers.push_back(vtkSMPropertyHelper(&shown, "Shade").GetAsInt());
+  return numbers;
+}
+
+/// Two scans in a folder; the boundaries of the first are shown as surfaces when the second comes.
+void a_look_is_of_its_scan() {
+  choose_series(0);
+  auto& looks = find<QComboBox>("palpateVolumeLook");
+  const QString first_look = looks.currentText();
+  const std::vector<double> first = volume_colors();
+  looks.setCurrentIndex(looks.count() - 1);
+  emit looks.activated(looks.count() - 1);
+  wait_for(
+      "the surface is there", [] { return surface_seen().most_mm > 0; }, 20);
+  expect(volume_colors() == first, "the scan's own picture stays as it is until then");
+  choose_series(1);
+  views_rest();
+  save_screen("look-of-the-second");
+  expect(looks.currentText() == first_look, "the second has a look of its own: " + looks.currentText().toStdString());
+  expect(volume_colors() == first, "and that look's colors");
+  expect(surface_seen().most_mm == 0, "no surfaces are seen");
+  wait_for(
+      "the scan is drawn", [] { return scan_is_drawn(renderer()); }, 20);
+}
+
 /// How often the scan is drawn in the volume view, from the view's first picture on.
 struct Drawings {
   Drawings() {
@@ -362,6 +399,7 @@ void a_volume_without_hu_is_drawn() {
 const Scenarios& volume_scenarios() {
   static const Scenarios scenarios{{"the_table_is_cut_away", the_table_is_cut_away},
                                    {"the_volume_lies_in_the_patient", the_volume_lies_in_the_patient},
+                                   {"a_look_is_of_its_scan", a_look_is_of_its_scan},
                                    {"the_volume_turns", the_volume_turns},
                                    {"a_picture_at_rest_comes_in_turns", a_picture_at_rest_comes_in_turns},
                                    {"the_volume_is_drawn_seldom", the_volume_is_drawn_seldom},
