@@ -68,8 +68,8 @@ struct Marks {
 /// What a press made; it has no name yet.
 using MarkMade = std::variant<FeltMark, MarkedPath>;
 
-/// Follows the mark button from tick to tick. A press that is shorter than 0.25 s, or during which the proxy stays within
-/// 2 mm, makes a mark at the place where it began; any other makes a path.
+/// Follows the mark button from tick to tick. A press that is shorter than 0.25 s, or during which the proxy stays
+/// within 2 mm, makes a mark at the place where it began; any other makes a path.
 class MarkPresses {
  public:
   struct Moment {

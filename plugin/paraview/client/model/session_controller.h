@@ -68,8 +68,8 @@ class SessionController : public QObject {
   void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
   /// Where in the scan its boundaries are met, once that is known: what holds is named by it.
   void set_sites(std::shared_ptr<const modes::SiteMap> sites) { sites_ = std::move(sites); }
-  /// Work of the panel's thread that has just ended, as "drawing": if the force goes because the panel did not answer, it
-  /// is named.
+  /// Work of the panel's thread that has just ended, as "drawing": if the force goes because the panel did not answer,
+  /// it is named.
   void note_work(const QString& what, double seconds) { slow_.note(what, seconds); }
   /// Until the next set_scan() a scene only has to be valid, because it is meant for the scan that will come.
   void expect_scan() { expects_scan_ = true; }
