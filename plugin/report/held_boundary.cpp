@@ -22,14 +22,17 @@ bool is_surface(const modes::Plan& plan, std::size_t mode) {
                      [&](const modes::ActiveMode& active) { return active.scene_index == mode && active.holds; });
 }
 
-}  // namespace
-
-std::string name_at_place(const std::string& name, const PreparedScene& felt, const glm::dvec3& place_mm,
-                          const modes::SiteMap* sites) {
+/// The edge of a structure is the structure's wherever it lies.
+std::string name_at_site(std::size_t mode, const PreparedScene& felt, const modes::Scene& scene,
+                         const glm::dvec3& place_mm, const modes::SiteMap* sites) {
+  std::string name = display_name(scene, mode);
   if (sites == nullptr || !felt.volume || !sites->is_of(io::raw_of(felt.volume))) return name;
+  if (!scene.modes[mode].structure.empty()) return name;
   const io::Sample sample = felt.source->sample(place_mm, felt.source->available() & io::FieldSet::gradient);
   return modes::name_at(name, sites->at(place_mm, sample.gradient));
 }
+
+}  // namespace
 
 std::optional<std::size_t> holding_surface(std::span<const PrimitiveRecord> shares, const modes::Plan& plan) {
   std::optional<std::size_t> most;
@@ -74,9 +77,7 @@ std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> share
                                           const glm::dvec3& probe_mm, const modes::SiteMap* sites) {
   const auto mode = felt.plan ? holding_surface(shares, *felt.plan) : std::nullopt;
   if (!mode) return std::nullopt;
-  HeldBoundary held{.mode = *mode, .name = display_name(scene, *mode)};
-  // The edge of a structure is the structure's wherever it lies.
-  if (scene.modes[*mode].structure.empty()) held.name = name_at_place(held.name, felt, proxy_mm, sites);
+  HeldBoundary held{.mode = *mode, .name = name_at_site(*mode, felt, scene, proxy_mm, sites)};
   for (const modes::ActiveMode& active : felt.plan->modes) {
     if (active.scene_index != *mode) continue;
     held.full_strength_n = active.strength.most_n();

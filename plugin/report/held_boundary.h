@@ -36,10 +36,6 @@ struct HeldBoundary {
   std::optional<double> known_to_mm;  ///< as known_to_mm() has it
 };
 
-/// What a boundary of this name is called where it is met, as far as `sites`, which may be null, are of the scan.
-std::string name_at_place(const std::string& name, const PreparedScene& felt, const glm::dvec3& place_mm,
-                          const modes::SiteMap* sites);
-
 /// None if nothing holds the proxy. Takes some 150 samples: for a picture, not for a tick. `sites`: of the scan; may be
 /// null, or of another scan, and then does not count.
 std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> shares, const PreparedScene& felt,

@@ -260,14 +260,11 @@ void SessionController::follow_marks() {
   if (!is_pressed && !presses_.is_down()) return;
   if (is_pressed && std::exchange(letting_mark_go_, false)) live_.press(0);
   const modes::Workspace reach = modes::between(before_, now_, tick.change_part);
-  auto made = presses_.take({.tick = tick,
-                             .time_s = tick.time_s,
-                             .proxy_mm = reach.to_patient(vector_of(tick.proxy_m)),
-                             .shares = look_.shares,
-                             .scene = live_.scene()});
-  if (auto* const mark = made ? std::get_if<FeltMark>(&*made) : nullptr; mark && !mark->boundary.empty()) {
-    mark->boundary = name_at_place(mark->boundary, live_.felt(), mark->position_mm, sites_.get());
-  }
+  const auto made = presses_.take({.tick = tick,
+                                   .time_s = tick.time_s,
+                                   .proxy_mm = reach.to_patient(vector_of(tick.proxy_m)),
+                                   .shares = look_.shares,
+                                   .scene = live_.scene()});
   if (made) emit marked(*made);
 }
 
