@@ -759,11 +759,7 @@
     </message>
     <message>
         <source>no boundary felt</source>
-        <translation>nichts gefühlt</translation>
-    </message>
-    <message>
-        <source>no boundary felt</source>
-        <translation>nichts gefühlt</translation>
+        <translation>keine Grenze gefühlt</translation>
     </message>
     <message>
         <source>%1 N</source>
