@@ -23,7 +23,7 @@ bool ChartMark::Paint(vtkContext2D* painter) {
   const auto x = static_cast<float>(low[0] + part_ * (high[0] - low[0]));
   vtkPen& pen = *painter->GetPen();
   pen.SetLineType(vtkPen::SOLID_LINE);
-  pen.SetColor(213, 94, 0);
+  pen.SetColor(213, 94, 0, 255);  // opaque, whatever was painted before it
   pen.SetWidth(2);
   painter->DrawLine(x, static_cast<float>(low[1]), x, static_cast<float>(high[1]));
   return true;
