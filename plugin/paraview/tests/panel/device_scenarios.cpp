@@ -109,7 +109,7 @@ void a_lost_stylus_comes_back() {
   wait_for(
       "the loss is told",
       [] {
-        return label("palpateState").startsWith("Stopped: The stylus is gone") &&
+        return label("palpateState").startsWith("Stopped: The stylus was unplugged") &&
                find<QPushButton>("palpateFeel").text() == "Open the stylus again";
       },
       20);
