@@ -44,40 +44,8 @@ inline bool on(int number) {
   return state.chosen == number;
 }
 
-#define PALPATE_SWAP(Name, op, other)                                                     \
-  struct Name {                                                                           \
-    int number;                                                                           \
-  };                                                                                      \
-  template <class L>                                                                      \
-  struct Left##Name {                                                                     \
-    L&& value;                                                                            \
-    int number;                                                                           \
-  };                                                                                      \
-  template <class L>                                                                      \
-  Left##Name<L> operator op(L&& left, Name tag) {                                         \
-    return {std::forward<L>(left), tag.number};                                           \
-  }                                                                                       \
-  template <class L, class R>                                                             \
-  auto operator op(Left##Name<L> left, R&& right)                                         \
-      ->std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))> {   \
-    if (on(left.number)) return std::forward<L>(left.value) other std::forward<R>(right); \
-    return std::forward<L>(left.value) op std::forward<R>(right);                         \
-  }
-PALPATE_SWAP(Plus, +, -)
-PALPATE_SWAP(Minus, -, +)
-PALPATE_SWAP(Times, *, /)
-PALPATE_SWAP(Over, /, *)
-PALPATE_SWAP(Less, <, <=)
-PALPATE_SWAP(NotMore, <=, <)
-PALPATE_SWAP(More, >, >=)
-PALPATE_SWAP(NotLess, >=, >)
-PALPATE_SWAP(LessTurned, <, >)
-PALPATE_SWAP(MoreTurned, >, <)
-PALPATE_SWAP(Equal, ==, !=)
-PALPATE_SWAP(Different, !=, ==)
-#undef PALPATE_SWAP
-
-#define PALPATE_FIRST_ALONE(Name, op)                                                             \
+// `instead` is what is computed where the slip is on, of left.value and right.
+#define PALPATE_INSTEAD(Name, op, instead)                                                        \
   struct Name {                                                                                   \
     int number;                                                                                   \
   };                                                                                              \
@@ -94,12 +62,27 @@ PALPATE_SWAP(Different, !=, ==)
   auto operator op(Left##Name<L> left, R&& right)                                                 \
       ->std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))> {           \
     using Result = std::decay_t<decltype(std::forward<L>(left.value) op std::forward<R>(right))>; \
-    if (on(left.number)) return static_cast<Result>(std::forward<L>(left.value));                 \
+    if (on(left.number)) return static_cast<Result>(instead);                                     \
     return std::forward<L>(left.value) op std::forward<R>(right);                                 \
   }
-PALPATE_FIRST_ALONE(NoPlus, +)
-PALPATE_FIRST_ALONE(NoMinus, -)
-#undef PALPATE_FIRST_ALONE
+#define PALPATE_SWAP(Name, op, other) \
+  PALPATE_INSTEAD(Name, op, std::forward<L>(left.value) other std::forward<R>(right))
+PALPATE_SWAP(Plus, +, -)
+PALPATE_SWAP(Minus, -, +)
+PALPATE_SWAP(Times, *, /)
+PALPATE_SWAP(Over, /, *)
+PALPATE_SWAP(Less, <, <=)
+PALPATE_SWAP(NotMore, <=, <)
+PALPATE_SWAP(More, >, >=)
+PALPATE_SWAP(NotLess, >=, >)
+PALPATE_SWAP(LessTurned, <, >)
+PALPATE_SWAP(MoreTurned, >, <)
+PALPATE_SWAP(Equal, ==, !=)
+PALPATE_SWAP(Different, !=, ==)
+#undef PALPATE_SWAP
+PALPATE_INSTEAD(NoPlus, +, std::forward<L>(left.value))
+PALPATE_INSTEAD(NoMinus, -, std::forward<L>(left.value))
+#undef PALPATE_INSTEAD
 
 #define PALPATE_SWAP_EXTREME(Name, function, other)                                       \
   struct Name {                                                                           \
