@@ -154,6 +154,7 @@ TEST(MeasurementReport, HasTheTreeOfItsTemplates) {
                                         "    CONTAINS CONTAINER 125007, template 1501",
                                         "      HAS OBS CONTEXT TEXT 112039",
                                         "      HAS OBS CONTEXT UIDREF 112040",
+                                        "      CONTAINS TEXT 121106",
                                         "      CONTAINS SCOORD3D 111030",
                                         "    CONTAINS CONTAINER 125007, template 1501",
                                         "      HAS OBS CONTEXT TEXT 112039",

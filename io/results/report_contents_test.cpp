@@ -161,6 +161,7 @@ TEST(ReportContents, AreTheStandardsCodesAndWhatWasMeasured) {
       "CONTAINER, 125007 DCM 'Measurement Group': SEPARATE",
       "TEXT, 112039 DCM 'Tracking Identifier': Mark 2",
       "UIDREF, 112040 DCM 'Tracking Unique Identifier': made",
+      "TEXT, 121106 DCM 'Comment': No boundary felt",
       "SCOORD3D, 111030 DCM 'Image Region': POINT in 1.2.3.4: 4.000000 1.000000 2.000000",
       "CONTAINER, 125007 DCM 'Measurement Group': SEPARATE",
       "TEXT, 112039 DCM 'Tracking Identifier': Mark 1 to Mark 2",
