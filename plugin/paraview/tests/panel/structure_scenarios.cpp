@@ -56,7 +56,7 @@ std::vector<double> lines_drawn_in(const char* name, const QColor& color) {
       auto* const actor = vtkActor::SafeDownCast(actors.GetItemAsObject(n));
       const double* const of = actor->GetProperty()->GetColor();
       auto* const mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
-      const QColor now = QColor::fromRgbF(of[0], of[1], of[2]);
+      const QColor now(qRound(255 * of[0]), qRound(255 * of[1]), qRound(255 * of[2]));
       if (now.rgb() != color.rgb() || !mapper || !mapper->GetInput() || mapper->GetInput()->GetNumberOfLines() == 0)
         continue;
       const double* const bounds = mapper->GetInput()->GetBounds();
