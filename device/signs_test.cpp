@@ -7,6 +7,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -31,14 +32,20 @@
 namespace palpate::device {
 namespace {
 
-/// Writes a force as long as something does not hold, at most ten seconds.
+/// Writes a force a thousand times a second as long as something does not hold, at most ten seconds. As urgently as a
+/// servo does: the force of one that is late is taken away, and comes up again along the ramp.
 bool comes_to(Stylus& stylus, const Vec3& force, const std::function<bool(const Reading&)>& holds) {
-  for (const double begun = monotonic_time(); monotonic_time() - begun < 10;) {
-    stylus.write_force(force);
-    if (holds(stylus.read())) return true;
-    std::this_thread::yield();
-  }
-  return false;
+  bool comes = false;
+  std::thread servo([&] {
+    make_thread_realtime(50);
+    for (const double begun = monotonic_time(); !comes && monotonic_time() - begun < 10;) {
+      stylus.write_force(force);
+      comes = holds(stylus.read());
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  servo.join();
+  return comes;
 }
 
 /// A vector that one thread writes and another reads.

@@ -36,6 +36,12 @@ def of_contours(data):
     }
 
 
+def text_of(extension):
+    """Nibabel before 5.3 has no `content`; from then on get_content() refuses comments."""
+    content = extension.content if hasattr(extension, "content") else extension.get_content()
+    return content.decode("utf-8", "replace") if isinstance(content, bytes) else str(content)
+
+
 def of_nifti(path):
     import nibabel
 
@@ -46,8 +52,7 @@ def of_nifti(path):
         "qform": image.get_qform(coded=True)[1] and image.get_qform().tolist() or None,
         "shape": list(voxels.shape),
         "pixels": "".join(str(int(v)) for v in voxels.ravel(order="F")),
-        "extensions": [e.get_content().decode("utf-8", "replace") if isinstance(e.get_content(), bytes)
-                       else str(e.get_content()) for e in image.header.extensions],
+        "extensions": [text_of(extension) for extension in image.header.extensions],
     }
 
 
