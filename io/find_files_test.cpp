@@ -5,14 +5,13 @@
 #include <unistd.h>
 
 #include <array>
-#include <clocale>
-#include <cstdlib>
 #include <fstream>
 
 #include "io/dicom/dcmtk_start.h"
 #include "io/errors.h"
 #include "io/load.h"
 #include "io/series.h"
+#include "io/testing/comma_locale.h"
 #include "io/testing/test_image.h"
 
 namespace palpate::io::internal {
@@ -54,18 +53,12 @@ TEST(FindFiles, DecimalCommaOfTheLocaleChangesNothing) {
     image.edit = [](DcmDataset& d) { put(d, DCM_RescaleIntercept, "-0.5"); };
   });
   const Series before = find_in(folder).series.at(0);
-  const TestFolder locales;
-  const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8").string() + " >/dev/null 2>&1";
-  if (std::system(make.c_str()) != 0)
-    GTEST_SKIP()
-        << "needs a locale that writes 0,75, and localedef (Debian's locales) cannot make de_DE here";  // NOLINT(cert-env33-c)
-  ::setenv("LOCPATH", locales.path().c_str(), 1);
-  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr)
-    GTEST_SKIP() << "needs a locale that writes 0,75, and setlocale() does not take de_DE here";
-  ASSERT_STREQ(std::localeconv()->decimal_point, ",");
-  const Series after = find_in(folder).series.at(0);
-  std::setlocale(LC_ALL, "C");
-  ::unsetenv("LOCPATH");
+  Series after;
+  {
+    const CommaLocale comma;
+    if (!comma.is_set()) GTEST_SKIP() << CommaLocale::needed;
+    after = find_in(folder).series.at(0);
+  }
   EXPECT_EQ(after.geometry.spacing_i, 0.75);
   EXPECT_EQ(after.geometry.slice_positions, before.geometry.slice_positions);
   ASSERT_THAT(before.warnings, SizeIs(1));

@@ -337,6 +337,51 @@ TEST(Filtered, EdgePreservingFiltersTakeNoiseAndLeaveAWallWhereItIs) {
   }
 }
 
+/// In other values the same is filtered, as far as floats tell values apart.
+TEST(Filtered, FollowsAChangeOfTheValues) {
+  const auto raw = odd_scan();
+  for (const Filter& filter : filters) {
+    const auto before = filtered(raw, filter);
+    for (const double factor : {1e-6, 1.0 / 3000, 7.3, 1e3}) {
+      for (const double offset_of_ranges : {0.0, 1.0, -20.0}) {
+        Filter scaled = filter;
+        scaled.sigma_value *= factor;
+        const double offset = factor * 3000 * offset_of_ranges;
+        Volume changed = *raw;
+        changed.slope *= factor;
+        changed.intercept = factor * changed.intercept + offset;
+        const auto after = filtered(std::make_shared<const Volume>(changed), scaled);
+        const double near = factor * 3000 * (1e-3 + 1e-5 * std::abs(offset_of_ranges));
+        SCOPED_TRACE(::testing::Message() << in_words(filter) << ": " << factor << " x + " << offset);
+        for (int n = 0; n < 41 * 37 * 38; n += 17) {
+          const int i = n % 41, j = n / 41 % 37, k = n / (41 * 37);
+          ASSERT_EQ(after->is_padding(i, j, k), raw->is_padding(i, j, k));
+          ASSERT_NEAR(at(*after, i, j, k), factor * at(*before, i, j, k) + offset, near) << i << ' ' << j << ' ' << k;
+        }
+      }
+    }
+  }
+}
+
+/// Where floats cannot hold the values any more there is little to filter, and no fault.
+TEST(Filtered, SlopesAndOffsetsOfAnySizeAreNoFault) {
+  for (const double factor : {1e-300, 1e-30, 1e12, 1e30, 1e36, 1e300}) {
+    for (const double offset : {0.0, 1e6, -1e12, 1e38, 1e300}) {
+      for (const bool has_padding : {false, true}) {
+        Volume changed = *odd_scan();
+        changed.slope *= factor;
+        changed.intercept = factor * changed.intercept + offset;
+        if (!has_padding) changed.padding.reset();
+        const auto raw = std::make_shared<const Volume>(changed);
+        for (const Filter& filter : filters) {
+          SCOPED_TRACE(::testing::Message() << in_words(filter) << ": " << factor << " x + " << offset);
+          EXPECT_NO_THROW(filtered(raw, filter));
+        }
+      }
+    }
+  }
+}
+
 TEST(Filtered, RefusesWhatCannotBeAndVelocity) {
   const auto raw = odd_scan();
   for (const Filter& filter : {Filter{.type = find_filter_type("gaussian"), .sigma_mm = 0},

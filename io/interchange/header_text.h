@@ -3,12 +3,16 @@
 /// What the text headers of NRRD and MetaImage have in common: lines, and fields by their names.
 
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
+#include <cmath>
 #include <initializer_list>
 #include <istream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "io/errors.h"
@@ -58,13 +62,24 @@ inline std::string field(const HeaderFields& fields, std::initializer_list<std::
   return {};
 }
 
+/// The number that a word begins with, whatever the program's locale says of commas; 0 where there is none.
+inline double number_in(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc::result_out_of_range) return number;
+  const std::string_view read = word.substr(0, static_cast<std::size_t>(end - word.data()));
+  const bool is_small = read.find("e-") != read.npos || read.find("E-") != read.npos;
+  return is_small ? 0 : std::copysign(std::numeric_limits<double>::infinity(), word.front() == '-' ? -1 : 1);
+}
+
 /// Numbers between spaces, commas and parentheses.
 inline std::vector<double> numbers(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
   std::istringstream words(text);
   std::vector<double> all;
-  for (std::string word; words >> word;) all.push_back(std::strtod(word.c_str(), nullptr));
+  for (std::string word; words >> word;) all.push_back(number_in(word));
   return all;
 }
 

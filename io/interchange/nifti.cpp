@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/errors.h"
+#include "io/interchange/header_text.h"
 #include "io/interchange/voxel_bytes.h"
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
@@ -249,7 +250,7 @@ std::map<int, LabelName> names_in(const std::string& text) {
     }
     std::vector<double> rgb;
     for (const char* color : {"Red", "Green", "Blue"}) {
-      rgb.push_back(most * std::strtod(attribute(element, color).c_str(), nullptr));
+      rgb.push_back(most * number_in(attribute(element, color)));
     }
     names[std::atoi(attribute(element, "Key").c_str())] = {name, color_of_rgb(rgb)};  // NOLINT: 0 is no label
   }

@@ -2,7 +2,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <initializer_list>

@@ -12,6 +12,7 @@
 #include "io/load.h"
 #include "io/series.h"
 #include "io/structures/structure.h"
+#include "io/testing/comma_locale.h"
 #include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
 #include "io/testing/voxel_files.h"
@@ -186,6 +187,34 @@ TEST(SilentFormats, AMetaImageSaysWhatItsHeaderDoesNotSay) {
                                             "places may be wrong"));
     }
   }
+}
+
+// A host program may run in a country that writes 0,75: a part of each number would be read, and no word said.
+TEST(SilentFormats, ADecimalCommaOfTheLocaleChangesNoNumber) {
+  const Rows fine{{{0.75, 0, 0, -4.25}, {0, 1.5, 0, 5.125}, {0, 0, 2.5, -0.0625}}};
+  const std::string nrrd =
+      "space: LPS\nspace directions: (0.75,0,0) (0,+1.5e0,0) (0,0,25E-1)\nspace origin: (-4.25,5.125,-6.25e-2)\n";
+  const std::string meta =
+      "ElementSpacing = 0.75 +1.5e0 25E-1\nOffset = -4.25 5.125 -6.25e-2\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n";
+  const TestFolder folder;
+  write_bytes(folder / "a.nrrd", nrrd_of(nrrd) + voxels<std::int16_t>());
+  write_bytes(folder / "a.mha", meta_image(meta + "ElementDataFile = LOCAL\n") + voxels<std::int16_t>());
+  std::string words;
+  for (int n = 0; n < nx * ny * nz; ++n)
+    words += std::to_string(stored(n % nx, n / nx % ny, n / (nx * ny)) + 0.25) + " ";
+  std::string in_words = nrrd_of(nrrd);
+  in_words.replace(in_words.find("short"), 5, "float").replace(in_words.find("raw"), 3, "ascii");
+  write_bytes(folder / "words.nrrd", in_words + words);
+  const auto at = [&](int a, int b, int c) { return place_of(fine, a, b, c); };
+  const auto expect_whole = [&] {
+    expect_all(only_volume(folder / "a.nrrd"), at, stored);
+    expect_all(only_volume(folder / "a.mha"), at, stored);
+    expect_all(only_volume(folder / "words.nrrd"), at, [](int a, int b, int c) { return stored(a, b, c) + 0.25; });
+  };
+  expect_whole();
+  const CommaLocale comma;
+  if (!comma.is_set()) GTEST_SKIP() << CommaLocale::needed;
+  expect_whole();
 }
 
 }  // namespace

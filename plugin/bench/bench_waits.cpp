@@ -1,10 +1,12 @@
 #include "plugin/bench/bench_waits.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -192,6 +194,11 @@ void tabulate_primitives(const std::filesystem::path& folder, Growth& growth) {
   table.save(folder, "primitives.csv");
 }
 
+/// What comes next, where somebody looks on; the row that follows is written over it.
+void say_next(const std::string& what) {
+  if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s ...\033[K\r", what.c_str());
+}
+
 /// Each shape of scan beside the plain one, in turn, on one thread.
 void tabulate_shapes(int slices, int rounds, const std::filesystem::path& folder) {
   struct Work {
@@ -210,11 +217,14 @@ void tabulate_shapes(int slices, int rounds, const std::filesystem::path& folder
                                    pass_over({v, io::GradientKernel::CentralDifferences{}});
                                  }},
                                 {"suggest", [](const auto& v) { (void)modes::suggest(v, {}, 1); }}};
+  say_next("making the plain scan");
   const std::shared_ptr<const io::Volume> plain = testdata::plain_chest({512, 512, slices});
   CsvTable table("work,shape,plain_s,shape_s,ratio,peak_mib");
   for (const testdata::ScanShape& shape : testdata::scan_shapes()) {
+    say_next("making: " + shape.name);
     const std::shared_ptr<const io::Volume> volume = shape.from(*plain);
     for (const Work& work : works) {
+      say_next(fmt::format("{}: {}", work.name, shape.name));
       double peak_mib = 0;
       const testdata::CostRatio cost = testdata::compare_costs(
           rounds, [&] { work.once(plain); }, [&] { peak_mib = cost_of(1, [&] { work.once(volume); }).peak_mib; });
@@ -228,6 +238,7 @@ void tabulate_shapes(int slices, int rounds, const std::filesystem::path& folder
 void run(const WaitsArguments& arguments, const std::filesystem::path& folder) {
   fmt::print("On {} cores; seconds: best of {}; peak memory: beyond the scan's own.\n",
              std::thread::hardware_concurrency(), arguments.rounds);
+  std::fflush(stdout);
   Growth sizes("Against size", "voxels (millions)", "seconds", of_voxels);
   Growth modes("Felt strength against modes", "modes", "seconds", {""});
   Growth primitives("Exact solve against primitives", "primitives", "us", {"median of 40", "largest"});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -10,12 +11,16 @@
 
 namespace palpate::plugin {
 
-/// Lines of a table on stdout, kept for a CSV file.
+/// Lines of a table on stdout, each at once: the next one may take minutes. Kept for a CSV file.
 class CsvTable {
  public:
-  explicit CsvTable(std::string header) : csv_(std::move(header) + "\n") { fmt::print("\n{}", csv_); }
+  explicit CsvTable(std::string header) : csv_(std::move(header) + "\n") {
+    fmt::print("\n{}", csv_);
+    std::fflush(stdout);
+  }
   void add(const std::string& row) {
     fmt::print("{}\n", row);
+    std::fflush(stdout);
     csv_ += row + "\n";
   }
   void save(const std::filesystem::path& folder, const std::string& name) const {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -101,6 +102,35 @@ TEST(Output, NoCommandPrintsPastIt) {
     ++looked_at;
   }
   EXPECT_GT(looked_at, 15U);
+}
+
+// Of values that no scanner gives there is little to tell; each command says so, and none ends by a fault of its own.
+TEST(CommandOutput, ValuesOfAnySlopeAreNoInternalFault) {
+  for (const char* const modality : {"CT", "MR"}) {
+    for (const char* const slope : {"1e-300", "1e-30", "1e12", "-1e30", "1e36", "1e300", "1e306"}) {
+      const fs::path folder = fresh_path("slope");
+      fs::create_directories(folder);
+      io::internal::write_stack(folder, 12, [&](int k, io::internal::TestImage& image) {
+        image.columns = image.rows = 24;
+        image.value = [k](int i, int j) {
+          return (std::hypot(i - 12, j - 12) < 7 && k > 2 && k < 9 ? 1000 : 40) + (7 * i + 5 * j + 3 * k) % 11;
+        };
+        image.edit = [&](DcmDataset& d) {
+          io::internal::put(d, DCM_Modality, modality);
+          io::internal::put(d, DCM_RescaleSlope, std::string(slope));
+          io::internal::put(d, DCM_RescaleIntercept, std::string("0"));
+        };
+      });
+      const std::string scan = folder.string(), scene = (folder / "scene.json").string();
+      for (const std::string& command :
+           {"info " + scan, "sample " + scan + " --at 6,4,8", "suggest " + scan + " -o " + scene, "plan " + scan,
+            "profile " + scan + " --from 0,4,8 --to 6,4,8 --scene " + scene + " -o " + (folder / "a.png").string(),
+            "profile " + scan + " --from 0,4,8 --to 6,4,8"}) {
+        const Outcome outcome = palpate(command);
+        EXPECT_LT(outcome.exit, 2) << modality << ", slope " << slope << ": " << command << "\n" << outcome.output;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "plugin/session/structure_files.h"
 #include "plugin/testing/command_rig.h"
 #include "plugin/testing/kept_out.h"
+#include "plugin/testing/opened_files.h"
 #include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {
@@ -288,6 +289,28 @@ TEST(CommandStructures, SaysWhichLieOffTheScan) {
   EXPECT_EQ(suggested.exit, 0);
   EXPECT_THAT(suggested.output, HasSubstr(off));
   EXPECT_EQ(times_in("wholly outside", suggested.output), 1) << suggested.output;
+}
+
+// However many structures ask: what lies beside them is read once for all.
+TEST(CommandStructures, FilesBesideStructuresAreReadOnceForAllOfThem) {
+  for (const int structures : {1, 4}) {
+    const fs::path study = fresh_path("beside") / "study";
+    for (int n = 0; n < structures; ++n) {
+      testing::write_contours(study / "outlines" / ("rt" + std::to_string(n) + ".dcm"), "1.2", "7", "Doe^Jane");
+    }
+    testing::write_registration(study / "images" / "reg.dcm");
+    for (int n = 0; n < 5; ++n) io::internal::write({}, study / "images" / ("slice" + std::to_string(n)));
+    const std::string outlines = (study / "outlines").string();
+    testing::OpenedFiles opened({study / "images"});
+    for (const std::string& command :
+         {"structures " + outlines + " --scan " + phantom().string(),
+          "suggest " + phantom().string() + " --structures " + outlines + " -o " + (study / "scene.json").string()}) {
+      EXPECT_EQ(palpate(command).exit, 0) << command;
+      const auto count = opened.count();
+      EXPECT_EQ(count.size(), 6U) << command;
+      for (const auto& [file, times] : count) EXPECT_EQ(times, 1) << file << ": " << command;
+    }
+  }
 }
 
 TEST(CommandStructures, SaysWhereThereAreNone) {

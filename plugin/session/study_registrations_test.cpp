@@ -2,18 +2,15 @@
 #include "plugin/session/study_registrations.h"
 
 #include <gtest/gtest.h>
-#include <sys/inotify.h>
-#include <unistd.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "io/errors.h"
 #include "plugin/messages/messages.h"
+#include "plugin/testing/opened_files.h"
 #include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {
@@ -21,33 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using io::internal::TestFolder;
-
-/// How often the files of some folders are opened, by their names, as the system counts it.
-class OpenedFiles {
- public:
-  explicit OpenedFiles(const std::vector<fs::path>& folders) : events_(::inotify_init1(IN_NONBLOCK)) {
-    for (const fs::path& folder : folders) ::inotify_add_watch(events_, folder.c_str(), IN_OPEN);
-  }
-  OpenedFiles(const OpenedFiles&) = delete;
-  OpenedFiles& operator=(const OpenedFiles&) = delete;
-  ~OpenedFiles() { ::close(events_); }
-
-  std::map<std::string, int> count() {
-    std::map<std::string, int> opened;
-    alignas(inotify_event) std::array<char, 1 << 16> bytes{};
-    for (ssize_t size = 0; (size = ::read(events_, bytes.data(), bytes.size())) > 0;) {
-      for (ssize_t at = 0; at < size;) {
-        const auto* const event = reinterpret_cast<const inotify_event*>(bytes.data() + at);
-        if (event->len > 0 && (event->mask & IN_ISDIR) == 0) ++opened[event->name];
-        at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
-      }
-    }
-    return opened;
-  }
-
- private:
-  int events_;
-};
+using testing::OpenedFiles;
 
 /// Structures in two folders of a study, a registration in a third one, and scans.
 struct RegisteredFolders {
