@@ -23,30 +23,35 @@ std::size_t voxels_in_slice(const Volume& v) {
   return static_cast<std::size_t>(v.geometry.dimensions.x) * static_cast<std::size_t>(v.geometry.dimensions.y);
 }
 
-/// Rescaled values of a slice, with the smallest of them in place of padding. `is_padding` is empty where there is
-/// none.
+/// Rescaled values of a slice. Padding and what is no finite float are left out: the smallest of the others stands for
+/// them. `left_out` is empty where there is none.
 struct Slice {
-  cv::Mat values;      // CV_32F
-  cv::Mat is_padding;  // CV_8U, 255 where there is padding
+  cv::Mat values;         // CV_32F
+  cv::Mat left_out;       // CV_8U, 255 where a voxel is
+  bool is_empty = false;  ///< all of it is left out
 };
 
 Slice read_slice(const Volume& v, int k) {
   const glm::ivec3 size = v.geometry.dimensions;
   Slice slice{cv::Mat(size.y, size.x, CV_32F), {}};
-  if (v.padding) slice.is_padding = cv::Mat::zeros(size.y, size.x, CV_8U);
+  if (v.padding) slice.left_out = cv::Mat::zeros(size.y, size.x, CV_8U);
   float least = std::numeric_limits<float>::max();
   for (int j = 0; j < size.y; ++j) {
     auto* const row = slice.values.ptr<float>(j);
     for (int i = 0; i < size.x; ++i) {
       row[i] = static_cast<float>(v.value_at(i, j, k));
-      if (v.is_padding(i, j, k)) {
-        slice.is_padding.at<unsigned char>(j, i) = 255;
+      const bool is_finite = std::isfinite(row[i]);
+      if (v.is_padding(i, j, k) || !is_finite) {
+        if (slice.left_out.empty()) slice.left_out = cv::Mat::zeros(size.y, size.x, CV_8U);
+        slice.left_out.at<unsigned char>(j, i) = 255;
+        if (!is_finite) row[i] = 0;  // where nothing else is there
       } else {
         least = std::min(least, row[i]);
       }
     }
   }
-  if (v.padding && least < std::numeric_limits<float>::max()) slice.values.setTo(least, slice.is_padding);
+  slice.is_empty = least == std::numeric_limits<float>::max();
+  if (!slice.is_empty && !slice.left_out.empty()) slice.values.setTo(least, slice.left_out);
   return slice;
 }
 
@@ -71,18 +76,20 @@ double share_mm(const Geometry& g, int k) {
   return before == after ? 1 : apart_mm(g, before, after) / (after - before);
 }
 
-/// Along the steps, of slices that were filtered in themselves: `slice(m)` is such a one.
+/// Along the steps, of slices that were filtered in themselves: `slice(m)` is such a one. Those that are empty add
+/// nothing.
 template <typename SliceAt>
 cv::Mat gaussian_across(const Geometry& g, int k, double sigma_mm, const SliceAt& slice) {
   const auto [first, last] = reached(g, k, sigma_mm);
-  if (first == last) return slice(k).clone();
-  cv::Mat sum = cv::Mat::zeros(slice(k).size(), CV_64F);
+  if (first == last || slice(k).is_empty) return slice(k).values.clone();
+  cv::Mat sum = cv::Mat::zeros(slice(k).values.size(), CV_64F);
   double all = 0;
   for (int m = first; m <= last; ++m) {
+    if (slice(m).is_empty) continue;
     const double away = apart_mm(g, k, m) / sigma_mm;
     const double weight = share_mm(g, m) * std::exp(-0.5 * away * away);
     cv::Mat wide;
-    slice(m).convertTo(wide, CV_64F);
+    slice(m).values.convertTo(wide, CV_64F);
     cv::scaleAdd(wide, weight, sum, sum);
     all += weight;
   }
@@ -103,16 +110,17 @@ PaddingRange rescaled_padding(const Volume& v) {
   return std::pair{std::min(one, other), std::max(one, other)};
 }
 
-/// Padding as it was; and what is not padding does not become it.
-void keep_padding(const Volume& v, int k, const cv::Mat& is_padding, const PaddingRange& range, cv::Mat& values) {
-  if (!range) return;
-  const auto above = std::nextafter(static_cast<float>(range->second), std::numeric_limits<float>::max());
+/// What was left out as it was; and what is not padding does not become it.
+void keep_left_out(const Volume& v, int k, const cv::Mat& left_out, const PaddingRange& range, cv::Mat& values) {
+  if (!range && left_out.empty()) return;
+  const auto above =
+      std::nextafter(range ? static_cast<float>(range->second) : 0.0F, std::numeric_limits<float>::max());
   for (int j = 0; j < values.rows; ++j) {
     auto* const row = values.ptr<float>(j);
     for (int i = 0; i < values.cols; ++i) {
-      if (is_padding.at<unsigned char>(j, i) != 0) {
+      if (!left_out.empty() && left_out.at<unsigned char>(j, i) != 0) {
         row[i] = static_cast<float>(v.value_at(i, j, k));
-      } else if (row[i] >= range->first && row[i] <= range->second) {
+      } else if (range && row[i] >= range->first && row[i] <= range->second) {
         row[i] = above;
       }
     }
@@ -138,10 +146,8 @@ std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int 
   const std::size_t stride = voxels_in_slice(raw);
   std::vector<float> result(stride * (static_cast<std::size_t>(last - first) + 1));
   for (int k = first; k <= last; ++k) {
-    cv::Mat values = across
-                         ? gaussian_across(g, k, filter.sigma_mm, [&](int m) -> const cv::Mat& { return at(m).values; })
-                         : at(k).values;
-    keep_padding(raw, k, at(k).is_padding, padding, values);
+    cv::Mat values = across ? gaussian_across(g, k, filter.sigma_mm, at) : at(k).values;
+    keep_left_out(raw, k, at(k).left_out, padding, values);
     std::memcpy(&result[static_cast<std::size_t>(k - first) * stride], values.ptr<float>(), stride * sizeof(float));
   }
   return result;

