@@ -293,15 +293,23 @@ TEST(OddArchive, ThatTakesAFileWithAWarningIsQuoted) {
   }
 }
 
-// Spaces at either end are no part of an AE title (PS3.5 6.2): by C-MOVE the archive sends without them.
+// Spaces at either end are no part of an AE title (PS3.5 6.2): by C-MOVE the archive sends without them, and is told
+// where to without them.
 TEST(OddArchive, IsKnownWhateverSpacesItsTitleIsTypedWith) {
   for (const char* const spaces : {"{} ", " {}", "  {}  "}) {
-    OddArchive odd("good");
-    for (std::string Archive::*const which : {&Archive::called, &Archive::calling}) {
-      std::string typed = spaces;
-      odd.archive().*which = typed.replace(typed.find("{}"), 2, odd.archive().*which);
+    for (const bool uses_get : {false, true}) {
+      for (std::string Archive::*const which : {&Archive::called, &Archive::calling}) {
+        OddArchive odd(uses_get ? "good" : "tells-all");
+        odd.archive().uses_get = uses_get;
+        std::string typed = spaces;
+        odd.archive().*which = typed.replace(typed.find("{}"), 2, odd.archive().*which);
+        EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder()).files, uses_get ? 2U : 1U) << spaces;
+        if (uses_get) continue;
+        std::string line;
+        while (line.find("destination") == std::string::npos) line = odd.process().read_line();
+        EXPECT_TRUE(line.ends_with("destination PALPATE")) << line;
+      }
     }
-    EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder()).files, 2U) << spaces;
   }
 }
 

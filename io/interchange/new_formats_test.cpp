@@ -329,6 +329,34 @@ TEST(NewFormats, EncodingsThatAreDamagedAreRefusedInWords) {
   EXPECT_THAT(refused("lzma", bzip2), "its encoding \"lzma\" is not read; there are: raw, gzip, bzip2, ascii, hex");
 }
 
+// What is wrong behind the last voxel is seen, too, in files larger than what is unpacked at once.
+TEST(NewFormats, AWrongChecksumAtTheEndOfBzip2IsNoticed) {
+  for (const int slices : {1, 64}) {
+    const std::string header = nrrd_with(
+        "dimension: 3\nsizes: 64 64 " + std::to_string(slices) + "\nspace directions: " + directions + "\n", "bzip2");
+    std::string bytes;
+    for (int n = 0; n < 64 * 64 * slices; ++n)
+      bytes += as_bytes(static_cast<std::int16_t>((n * 7919 + n / 4096 * 31) % 4001));
+    const std::string whole = bzipped(bytes);
+    for (std::size_t n = 0; n <= 5; ++n) {
+      std::string bad = whole;
+      // The last byte may hold nothing but filling; those before it are the checksum's.
+      if (n > 0) bad[bad.size() - n] = static_cast<char>(bad[bad.size() - n] ^ 0x80);
+      const TestFolder folder;
+      write_bytes(folder / "a.nrrd", header + bad);
+      const Catalogue found = find_series(std::array{folder / "a.nrrd"});
+      if (found.series.empty()) {  // a small one is unpacked whole where it is found
+        EXPECT_GT(n, 0U);
+        EXPECT_THAT(std::string(found.skipped.at(0).reason), ::testing::HasSubstr("(its checksum)"));
+      } else if (n == 0) {
+        EXPECT_NO_THROW(load(found.series[0]));
+      } else {
+        EXPECT_THROW(load(found.series[0]), DicomError) << slices << " slices, byte " << n << " from the end";
+      }
+    }
+  }
+}
+
 TEST(NewFormats, ANiftiThatIsPackedByBzip2IsUnpacked) {
   const TestFolder folder;
   write_bytes(folder / "a.nii.bz2", bzipped(Nifti().sform(oblique()).bytes() + voxels<std::int16_t>()));

@@ -2,6 +2,7 @@
 // in the new values. Truth is the suggestion of the scan as it was.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
@@ -126,6 +127,39 @@ TEST(SuggestAffine, AnyChangeOfTheUnitGivesTheSameSceneInTheNewValues) {
         expect_sound_scene(found);
         expect_same_scene(found, before, change);
       }
+    }
+  }
+}
+
+/// Two plates within one tissue, a brighter and a darker one: each side of each has a name of its own.
+io::Volume scan_of_plates() {
+  io::Volume volume = affine_scan(true, 2);
+  const testdata::Phantom phantom{.background = air_hu,
+                                  .bodies = {{HalfSpace{{0, 0, 1}, 20}, 40},
+                                             {HalfSpace{{0, 0, 1}, 8}, 95},
+                                             {HalfSpace{{0, 0, 1}, 5}, 40},
+                                             {HalfSpace{{0, 0, 1}, -6}, -15},
+                                             {HalfSpace{{0, 0, 1}, -9}, 40}}};
+  volume.voxels = testdata::scan(phantom, volume.geometry, {.noise = 2}).voxels;
+  return volume;
+}
+
+TEST(SuggestAffine, NamesDifferInAnyUnit) {
+  const io::Volume volume = scan_of_plates();
+  const Suggestion before = suggest(std::make_shared<const io::Volume>(volume));
+  const auto parts = [](const Suggestion& of) {
+    return std::ranges::count_if(of.scene.tissues,
+                                 [](const Tissue& tissue) { return tissue.name.find(" part (") != std::string::npos; });
+  };
+  ASSERT_EQ(parts(before), 4);
+  for (const double factor : {1e-9, 1e-5, 1.0 / 3000, 0.01, 1e6}) {
+    for (const double offset_of_ranges : {0.0, -20.0}) {
+      const Affine change{factor, factor * phantom_range * offset_of_ranges};
+      SCOPED_TRACE(::testing::Message() << factor << " x + " << change.offset);
+      const Suggestion found = suggest(rescaled(volume, change));
+      expect_sound_scene(found);
+      expect_same_scene(found, before, change);
+      EXPECT_EQ(parts(found), 4);
     }
   }
 }
