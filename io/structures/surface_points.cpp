@@ -119,7 +119,12 @@ StructureBox box_around(const SignedDistance& distance, StructureBox box) {
 }
 
 std::vector<SurfacePoint> surface_points(const SignedDistance& distance, const StructureBox& box, double spacing_mm) {
-  const Blocks blocks(box_around(distance, box), spacing_mm);
+  return surface_points_in(distance, box_around(distance, box), spacing_mm);
+}
+
+std::vector<SurfacePoint> surface_points_in(const SignedDistance& distance, const StructureBox& box,
+                                            double spacing_mm) {
+  const Blocks blocks(box, spacing_mm);
   std::vector<std::vector<SurfacePoint>> layers(blocks.layers());
   internal::parallel_for(
       layers.size(),

@@ -20,6 +20,9 @@ struct SurfacePoint {
 /// it, and to be larger beyond.
 std::vector<SurfacePoint> surface_points(const SignedDistance& distance, const StructureBox& box, double spacing_mm);
 
+/// The same within a box that does not grow; a little around it may be looked at, too.
+std::vector<SurfacePoint> surface_points_in(const SignedDistance& distance, const StructureBox& box, double spacing_mm);
+
 /// The box with all of the surface.
 StructureBox box_around(const SignedDistance& distance, StructureBox box);
 

@@ -75,7 +75,7 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
                          before.felt.plan->slices == felt.plan->slices &&
                          before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
                          before.scene.sampling == scene.sampling;
-  felt.structures = load_structures(scene, *felt.plan, *volume,
+  felt.structures = load_structures(scene, *felt.plan, volume,
                                     of_scan ? before.felt.structures : std::vector<LoadedStructure>(), recorded);
   if (same_scan && same_distances(felt.structures, before.felt.structures)) {
     felt.source = before.felt.source;

@@ -6,17 +6,16 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include "io/errors.h"
-#include "io/fields/filtered.h"
-#include "io/structures/edits.h"
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
 #include "plugin/session/shared_distance.h"
+#include "plugin/session/shared_edits.h"
 #include "plugin/session/structure_files.h"
 #include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
@@ -98,21 +97,15 @@ std::optional<RegisteredStructure> place(io::Structure& structure, const modes::
 }
 
 /// Brings a structure to the scene's edits: from the last edit on that both have, or from the outline of its file.
-void edit(LoadedStructure& structure, const modes::SceneStructure& wanted, const io::Volume& volume) {
+void edit(LoadedStructure& structure, const modes::SceneStructure& wanted,
+          const std::shared_ptr<const io::Volume>& volume) {
   std::vector<std::shared_ptr<const io::DistanceField>> fields = std::move(structure.before_edits);
   fields.push_back(structure.distance);
   const auto [first_other, ignored] = std::ranges::mismatch(structure.edits, wanted.edits);
   fields.resize(static_cast<std::size_t>(first_other - structure.edits.begin()) + 1);
-  std::shared_ptr<const io::FieldSource> values;
-  std::optional<io::ScanValues> scan;
   for (std::size_t n = fields.size() - 1; n < wanted.edits.size(); ++n) {
-    if (std::holds_alternative<io::ScanEdgeEdit>(wanted.edits[n]) && !scan) {
-      // Not owned: nothing of it is kept beyond this call.
-      values = io::edge_fields(io::raw_of(std::shared_ptr<const io::Volume>(std::shared_ptr<void>(), &volume)));
-      scan.emplace(io::ScanValues{*values, volume.geometry});
-    }
     try {
-      fields.push_back(io::apply_edit(fields.back(), wanted.edits[n], {.scan = scan ? &*scan : nullptr}));
+      fields.push_back(shared_edited(fields.back(), wanted.edits[n], volume));
     } catch (const InvalidInput& error) {
       refuse(wanted, at_place(fmt::format("edit {}", n + 1), error.text()));
     }
@@ -128,6 +121,15 @@ void edit(LoadedStructure& structure, const modes::SceneStructure& wanted, const
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded) {
+  const std::shared_ptr<const io::Volume> not_owned(std::shared_ptr<void>(), &volume);
+  return load_structures(scene, plan, not_owned, before, recorded);
+}
+
+std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
+                                             const std::shared_ptr<const io::Volume>& scan,
+                                             const std::vector<LoadedStructure>& before,
+                                             std::span<const RegisteredStructure> recorded) {
+  const io::Volume& volume = *scan;
   std::vector<LoadedStructure> loaded;
   StudyRegistrations study;
   for (const std::size_t n : plan.structures) {
@@ -140,7 +142,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
     });
     if (known != before.end()) {
       loaded.push_back(*known);
-      edit(loaded.back(), wanted, volume);
+      edit(loaded.back(), wanted, scan);
       continue;
     }
     io::Structure structure = find_structure(wanted, file);
@@ -152,7 +154,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       }
       loaded.push_back(
           {file.string(), segment, structure.warnings, registered, shared_distance(structure, volume.geometry, reach)});
-      edit(loaded.back(), wanted, volume);
+      edit(loaded.back(), wanted, scan);
     } catch (const io::DicomError& error) {
       refuse(wanted, error.text());
     }

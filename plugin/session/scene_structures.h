@@ -33,9 +33,14 @@ struct LoadedStructure {
 /// of the edits that both begin with. Throws std::invalid_argument that names the structure, if it has no such file or
 /// segment, is empty, is of another patient, an edit of it cannot be done, or it lies in another frame of reference
 /// than the scan and no registration beside it joins the two. Those in `recorded` are put where they were then; no
-/// registration is looked for.
+/// registration is looked for. Fields of edits are shared (shared_edits.h); those that read the scan only where it is
+/// owned.
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
+                                             std::span<const RegisteredStructure> recorded = {});
+std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
+                                             const std::shared_ptr<const io::Volume>& scan,
+                                             const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded = {});
 
 }  // namespace palpate::plugin

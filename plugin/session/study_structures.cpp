@@ -166,4 +166,38 @@ void add_gate_of(modes::Scene& scene, std::size_t mode, const io::Structure& str
   scene.modes.at(mode).gates.push_back(gate);
 }
 
+namespace {
+
+std::string name_of_snap(const std::string& structure) {
+  return "Scan's edge at " + structure;
+}
+
+}  // namespace
+
+void snap_no_more(modes::Scene& scene, const io::Structure& structure) {
+  for (const modes::SceneStructure& named : scene.structures) {
+    if (!is_same(named, structure)) continue;
+    std::erase_if(scene.modes, [&](const modes::Mode& mode) {
+      return mode.type == "surface" && mode.name == name_of_snap(named.name);
+    });
+  }
+}
+
+void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap) {
+  constexpr double within_mm = 6, usual_ct_per_mm = 80;
+  constexpr double least_part = 0.25, whole_part = 0.6;  // of an edge's steepness: where it begins to hold, and holds
+  const std::string name = name_in_scene(scene, structure);
+  snap_no_more(scene, structure);
+  const double steep = snap.edge_per_mm > 0 ? snap.edge_per_mm : usual_ct_per_mm;
+  modes::Mode mode = mode_of(scene, "surface", name_of_snap(name), name, snap.newtons);
+  mode.structure.clear();  // the scan's edge, not the outline
+  mode.side = modes::Side::both;
+  mode.strength_n = modes::TransferFunction({{least_part * steep, 0}, {whole_part * steep, snap.newtons}});
+  mode.gates.push_back(
+      {.of = modes::Datum::distance,
+       .factor = modes::TransferFunction({{-within_mm, 0}, {1 - within_mm, 1}, {within_mm - 1, 1}, {within_mm, 0}}),
+       .structure = name});
+  scene.modes.push_back(std::move(mode));
+}
+
 }  // namespace palpate::plugin

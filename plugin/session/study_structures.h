@@ -46,4 +46,14 @@ void add_keep_out_of(modes::Scene& scene, const io::Structure& structure, double
 /// Lets a mode of the scene act only inside the structure.
 void add_gate_of(modes::Scene& scene, std::size_t mode, const io::Structure& structure);
 
+/// How the scan's own edges hold the stylus near a structure's outline.
+struct Snap {
+  double newtons = 1;
+  double edge_per_mm = 0;  ///< how steep they are there, the scan's unit; 0: not known, and those of a CT are taken
+};
+/// Adds a surface at the scan's edges within 6 mm of the outline, or changes it.
+void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap);
+/// Takes it away again.
+void snap_no_more(modes::Scene& scene, const io::Structure& structure);
+
 }  // namespace palpate::plugin

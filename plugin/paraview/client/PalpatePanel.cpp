@@ -81,11 +81,19 @@ void PalpatePanel::mark_by_key(const QKeyEvent& event) {
   }
 }
 
+/// B held in a view shows the outline before its correction.
+void PalpatePanel::show_before_by_key(const QKeyEvent& event) {
+  if (event.key() != Qt::Key_B || event.isAutoRepeat()) return;
+  const bool pressed = event.type() == QEvent::KeyPress && event.modifiers() == Qt::NoModifier && has_view_keys();
+  if (pressed || event.type() == QEvent::KeyRelease) parts_->correction.show_before(pressed);
+}
+
 bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
   const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
   if (pressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) parts_->touching.release();
   if (event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease) {
     mark_by_key(*static_cast<QKeyEvent*>(event));
+    show_before_by_key(*static_cast<QKeyEvent*>(event));
   }
   // A button that was clicked is done with: the arrow keys are the marked view's again.
   if (event->type() == QEvent::MouseButtonRelease && qobject_cast<QAbstractButton*>(watched) &&

@@ -12,17 +12,22 @@ def is_inside(*at):
     return math.dist(at, (0, 0, 0)) < RADIUS
 
 
+def is_in_cut_ball(x, y, z):
+    """The phantom's own ball, 25 mm, whose cap in front is cut off: 4 mm deep."""
+    return math.dist((x, y, z), (0, 0, 0)) < 25 and y > -21
+
+
 def positions():
     return [n - (SIZE - 1) / 2 for n in range(SIZE)]
 
 
-def voxels():
-    return sum(is_inside(x, y, z) for z in positions() for y in positions() for x in positions())
+def voxels(inside=is_inside):
+    return sum(inside(x, y, z) for z in positions() for y in positions() for x in positions())
 
 
-def bits(z):
+def bits(z, inside=is_inside):
     """A slice, the first pixel in the lowest bit."""
-    flags = [is_inside(x, y, z) for y in positions() for x in positions()]
+    flags = [inside(x, y, z) for y in positions() for x in positions()]
     return bytes(sum(flag << n for n, flag in enumerate(flags[at:at + 8])) for at in range(0, len(flags), 8))
 
 
@@ -36,16 +41,16 @@ def frame(z):
             *items("0062,000a", ["(0062,000b) US 1"])]
 
 
-def write_segmentation(file, scan, number=1):
+def write_segmentation(file, scan, number=1, is_in=is_inside):
     """Of `scan`'s patient, study and frame of reference. Segmentations of another number are others."""
     def header(tag):
         first = os.path.join(scan, sorted(name for name in os.listdir(scan) if name.startswith("slice_"))[0])
         dump = subprocess.run(["dcmdump", "+P", tag, first], check=True, capture_output=True, text=True).stdout
         return dump.split("[")[1].split("]")[0]
 
-    inside = [z for z in positions() if abs(z) < RADIUS]
+    inside = [z for z in positions() if any(is_in(x, y, z) for y in positions() for x in positions())]
     with open(file + ".bits", "wb") as pixels:
-        pixels.write(b"".join(bits(z) for z in inside))
+        pixels.write(b"".join(bits(z, is_in) for z in inside))
     code = ["(0008,0100) SH T-D0050", "(0008,0102) SH SRT", "(0008,0104) LO Tissue"]
     lines = [
         "(0008,0016) UI 1.2.840.10008.5.1.4.1.1.66.4",

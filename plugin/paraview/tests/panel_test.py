@@ -7,7 +7,7 @@ import os
 import shutil
 import subprocess
 
-from made_segmentation import voxels, write_segmentation
+from made_segmentation import is_in_cut_ball, voxels, write_segmentation
 from mixed_folder import mixed_folder, set_headers
 from panel_program import PROGRAMS, SCRATCH, ball, main, phantom, run, scratch
 from voxel_ball import write_nifti, write_nrrd
@@ -118,6 +118,14 @@ def outlined():
     return folder
 
 
+def spoilt():
+    """A ball, and a segmentation of it whose cap in front was cut off."""
+    folder = ball()
+    write_segmentation(os.path.join(folder, "liver.dcm"), folder, is_in=is_in_cut_ball)
+    os.environ["PALPATE_CORRECTED"] = scratch("corrected.dcm")
+    return folder
+
+
 FOLDERS = {
     "slices_are_scrolled": lambda: numbered("numbered"),
     "slices_are_scrolled_upside_down": lambda: numbered("upside-down", "--orientation", "1,0,0,0,-1,0"),
@@ -137,6 +145,7 @@ FOLDERS = {
     "a_series_is_picked": mixed_folder,
     "a_bad_folder": bad,
     "structures_are_seen_and_felt": outlined,
+    "an_outline_is_corrected": spoilt,
     "marks_belong_to_a_scan": both,
     "slices_are_read_and_measured": named,
     "the_table_is_cut_away": on_a_table,
@@ -205,6 +214,7 @@ SCENARIOS = [
     "slices_follow_the_pointer",
     "slices_are_scrolled_upside_down",
     "structures_are_seen_and_felt",
+    "an_outline_is_corrected",
     "marks_are_where_the_stylus_was",
     "marks_are_measured_and_changed",
     "marks_belong_to_a_scan",

@@ -31,6 +31,7 @@ void PanelParts::build() {
   connect_start();
   connect_scan();
   connect_structures();
+  connect_correction();
   connect_marks();
   connect_scene();
   connect_session();
@@ -50,7 +51,7 @@ void PanelParts::build_column() {
   column->addWidget(scan_fold);
   column->addWidget(&scan->notes());
   column->addWidget(new Fold(tr("Tissues"), QStringLiteral("palpateTissuesSection"), build_tissues(), true, content));
-  structures = new StructuresSection(open_views, model, touching);
+  structures = new StructuresSection(open_views, model, touching, correction);
   structures_fold = new Fold(tr("Structures"), QStringLiteral("palpateStructuresSection"), structures, false, content);
   column->addWidget(structures_fold);
   stylus = new StylusSection(touching, model, [this] { return views.eye(); });

@@ -25,7 +25,8 @@
 namespace palpate::plugin {
 
 void PanelParts::connect_marks() {
-  QObject::connect(&touching, &SessionController::marked, &marks, &MarksModel::add);
+  QObject::connect(&touching, &SessionController::marked, &dock,
+                   [this](const MarkMade& made) { correction.structure() ? draw_felt(made) : marks.add(made); });
   QObject::connect(&marks, &MarksModel::changed, &dock, [this] { drawn_marks.refresh(); });
   QObject::connect(&marks, &MarksModel::added, &dock, [this] { marks_fold->set_open(true); });
   QObject::connect(marks_list, &MarksSection::listed, &dock, [this] {
@@ -67,7 +68,7 @@ void PanelParts::send_marks() {
   const io::Series of = *series;
   const std::shared_ptr<const io::Volume> volume = scans.shown()->volume;
   const Marks shown = marks.marks();
-  SendDialog dialog(of, shown, std::move(archives), &dock);
+  SendDialog dialog(of, SendDialog::of_marks(of, shown), std::move(archives), &dock);
   if (dialog.exec() == QDialog::Accepted) marks_list->sender().send(dialog.archive(), of, volume, shown);
 }
 

@@ -22,10 +22,8 @@ void PanelParts::connect_scene() {
   QObject::connect(profile, &ProfileSection::picking, &dock, [this](bool on) {
     touching.keep_mouse_off(on);
     if (on) read_opacity();  // it may have been edited in ParaView since
-    const auto pick = on ? [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); }
-                         : std::function<void(Pick, const glm::dvec3&)>{};
-    readers.views().set_pick(pick);
-    views.set_pick(pick);
+    profile_picks = on;
+    share_picks();
   });
   QObject::connect(profile, &ProfileSection::stroke_changed, &dock,
                    [this](const WantedStroke& stroke) { curves->profile().choose(stroke); });

@@ -10,8 +10,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "plugin/paraview/client/jobs/scan_loader.h"
+#include "plugin/paraview/client/model/correction_model.h"
 #include "plugin/paraview/client/model/marks_model.h"
 #include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/model/scan_model.h"
@@ -27,6 +29,7 @@
 #include "plugin/paraview/client/views/drawing_watch.h"
 #include "plugin/paraview/client/views/flow_views.h"
 #include "plugin/paraview/client/views/mark_views.h"
+#include "plugin/paraview/client/views/path_views.h"
 #include "plugin/paraview/client/views/reference_lines.h"
 
 class QProgressBar;
@@ -50,6 +53,7 @@ class StylusSection;
 class TissuesSection;
 class VolumeLookBox;
 class WindowBox;
+struct CorrectedOutline;
 
 /// Members in the order in which they lean on each other.
 struct PanelParts {
@@ -63,6 +67,7 @@ struct PanelParts {
         flow(open_views),
         contours(open_views),
         crosshair(open_views),
+        drawn_stroke(open_views, QColor(255, 240, 80)),
         drawn_marks(open_views, [this]() -> const Marks& { return marks.marks(); }),
         views(open_views, touching, model),
         drawing(open_views, [this](double seconds) { touching.note_work(tr("drawing"), seconds); }) {}
@@ -91,6 +96,13 @@ struct PanelParts {
   void connect_structures();
   void show_structures(const ScanHandle& handle);
   void leave_structures();
+  // connect_correction.cpp
+  void connect_correction();
+  void share_picks();
+  void draw_felt(const MarkMade& made);
+  void save_outline();
+  void send_outline();
+  std::optional<CorrectedOutline> corrected_outline();
   // connect_marks.cpp
   void connect_marks();
   void show_marks(const ScanHandle& handle);
@@ -114,11 +126,13 @@ struct PanelParts {
   SceneSource kept;
   SceneModel model{kept};
   MarksModel marks{kept};
+  CorrectionModel correction{model};
   SessionController touching;
   StrokeRunner strokes;
   FlowViews flow;
   BoundaryContours contours;
   ReferenceLines crosshair;
+  PathViews drawn_stroke;
   MarkViews drawn_marks;
   StylusViews views;
   DrawingWatch drawing;
@@ -147,6 +161,7 @@ struct PanelParts {
   HostLayout* layout = nullptr;
   VolumeLookBox* look_box = nullptr;
   bool leaving = false;                     // a server
+  bool profile_picks = false;               // the left button in the views is the force profile's
   QString opening;                          // whose scan is coming, in words
   std::weak_ptr<const io::Volume> studied;  // for its tissues
   std::uint64_t followed = 0;               // last tick of a recording that the slices followed

@@ -23,10 +23,32 @@ QString joined(QStringList parts) {
 
 }  // namespace
 
-SendDialog::SendDialog(const io::Series& series, const Marks& marks, std::vector<io::Archive> archives, QWidget* parent)
+SendDialog::Content SendDialog::of_marks(const io::Series& series, const Marks& marks) {
+  return {.title = tr("Send marks"),
+          .what = tr("A report (SR) of %1 marks, %2 distances and %3 paths, and %4 pictures of the marks")
+                      .arg(marks.points.size())
+                      .arg(marks.distances.size())
+                      .arg(marks.paths.size())
+                      .arg(marks.points.size()),
+          .report = QString::fromStdString(
+              report_in_words(report_of(marks), series.modality == "CT" ? std::string("HU") : std::string())),
+          .note = tr("They go into this study as measured by research software, not a medical device; the report says "
+                     "so. The pictures show the scan, and no name.")};
+}
+
+SendDialog::Content SendDialog::of_outline(const QString& structure, const QString& change) {
+  return {.title = tr("Send the corrected outline"),
+          .what = tr("A segmentation (SEG) of %1. %2").arg(structure, change),
+          .report = {},
+          .note = tr("It goes into this study as a new series, made with research software, not a medical device. The "
+                     "outline that was corrected stays.")};
+}
+
+SendDialog::SendDialog(const io::Series& series, const Content& content, std::vector<io::Archive> archives,
+                       QWidget* parent)
     : QDialog(parent), entered_(std::move(archives)), archives_(new QComboBox(this)) {
   setObjectName(QStringLiteral("palpateSendDialog"));
-  setWindowTitle(tr("Send marks"));
+  setWindowTitle(content.title);
   auto* const form = new QFormLayout(this);
   const auto line = [&](const char* name, const QString& what, const QString& text) {
     auto* const field = new QLabel(text, this);
@@ -40,19 +62,15 @@ SendDialog::SendDialog(const io::Series& series, const Marks& marks, std::vector
   line("palpateSendStudy", tr("Study"),
        joined({date_in_words(series.identity.study_date), QString::fromStdString(series.modality),
                QString::fromStdString(series.description)}));
-  line("palpateSendWhat", tr("What"),
-       tr("A report (SR) of %1 marks, %2 distances and %3 paths, and %4 pictures of the marks")
-           .arg(marks.points.size())
-           .arg(marks.distances.size())
-           .arg(marks.paths.size())
-           .arg(marks.points.size()));
-  auto* const report = new QPlainTextEdit(this);
-  report->setObjectName(QStringLiteral("palpateSendReport"));
-  report->setReadOnly(true);
-  report->setLineWrapMode(QPlainTextEdit::NoWrap);
-  report->setPlainText(QString::fromStdString(
-      report_in_words(report_of(marks), series.modality == "CT" ? std::string("HU") : std::string())));
-  form->addRow(tr("Report"), report);
+  line("palpateSendWhat", tr("What"), content.what);
+  if (!content.report.isEmpty()) {
+    auto* const report = new QPlainTextEdit(this);
+    report->setObjectName(QStringLiteral("palpateSendReport"));
+    report->setReadOnly(true);
+    report->setLineWrapMode(QPlainTextEdit::NoWrap);
+    report->setPlainText(content.report);
+    form->addRow(tr("Report"), report);
+  }
   archives_->setObjectName(QStringLiteral("palpateSendArchive"));
   for (const io::Archive& one : entered_) {
     archives_->addItem(QStringLiteral("%1 (%2:%3)")
@@ -60,9 +78,7 @@ SendDialog::SendDialog(const io::Series& series, const Marks& marks, std::vector
                            .arg(one.port));
   }
   form->addRow(tr("To"), archives_);
-  line("palpateSendNote", QString(),
-       tr("They go into this study as measured by research software, not a medical device; the report says so. The "
-          "pictures show the scan, and no name."));
+  line("palpateSendNote", QString(), content.note);
   auto* const buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   QPushButton* const send = buttons->addButton(tr("Send"), QDialogButtonBox::AcceptRole);
   send->setObjectName(QStringLiteral("palpateSendOk"));

@@ -1,7 +1,5 @@
 #include "plugin/paraview/client/panel/structures_section.h"
 
-#include <vtkPolyData.h>
-
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPixmap>
@@ -11,15 +9,16 @@
 #include <QTreeWidget>
 
 #include <algorithm>
-#include <exception>
+#include <glm/common.hpp>
+#include <string>
 #include <utility>
 
 #include "device/simulated/simulated_stylus.h"
+#include "io/fields/filtered.h"
+#include "io/structures/outline_change.h"
 #include "modes/types/mode_type.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
-#include "plugin/paraview/common/structure_shapes.h"
-#include "plugin/session/shared_distance.h"
 #include "plugin/session/structure_files.h"
 #include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
@@ -43,10 +42,18 @@ QString volume_in_words(double mm3) {
 
 }  // namespace
 
-StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching, QWidget* parent)
+/// The file's, and what edits have added and removed.
+double StructuresSection::volume_of(const Entry& entry) {
+  const double before = entry.made.measures->volume_mm3;
+  return entry.made.change ? before + entry.made.change->added_mm3 - entry.made.change->removed_mm3 : before;
+}
+
+StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching,
+                                     CorrectionModel& correction, QWidget* parent)
     : QWidget(parent),
       model_(model),
       touching_(touching),
+      correction_(correction),
       drawn_(views),
       finding_([this](const auto& found, const QString& error) {
         if (found) take(*found);
@@ -70,16 +77,26 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
   connect(&model, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::stepped) follow_scene();
   });
+  correction.set_press([this](const QString& what, const SceneModel::Change& change) {
+    tell({}, false);
+    presses_.press(what, change, {});
+  });
+  correction.set_find([this](const io::Structure* structure, auto done) { find_doubtful(structure, std::move(done)); });
+  connect(&correction, &CorrectionModel::changed, this, [this] { follow_correction(); });
   list();
 }
 
-StructuresSection::~StructuresSection() = default;
+StructuresSection::~StructuresSection() {
+  correction_.set_press([](const QString&, const SceneModel::Change&) {});
+  correction_.set_find({});
+}
 
 void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder) {
   finding_.drop();
   making_.drop();
   using_.drop();
   presses_.drop();
+  correction_.forget();
   scan_ = std::move(scan);
   entries_.clear();
   looked_into_.clear();
@@ -172,6 +189,11 @@ void StructuresSection::follow_scene() {
     }
     if (!named.color.empty()) entry->color = named.color;
   }
+  for (Entry& entry : entries_) {
+    const auto named = std::ranges::find_if(
+        model_.scene().structures, [&](const modes::SceneStructure& one) { return is_same(one, entry.structure); });
+    entry.edits = named == model_.scene().structures.end() ? std::vector<io::Edit>() : named->edits;
+  }
   std::error_code absent;
   std::erase_if(files, [&](const auto& file) { return !std::filesystem::exists(copy_of(file), absent); });
   list();
@@ -209,9 +231,9 @@ void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) cons
   QPixmap swatch(12, 12);
   swatch.fill(QColor(structure_text(entry.color)));
   item.setIcon(0, QIcon(swatch));
-  item.setText(1, !entry.off.empty() ? tr("outside the scan")
-                  : entry.measures   ? volume_in_words(entry.measures->volume_mm3)
-                                     : QString());
+  item.setText(1, !entry.off.empty()    ? tr("outside the scan")
+                  : entry.made.measures ? volume_in_words(volume_of(entry))
+                                        : QString());
   item.setFlags(fits ? Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable : Qt::ItemIsSelectable);
   item.setCheckState(0, entry.shown ? Qt::Checked : Qt::Unchecked);
   QString tip = structure_text(entry.structure.file.filename().string());
@@ -222,55 +244,68 @@ void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) cons
   item.setToolTip(0, tip);
 }
 
+/// As it is felt; null where it is not.
+const LoadedStructure* StructuresSection::felt(const Entry& entry) const {
+  const PreparedScene& prepared = touching_.live().felt();
+  if (!scan_ || !prepared.volume || io::raw_of(prepared.volume) != io::raw_of(scan_)) return nullptr;
+  const auto& structures = prepared.structures;
+  const auto found = std::ranges::find_if(structures, [&](const LoadedStructure& one) {
+    return one.file == entry.structure.file.string() &&
+           (one.segment == "#" + std::to_string(entry.structure.number) || one.segment == entry.structure.name);
+  });
+  return found == structures.end() ? nullptr : &*found;
+}
+
 /// Measures and shapes, one after the other: first of what is shown.
 void StructuresSection::make_next() {
   if (busy_making_ || !scan_) return;
   const auto wants = [](bool drawn) {
     return [drawn](const Entry& entry) {
-      return entry.why_not.empty() && (drawn ? entry.shown && !entry.drawn.distance : !entry.measures);
+      if (!entry.why_not.empty()) return false;
+      if (!drawn) return !entry.made.measures;
+      return entry.shown && (!entry.made.drawn.distance || entry.made.edits != entry.edits);
     };
   };
   auto next = std::ranges::find_if(entries_, wants(true));
   if (next == entries_.end()) next = std::ranges::find_if(entries_, wants(false));
   if (next == entries_.end()) return;
   busy_making_ = true;
-  making_.ask([structure = next->structure, measures = next->measures, draws = next->shown, scan = scan_] {
-    Made made{.file = structure.file, .number = structure.number, .measures = measures};
-    try {
-      if (!made.measures) made.measures = std::make_shared<const io::StructureMeasures>(io::measure(structure));
-      if (draws) {
-        constexpr double room_mm = 3;  // the box is of voxel centers
-        made.drawn.low_mm = made.measures->box_low_mm - room_mm;
-        made.drawn.high_mm = made.measures->box_high_mm + room_mm;
-        made.drawn.distance = shared_distance(structure, scan->geometry);
-        made.drawn.surface = surface_of(*made.drawn.distance, made.drawn.low_mm, made.drawn.high_mm);
-      }
-    } catch (const std::exception& error) {
-      made.error = error.what();
-    }
-    return made;
-  });
+  WantedStructure wanted{.structure = next->structure,
+                         .edits = next->edits,
+                         .measures = next->made.measures,
+                         .outline = nullptr,
+                         .draws = next->shown,
+                         .scan = scan_};
+  if (const LoadedStructure* const now = felt(*next)) {
+    wanted.outline = now->before_edits.empty() ? now->distance : now->before_edits.front();
+  }
+  making_.ask([wanted] { return make_structure(wanted); });
 }
 
-void StructuresSection::take_made(const Made& made) {
+void StructuresSection::take_made(const MadeStructure& made) {
   const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) {
     return one.structure.file == made.file && one.structure.number == made.number;
   });
   if (entry == entries_.end()) return;  // another scan is shown meanwhile
   entry->why_not = made.error;
   if (!made.error.empty()) entry->shown = false;
-  entry->measures = made.measures;
-  if (made.drawn.distance) entry->drawn = made.drawn;
+  if (made.drawn.distance) {
+    entry->made = made;
+  } else {
+    entry->made.measures = made.measures;
+  }
   look_whether_off(*entry);
   list();
   draw();
+  follow_correction();
 }
 
 /// Of several the first is told; each has it in its row.
 void StructuresSection::look_whether_off(Entry& entry) {
-  if (!entry.measures || !entry.off.empty()) return;
+  if (!entry.made.measures || !entry.off.empty()) return;
   const bool first = std::ranges::all_of(entries_, [](const Entry& one) { return one.off.empty(); });
-  entry.off = off_scan(entry.structure, {entry.measures->box_low_mm, entry.measures->box_high_mm}, scan_->geometry);
+  entry.off =
+      off_scan(entry.structure, {entry.made.measures->box_low_mm, entry.made.measures->box_high_mm}, scan_->geometry);
   if (entry.off.empty() || !first) return;
   const QString before = message_->text();
   tell(before.isEmpty() ? words(entry.off) : before + QLatin1Char('\n') + words(entry.off), true);
@@ -292,11 +327,25 @@ std::vector<double> StructuresSection::margins_of(const io::Structure& structure
 
 void StructuresSection::draw() {
   std::vector<DrawnStructure> shown;
-  for (Entry& entry : entries_) {
-    if (!entry.shown || !entry.drawn.distance) continue;
-    entry.drawn.color = QColor(structure_text(entry.color));
-    entry.drawn.margins_mm = margins_of(entry.structure);
-    shown.push_back(entry.drawn);
+  for (const Entry& entry : entries_) {
+    if (!entry.shown || !entry.made.drawn.distance) continue;
+    DrawnStructure& drawn = shown.emplace_back(entry.made.drawn);
+    drawn.color = QColor(structure_text(entry.color));
+    drawn.margins_mm = margins_of(entry.structure);
+    if (correction_.shows_before() && is_corrected(entry) && drawn.before) {
+      drawn.distance = std::exchange(drawn.before, nullptr);
+      drawn.surface = nullptr;
+      continue;
+    }
+    const LoadedStructure* const now = felt(entry);
+    if (!now || now->edits != entry.edits || now->edits == entry.made.edits) continue;
+    // The lines on the slices are those that are felt, also while the surface is on its way.
+    drawn.distance = now->distance;
+    drawn.before = now->edits.empty() ? nullptr : now->before_edits.front();
+    if (const auto box = io::box_of_edits(now->edits)) {
+      drawn.low_mm = glm::min(drawn.low_mm, box->low_mm);
+      drawn.high_mm = glm::max(drawn.high_mm, box->high_mm);
+    }
   }
   drawn_.set_structures(std::move(shown), opacity_->value() / 100.0);
 }
@@ -315,7 +364,7 @@ void StructuresSection::read_for(const modes::Scene& edited, std::function<void(
       (touching_.live().is_connected() ? touching_.live().specification() : device::SimulatedStylus().specification())
           .workspace_half_extent;
   using_.ask(
-      [edited, scan = scan_, extent] { return load_structures(edited, *plan_for(edited, *scan, extent), *scan, {}); });
+      [edited, scan = scan_, extent] { return load_structures(edited, *plan_for(edited, *scan, extent), scan, {}); });
 }
 
 QString StructuresSection::in_words() const {

@@ -13,9 +13,12 @@
 #include <vector>
 
 #include "io/structures/structure.h"
+#include "plugin/paraview/client/jobs/background.h"
 #include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/model/correction_model.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/model/structure_presses.h"
+#include "plugin/paraview/client/panel/made_structure.h"
 #include "plugin/paraview/client/views/structure_views.h"
 #include "plugin/session/scene_structures.h"
 
@@ -29,11 +32,14 @@ class QTreeWidgetItem;
 
 namespace palpate::plugin {
 
+class CorrectBox;
+
 class StructuresSection : public QWidget {
   Q_OBJECT
 
  public:
-  StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching, QWidget* parent = nullptr);
+  StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching, CorrectionModel& correction,
+                    QWidget* parent = nullptr);
   ~StructuresSection() override;
 
   /// Looks for structures on a scan that has just been shown, in the folder that it is from; null: there is no scan.
@@ -42,6 +48,12 @@ class StructuresSection : public QWidget {
   void add(const std::vector<std::filesystem::path>& files, const QString& problem);
   /// How many can be felt on the scan, and how many cannot; empty where none was found.
   QString in_words() const;
+  CorrectBox& correct_box() { return *correct_box_; }
+  /// The corrected structure's distance as it is felt; null: nothing is corrected, or it is not read yet.
+  std::shared_ptr<const io::DistanceField> corrected() const;
+  /// What its edits have changed; empty: nothing, or it is not known yet.
+  QString change_in_words() const;
+  void tell(const QString& text, bool problem);
 
  signals:
   void listed();
@@ -58,16 +70,8 @@ class StructuresSection : public QWidget {
     Text off;             ///< that it lies wholly outside the scan; empty where it does not, or is not yet measured
     bool shown = false;
     std::string color;
-    std::shared_ptr<const io::StructureMeasures> measures;
-    DrawnStructure drawn;  ///< without a distance until it was made
-  };
-  /// What is made of an entry in the background.
-  struct Made {
-    std::filesystem::path file;
-    int number = 0;
-    std::string error;
-    std::shared_ptr<const io::StructureMeasures> measures;
-    DrawnStructure drawn;
+    std::vector<io::Edit> edits;  ///< of its outline, the scene's
+    MadeStructure made;           ///< the last that was made of it, perhaps of other edits
   };
   using Edit = std::function<void(modes::Scene&)>;
 
@@ -80,8 +84,10 @@ class StructuresSection : public QWidget {
   void list();
   void show_row(QTreeWidgetItem& item, const Entry& entry) const;
   void make_next();
-  void take_made(const Made& made);
+  void take_made(const MadeStructure& made);
+  const LoadedStructure* felt(const Entry& entry) const;
   void look_whether_off(Entry& entry);
+  static double volume_of(const Entry& entry);
   std::vector<double> margins_of(const io::Structure& structure) const;
   void draw();
   void choose_color(std::size_t n);
@@ -89,15 +95,22 @@ class StructuresSection : public QWidget {
   void fill_gates(QMenu& menu);
   void use(const QString& what, const Edit& edit);
   void read_for(const modes::Scene& edited, std::function<void(const QString& error)> done);
-  void tell(const QString& text, bool problem);
+  void correct(bool on);
+  void follow_correction();
+  void find_doubtful(const io::Structure* structure, std::function<void(io::DoubtfulPlaces)> done);
+  bool is_corrected(const Entry& entry) const;
+  const Entry* corrected_entry() const;
 
   SceneModel& model_;
   SessionController& touching_;
+  CorrectionModel& correction_;
   QTreeWidget* list_ = nullptr;
   QSlider* opacity_ = nullptr;
   QDoubleSpinBox* margin_ = nullptr;
   QLabel* message_ = nullptr;
   std::vector<QToolButton*> uses_;
+  QToolButton* correct_ = nullptr;
+  CorrectBox* correct_box_ = nullptr;
 
   std::shared_ptr<const io::Volume> scan_;
   std::vector<Entry> entries_;
@@ -110,9 +123,10 @@ class StructuresSection : public QWidget {
   std::vector<LoadedStructure> held_;  // what the scene read: undoing finds it again
   StructureViews drawn_;
   LatestJob<io::StructureCatalogue> finding_;
-  LatestJob<Made> making_;
+  LatestJob<MadeStructure> making_;
   LatestJob<std::vector<LoadedStructure>> using_;
   bool busy_making_ = false;
+  Background<io::DoubtfulPlaces> doubting_;
   StructurePresses presses_;
   std::function<void(const QString& error)> read_done_;  // of the press that is being read for
 };

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 
+#include "plugin/paraview/client/panel/correct_box.h"
 #include "plugin/paraview/client/panel/structures_section.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/widgets/row_list.h"
@@ -50,6 +51,8 @@ void StructuresSection::build() {
           [this](QTreeWidgetItem* item) { choose_color(static_cast<std::size_t>(list_->indexOfTopLevelItem(item))); });
   column->addWidget(list_);
   column->addWidget(build_uses());
+  correct_box_ = new CorrectBox(correction_, this);
+  column->addWidget(correct_box_);
   auto* const row = new QHBoxLayout;
   add_tool_button(*row, *this, "palpateAddStructures", tr("Add structures…"),
                   tr("DICOM SEG or RTSTRUCT. Those in the scan's folder are found with it."), [this] { ask_files(); });
@@ -105,6 +108,11 @@ QWidget* StructuresSection::build_uses() {
   connect(menu, &QMenu::aboutToShow, this, [this, menu] { fill_gates(*menu); });
   gate->setMenu(menu);
   uses_.push_back(gate);
+  correct_ = add_tool_button(*row, *this, "palpateCorrect", tr("Correct"),
+                             tr("Looks for doubtful places of its outline, and lets it be drawn anew: see the guide"),
+                             [this] { correct(correct_->isChecked()); });
+  correct_->setCheckable(true);
+  uses_.push_back(correct_);
   row->addStretch(1);
   return box;
 }

@@ -72,6 +72,18 @@ struct StructureViews::One {
     return *actor;
   }
 
+  /// Where the distance is `at_mm`, on the slice that is shown.
+  void outline(const DrawnStructure& structure, const io::DistanceField& distance, double at_mm, bool wide) {
+    constexpr float line_pixels = 2, thin_pixels = 1;
+    constexpr double thin_opacity = 0.7;
+    const Sheet sheet = sheet_of(*slice, structure, std::max(-at_mm, 0.0));
+    if (sheet.size_mm.x <= 0 || sheet.size_mm.y <= 0) return;
+    vtkProperty& look = *add(outline_of(distance, sheet, at_mm), structure.color).GetProperty();
+    look.SetLighting(false);
+    look.SetLineWidth(wide ? line_pixels : thin_pixels);
+    look.SetOpacity(wide ? 1 : thin_opacity);
+  }
+
   QPointer<SliceView> slice;
   QPointer<pqRenderView> view;
   OverlayLayer layer;
@@ -110,22 +122,13 @@ void StructureViews::set_structures(std::vector<DrawnStructure> structures, doub
 }
 
 void StructureViews::show(SliceView& slice) {
-  constexpr float line_pixels = 2, margin_pixels = 1;
-  constexpr double margin_opacity = 0.7;
   for (const auto& one : views_) {
     if (one->slice != &slice) continue;
     one->clear();
     for (const DrawnStructure& structure : structures_) {
-      std::vector<double> lines{0};
-      lines.insert(lines.end(), structure.margins_mm.begin(), structure.margins_mm.end());
-      for (const double at_mm : lines) {
-        const Sheet sheet = sheet_of(slice, structure, std::max(-at_mm, 0.0));
-        if (sheet.size_mm.x <= 0 || sheet.size_mm.y <= 0) continue;
-        vtkProperty& look = *one->add(outline_of(*structure.distance, sheet, at_mm), structure.color).GetProperty();
-        look.SetLighting(false);
-        look.SetLineWidth(at_mm == 0 ? line_pixels : margin_pixels);
-        look.SetOpacity(at_mm == 0 ? 1 : margin_opacity);
-      }
+      one->outline(structure, *structure.distance, 0, true);
+      if (structure.before) one->outline(structure, *structure.before, 0, false);
+      for (const double at_mm : structure.margins_mm) one->outline(structure, *structure.distance, at_mm, false);
     }
   }
 }

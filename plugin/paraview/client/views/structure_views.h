@@ -20,7 +20,8 @@ namespace palpate::plugin {
 
 struct DrawnStructure {
   std::shared_ptr<const io::DistanceField> distance;
-  glm::dvec3 low_mm{0}, high_mm{0};  ///< of a box around all of it
+  std::shared_ptr<const io::DistanceField> before = {};  ///< of its edits: a thin line; null: nothing is edited
+  glm::dvec3 low_mm{0}, high_mm{0};                      ///< of a box around all of it
   vtkSmartPointer<vtkPolyData> surface;
   QColor color;
   /// Where the force of a keep-out or keep-in begins, as the distance has it, mm: inside positive; each is a thin line.

@@ -365,6 +365,7 @@ void run_scenario(const std::string& name) {
                                       &archive_scenarios(),
                                       &choosing_scenarios(),
                                       &contour_scenarios(),
+                                      &correct_scenarios(),
                                       &device_scenarios(),
                                       &frame_scenarios(),
                                       &hand_scenarios(),

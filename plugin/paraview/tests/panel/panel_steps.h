@@ -25,6 +25,7 @@ using Scenarios = std::map<std::string, void (*)()>;
 const Scenarios& archive_scenarios();
 const Scenarios& choosing_scenarios();
 const Scenarios& contour_scenarios();
+const Scenarios& correct_scenarios();
 const Scenarios& device_scenarios();
 const Scenarios& frame_scenarios();
 const Scenarios& hand_scenarios();

@@ -1,14 +1,3 @@
-#include <pqRenderView.h>
-#include <vtkActor.h>
-#include <vtkActorCollection.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkRendererCollection.h>
-#include <vtkSMRenderViewProxy.h>
-
 #include <QAction>
 #include <QDoubleSpinBox>
 #include <QImage>
@@ -22,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin/paraview/tests/panel/drawn_lines.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -46,23 +36,10 @@ int pixels_of(const char* name, const QColor& color) {
   return count;
 }
 
-/// The widths of all lines of that color in a view, the widest first: mm from the patient's right to the left.
-std::vector<double> lines_drawn_in(const char* name, const QColor& color) {
+/// The widths of all lines of that color in a view, the widest first, mm.
+std::vector<double> widths_drawn_in(const char* name, const QColor& color) {
   std::vector<double> widths;
-  vtkRendererCollection& layers = *render_view(name).getRenderViewProxy()->GetRenderWindow()->GetRenderers();
-  for (int layer = 0; layer < layers.GetNumberOfItems(); ++layer) {
-    vtkActorCollection& actors = *vtkRenderer::SafeDownCast(layers.GetItemAsObject(layer))->GetActors();
-    for (int n = 0; n < actors.GetNumberOfItems(); ++n) {
-      auto* const actor = vtkActor::SafeDownCast(actors.GetItemAsObject(n));
-      const double* const of = actor->GetProperty()->GetColor();
-      auto* const mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
-      const QColor now(qRound(255 * of[0]), qRound(255 * of[1]), qRound(255 * of[2]));
-      if (now.rgb() != color.rgb() || !mapper || !mapper->GetInput() || mapper->GetInput()->GetNumberOfLines() == 0)
-        continue;
-      const double* const bounds = mapper->GetInput()->GetBounds();
-      widths.push_back(bounds[1] - bounds[0]);
-    }
-  }
+  for (const DrawnLines& lines : lines_drawn_in(name, color)) widths.push_back(lines.width_mm());
   std::ranges::sort(widths, std::greater<>());
   return widths;
 }
@@ -106,7 +83,7 @@ void structures_are_seen_and_felt() {
   click("palpateStructureKeepOut");
   wait_for(
       "one press makes a margin to keep out of", [] { return scene_has("keep_out"); }, 20);
-  const std::vector<double> drawn = lines_drawn_in("Axial", color);
+  const std::vector<double> drawn = widths_drawn_in("Axial", color);
   expect(drawn.size() == 2 &&
              std::abs(drawn[0] - drawn[1] - 2 * find<QDoubleSpinBox>("palpateStructureMargin").value()) < 1,
          "the margin is drawn around it");

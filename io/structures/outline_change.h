@@ -1,0 +1,27 @@
+#pragma once
+
+/// How much edits have changed an outline, to be told to the user.
+
+#include <optional>
+#include <span>
+
+#include "io/structures/distance_field.h"
+#include "io/structures/edit.h"
+#include "io/structures/structure.h"
+
+namespace palpate::io {
+
+/// A box that holds all places at which these edits can move the edge; none where there are none.
+std::optional<StructureBox> box_of_edits(std::span<const Edit> edits);
+
+struct OutlineChange {
+  double added_mm3 = 0, removed_mm3 = 0;
+  double largest_mm = 0;  ///< from a point of one surface to the other surface, at most
+  Vec3 largest_at_mm{0};  ///< the point that has it
+};
+
+/// Within a box, on a lattice of 1 mm, or coarser where the box is large. Both fields have to be true distances as far
+/// as the edge has moved; farther away the largest change is that of their coarse lattice.
+OutlineChange outline_change(const DistanceField& before, const DistanceField& after, const StructureBox& box);
+
+}  // namespace palpate::io

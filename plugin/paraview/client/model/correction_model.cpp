@@ -1,0 +1,206 @@
+#include "plugin/paraview/client/model/correction_model.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <utility>
+
+#include "io/structures/outline_change.h"
+#include "plugin/session/study_structures.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr double least_step_mm = 0.3;  // of a stroke: nearer places add nothing
+constexpr double scan_edge_radius_mm = 10, scan_edge_most_mm = 6;
+
+/// The scene's edits of a structure; null: it has none of that structure.
+std::vector<io::Edit>* edits_in(modes::Scene& scene, const io::Structure& structure) {
+  const auto named =
+      std::ranges::find_if(scene.structures, [&](const modes::SceneStructure& one) { return is_same(one, structure); });
+  return named == scene.structures.end() ? nullptr : &named->edits;
+}
+
+bool begins_with(const std::vector<io::Edit>& all, const std::vector<io::Edit>& first) {
+  return all.size() >= first.size() && std::equal(first.begin(), first.end(), all.begin());
+}
+
+}  // namespace
+
+CorrectionModel::CorrectionModel(SceneModel& scene, QObject* parent)
+    : QObject(parent),
+      scene_(scene),
+      press_([&scene](const QString& what, const SceneModel::Change& change) { scene.edit(what, change); }) {
+  connect(&scene, &SceneModel::changed, this, [this](Pace pace) {
+    if (pace == Pace::stepped) follow_scene();
+  });
+}
+
+void CorrectionModel::begin(const io::Structure& structure, double edge_per_mm) {
+  forget();
+  structure_ = structure;
+  edge_per_mm_ = edge_per_mm;
+  follow_scene();
+  press_(tr("Correct %1").arg(QString::fromStdString(structure.name)),
+         [structure, edge_per_mm, newtons = snap_n_](modes::Scene& scene) {
+           snap_to_scan(scene, structure, {.newtons = newtons, .edge_per_mm = edge_per_mm});
+         });
+  emit changed();
+}
+
+void CorrectionModel::end() {
+  if (!structure_) return;
+  const io::Structure structure = *structure_;
+  forget();
+  press_(tr("End correcting"), [structure](modes::Scene& scene) { snap_no_more(scene, structure); });
+}
+
+void CorrectionModel::forget() {
+  if (find_) find_(nullptr, {});
+  structure_.reset();
+  stroke_.clear();
+  edits_.clear();
+  taken_back_.clear();
+  shows_before_ = false;
+  is_in_scene_ = false;
+  places_.reset();
+  left_.clear();
+  at_.reset();
+  emit stroke_changed();
+  emit places_changed();
+  emit changed();
+}
+
+void CorrectionModel::find_places() {
+  if (!find_ || !structure_) return;
+  find_(&*structure_, [this](io::DoubtfulPlaces found) {
+    places_ = std::move(found);
+    left_.clear();
+    at_.reset();
+    emit places_changed();
+  });
+}
+
+/// Whoever takes back an edit, this or ParaView, it can be done again here.
+void CorrectionModel::follow_scene() {
+  if (!structure_) return;
+  modes::Scene scene = scene_.scene();
+  const std::vector<io::Edit>* const found = edits_in(scene, *structure_);
+  if (found && !std::exchange(is_in_scene_, true)) find_places();  // it is read now
+  std::vector<io::Edit> now = found ? *found : std::vector<io::Edit>{};
+  if (now == edits_) return;
+  if (begins_with(edits_, now)) {
+    for (std::size_t n = edits_.size(); n > now.size(); --n) taken_back_.push_back(edits_[n - 1]);
+  } else if (begins_with(now, edits_) && can_redo() && now.size() == edits_.size() + 1 &&
+             now.back() == taken_back_.back()) {
+    taken_back_.pop_back();
+  } else {
+    taken_back_.clear();
+  }
+  edits_ = std::move(now);
+  emit changed();
+  emit places_changed();
+}
+
+void CorrectionModel::set_tool(Tool tool) {
+  if (std::exchange(tool_, tool) != tool) emit changed();
+}
+
+void CorrectionModel::set_radius_mm(double radius_mm) {
+  radius_mm = std::clamp(radius_mm, io::edit_limits::least_mm, io::edit_limits::most_mm);
+  if (std::exchange(radius_mm_, radius_mm) != radius_mm) emit changed();
+}
+
+void CorrectionModel::set_snap_n(double newtons) {
+  if (std::exchange(snap_n_, newtons) == newtons || !structure_) return;
+  press_(tr("Snap to the scan's edge"),
+         [structure = *structure_, edge_per_mm = edge_per_mm_, newtons](modes::Scene& scene) {
+           snap_to_scan(scene, structure, {.newtons = newtons, .edge_per_mm = edge_per_mm});
+         });
+}
+
+void CorrectionModel::press(const glm::dvec3& place) {
+  if (!structure_) return;
+  stroke_ = {place};
+  emit stroke_changed();
+}
+
+void CorrectionModel::move(const glm::dvec3& place) {
+  if (stroke_.empty() || glm::distance(stroke_.back(), place) < least_step_mm) return;
+  stroke_.push_back(place);
+  emit stroke_changed();
+}
+
+void CorrectionModel::let_go() {
+  if (stroke_.empty()) return;
+  draw(std::exchange(stroke_, {}));
+  emit stroke_changed();
+}
+
+void CorrectionModel::draw(std::vector<io::Vec3> places) {
+  if (!structure_ || places.empty()) return;
+  switch (tool_) {
+    case Tool::trace:
+      return add(tr("Trace"), io::TraceEdit{.points_mm = std::move(places), .known_to_mm = {}});
+    case Tool::add:
+      return add(tr("Add"), io::AddEdit{{.path_mm = std::move(places), .radius_mm = radius_mm_}});
+    case Tool::remove:
+      return add(tr("Remove"), io::RemoveEdit{{.path_mm = std::move(places), .radius_mm = radius_mm_}});
+  }
+}
+
+void CorrectionModel::take_scan_edge(const io::Vec3& center_mm) {
+  add(tr("Take the scan's edge"),
+      io::ScanEdgeEdit{.center_mm = center_mm, .radius_mm = scan_edge_radius_mm, .most_mm = scan_edge_most_mm});
+}
+
+void CorrectionModel::add(const QString& what, const io::Edit& edit) {
+  if (!structure_) return;
+  press_(what, [structure = *structure_, edit](modes::Scene& scene) {
+    name_in_scene(scene, structure);
+    edits_in(scene, structure)->push_back(edit);
+  });
+}
+
+void CorrectionModel::undo() {
+  if (!structure_ || !can_undo()) return;
+  press_(tr("Undo a correction"), [structure = *structure_](modes::Scene& scene) {
+    std::vector<io::Edit>* const edits = edits_in(scene, structure);
+    if (edits && !edits->empty()) edits->pop_back();
+  });
+}
+
+void CorrectionModel::redo() {
+  if (can_redo()) add(tr("Redo a correction"), taken_back_.back());
+}
+
+void CorrectionModel::show_before(bool before) {
+  if (std::exchange(shows_before_, before) != before) emit changed();
+}
+
+/// It is corrected where an edit reaches it.
+CorrectionModel::Fate CorrectionModel::fate(std::size_t place) const {
+  const io::Vec3& at = places_->places[place].position_mm;
+  for (const io::Edit& edit : edits_) {
+    const auto box = io::box_of_edits(std::array{edit});
+    if (box && glm::all(glm::lessThan(box->low_mm, at)) && glm::all(glm::lessThan(at, box->high_mm))) {
+      return Fate::corrected;
+    }
+  }
+  return left_.contains(place) ? Fate::left : Fate::doubtful;
+}
+
+void CorrectionModel::leave(std::size_t place) {
+  left_.insert(place);
+  emit places_changed();
+}
+
+void CorrectionModel::go_to(std::size_t place) {
+  if (!places_ || place >= places_->places.size()) return;
+  at_ = place;
+  emit place_wanted(places_->places[place]);
+}
+
+}  // namespace palpate::plugin

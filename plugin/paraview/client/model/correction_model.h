@@ -1,0 +1,112 @@
+#pragma once
+
+/// The correction that is running: of which structure, with which tool, and the stroke that is being drawn. The edits
+/// themselves are the scene's, which keeps them in state files, recordings and ParaView's steps.
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "io/structures/doubtful_places.h"
+#include "io/structures/structure.h"
+#include "plugin/paraview/client/model/scene_model.h"
+
+namespace palpate::plugin {
+
+class CorrectionModel : public QObject {
+  Q_OBJECT
+
+ public:
+  enum class Tool { trace, add, remove };
+  /// Does one step of the scene, perhaps after what it needs was read.
+  using Press = std::function<void(const QString& what, SceneModel::Change change)>;
+  /// Looks for the doubtful places of a structure's outline, and calls `done` on the thread that asked. Called with
+  /// null: what is being looked for is not wanted any more.
+  using Find = std::function<void(const io::Structure* structure, std::function<void(io::DoubtfulPlaces)> done)>;
+
+  explicit CorrectionModel(SceneModel& scene, QObject* parent = nullptr);
+  void set_press(Press press) { press_ = std::move(press); }
+  void set_find(Find find) { find_ = std::move(find); }
+
+  /// `edge_per_mm`: how steep the scan's edges are at its outline, in the scan's unit; 0: not known. From then on they
+  /// are felt there.
+  void begin(const io::Structure& structure, double edge_per_mm);
+  /// They are not felt any more; the edits stay.
+  void end();
+  /// Another scan: nothing is corrected, and no step is done.
+  void forget();
+  /// Null: nothing is being corrected.
+  const io::Structure* structure() const { return structure_ ? &*structure_ : nullptr; }
+
+  Tool tool() const { return tool_; }
+  void set_tool(Tool tool);
+  double radius_mm() const { return radius_mm_; }  ///< of what is added or removed
+  void set_radius_mm(double radius_mm);
+  double snap_n() const { return snap_n_; }  ///< how strongly the scan's edge holds the stylus; 0: it is not felt
+  void set_snap_n(double newtons);
+
+  /// A stroke of the mouse on a slice, mm, patient space. It becomes an edit when the button is let go.
+  void press(const glm::dvec3& place);
+  void move(const glm::dvec3& place);
+  void let_go();
+  const std::vector<io::Vec3>& stroke() const { return stroke_; }
+  /// The same at once: a path of the stylus, or one place.
+  void draw(std::vector<io::Vec3> places);
+  /// The edge moves to the scan's own around a place.
+  void take_scan_edge(const io::Vec3& center_mm);
+
+  /// Of the structure, as the scene has them.
+  const std::vector<io::Edit>& edits() const { return edits_; }
+  bool can_undo() const { return !edits_.empty(); }
+  bool can_redo() const { return !taken_back_.empty(); }
+  void undo();
+  void redo();
+
+  /// The file's outline is shown instead of the corrected one, while a key is held.
+  bool shows_before() const { return shows_before_; }
+  void show_before(bool before);
+
+  /// The most doubtful first; none while they are looked for.
+  const std::optional<io::DoubtfulPlaces>& places() const { return places_; }
+  /// What has become of a place in the list.
+  enum class Fate { doubtful, corrected, left };
+  Fate fate(std::size_t place) const;
+  /// The user has looked at it: it is right as it is.
+  void leave(std::size_t place);
+  /// The one that was gone to last.
+  std::optional<std::size_t> at() const { return at_; }
+  void go_to(std::size_t place);
+
+ signals:
+  void changed();
+  void stroke_changed();
+  void places_changed();
+  void place_wanted(const palpate::io::DoubtfulPlace& place);
+
+ private:
+  void follow_scene();
+  void add(const QString& what, const io::Edit& edit);
+  void find_places();
+
+  SceneModel& scene_;
+  Press press_;
+  Find find_;
+  std::optional<io::Structure> structure_;
+  double edge_per_mm_ = 0;
+  Tool tool_ = Tool::trace;
+  double radius_mm_ = 3, snap_n_ = 0.8;
+  std::vector<io::Vec3> stroke_;
+  std::vector<io::Edit> edits_;       // as the scene had them last
+  std::vector<io::Edit> taken_back_;  // the last one first to come again
+  bool shows_before_ = false;
+  bool is_in_scene_ = false;
+  std::optional<io::DoubtfulPlaces> places_;
+  std::set<std::size_t> left_;
+  std::optional<std::size_t> at_;
+};
+
+}  // namespace palpate::plugin

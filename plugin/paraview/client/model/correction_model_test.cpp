@@ -1,0 +1,240 @@
+#include "plugin/paraview/client/model/correction_model.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/paraview/client/model/testing/made_text.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Fate = CorrectionModel::Fate;
+using Tool = CorrectionModel::Tool;
+
+struct Correcting : testing::Test {
+  Correcting() {
+    scene.open(modes::Scene{});
+    liver.file = "/study/liver.dcm";
+    liver.number = 3;
+    liver.name = "liver";
+    model.set_find([this](const io::Structure* structure, auto done) {
+      if (!structure) ++not_wanted;
+      if (structure) asked.push_back(std::move(done));
+    });
+    QObject::connect(&model, &CorrectionModel::place_wanted,
+                     [this](const io::DoubtfulPlace& place) { gone_to.push_back(place.position_mm.x); });
+  }
+
+  void stroke(std::vector<io::Vec3> places) {
+    model.press(places.front());
+    for (const io::Vec3& place : places) model.move(place);
+    model.let_go();
+  }
+  std::vector<std::string> kinds() const {
+    std::vector<std::string> names;
+    for (const io::Edit& edit : model.edits()) names.emplace_back(io::name_of(edit));
+    return names;
+  }
+  /// What the pipeline keeps, read again.
+  std::vector<io::Edit> kept_edits() const {
+    const modes::Scene read = modes::scene_from_json(kept.text("Scene"), "scene");
+    return read.structures.empty() ? std::vector<io::Edit>() : read.structures.front().edits;
+  }
+  const modes::Mode* snap() const {
+    for (const modes::Mode& mode : scene.scene().modes) {
+      if (mode.name == "Scan's edge at liver") return &mode;
+    }
+    return nullptr;
+  }
+  static io::DoubtfulPlaces three() {
+    io::DoubtfulPlaces found;
+    for (const double x : {100.0, 200.0, 300.0}) {
+      found.places.push_back({.position_mm = {x, 0, 0}, .normal = {1, 0, 0}, .area_mm2 = x});
+    }
+    return found;
+  }
+
+  MadeText kept;
+  SceneModel scene{kept};
+  io::Structure liver;
+  CorrectionModel model{scene};
+  std::vector<std::function<void(io::DoubtfulPlaces)>> asked;
+  int not_wanted = 0;
+  std::vector<double> gone_to;
+};
+
+TEST_F(Correcting, AStrokeIsOneEditOfTheScene) {
+  model.begin(liver, 0);
+  stroke({{0, 0, 0}, {1, 0, 0}, {1.1, 0, 0}, {2, 1, 0}});
+  EXPECT_THAT(kinds(), ElementsAre("trace"));
+  const auto& trace = std::get<io::TraceEdit>(model.edits().front());
+  EXPECT_THAT(trace.points_mm, ElementsAre(io::Vec3(0, 0, 0), io::Vec3(1, 0, 0), io::Vec3(2, 1, 0)));
+  EXPECT_EQ(kept_edits(), model.edits()) << "what is kept is what was drawn";
+  EXPECT_TRUE(model.stroke().empty());
+  EXPECT_EQ(kept.steps.back().what, "Trace");
+  EXPECT_EQ(scene.scene().structures.front().file, "/study/liver.dcm");
+
+  model.set_tool(Tool::add);
+  model.set_radius_mm(4.5);
+  stroke({{5, 0, 0}, {6, 0, 0}});
+  model.set_tool(Tool::remove);
+  stroke({{7, 0, 0}});
+  EXPECT_THAT(kinds(), ElementsAre("trace", "add", "remove"));
+  EXPECT_EQ(std::get<io::AddEdit>(model.edits()[1]).tube, (io::Tube{{{5, 0, 0}, {6, 0, 0}}, 4.5}));
+  EXPECT_EQ(std::get<io::RemoveEdit>(model.edits()[2]).tube, (io::Tube{{{7, 0, 0}}, 4.5}));
+  model.draw({{8, 0, 0}, {9, 0, 0}});
+  EXPECT_THAT(kinds(), SizeIs(4)) << "the stylus' path";
+}
+
+TEST_F(Correcting, NothingIsDrawnWhereNothingIsCorrected) {
+  stroke({{0, 0, 0}, {1, 0, 0}});
+  model.draw({{0, 0, 0}});
+  model.undo();
+  model.redo();
+  model.take_scan_edge({0, 0, 0});
+  EXPECT_TRUE(scene.scene().structures.empty());
+  EXPECT_THAT(kept.steps, IsEmpty());
+}
+
+TEST_F(Correcting, EditsAreUndoneAndRedoneOneByOne) {
+  model.begin(liver, 0);
+  for (int n = 0; n < 3; ++n) stroke({{10.0 * n, 0, 0}});
+  const std::vector<io::Edit> all = model.edits();
+  EXPECT_FALSE(model.can_redo());
+  for (std::size_t left = 3; left-- > 0;) {
+    model.undo();
+    EXPECT_THAT(model.edits(), SizeIs(left));
+    EXPECT_EQ(kept_edits(), model.edits());
+  }
+  EXPECT_FALSE(model.can_undo());
+  model.undo();
+  EXPECT_THAT(model.edits(), IsEmpty());
+  for (std::size_t done = 1; done <= 3; ++done) {
+    model.redo();
+    EXPECT_EQ(model.edits(), std::vector<io::Edit>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(done)));
+  }
+  EXPECT_FALSE(model.can_redo());
+  model.undo();
+  model.undo();
+  stroke({{77, 0, 0}});
+  EXPECT_FALSE(model.can_redo()) << "another edit has taken their place";
+  EXPECT_THAT(model.edits(), SizeIs(2));
+}
+
+TEST_F(Correcting, WhatParaViewTakesBackCanBeRedoneHere) {
+  model.begin(liver, 0);
+  stroke({{0, 0, 0}});
+  stroke({{10, 0, 0}});
+  const std::vector<io::Edit> all = model.edits();
+  scene.undo();
+  EXPECT_THAT(model.edits(), SizeIs(1));
+  EXPECT_TRUE(model.can_redo());
+  model.redo();
+  EXPECT_EQ(model.edits(), all);
+  scene.undo();  // the redo
+  scene.redo();
+  EXPECT_EQ(model.edits(), all);
+  EXPECT_FALSE(model.can_redo());
+}
+
+TEST_F(Correcting, EditsOfARestoredSceneCanBeTakenBack) {
+  modes::Scene restored;
+  restored.structures.push_back({.name = "liver", .file = liver.file, .segment = "liver"});
+  restored.structures.front().edits = {io::AddEdit{{.path_mm = {{1, 2, 3}}, .radius_mm = 2}}};
+  scene.open(restored);
+  model.begin(liver, 0);
+  EXPECT_THAT(kinds(), ElementsAre("add"));
+  model.undo();
+  EXPECT_THAT(kept_edits(), IsEmpty());
+}
+
+TEST_F(Correcting, TheScansEdgeIsFeltWhileItLasts) {
+  EXPECT_EQ(snap(), nullptr);
+  model.begin(liver, 120);
+  ASSERT_NE(snap(), nullptr);
+  EXPECT_TRUE(snap()->structure.empty()) << "the scan's edge, not the outline";
+  EXPECT_EQ(snap()->side, modes::Side::both);
+  EXPECT_DOUBLE_EQ(snap()->strength_n(120), model.snap_n());
+  EXPECT_DOUBLE_EQ(snap()->strength_n(20), 0);
+  ASSERT_THAT(snap()->gates, SizeIs(1));
+  EXPECT_DOUBLE_EQ(snap()->gates[0].factor(0), 1);
+  EXPECT_DOUBLE_EQ(snap()->gates[0].factor(-7), 0);
+  model.set_snap_n(2.2);
+  EXPECT_DOUBLE_EQ(snap()->strength_n(120), 2.2);
+  model.end();
+  EXPECT_EQ(snap(), nullptr);
+  EXPECT_EQ(model.structure(), nullptr);
+}
+
+TEST_F(Correcting, TheEditsStayWhereItEndsAndComeBack) {
+  model.begin(liver, 0);
+  stroke({{0, 0, 0}});
+  model.end();
+  EXPECT_THAT(model.edits(), IsEmpty());
+  EXPECT_THAT(kept_edits(), SizeIs(1));
+  model.begin(liver, 0);
+  EXPECT_THAT(kinds(), ElementsAre("trace"));
+}
+
+TEST_F(Correcting, APlaceIsGoneToLeftOrCorrected) {
+  model.begin(liver, 0);
+  ASSERT_THAT(asked, SizeIs(1));
+  EXPECT_FALSE(model.places());
+  asked.back()(three());
+  ASSERT_TRUE(model.places());
+  model.go_to(7);
+  EXPECT_FALSE(model.at());
+  model.go_to(1);
+  EXPECT_EQ(model.at(), 1U);
+  EXPECT_THAT(gone_to, ElementsAre(200));
+  model.leave(2);
+  stroke({{101, 0, 0}});
+  const auto fates = [&] { return std::vector{model.fate(0), model.fate(1), model.fate(2)}; };
+  EXPECT_THAT(fates(), ElementsAre(Fate::corrected, Fate::doubtful, Fate::left));
+  model.take_scan_edge(model.places()->places[1].position_mm);
+  EXPECT_THAT(kinds(), ElementsAre("trace", "scan_edge"));
+  EXPECT_THAT(fates(), ElementsAre(Fate::corrected, Fate::corrected, Fate::left));
+  model.undo();
+  model.undo();
+  EXPECT_THAT(fates(), ElementsAre(Fate::doubtful, Fate::doubtful, Fate::left));
+  EXPECT_THAT(asked, SizeIs(1)) << "they are looked for once";
+}
+
+TEST_F(Correcting, AnotherScanEndsItWithoutAStep) {
+  model.begin(liver, 0);
+  asked.back()(three());
+  model.press({0, 0, 0});
+  const std::size_t steps = kept.steps.size();
+  const int before = not_wanted;
+  model.forget();
+  EXPECT_EQ(kept.steps.size(), steps);
+  EXPECT_GT(not_wanted, before);
+  EXPECT_FALSE(model.places());
+  EXPECT_TRUE(model.stroke().empty());
+  model.let_go();
+  EXPECT_THAT(kept_edits(), IsEmpty());
+}
+
+/// A step waits for what it needs to be read: what was pressed meanwhile is done after it, for the same structure.
+TEST_F(Correcting, WhatIsPressedWhileAStepWaitsIsDoneAfterIt) {
+  std::vector<std::pair<QString, SceneModel::Change>> waiting;
+  model.set_press([&](const QString& what, const SceneModel::Change& change) { waiting.emplace_back(what, change); });
+  model.begin(liver, 0);
+  EXPECT_THAT(asked, IsEmpty()) << "its outline is not read yet";
+  stroke({{0, 0, 0}});
+  stroke({{10, 0, 0}});
+  model.end();
+  for (const auto& [what, change] : waiting) scene.edit(what, change);
+  EXPECT_THAT(kept_edits(), SizeIs(2));
+  EXPECT_EQ(snap(), nullptr);
+}
+
+}  // namespace
+}  // namespace palpate::plugin

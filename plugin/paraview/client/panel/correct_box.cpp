@@ -1,0 +1,208 @@
+#include "plugin/paraview/client/panel/correct_box.h"
+
+#include <QButtonGroup>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <cmath>
+#include <utility>
+
+#include "plugin/paraview/client/panel/outline_out.h"
+#include "plugin/paraview/client/widgets/message_label.h"
+#include "plugin/paraview/client/widgets/row_list.h"
+#include "plugin/paraview/client/widgets/tool_button.h"
+
+namespace palpate::plugin {
+namespace {
+
+using Tool = CorrectionModel::Tool;
+
+QString doubt_in_words(const io::DoubtfulPlace& place) {
+  const auto mm = [](double length) { return QString::number(std::abs(length), 'f', 1); };
+  switch (place.kind) {
+    case io::DoubtKind::edge:
+      return (place.mean_mm > 0 ? CorrectBox::tr("the scan's edge lies %1 mm outside, known to ±%2 mm")
+                                : CorrectBox::tr("the scan's edge lies %1 mm inside, known to ±%2 mm"))
+          .arg(mm(place.largest_mm), mm(place.known_to_mm));
+    case io::DoubtKind::no_edge:
+      return CorrectBox::tr("no edge in the scan, the tissue goes on");
+    case io::DoubtKind::island:
+      return CorrectBox::tr("a small part of its own");
+    case io::DoubtKind::hole:
+      return CorrectBox::tr("a small hole");
+  }
+  return {};
+}
+
+}  // namespace
+
+CorrectBox::CorrectBox(CorrectionModel& model, QWidget* parent) : QWidget(parent), model_(model) {
+  setObjectName(QStringLiteral("palpateCorrectBox"));
+  auto* const column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(3);
+  places_note_ = make_message_label(*this, "palpateDoubtfulNote");
+  column->addWidget(places_note_);
+  places_ = make_row_list(*this, "palpateDoubtfulPlaces", 1, 90);
+  places_->setToolTip(tr("Places at which the outline is doubtful, the most doubtful first. A click goes there."));
+  connect(places_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item) {
+    model_.go_to(static_cast<std::size_t>(places_->indexOfTopLevelItem(item)));
+    follow();
+  });
+  column->addWidget(places_);
+  column->addWidget(build_tools());
+  change_ = make_message_label(*this, "palpateCorrectChange");
+  column->addWidget(change_);
+  column->addWidget(build_ways_out());
+  out_ = new OutlineOut(this);
+  column->addWidget(out_);
+  connect(&model, &CorrectionModel::changed, this, [this] { follow(); });
+  connect(&model, &CorrectionModel::places_changed, this, [this] { list_places(); });
+  list_places();
+  follow();
+}
+
+QWidget* CorrectBox::build_tools() {
+  auto* const box = new QWidget(this);
+  auto* const rows = new QVBoxLayout(box);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(3);
+  auto* const places = new QHBoxLayout;
+  take_ = add_tool_button(*places, *this, "palpateTakeScanEdge", tr("Take the scan's edge"),
+                          tr("At this place the outline moves to the edge that the scan has there"), [this] {
+                            if (model_.at()) model_.take_scan_edge(model_.places()->places[*model_.at()].position_mm);
+                          });
+  leave_ =
+      add_tool_button(*places, *this, "palpateLeavePlace", tr("Leave it"), tr("The outline is right there"), [this] {
+        if (model_.at()) model_.leave(*model_.at());
+      });
+  places->addStretch(1);
+  rows->addLayout(places);
+  auto* const row = new QHBoxLayout;
+  tools_ = new QButtonGroup(box);
+  const auto add_tool = [&](Tool tool, const char* name, const QString& text, const QString& tip) {
+    QToolButton* const button = add_tool_button(*row, *this, name, text, tip, [this, tool] { model_.set_tool(tool); });
+    button->setCheckable(true);
+    tools_->addButton(button, static_cast<int>(tool));
+  };
+  add_tool(Tool::trace, "palpateToolTrace", tr("Trace"),
+           tr("Drag on a slice along the right edge: the outline goes there. Or press M while the stylus feels it."));
+  add_tool(Tool::add, "palpateToolAdd", tr("Add"), tr("What a ball passes over belongs to the structure"));
+  add_tool(Tool::remove, "palpateToolRemove", tr("Remove"), tr("What a ball passes over does not belong to it"));
+  const auto add_number = [&](const char* name, double low, double high, double step, const QString& unit,
+                              const QString& tip) {
+    auto* const number = new QDoubleSpinBox(box);
+    number->setObjectName(QString::fromLatin1(name));
+    number->setRange(low, high);
+    number->setSingleStep(step);
+    number->setDecimals(1);
+    number->setSuffix(unit);
+    number->setKeyboardTracking(false);
+    number->setToolTip(tip);
+    row->addWidget(number);
+    return number;
+  };
+  radius_ = add_number("palpateCorrectRadius", 0.5, 30, 0.5, tr(" mm"), tr("Radius of what is added or removed"));
+  connect(radius_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this](double mm) { model_.set_radius_mm(mm); });
+  snap_ = add_number("palpateCorrectSnap", 0, 3, 0.2, tr(" N"), tr("How strongly the scan's edge holds the stylus"));
+  connect(snap_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this](double newtons) { model_.set_snap_n(newtons); });
+  row->addStretch(1);
+  rows->addLayout(row);
+  return box;
+}
+
+QWidget* CorrectBox::build_ways_out() {
+  auto* const box = new QWidget(this);
+  auto* const row = new QHBoxLayout(box);
+  row->setContentsMargins(0, 0, 0, 0);
+  undo_ = add_tool_button(*row, *this, "palpateCorrectUndo", tr("Undo"), tr("Takes back the last correction"),
+                          [this] { model_.undo(); });
+  redo_ =
+      add_tool_button(*row, *this, "palpateCorrectRedo", tr("Redo"), tr("Does it again"), [this] { model_.redo(); });
+  before_ = add_tool_button(*row, *this, "palpateCorrectBefore", tr("Before"),
+                            tr("Shows the outline of the file while it is pressed; or B in a view"), [] {});
+  connect(before_, &QToolButton::pressed, this, [this] { model_.show_before(true); });
+  connect(before_, &QToolButton::released, this, [this] { model_.show_before(false); });
+  row->addStretch(1);
+  const auto add_button = [&](const char* name, const QString& text, const QString& tip, auto wanted) {
+    auto* const button = new QPushButton(text, box);
+    button->setObjectName(QString::fromLatin1(name));
+    button->setToolTip(tip);
+    connect(button, &QPushButton::clicked, this, wanted);
+    row->addWidget(button);
+  };
+  add_button("palpateCorrectSave", tr("Save…"), tr("As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage"),
+             &CorrectBox::save_wanted);
+  add_button("palpateCorrectSend", tr("Send…"),
+             tr("Shows first what would be sent to an archive, and for which patient"), &CorrectBox::send_wanted);
+  return box;
+}
+
+void CorrectBox::set_change(const QString& words) {
+  show_message(*change_, words, false);
+}
+
+void CorrectBox::set_looking(double done) {
+  if (done >= 0) {
+    show_message(*places_note_, tr("Looking for doubtful places, %1 %").arg(std::lround(100 * done)), false);
+  } else {
+    list_places();
+  }
+}
+
+void CorrectBox::follow() {
+  setVisible(model_.structure() != nullptr);
+  const QSignalBlocker quiet_radius(radius_), quiet_snap(snap_);
+  tools_->button(static_cast<int>(model_.tool()))->setChecked(true);
+  radius_->setValue(model_.radius_mm());
+  radius_->setEnabled(model_.tool() != Tool::trace);
+  snap_->setValue(model_.snap_n());
+  undo_->setEnabled(model_.can_undo());
+  redo_->setEnabled(model_.can_redo());
+  before_->setEnabled(model_.can_undo());
+  take_->setEnabled(model_.at() && model_.places()->places[*model_.at()].kind == io::DoubtKind::edge);
+  leave_->setEnabled(model_.at().has_value());
+}
+
+void CorrectBox::show_place(QTreeWidgetItem& item, std::size_t place) const {
+  const io::DoubtfulPlace& shown = model_.places()->places[place];
+  constexpr double mm2 = 100;
+  item.setText(0, tr("%1 cm²").arg(shown.area_mm2 / mm2, 0, 'f', 1));
+  const CorrectionModel::Fate fate = model_.fate(place);
+  const QString doubt = doubt_in_words(shown);
+  item.setText(1, fate == CorrectionModel::Fate::corrected ? tr("corrected: %1").arg(doubt)
+                  : fate == CorrectionModel::Fate::left    ? tr("left: %1").arg(doubt)
+                                                           : doubt);
+  item.setToolTip(1, item.text(1));
+  for (const int part : {0, 1}) {
+    QFont font = item.font(part);
+    font.setStrikeOut(fate != CorrectionModel::Fate::doubtful);
+    item.setFont(part, font);
+  }
+}
+
+void CorrectBox::list_places() {
+  const std::size_t count = model_.places() ? model_.places()->places.size() : 0;
+  while (places_->topLevelItemCount() > static_cast<int>(count)) {
+    delete places_->takeTopLevelItem(places_->topLevelItemCount() - 1);
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    if (static_cast<int>(n) >= places_->topLevelItemCount()) places_->addTopLevelItem(new QTreeWidgetItem);
+    show_place(*places_->topLevelItem(static_cast<int>(n)), n);
+  }
+  places_->setVisible(count > 0);
+  if (model_.places()) {
+    show_message(*places_note_, count == 0 ? tr("No doubtful place was found.") : tr("%1 doubtful places").arg(count),
+                 false);
+  }
+  follow();
+}
+
+}  // namespace palpate::plugin

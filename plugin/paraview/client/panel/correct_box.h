@@ -1,0 +1,58 @@
+#pragma once
+
+/// What corrects a structure by touch: the doubtful places of its outline, the tools, and the way out.
+
+#include <QWidget>
+
+#include "plugin/paraview/client/model/correction_model.h"
+
+class QButtonGroup;
+class QDoubleSpinBox;
+class QLabel;
+class QToolButton;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace palpate::plugin {
+
+class OutlineOut;
+
+class CorrectBox : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit CorrectBox(CorrectionModel& model, QWidget* parent = nullptr);
+
+  /// What the edits have changed, in words.
+  void set_change(const QString& words);
+  /// How far the looking for doubtful places is, 0 to 1; less than 0: it is not done.
+  void set_looking(double done);
+  OutlineOut& out() { return *out_; }
+
+ signals:
+  void save_wanted();
+  void send_wanted();
+
+ private:
+  QWidget* build_tools();
+  QWidget* build_ways_out();
+  void follow();
+  void list_places();
+  void show_place(QTreeWidgetItem& item, std::size_t place) const;
+
+  CorrectionModel& model_;
+  QTreeWidget* places_ = nullptr;
+  QLabel* places_note_ = nullptr;
+  QToolButton* take_ = nullptr;
+  QToolButton* leave_ = nullptr;
+  QButtonGroup* tools_ = nullptr;
+  QDoubleSpinBox* radius_ = nullptr;
+  QDoubleSpinBox* snap_ = nullptr;
+  QLabel* change_ = nullptr;
+  QToolButton* undo_ = nullptr;
+  QToolButton* redo_ = nullptr;
+  QToolButton* before_ = nullptr;
+  OutlineOut* out_ = nullptr;
+};
+
+}  // namespace palpate::plugin

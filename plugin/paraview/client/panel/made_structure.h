@@ -1,0 +1,40 @@
+#pragma once
+
+/// What is made of a structure in the background: how large it is, how it is drawn, and what its edits have changed.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/structures/outline_change.h"
+#include "io/structures/structure.h"
+#include "plugin/paraview/client/views/structure_views.h"
+
+namespace palpate::plugin {
+
+struct WantedStructure {
+  io::Structure structure;
+  std::vector<io::Edit> edits;                            ///< of its outline, the scene's
+  std::shared_ptr<const io::StructureMeasures> measures;  ///< where they are known
+  std::shared_ptr<const io::DistanceField> outline;       ///< its file's, as it is felt; null: it is not felt
+  bool draws = false;
+  std::shared_ptr<const io::Volume> scan;
+};
+
+struct MadeStructure {
+  std::filesystem::path file;
+  int number = 0;
+  std::vector<io::Edit> edits;
+  std::string error;                                      ///< empty where all was made
+  std::shared_ptr<const io::StructureMeasures> measures;  ///< of the outline in its file
+  DrawnStructure drawn;                                   ///< without a distance where it is not drawn
+  std::optional<io::OutlineChange> change;                ///< by the edits; none where there are none
+  double edge_per_mm = 0;                                 ///< how steep the scan's edges are at the file's outline
+};
+
+/// Fields are shared with those who feel them. Throws nothing.
+MadeStructure make_structure(const WantedStructure& wanted);
+
+}  // namespace palpate::plugin

@@ -1,0 +1,54 @@
+#pragma once
+
+/// Writes a corrected outline into a file or sends it to an archive, in the background: a bar that shows how far it is,
+/// and can be cancelled.
+
+#include <QWidget>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "io/archive/send.h"
+#include "io/series.h"
+#include "io/structures/label_image.h"
+#include "io/volume.h"
+#include "plugin/paraview/client/jobs/background.h"
+
+class QProgressBar;
+
+namespace palpate::plugin {
+
+/// A structure as it is felt, and the scan that it was corrected on.
+struct CorrectedOutline {
+  io::Structure structure;
+  std::shared_ptr<const io::DistanceField> distance;
+  io::Series series;  ///< without images where they are on a server alone: no DICOM can be written
+  int frame = 0;
+  std::shared_ptr<const io::Volume> scan;
+};
+
+class OutlineOut : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit OutlineOut(QWidget* parent = nullptr);
+
+  /// As `palpate correct` writes it. `overwrite`: the user was asked.
+  void save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours, bool overwrite);
+  /// As a DICOM SEG, from a folder that is gone afterwards.
+  void send(const CorrectedOutline& outline, const io::Archive& archive);
+  bool is_busy() const { return work_.is_busy(); }
+
+ signals:
+  void told(const QString& message, bool problem);
+
+ private:
+  using Work = std::function<QString(const Background<QString>::Job&)>;
+  void begin(const QString& doing, Work work);
+
+  QProgressBar* progress_;
+  Background<QString> work_;  // gives what is said at its end
+};
+
+}  // namespace palpate::plugin

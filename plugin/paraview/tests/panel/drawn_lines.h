@@ -1,0 +1,17 @@
+#pragma once
+
+/// The lines that are drawn in a clinical view.
+
+#include <QColor>
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+struct DrawnLines {
+  double pixels = 0;               ///< how wide
+  std::vector<glm::dvec3> points;  ///< patient space, mm
+  double width_mm() const;         ///< from the patient's right to the left
+};
+
+/// Each actor of lines of that color.
+std::vector<DrawnLines> lines_drawn_in(const char* view, const QColor& color);
