@@ -81,11 +81,14 @@ void PalpatePanel::mark_by_key(const QKeyEvent& event) {
   }
 }
 
-/// B held in a view shows the outline before its correction.
-void PalpatePanel::show_before_by_key(const QKeyEvent& event) {
-  if (event.key() != Qt::Key_B || event.isAutoRepeat()) return;
-  const bool pressed = event.type() == QEvent::KeyPress && event.modifiers() == Qt::NoModifier && has_view_keys();
-  if (pressed || event.type() == QEvent::KeyRelease) parts_->correction.show_before(pressed);
+/// B held in a view shows the outline before its correction. Whether the key is used: ParaView would select blocks.
+bool PalpatePanel::show_before_by_key(const QKeyEvent& event) {
+  palpate::plugin::CorrectionModel& correction = parts_->correction;
+  if (event.key() != Qt::Key_B || event.modifiers() != Qt::NoModifier || !correction.structure()) return false;
+  const bool pressed = event.type() != QEvent::KeyRelease && has_view_keys();
+  if (!pressed && !correction.shows_before()) return false;
+  if (!event.isAutoRepeat()) correction.show_before(pressed);
+  return true;
 }
 
 bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
@@ -93,7 +96,9 @@ bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
   if (pressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) parts_->touching.release();
   if (event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease) {
     mark_by_key(*static_cast<QKeyEvent*>(event));
-    show_before_by_key(*static_cast<QKeyEvent*>(event));
+  }
+  if ((pressed || event->type() == QEvent::KeyRelease) && show_before_by_key(*static_cast<QKeyEvent*>(event))) {
+    return true;
   }
   // A button that was clicked is done with: the arrow keys are the marked view's again.
   if (event->type() == QEvent::MouseButtonRelease && qobject_cast<QAbstractButton*>(watched) &&

@@ -11,6 +11,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/correct_box.h"
+#include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/send_dialog.h"
@@ -24,7 +25,10 @@
 namespace palpate::plugin {
 
 void PanelParts::connect_correction() {
-  QObject::connect(&correction, &CorrectionModel::changed, &dock, [this] { share_picks(); });
+  QObject::connect(&correction, &CorrectionModel::changed, &dock, [this] {
+    share_picks();
+    curves->set_key_undoes(!correction.structure());
+  });
   QObject::connect(&correction, &CorrectionModel::stroke_changed, &dock, [this] {
     SCOPED_UNDO_EXCLUDE();
     drawn_stroke.show(correction.stroke(), !correction.stroke().empty());

@@ -133,9 +133,11 @@ void CorrectionModel::move(const glm::dvec3& place) {
   emit stroke_changed();
 }
 
+/// A click alone, as that which gives a view the keyboard, traces nothing.
 void CorrectionModel::let_go() {
   if (stroke_.empty()) return;
-  draw(std::exchange(stroke_, {}));
+  std::vector<io::Vec3> drawn = std::exchange(stroke_, {});
+  if (tool_ != Tool::trace || drawn.size() > 1) draw(std::move(drawn));
   emit stroke_changed();
 }
 

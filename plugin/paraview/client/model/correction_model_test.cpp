@@ -91,6 +91,9 @@ TEST_F(Correcting, AStrokeIsOneEditOfTheScene) {
   EXPECT_EQ(std::get<io::RemoveEdit>(model.edits()[2]).tube, (io::Tube{{{7, 0, 0}}, 4.5}));
   model.draw({{8, 0, 0}, {9, 0, 0}});
   EXPECT_THAT(kinds(), SizeIs(4)) << "the stylus' path";
+  model.set_tool(Tool::trace);
+  stroke({{0, 9, 0}});
+  EXPECT_THAT(kinds(), SizeIs(4)) << "a click";
 }
 
 TEST_F(Correcting, NothingIsDrawnWhereNothingIsCorrected) {
@@ -105,7 +108,7 @@ TEST_F(Correcting, NothingIsDrawnWhereNothingIsCorrected) {
 
 TEST_F(Correcting, EditsAreUndoneAndRedoneOneByOne) {
   model.begin(liver, 0);
-  for (int n = 0; n < 3; ++n) stroke({{10.0 * n, 0, 0}});
+  for (int n = 0; n < 3; ++n) stroke({{10.0 * n, 0, 0}, {10.0 * n, 1, 0}});
   const std::vector<io::Edit> all = model.edits();
   EXPECT_FALSE(model.can_redo());
   for (std::size_t left = 3; left-- > 0;) {
@@ -123,15 +126,15 @@ TEST_F(Correcting, EditsAreUndoneAndRedoneOneByOne) {
   EXPECT_FALSE(model.can_redo());
   model.undo();
   model.undo();
-  stroke({{77, 0, 0}});
+  stroke({{77, 0, 0}, {78, 0, 0}});
   EXPECT_FALSE(model.can_redo()) << "another edit has taken their place";
   EXPECT_THAT(model.edits(), SizeIs(2));
 }
 
 TEST_F(Correcting, WhatParaViewTakesBackCanBeRedoneHere) {
   model.begin(liver, 0);
-  stroke({{0, 0, 0}});
-  stroke({{10, 0, 0}});
+  stroke({{0, 0, 0}, {0, 1, 0}});
+  stroke({{10, 0, 0}, {10, 1, 0}});
   const std::vector<io::Edit> all = model.edits();
   scene.undo();
   EXPECT_THAT(model.edits(), SizeIs(1));
@@ -175,7 +178,7 @@ TEST_F(Correcting, TheScansEdgeIsFeltWhileItLasts) {
 
 TEST_F(Correcting, TheEditsStayWhereItEndsAndComeBack) {
   model.begin(liver, 0);
-  stroke({{0, 0, 0}});
+  stroke({{0, 0, 0}, {0, 1, 0}});
   model.end();
   EXPECT_THAT(model.edits(), IsEmpty());
   EXPECT_THAT(kept_edits(), SizeIs(1));
@@ -195,7 +198,7 @@ TEST_F(Correcting, APlaceIsGoneToLeftOrCorrected) {
   EXPECT_EQ(model.at(), 1U);
   EXPECT_THAT(gone_to, ElementsAre(200));
   model.leave(2);
-  stroke({{101, 0, 0}});
+  stroke({{101, 0, 0}, {101, 1, 0}});
   const auto fates = [&] { return std::vector{model.fate(0), model.fate(1), model.fate(2)}; };
   EXPECT_THAT(fates(), ElementsAre(Fate::corrected, Fate::doubtful, Fate::left));
   model.take_scan_edge(model.places()->places[1].position_mm);
@@ -228,8 +231,8 @@ TEST_F(Correcting, WhatIsPressedWhileAStepWaitsIsDoneAfterIt) {
   model.set_press([&](const QString& what, const SceneModel::Change& change) { waiting.emplace_back(what, change); });
   model.begin(liver, 0);
   EXPECT_THAT(asked, IsEmpty()) << "its outline is not read yet";
-  stroke({{0, 0, 0}});
-  stroke({{10, 0, 0}});
+  stroke({{0, 0, 0}, {0, 1, 0}});
+  stroke({{10, 0, 0}, {10, 1, 0}});
   model.end();
   for (const auto& [what, change] : waiting) scene.edit(what, change);
   EXPECT_THAT(kept_edits(), SizeIs(2));

@@ -121,7 +121,8 @@ bool CurvesSection::eventFilter(QObject* watched, QEvent* event) {
     QWidget* const writes = QApplication::focusWidget();
     const bool text = writes && (writes->inherits("QLineEdit") || writes->inherits("QAbstractSpinBox") ||
                                  writes->inherits("QTextEdit"));
-    if (key.key() != Qt::Key_B || key.modifiers() != Qt::NoModifier || text || QApplication::activeModalWidget()) {
+    if (!key_undoes_ || key.key() != Qt::Key_B || key.modifiers() != Qt::NoModifier || text ||
+        QApplication::activeModalWidget()) {
       return QWidget::eventFilter(watched, event);
     }
     if (key.isAutoRepeat()) return true;

@@ -22,6 +22,8 @@ class CurvesSection : public QWidget {
   Q_OBJECT
 
  public:
+  /// Whether B, held, takes the last step back; not while another section shows what was before.
+  void set_key_undoes(bool undoes) { key_undoes_ = undoes; }
   CurvesSection(SceneModel& model, SessionController& touching, StrokeRunner& strokes, QWidget* parent = nullptr);
 
   void set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit);
@@ -51,6 +53,7 @@ class CurvesSection : public QWidget {
   CurveProfile* profile_;
   QLabel* message_;
   bool editing_ = false;
+  bool key_undoes_ = true;
   bool before_ = false;  // the last edit is taken back while a key is held
 };
 

@@ -133,9 +133,10 @@ void an_outline_is_corrected() {
   expect(drawn_beside_felt(1) > 2, "the outline of the file is drawn beside it");
   save_screen("correct-traced");
   hold_key_in(view("Axial"), "b", true);
-  wait_for(
-      "a key shows the file's outline", [] { return drawn_beside_felt(2) > 2 && std::isnan(drawn_beside_felt(1)); },
-      20);
+  const bool shown = comes_true([] { return drawn_beside_felt(2) > 2 && std::isnan(drawn_beside_felt(1)); });
+  expect(shown, "a key shows the file's outline: " + std::to_string(drawn_beside_felt(2)) + ", " +
+                    std::to_string(drawn_beside_felt(1)) + ", " + label("palpateStructureMessage").toStdString() +
+                    (has_edit("trace") ? "" : ", without an edit"));
   hold_key_in(view("Axial"), "b", false);
   wait_for(
       "and lets it go", [] { return drawn_beside_felt(2) < 0.05; }, 20);
