@@ -144,6 +144,7 @@ constexpr std::array not_shown{
     NotShown{"this-series-has-no-values", of_paraview},
     NotShown{"it-has-no-readable-images", of_paraview},
     NotShown{"marks-need-the-images", of_paraview},
+    NotShown{"outline-needs-the-images", of_paraview},
 };
 
 TEST(Messages, EachIsShown) {

@@ -72,12 +72,12 @@ TEST(SharedEdits, GoWithTheirLastHolder) {
 
 TEST(SharedEdits, ThatReadAScanAreThatScansOwn) {
   const Field before = ball_of(12);
-  const auto scan = scan_of_a_ball(13), other = scan_of_a_ball(14);
+  const auto scan = scan_of_a_ball(12.7), other = scan_of_a_ball(13.4);
   const io::ScanEdgeEdit to_the_edge{.center_mm = {12, 0, 0}, .radius_mm = 8, .most_mm = 3};
   const io::Vec3 pole(12, 0, 0);
   const Field here = shared_edited(before, to_the_edge, scan), there = shared_edited(before, to_the_edge, other);
-  EXPECT_NEAR(here->sample(pole).mm, 1, 0.2);
-  EXPECT_NEAR(there->sample(pole).mm, 2, 0.2);
+  EXPECT_NEAR(here->sample(pole).mm, 0.7, 0.2);
+  EXPECT_NEAR(there->sample(pole).mm, 1.4, 0.2);
   EXPECT_EQ(shared_edited(before, to_the_edge, scan), here);
   const std::shared_ptr<const io::Volume> not_owned(std::shared_ptr<void>(), other.get());
   const Field alone = shared_edited(before, to_the_edge, not_owned);

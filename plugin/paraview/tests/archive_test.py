@@ -11,6 +11,7 @@ import stat
 import subprocess
 
 from archive_program import PROGRAM, Orthanc
+from made_segmentation import is_in_cut_ball, write_segmentation
 from panel_program import PROGRAMS, main, phantom, run, scratch
 
 HOME = scratch("panel-home")
@@ -168,6 +169,32 @@ def marks_not_sent():
                prepare=lambda _: enter("clinic", nowhere))
 
 
+def outline_sent():
+    """An outline is mended in the panel and sent; in the archive it has the mended edge, and the scan's study."""
+    name = "an_outline_is_sent"
+
+    def act(archive):
+        folder = scratch("panel-ball")
+        cut = write_segmentation(os.path.join(folder, "liver.dcm"), folder, is_in=is_in_cut_ball)
+        if not run(name, folder, prepare=lambda _: enter("clinic", archive.options("--get"))):
+            return False
+        sent = [file for file in in_the_archive(archive, scratch("from-the-archive"))
+                if values(file, "0008,0016")[0][0] == "1.2.840.10008.5.1.4.1.1.66.4"]
+        if len(sent) != 1 or values(sent[0], "0010,0020")[0][0] != "P1":
+            print(f"{name}: FAILED: {len(sent)} outlines of the patient are in the study")
+            return False
+        compared = subprocess.run([os.path.join(PROGRAMS, "palpate"), "structures", "compare", cut, sent[0], "--json"],
+                                  check=True, capture_output=True, text=True)
+        found = json.loads(compared.stdout)
+        before, after = found["volume_mm3"]
+        if not (after > before + 100 and 3 < found["largest_mm"] < 5 and abs(found["largest_at_mm"][0]) < 12):
+            print(f"{name}: FAILED: the edge is not where it was drawn: {found}")
+            return False
+        return True
+
+    return in_an_archive(name, act)
+
+
 main({
     "felt_by_move": felt_from_the_archive,
     "felt_by_get": lambda: felt_from_the_archive("--get"),
@@ -176,5 +203,6 @@ main({
     "entered_with_tls": entered_with_tls,
     "marks_sent": marks_sent,
     "marks_not_sent": marks_not_sent,
+    "outline_sent": outline_sent,
     "cancelled": lambda: odd("without-end", "a_fetch_is_cancelled"),
 })

@@ -322,6 +322,196 @@
     </message>
 </context>
 <context>
+    <name>CorrectBox</name>
+    <message>
+        <source>the scan&apos;s edge lies %1 mm outside, known to ±%2 mm</source>
+        <translation>die Kante der Aufnahme liegt %1 mm außerhalb, auf ±%2 mm bekannt</translation>
+    </message>
+    <message>
+        <source>the scan&apos;s edge lies %1 mm inside, known to ±%2 mm</source>
+        <translation>die Kante der Aufnahme liegt %1 mm innerhalb, auf ±%2 mm bekannt</translation>
+    </message>
+    <message>
+        <source>no edge in the scan, the tissue goes on</source>
+        <translation>keine Kante in der Aufnahme, das Gewebe geht weiter</translation>
+    </message>
+    <message>
+        <source>a small part of its own</source>
+        <translation>ein kleines Teil für sich</translation>
+    </message>
+    <message>
+        <source>a small hole</source>
+        <translation>ein kleines Loch</translation>
+    </message>
+    <message>
+        <source>Places at which the outline is doubtful, the most doubtful first. A click goes there.</source>
+        <translation>Stellen, an denen der Umriss zweifelhaft ist, die zweifelhafteste zuerst. Ein Klick führt hin.</translation>
+    </message>
+    <message>
+        <source>Take the scan&apos;s edge</source>
+        <translation>Kante der Aufnahme nehmen</translation>
+    </message>
+    <message>
+        <source>At this place the outline moves to the edge that the scan has there</source>
+        <translation>An dieser Stelle geht der Umriss zur Kante, die die Aufnahme dort hat</translation>
+    </message>
+    <message>
+        <source>Leave it</source>
+        <translation>So lassen</translation>
+    </message>
+    <message>
+        <source>The outline is right there</source>
+        <translation>Dort stimmt der Umriss</translation>
+    </message>
+    <message>
+        <source>Trace</source>
+        <translation>Nachziehen</translation>
+    </message>
+    <message>
+        <source>Drag on a slice along the right edge: the outline goes there. Or press M while the stylus feels it.</source>
+        <translation>Auf einem Schnitt den richtigen Rand entlang ziehen: der Umriss geht dorthin. Oder M drücken, während der Stift ihn fühlt.</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
+    </message>
+    <message>
+        <source>What a ball passes over belongs to the structure</source>
+        <translation>Was eine Kugel überstreicht, gehört zur Struktur</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Wegnehmen</translation>
+    </message>
+    <message>
+        <source>What a ball passes over does not belong to it</source>
+        <translation>Was eine Kugel überstreicht, gehört nicht dazu</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source> N</source>
+        <translation> N</translation>
+    </message>
+    <message>
+        <source>Radius of what is added or removed</source>
+        <translation>Radius dessen, was hinzugefügt oder weggenommen wird</translation>
+    </message>
+    <message>
+        <source>How strongly the scan&apos;s edge holds the stylus</source>
+        <translation>Wie stark die Kante der Aufnahme den Stift hält</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Takes back the last correction</source>
+        <translation>Nimmt die letzte Korrektur zurück</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>Wiederholen</translation>
+    </message>
+    <message>
+        <source>Does it again</source>
+        <translation>Macht sie noch einmal</translation>
+    </message>
+    <message>
+        <source>Before</source>
+        <translation>Vorher</translation>
+    </message>
+    <message>
+        <source>Shows the outline of the file while it is pressed; or B in a view</source>
+        <translation>Zeigt den Umriss der Datei, solange gedrückt wird; oder B in einer Ansicht</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
+    </message>
+    <message>
+        <source>As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage</source>
+        <translation>Als DICOM SEG oder RTSTRUCT, NIfTI, NRRD oder MetaImage</translation>
+    </message>
+    <message>
+        <source>Send…</source>
+        <translation>Senden…</translation>
+    </message>
+    <message>
+        <source>Shows first what would be sent to an archive, and for which patient</source>
+        <translation>Zeigt erst, was an ein Archiv gesendet würde und für welchen Patienten</translation>
+    </message>
+    <message>
+        <source>Looking for doubtful places, %1 %</source>
+        <translation>Suche nach zweifelhaften Stellen, %1 %</translation>
+    </message>
+    <message>
+        <source>%1 cm²</source>
+        <translation>%1 cm²</translation>
+    </message>
+    <message>
+        <source>corrected: %1</source>
+        <translation>korrigiert: %1</translation>
+    </message>
+    <message>
+        <source>left: %1</source>
+        <translation>so gelassen: %1</translation>
+    </message>
+    <message>
+        <source>No doubtful place was found.</source>
+        <translation>Keine zweifelhafte Stelle gefunden.</translation>
+    </message>
+    <message>
+        <source>1 doubtful place</source>
+        <translation>1 zweifelhafte Stelle</translation>
+    </message>
+    <message>
+        <source>%1 doubtful places</source>
+        <translation>%1 zweifelhafte Stellen</translation>
+    </message>
+</context>
+<context>
+    <name>CorrectionModel</name>
+    <message>
+        <source>Correct %1</source>
+        <translation>%1 korrigieren</translation>
+    </message>
+    <message>
+        <source>End correcting</source>
+        <translation>Korrigieren beenden</translation>
+    </message>
+    <message>
+        <source>Snap to the scan&apos;s edge</source>
+        <translation>An der Kante der Aufnahme halten</translation>
+    </message>
+    <message>
+        <source>Trace</source>
+        <translation>Nachziehen</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Wegnehmen</translation>
+    </message>
+    <message>
+        <source>Take the scan&apos;s edge</source>
+        <translation>Kante der Aufnahme nehmen</translation>
+    </message>
+    <message>
+        <source>Undo a correction</source>
+        <translation>Korrektur zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Redo a correction</source>
+        <translation>Korrektur wiederholen</translation>
+    </message>
+</context>
+<context>
     <name>CurveEditor</name>
     <message>
         <source>Drag a node to move it; click to add one. Delete removes the chosen node, and the arrow keys move it. Drag with Shift to move the whole curve. The line marks what is under the pointer in a slice.</source>
@@ -985,6 +1175,21 @@
     </message>
 </context>
 <context>
+    <name>OutlineOut</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Writing %p%</source>
+        <translation>Schreiben %p%</translation>
+    </message>
+    <message>
+        <source>Sending</source>
+        <translation>Senden</translation>
+    </message>
+</context>
+<context>
     <name>PalpatePanel</name>
     <message>
         <source>Palpate</source>
@@ -1088,6 +1293,30 @@
     <message>
         <source>no such folder, or no right to it</source>
         <translation>kein solcher Ordner, oder kein Recht, ihn zu lesen</translation>
+    </message>
+    <message>
+        <source>DICOM contours, RTSTRUCT (*.dcm)</source>
+        <translation>DICOM-Konturen, RTSTRUCT (*.dcm)</translation>
+    </message>
+    <message>
+        <source>NIfTI (*.nii.gz *.nii)</source>
+        <translation>NIfTI (*.nii.gz *.nii)</translation>
+    </message>
+    <message>
+        <source>NRRD (*.seg.nrrd *.nrrd)</source>
+        <translation>NRRD (*.seg.nrrd *.nrrd)</translation>
+    </message>
+    <message>
+        <source>MetaImage (*.mha)</source>
+        <translation>MetaImage (*.mha)</translation>
+    </message>
+    <message>
+        <source>DICOM segmentation, SEG (*.dcm)</source>
+        <translation>DICOM-Segmentierung, SEG (*.dcm)</translation>
+    </message>
+    <message>
+        <source>Save the corrected outline</source>
+        <translation>Korrigierten Umriss speichern</translation>
     </message>
 </context>
 <context>
@@ -1460,6 +1689,18 @@
         <source>Send</source>
         <translation>Senden</translation>
     </message>
+    <message>
+        <source>Send the corrected outline</source>
+        <translation>Korrigierten Umriss senden</translation>
+    </message>
+    <message>
+        <source>A segmentation (SEG) of %1. %2</source>
+        <translation>Eine Segmentierung (SEG) von %1. %2</translation>
+    </message>
+    <message>
+        <source>It goes into this study as a new series, made with research software, not a medical device. The outline that was corrected stays.</source>
+        <translation>Sie kommt als neue Serie in diese Studie, gemacht mit Forschungssoftware, nicht mit einem Medizinprodukt. Der Umriss, der korrigiert wurde, bleibt.</translation>
+    </message>
 </context>
 <context>
     <name>SeriesCard</name>
@@ -1737,6 +1978,18 @@ ID %2, Studie vom %3</translation>
     <message>
         <source>Structures (*.dcm *);;All files (*)</source>
         <translation>Strukturen (*.dcm *);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Correct</source>
+        <translation>Korrigieren</translation>
+    </message>
+    <message>
+        <source>Looks for doubtful places of its outline, and lets it be drawn anew: see the guide</source>
+        <translation>Sucht zweifelhafte Stellen ihres Umrisses und lässt ihn neu zeichnen: siehe die Anleitung</translation>
+    </message>
+    <message>
+        <source>%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
+        <translation>%1 ml, in der Datei %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Rand ging höchstens %5 mm.</translation>
     </message>
 </context>
 <context>

@@ -3,6 +3,7 @@
 #include <vtkRenderer.h>
 #include <vtkSMRenderViewProxy.h>
 
+#include <QDialog>
 #include <QFile>
 #include <QLabel>
 #include <QToolButton>
@@ -94,8 +95,8 @@ bool has_edit(const char* kind) {
   return scene.contains(QStringLiteral("\"type\":\"%1\"").arg(QString::fromLatin1(kind)));
 }
 
-/// A study with a segmentation whose cap was cut off: opened, mended, undone, saved, read again.
-void an_outline_is_corrected() {
+/// From an opened study with a segmentation whose cap was cut off to the first corrected edge: the middle of the trace.
+glm::dvec3 cap_is_traced() {
   scan_is_shown();
   const int before = clicks();
   click("palpateStructuresSectionFold");
@@ -123,7 +124,12 @@ void an_outline_is_corrected() {
   trace_the_edge(height);
   wait_for("the trace is an edit", [] { return has_edit("trace"); });
   expect(clicks() - before <= 4, "it took four presses, and not " + std::to_string(clicks() - before));
+  return pole;
+}
 
+/// Opened, mended, undone, saved, read again.
+void an_outline_is_corrected() {
+  const glm::dvec3 pole = cap_is_traced();
   const auto is_felt = [&] { return std::abs(felt_mm(pole)) < 0.4; };
   wait_for("the corrected edge is felt where it was drawn: " + std::to_string(felt_mm(pole)), is_felt, 20);
   wait_for(
@@ -168,12 +174,35 @@ void an_outline_is_corrected() {
   expect(
       std::abs(saved_ml - number("palpateCorrectChange")) < 0.3,
       "as large as it was told: " + std::to_string(saved_ml) + " ml, " + label("palpateCorrectChange").toStdString());
+  views_rest();
   save_screen("correct-saved");
+}
+
+/// To the archive that the scan is in; archive_test.py looks what has come there.
+void an_outline_is_sent() {
+  cap_is_traced();
+  wait_for(
+      "it is told what was changed", [] { return label("palpateCorrectChange").contains("mm at most"); }, 60);
+  in_dialog("palpateCorrectSend", [](QDialog& dialog) {
+    expect(label("palpateSendPatient") == "Muster, Erika  ·  P1",
+           "for whom: " + label("palpateSendPatient").toStdString());
+    const QString what = label("palpateSendWhat");
+    expect(what.startsWith("A segmentation (SEG) of Liver.") && what.contains("mm at most"),
+           "what, and what has changed: " + what.toStdString());
+    save_screen("correct-send");
+    dialog.reject();
+  });
+  wait_ms(300);
+  expect(label("palpateStructureMessage").isEmpty() && !find<QWidget>("palpateOutlineOut").isVisible(),
+         "what is only looked at is not sent");
+  in_dialog("palpateCorrectSend", [](QDialog&) { click("palpateSendOk"); });
+  wait_for("it is sent", [] { return label("palpateStructureMessage") == "Sent to clinic: the corrected outline."; });
 }
 
 }  // namespace
 
 const Scenarios& correct_scenarios() {
-  static const Scenarios all{{"an_outline_is_corrected", an_outline_is_corrected}};
+  static const Scenarios all{{"an_outline_is_corrected", an_outline_is_corrected},
+                             {"an_outline_is_sent", an_outline_is_sent}};
   return all;
 }
