@@ -32,7 +32,7 @@ void read_identity(DcmItem& item, FileHeader& header) {
   header.series = text_of(item, DCM_SeriesInstanceUID);
   header.frame_of_reference = text_of(item, DCM_FrameOfReferenceUID);
   header.study = text_of(item, DCM_StudyInstanceUID);
-  header.modality = text_of(item, DCM_Modality);
+  header.modality = utf8_of(text_of(item, DCM_Modality), characters);
   header.description = utf8_of(text_of(item, DCM_SeriesDescription), characters);
   header.image_type = text_of(item, DCM_ImageType);
   header.identity.patient_name = utf8_of(text_of(item, DCM_PatientName), characters);
@@ -66,7 +66,7 @@ void read_details(DcmItem& item, FileHeader& header) {
   }
   details.date = first_of(item, {DCM_SeriesDate, DCM_AcquisitionDate, DCM_StudyDate});
   details.time = first_of(item, {DCM_SeriesTime, DCM_AcquisitionTime});
-  details.body_part = text_of(item, DCM_BodyPartExamined);
+  details.body_part = utf8_of(text_of(item, DCM_BodyPartExamined), characters);
   details.kernel = utf8_of(text_of(item, DCM_ConvolutionKernel), characters);
   std::replace(details.kernel.begin(), details.kernel.end(), '\\', ' ');
   details.sequence = utf8_of(first_of(item, {DCM_SequenceName, DCM_ScanningSequence}), characters);

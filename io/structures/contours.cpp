@@ -127,7 +127,7 @@ Roi closed_contours(DcmItem& item_of_roi, Text& unfit, std::vector<Text>& warnin
       const double thickness = number_of(item, contour_slab_thickness).value_or(0);
       if (thickness <= internal::farthest_place_mm) roi.rule.thickness_mm = std::max(roi.rule.thickness_mm, thickness);
     } else {
-      ++others[type];
+      ++others[internal::utf8_of(type, {})];
     }
   });
   std::string open;

@@ -11,6 +11,7 @@
 
 #include "io/testing/test_image.h"
 #include "plugin/testing/command_rig.h"
+#include "plugin/testing/registered_study.h"
 #include "solver/text/printable.h"
 
 namespace palpate::plugin {
@@ -130,6 +131,46 @@ TEST(CommandOutput, ValuesOfAnySlopeAreNoInternalFault) {
         EXPECT_LT(outcome.exit, 2) << modality << ", slope " << slope << ": " << command << "\n" << outcome.output;
       }
     }
+  }
+}
+
+// A script that reads what the program says stops at bytes that are no UTF-8. Letters of Latin-1, which some write
+// where the standard has no place for them, are letters.
+TEST(CommandOutput, WhateverAttributesHoldItIsUtf8) {
+  const fs::path folder = fresh_path("letters");
+  fs::create_directories(folder);
+  io::internal::write_stack(folder, 5, [](int, io::internal::TestImage& image) {
+    image.edit = [](DcmDataset& d) {
+      for (const DcmTagKey& tag : {DCM_Modality, DCM_BodyPartExamined, DCM_SeriesDescription, DCM_PatientName,
+                                   DCM_PatientID, DCM_ConvolutionKernel, DCM_SequenceName, DCM_ContrastBolusAgent,
+                                   DCM_StudyDate, DCM_SeriesTime, DCM_ImageType, DCM_LossyImageCompression}) {
+        io::internal::succeed(d.putAndInsertString(tag,
+                                                   "SCH\xC4"
+                                                   "DEL"));
+      }
+    };
+  });
+  testing::write_contours(folder / "rt.dcm", "1.2", "7\xFC", "M\xFCller");
+  DcmFileFormat contours;
+  io::internal::succeed(contours.loadFile((folder / "rt.dcm").c_str()));
+  DcmItem *roi = nullptr, *contour = nullptr;
+  io::internal::succeed(contours.getDataset()->findAndGetSequenceItem(DCM_ROIContourSequence, roi));
+  for (signed long n = 0; roi->findAndGetSequenceItem(DCM_ContourSequence, contour, n).good(); ++n) {
+    io::internal::succeed(contour->putAndInsertString(DCM_ContourGeometricType, "CLOSED_PL\xC1NAR"));
+  }
+  io::internal::succeed(contours.saveFile((folder / "rt.dcm").c_str()));
+  std::ofstream(folder / "a.nrrd")
+      << "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nencoding: l\xFC\n"
+         "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n";
+  for (const char* const command : {"info ", "info --all ", "info --json ", "structures ", "structures --json "}) {
+    const std::string output = palpate(command + folder.string()).output;
+    EXPECT_EQ(printable(output), output) << command;
+  }
+  const std::string outlines = palpate("structures --json " + folder.string(), false).output;
+  EXPECT_NE(outlines.find("7 CLOSED_PL\u00c1NAR"), std::string::npos) << outlines;
+  const auto told = nlohmann::json::parse(palpate("info --json " + folder.string(), false).output).at("series").at(0);
+  for (const char* const key : {"modality", "body_part", "description", "kernel"}) {
+    EXPECT_EQ(told.at(key), "SCH\u00c4DEL") << key;
   }
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
-/// Text for a terminal. What comes out of a file (its name, a description, a patient's name) may hold control
-/// characters, which a terminal would obey.
+/// Text for a terminal or a script. What comes out of a file (its name, a description, a patient's name) may hold
+/// control characters, which a terminal would obey, and bytes that are no UTF-8, at which a script would stop.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -10,24 +11,38 @@ namespace palpate {
 
 namespace internal {
 
-/// `escape` is what stands before a control character's two hexadecimal digits: those of ASCII but for the end of a
-/// line, of DEL, and of C1 (U+0080 to U+009F) as UTF-8 writes them.
+/// Bytes of the character that a text begins with; 0 where it begins with none of UTF-8 (RFC 3629, 4).
+inline std::size_t utf8_character(std::string_view text) {
+  const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return text.empty() ? 0 : 1;
+  const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+  // Of some the second byte has less room: the others are shorter ways to write it, surrogates, or beyond U+10FFFF.
+  const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  if (length == 0 || byte(1) < least || byte(1) > most) return 0;
+  for (std::size_t n = 2; n < length; ++n) {
+    if (byte(n) < 0x80 || byte(n) > 0xBF) return 0;
+  }
+  return length;
+}
+
+/// `escape` is what stands before the two hexadecimal digits of a byte that is no UTF-8, or of a control character:
+/// those of ASCII but for the end of a line, of DEL, and of C1 (U+0080 to U+009F) as UTF-8 writes them.
 inline std::string without_control(std::string_view text, std::string_view escape, bool ascii) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string shown;
-  for (std::size_t n = 0; n < text.size(); ++n) {
+  for (std::size_t n = 0, length = 0; n < text.size(); n += length) {
+    const std::size_t whole = utf8_character(text.substr(n));
+    length = whole == 0 ? 1 : whole;
     auto byte = static_cast<unsigned char>(text[n]);
-    const auto next = n + 1 < text.size() ? static_cast<unsigned char>(text[n + 1]) : 0U;
     const bool is_control = (ascii && byte < 0x20 && byte != '\n') || byte == 0x7F;
-    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;
-    if (!is_control && !is_c1) {
-      shown += text[n];
+    const bool is_c1 = whole == 2 && byte == 0xC2 && static_cast<unsigned char>(text[n + 1]) < 0xA0;
+    if (whole != 0 && !is_control && !is_c1) {
+      shown.append(text, n, length);
       continue;
     }
-    if (is_c1) {
-      byte = static_cast<unsigned char>(next);
-      ++n;
-    }
+    if (is_c1) byte = static_cast<unsigned char>(text[n + 1]);
     shown.append(escape) += digits[byte >> 4U];
     shown += digits[byte & 15U];
   }
@@ -36,7 +51,7 @@ inline std::string without_control(std::string_view text, std::string_view escap
 
 }  // namespace internal
 
-/// With control characters in the form \x1b.
+/// With control characters, and bytes that are no UTF-8, in the form \x1b.
 inline std::string printable(std::string_view text) {
   return internal::without_control(text, "\\x", true);
 }
