@@ -9,7 +9,6 @@
 
 #include "device/safety/safety_filter.h"
 #include "modes/scene/scene_json.h"
-#include "plugin/openigtlink/isosurface.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/say.h"
 #include "plugin/report/held_boundary.h"
@@ -24,23 +23,6 @@ constexpr double mark_diameter_mm = 2;
 
 nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-}
-
-/// The surfaces of what is felt, by the names of its structures.
-std::vector<std::pair<std::string, Surface>> surfaces_of(const PreparedScene& felt, const modes::Scene& scene) {
-  std::vector<std::pair<std::string, Surface>> surfaces;
-  for (std::size_t n = 0; n < felt.structures.size(); ++n) {
-    const auto& field = felt.structures[n].distance;
-    Surface surface = isosurface(
-        [&](const glm::dvec3& place) {
-          const io::Distance there = field->sample(place);
-          return SurfaceDistance{there.mm, there.gradient};
-        },
-        bounding_box(felt.volume->geometry));
-    for (glm::dvec3& point : surface.points) point = ras_of(point);
-    surfaces.emplace_back(scene.structures[felt.plan->structures[n]].name, std::move(surface));
-  }
-  return surfaces;
 }
 
 }  // namespace
@@ -79,13 +61,13 @@ void Announcer::scene_changed() {
   publisher_.set_workspace(session_.epoch(), session_.plan()->workspace);
   const std::string scene = modes::to_json(received_.with_names(session_.scene()));
   if (scene.size() <= longest_string) offer("STRING", scene_name, string_content(scene), 0, true);
-  surfaces_wanted_ = true;
+  shapes_wanted_ = true;
 }
 
 void Announcer::look() {
   publisher_.set_orientation(session_.orientation());
   follow_marks();
-  announce_surfaces();
+  announce_shapes();
   const TickRing* const ring = session_.ticks();
   if (ring == nullptr) return;
   const TickRing& ticks = *ring;
@@ -191,22 +173,22 @@ void Announcer::follow_marks() {
   }
 }
 
-void Announcer::announce_surfaces() {
-  if (surfaces_.valid()) {
-    if (surfaces_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+void Announcer::announce_shapes() {
+  if (shapes_.valid()) {
+    if (shapes_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     std::set<std::string> sent;
-    for (auto& [name, surface] : surfaces_.get()) {
-      offer("POLYDATA", name, content_of(surface), 0, true);
-      sent.insert(name);
+    for (Shape& shape : shapes_.get()) {
+      sent.insert(shape.type + " " + shape.name);
+      offer(shape.type.c_str(), shape.name, std::move(shape.content), 0, true);
     }
-    for (const std::string& name : surfaces_sent_) {
-      if (!sent.contains(name)) server_.forget("POLYDATA " + name);
+    for (const std::string& name : shapes_sent_) {
+      if (!sent.contains(name)) server_.forget(name);
     }
-    surfaces_sent_ = std::move(sent);
+    shapes_sent_ = std::move(sent);
   }
-  if (!std::exchange(surfaces_wanted_, false)) return;
-  surfaces_ = std::async(std::launch::async,
-                         [felt = session_.felt(), scene = session_.scene()] { return surfaces_of(felt, scene); });
+  if (!std::exchange(shapes_wanted_, false)) return;
+  shapes_ = std::async(std::launch::async,
+                       [felt = session_.felt(), scene = session_.scene()] { return shapes_of(felt, scene); });
 }
 
 }  // namespace palpate::plugin::igtl

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What clients are told of a session beside its frames: status, contact, marks, the scene as it is felt, and the
-/// surfaces of its structures. Of the controlling thread; look() is called about a hundred times a second.
+/// What clients are told of a session beside its frames: status, contact, marks, the scene as it is felt, and its
+/// shapes (shapes.h). Of the controlling thread; look() is called about a hundred times a second.
 
 #include <chrono>
 #include <cstdint>
@@ -13,7 +13,7 @@
 #include "plugin/app/live_session.h"
 #include "plugin/openigtlink/publisher.h"
 #include "plugin/openigtlink/received.h"
-#include "plugin/openigtlink/surface.h"
+#include "plugin/openigtlink/shapes.h"
 #include "plugin/recording/marks.h"
 
 namespace palpate::plugin::igtl {
@@ -38,7 +38,7 @@ class Announcer {
   void announce_status(const TickRecord& tick);
   void announce_contact(const TickRecord& tick, const std::vector<PrimitiveRecord>& shares);
   void announce_marks();
-  void announce_surfaces();
+  void announce_shapes();
   void follow_marks();
   void offer(const char* type, const std::string& device, Bytes content, double stamp, bool kept);
 
@@ -52,9 +52,9 @@ class Announcer {
   std::uint64_t next_tick_ = 0;
   Marks felt_;                // made with the stylus
   std::vector<Point> marks_;  // all, as they are sent
-  std::future<std::vector<std::pair<std::string, Surface>>> surfaces_;
-  bool surfaces_wanted_ = true;
-  std::set<std::string> surfaces_sent_;
+  std::future<std::vector<Shape>> shapes_;
+  bool shapes_wanted_ = true;
+  std::set<std::string> shapes_sent_;  // each by its type and name
 };
 
 /// "off", "ready", "feeling" or "stopped", and the same as a sentence.

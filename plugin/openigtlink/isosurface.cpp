@@ -1,10 +1,13 @@
 #include "plugin/openigtlink/isosurface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 namespace palpate::plugin::igtl {
 namespace {
@@ -56,9 +59,16 @@ std::optional<std::vector<glm::ivec3>> cells_of(const Distance& distance, const 
   return cells;
 }
 
+/// What a surface is made in: a right-handed lattice of nodes.
+struct Nodes {
+  std::function<double(const glm::ivec3&)> height;  ///< positive inside; not a number: no surface is there
+  std::function<glm::dvec3(const glm::ivec3&)> place;
+  std::function<glm::dvec3(const glm::dvec3&)> settle;  ///< from near the surface on to it
+};
+
 class Nets {
  public:
-  Nets(const Distance& distance, const Lattice& lattice) : distance_(distance), lattice_(lattice) {}
+  explicit Nets(Nodes nodes) : nodes_(std::move(nodes)) {}
 
   Surface of(const std::vector<glm::ivec3>& cells) {
     for (const glm::ivec3& cell : cells) add_vertex(cell);
@@ -69,9 +79,9 @@ class Nets {
   }
 
  private:
-  double mm(const glm::ivec3& node) {
-    const auto [found, fresh] = nodes_.try_emplace(key_of(node), 0);
-    if (fresh) found->second = distance_(lattice_.at(node)).mm;
+  double height(const glm::ivec3& node) {
+    const auto [found, fresh] = heights_.try_emplace(key_of(node), 0);
+    if (fresh) found->second = nodes_.height(node);
     return found->second;
   }
 
@@ -85,19 +95,16 @@ class Nets {
         from[(axis + 1) % 3] += edge & 1;
         from[(axis + 2) % 3] += edge >> 1;
         along[axis] = 1;
-        const double a = mm(from), b = mm(from + along);
+        const double a = height(from), b = height(from + along);
+        if (std::isnan(a + b)) return;
         if ((a > 0) == (b > 0)) continue;
-        sum += glm::mix(lattice_.at(from), lattice_.at(from + along), a / (a - b));
+        sum += glm::mix(nodes_.place(from), nodes_.place(from + along), a / (a - b));
         ++crossings;
       }
     }
     if (crossings == 0) return;
-    glm::dvec3 vertex = sum / static_cast<double>(crossings);
-    const SurfaceDistance there = distance_(vertex);
-    const double slope = glm::dot(there.gradient, there.gradient);
-    if (slope > 0.25 && std::abs(there.mm) < lattice_.step) vertex -= there.mm / slope * there.gradient;
     vertices_[key_of(cell)] = static_cast<std::uint32_t>(surface_.points.size());
-    surface_.points.push_back(vertex);
+    surface_.points.push_back(nodes_.settle(sum / static_cast<double>(crossings)));
   }
 
   /// Around the edge that leaves the cell's first corner along an axis.
@@ -106,8 +113,8 @@ class Nets {
     along[axis] = 1;
     u[(axis + 1) % 3] = 1;
     v[(axis + 2) % 3] = 1;
-    const bool inside = mm(cell) > 0;
-    if (inside == (mm(cell + along) > 0)) return;
+    const bool inside = height(cell) > 0;
+    if (inside == (height(cell + along) > 0)) return;
     std::array<std::uint32_t, 4> corners{};
     std::size_t n = 0;
     for (const glm::ivec3& one : {cell - u - v, cell - v, cell, cell - u}) {
@@ -120,12 +127,48 @@ class Nets {
     surface_.triangles.push_back({corners[0], corners[2], corners[3]});
   }
 
-  const Distance& distance_;
-  const Lattice& lattice_;
-  std::unordered_map<std::uint64_t, double> nodes_;
+  Nodes nodes_;
+  std::unordered_map<std::uint64_t, double> heights_;
   std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
   Surface surface_;
 };
+
+/// Every few voxels of a scan, by index.
+struct Voxels {
+  const io::Volume& volume;
+  double value = 0;
+  glm::ivec3 step{1};
+
+  glm::ivec3 size() const { return (volume.geometry.dimensions - 1) / step + 1; }
+  double height(const glm::ivec3& node) const {
+    const glm::ivec3 voxel = node * step;
+    const bool missing = volume.is_padding(voxel.x, voxel.y, voxel.z);
+    return missing ? std::numeric_limits<double>::quiet_NaN() : volume.value_at(voxel.x, voxel.y, voxel.z) - value;
+  }
+  glm::dvec3 place(const glm::ivec3& node) const { return volume.geometry.to_patient(glm::dvec3(node * step)); }
+};
+
+/// Those that the surface crosses. None if there are too many.
+std::optional<std::vector<glm::ivec3>> cells_of(const Voxels& voxels) {
+  std::vector<glm::ivec3> cells;
+  const glm::ivec3 last = voxels.size() - 1;
+  for (int z = 0; z < last.z; ++z) {
+    const auto lies_here = [&](int gap) { return gap / voxels.step.z == z; };
+    if (std::ranges::any_of(voxels.volume.geometry.gaps, lies_here)) continue;
+    for (int y = 0; y < last.y; ++y) {
+      int inside[2] = {};  // nodes of each of the two columns
+      for (int x = -1; x < last.x; ++x) {
+        inside[0] = inside[1];
+        inside[1] = 0;
+        for (int n = 0; n < 4; ++n) inside[1] += voxels.height({x + 1, y + (n & 1), z + (n >> 1)}) > 0 ? 1 : 0;
+        if (x < 0 || inside[0] + inside[1] == 0 || inside[0] + inside[1] == 8) continue;
+        cells.emplace_back(x, y, z);
+        if (cells.size() > most_cells) return std::nullopt;
+      }
+    }
+  }
+  return cells;
+}
 
 }  // namespace
 
@@ -133,7 +176,33 @@ Surface isosurface(const Distance& distance, const io::Box& box) {
   for (double step = 1;; step *= 2) {
     const Lattice lattice{box.low - 2 * step, step};
     const glm::ivec3 size(glm::ceil((box.high - box.low) / step) + 4.0);
-    if (const auto cells = cells_of(distance, lattice, size)) return Nets(distance, lattice).of(*cells);
+    const auto cells = cells_of(distance, lattice, size);
+    if (!cells) continue;
+    const auto settle = [&](const glm::dvec3& place) {
+      const SurfaceDistance there = distance(place);
+      const double slope = glm::dot(there.gradient, there.gradient);
+      const bool is_near = slope > 0.25 && std::abs(there.mm) < lattice.step;
+      return is_near ? place - there.mm / slope * there.gradient : place;
+    };
+    return Nets({.height = [&](const glm::ivec3& node) { return distance(lattice.at(node)).mm; },
+                 .place = [&](const glm::ivec3& node) { return lattice.at(node); },
+                 .settle = settle})
+        .of(*cells);
+  }
+}
+
+Surface isosurface(const io::Volume& volume, double value) {
+  const io::Geometry& geometry = volume.geometry;
+  const glm::dvec3 spacing(geometry.spacing_i, geometry.spacing_j, geometry.slice_spacing());
+  const double finest = std::min({spacing.x, spacing.y, spacing.z});
+  for (double mm = finest;; mm *= 2) {
+    const Voxels voxels{volume, value, glm::max(glm::ivec3(glm::round(mm / spacing)), glm::ivec3(1))};
+    const auto cells = cells_of(voxels);
+    if (!cells) continue;
+    return Nets({.height = [&](const glm::ivec3& node) { return voxels.height(node); },
+                 .place = [&](const glm::ivec3& node) { return voxels.place(node); },
+                 .settle = [](const glm::dvec3& place) { return place; }})
+        .of(*cells);
   }
 }
 

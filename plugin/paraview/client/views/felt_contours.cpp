@@ -16,19 +16,13 @@
 #include <map>
 #include <utility>
 
+#include "modes/scene/met_values.h"
+
 namespace palpate::plugin {
 namespace {
 
 constexpr double least_part = 0.05;  // of a surface's strength: less is not drawn
 constexpr int block = 4;             // points across a block whose strength is looked up once
-
-double value_factor(const modes::Mode& mode, double value) {
-  double factor = 1;
-  for (const modes::Gate& gate : mode.gates) {
-    if (gate.of == modes::Datum::value) factor *= gate.factor(value);
-  }
-  return factor;
-}
 
 vtkSmartPointer<vtkImageData> values_on(const io::FieldSource& source, const SlicePoints& points) {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -97,32 +91,6 @@ void add_pieces(vtkImageData& image, double value, const SlicePoints& points, St
 
 }  // namespace
 
-std::vector<double> met_values(const modes::Mode& mode, modes::Side side) {
-  std::vector<double> at;
-  for (const modes::Gate& gate : mode.gates) {
-    if (gate.of != modes::Datum::value) continue;
-    for (const modes::Node& node : gate.factor.nodes()) at.push_back(node.at);
-  }
-  std::sort(at.begin(), at.end());
-  double largest = 0;
-  for (const double value : at) largest = std::max(largest, value_factor(mode, value));
-  std::vector<double> met;
-  if (!(largest > 0)) return met;
-  for (std::size_t n = 1; n < at.size(); ++n) {
-    double low = at[n - 1], high = at[n];
-    const bool begins = value_factor(mode, low) < largest / 2, ends = value_factor(mode, high) < largest / 2;
-    const bool rises = begins && !ends, falls = ends && !begins;
-    if (!(rises && side != modes::Side::leaving) && !(falls && side != modes::Side::entering)) continue;
-    constexpr int halvings = 40;  // the factor is a curve of any form
-    for (int step = 0; step < halvings; ++step) {
-      const double middle = 0.5 * (low + high);
-      ((value_factor(mode, middle) < largest / 2) == begins ? low : high) = middle;
-    }
-    met.push_back(0.5 * (low + high));
-  }
-  return met;
-}
-
 std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::Plan& plan,
                                        const io::FieldSource& source, const SlicePoints& points) {
   std::vector<FeltContour> contours;
@@ -132,9 +100,9 @@ std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::P
     if (!active.holds || active.scene_index >= scene.modes.size()) continue;
     const modes::Mode& mode = scene.modes[active.scene_index];
     FeltContour contour{.mode = active.scene_index};
-    for (const double value : met_values(mode, active.side)) {
+    for (const double value : modes::met_values(mode, active.side)) {
       if (!image) image = values_on(source, points);
-      StrengthMask mask(active.strength, source, value_factor(mode, value));
+      StrengthMask mask(active.strength, source, modes::value_factor(mode, value));
       add_pieces(*image, value, points, mask, contour);
     }
     if (!contour.pieces.empty()) contours.push_back(std::move(contour));

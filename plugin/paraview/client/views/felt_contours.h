@@ -25,10 +25,6 @@ struct FeltContour {
   std::vector<std::array<glm::dvec3, 2>> pieces;  ///< ends, patient space, mm
 };
 
-/// The values at which a surface begins to be felt from the side that it resists: where the product of its gates over
-/// value reaches half of its largest factor.
-std::vector<double> met_values(const modes::Mode& mode, modes::Side side);
-
 /// The lines of every surface of the plan that has a gate over value. A piece is left out if the surface has no
 /// strength there, because the gradient is too small or the tissues are others. If the strength depends on fields that
 /// the source does not have, it is taken to be there. On any thread; takes about a tenth of a second.

@@ -24,6 +24,7 @@
 #include <map>
 #include <utility>
 
+#include "modes/scene/met_values.h"
 #include "plugin/paraview/client/jobs/latest_job.h"
 #include "plugin/paraview/client/views/patient_volume.h"
 #include "plugin/paraview/client/words/mode_words.h"
@@ -151,7 +152,7 @@ std::vector<FeltSurface> felt_surfaces(const io::Volume& volume, const modes::Sc
                         .normals = {},
                         .triangles = {}};
     BlockStrength strength(active.strength, source);
-    for (const double value : met_values(mode, active.side)) {
+    for (const double value : modes::met_values(mode, active.side)) {
       if (coarse.image->GetNumberOfPoints() == 0) fill(volume, coarse);
       add_surface(coarse, volume.geometry, value, strength, surface);
     }
