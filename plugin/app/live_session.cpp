@@ -33,9 +33,13 @@ LiveSession::~LiveSession() {
   disconnect();
 }
 
+device::Specification LiveSession::planned_for() const {
+  return is_connected() ? specification_ : device::SimulatedStylus().specification();
+}
+
 PreparedScene LiveSession::felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const {
   if (!volume) return {};
-  const device::Specification& stylus = is_connected() ? specification_ : device::SimulatedStylus().specification();
+  const device::Specification stylus = planned_for();
   const bool offered =
       offered_ && io::raw_of(offered_) == io::raw_of(volume) && io::filter_of(*offered_) == scene.filter;
   return prepare(suited_to(scene, stylus), offered ? offered_ : volume, stylus.workspace_half_extent, before());
@@ -183,7 +187,7 @@ void LiveSession::heartbeat() {
   }
 }
 
-std::optional<glm::dquat> LiveSession::orientation() noexcept {
+std::optional<glm::dquat> LiveSession::orientation() const noexcept {
   if (!is_connected() || specification_.orientation_axes == 0) return {};
   return running_->session().orientation();
 }

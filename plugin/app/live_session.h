@@ -77,6 +77,8 @@ class LiveSession {
   std::optional<RecorderStatus> disconnect() noexcept;
   bool is_connected() const noexcept { return running_ && running_->servo() != nullptr; }
   const device::Specification& specification() const noexcept { return specification_; }
+  /// The same, or that of the simulated stylus if none is connected: scenes are planned for it.
+  device::Specification planned_for() const;
 
   /// What is wrong with the stylus, in a sentence; empty if nothing is (device::Stylus::trouble()).
   Text trouble() const { return stylus_ ? stylus_->trouble() : Text(); }
@@ -89,7 +91,7 @@ class LiveSession {
   /// As Session::press(), until the session ends or begins anew.
   void press(std::uint32_t buttons) noexcept;
   /// The orientation of the stylus, device frame. None if it does not measure any, or if none is held.
-  std::optional<glm::dquat> orientation() noexcept;
+  std::optional<glm::dquat> orientation() const noexcept;
   /// Opens the lost stylus again, without a force until feel(). The recording ends. Throws what Stylus::open() throws;
   /// the stylus is then disconnected.
   void reopen();
@@ -100,6 +102,8 @@ class LiveSession {
 
   /// The ticks of the session; null if none has begun yet. Every connect() begins a new session.
   const TickRing* ticks() const noexcept { return running_ ? &running_->ring() : nullptr; }
+  /// The same, for who reads them from another thread: they can be read after the session has ended, too.
+  std::shared_ptr<const TickRing> shared_ticks() const noexcept { return running_ ? running_->shared_ring() : nullptr; }
   std::uint64_t missed() const noexcept { return is_connected() ? running_->servo()->missed() : 0; }
   const device::RealtimeStatus* realtime() const noexcept {
     return is_connected() ? &running_->servo()->realtime() : nullptr;

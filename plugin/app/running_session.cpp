@@ -44,7 +44,7 @@ RunningSession::RunningSession(OpenStylus stylus, const Start& start) : specific
     recorder_->note(first.record, std::move(first.known_to));
     recorder_->note(stylus_record(0, specification_));
   }
-  session_ = std::make_unique<Session>(start.snapshot, std::move(stylus), &ring_);
+  session_ = std::make_unique<Session>(start.snapshot, std::move(stylus), ring_.get());
   if (start.is_released) session_->disarm();  // before the first tick
 }
 
@@ -79,7 +79,7 @@ std::uint32_t RunningSession::change_stylus(std::shared_ptr<device::Stylus> styl
 void RunningSession::record_to(const RecordingTo& recording) {
   RecorderOptions options = recording.options;
   if (next_tick_) options.first_tick = next_tick_;
-  recorder_ = std::make_unique<Recorder>(ring_, recording.file, recording.header, std::move(options));
+  recorder_ = std::make_unique<Recorder>(*ring_, recording.file, recording.header, std::move(options));
 }
 
 std::optional<RecorderStatus> RunningSession::stop_recording() {

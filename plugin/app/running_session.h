@@ -59,7 +59,9 @@ class RunningSession {
   ~RunningSession();
 
   const device::Specification& specification() const noexcept { return specification_; }
-  const TickRing& ring() const noexcept { return ring_; }
+  const TickRing& ring() const noexcept { return *ring_; }
+  /// The same, for who reads it longer than the session lasts.
+  std::shared_ptr<const TickRing> shared_ring() const noexcept { return ring_; }
   bool is_running() const noexcept { return session_ != nullptr; }
   /// Only while it is running.
   Session& session() noexcept { return *session_; }
@@ -94,7 +96,7 @@ class RunningSession {
   std::uint32_t scenes_ = 0, styluses_ = 0;  // the last numbers given
   std::optional<std::uint64_t> next_tick_;   // that no recording has yet
   // In the order in which they lean on each other.
-  TickRing ring_;
+  std::shared_ptr<TickRing> ring_ = std::make_shared<TickRing>();
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<Session> session_;
   std::unique_ptr<Servo> servo_;

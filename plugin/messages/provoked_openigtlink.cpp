@@ -63,6 +63,7 @@ std::vector<Provoked> provoke_openigtlink() {
       {"igtl-file-from-elsewhere", said_when([] {
          igtl::internal::check_file({.client = 1, .from_this_machine = false, .message = {}}, "/scans/liver.nrrd");
        })},
+      {"igtl-no-scan", said_when([] { igtl::internal::check_scan(false); })},
       {"igtl-part-of-an-image", said_when([] { igtl::image_of(labels_with(61, 1)); })},
   };
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "device/safety/safety_filter.h"
 #include "modes/scene/scene_json.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr auto between_status = std::chrono::seconds(1);
 constexpr auto between_contacts = std::chrono::milliseconds(100);
-constexpr double mark_diameter_mm = 2;
+constexpr auto tuning = std::chrono::milliseconds(500);
 
 nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
@@ -45,9 +46,10 @@ StateInWords state_of_session(const TickRecord& tick) {
   }
 }
 
-Announcer::Announcer(LiveSession& session, Server& server, Publisher& publisher, const Received& received)
-    : session_(session), server_(server), publisher_(publisher), received_(received) {
-  scene_changed();
+Announcer::Announcer(const LiveSession& session, Server& server, Publisher& publisher, const Received& received,
+                     MakesMarks makes_marks)
+    : session_(session), server_(server), publisher_(publisher), received_(received), makes_marks_(makes_marks) {
+  follow_session();
   announce_marks();
 }
 
@@ -57,25 +59,44 @@ void Announcer::offer(const char* type, const std::string& device, Bytes content
   server_.offer(std::string(type) + " " + device, std::move(wire), kept);
 }
 
-void Announcer::scene_changed() {
-  publisher_.set_workspace(session_.epoch(), session_.plan()->workspace);
+/// Every connection of a stylus, and every recording, begins a session anew.
+void Announcer::follow_session() {
+  auto ticks = session_.is_connected() ? session_.shared_ticks() : nullptr;
+  if (ticks != ticks_) {
+    ticks_ = std::move(ticks);
+    publisher_.set_ticks(ticks_);
+    next_tick_ = 0;
+    presses_ = {};
+    is_new_ = true;
+    next_status_ = {};
+  }
+  if (!std::exchange(is_new_, false) && plan_ == session_.plan() && scan_ == session_.scan()) return;
+  plan_ = session_.plan();
+  scan_ = session_.scan();
+  announce_scene();
+}
+
+void Announcer::announce_scene() {
+  if (const auto plan = session_.plan()) publisher_.set_workspace(session_.epoch(), plan->workspace);
   const std::string scene = modes::to_json(received_.with_names(session_.scene()));
   if (scene.size() <= longest_string) offer("STRING", scene_name, string_content(scene), 0, true);
-  shapes_wanted_ = true;
+  shapes_wanted_ = Clock::now() + (shapes_sent_.empty() ? std::chrono::milliseconds(0) : tuning);
 }
 
 void Announcer::look() {
+  follow_session();
   publisher_.set_orientation(session_.orientation());
   follow_marks();
   announce_shapes();
-  const TickRing* const ring = session_.ticks();
-  if (ring == nullptr) return;
-  const TickRing& ticks = *ring;
-  const std::uint64_t written = ticks.written();
+  const auto now = Clock::now();
+  if (!ticks_) {
+    if (now >= next_status_) announce_off();
+    return;
+  }
+  const std::uint64_t written = ticks_->written();
   TickRecord tick;
   std::vector<PrimitiveRecord> shares;
-  if (written == 0 || !ticks.read(written - 1, tick, &shares)) return;
-  const auto now = Clock::now();
+  if (written == 0 || !ticks_->read(written - 1, tick, &shares)) return;
   const std::string state = state_of_session(tick).state;
   if (state != last_state_ || now >= next_status_) {
     last_state_ = state;
@@ -86,6 +107,14 @@ void Announcer::look() {
     next_contact_ = now + between_contacts;
     announce_contact(tick, shares);
   }
+}
+
+void Announcer::announce_off() {
+  last_state_ = "off";
+  next_status_ = Clock::now() + between_status;
+  offer("STATUS", program_name,
+        content_of(Status{.code = Status::Code::not_ready, .name = last_state_, .text = "Off: no stylus is connected"}),
+        0, true);
 }
 
 void Announcer::announce_status(const TickRecord& tick) {
@@ -148,14 +177,12 @@ void Announcer::announce_marks() {
 }
 
 void Announcer::follow_marks() {
-  const TickRing* const ring = session_.ticks();
-  if (ring == nullptr) return;
-  const TickRing& ticks = *ring;
+  if (!ticks_ || makes_marks_ == MakesMarks::no) return;
   TickRecord tick;
   std::vector<PrimitiveRecord> shares;
-  for (next_tick_ = std::max(next_tick_, ticks.oldest()); next_tick_ < ticks.written(); ++next_tick_) {
+  for (next_tick_ = std::max(next_tick_, ticks_->oldest()); next_tick_ < ticks_->written(); ++next_tick_) {
     shares.clear();
-    if (!ticks.read(next_tick_, tick, &shares)) continue;
+    if (!ticks_->read(next_tick_, tick, &shares)) continue;
     if ((tick.buttons & mark_button) == 0 && !presses_.is_down()) continue;
     const glm::dvec3 proxy = session_.plan()->workspace.to_patient(vector_of(tick.proxy_m));
     const auto made = presses_.take(
@@ -186,7 +213,8 @@ void Announcer::announce_shapes() {
     }
     shapes_sent_ = std::move(sent);
   }
-  if (!std::exchange(shapes_wanted_, false)) return;
+  if (!shapes_wanted_ || Clock::now() < *shapes_wanted_) return;
+  shapes_wanted_.reset();
   shapes_ = std::async(std::launch::async,
                        [felt = session_.felt(), scene = session_.scene()] { return shapes_of(felt, scene); });
 }

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 #include <future>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,23 +20,30 @@
 
 namespace palpate::plugin::igtl {
 
+inline constexpr double mark_diameter_mm = 2;  ///< as clients draw them
+
 class Announcer {
  public:
+  /// Whose press of the mark button makes a mark: the program that owns the session may keep its own.
+  enum class MakesMarks { yes, no };
   /// All have to outlive it.
-  Announcer(LiveSession& session, Server& server, Publisher& publisher, const Received& received);
+  Announcer(const LiveSession& session, Server& server, Publisher& publisher, const Received& received,
+            MakesMarks makes_marks = MakesMarks::yes);
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
   ~Announcer() = default;
 
+  /// Follows the session: its ticks, its scan and its scene may be others than at the last call, or none.
   void look();
-  /// After a change of scene or scan.
-  void scene_changed();
-  /// A client's marks take the place of all.
+  /// These take the place of all.
   void set_marks(const std::vector<Point>& marks);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void follow_session();
+  void announce_scene();
+  void announce_off();
   void announce_status(const TickRecord& tick);
   void announce_contact(const TickRecord& tick, const std::vector<PrimitiveRecord>& shares);
   void announce_marks();
@@ -42,10 +51,15 @@ class Announcer {
   void follow_marks();
   void offer(const char* type, const std::string& device, Bytes content, double stamp, bool kept);
 
-  LiveSession& session_;
+  const LiveSession& session_;
   Server& server_;
   Publisher& publisher_;
   const Received& received_;
+  MakesMarks makes_marks_;
+  std::shared_ptr<const TickRing> ticks_;
+  std::shared_ptr<const io::Volume> scan_;
+  std::shared_ptr<const modes::Plan> plan_;  // every scene that is set has one of its own
+  bool is_new_ = true;                       // the session
   std::string last_state_;
   Clock::time_point next_status_, next_contact_;
   MarkPresses presses_;
@@ -53,8 +67,8 @@ class Announcer {
   Marks felt_;                // made with the stylus
   std::vector<Point> marks_;  // all, as they are sent
   std::future<std::vector<Shape>> shapes_;
-  bool shapes_wanted_ = true;
-  std::set<std::string> shapes_sent_;  // each by its type and name
+  std::optional<Clock::time_point> shapes_wanted_;  // from when on: a scene that is being tuned has others soon
+  std::set<std::string> shapes_sent_;               // each by its type and name
 };
 
 /// "off", "ready", "feeling" or "stopped", and the same as a sentence.

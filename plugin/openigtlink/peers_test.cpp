@@ -7,6 +7,7 @@
 
 #include "plugin/openigtlink/contents.h"
 #include "plugin/openigtlink/receiver.h"
+#include "plugin/openigtlink/testing/example_peer.h"
 #include "plugin/openigtlink/testing/stepped_server.h"
 
 namespace palpate::plugin::igtl {

@@ -1,6 +1,7 @@
 #include "plugin/openigtlink/publisher.h"
 
 #include <chrono>
+#include <utility>
 
 #include "plugin/openigtlink/frame.h"
 
@@ -30,12 +31,27 @@ TickRecord newest(const TickRing& ticks) {
 
 }  // namespace
 
-Publisher::Publisher(Server& server, const TickRing& ticks)
-    : server_(server), ticks_(ticks), began_s_(-newest(ticks).time_s + utc_s()), thread_([this] { run(); }) {}
+Publisher::Publisher(Server& server, std::shared_ptr<const TickRing> ticks) : server_(server) {
+  set_ticks(std::move(ticks));
+  thread_ = std::thread([this] { run(); });
+}
 
 Publisher::~Publisher() {
   stop_ = true;
   thread_.join();
+}
+
+void Publisher::set_ticks(std::shared_ptr<const TickRing> ticks) {
+  const double began_s = ticks ? utc_s() - newest(*ticks).time_s : 0;
+  const std::lock_guard lock(mutex_);
+  ticks_ = std::move(ticks);
+  began_s_ = began_s;
+  workspaces_.clear();
+}
+
+double Publisher::stamp_of(const TickRecord& tick) const {
+  const std::lock_guard lock(mutex_);
+  return began_s_ + tick.time_s;
 }
 
 void Publisher::set_workspace(std::uint32_t epoch, const modes::Workspace& workspace) {
@@ -59,15 +75,15 @@ std::optional<modes::Workspace> Publisher::workspace_of(const TickRecord& tick) 
 }
 
 std::optional<Bytes> Publisher::newest_frame() {
-  const std::uint64_t written = ticks_.written();
-  TickRecord tick, before;
-  if (written == 0 || !ticks_.read(written - 1, tick)) return std::nullopt;
-  const bool has_before = written > velocity_ticks && ticks_.read(written - 1 - velocity_ticks, before);
   const std::lock_guard lock(mutex_);
+  const std::uint64_t written = ticks_ ? ticks_->written() : 0;
+  TickRecord tick, before;
+  if (written == 0 || !ticks_->read(written - 1, tick)) return std::nullopt;
+  const bool has_before = written > velocity_ticks && ticks_->read(written - 1 - velocity_ticks, before);
   const auto workspace = workspace_of(tick);
   if (!workspace) return std::nullopt;
   return wire_of(frame_of(tick, has_before ? std::optional(before) : std::nullopt, *workspace, orientation_),
-                 stamp_of(tick));
+                 began_s_ + tick.time_s);
 }
 
 void Publisher::run() {

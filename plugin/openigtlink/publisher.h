@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -21,19 +22,21 @@ inline constexpr double frames_per_s = 60;
 
 class Publisher {
  public:
-  /// Both have to outlive it.
-  Publisher(Server& server, const TickRing& ticks);
+  /// The server has to outlive it. Without ticks nothing is sent yet.
+  explicit Publisher(Server& server, std::shared_ptr<const TickRing> ticks = nullptr);
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
   /// Sends what waits, for a tenth of a second at most, and ends the thread.
   ~Publisher();
 
   // --- Any thread.
+  /// Of the session that runs now; null: none does. The workspaces of the one before are forgotten.
+  void set_ticks(std::shared_ptr<const TickRing> ticks);
   /// Where ticks from this epoch on are felt. Ticks of an epoch that is not known yet are not sent.
   void set_workspace(std::uint32_t epoch, const modes::Workspace& workspace);
   void set_orientation(const std::optional<glm::dquat>& orientation);
   /// UTC, s since 1970, of a tick: the stamp of what is said of it.
-  double stamp_of(const TickRecord& tick) const noexcept { return began_s_ + tick.time_s; }
+  double stamp_of(const TickRecord& tick) const;
 
  private:
   void run();
@@ -41,9 +44,9 @@ class Publisher {
   std::optional<modes::Workspace> workspace_of(const TickRecord& tick) const;
 
   Server& server_;
-  const TickRing& ticks_;
-  double began_s_ = 0;  // UTC, of the session's tick 0
   mutable std::mutex mutex_;
+  std::shared_ptr<const TickRing> ticks_;
+  double began_s_ = 0;                                                 // UTC, of the session's tick 0
   std::deque<std::pair<std::uint32_t, modes::Workspace>> workspaces_;  // the last few, by epoch
   std::optional<glm::dquat> orientation_;
   std::atomic<bool> stop_{false};

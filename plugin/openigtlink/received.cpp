@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plugin/openigtlink/say.h"
 
 namespace palpate::plugin::igtl {
@@ -18,20 +20,25 @@ std::filesystem::path Received::fresh_file(const std::string& name) {
 
 std::filesystem::path Received::file_of(const std::string& name) const {
   const auto found = files_.find(name);
-  return found == files_.end() ? std::filesystem::path() : found->second;
+  return found == files_.end() ? std::filesystem::path() : found->second.back();
 }
 
 void Received::use(const std::string& name, const std::filesystem::path& file) {
-  auto& place = files_[name];
+  auto& files = files_[name];
+  files.push_back(file);
+  if (files.size() <= most_files) return;
   std::error_code none;
-  if (!place.empty()) std::filesystem::remove(place, none);
-  place = file;
+  std::filesystem::remove(files.front(), none);
+  files.erase(files.begin());
 }
 
 modes::Scene Received::with_names(modes::Scene scene) const {
   for (modes::SceneStructure& structure : scene.structures) {
-    for (const auto& [name, file] : files_) {
-      if (structure.file == file.string()) structure.file = std::string(prefix) + name;
+    for (const auto& [name, files] : files_) {
+      if (std::ranges::count(files, std::filesystem::path(structure.file)) > 0) {
+        structure.file = std::string(prefix) + name;
+        break;
+      }
     }
   }
   return scene;
@@ -41,9 +48,9 @@ modes::Scene Received::with_files(modes::Scene scene) const {
   for (modes::SceneStructure& structure : scene.structures) {
     if (!structure.file.starts_with(prefix)) continue;
     const std::string name = structure.file.substr(prefix.size());
-    const auto file = files_.find(name);
-    if (file == files_.end()) throw InvalidInput(say("igtl-no-such-map", structure.name, name));
-    structure.file = file->second.string();
+    const std::filesystem::path file = file_of(name);
+    if (file.empty()) throw InvalidInput(say("igtl-no-such-map", structure.name, name));
+    structure.file = file.string();
   }
   return scene;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "io/fresh_folder.h"
 #include "modes/scene/scene.h"
@@ -14,15 +15,15 @@ namespace palpate::plugin::igtl {
 
 class Received {
  public:
-  /// How many names there may be.
-  static constexpr std::size_t most_maps = 8;
+  /// How many names there may be, and files of each.
+  static constexpr std::size_t most_maps = 8, most_files = 4;
 
   /// Where a new map of that name is to be written: beside the one that is there now, which is still read. Throws
   /// Refusal if there are too many names.
   std::filesystem::path fresh_file(const std::string& name);
   /// Where the map of that name lies; empty if there is none.
   std::filesystem::path file_of(const std::string& name) const;
-  /// From now on the name means that file; the one before is removed.
+  /// From now on the name means that file. Of those before the last few stay: a change of scene may be undone.
   void use(const std::string& name, const std::filesystem::path& file);
 
   /// The scene with the names of maps in place of their files, for the wire.
@@ -32,7 +33,7 @@ class Received {
 
  private:
   io::FreshFolder folder_ = io::temporary_folder();
-  std::map<std::string, std::filesystem::path> files_;
+  std::map<std::string, std::vector<std::filesystem::path>> files_;  // the newest last
   int written_ = 0;
 };
 

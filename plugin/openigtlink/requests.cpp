@@ -60,16 +60,24 @@ void internal::check_file(const Server::Request& request, const std::string& fil
   if (!request.from_this_machine) throw Refusal(say("igtl-file-from-elsewhere", file));
 }
 
-Requests::Requests(LiveSession& session, Server& server, Announcer& announcer, Received& received, LoadScan load)
-    : session_(session),
-      server_(server),
-      announcer_(announcer),
-      received_(received),
-      load_(std::move(load)),
-      limits_(session.scene().limits),
-      stiffness_n_per_m_(session.scene().stiffness_n_per_m) {}
+void internal::check_scan(bool is_open) {
+  if (!is_open) throw Refusal(say("igtl-no-scan"));
+}
+
+Requests::Requests(const LiveSession& session, Server& server, Received& received, Changes changes)
+    : session_(session), server_(server), received_(received), changes_(std::move(changes)) {
+  keep_own_limits();
+}
+
+void Requests::keep_own_limits() {
+  if (plan_ && plan_ == session_.plan()) return;
+  plan_ = session_.plan();
+  limits_ = session_.scene().limits;
+  stiffness_n_per_m_ = session_.scene().stiffness_n_per_m;
+}
 
 void Requests::look() {
+  keep_own_limits();
   for (Server::Request& request : server_.take()) waiting_.push_back(std::move(request));
   if (change_.valid()) {
     if (change_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
@@ -90,7 +98,7 @@ void Requests::begin(const Server::Request& request) {
   asked_by_ = request.client;
   try {
     if (request.message.type == "POINT") {
-      announcer_.set_marks(points_of(request.message.content));
+      changes_.set_marks(points_of(request.message.content));
     } else {
       const Prepare work = work_for(request);
       if (work) change_ = std::async(std::launch::async, work);
@@ -103,8 +111,9 @@ void Requests::begin(const Server::Request& request) {
 Requests::Prepare Requests::work_for(const Server::Request& request) {
   const Base base{{.felt = session_.felt(), .scene = session_.scene()},
                   session_.scan(),
-                  session_.specification().workspace_half_extent};
+                  session_.planned_for().workspace_half_extent};
   const Message& message = request.message;
+  if (message.device != folder_name) internal::check_scan(base.scan != nullptr);
   if (message.type == "IMAGE") {
     const std::filesystem::path before = received_.file_of(message.device), file = received_.fresh_file(message.device);
     return [base, before, file, name = message.device, content = std::make_shared<const Bytes>(message.content)] {
@@ -125,8 +134,12 @@ Requests::Prepare Requests::work_for(const Server::Request& request) {
     return [base, scene] { return Change{.scene = scene, .prepared = base.prepared(scene)}; };
   }
   internal::check_file(request, text);
+  if (message.device == folder_name && changes_.open) {
+    changes_.open(text);
+    return {};
+  }
   if (message.device == folder_name) {
-    return [base, text, load = load_] {
+    return [base, text, load = changes_.load] {
       const LoadedScan scan = load(text);
       return Change{
           .scene = base.scene(), .scan = scan, .prepared = prepare(base.scene(), scan.volume, base.half_extent_m)};
@@ -141,14 +154,15 @@ Requests::Prepare Requests::work_for(const Server::Request& request) {
 }
 
 void Requests::finish(const Change& change) {
+  // The owner may have tightened a limit while this was prepared.
+  const modes::Scene scene = drawn_down(change.scene, asked_by_);
   if (change.scan) {
-    session_.set_scan(change.prepared.volume, change.scene, change.scan->frame);
+    changes_.set_scan(*change.scan, scene, change.prepared);
   } else {
-    session_.offer(change.prepared.volume);
-    session_.set_scene(change.scene);
+    changes_.set_scene(scene, change.prepared);
   }
   if (!change.map.empty()) received_.use(change.map, change.file);
-  announcer_.scene_changed();
+  plan_ = session_.plan();
 }
 
 modes::Scene Requests::drawn_down(modes::Scene scene, std::uint64_t client) {

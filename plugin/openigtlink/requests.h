@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "plugin/openigtlink/announcer.h"
+#include "plugin/app/live_session.h"
+#include "plugin/openigtlink/contents.h"
 #include "plugin/openigtlink/received.h"
 #include "plugin/openigtlink/server.h"
 
@@ -26,18 +27,32 @@ struct LoadedScan {
 /// Throws what loading throws. Called in another thread.
 using LoadScan = std::function<LoadedScan(const std::string& folder)>;
 
+/// How the owner of the session changes it. All are called by the controlling thread, and throw why it cannot be done.
+struct Changes {
+  /// `prepared` is of that scene, and is held until the call returns: what it loaded is not loaded again.
+  std::function<void(const modes::Scene& scene, const PreparedScene& prepared)> set_scene;
+  std::function<void(const LoadedScan& scan, const modes::Scene& scene, const PreparedScene& prepared)> set_scan;
+  std::function<void(const std::vector<Point>& marks)> set_marks;
+  LoadScan load;                                          ///< for a folder, in another thread;
+  std::function<void(const std::string& folder)> open{};  ///< or this instead, if it is set
+};
+
 namespace internal {
 
 /// Files are named by clients of this machine alone: another one's lie elsewhere, and are no business of a stranger.
 /// Throws Refusal.
 void check_file(const Server::Request& request, const std::string& file);
 
+/// Throws Refusal where no scan is open.
+void check_scan(bool is_open);
+
 }  // namespace internal
 
 class Requests {
  public:
-  /// All have to outlive it. The limits and the stiffness of the session's scene are those that no request can raise.
-  Requests(LiveSession& session, Server& server, Announcer& announcer, Received& received, LoadScan load);
+  /// All have to outlive it. The limits and the stiffness of the session's scene are those that no request can raise:
+  /// of the last scene that was not a request's.
+  Requests(const LiveSession& session, Server& server, Received& received, Changes changes);
   Requests(const Requests&) = delete;
   Requests& operator=(const Requests&) = delete;
   ~Requests() = default;
@@ -60,17 +75,18 @@ class Requests {
   /// Of copies: the session goes on meanwhile. Empty if nothing changes.
   Prepare work_for(const Server::Request& request);
   void finish(const Change& change);
+  void keep_own_limits();
   void answer(std::uint64_t client, Status::Code code, const char* name, const Text& text);
   void refuse(std::uint64_t client, const std::exception& error);
   modes::Scene drawn_down(modes::Scene scene, std::uint64_t client);
 
-  LiveSession& session_;
+  const LiveSession& session_;
   Server& server_;
-  Announcer& announcer_;
   Received& received_;
-  LoadScan load_;
+  Changes changes_;
   modes::Limits limits_;
-  double stiffness_n_per_m_;
+  double stiffness_n_per_m_ = 0;
+  std::shared_ptr<const modes::Plan> plan_;  // of the scene that a request set last, or whose limits are kept
   std::vector<Server::Request> waiting_;
   std::future<Change> change_;
   std::uint64_t asked_by_ = 0;

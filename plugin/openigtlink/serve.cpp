@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "plugin/app/interruptible.h"
 #include "plugin/messages/tell.h"
 #include "plugin/openigtlink/say.h"
+#include "plugin/openigtlink/sharing.h"
 
 namespace palpate::plugin::igtl {
 namespace {
@@ -15,19 +17,28 @@ constexpr auto between_looks = std::chrono::milliseconds(10);
 
 }  // namespace
 
+Changes changes_of(LiveSession& session, LoadScan load) {
+  return {
+      .set_scene =
+          [&session](const modes::Scene& scene, const PreparedScene& prepared) {
+            session.offer(prepared.volume);
+            session.set_scene(scene);
+          },
+      .set_scan = [&session](const LoadedScan& scan, const modes::Scene& scene,
+                             const PreparedScene& prepared) { session.set_scan(prepared.volume, scene, scan.frame); },
+      .set_marks = {},
+      .load = std::move(load)};
+}
+
 void serve(LiveSession& session, Server& server, const ServeOptions& options) {
   const Interruptible interruptible;
   const auto end = Clock::now() + std::chrono::duration<double>(options.seconds);
   std::optional<std::string> fault;
   {
-    Received received;
-    Publisher publisher(server, *session.ticks());
-    Announcer announcer(session, server, publisher, received);
-    Requests requests(session, server, announcer, received, options.load);
+    Sharing sharing(session, server, changes_of(session, options.load));
     while (!Interruptible::interrupted() && (options.seconds <= 0 || Clock::now() < end)) {
       session.heartbeat();
-      requests.look();
-      announcer.look();
+      sharing.look();
       if (session.last_fault() && fault != session.last_fault()->time) {
         fault = session.last_fault()->time;
         tell(describe(*session.last_fault()));

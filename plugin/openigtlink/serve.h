@@ -13,6 +13,9 @@ struct ServeOptions {
   LoadScan load;       ///< for PalpateFolder
 };
 
+/// What requests change, changed in the session itself. It has to outlive them.
+Changes changes_of(LiveSession& session, LoadScan load);
+
 /// The session holds a stylus. Says on stderr where it listens, and at the end what went over the wire.
 void serve(LiveSession& session, Server& server, const ServeOptions& options);
 

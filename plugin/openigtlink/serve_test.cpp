@@ -11,6 +11,7 @@
 
 #include "io/load.h"
 #include "plugin/openigtlink/names.h"
+#include "plugin/openigtlink/testing/example_peer.h"
 #include "plugin/openigtlink/testing/shared_session.h"
 #include "plugin/recording/recorded_session.h"
 #include "plugin/testing/command_rig.h"

@@ -80,6 +80,7 @@ void append_surface(Surface& surface, const Surface& more) {
 
 std::vector<Shape> shapes_of(const PreparedScene& felt, const modes::Scene& scene) {
   std::vector<Shape> shapes;
+  if (!felt.plan || !felt.volume) return shapes;
   for (std::size_t n = 0; n < felt.structures.size(); ++n) {
     const io::DistanceField& field = *felt.structures[n].distance;
     const auto distance = [&](const glm::dvec3& place) {

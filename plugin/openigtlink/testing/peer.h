@@ -84,13 +84,6 @@ class Program {
   int exit_ = -1;
 };
 
-/// An example of Debian's OpenIGTLink.
-class Peer : public Program {
- public:
-  Peer(const std::string& example, const std::string& arguments, const std::filesystem::path& output = "/dev/null")
-      : Program(std::string(PEERS) + "/peer_" + example, arguments, output) {}
-};
-
 class Connection {
  public:
   /// Waits up to ten seconds for the server to be there.

@@ -10,7 +10,8 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/app/live_session.h"
 #include "plugin/openigtlink/image.h"
-#include "plugin/openigtlink/requests.h"
+#include "plugin/openigtlink/serve.h"
+#include "plugin/openigtlink/sharing.h"
 #include "plugin/openigtlink/testing/stepped_server.h"
 #include "plugin/testing/session_rig.h"
 #include "plugin/testing/test_clocks.h"
@@ -39,17 +40,14 @@ struct SharedSession {
     session.set_clock([](double period_s) { return std::make_unique<plugin::testing::UnhurriedClock>(period_s); });
     session.set_scan(ball_of_tissue(), scene);
     session.connect(stylus, start);
-    publisher = std::make_unique<Publisher>(server, *session.ticks());
-    announcer = std::make_unique<Announcer>(session, server, *publisher, received);
-    requests = std::make_unique<Requests>(session, server, *announcer, received, [this](const std::string& folder) {
+    const auto load_it = [this](const std::string& folder) {
       if (!load) throw std::runtime_error("nothing at " + folder);
       return load(folder);
-    });
+    };
+    sharing = std::make_unique<Sharing>(session, server, changes_of(session, load_it));
   }
   ~SharedSession() {
-    requests.reset();
-    announcer.reset();
-    publisher.reset();
+    sharing.reset();
     session.disconnect();
   }
   SharedSession(const SharedSession&) = delete;
@@ -63,8 +61,7 @@ struct SharedSession {
   }
   void look() {
     session.heartbeat();
-    requests->look();
-    announcer->look();
+    sharing->look();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   /// Whether it comes to hold within a minute: the machine may be busy.
@@ -85,10 +82,7 @@ struct SharedSession {
   Server server{{.port = 0}};
   std::shared_ptr<device::SimulatedStylus> stylus;
   LiveSession session;
-  Received received;
-  std::unique_ptr<Publisher> publisher;
-  std::unique_ptr<Announcer> announcer;
-  std::unique_ptr<Requests> requests;
+  std::unique_ptr<Sharing> sharing;
 };
 
 /// A label map of a ball in a lattice of 1 mm, LPS.

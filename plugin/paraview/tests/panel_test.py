@@ -191,6 +191,7 @@ SCENARIOS = [
     "a_series_is_picked",
     "a_bad_folder",
     "what_is_to_be_known_is_said",
+    "what_is_shared_is_what_is_felt",
     "a_color_is_chosen",
     "keys_step_in_the_views",
     "a_dragged_node_is_felt",
@@ -227,6 +228,11 @@ SCENARIOS = [
     "the_guardian_takes_the_force",
     "closed_in_mid_contact",
 ]
+
+
+def shared():
+    reader = os.path.join(os.path.dirname(os.path.abspath(__file__)), "igtl_reader.py")
+    return run("what_is_shared_is_what_is_felt", ball(), PALPATE_IGTL_READER=reader)
 
 
 def told_of_its_scan():
@@ -277,6 +283,7 @@ TESTS["the_panel_speaks_german"] = german
 TESTS["the_panel_fits_the_screen"] = fits
 TESTS["marks_are_saved"] = marks_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
+TESTS["what_is_shared_is_what_is_felt"] = shared
 for dropped in ("first_image", "the_volume_turns"):
     TESTS[dropped] = lambda name=dropped: run(name, PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
 TESTS["the_volume_is_drawn_seldom"] = lambda: run("the_volume_is_drawn_seldom", PALPATE_DROP=on_a_table())

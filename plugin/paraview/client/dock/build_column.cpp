@@ -11,6 +11,7 @@
 #include "plugin/paraview/client/panel/modes_section.h"
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/recordings_section.h"
+#include "plugin/paraview/client/panel/sharing_section.h"
 #include "plugin/paraview/client/panel/structures_section.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
 #include "plugin/paraview/client/scan/filter_row.h"
@@ -68,6 +69,11 @@ void PanelParts::build_column() {
   recordings = new RecordingsSection(open_views, touching);
   recordings_fold = new Fold(tr("Recordings"), QStringLiteral("palpateRecordingsSection"), recordings, false, content);
   column->addWidget(recordings_fold);
+  auto* const shared = new SharingSection(sharing);
+  auto* const shared_fold = new Fold(tr("3D Slicer"), QStringLiteral("palpateSharingSection"), shared, false, content);
+  column->addWidget(shared_fold);
+  QObject::connect(&sharing, &SharingModel::changed, shared_fold,
+                   [shared, shared_fold] { shared_fold->set_note(shared->in_words()); });
   auto* const about = new QLabel(
       tr("Palpate %1. Research software, not a medical device.").arg(QStringLiteral(PALPATE_VERSION)), content);
   about->setObjectName(QStringLiteral("palpateAbout"));

@@ -14,6 +14,7 @@
 #include "plugin/paraview/client/panel/recordings_section.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
 #include "plugin/paraview/client/scan/filter_row.h"
+#include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/stylus/start_place.h"
 #include "plugin/paraview/client/stylus/stylus_section.h"
 #include "plugin/paraview/client/widgets/fold.h"
@@ -34,6 +35,8 @@ void PanelParts::connect_session() {
     recordings_fold->set_open(true);
     recordings->open(file);
   });
+  QObject::connect(&sharing, &SharingModel::folder_wanted, &dock,
+                   [this](const QString& folder) { scan->open(folder.toStdString()); });
   // As soon as others had their turn.
   next_turn.setSingleShot(true);
   next_turn.setInterval(0);
@@ -53,6 +56,7 @@ void PanelParts::connect_session() {
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
     studies.cancel();
     QObject::disconnect(&touching, &SessionController::recorded, recordings, nullptr);  // nobody looks at it any more
+    sharing.turn_off();
     touching.disconnect_stylus();
   });
 }

@@ -23,6 +23,7 @@
 #include "plugin/paraview/client/pipeline/scan_pipeline.h"
 #include "plugin/paraview/client/pipeline/scene_source.h"
 #include "plugin/paraview/client/remote/server_structures.h"
+#include "plugin/paraview/client/model/sharing_model.h"
 #include "plugin/paraview/client/remote/server_watch.h"
 #include "plugin/paraview/client/stylus/stylus_views.h"
 #include "plugin/paraview/client/views/boundary_contours.h"
@@ -129,6 +130,7 @@ struct PanelParts {
   CorrectionModel correction{model};
   SessionController touching;
   StrokeRunner strokes;
+  SharingModel sharing{touching, model, marks};
   FlowViews flow;
   BoundaryContours contours;
   ReferenceLines crosshair;

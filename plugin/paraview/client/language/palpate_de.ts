@@ -1199,6 +1199,10 @@
 <context>
     <name>PanelParts</name>
     <message>
+        <source>3D Slicer</source>
+        <translation>3D Slicer</translation>
+    </message>
+    <message>
         <source>drawing</source>
         <translation>Zeichnen</translation>
     </message>
@@ -2384,6 +2388,52 @@ ID %2, Studie vom %3</translation>
     <message>
         <source>Comparing the copy here</source>
         <translation>Die Kopie hier wird verglichen</translation>
+    </message>
+</context>
+<context>
+    <name>SharingModel</name>
+    <message>
+        <source>Scene from 3D Slicer</source>
+        <translation>Szene aus 3D Slicer</translation>
+    </message>
+    <message>
+        <source>Marks from 3D Slicer</source>
+        <translation>Marken aus 3D Slicer</translation>
+    </message>
+</context>
+<context>
+    <name>SharingSection</name>
+    <message>
+        <source>Share with 3D Slicer</source>
+        <translation>Mit 3D Slicer teilen</translation>
+    </message>
+    <message>
+        <source>3D Slicer on this computer sees stylus, force, marks and surfaces, and sends scenes, marks and outlines. It can neither turn the force on nor raise a limit.</source>
+        <translation>3D Slicer auf diesem Rechner sieht Stift, Kraft, Marken und Oberflächen und sendet Szenen, Marken und Umrisse. Die Kraft einschalten oder eine Grenze erhöhen kann es nicht.</translation>
+    </message>
+    <message>
+        <source>The port that 3D Slicer connects to (OpenIGTLink)</source>
+        <translation>Der Port, mit dem sich 3D Slicer verbindet (OpenIGTLink)</translation>
+    </message>
+    <message>
+        <source>Port</source>
+        <translation>Port</translation>
+    </message>
+    <message>
+        <source>nobody is connected</source>
+        <translation>niemand ist verbunden</translation>
+    </message>
+    <message>
+        <source>1 client</source>
+        <translation>1 Teilnehmer</translation>
+    </message>
+    <message>
+        <source>%1 clients</source>
+        <translation>%1 Teilnehmer</translation>
+    </message>
+    <message>
+        <source>Listens on 127.0.0.1, port %1: %2.</source>
+        <translation>Wartet auf 127.0.0.1, Port %1: %2.</translation>
     </message>
 </context>
 </TS>

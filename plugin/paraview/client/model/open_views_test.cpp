@@ -7,10 +7,10 @@
 namespace palpate::plugin {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
-struct OpenViewsFollowed : testing::Test {
+struct OpenViewsFollowed : ::testing::Test {
   [[nodiscard]] OpenViews::Following follow(Layer layer, const std::string& name) {
     return views.follow(layer, [this, name](const std::vector<ClinicalView>& open) {
       called.push_back(name + " " + std::to_string(open.size()));

@@ -9,8 +9,8 @@
 namespace palpate::plugin {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST_F(ScanModelFollowed, AFrameIsHereBeforeTheViewsGoThere) {
   show("1", 5);

@@ -12,8 +12,8 @@
 namespace palpate::plugin {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST_F(ScanModelFollowed, AnOnlySeriesIsShownAtOnce) {
   model.open("/one");

@@ -13,10 +13,10 @@
 namespace palpate::plugin {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
-struct SceneModelFollowed : testing::Test {
+struct SceneModelFollowed : ::testing::Test {
   SceneModelFollowed() {
     model.open(modes::load_scene("ct-bone"));
     QObject::connect(&model, &SceneModel::refused,

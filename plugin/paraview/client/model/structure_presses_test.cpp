@@ -11,10 +11,10 @@
 namespace palpate::plugin {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
-struct StructuresPressed : testing::Test {
+struct StructuresPressed : ::testing::Test {
   StructuresPressed() { model.open(modes::Scene{}); }
 
   /// As a button of a row: what is chosen is the structure then.

@@ -1,12 +1,13 @@
 // What the hand does with keys, colors and curves, by what is felt and seen.
 
-#include <pqApplicationCore.h>
-#include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqRepresentation.h>
-#include <pqServerManagerModel.h>
-#include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkSMRenderViewProxy.h>
 
 #include <QColorDialog>
 #include <QComboBox>
@@ -61,23 +62,17 @@ void keys_step_in_the_views() {
   wait_for("towards the eye it is free again", [] { return number("palpateForce") < 0.02; });
 }
 
-/// The volume's colors are the boundaries': the dialog changes scene, swatch and view, and undo all three.
+/// *Felt boundaries* draws surfaces in their colors: the dialog changes scene, swatch and view, and undo all three.
 void a_color_is_chosen() {
   scan_is_shown();
   const auto shown = [] {
-    for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-      if (one->getSMName() != QLatin1String("Volume")) continue;
-      for (pqRepresentation* const shown_as : one->getRepresentations()) {
-        vtkSMProxy& proxy = *shown_as->getProxy();
-        if (!proxy.GetProperty("LookupTable") || !shown_as->isVisible()) continue;
-        const auto points =
-            vtkSMPropertyHelper(vtkSMPropertyHelper(&proxy, "LookupTable").GetAsProxy(), "RGBPoints").GetDoubleArray();
-        for (std::size_t n = 0; n + 3 < points.size(); n += 4) {
-          if (std::abs(points[n + 1] - 0x12 / 255.0) < 1e-6 && std::abs(points[n + 2] - 0x34 / 255.0) < 1e-6 &&
-              std::abs(points[n + 3] - 0x56 / 255.0) < 1e-6) {
-            return true;
-          }
-        }
+    vtkRendererCollection& layers = *render_view("Volume").getRenderViewProxy()->GetRenderWindow()->GetRenderers();
+    for (int layer = 0; layer < layers.GetNumberOfItems(); ++layer) {
+      vtkActorCollection& actors = *vtkRenderer::SafeDownCast(layers.GetItemAsObject(layer))->GetActors();
+      for (int n = 0; n < actors.GetNumberOfItems(); ++n) {
+        const auto* const color = vtkActor::SafeDownCast(actors.GetItemAsObject(n))->GetProperty()->GetColor();
+        if (qRound(255 * color[0]) == 0x12 && qRound(255 * color[1]) == 0x34 && qRound(255 * color[2]) == 0x56)
+          return true;
       }
     }
     return false;
@@ -97,13 +92,13 @@ void a_color_is_chosen() {
   wait_for(
       "the color is in the scene", [] { return scene_text().find("#123456") != std::string::npos; }, 20);
   expect(find<QWidget>("palpateColor0").styleSheet().contains("#123456"), "its swatch has it");
-  wait_for("the volume has it", shown, 20);
+  wait_for("its surface has it", shown, 20);
   click("palpateCurvesSectionFold");
   click("palpateUndo");
   wait_for(
       "the scene is as it was", [&] { return scene_text() == before; }, 20);
   wait_for(
-      "and the volume", [&] { return !shown(); }, 20);
+      "and its surface", [&] { return !shown(); }, 20);
 }
 
 /// While the button is still down: what is dragged is felt at once, and is in the undo stack as one edit after it.

@@ -379,6 +379,7 @@ void run_scenario(const std::string& name) {
                                       &profile_scenarios(),
                                       &recording_scenarios(),
                                       &remote_scenarios(),
+                                      &sharing_scenarios(),
                                       &shown_scenarios(),
                                       &slice_scenarios(),
                                       &story_scenarios(),

@@ -39,6 +39,7 @@ const Scenarios& profile_scenarios();
 const Scenarios& recording_scenarios();
 const Scenarios& remote_scenarios();
 const Scenarios& sent_mark_scenarios();
+const Scenarios& sharing_scenarios();
 const Scenarios& shown_scenarios();
 const Scenarios& slice_scenarios();
 const Scenarios& story_scenarios();

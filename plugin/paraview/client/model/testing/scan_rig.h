@@ -37,7 +37,7 @@ inline std::shared_ptr<const io::Volume> voxels() {
 }
 
 /// Follows the model as panel and views do, and writes down what it reports.
-struct ScanModelFollowed : testing::Test {
+struct ScanModelFollowed : ::testing::Test {
   ScanModelFollowed() {
     QObject::connect(&model, &ScanModel::leaving, [this] { reported << QStringLiteral("leaving"); });
     QObject::connect(&model, &ScanModel::out_of_reach, [this](const QString& why) {

@@ -1,0 +1,119 @@
+#include "plugin/paraview/client/model/sharing_model.h"
+
+#include <algorithm>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "plugin/messages/messages.h"
+#include "plugin/openigtlink/contents.h"
+#include "plugin/openigtlink/names.h"
+
+namespace palpate::plugin {
+namespace {
+
+constexpr int between_looks_ms = 20;
+constexpr double same_mm = 1e-3;  // places on the wire are rounded
+
+igtl::Point point_of(const FeltMark& mark) {
+  return {.name = mark.name,
+          .group = mark.boundary,
+          .position = igtl::ras_of(mark.position_mm),
+          .diameter = igtl::mark_diameter_mm,
+          .owner = igtl::program_name};
+}
+
+/// A place that nobody has felt.
+FeltMark mark_of(const igtl::Point& point) {
+  FeltMark mark;
+  mark.name = point.name;
+  mark.position_mm = igtl::lps_of(point.position);
+  mark.value = std::numeric_limits<double>::quiet_NaN();
+  return mark;
+}
+
+/// Marks that a client leaves out stay: its list may be older than the last press.
+bool merge(Marks& marks, const std::vector<igtl::Point>& points) {
+  bool any = false;
+  for (const igtl::Point& point : points) {
+    const auto known = std::ranges::find(marks.points, point.name, &FeltMark::name);
+    if (known == marks.points.end()) {
+      marks.points.push_back(mark_of(point));
+      if (point.name.empty()) marks.points.back().name = free_mark_name(marks);
+    } else if (glm::distance(known->position_mm, igtl::lps_of(point.position)) > same_mm) {
+      *known = mark_of(point);
+    } else {
+      continue;
+    }
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+SharingModel::SharingModel(SessionController& touching, SceneModel& scene, MarksModel& marks, QObject* parent)
+    : QObject(parent), touching_(touching), scene_(scene), marks_(marks) {
+  looks_.setInterval(between_looks_ms);
+  connect(&looks_, &QTimer::timeout, this, [this] { look(); });
+  connect(&marks, &MarksModel::changed, this, [this] { send_marks(); });
+}
+
+QString SharingModel::turn_on(int port) {
+  try {
+    server_ = std::make_unique<igtl::Server>(igtl::Address{.port = port});
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  }
+  igtl::Changes changes{
+      .set_scene = [this](const auto& scene, const auto& prepared) { take_scene(scene, prepared); },
+      .set_scan = {},
+      .set_marks = [this](const auto& points) { take_marks(points); },
+      .load = {},
+      .open = [this](const std::string& folder) { emit folder_wanted(QString::fromStdString(folder)); }};
+  sharing_ =
+      std::make_unique<igtl::Sharing>(touching_.live(), *server_, std::move(changes), igtl::Announcer::MakesMarks::no);
+  send_marks();
+  looks_.start();
+  emit changed();
+  return {};
+}
+
+void SharingModel::turn_off() {
+  looks_.stop();
+  sharing_.reset();
+  server_.reset();
+  clients_ = 0;
+  emit changed();
+}
+
+void SharingModel::look() {
+  sharing_->look();
+  const std::size_t clients = server_->counts().clients;
+  if (std::exchange(clients_, clients) != clients) emit changed();
+}
+
+void SharingModel::send_marks() {
+  if (!sharing_) return;
+  std::vector<igtl::Point> points;
+  for (const FeltMark& mark : marks_.marks().points) points.push_back(point_of(mark));
+  sharing_->set_marks(points);
+}
+
+void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& prepared) {
+  touching_.offer(prepared.volume);
+  QString refused;
+  scene_.edit(
+      tr("Scene from 3D Slicer"), [&](modes::Scene& now) { now = scene; }, [&](const QString& why) { refused = why; });
+  if (!refused.isEmpty()) throw std::runtime_error(refused.toStdString());
+}
+
+void SharingModel::take_marks(const std::vector<igtl::Point>& points) {
+  igtl::internal::check_scan(marks_.has_scan());
+  Marks merged = marks_.marks();
+  if (merge(merged, points)) marks_.edit(tr("Marks from 3D Slicer"), [&](Marks& now) { merge(now, points); });
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,58 @@
+#pragma once
+
+/// Shares what the panel's session feels with 3D Slicer and other clients of OpenIGTLink. What they ask for goes
+/// through the models, as if it had been done in the panel: it can be undone, and it can neither turn the force on nor
+/// raise a limit.
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <cstddef>
+#include <memory>
+
+#include "plugin/openigtlink/server.h"
+#include "plugin/openigtlink/sharing.h"
+#include "plugin/paraview/client/model/marks_model.h"
+#include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/paraview/client/model/session_controller.h"
+
+namespace palpate::plugin {
+
+class SharingModel : public QObject {
+  Q_OBJECT
+
+ public:
+  /// All have to outlive it.
+  SharingModel(SessionController& touching, SceneModel& scene, MarksModel& marks, QObject* parent = nullptr);
+
+  /// Listens on this machine. Returns why that cannot be done; empty: it is done.
+  QString turn_on(int port);
+  void turn_off();
+  bool is_on() const { return sharing_ != nullptr; }
+  /// Where it listens; 0: it does not.
+  int port() const { return server_ ? server_->port() : 0; }
+  std::size_t clients() const { return clients_; }
+
+ signals:
+  /// It is on or off, or has more or fewer clients.
+  void changed();
+  /// A client asks for the scan in a folder.
+  void folder_wanted(const QString& folder);
+
+ private:
+  void look();
+  void send_marks();
+  void take_scene(const modes::Scene& scene, const PreparedScene& prepared);
+  void take_marks(const std::vector<igtl::Point>& points);
+
+  SessionController& touching_;
+  SceneModel& scene_;
+  MarksModel& marks_;
+  std::unique_ptr<igtl::Server> server_;
+  std::unique_ptr<igtl::Sharing> sharing_;
+  std::size_t clients_ = 0;
+  QTimer looks_;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,228 @@
+// The panel's session beside 3D Slicer: clients go through the models, and can neither turn the force on nor raise a
+// limit.
+
+#include "plugin/paraview/client/model/sharing_model.h"
+
+#include <gtest/gtest.h>
+
+#include <QCoreApplication>
+
+#include <chrono>
+#include <glm/geometric.hpp>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/openigtlink/names.h"
+#include "plugin/openigtlink/testing/shared_session.h"
+#include "plugin/openigtlink/testing/stepped_server.h"
+#include "plugin/paraview/client/model/testing/made_text.h"
+
+namespace palpate::plugin {
+namespace {
+
+using igtl::testing::ball_of_labels;
+using igtl::testing::TestClient;
+
+/// Qt's timers need one; it lives as long as the program.
+QCoreApplication& application() {
+  static int count = 1;
+  static char name[] = "test";
+  static char* arguments[] = {name, nullptr};
+  static QCoreApplication made(count, arguments);
+  return made;
+}
+
+struct SharingTest : ::testing::Test {
+  SharingTest() {
+    application();
+    touching.set_clock([](double period_s) { return std::make_unique<plugin::testing::UnhurriedClock>(period_s); });
+    model.open(modes::load_scene("ct-skin-and-bone"));
+    QObject::connect(&sharing, &SharingModel::folder_wanted, [this](const QString& name) { folder = name; });
+  }
+  ~SharingTest() override {
+    sharing.turn_off();
+    touching.disconnect_stylus();
+  }
+  void open_scan() {
+    touching.set_scan(igtl::testing::ball_of_tissue(), {});
+    marks.set_scan("a scan");
+  }
+  /// Whether it comes to hold within a minute, while the panel's events are handled.
+  template <typename Holds>
+  bool comes(const Holds& holds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (std::chrono::steady_clock::now() < end) {
+      QCoreApplication::processEvents();
+      if (holds()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+  /// The next message of that type and device, while events are handled.
+  std::optional<igtl::Message> next(TestClient& client, std::string_view type, std::string_view device) {
+    std::optional<igtl::Message> found;
+    comes([&] {
+      const auto message = client.next(2);
+      if (message && message->type == type && message->device == device) found = message;
+      return found.has_value();
+    });
+    return found;
+  }
+  std::string next_status(TestClient& client, const std::string& name) {
+    std::string text;
+    comes([&] {
+      const auto message = next(client, "STATUS", igtl::program_name);
+      if (!message) return true;
+      if (!message) return true;
+      const igtl::Status status = igtl::status_of(message->content);
+      if (status.name == name) text = status.text;
+      return !text.empty();
+    });
+    return text;
+  }
+
+  MadeText kept;
+  SceneModel model{kept};
+  MarksModel marks{kept};
+  SessionController touching{model};
+  SharingModel sharing{touching, model, marks};
+  QString folder;
+};
+
+TEST_F(SharingTest, AClientSeesTheSceneAndThatNoStylusIsConnected) {
+  open_scan();
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  EXPECT_EQ(next_status(client, "off"), "Off: no stylus is connected");
+  const auto surface = next(client, "POLYDATA", "skin");
+  ASSERT_TRUE(surface) << "what would be felt is seen before";
+  ASSERT_TRUE(comes([&] { return sharing.clients() == 1; }));
+  // What is tuned in the panel is sent.
+  model.edit(QStringLiteral("Name"), [](modes::Scene& scene) { scene.name = "tuned"; });
+  std::string sent;
+  EXPECT_TRUE(comes([&] {
+    if (const auto scene = next(client, "STRING", igtl::scene_name)) sent = igtl::string_of(scene->content);
+    return sent.find("\"tuned\"") != std::string::npos;
+  })) << sent;
+}
+
+TEST_F(SharingTest, WhatAClientAsksForIsAStepThatCanBeUndone) {
+  open_scan();
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  client.send(ball_of_labels("liver", glm::dvec3(0), 20));
+  ASSERT_TRUE(comes([&] { return model.scene().structures.size() == 1; }));
+  EXPECT_EQ(model.scene().structures[0].name, "liver");
+  EXPECT_EQ(touching.live().scene().structures.size(), 1U) << "what is shown is what is felt";
+  EXPECT_EQ(kept.steps.back().what.toStdString(), "Scene from 3D Slicer");
+  // The next map of that name, undone: the first is felt again.
+  const std::string first = model.scene().structures[0].file;
+  client.send(ball_of_labels("liver", glm::dvec3(0, 0, 9), 10));
+  ASSERT_TRUE(comes([&] { return model.scene().structures.at(0).file != first; }));
+  model.undo();
+  EXPECT_EQ(touching.live().scene().structures.at(0).file, first);
+  EXPECT_EQ(touching.live().felt().structures.size(), 1U);
+  model.undo();
+  EXPECT_TRUE(model.scene().structures.empty());
+  client.send_text(igtl::folder_name, "/scans/chest");
+  ASSERT_TRUE(comes([&] { return !folder.isEmpty(); }));
+  EXPECT_EQ(folder.toStdString(), "/scans/chest");
+}
+
+TEST_F(SharingTest, NeitherForceNorLimitIsTheNetworks) {
+  open_scan();
+  model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 2; });
+  touching.connect_stylus({.device = "simulated"});
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  // Tightened here after it was turned on: that holds, too.
+  model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 1.5; });
+  TestClient client(sharing.port());
+  modes::Scene wild = model.scene();
+  wild.name = "wild";
+  wild.limits.force_n = 3;
+  wild.stiffness_n_per_m *= 2;
+  client.send_text(igtl::scene_name, modes::to_json(wild));
+  ASSERT_TRUE(comes([&] { return model.scene().name == "wild"; }));
+  EXPECT_EQ(model.scene().limits.force_n, 1.5);
+  EXPECT_EQ(model.scene().stiffness_n_per_m, modes::load_scene("ct-skin-and-bone").stiffness_n_per_m);
+  EXPECT_NE(next_status(client, "drawn down"), "");
+  client.send_text("PalpateFeel", "feel");
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  comes([&] { return std::chrono::steady_clock::now() > end; });
+  EXPECT_EQ(touching.live().start(), LiveSession::Start::released);
+  TickRecord tick;
+  ASSERT_TRUE(touching.live().ticks() && touching.live().ticks()->written() > 0);
+  ASSERT_TRUE(touching.live().ticks()->read(touching.live().ticks()->written() - 1, tick));
+  EXPECT_EQ(glm::length(vector_of(tick.sent_n)), 0);
+}
+
+/// A list of marks may be older than the last press here: what it leaves out stays.
+TEST_F(SharingTest, MarksGoBothWaysAndNoneIsLost) {
+  open_scan();
+  FeltMark felt;
+  felt.name = "Mark 1";
+  felt.boundary = "skin";
+  felt.position_mm = {1, 2, 3};
+  felt.value = 40;
+  marks.edit(QStringLiteral("Mark"), [&](Marks& now) { now.points.push_back(felt); });
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  std::vector<igtl::Point> points;
+  ASSERT_TRUE(comes([&] {
+    if (const auto sent = next(client, "POINT", igtl::marks_name)) points = igtl::points_of(sent->content);
+    return points.size() == 1;
+  }));
+  EXPECT_EQ(points[0].name, "Mark 1");
+  EXPECT_EQ(points[0].group, "skin");
+  EXPECT_LT(glm::distance(points[0].position, glm::dvec3(-1, -2, 3)), 1e-4) << "RAS";
+  client.send(
+      {.type = "POINT",
+       .device = igtl::marks_name,
+       .content = igtl::content_of(std::vector<igtl::Point>{{.name = "from Slicer", .position = {-4, -5, 6}}})});
+  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 2; }));
+  EXPECT_EQ(marks.marks().points[0].boundary, "skin");
+  EXPECT_EQ(marks.marks().points[1].name, "from Slicer");
+  EXPECT_LT(glm::distance(marks.marks().points[1].position_mm, glm::dvec3(4, 5, 6)), 1e-4);
+  // One that is moved there is no longer where it was felt.
+  points[0].position.x += 1;
+  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(points)});
+  ASSERT_TRUE(comes([&] { return marks.marks().points[0].position_mm.x < 0.5; }));
+  EXPECT_EQ(marks.marks().points[0].boundary, "");
+  EXPECT_EQ(marks.marks().points.size(), 2U);
+}
+
+TEST_F(SharingTest, WithoutAScanAClientIsToldSo) {
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  client.send(ball_of_labels("liver", glm::dvec3(0), 20));
+  EXPECT_NE(next_status(client, "refused").find("no scan is open yet"), std::string::npos);
+}
+
+TEST_F(SharingTest, ATakenPortIsSaidAndTurningOffLetsClientsGo) {
+  const igtl::Server other({.port = 0});
+  EXPECT_NE(sharing.turn_on(other.port()).toStdString().find("cannot listen on 127.0.0.1"), std::string::npos);
+  EXPECT_FALSE(sharing.is_on());
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  ASSERT_TRUE(comes([&] { return sharing.clients() == 1; }));
+  sharing.turn_off();
+  EXPECT_TRUE(client.is_closed_soon());
+  EXPECT_EQ(sharing.port(), 0);
+}
+
+/// The stylus comes and goes while it is shared: frames are sent of the session that runs.
+TEST_F(SharingTest, FollowsTheStylus) {
+  open_scan();
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  ASSERT_NE(next_status(client, "off"), "");
+  for (int n = 0; n < 2; ++n) {
+    touching.connect_stylus({.device = "simulated"});
+    EXPECT_TRUE(next(client, "TRANSFORM", igtl::proxy_name)) << n;
+    EXPECT_NE(next_status(client, "ready"), "") << n;
+    touching.disconnect_stylus();
+    EXPECT_NE(next_status(client, "off"), "") << n;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::plugin
