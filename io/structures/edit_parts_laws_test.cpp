@@ -12,7 +12,6 @@
 #include "io/structures/outline_parts.h"
 #include "io/testing/made_labels.h"
 #include "solver/text/message.h"
-#include "solver/text/testing/sanitized.h"
 
 namespace palpate::io {
 namespace {

@@ -12,13 +12,13 @@
 namespace palpate::plugin {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 using Fate = CorrectionModel::Fate;
 using Tool = CorrectionModel::Tool;
 
-struct Correcting : testing::Test {
+struct Correcting : ::testing::Test {
   Correcting() {
     scene.open(modes::Scene{});
     liver.file = "/study/liver.dcm";
