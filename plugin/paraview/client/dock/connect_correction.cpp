@@ -63,6 +63,13 @@ void PanelParts::share_picks() {
   views.set_pick(in_volume);
 }
 
+/// Of what adds or removes, at the place under the pointer.
+void PanelParts::show_brush(const std::optional<glm::dvec3>& at) {
+  SCOPED_UNDO_EXCLUDE();
+  const bool is_seen = at && correction.structure() && correction.tool() != CorrectionModel::Tool::trace;
+  brush.show(is_seen ? std::optional(Brush{*at, correction.radius_mm()}) : std::nullopt);
+}
+
 /// What the stylus drew while its button was held.
 void PanelParts::draw_felt(const MarkMade& made) {
   if (const auto* const path = std::get_if<MarkedPath>(&made)) {

@@ -30,6 +30,7 @@ void PanelParts::connect_scene() {
   readers.views().set_pointed([this](const std::optional<glm::dvec3>& place) {
     const std::optional<io::Sample> pointed = place ? contours.sample(*place) : std::nullopt;
     curves->mark(pointed);
+    show_brush(place);
     if (pointed) curves->profile().point_at(*place, pointed->gradient);
   });
   readers.views().set_slice_shown([this](SliceView& slice) { open_views.show_slice(slice); });

@@ -27,6 +27,7 @@
 #include "plugin/paraview/client/remote/server_watch.h"
 #include "plugin/paraview/client/stylus/stylus_views.h"
 #include "plugin/paraview/client/views/boundary_contours.h"
+#include "plugin/paraview/client/views/brush_views.h"
 #include "plugin/paraview/client/views/drawing_watch.h"
 #include "plugin/paraview/client/views/flow_views.h"
 #include "plugin/paraview/client/views/mark_views.h"
@@ -69,6 +70,7 @@ struct PanelParts {
         contours(open_views),
         crosshair(open_views),
         drawn_stroke(open_views, QColor(255, 240, 80)),
+        brush(open_views),
         drawn_marks(open_views, [this]() -> const Marks& { return marks.marks(); }),
         views(open_views, touching, model),
         drawing(open_views, [this](double seconds) { touching.note_work(tr("drawing"), seconds); }) {}
@@ -100,6 +102,7 @@ struct PanelParts {
   // connect_correction.cpp
   void connect_correction();
   void share_picks();
+  void show_brush(const std::optional<glm::dvec3>& at);
   void draw_felt(const MarkMade& made);
   void save_outline();
   void send_outline();
@@ -135,6 +138,7 @@ struct PanelParts {
   BoundaryContours contours;
   ReferenceLines crosshair;
   PathViews drawn_stroke;
+  BrushViews brush;
   MarkViews drawn_marks;
   StylusViews views;
   DrawingWatch drawing;

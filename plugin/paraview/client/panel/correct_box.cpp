@@ -199,7 +199,10 @@ void CorrectBox::list_places() {
   }
   places_->setVisible(count > 0);
   if (model_.places()) {
-    show_message(*places_note_, count == 0 ? tr("No doubtful place was found.") : tr("%1 doubtful places").arg(count),
+    show_message(*places_note_,
+                 count == 0   ? tr("No doubtful place was found.")
+                 : count == 1 ? tr("1 doubtful place")
+                              : tr("%1 doubtful places").arg(count),
                  false);
   }
   follow();

@@ -12,13 +12,17 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "io/structures/structure.h"
+#include "modes/scene/scene_json.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/tests/panel/drawn_lines.h"
+#include "plugin/paraview/tests/panel/mark_steps.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -95,10 +99,8 @@ bool has_edit(const char* kind) {
   return scene.contains(QStringLiteral("\"type\":\"%1\"").arg(QString::fromLatin1(kind)));
 }
 
-/// From an opened study with a segmentation whose cap was cut off to the first corrected edge: the middle of the trace.
-glm::dvec3 cap_is_traced() {
-  scan_is_shown();
-  const int before = clicks();
+/// The structures' section is unfolded, and *Correct* is pressed for the only one.
+void correct_the_liver() {
   click("palpateStructuresSectionFold");
   wait_for(
       "the segmentation is found and measured",
@@ -110,6 +112,13 @@ glm::dvec3 cap_is_traced() {
   click("palpateCorrect");
   wait_for(
       "the cut cap is found", [] { return places().isVisible() && places().topLevelItemCount() > 0; }, 60);
+}
+
+/// From an opened study with a segmentation whose cap was cut off to the first corrected edge: the middle of the trace.
+glm::dvec3 cap_is_traced() {
+  scan_is_shown();
+  const int before = clicks();
+  correct_the_liver();
   expect(places().topLevelItem(0)->text(1).contains("outside"),
          "the scan's edge lies outside: " + places().topLevelItem(0)->text(1).toStdString());
   scroll_to(places());
@@ -199,10 +208,72 @@ void an_outline_is_sent() {
   wait_for("it is sent", [] { return label("palpateStructureMessage") == "Sent to clinic: the corrected outline."; });
 }
 
+/// With M held the stylus slides on the scan's edge, pressed in by the hand: the outline goes where it was felt.
+void an_outline_is_traced_by_touch() {
+  scan_is_shown();
+  correct_the_liver();
+  expect(find<QToolButton>("palpateCorrect").isChecked(), "it is being corrected");
+  click("palpateOn0");  // the skin, which lies at the same place
+  connect_stylus();
+  touch_surface();
+  const std::string held = panel_session().last().held;
+  expect(held.find("Liver") != std::string::npos || label("palpateDepth").contains("Liver"),
+         "the scan's edge at the structure holds the stylus: " + held + ", " + label("palpateDepth").toStdString());
+  const glm::dvec3 begin = panel_session().last().proxy_mm;
+  expect(felt_mm(begin) < -2, "the outline of the file lies beneath: " + std::to_string(felt_mm(begin)));
+  hold_key_in(view("Coronal"), "m", true);
+  step("Left", 8);
+  hold_key_in(view("Coronal"), "m", false);
+  wait_for("what was felt is an edit", [] { return has_edit("trace"); });
+  expect(find<QTreeWidget>("palpateMarkList").topLevelItemCount() == 0, "and no mark");
+  const palpate::modes::Scene scene = palpate::modes::scene_from_json(scene_text(), "scene");
+  const auto& trace = std::get<palpate::io::TraceEdit>(scene.structures.at(0).edits.at(0));
+  expect(trace.points_mm.size() > 4, "of several places");
+  double most = 0;
+  for (const palpate::io::Vec3& at : trace.points_mm) most = std::fmax(most, std::abs(glm::length(at) - ball_mm));
+  expect(most < 0.5, "they lie at the ball's own edge: " + std::to_string(most));
+  wait_for("the outline has gone there", [&] {
+    double beside = 0;
+    for (const palpate::io::Vec3& at : trace.points_mm) beside = std::fmax(beside, std::abs(felt_mm(at)));
+    return beside < 0.5;
+  });
+  views_rest();
+  save_screen("correct-felt");
+}
+
+/// A ball is added to the outline: it is seen before where it is and how large.
+void a_ball_is_added() {
+  scan_is_shown();
+  correct_the_liver();
+  click("palpateToolAdd");
+  const glm::dvec3 pole = on_the_edge(0, height_of_slice());
+  const QColor brush(255, 240, 77);
+  move_pointer(view("Axial"), pixel_of("Axial", pole));
+  wait_for(
+      "the ball is seen under the pointer, of 3 mm",
+      [&] {
+        const auto circles = lines_drawn_in("Axial", brush);
+        return circles.size() == 1 && std::abs(circles.front().width_mm() - 6) < 0.1;
+      },
+      20);
+  save_screen("correct-brush");
+  drag(view("Axial"), pixel_of("Axial", pole), pixel_of("Axial", on_the_edge(15, pole.z)), true);
+  wait_for("what it passed over is added", [] { return has_edit("add"); });
+  wait_for("and felt", [&] { return std::abs(felt_mm(pole) - 3) < 0.7; });
+  wait_for(
+      "it is told how much", [] { return number("palpateCorrectChange") > 60; }, 60);
+  click("palpateToolRemove");
+  drag(view("Axial"), pixel_of("Axial", pole), pixel_of("Axial", on_the_edge(15, pole.z)), true);
+  wait_for("and taken away again", [] { return has_edit("remove"); });
+  wait_for("which is felt", [&] { return felt_mm(pole) < -2; });
+}
+
 }  // namespace
 
 const Scenarios& correct_scenarios() {
   static const Scenarios all{{"an_outline_is_corrected", an_outline_is_corrected},
+                             {"an_outline_is_traced_by_touch", an_outline_is_traced_by_touch},
+                             {"a_ball_is_added", a_ball_is_added},
                              {"an_outline_is_sent", an_outline_is_sent}};
   return all;
 }

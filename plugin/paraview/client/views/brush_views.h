@@ -1,0 +1,41 @@
+#pragma once
+
+/// The ball that adds to a structure or takes away from it, in all views of the scan: where it is and how large.
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "plugin/paraview/client/model/open_views.h"
+#include "plugin/paraview/client/views/clinical_views.h"
+
+namespace palpate::plugin {
+
+struct Brush {
+  glm::dvec3 center_mm{0};  ///< patient space
+  double radius_mm = 0;
+  bool operator==(const Brush&) const = default;
+};
+
+class BrushViews {
+ public:
+  explicit BrushViews(OpenViews& views);
+  ~BrushViews();
+  BrushViews(const BrushViews&) = delete;
+  BrushViews& operator=(const BrushViews&) = delete;
+
+  /// None: it is hidden. On the slices a circle, where the ball cuts them. The volume, which takes long to draw, shows
+  /// it with its next picture.
+  void show(const std::optional<Brush>& brush);
+
+ private:
+  struct One;
+  void set_views(const std::vector<ClinicalView>& views);
+
+  std::optional<Brush> brush_;
+  std::vector<std::unique_ptr<One>> views_;
+  OpenViews::Following following_;
+};
+
+}  // namespace palpate::plugin
