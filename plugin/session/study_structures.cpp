@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -185,18 +186,26 @@ void snap_no_more(modes::Scene& scene, const io::Structure& structure) {
 
 void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap) {
   constexpr double within_mm = 6, usual_ct_per_mm = 80;
-  constexpr double least_part = 0.25, whole_part = 0.6;  // of an edge's steepness: where it begins to hold, and holds
+  constexpr double least_part = 0.2, whole_part = 0.5;  // of an edge's steepness: where it begins to hold, and holds
+  constexpr double sets_in = 0.05;                      // of its rise, to both sides of the middle
   const std::string name = name_in_scene(scene, structure);
   snap_no_more(scene, structure);
-  const double steep = snap.edge_per_mm > 0 ? snap.edge_per_mm : usual_ct_per_mm;
+  const OutlineEdges& edges = snap.edges;
+  const double steep = edges.per_mm > 0 ? edges.per_mm : usual_ct_per_mm;
   modes::Mode mode = mode_of(scene, "surface", name_of_snap(name), name, snap.newtons);
   mode.structure.clear();  // the scan's edge, not the outline
-  mode.side = modes::Side::both;
+  mode.side = edges.rise == 0 ? modes::Side::both : edges.rise > 0 ? modes::Side::entering : modes::Side::leaving;
   mode.strength_n = modes::TransferFunction({{least_part * steep, 0}, {whole_part * steep, snap.newtons}});
   mode.gates.push_back(
       {.of = modes::Datum::distance,
        .factor = modes::TransferFunction({{-within_mm, 0}, {1 - within_mm, 1}, {within_mm - 1, 1}, {within_mm, 0}}),
        .structure = name});
+  if (edges.rise != 0) {
+    const double half = sets_in * std::abs(edges.rise), inside = edges.rise > 0 ? 1 : 0;
+    mode.gates.push_back(
+        {.of = modes::Datum::value,
+         .factor = modes::TransferFunction({{edges.middle - half, 1 - inside}, {edges.middle + half, inside}})});
+  }
   scene.modes.push_back(std::move(mode));
 }
 

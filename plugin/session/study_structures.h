@@ -46,12 +46,19 @@ void add_keep_out_of(modes::Scene& scene, const io::Structure& structure, double
 /// Lets a mode of the scene act only inside the structure.
 void add_gate_of(modes::Scene& scene, std::size_t mode, const io::Structure& structure);
 
-/// How the scan's own edges hold the stylus near a structure's outline.
+/// What most of the scan's own edges at an outline are like, in the scan's unit.
+struct OutlineEdges {
+  double per_mm = 0;  ///< how steep; 0: not known, and those of a CT are taken
+  double rise = 0;    ///< of the value on the way in, negative where it falls; 0: not known
+  double middle = 0;  ///< the value half-way
+};
+/// How they hold the stylus.
 struct Snap {
   double newtons = 1;
-  double edge_per_mm = 0;  ///< how steep they are there, the scan's unit; 0: not known, and those of a CT are taken
+  OutlineEdges edges = {};
 };
-/// Adds a surface at the scan's edges within 6 mm of the outline, or changes it.
+/// Adds a surface at the scan's edges within 6 mm of the outline, or changes it. It holds on the way in, where the
+/// value is half-way; where that is not known, both ways and on the flank of an edge.
 void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap);
 /// Takes it away again.
 void snap_no_more(modes::Scene& scene, const io::Structure& structure);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "io/structures/outline_change.h"
-#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 namespace {
@@ -38,14 +37,14 @@ CorrectionModel::CorrectionModel(SceneModel& scene, QObject* parent)
   });
 }
 
-void CorrectionModel::begin(const io::Structure& structure, double edge_per_mm) {
+void CorrectionModel::begin(const io::Structure& structure, const OutlineEdges& edges) {
   forget();
   structure_ = structure;
-  edge_per_mm_ = edge_per_mm;
+  edges_of_scan_ = edges;
   follow_scene();
   press_(tr("Correct %1").arg(QString::fromStdString(structure.name)),
-         [structure, edge_per_mm, newtons = snap_n_](modes::Scene& scene) {
-           snap_to_scan(scene, structure, {.newtons = newtons, .edge_per_mm = edge_per_mm});
+         [structure, edges, newtons = snap_n_](modes::Scene& scene) {
+           snap_to_scan(scene, structure, {.newtons = newtons, .edges = edges});
          });
   emit changed();
 }
@@ -116,8 +115,8 @@ void CorrectionModel::set_radius_mm(double radius_mm) {
 void CorrectionModel::set_snap_n(double newtons) {
   if (std::exchange(snap_n_, newtons) == newtons || !structure_) return;
   press_(tr("Snap to the scan's edge"),
-         [structure = *structure_, edge_per_mm = edge_per_mm_, newtons](modes::Scene& scene) {
-           snap_to_scan(scene, structure, {.newtons = newtons, .edge_per_mm = edge_per_mm});
+         [structure = *structure_, edges = edges_of_scan_, newtons](modes::Scene& scene) {
+           snap_to_scan(scene, structure, {.newtons = newtons, .edges = edges});
          });
 }
 

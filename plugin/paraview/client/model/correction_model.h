@@ -14,6 +14,7 @@
 #include "io/structures/doubtful_places.h"
 #include "io/structures/structure.h"
 #include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 
@@ -32,9 +33,8 @@ class CorrectionModel : public QObject {
   void set_press(Press press) { press_ = std::move(press); }
   void set_find(Find find) { find_ = std::move(find); }
 
-  /// `edge_per_mm`: how steep the scan's edges are at its outline, in the scan's unit; 0: not known. From then on they
-  /// are felt there.
-  void begin(const io::Structure& structure, double edge_per_mm);
+  /// `edges`: the scan's own at its outline. From then on they are felt there.
+  void begin(const io::Structure& structure, const OutlineEdges& edges);
   /// They are not felt any more; the edits stay.
   void end();
   /// Another scan: nothing is corrected, and no step is done.
@@ -96,7 +96,7 @@ class CorrectionModel : public QObject {
   Press press_;
   Find find_;
   std::optional<io::Structure> structure_;
-  double edge_per_mm_ = 0;
+  OutlineEdges edges_of_scan_;
   Tool tool_ = Tool::trace;
   double radius_mm_ = 3, snap_n_ = 0.8;
   std::vector<io::Vec3> stroke_;

@@ -71,7 +71,7 @@ struct Correcting : ::testing::Test {
 };
 
 TEST_F(Correcting, AStrokeIsOneEditOfTheScene) {
-  model.begin(liver, 0);
+  model.begin(liver, {});
   stroke({{0, 0, 0}, {1, 0, 0}, {1.1, 0, 0}, {2, 1, 0}});
   EXPECT_THAT(kinds(), ElementsAre("trace"));
   const auto& trace = std::get<io::TraceEdit>(model.edits().front());
@@ -107,7 +107,7 @@ TEST_F(Correcting, NothingIsDrawnWhereNothingIsCorrected) {
 }
 
 TEST_F(Correcting, EditsAreUndoneAndRedoneOneByOne) {
-  model.begin(liver, 0);
+  model.begin(liver, {});
   for (int n = 0; n < 3; ++n) stroke({{10.0 * n, 0, 0}, {10.0 * n, 1, 0}});
   const std::vector<io::Edit> all = model.edits();
   EXPECT_FALSE(model.can_redo());
@@ -132,7 +132,7 @@ TEST_F(Correcting, EditsAreUndoneAndRedoneOneByOne) {
 }
 
 TEST_F(Correcting, WhatParaViewTakesBackCanBeRedoneHere) {
-  model.begin(liver, 0);
+  model.begin(liver, {});
   stroke({{0, 0, 0}, {0, 1, 0}});
   stroke({{10, 0, 0}, {10, 1, 0}});
   const std::vector<io::Edit> all = model.edits();
@@ -152,7 +152,7 @@ TEST_F(Correcting, EditsOfARestoredSceneCanBeTakenBack) {
   restored.structures.push_back({.name = "liver", .file = liver.file, .segment = "liver"});
   restored.structures.front().edits = {io::AddEdit{{.path_mm = {{1, 2, 3}}, .radius_mm = 2}}};
   scene.open(restored);
-  model.begin(liver, 0);
+  model.begin(liver, {});
   EXPECT_THAT(kinds(), ElementsAre("add"));
   model.undo();
   EXPECT_THAT(kept_edits(), IsEmpty());
@@ -160,7 +160,7 @@ TEST_F(Correcting, EditsOfARestoredSceneCanBeTakenBack) {
 
 TEST_F(Correcting, TheScansEdgeIsFeltWhileItLasts) {
   EXPECT_EQ(snap(), nullptr);
-  model.begin(liver, 120);
+  model.begin(liver, {.per_mm = 120});
   ASSERT_NE(snap(), nullptr);
   EXPECT_TRUE(snap()->structure.empty()) << "the scan's edge, not the outline";
   EXPECT_EQ(snap()->side, modes::Side::both);
@@ -176,18 +176,32 @@ TEST_F(Correcting, TheScansEdgeIsFeltWhileItLasts) {
   EXPECT_EQ(model.structure(), nullptr);
 }
 
+/// Half-way of the value: entered from below where the structure is brighter, and from above where it is darker.
+TEST_F(Correcting, TheScansEdgeIsFeltHalfWay) {
+  for (const double rise : {200.0, -200.0}) {
+    model.begin(liver, {.per_mm = 120, .rise = rise, .middle = 40});
+    ASSERT_NE(snap(), nullptr);
+    EXPECT_EQ(snap()->side, rise > 0 ? modes::Side::entering : modes::Side::leaving);
+    ASSERT_THAT(snap()->gates, SizeIs(2));
+    EXPECT_EQ(snap()->gates[1].of, modes::Datum::value);
+    EXPECT_DOUBLE_EQ(snap()->gates[1].factor(40 + 0.1 * rise), 1) << "inside";
+    EXPECT_DOUBLE_EQ(snap()->gates[1].factor(40 - 0.1 * rise), 0) << "outside";
+    EXPECT_NEAR(snap()->gates[1].factor(40), 0.5, 1e-9);
+  }
+}
+
 TEST_F(Correcting, TheEditsStayWhereItEndsAndComeBack) {
-  model.begin(liver, 0);
+  model.begin(liver, {});
   stroke({{0, 0, 0}, {0, 1, 0}});
   model.end();
   EXPECT_THAT(model.edits(), IsEmpty());
   EXPECT_THAT(kept_edits(), SizeIs(1));
-  model.begin(liver, 0);
+  model.begin(liver, {});
   EXPECT_THAT(kinds(), ElementsAre("trace"));
 }
 
 TEST_F(Correcting, APlaceIsGoneToLeftOrCorrected) {
-  model.begin(liver, 0);
+  model.begin(liver, {});
   ASSERT_THAT(asked, SizeIs(1));
   EXPECT_FALSE(model.places());
   asked.back()(three());
@@ -211,7 +225,7 @@ TEST_F(Correcting, APlaceIsGoneToLeftOrCorrected) {
 }
 
 TEST_F(Correcting, AnotherScanEndsItWithoutAStep) {
-  model.begin(liver, 0);
+  model.begin(liver, {});
   asked.back()(three());
   model.press({0, 0, 0});
   const std::size_t steps = kept.steps.size();
@@ -229,7 +243,7 @@ TEST_F(Correcting, AnotherScanEndsItWithoutAStep) {
 TEST_F(Correcting, WhatIsPressedWhileAStepWaitsIsDoneAfterIt) {
   std::vector<std::pair<QString, SceneModel::Change>> waiting;
   model.set_press([&](const QString& what, const SceneModel::Change& change) { waiting.emplace_back(what, change); });
-  model.begin(liver, 0);
+  model.begin(liver, {});
   EXPECT_THAT(asked, IsEmpty()) << "its outline is not read yet";
   stroke({{0, 0, 0}, {0, 1, 0}});
   stroke({{10, 0, 0}, {10, 1, 0}});

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "io/fields/filtered.h"
+#include "io/fields/volume_fields.h"
 #include "io/quantile.h"
 #include "io/structures/outline_places.h"
 #include "io/structures/scan_edge.h"
@@ -17,16 +18,40 @@
 namespace palpate::plugin {
 namespace {
 
-/// Half of the outline, or more, lies at edges: the upper quartile is one of them.
-double steepness_at(const io::DistanceField& outline, const std::shared_ptr<const io::Volume>& scan) {
-  constexpr double every_mm = 6, upper = 0.75;
-  const auto fields = io::edge_fields(io::raw_of(scan));
+/// How steep the values are there as a scene feels them: at the upper quartile, since not all of an outline has an
+/// edge.
+double steepness_at(const std::vector<io::OutlinePlace>& places, const std::shared_ptr<const io::Volume>& scan) {
+  constexpr double upper = 0.75;
+  const io::VolumeFields fields(scan, io::FieldSet::gradient, io::default_gradient_scale_mm(scan->geometry),
+                                {.brick_bytes = 0, .background = false});
   std::vector<double> per_mm;
-  for (const io::OutlinePlace& place : io::outline_places(outline, every_mm)) {
-    const io::Sample sample = fields->sample(place.place_mm, io::FieldSet::gradient);
+  for (const io::OutlinePlace& place : places) {
+    const io::Sample sample = fields.sample(place.place_mm, io::FieldSet::gradient);
     if (sample.inside) per_mm.push_back(glm::length(sample.gradient));
   }
   return per_mm.empty() ? 0 : io::quantile(std::move(per_mm), upper);
+}
+
+/// From about a hundred places of the outline.
+OutlineEdges edges_at(const io::DistanceField& outline, const std::shared_ptr<const io::Volume>& scan) {
+  constexpr double every_mm = 6, within_mm = 3;
+  constexpr std::size_t most_places = 100;
+  const std::vector<io::OutlinePlace> places = io::outline_places(outline, every_mm);
+  OutlineEdges edges{.per_mm = steepness_at(places, scan)};
+  const auto fields = io::edge_fields(scan);
+  std::vector<double> rises[2], middles[2];  // those that fall on the way in, and those that rise
+  for (std::size_t n = 0; n < places.size(); n += 1 + places.size() / most_places) {
+    const auto& [place, inward, area] = places[n];
+    const auto edge = io::scan_edge({*fields, scan->geometry}, outline, place, inward, within_mm);
+    if (!edge) continue;
+    rises[edge->rise > 0].push_back(edge->rise);
+    middles[edge->rise > 0].push_back(fields->sample(place + edge->mm * inward, io::FieldSet::value).value);
+  }
+  const bool up = rises[1].size() >= rises[0].size();
+  if (rises[up].empty()) return edges;
+  edges.rise = io::quantile(std::move(rises[up]), 0.5);
+  edges.middle = io::quantile(std::move(middles[up]), 0.5);
+  return edges;
 }
 
 void draw_structure(const WantedStructure& wanted, MadeStructure& made) {
@@ -44,7 +69,7 @@ void draw_structure(const WantedStructure& wanted, MadeStructure& made) {
     made.change = io::outline_change(*outline, *drawn.distance, *box);
   }
   drawn.surface = surface_of(*drawn.distance, drawn.low_mm, drawn.high_mm);
-  made.edge_per_mm = steepness_at(*outline, wanted.scan);
+  made.edges = edges_at(*outline, io::raw_of(wanted.scan));
 }
 
 }  // namespace
@@ -56,7 +81,8 @@ MadeStructure make_structure(const WantedStructure& wanted) {
                      .error = {},
                      .measures = wanted.measures,
                      .drawn = {},
-                     .change = {}};
+                     .change = {},
+                     .edges = {}};
   try {
     if (!made.measures) made.measures = std::make_shared<const io::StructureMeasures>(io::measure(wanted.structure));
     if (wanted.draws) draw_structure(wanted, made);

@@ -11,6 +11,7 @@
 #include "io/structures/outline_change.h"
 #include "io/structures/structure.h"
 #include "plugin/paraview/client/views/structure_views.h"
+#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 
@@ -31,7 +32,7 @@ struct MadeStructure {
   std::shared_ptr<const io::StructureMeasures> measures;  ///< of the outline in its file
   DrawnStructure drawn;                                   ///< without a distance where it is not drawn
   std::optional<io::OutlineChange> change;                ///< by the edits; none where there are none
-  double edge_per_mm = 0;                                 ///< how steep the scan's edges are at the file's outline
+  OutlineEdges edges;                                     ///< the scan's own at the file's outline
 };
 
 /// Fields are shared with those who feel them. Throws nothing.

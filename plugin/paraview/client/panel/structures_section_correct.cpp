@@ -32,7 +32,7 @@ void StructuresSection::correct(bool on) {
   Entry* const entry = chosen();
   if (!on || !entry) return correction_.end();
   entry->shown = true;
-  correction_.begin(entry->structure, entry->made.edge_per_mm);
+  correction_.begin(entry->structure, entry->made.edges);
   list();
   draw();
   make_next();
