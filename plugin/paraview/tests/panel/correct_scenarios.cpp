@@ -1,3 +1,4 @@
+#include <pqCoreUtilities.h>
 #include <pqRenderView.h>
 #include <vtkPVRenderView.h>
 #include <vtkRenderer.h>
@@ -6,7 +7,10 @@
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QFile>
+#include <QGuiApplication>
 #include <QLabel>
+#include <QPixmap>
+#include <QScreen>
 #include <QToolButton>
 #include <QTreeWidget>
 
@@ -100,6 +104,17 @@ bool has_edit(const char* kind) {
   return scene.contains(QStringLiteral("\"type\":\"%1\"").arg(QString::fromLatin1(kind)));
 }
 
+/// What is on the screen there, where guide_pictures.py asks for it.
+void save_for_guide(const char* name, QWidget& shown) {
+  const QString folder = qEnvironmentVariable("PALPATE_GUIDE");
+  if (folder.isEmpty()) return;
+  scroll_to(shown);
+  wait_ms(1000);
+  const QRect at(shown.mapToGlobal(QPoint(0, 0)), shown.size());
+  const QPixmap picture = QGuiApplication::primaryScreen()->grabWindow(0, at.x(), at.y(), at.width(), at.height());
+  expect(picture.save(folder + QLatin1Char('/') + QLatin1String(name) + ".png"), "a picture for the guide is written");
+}
+
 /// The structures' section is unfolded, and *Correct* is pressed for the only one.
 void correct_the_liver() {
   click("palpateStructuresSectionFold");
@@ -148,6 +163,8 @@ void an_outline_is_corrected() {
   expect(drawn_beside_felt(2) < 0.05, "what is drawn is what is felt: " + std::to_string(drawn_beside_felt(2)));
   expect(drawn_beside_felt(1) > 2, "the outline of the file is drawn beside it");
   save_screen("correct-traced");
+  save_for_guide("correct", *pqCoreUtilities::mainWidget());
+  save_for_guide("correct-tools", find<QWidget>("palpateCorrectBox"));
   hold_key_in(view("Axial"), "b", true);
   const bool shown = comes_true([] { return drawn_beside_felt(2) > 2 && std::isnan(drawn_beside_felt(1)); });
   expect(shown, "a key shows the file's outline: " + std::to_string(drawn_beside_felt(2)) + ", " +

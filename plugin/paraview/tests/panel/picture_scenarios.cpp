@@ -10,7 +10,6 @@
 #include <QScreen>
 #include <QSlider>
 #include <QToolButton>
-#include <QTreeWidget>
 #include <QWidget>
 #include <QWindow>
 
@@ -110,40 +109,9 @@ void guide_fault() {
   save_widget("fault", "palpateFooter");
 }
 
-/// An outline that a part was cut from: at that doubtful place it takes the scan's edge.
-void guide_correct() {
-  arrange({1366, 900}, 420);
-  scan_is_shown();
-  fold("palpateTissuesSection", false);
-  click("palpateStructuresSectionFold");
-  auto& places = find<QTreeWidget>("palpateDoubtfulPlaces");
-  wait_for(
-      "its structure is found",
-      [] {
-        const QTreeWidget& list = find<QTreeWidget>("palpateStructureList");
-        return list.topLevelItemCount() == 1 && !list.topLevelItem(0)->text(1).isEmpty();
-      },
-      120);
-  click("palpateCorrect");
-  wait_for(
-      "doubtful places are found", [&] { return places.isVisible() && places.topLevelItemCount() > 0; }, 300);
-  scroll_to(places);
-  QTreeWidgetItem* const place = places.topLevelItem(qEnvironmentVariableIntValue("PALPATE_PLACE"));
-  places.scrollToItem(place);
-  click(*places.viewport(), places.visualItemRect(place).center());
-  click("palpateTakeScanEdge");
-  wait_for(
-      "it is corrected", [] { return label("palpateCorrectChange").contains("mm at most"); }, 120);
-  views_rest();
-  save("correct", QRect(0, 0, 1366, 900));
-  fold("palpateStylusSection", false);
-  save_widget("correct-tools", "palpateCorrectBox");
-}
-
 }  // namespace
 
 const Scenarios& picture_scenarios() {
-  static const Scenarios scenarios{
-      {"guide_pictures", guide_pictures}, {"guide_fault", guide_fault}, {"guide_correct", guide_correct}};
+  static const Scenarios scenarios{{"guide_pictures", guide_pictures}, {"guide_fault", guide_fault}};
   return scenarios;
 }
