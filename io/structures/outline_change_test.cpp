@@ -61,7 +61,6 @@ TEST(OutlineChange, OfNoEditAndOfATraceOfTheEdgeAsItIsIsNone) {
 
 TEST(OutlineChange, NoEdgeMovesOutsideOfTheBox) {
   const auto before = changed_ball();
-  const Vec3 pole(15, 0, 0);
   const std::vector<std::vector<Edit>> all{{TraceEdit{.points_mm = {{19, 0, 0}}, .known_to_mm = {}}},
                                            {TraceEdit{.points_mm = {{12, 3, 0}}, .known_to_mm = {}, .reach_mm = 12}},
                                            {AddEdit{{.path_mm = {{10, 0, 0}, {22, 0, 5}}, .radius_mm = 4}}},
