@@ -76,8 +76,7 @@ class RandomSession {
       case 6:
         return event("odd packets"), cause(chance() < 0.5 ? rig_.garble : rig_.shorten);
       case 7:
-        if (rig_.fling) rig_.fling(any_vector(chance() < 0.3 ? 4 : 0.3));
-        return event("the hand goes elsewhere");
+        return event("the hand goes elsewhere"), fling(any_vector(chance() < 0.3 ? 4 : 0.3));
       case 8:
         return event("a scene of any limits"), any_scene();
       case 9:
@@ -111,6 +110,11 @@ class RandomSession {
     }
   }
   void event(const char* name) { event_ = name; }
+  void fling(const Vec3& velocity) {
+    if (!rig_.fling) return;
+    rig_.fling(velocity);
+    hand_m_per_s_ = glm::length(velocity);
+  }
   void any_scene() {
     if (chance() < 0.5) {
       limits_ = {};
@@ -195,13 +199,20 @@ class RandomSession {
     }
   }
 
+  /// N, at most: motors are told torques for the pose that is known, which may be as old as an answer that still
+  /// counts. Where a fast hand has gone on since, the arm makes another force of them.
+  double turned_by_the_arm(const Vec3& force) const {
+    constexpr double oldest_pose_s = 0.020, shortest_arm_m = 0.04;
+    return glm::length(force) * std::min(1.0, hand_m_per_s_ * oldest_pose_s / shortest_arm_m);
+  }
+
   void look_at_device() {
     const Vec3 force = rig_.force();
     const double length = glm::length(force);
     const double most = std::min(rig_.stylus->specification().maximum_force, ceiling::force_n) * rounding;
     if (length > most) say_broken("a force above the ceiling", length, most);
     const double step = length > 0 ? glm::length(force - last_force_) : 0;
-    const double slew = ceiling::slew_n_per_s * ceiling::slew_time_s * rounding;
+    const double slew = ceiling::slew_n_per_s * ceiling::slew_time_s * rounding + turned_by_the_arm(force);
     if (step > slew) say_broken("a step above the slew ceiling", step, slew);
     const double grown = latched_n_ * rounding + 1e-6;
     if (latched_n_ >= 0 && rig_.now() - latched_at_ > 0.004 && length > grown) {
@@ -227,6 +238,7 @@ class RandomSession {
   GuardianBeat beat_;
   GuardianWatch watch_{&beat_};
   Vec3 asked_{0, 2.5, 0}, last_force_{0};
+  double hand_m_per_s_ = 0;  // that it was flung at last
   bool servo_runs_ = true, panel_lives_ = true;
   bool is_reached_ = true, is_deaf_ = false, stands_still_ = false;
   double guard_died_ = 0, went_on_ = 0;
