@@ -22,11 +22,12 @@ constexpr std::size_t error_counts = 4000;  // the last holds all that is larger
 
 }  // namespace
 
-FeltScene felt_on_scan(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) {
+FeltScene felt_on_scan(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+                       const io::Progress& progress) {
   constexpr std::size_t all_bricks = std::size_t{1} << 30;
   FeltScene felt{.scene = scene, .on = {}, .has_known = true};
   felt.on.plan = plan_for(scene, *volume, glm::dvec3(0.1));
-  felt.on.volume = io::filtered(volume, scene.filter);
+  felt.on.volume = io::filtered(volume, scene.filter, progress);
   io::FieldOptions options = modes::field_options(scene.sampling);
   options.brick_bytes = all_bricks;
   options.background = false;

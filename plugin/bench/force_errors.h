@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "io/progress.h"
 #include "modes/scene/scene.h"
 #include "plugin/bench/force_paths.h"
 #include "plugin/session/prepared_scene.h"
@@ -22,8 +23,10 @@ struct FeltScene {
   bool has_known = false;
 };
 
-/// The scene on a scan with all of its gradients computed: no thread works ahead, and each tick costs the same.
-FeltScene felt_on_scan(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume);
+/// The scene on a scan with all of its gradients computed: no thread works ahead, and each tick costs the same. Throws
+/// io::Cancelled.
+FeltScene felt_on_scan(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
+                       const io::Progress& progress = {});
 
 struct FeltContact {
   std::size_t boundary = 0;  ///< index in the scene's modes

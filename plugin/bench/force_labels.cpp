@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "io/bounding_box.h"
+#include "io/errors.h"
 #include "io/fields/volume_fields.h"
 #include "io/structures/structured_fields.h"
 #include "modes/scene/scene_json.h"
@@ -149,13 +150,19 @@ Labelled labelled(const io::Volume& volume, const io::StructureCatalogue& struct
   return made;
 }
 
+/// Throws io::Cancelled if that is wished.
+void go_on(const io::Progress& progress) {
+  if (progress && !progress(0)) throw io::Cancelled();
+}
+
 /// The masks felt: skin first, then the tissues that have voxels.
 FeltScene felt_labels(const io::Mask& body, const std::vector<io::Mask>& tissues,
-                      const std::shared_ptr<const io::Volume>& volume) {
+                      const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress) {
   FeltScene felt;
   felt.scene.name = "labels";
   std::vector<std::shared_ptr<const io::DistanceField>> distances;
   const auto add = [&](const std::string& name, double strength_n, const io::Mask& mask) {
+    go_on(progress);
     modes::Mode mode;
     mode.type = "surface";
     mode.name = mode.structure = name;
@@ -185,10 +192,13 @@ FeltScene felt_labels(const io::Mask& body, const std::vector<io::Mask>& tissues
 ForceRow changed_row(const std::string& name, const std::shared_ptr<const Labelled>& labels,
                      const std::shared_ptr<const io::Volume>& volume,
                      const std::function<io::Mask(const io::Mask&)>& change) {
-  return {name, [=] {
+  return {name, [=](const io::Progress& progress) {
             std::vector<io::Mask> changed;
-            for (const io::Mask& mask : labels->tissues) changed.push_back(has_voxels(mask) ? change(mask) : mask);
-            return felt_labels(labels->body, changed, volume);
+            for (const io::Mask& mask : labels->tissues) {
+              go_on(progress);
+              changed.push_back(has_voxels(mask) ? change(mask) : mask);
+            }
+            return felt_labels(labels->body, changed, volume, progress);
           }};
 }
 
@@ -315,17 +325,23 @@ std::vector<ForceGroup> label_groups(const std::shared_ptr<const io::Volume>& vo
                                      const io::StructureCatalogue& structures, std::uint64_t seed) {
   const auto labels = std::make_shared<const Labelled>(labelled(*volume, structures));
   if (labels->organs.empty()) throw InputRefused(say("no-structure-lies-on-the-scan"));
-  ForceGroup scenes{.name = scenes_group,
-                    .against = "its reference labels and skin, with the strength of each tissue",
-                    .world = world_of(labels, volume),
-                    .truth = [=] { return felt_labels(labels->body, labels->tissues, volume); },
-                    .off_mm = {},
-                    .rows = {}};
+  ForceGroup scenes{
+      .name = scenes_group,
+      .against = "its reference labels and skin, with the strength of each tissue",
+      .world = world_of(labels, volume),
+      .truth =
+          [=](const io::Progress& progress) { return felt_labels(labels->body, labels->tissues, volume, progress); },
+      .off_mm = {},
+      .rows = {}};
   ForceGroup outlines = scenes;
   outlines.name = "outlines";
-  scenes.rows = {
-      {"automatic scene (suggest)", [=] { return felt_on_scan(modes::suggest(volume).scene, volume); }},
-      {"starting scene", [=] { return felt_on_scan(modes::load_scene(modes::starting_scene(*volume)), volume); }}};
+  scenes.rows = {{"automatic scene (suggest)",
+                  [=](const io::Progress& progress) {
+                    return felt_on_scan(modes::suggest(volume, progress).scene, volume, progress);
+                  }},
+                 {"starting scene", [=](const io::Progress& progress) {
+                    return felt_on_scan(modes::load_scene(modes::starting_scene(*volume)), volume, progress);
+                  }}};
   for (const int voxels : {1, 2}) {
     const std::string by = fmt::format("{} voxel{}", voxels, voxels == 1 ? "" : "s");
     outlines.rows.push_back(changed_row("labels eroded by " + by, labels, volume,

@@ -111,7 +111,7 @@ std::shared_ptr<const io::Volume> scan_of(const Scanned& how, std::uint64_t seed
 }
 
 ForceRow row_of(const Scanned& how, const modes::Scene& scene, std::uint64_t seed) {
-  return {how.name, [=] { return felt_on_scan(scene, scan_of(how, seed)); }};
+  return {how.name, [=](const io::Progress& progress) { return felt_on_scan(scene, scan_of(how, seed), progress); }};
 }
 
 PathTarget target_in(const std::string& name, const testdata::Ball& ball, double inner_mm = 0) {
@@ -144,7 +144,7 @@ ForceGroup group_of(std::string name, std::string against, const modes::Scene& s
   return {.name = std::move(name),
           .against = std::move(against),
           .world = torso_world(),
-          .truth = [=] { return felt_exactly(scene); },
+          .truth = [=](const io::Progress&) { return felt_exactly(scene); },
           .off_mm = torso_surface_mm,
           .rows = {}};
 }
@@ -208,8 +208,8 @@ ForceGroup solvers(std::uint64_t seed) {
   ForceGroup group = group_of("solvers, 400 mm/s", "the exact solver with sub-steps on the same scan", scene_with(""));
   group.speed_mm_per_s = fast_mm_per_s;
   group.off_mm = {};  // the scan's errors are in the truth, too
-  group.truth = [=] {
-    return felt_on_scan(scene_with(R"("solvers": {"analytical": false, "exact": true})"), scan_of(how, seed));
+  group.truth = [=](const io::Progress& progress) {
+    return felt_on_scan(scene_with(R"("solvers": {"analytical": false, "exact": true})"), scan_of(how, seed), progress);
   };
   for (const auto& [name, more] :
        {std::pair{"as usual: analytical, then exact", ""},

@@ -39,6 +39,11 @@ struct Runner {
         [&](double part) { return !progress || progress(std::min(1.0, done + part * per_run)); }, options.threads);
     done += per_run;
   }
+
+  /// Cancels what is prepared; how far that is counts for nothing.
+  FeltScene prepared(const MakeFelt& make) const {
+    return make([this](double) { return !progress || progress(std::min(1.0, done)); });
+  }
 };
 
 Paths paths_of(const ForceGroup& group, Runner& runner) {
@@ -65,7 +70,7 @@ ForceRowResult run_row(const ForceGroup& group, const ForceRow& row, const Paths
                        const std::vector<FeltPath>& truth, Runner& runner) {
   ForceRowResult result{.group = group.name, .name = row.name, .boundaries = {}, .truth_boundaries = {}, .errors = {}};
   const auto begun = std::chrono::steady_clock::now();
-  const FeltScene felt = row.make();
+  const FeltScene felt = runner.prepared(row.make);
   result.ready_s = seconds_since(begun);
   result.boundaries = boundaries_of_scene(felt.scene);
   result.paths = paths.size();
@@ -102,7 +107,7 @@ std::vector<ForceRowResult> compare_forces(const std::vector<ForceGroup>& groups
   std::vector<ForceRowResult> results;
   for (const ForceGroup& group : groups) {
     const Paths paths = paths_of(group, runner);
-    const FeltScene exact = group.truth();
+    const FeltScene exact = runner.prepared(group.truth);
     const std::vector<FeltPath> truth = felt_along(exact, paths, group.speed_mm_per_s, runner);
     for (const ForceRow& row : group.rows) {
       results.push_back(run_row(group, row, paths, truth, runner));

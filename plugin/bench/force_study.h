@@ -14,17 +14,20 @@
 
 namespace palpate::plugin {
 
+/// Prepares a scene on its data. Asks now and then whether to go on, and throws io::Cancelled if not.
+using MakeFelt = std::function<FeltScene(const io::Progress&)>;
+
 /// One row. To add one: append it to a group in force_phantom.cpp or force_labels.cpp.
 struct ForceRow {
   std::string name;
-  std::function<FeltScene()> make;  ///< called when the row is run, so that one is in memory at a time
+  MakeFelt make;  ///< called when the row is run, so that one is in memory at a time
 };
 
 struct ForceGroup {
   std::string name;
   std::string against;  ///< what the truth is, for people
   PathWorld world;
-  std::function<FeltScene()> truth;
+  MakeFelt truth;
   double speed_mm_per_s = 50;
   /// How far a place is from the nearest true boundary, mm; empty where nobody knows.
   std::function<double(const glm::dvec3&)> off_mm;

@@ -53,7 +53,7 @@ FeltScene felt_on(const testdata::Phantom& phantom, const modes::Scene& scene) {
 
 ForceGroup group_of_balls() {
   ForceGroup group{.name = "balls", .against = "a ball", .world = world_of_a_ball()};
-  group.truth = [] { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 50)); };
+  group.truth = [](const io::Progress&) { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 50)); };
   return group;
 }
 
@@ -105,9 +105,11 @@ TEST(ForceStudy, FindsTheErrorThatMathematicsGives) {
   constexpr double smaller_mm = 0.5, k_n_per_mm = 0.4;
   ForceGroup group = group_of_balls();
   group.off_mm = [](const dvec3& at) { return std::abs(glm::length(at) - ball_mm); };
-  group.rows = {{"the same", [] { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 50)); }},
-                {"smaller", [] { return felt_on(testdata::make_sphere(ball_mm - smaller_mm), wall(-480, 50)); }},
-                {"without", [] { return felt_on(testdata::make_sphere(ball_mm), wall(5000, 50)); }}};
+  group.rows = {
+      {"the same", [](const io::Progress&) { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 50)); }},
+      {"smaller",
+       [](const io::Progress&) { return felt_on(testdata::make_sphere(ball_mm - smaller_mm), wall(-480, 50)); }},
+      {"without", [](const io::Progress&) { return felt_on(testdata::make_sphere(ball_mm), wall(5000, 50)); }}};
   const auto results = compare_forces({group}, {.paths_a_row = 24, .seed = 3});
   ASSERT_EQ(results.size(), 3U);
   const ForceErrors &same = results[0].errors, &smaller = results[1].errors, &without = results[2].errors;
@@ -130,11 +132,11 @@ TEST(ForceStudy, FindsTheErrorThatMathematicsGives) {
 
 TEST(ForceStudy, OfAScanIsTheSameOnAnyNumberOfThreads) {
   ForceGroup group = group_of_balls();
-  group.truth = [] { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 1)); };
+  group.truth = [](const io::Progress&) { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 1)); };
   group.off_mm = [](const dvec3& at) { return std::abs(glm::length(at) - ball_mm); };
   const auto volume = std::make_shared<const io::Volume>(testdata::scan(
       testdata::make_sphere(ball_mm), testdata::make_geometry({.size = glm::ivec3(48)}), {.noise = 30, .seed = 5}));
-  group.rows = {{"scan", [=] { return felt_on_scan(wall(-480, 1), volume); }}};
+  group.rows = {{"scan", [=](const io::Progress&) { return felt_on_scan(wall(-480, 1), volume); }}};
   const auto one = all_of(compare_forces({group}, {.paths_a_row = 80, .seed = 4, .threads = 1}));
   for (const int threads : {2, 3, 7}) {
     EXPECT_EQ(all_of(compare_forces({group}, {.paths_a_row = 80, .seed = 4, .threads = threads})), one) << threads;
@@ -144,10 +146,10 @@ TEST(ForceStudy, OfAScanIsTheSameOnAnyNumberOfThreads) {
 
 TEST(ForceStudy, NoiseRaisesTheErrorAndTheTruthLiesWithinWhatIsStated) {
   ForceGroup group = group_of_balls();
-  group.truth = [] { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 1)); };
+  group.truth = [](const io::Progress&) { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 1)); };
   group.off_mm = [](const dvec3& at) { return std::abs(glm::length(at) - ball_mm); };
   for (const double noise : {0.0, 60.0}) {
-    group.rows.push_back({"noise", [=] {
+    group.rows.push_back({"noise", [=](const io::Progress&) {
                             return felt_on_scan(wall(-480, 1), std::make_shared<const io::Volume>(testdata::scan(
                                                                    testdata::make_sphere(ball_mm),
                                                                    testdata::make_geometry({.size = glm::ivec3(48)}),
@@ -165,7 +167,8 @@ TEST(ForceStudy, NoiseRaisesTheErrorAndTheTruthLiesWithinWhatIsStated) {
 
 TEST(ForceStudy, IsCancelled) {
   ForceGroup group = group_of_balls();
-  group.rows = {{"the same", [] { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 50)); }}};
+  group.rows = {
+      {"the same", [](const io::Progress&) { return felt_on(testdata::make_sphere(ball_mm), wall(-480, 50)); }}};
   double last = 0;
   const auto until_half = [&](double done) {
     EXPECT_GE(done, last);
@@ -173,6 +176,20 @@ TEST(ForceStudy, IsCancelled) {
     return done < 0.5;
   };
   EXPECT_THROW(compare_forces({group}, {.paths_a_row = 200, .seed = 1}, until_half), io::Cancelled);
+}
+
+TEST(ForceStudy, IsCancelledWhileARowIsPrepared) {
+  ForceGroup group = group_of_balls();
+  bool preparing = false, gone_on = false;
+  group.rows = {{"slow", [&](const io::Progress& progress) {
+                   preparing = true;
+                   if (!progress(0.5)) throw io::Cancelled();
+                   gone_on = true;
+                   return felt_on(testdata::make_sphere(ball_mm), wall(-480, 50));
+                 }}};
+  EXPECT_THROW(compare_forces({group}, {.paths_a_row = 8, .seed = 1}, [&](double) { return !preparing; }),
+               io::Cancelled);
+  EXPECT_FALSE(gone_on);
 }
 
 io::Mask mask_of(const glm::ivec3& size, const std::function<bool(const glm::ivec3&)>& inside) {

@@ -1,5 +1,6 @@
 /// Ends a program of tests whose test hangs: linked into every one. A test may take PALPATE_TEST_SECONDS (20) of a
-/// machine that has nothing else to do, and longer by as much as more threads want to run than there are processors.
+/// machine that has nothing else to do, longer by as much as more threads want to run than there are processors, and by
+/// the time that it waited for a processor.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@ namespace {
 
 double limit = 20;       // s
 std::time_t begun = 0;   // s, of the test that runs
+double waited = 0;       // s, before it began
 char running[256] = "";  // its name
 
 std::time_t now() {
@@ -28,7 +30,8 @@ void say(const char* text) {
 }
 
 void look(int) {
-  const double left = limit * palpate::crowd() - static_cast<double>(now() - begun);
+  const double took = static_cast<double>(now() - begun) - (palpate::waited_for_a_processor() - waited);
+  const double left = limit * palpate::crowd() - took;
   if (left > 0) {
     alarm(static_cast<unsigned>(left) + 1);
     return;
@@ -43,6 +46,7 @@ class Limit : public testing::EmptyTestEventListener {
   void OnTestStart(const testing::TestInfo& test) override {
     std::strncpy(running, (std::string(test.test_suite_name()) + "." + test.name()).c_str(), sizeof running - 1);
     begun = now();
+    waited = palpate::waited_for_a_processor();
     alarm(static_cast<unsigned>(limit) + 1);
   }
   void OnTestEnd(const testing::TestInfo&) override { alarm(0); }
