@@ -22,7 +22,9 @@ constexpr double outlier = 3.0;                               // standard deviat
 // Of the boundary's place by its phase between the voxels, rms, in voxels along an axis: as measured on tilted planes
 // without noise. The cubic value is sharper along coarse axes (cubic_spline.h), and its phase shows more there.
 constexpr double cubic_phase = 0.02, cubic_coarse_phase = 0.05, trilinear_phase = 0.04;
-constexpr double coarse = 1.5;  // times the finest spacing
+constexpr double most_stated_mm = 8;  // no edge is looked for farther away
+constexpr double phase_seen = 0.7;    // of its variance: what differences on the tangent plane hold of it
+constexpr double coarse = 1.5;        // times the finest spacing
 // Variance of the blur, in voxels squared: of the voxel's box and of the interpolation.
 // Of an edge's rise, in standard deviations of the value: less may be noise alone. Source: Rose, "The sensitivity
 // performance of the human eye on an absolute scale", J. Opt. Soc. Am. 38 (1948): 3 to 5.
@@ -180,10 +182,10 @@ class NormalProfile {
 /// The step nearest to the place from which the value rises as steeply as the gradient says: 0 where it does so at the
 /// place; empty where it does so nowhere near.
 std::optional<int> edge_near(const NormalProfile& profile, double slope, double gradient) {
-  constexpr double alike = 0.7, reach_mm = 8;
+  constexpr double alike = 0.7;
   if (slope >= alike * gradient) return 0;
   const double rise = alike * gradient * profile.step_mm();
-  for (int n = 1; n * profile.step_mm() <= reach_mm; ++n) {
+  for (int n = 1; n * profile.step_mm() <= most_stated_mm; ++n) {
     if (profile.at(n) - profile.at(n - 1) >= rise) return n;
     if (profile.at(1 - n) - profile.at(-n) >= rise) return -n;
   }
@@ -194,20 +196,28 @@ std::optional<int> edge_near(const NormalProfile& profile, double slope, double 
 struct Edge {
   double beyond_mm = 0;  ///< from where the value is in the middle of its two sides to the place, along the normal
   double rise = 0;       ///< from the one side to the other
-  double steepest = 0;   ///< unit per mm
+  double width_mm = 0;   ///< one standard deviation of the blur
+  double unsure_mm = 0;  ///< one standard deviation of the middle, where a side is thinner than the blur
 };
 
 /// Which part of a side's value a blur lets it reach: 1 unless the value turns back before long. `end`: where it stops
-/// rising, `way`: to which side, `half`: the edge; `width`: one standard deviation of the blur. All in steps.
-double part_reached(const NormalProfile& profile, int end, int way, double middle, double half, double width) {
+/// rising, `way`: to which side, `half`: the edge; `width`: one standard deviation of the blur. All in steps. `seen`:
+/// how thick a plate looks, over how thick it is taken to look.
+std::optional<double> part_reached(const NormalProfile& profile, int end, int way, double middle, double half,
+                                   double width, double seen) {
   constexpr double thick = 6;      // standard deviations: more reaches all of its value
   constexpr double point = 2.355;  // a blurred plate without thickness is as wide, between half of its value
+  constexpr double soon = 4;       // standard deviations
+  constexpr double turned = 0.3;   // of the way from the side's value to the middle
+  const double reached = profile.at(end);
+  bool has_turned = false;
   for (int step = end; way * (step - half) < thick * width; step += way) {
     const double there = profile.at(step);
+    has_turned = has_turned || (way * (step - half) < soon * width && (reached - there) / (reached - middle) > turned);
     if (!(way * (there - middle) <= 0)) continue;
     // A thin plate's blur looks narrower, and the plate thicker than it is. The root is within 4 % of the thickness.
     const double before = profile.at(step - way);
-    const double plate = way * (step - way * (middle - there) / (before - there) - half);
+    const double plate = way * (step - way * (middle - there) / (before - there) - half) / seen;
     double sigma = width, part = 1;
     for (int n = 0; n < 50; ++n) {
       const double t = std::cbrt(std::max(0.1, std::pow(plate / sigma, 3) - std::pow(point, 3)));
@@ -216,12 +226,15 @@ double part_reached(const NormalProfile& profile, int end, int way, double middl
     }
     return std::max(part, 0.4);
   }
+  if (has_turned) return std::nullopt;
   return 1;
 }
 
-/// Empty where nobody can tell.
-std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double gradient, double value) {
-  constexpr double flat = 0.1;  // of the steepest rise: there the side is reached
+/// Empty where nobody can tell. `rise_noise`: standard deviation of the rise from one step to the next.
+std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double gradient, double value,
+                            double rise_noise) {
+  constexpr double flat = 0.1;    // of the steepest rise: there the side is reached
+  constexpr double valley = 0.5;  // of the steepest rise: behind one that is lower begins another edge
   constexpr int most_steps = 40;
   const auto nearest = edge_near(profile, slope, gradient);
   if (!nearest) return std::nullopt;
@@ -232,13 +245,30 @@ std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double g
   std::vector<Point> points{{*nearest, profile.at(*nearest)}};
   double steepest = std::max(slope, gradient) * profile.step_mm() * 0.5, steepest_seen = 0;
   for (const int way : {-1, 1}) {
+    double highest = slope * profile.step_mm();  // rise so far on this way
+    double lowest = highest;                     // rise since then
+    std::size_t kept = points.size();            // up to the lowest
     for (int n = 1;; ++n) {
       if (n > most_steps) return std::nullopt;  // it rises for so long that it has no sides
       const Point& last = way < 0 ? points.front() : points.back();
       const Point next{last.step + way, profile.at(last.step + way)};
       const double rise = way * (next.value - last.value);
       if (!std::isfinite(rise)) return std::nullopt;  // the scan ends before the side does
-      if (!(rise > flat * steepest)) break;
+      if (!(rise > std::max(flat * steepest, 2 * rise_noise))) break;
+      if (lowest < valley * highest && rise > lowest + std::max(flat * highest, 3 * rise_noise)) {
+        if (way < 0) {
+          points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(kept));
+        } else {
+          points.resize(kept);
+        }
+        break;
+      }
+      if (rise > highest) {
+        highest = lowest = rise;
+      } else if (rise < lowest) {
+        lowest = rise;
+        kept = points.size() + 1;
+      }
       steepest = std::max(steepest, rise);
       steepest_seen = std::max(steepest_seen, rise);
       points.insert(way < 0 ? points.begin() : points.end(), next);
@@ -254,16 +284,23 @@ std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double g
   const auto half = crossing(0.5 * (low + high));
   if (!half) return std::nullopt;
   const double width = (high - low) / (steepest_seen * std::sqrt(2 * std::numbers::pi));  // steps, of the blur
-  const double raised = part_reached(profile, points.back().step, 1, 0.5 * (low + high), *half, width);
-  const double lowered = part_reached(profile, points.front().step, -1, 0.5 * (low + high), *half, width);
-  // Sides that are thinner than the blur do not reach their values.
-  const double middle = 0.5 * (low + high) + 0.5 * (high - low) * (1 / raised - 1 / lowered);
-  const double at = crossing(middle).value_or(*half);
+  // Sides that are thinner than the blur do not reach their values: the middle lies beyond half of what they reach.
+  const auto middle_at = [&](double seen) -> std::optional<double> {
+    const double mean = 0.5 * (low + high);
+    const auto raised = part_reached(profile, points.back().step, 1, mean, *half, width, seen);
+    const auto lowered = part_reached(profile, points.front().step, -1, mean, *half, width, seen);
+    if (!raised || !lowered) return std::nullopt;
+    return crossing(mean + 0.5 * (high - low) * (1 / *raised - 1 / *lowered));
+  };
+  constexpr double seen_wider = 1.12;  // beside a neighbor that is more like the thin side than the first is
+  const auto at = middle_at(1), at_thinner = middle_at(seen_wider);
+  if (!at || !at_thinner) return std::nullopt;
   // What the disk adds to the value at the place, it adds in the middle, too.
   const double place = *nearest == 0 && slope > 0 ? (value - profile.at(0)) / slope : 0;
-  return Edge{.beyond_mm = place - at * profile.step_mm(),
+  return Edge{.beyond_mm = place - *at * profile.step_mm(),
               .rise = points.back().value - points.front().value,
-              .steepest = steepest_seen / profile.step_mm()};
+              .width_mm = width * profile.step_mm(),
+              .unsure_mm = std::max(0.4 * std::abs(*at - *half), std::abs(*at - *at_thinner)) * profile.step_mm()};
 }
 
 }  // namespace
@@ -319,12 +356,14 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   // Noise of the mean over a disk, over that of the value: interpolation and filter join the noise of neighbors.
   const double joined = blur - box_blur + filter_blur(geometry, filter, tangents[0]) / (voxel * voxel);
   const double disk_noise = 1 / std::sqrt(1 + 0.5 * disk_radius * disk_radius / joined);
-  const auto edge = edge_at(profile, result.slope, glm::length(here.gradient), here.value);
+  const double step = profile.step_mm() / voxel;
+  const double rise_noise = std::sqrt(2 * (1 - std::exp(-step * step / (4 * joined)))) * disk_noise * result.noise;
+  const auto edge = edge_at(profile, result.slope, glm::length(here.gradient), here.value, rise_noise);
   if (!edge || edge->rise < least_rise_in_noise * result.noise) return result;
   result.level_mm = edge->beyond_mm;
   // A scanner's blur is seen in the edge's own width, and is taken to be alike in all directions.
-  const double width = edge->rise / (edge->steepest * std::sqrt(2 * std::numbers::pi));
-  const double of_scanner = std::max(0.0, width * width - blur * voxel * voxel - filter_blur(geometry, filter, normal));
+  const double of_scanner =
+      std::max(0.0, edge->width_mm * edge->width_mm - blur * voxel * voxel - filter_blur(geometry, filter, normal));
   const Bend bend = bend_of(nearest, profile.at(0), disk_noise);
   double shift = 0, of_bend = 0;
   for (std::size_t n = 0; n < nearest_ways.size(); ++n) {
@@ -335,12 +374,15 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
     of_bend += part * bend.noise * result.noise_mm;
   }
   result.curvature_mm = std::isfinite(shift) ? shift : 0;
-  // The measured noise has the phase's part in it, unless the boundary runs along the voxels. The shift is measured,
-  // too: its noise is that of the second differences and of the middle.
-  const double of_level = disk_noise * std::numbers::sqrt2 / 2 * result.noise_mm;
-  const double sigma = std::max(result.noise_mm, result.sampling_mm);
-  result.two_sigma_mm = within_95(result.curvature_mm + result.level_mm,
-                                  std::sqrt(sigma * sigma + of_bend * of_bend + of_level * of_level));
+  // The shift is measured, too: its noise is that of the second differences and of the middle.
+  // Noise moves the two ends of the edge, too: each by the step at which it looks flat.
+  const double of_end = rise_noise * edge->width_mm / profile.step_mm() / result.slope;
+  const double of_level = std::hypot(disk_noise * result.noise_mm, of_end) / std::numbers::sqrt2;
+  const double phase = result.sampling_mm * result.sampling_mm, noise = result.noise_mm * result.noise_mm;
+  const double of_place = std::max(phase, noise + (1 - phase_seen) * phase);
+  result.two_sigma_mm =
+      within_95(result.curvature_mm + result.level_mm,
+                std::sqrt(of_place + of_bend * of_bend + of_level * of_level + edge->unsure_mm * edge->unsure_mm));
   return result;
 }
 

@@ -8,7 +8,9 @@
 /// tangent directions. And a boundary that is felt at another value than the middle of its two sides lies beside the
 /// true one: blur leaves the middle alone where it is. The values of the two sides are those at which the value stops
 /// rising and falling along the normal. Where the value hardly rises, a smooth gradient has reached a boundary some
-/// millimeters away, and the distance is that to the place where the value does rise.
+/// millimeters away, and the distance is that to the place where the value does rise. A tissue that is thinner than the
+/// blur does not reach its value: what it would have reached follows from its width, as far as that tells; the rest is
+/// uncertainty.
 ///
 /// The noise is measured at the boundary itself, from differences of the interpolated value at two opposite points of
 /// the tangent plane. Curvature cancels in them; the linear part that a slightly wrong normal leaves is subtracted. So
@@ -35,8 +37,8 @@ struct BoundaryUncertainty {
 
 /// At a place on the boundary, mm. The source must give value and gradient. `value` is the method of its values, and
 /// `filter` is what they were filtered with: its blur is added. Bilateral and non-local means filters count as free of
-/// blur. Outside the scan, and where the value does not rise, two_sigma_mm is infinite. Not for the tick: it takes some
-/// 600 samples.
+/// blur. Outside the scan, where the value does not rise, where a thin tissue turns back before it has reached its
+/// value, and where it would be more than 8 mm, two_sigma_mm is infinite. Not for the tick: it takes some 600 samples.
 BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& geometry, ValueMethod value,
                                    const Vec3& place_mm, const Filter& filter = {});
 
