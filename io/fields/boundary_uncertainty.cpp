@@ -203,17 +203,12 @@ struct Edge {
 /// Which part of a side's value a blur lets it reach: 1 unless the value turns back before long. `end`: where it stops
 /// rising, `way`: to which side, `half`: the edge; `width`: one standard deviation of the blur. All in steps. `seen`:
 /// how thick a plate looks, over how thick it is taken to look.
-std::optional<double> part_reached(const NormalProfile& profile, int end, int way, double middle, double half,
-                                   double width, double seen) {
+double part_reached(const NormalProfile& profile, int end, int way, double middle, double half, double width,
+                    double seen) {
   constexpr double thick = 6;      // standard deviations: more reaches all of its value
   constexpr double point = 2.355;  // a blurred plate without thickness is as wide, between half of its value
-  constexpr double soon = 4;       // standard deviations
-  constexpr double turned = 0.3;   // of the way from the side's value to the middle
-  const double reached = profile.at(end);
-  bool has_turned = false;
   for (int step = end; way * (step - half) < thick * width; step += way) {
     const double there = profile.at(step);
-    has_turned = has_turned || (way * (step - half) < soon * width && (reached - there) / (reached - middle) > turned);
     if (!(way * (there - middle) <= 0)) continue;
     // A thin plate's blur looks narrower, and the plate thicker than it is. The root is within 4 % of the thickness.
     const double before = profile.at(step - way);
@@ -226,7 +221,6 @@ std::optional<double> part_reached(const NormalProfile& profile, int end, int wa
     }
     return std::max(part, 0.4);
   }
-  if (has_turned) return std::nullopt;
   return 1;
 }
 
@@ -287,10 +281,9 @@ std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double g
   // Sides that are thinner than the blur do not reach their values: the middle lies beyond half of what they reach.
   const auto middle_at = [&](double seen) -> std::optional<double> {
     const double mean = 0.5 * (low + high);
-    const auto raised = part_reached(profile, points.back().step, 1, mean, *half, width, seen);
-    const auto lowered = part_reached(profile, points.front().step, -1, mean, *half, width, seen);
-    if (!raised || !lowered) return std::nullopt;
-    return crossing(mean + 0.5 * (high - low) * (1 / *raised - 1 / *lowered));
+    const double raised = part_reached(profile, points.back().step, 1, mean, *half, width, seen);
+    const double lowered = part_reached(profile, points.front().step, -1, mean, *half, width, seen);
+    return crossing(mean + 0.5 * (high - low) * (1 / raised - 1 / lowered));
   };
   constexpr double seen_wider = 1.12;  // beside a neighbor that is more like the thin side than the first is
   const auto at = middle_at(1), at_thinner = middle_at(seen_wider);

@@ -179,6 +179,39 @@ TEST(BoundaryUncertaintyLaws, NoiseIsItsStandardDeviationWhateverTheTilt) {
   EXPECT_NEAR(slopes, slope, 0.05 * slope);
 }
 
+/// A plate that is thinner than the blur does not reach its value, and what lies behind it may be anything.
+TEST(BoundaryUncertaintyLaws, AThinPlatesEdgeIsWithinWhatIsStated) {
+  int stated = 0, within = 0, thick_stated = 0, thick = 0;
+  double widest = 0;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const TiltedBoundary b = tilted_boundary(seed);
+    std::mt19937 random(seed + 1000);
+    std::uniform_real_distribution<double> even(0, 1);
+    const double first = 40, plate = 700, behind = first + even(random) * 0.4 * (plate - first);
+    const Geometry& g = b.geometry;
+    const double blur_mm = std::sqrt((box + spline) * glm::dot(b.normal, extent_form(g, g.slice_spacing()) * b.normal));
+    const double thickness = (1.7 + 5 * even(random)) * blur_mm, away = (even(random) - 0.5) * blur_mm;
+    const auto part = [&](double mm) { return 0.5 * (1 + std::erf(mm / (std::numbers::sqrt2 * blur_mm))); };
+    FormulaSource source;
+    source.gradient = b.normal;
+    source.value = [&](const Vec3& at) {
+      const double mm = glm::dot(b.normal, at - b.place) - away;  // from the plate's first face
+      return first + (plate - first) * part(mm) + (behind - plate) * part(mm - thickness);
+    };
+    const BoundaryUncertainty known = uncertainty_at(source, g, ValueMethod::cubic, b.place);
+    thick += thickness > 5 * blur_mm;
+    if (!std::isfinite(known.two_sigma_mm)) continue;
+    thick_stated += thickness > 5 * blur_mm;
+    ++stated;
+    within += std::abs(away) <= known.two_sigma_mm;
+    widest = std::max(widest, known.two_sigma_mm / blur_mm);
+  }
+  EXPECT_GT(within, 0.97 * stated) << "of " << stated;
+  EXPECT_GT(stated, 380);
+  EXPECT_EQ(thick_stated, thick);
+  EXPECT_LT(widest, 1.5);
+}
+
 /// A structure beside the boundary, in few of the pairs, is none of the noise.
 TEST(BoundaryUncertaintyLaws, WhatIsFarOutsideOfTheNoiseIsLeftOut) {
   constexpr int places = 200;
