@@ -37,8 +37,8 @@ struct BoundaryUncertainty {
 
 /// At a place on the boundary, mm. The source must give value and gradient. `value` is the method of its values, and
 /// `filter` is what they were filtered with: its blur is added. Bilateral and non-local means filters count as free of
-/// blur. Outside the scan, where the value does not rise, where a thin tissue turns back before it has reached its
-/// value, and where it would be more than 8 mm, two_sigma_mm is infinite. Not for the tick: it takes some 600 samples.
+/// blur. Outside the scan, where the value does not rise, where a thin tissue does not reach the
+/// middle, and where it would be more than 8 mm, two_sigma_mm is infinite. Not for the tick: it takes some 600 samples.
 BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& geometry, ValueMethod value,
                                    const Vec3& place_mm, const Filter& filter = {});
 
