@@ -16,6 +16,7 @@
 #include "io/bounding_box.h"
 #include "io/errors.h"
 #include "io/fields/volume_fields.h"
+#include "io/parallel.h"
 #include "io/structures/structured_fields.h"
 #include "modes/scene/scene_json.h"
 #include "modes/scene/starting_scene.h"
@@ -160,9 +161,8 @@ FeltScene felt_labels(const io::Mask& body, const std::vector<io::Mask>& tissues
                       const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress) {
   FeltScene felt;
   felt.scene.name = "labels";
-  std::vector<std::shared_ptr<const io::DistanceField>> distances;
+  std::vector<const io::Mask*> masks;
   const auto add = [&](const std::string& name, double strength_n, const io::Mask& mask) {
-    go_on(progress);
     modes::Mode mode;
     mode.type = "surface";
     mode.name = mode.structure = name;
@@ -171,12 +171,16 @@ FeltScene felt_labels(const io::Mask& body, const std::vector<io::Mask>& tissues
     mode.strength_n = modes::TransferFunction({{-1, strength_n}, {1, strength_n}});
     felt.scene.modes.push_back(mode);
     felt.scene.structures.push_back({.name = name, .file = name, .segment = name});
-    distances.push_back(io::distance_of(mask, {.scan = &volume->geometry}));
+    masks.push_back(&mask);
   };
   add("skin", modes::defaults::skin_strength_n, body);
   for (std::size_t n = 0; n < tissues.size(); ++n) {
     if (has_voxels(tissues[n])) add(labelled_tissues()[n].name, labelled_tissues()[n].strength_n, tissues[n]);
   }
+  std::vector<std::shared_ptr<const io::DistanceField>> distances(masks.size());
+  io::internal::parallel_for(
+      masks.size(), [&](std::size_t n) { distances[n] = io::distance_of(*masks[n], {.scan = &volume->geometry}); },
+      progress, 0);
   const io::Box box = io::bounding_box(volume->geometry);
   const auto available = io::fields_of(*volume) | io::FieldSet::distance;
   felt.on.plan = std::make_shared<const modes::Plan>(modes::make_plan(
