@@ -104,12 +104,12 @@ QWidget* PanelParts::build_tissues() {
   column->addWidget(studying);
   auto* const drawn = new QCheckBox(tr("Boundaries on the slices"), box);
   drawn->setObjectName(QStringLiteral("palpateContours"));
-  drawn->setToolTip(tr("A line where each boundary is met, in its color. It follows what you tune."));
+  drawn->setToolTip(tr("Draws a line where each boundary is felt, in its color. The lines follow each edit."));
   drawn->setChecked(true);
   QObject::connect(drawn, &QCheckBox::toggled, &dock, [this](bool on) { contours.set_visible(on); });
   auto* const crossed = new QCheckBox(tr("Crosshair"), box);
   crossed->setObjectName(QStringLiteral("palpateCrosshair"));
-  crossed->setToolTip(tr("Where the other two slices lie. With Shift held down they follow the pointer."));
+  crossed->setToolTip(tr("Shows where the other two slices lie. Hold Shift, and they follow the pointer."));
   QObject::connect(crossed, &QCheckBox::toggled, &dock, [this](bool on) { crosshair.set_visible(on); });
   auto* const shown_lines = new QHBoxLayout;
   shown_lines->addWidget(drawn, 1);

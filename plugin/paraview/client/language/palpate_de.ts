@@ -111,8 +111,8 @@
 <context>
     <name>BoundaryRow</name>
     <message>
-        <source>Whether it is felt</source>
-        <translation>Ob sie gefühlt wird</translation>
+        <source>Turns the boundary on or off</source>
+        <translation>Schaltet die Grenze ein oder aus</translation>
     </message>
     <message>
         <source>Switch on %1</source>
@@ -159,8 +159,8 @@
         <translation> N</translation>
     </message>
     <message>
-        <source>How hard it resists before it yields</source>
-        <translation>Wie stark sie widersteht, bevor sie nachgibt</translation>
+        <source>The force that it resists with before the stylus goes through</source>
+        <translation>Die Kraft, mit der sie widersteht, bevor der Stift hindurchgeht</translation>
     </message>
     <message>
         <source>Strength of %1</source>
@@ -352,16 +352,16 @@
         <translation>Kante der Aufnahme nehmen</translation>
     </message>
     <message>
-        <source>At this place the outline moves to the edge that the scan has there</source>
-        <translation>An dieser Stelle geht der Umriss zur Kante, die die Aufnahme dort hat</translation>
+        <source>Moves the outline to the scan&apos;s own edge at this place</source>
+        <translation>Verschiebt den Umriss an dieser Stelle zur Kante der Aufnahme</translation>
     </message>
     <message>
         <source>Leave it</source>
         <translation>So lassen</translation>
     </message>
     <message>
-        <source>The outline is right there</source>
-        <translation>Dort stimmt der Umriss</translation>
+        <source>The outline is correct at this place</source>
+        <translation>Der Umriss stimmt an dieser Stelle</translation>
     </message>
     <message>
         <source>Trace</source>
@@ -376,16 +376,16 @@
         <translation>Hinzufügen</translation>
     </message>
     <message>
-        <source>What a ball passes over belongs to the structure</source>
-        <translation>Was eine Kugel überstreicht, gehört zur Struktur</translation>
+        <source>Adds to the structure what the ball passes over</source>
+        <translation>Fügt zur Struktur hinzu, was die Kugel überstreicht</translation>
     </message>
     <message>
         <source>Remove</source>
         <translation>Wegnehmen</translation>
     </message>
     <message>
-        <source>What a ball passes over does not belong to it</source>
-        <translation>Was eine Kugel überstreicht, gehört nicht dazu</translation>
+        <source>Removes from the structure what the ball passes over</source>
+        <translation>Nimmt von der Struktur weg, was die Kugel überstreicht</translation>
     </message>
     <message>
         <source> mm</source>
@@ -416,8 +416,8 @@
         <translation>Wiederholen</translation>
     </message>
     <message>
-        <source>Does it again</source>
-        <translation>Macht sie noch einmal</translation>
+        <source>Applies the undone correction again</source>
+        <translation>Wendet die zurückgenommene Korrektur wieder an</translation>
     </message>
     <message>
         <source>Before</source>
@@ -608,12 +608,12 @@
         <translation>Form: %1</translation>
     </message>
     <message>
-        <source>Soft edge: comes in gradually</source>
-        <translation>Weicher Rand: kommt allmählich</translation>
+        <source>Soft edge: the force rises gradually</source>
+        <translation>Weicher Rand: die Kraft steigt allmählich</translation>
     </message>
     <message>
-        <source>Firm edge: there at once</source>
-        <translation>Fester Rand: sofort da</translation>
+        <source>Firm edge: the full force at once</source>
+        <translation>Fester Rand: sofort die volle Kraft</translation>
     </message>
     <message>
         <source>Steep edges only</source>
@@ -1255,16 +1255,16 @@
         <translation>Grenzen auf den Schichten</translation>
     </message>
     <message>
-        <source>A line where each boundary is met, in its color. It follows what you tune.</source>
-        <translation>Eine Linie, wo jede Grenze getroffen wird, in ihrer Farbe. Sie folgt dem Einstellen.</translation>
+        <source>Draws a line where each boundary is felt, in its color. The lines follow each edit.</source>
+        <translation>Zeichnet eine Linie, wo jede Grenze gefühlt wird, in ihrer Farbe. Die Linien folgen jeder Änderung.</translation>
     </message>
     <message>
         <source>Crosshair</source>
         <translation>Fadenkreuz</translation>
     </message>
     <message>
-        <source>Where the other two slices lie. With Shift held down they follow the pointer.</source>
-        <translation>Wo die beiden anderen Schichten liegen. Mit gedrückter Umschalttaste folgen sie dem Zeiger.</translation>
+        <source>Shows where the other two slices lie. Hold Shift, and they follow the pointer.</source>
+        <translation>Zeigt, wo die beiden anderen Schichten liegen. Mit gedrückter Umschalttaste folgen sie dem Zeiger.</translation>
     </message>
     <message>
         <source>Save a picture of the views</source>
@@ -1405,8 +1405,8 @@
         <translation>Abspielen oder anhalten</translation>
     </message>
     <message>
-        <source>Times as fast as it was</source>
-        <translation>Wievielmal so schnell</translation>
+        <source>Playback speed</source>
+        <translation>Abspielgeschwindigkeit</translation>
     </message>
     <message>
         <source>Disconnect the stylus to play: the views show what is felt.</source>
@@ -1421,8 +1421,8 @@
         <translation>Die Aufzeichnungen schließen</translation>
     </message>
     <message>
-        <source>%1 s are left out: they felt another scan.</source>
-        <translation>%1 s sind ausgelassen: Sie fühlten eine andere Aufnahme.</translation>
+        <source>%1 s are left out: they were recorded on another scan.</source>
+        <translation>%1 s sind ausgelassen: Sie wurden an einer anderen Aufnahme aufgezeichnet.</translation>
     </message>
     <message>
         <source>%1 of %2 s</source>
@@ -1643,8 +1643,8 @@
         <translation>Eine Kopie auf diesem Rechner…</translation>
     </message>
     <message>
-        <source>A folder of this machine that holds the same scan: it is then not fetched from the server.</source>
-        <translation>Ein Ordner dieses Rechners mit derselben Aufnahme: sie wird dann nicht vom Server geholt.</translation>
+        <source>A folder of this machine with the same scan. The scan is then read from here, not from the server.</source>
+        <translation>Ein Ordner dieses Rechners mit derselben Aufnahme. Sie wird dann von hier gelesen, nicht vom Server.</translation>
     </message>
     <message>
         <source>Folder of this machine with the scan that the server shows</source>
@@ -1924,8 +1924,8 @@ ID %2, Studie vom %3</translation>
         <translation>Grenze</translation>
     </message>
     <message>
-        <source>Its edge is felt, as the wall of an organ</source>
-        <translation>Ihr Rand wird gefühlt, wie die Wand eines Organs</translation>
+        <source>Its edge resists the stylus like the wall of an organ</source>
+        <translation>Ihr Rand hält den Stift auf wie die Wand eines Organs</translation>
     </message>
     <message>
         <source>Boundary of %1</source>
@@ -1936,8 +1936,8 @@ ID %2, Studie vom %3</translation>
         <translation>Fernhalten</translation>
     </message>
     <message>
-        <source>Over a margin before its edge the stylus is pushed back</source>
-        <translation>In einem Abstand vor ihrem Rand wird der Stift zurückgedrückt</translation>
+        <source>The stylus is pushed back as soon as it is in a margin around the structure</source>
+        <translation>Der Stift wird zurückgedrückt, sobald er in einem Abstand um die Struktur ist</translation>
     </message>
     <message>
         <source>Keep out of %1</source>
@@ -1988,8 +1988,8 @@ ID %2, Studie vom %3</translation>
         <translation>Korrigieren</translation>
     </message>
     <message>
-        <source>Looks for doubtful places of its outline, and lets it be drawn anew: see the guide</source>
-        <translation>Sucht zweifelhafte Stellen ihres Umrisses und lässt ihn neu zeichnen: siehe die Anleitung</translation>
+        <source>Lists the doubtful places of its outline and lets you correct it: see the guide</source>
+        <translation>Listet die zweifelhaften Stellen ihres Umrisses und lässt ihn korrigieren: siehe die Anleitung</translation>
     </message>
     <message>
         <source>%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
@@ -2047,8 +2047,8 @@ ID %2, Studie vom %3</translation>
         <translation>1:1</translation>
     </message>
     <message>
-        <source>A millimeter of the patient for each of the hand.</source>
-        <translation>Ein Millimeter im Patienten für jeden der Hand.</translation>
+        <source>1 mm of the hand is 1 mm in the patient.</source>
+        <translation>1 mm der Hand ist 1 mm im Patienten.</translation>
     </message>
     <message>
         <source>Clutch</source>
@@ -2079,8 +2079,8 @@ ID %2, Studie vom %3</translation>
         <translation>Zum Stift</translation>
     </message>
     <message>
-        <source>Shows the slices through the stylus. They follow it again after you have leafed through them.</source>
-        <translation>Zeigt die Schichten durch den Stift. Nach dem Blättern folgen sie ihm wieder.</translation>
+        <source>Shows the slices through the stylus. From then on they follow it again.</source>
+        <translation>Zeigt die Schichten durch den Stift. Von da an folgen sie ihm wieder.</translation>
     </message>
     <message>
         <source>Simulated (mouse and keyboard)</source>
@@ -2271,8 +2271,8 @@ ID %2, Studie vom %3</translation>
         <translation>Name</translation>
     </message>
     <message>
-        <source>What to call it here</source>
-        <translation>Wie es hier heißen soll</translation>
+        <source>The name of the archive in this program</source>
+        <translation>Der Name des Archivs in diesem Programm</translation>
     </message>
     <message>
         <source>Host</source>
@@ -2311,8 +2311,8 @@ ID %2, Studie vom %3</translation>
         <translation>Mit C-GET holen, wenn das Archiv es kann</translation>
     </message>
     <message>
-        <source>Then no connection to this machine is needed; otherwise the archive sends to our port (C-MOVE)</source>
-        <translation>Dann ist keine Verbindung zu diesem Rechner nötig; sonst sendet das Archiv an unseren Port (C-MOVE)</translation>
+        <source>With C-GET the archive answers on our connection. Without it, the archive connects to our port (C-MOVE).</source>
+        <translation>Mit C-GET antwortet das Archiv auf unserer Verbindung. Ohne es verbindet sich das Archiv mit unserem Port (C-MOVE).</translation>
     </message>
     <message>
         <source>Our port</source>
@@ -2343,16 +2343,16 @@ ID %2, Studie vom %3</translation>
         <translation>TLS: Aussteller</translation>
     </message>
     <message>
-        <source>Speak TLS: the certificate (PEM) of who signed the archive&apos;s. Empty: no TLS.</source>
-        <translation>TLS verwenden: das Zertifikat (PEM) der Stelle, die das des Archivs ausgestellt hat. Leer: kein TLS.</translation>
+        <source>The certificate (PEM) of the authority that signed the archive&apos;s certificate. Empty: no TLS.</source>
+        <translation>Das Zertifikat (PEM) der Stelle, die das Zertifikat des Archivs ausgestellt hat. Leer: kein TLS.</translation>
     </message>
     <message>
         <source>TLS: certificate</source>
         <translation>TLS: Zertifikat</translation>
     </message>
     <message>
-        <source>Our own certificate (PEM), where the archive asks for it; C-MOVE needs one</source>
-        <translation>Unser eigenes Zertifikat (PEM), wenn das Archiv es verlangt; C-MOVE braucht eines</translation>
+        <source>Our own certificate (PEM). It is needed if the archive asks for one, and for C-MOVE.</source>
+        <translation>Unser eigenes Zertifikat (PEM). Es ist nötig, wenn das Archiv es verlangt, und für C-MOVE.</translation>
     </message>
     <message>
         <source>TLS: key</source>
@@ -2363,8 +2363,8 @@ ID %2, Studie vom %3</translation>
         <translation>Sein privater Schlüssel (PEM), ohne Kennwort</translation>
     </message>
     <message>
-        <source>The machine that the archive&apos;s certificate is for, where it is not its host</source>
-        <translation>Der Rechner, für den das Zertifikat des Archivs gilt, wenn es ein anderer ist</translation>
+        <source>The machine that the archive&apos;s certificate names, if it is not the host above</source>
+        <translation>Der Rechner, den das Zertifikat des Archivs nennt, wenn es nicht der obige ist</translation>
     </message>
     <message>
         <source>TLS: name</source>

@@ -81,7 +81,7 @@ void BoundaryRow::add_switch(QWidget& parent, QGridLayout& grid, int row) {
   const QString number = QString::number(row);
   on_ = new QCheckBox(&parent);
   on_->setObjectName(QStringLiteral("palpateOn") + number);
-  on_->setToolTip(tr("Whether it is felt"));
+  on_->setToolTip(tr("Turns the boundary on or off"));
   connect(on_, &QCheckBox::clicked, this, [this](bool checked) {
     const QString name = name_of(model_.scene(), mode_);
     set_felt(checked ? tr("Switch on %1").arg(name) : tr("Switch off %1").arg(name), checked);
@@ -136,7 +136,7 @@ void BoundaryRow::add_strength(QWidget& parent, QGridLayout& grid, int row) {
   strength_->setSingleStep(0.1);
   strength_->setSuffix(tr(" N"));
   strength_->setKeyboardTracking(false);
-  strength_->setToolTip(tr("How hard it resists before it yields"));
+  strength_->setToolTip(tr("The force that it resists with before the stylus goes through"));
   connect(strength_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this](double newtons) {
     edit(tr("Strength of %1").arg(name_of(model_.scene(), mode_)),
          [&](modes::Mode& mode) { scale_strength(mode, newtons); });

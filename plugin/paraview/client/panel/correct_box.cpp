@@ -74,13 +74,13 @@ QWidget* CorrectBox::build_tools() {
   rows->setSpacing(3);
   auto* const places = new QHBoxLayout;
   take_ = add_tool_button(*places, *this, "palpateTakeScanEdge", tr("Take the scan's edge"),
-                          tr("At this place the outline moves to the edge that the scan has there"), [this] {
+                          tr("Moves the outline to the scan's own edge at this place"), [this] {
                             if (model_.at()) model_.take_scan_edge(model_.places()->places[*model_.at()].position_mm);
                           });
-  leave_ =
-      add_tool_button(*places, *this, "palpateLeavePlace", tr("Leave it"), tr("The outline is right there"), [this] {
-        if (model_.at()) model_.leave(*model_.at());
-      });
+  leave_ = add_tool_button(*places, *this, "palpateLeavePlace", tr("Leave it"),
+                           tr("The outline is correct at this place"), [this] {
+                             if (model_.at()) model_.leave(*model_.at());
+                           });
   places->addStretch(1);
   rows->addLayout(places);
   auto* const row = new QHBoxLayout;
@@ -92,8 +92,8 @@ QWidget* CorrectBox::build_tools() {
   };
   add_tool(Tool::trace, "palpateToolTrace", tr("Trace"),
            tr("Drag on a slice along the right edge: the outline goes there. Or press M while the stylus feels it."));
-  add_tool(Tool::add, "palpateToolAdd", tr("Add"), tr("What a ball passes over belongs to the structure"));
-  add_tool(Tool::remove, "palpateToolRemove", tr("Remove"), tr("What a ball passes over does not belong to it"));
+  add_tool(Tool::add, "palpateToolAdd", tr("Add"), tr("Adds to the structure what the ball passes over"));
+  add_tool(Tool::remove, "palpateToolRemove", tr("Remove"), tr("Removes from the structure what the ball passes over"));
   const auto add_number = [&](const char* name, double low, double high, double step, const QString& unit,
                               const QString& tip) {
     auto* const number = new QDoubleSpinBox(box);
@@ -124,8 +124,8 @@ QWidget* CorrectBox::build_ways_out() {
   row->setContentsMargins(0, 0, 0, 0);
   undo_ = add_tool_button(*row, *this, "palpateCorrectUndo", tr("Undo"), tr("Takes back the last correction"),
                           [this] { model_.undo(); });
-  redo_ =
-      add_tool_button(*row, *this, "palpateCorrectRedo", tr("Redo"), tr("Does it again"), [this] { model_.redo(); });
+  redo_ = add_tool_button(*row, *this, "palpateCorrectRedo", tr("Redo"), tr("Applies the undone correction again"),
+                          [this] { model_.redo(); });
   before_ = add_tool_button(*row, *this, "palpateCorrectBefore", tr("Before"),
                             tr("Shows the outline of the file while it is pressed; or B in a view"), [] {});
   connect(before_, &QToolButton::pressed, this, [this] { model_.show_before(true); });

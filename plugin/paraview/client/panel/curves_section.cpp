@@ -27,8 +27,10 @@ struct Preset {
 };
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all{
-      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Soft edge: comes in gradually"), {{0.05, 0}, {0.5, 1}}},
-      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Firm edge: there at once"), {{0.08, 0}, {0.12, 1}}},
+      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Soft edge: the force rises gradually"),
+       {{0.05, 0}, {0.5, 1}}},
+      {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Firm edge: the full force at once"),
+       {{0.08, 0}, {0.12, 1}}},
       {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Steep edges only"), {{0.35, 0}, {0.5, 1}}},
       {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Everywhere the same"), {{0, 1}}}};
   return all;

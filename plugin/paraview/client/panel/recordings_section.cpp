@@ -138,7 +138,7 @@ QWidget* RecordingsSection::build_player() {
   row->addWidget(slider_, 1);
   speed_ = new QComboBox(box);
   speed_->setObjectName(QStringLiteral("palpateReplaySpeed"));
-  speed_->setToolTip(tr("Times as fast as it was"));
+  speed_->setToolTip(tr("Playback speed"));
   for (const double speed : speeds) speed_->addItem(QStringLiteral("%1×").arg(speed), speed);
   speed_->setCurrentIndex(static_cast<int>(std::find(speeds.begin(), speeds.end(), 1.0) - speeds.begin()));
   connect(speed_, QOverload<int>::of(&QComboBox::activated), this,
@@ -234,7 +234,7 @@ void RecordingsSection::set_first(Opened opened) {
     slider_->setRange(0, static_cast<int>(std::lround(1e3 * first_.session->duration_s())));
   }
   tell(there && first_.session->elsewhere() > 0
-           ? tr("%1 s are left out: they felt another scan.")
+           ? tr("%1 s are left out: they were recorded on another scan.")
                  .arg(1e-3 * static_cast<double>(first_.session->elsewhere()), 0, 'f', 1)
            : QString());
   show_force();

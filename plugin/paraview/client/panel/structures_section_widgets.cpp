@@ -78,20 +78,20 @@ QWidget* StructuresSection::build_uses() {
   row->setContentsMargins(0, 0, 0, 0);
   const auto name_of_chosen = [this] { return widget_text(chosen()->structure.name); };
   uses_.push_back(add_tool_button(*row, *this, "palpateStructureBoundary", tr("Boundary"),
-                                  tr("Its edge is felt, as the wall of an organ"), [this, name_of_chosen] {
+                                  tr("Its edge resists the stylus like the wall of an organ"), [this, name_of_chosen] {
                                     use(tr("Boundary of %1").arg(name_of_chosen()),
                                         [structure = chosen()->structure](modes::Scene& scene) {
                                           add_boundary_of(scene, structure);
                                         });
                                   }));
-  uses_.push_back(
-      add_tool_button(*row, *this, "palpateStructureKeepOut", tr("Keep out"),
-                      tr("Over a margin before its edge the stylus is pushed back"), [this, name_of_chosen] {
-                        use(tr("Keep out of %1").arg(name_of_chosen()),
-                            [structure = chosen()->structure, margin = margin_->value()](modes::Scene& scene) {
-                              add_keep_out_of(scene, structure, margin);
-                            });
-                      }));
+  uses_.push_back(add_tool_button(
+      *row, *this, "palpateStructureKeepOut", tr("Keep out"),
+      tr("The stylus is pushed back as soon as it is in a margin around the structure"), [this, name_of_chosen] {
+        use(tr("Keep out of %1").arg(name_of_chosen()),
+            [structure = chosen()->structure, margin = margin_->value()](modes::Scene& scene) {
+              add_keep_out_of(scene, structure, margin);
+            });
+      }));
   margin_ = new QDoubleSpinBox(box);
   margin_->setObjectName(QStringLiteral("palpateStructureMargin"));
   margin_->setRange(0.5, 15);
@@ -109,7 +109,7 @@ QWidget* StructuresSection::build_uses() {
   gate->setMenu(menu);
   uses_.push_back(gate);
   correct_ = add_tool_button(*row, *this, "palpateCorrect", tr("Correct"),
-                             tr("Looks for doubtful places of its outline, and lets it be drawn anew: see the guide"),
+                             tr("Lists the doubtful places of its outline and lets you correct it: see the guide"),
                              [this] { correct(correct_->isChecked()); });
   correct_->setCheckable(true);
   uses_.push_back(correct_);

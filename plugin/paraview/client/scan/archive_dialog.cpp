@@ -50,7 +50,7 @@ ArchiveDialog::ArchiveDialog(Background<double>& echoing, QWidget* parent) : QDi
     return field;
   };
   const io::Archive defaults;
-  name_ = line("palpateArchiveName", tr("Name"), tr("What to call it here"));
+  name_ = line("palpateArchiveName", tr("Name"), tr("The name of the archive in this program"));
   host_ = line("palpateArchiveHost", tr("Host"), tr("Its machine's name or address"));
   port_ = port("palpateArchivePort", tr("Port"), defaults.port, tr("Its DICOM port"));
   called_ = line("palpateArchiveCalled", tr("Its AE title"), tr("The archive's AE title (ask its administrator)"));
@@ -59,7 +59,7 @@ ArchiveDialog::ArchiveDialog(Background<double>& echoing, QWidget* parent) : QDi
   uses_get_ = new QCheckBox(tr("Fetch with C-GET, where the archive has it"), this);
   uses_get_->setObjectName(QStringLiteral("palpateArchiveGet"));
   uses_get_->setToolTip(
-      tr("Then no connection to this machine is needed; otherwise the archive sends to our port (C-MOVE)"));
+      tr("With C-GET the archive answers on our connection. Without it, the archive connects to our port (C-MOVE)."));
   form->addRow(QString(), uses_get_);
   listen_ = port("palpateArchiveListen", tr("Our port"), defaults.listen_port,
                  tr("For C-MOVE: it has to be entered in the archive, with our AE title and this machine's address"));
@@ -101,14 +101,15 @@ void ArchiveDialog::build_tls(QFormLayout& form) {
     form.addRow(label, row);
     return field;
   };
-  authorities_ = file("palpateArchiveTlsCa", tr("TLS: authority"),
-                      tr("Speak TLS: the certificate (PEM) of who signed the archive's. Empty: no TLS."));
+  authorities_ =
+      file("palpateArchiveTlsCa", tr("TLS: authority"),
+           tr("The certificate (PEM) of the authority that signed the archive's certificate. Empty: no TLS."));
   certificate_ = file("palpateArchiveTlsCertificate", tr("TLS: certificate"),
-                      tr("Our own certificate (PEM), where the archive asks for it; C-MOVE needs one"));
+                      tr("Our own certificate (PEM). It is needed if the archive asks for one, and for C-MOVE."));
   key_ = file("palpateArchiveTlsKey", tr("TLS: key"), tr("Its private key (PEM), without a pass phrase"));
   tls_name_ = new QLineEdit(this);
   tls_name_->setObjectName(QStringLiteral("palpateArchiveTlsName"));
-  tls_name_->setToolTip(tr("The machine that the archive's certificate is for, where it is not its host"));
+  tls_name_->setToolTip(tr("The machine that the archive's certificate names, if it is not the host above"));
   form.addRow(tr("TLS: name"), tls_name_);
   // What was entered for an archive of that name is shown, and can be changed.
   connect(name_, &QLineEdit::editingFinished, this, [this] { show_tls(); });

@@ -142,7 +142,8 @@ void ScanSection::build_progress(QVBoxLayout& column) {
   column.addLayout(work);
   copy_ = new QPushButton(tr("A copy on this machine…"), this);
   copy_->setObjectName(QStringLiteral("palpateCopy"));
-  copy_->setToolTip(tr("A folder of this machine that holds the same scan: it is then not fetched from the server."));
+  copy_->setToolTip(
+      tr("A folder of this machine with the same scan. The scan is then read from here, not from the server."));
   connect(copy_, &QPushButton::clicked, this, [this] { ask_copy(); });
   column.addWidget(copy_);
 }

@@ -138,7 +138,7 @@ void StylusSection::build_workspace() {
         held ? touching_.live().specification() : device::SimulatedStylus().specification();
     return fit_view(eye_(), stylus.workspace_half_extent);
   });
-  add(2, "palpateOneToOne", tr("1:1"), tr("A millimeter of the patient for each of the hand."),
+  add(2, "palpateOneToOne", tr("1:1"), tr("1 mm of the hand is 1 mm in the patient."),
       [this] { return one_to_one(touching_.live().plan() ? touching_.live().plan()->workspace : modes::Workspace{}); });
   row->addStretch(1);
   clutch_ = new QPushButton(tr("Clutch"), this);
@@ -166,7 +166,7 @@ void StylusSection::build_workspace() {
   go_ = new QToolButton(this);
   go_->setObjectName(QStringLiteral("palpateGoToStylus"));
   go_->setText(tr("Go to stylus"));
-  go_->setToolTip(tr("Shows the slices through the stylus. They follow it again after you have leafed through them."));
+  go_->setToolTip(tr("Shows the slices through the stylus. From then on they follow it again."));
   connect(go_, &QToolButton::clicked, this, [this] { go_to_stylus(); });
   auto* const ticks = new QHBoxLayout;
   ticks->addWidget(follow_);
