@@ -336,8 +336,7 @@ void the_volume_lies_in_the_patient() {
 
 /// Without a graphics card a picture in full takes long: it is cast in turns, and is in the end what it is at once.
 void a_picture_at_rest_comes_in_turns() {
-  pqCoreUtilities::mainWidget()->setGeometry(0, 0, 800,
-                                             500);  // it is drawn in full nine times, without a graphics card
+  pqCoreUtilities::mainWidget()->setGeometry(0, 0, 800, 500);  // small: it is drawn in full nine times
   feel();
   vtkSMRenderViewProxy& volume = *render_view("Volume").getRenderViewProxy();
   for (const double turned : {0.0, 20.0, 40.0}) {
