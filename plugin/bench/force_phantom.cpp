@@ -176,7 +176,7 @@ ForceGroup scans(std::uint64_t seed) {
 /// A boundary that is felt at a value which is not the middle of its two tissues.
 ForceGroup starting_scene(std::uint64_t seed) {
   const modes::Scene scene = modes::load_scene("ct-abdomen");
-  ForceGroup group = group_of("starting scene ct-abdomen", "the phantom itself", scene);
+  ForceGroup group = group_of("starting scene, ct-abdomen", "the phantom itself", scene);
   for (const Scanned& how : {Scanned{"1 mm, noise 20 HU", 20},
                              {"slices of 3 mm, noise 10 HU", 10, 0, 3},
                              {"slices of 5 mm, noise 10 HU", 10, 0, 5}}) {

@@ -138,8 +138,9 @@ Chart error_against_time(std::span<const ForceRowResult> results) {
               .y = {.label = "RMS of the force error (N)", .logarithmic = true}};
   for (const ForceRowResult& row : results) {
     if (row.errors.samples() == 0) continue;
-    if (chart.curves.empty() || chart.curves.back().label != row.group) {
-      chart.curves.push_back({.label = row.group,
+    const std::string group = row.group.substr(0, row.group.find(','));  // all of them fit in a line
+    if (chart.curves.empty() || chart.curves.back().label != group) {
+      chart.curves.push_back({.label = group,
                               .color = palette[chart.curves.size() % std::size(palette)],
                               .style = Curve::Style::points,
                               .width = 4});
