@@ -1,33 +1,56 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <optional>
 
 #include "io/messages.h"
 #include "io/parallel.h"
+#include "io/structures/edge_ways.h"
 #include "io/structures/edit_changes.h"
-#include "io/structures/outline_places.h"
+#include "io/structures/same_parts.h"
 
 namespace palpate::io::internal {
 namespace {
 
-constexpr double least_reach_mm = 2, most_reach_mm = 8;
-constexpr double alike_mm = 1;  // of neighboring ways: an edge that is farther off belongs to something else
+constexpr int most_rounds = 12;
+constexpr double most_checked_nodes = 1e8;
 
-struct Seen {
-  OutlinePlace at;
-  std::optional<ScanEdge> edge;
-};
+FieldChange moved_by(const EdgeWays& ways, const ScanEdgeEdit& edit, const DistanceParts& before) {
+  FieldChange change;
+  change.where = {{edit.center_mm, edit.center_mm}};
+  change.touched_mm = change.within_mm = edit.radius_mm;
+  change.after = [&ways, &before](const Vec3& at, double mm, std::span<const std::uint32_t>) {
+    return mm - ways.way_at(at, before.sample_nearest(at));
+  };
+  return change;
+}
 
-/// What most places around one say of the way to the edge, mm.
-double way_around(const std::vector<Seen>& seen, const Vec3& place, double within_mm) {
-  std::vector<double> ways;
-  for (const Seen& one : seen) {
-    if (one.edge && glm::distance(one.at.place_mm, place) <= within_mm) ways.push_back(one.edge->mm);
-  }
-  const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
-  std::nth_element(ways.begin(), middle, ways.end());
-  return *middle;
+/// Nodes of parts that a change would make, take away, join or divide.
+std::vector<Vec3> nodes_in_doubt(const DistanceParts& before, const FieldChange& change, int threads) {
+  const NodeLattice& lattice = before.near.lattice;
+  const Vec3 center = lattice.node_of(change.where.front().from), reach = change.within_mm / lattice.spacing + 2.0;
+  const glm::ivec3 low(glm::floor(center - reach)), size = glm::ivec3(glm::ceil(center + reach)) - low + 1;
+  if (!(static_cast<double>(size.x) * size.y * size.z < most_checked_nodes))
+    throw InvalidInput(say("edit-is-too-large"));
+  const auto row = static_cast<std::size_t>(size.x), plane = row * static_cast<std::size_t>(size.y);
+  std::vector<char> was(plane * static_cast<std::size_t>(size.z)), is(was.size());
+  const auto place = [&](std::size_t n) {
+    return lattice.position(Vec3(low + glm::ivec3(n % row, n / row % static_cast<std::size_t>(size.y), n / plane)));
+  };
+  parallel_for(
+      static_cast<std::size_t>(size.z),
+      [&](std::size_t k) {
+        for (std::size_t n = k * plane; n < (k + 1) * plane; ++n) {
+          const Vec3 at = place(n);
+          const double mm = before.sample_nearest(at).mm;
+          was[n] = mm > 0 ? 1 : 0;
+          is[n] = change.after(at, mm, {}) > 0 ? 1 : 0;
+        }
+      },
+      {}, threads);
+  std::vector<Vec3> places;
+  for (const std::size_t n : nodes_of_other_parts(size, was, is)) places.push_back(place(n));
+  return places;
 }
 
 }  // namespace
@@ -35,33 +58,25 @@ double way_around(const std::vector<Seen>& seen, const Vec3& place, double withi
 Field moved_to_scan_edge(const Field& before, const ScanEdgeEdit& edit, const EditOptions& options,
                          EditOutcome& outcome) {
   if (options.scan == nullptr) throw InvalidInput(say("edit-needs-the-scan"));
-  // The edge is as before at the radius: the outermost points lie a reach inside it.
-  const double reach = std::min(std::clamp(edit.radius_mm / 3, least_reach_mm, most_reach_mm), edit.radius_mm / 2);
-  std::vector<Seen> seen;
-  for (const OutlinePlace& place : outline_places(*before, reach / 4)) {
-    if (glm::distance(place.place_mm, edit.center_mm) < edit.radius_mm - reach) seen.push_back({place, {}});
-  }
-  if (seen.empty()) throw InvalidInput(say("scan-edge-has-no-outline"));
-  parallel_for(
-      seen.size(),
-      [&](std::size_t n) {
-        seen[n].edge = scan_edge(*options.scan, *before, seen[n].at.place_mm, seen[n].at.inward, edit.most_mm);
-      },
-      {}, options.threads);
-  TraceEdit trace{.points_mm = {}, .known_to_mm = {}, .reach_mm = reach};
-  for (const Seen& one : seen) {
-    double way = 0, known_to = 0;
-    if (!one.edge) {
-      ++outcome.without_edge;
-    } else if (std::abs(one.edge->mm) > one.edge->known_to_mm &&
-               std::abs(one.edge->mm - way_around(seen, one.at.place_mm, 2 * reach)) < alike_mm) {
-      way = one.edge->mm;
-      known_to = one.edge->known_to_mm;
+  EdgeWays ways(*before, edit, *options.scan, options.threads);
+  const FieldChange change = moved_by(ways, edit, before->parts());
+  Field after = before;
+  for (int round = 0; round < most_rounds && ways.largest_mm() > 0; ++round) {
+    const std::vector<Vec3> in_doubt = nodes_in_doubt(before->parts(), change, options.threads);
+    if (in_doubt.empty()) {
+      after = changed(before, change, options.threads);
+      outcome.largest_mm = ways.largest_mm();
+      break;
     }
-    trace.points_mm.push_back(one.at.place_mm + way * one.at.inward);
-    trace.known_to_mm.push_back(known_to);
+    ways.hold_back(in_doubt, *before);
   }
-  return traced(before, trace, options.threads, outcome);
+  for (const EdgeWay& one : ways.places()) {
+    if (glm::distance(one.at.place_mm, edit.center_mm) >= edit.radius_mm) continue;
+    ++outcome.points;
+    outcome.without_edge += one.has_edge ? 0 : 1;
+    outcome.held_back += one.held_back ? 1 : 0;
+  }
+  return after;
 }
 
 }  // namespace palpate::io::internal

@@ -35,6 +35,8 @@ struct EditOutcome {
   double largest_mm = 0;         ///< how far the edge moved, as a bound: the largest change of a traced or moved point
   std::size_t points = 0;        ///< that the edge was put through
   std::size_t without_edge = 0;  ///< of scan_edge: places at which the scan has no edge; the outline stays there
+  std::size_t held_back = 0;     ///< likewise: with an edge to which the outline goes not or not all the way, as the
+                              ///< places around say otherwise, or a part would appear or go
 };
 
 struct Edited {

@@ -13,7 +13,7 @@ namespace palpate::io {
 namespace {
 
 /// An edge of the lattice: twice its lower node's number, and one more where it runs along j.
-using Edge = std::uint64_t;
+using CellEdge = std::uint64_t;
 
 struct Lattice {
   std::span<const double> values;
@@ -24,7 +24,7 @@ struct Lattice {
   }
   double value(int i, int j) const { return values[at(i, j)]; }
   /// The edge on a cell's side: 0 below, 1 right, 2 above, 3 left.
-  Edge side(int i, int j, int side) const {
+  CellEdge side(int i, int j, int side) const {
     switch (side) {
       case 0:
         return 2 * at(i, j);
@@ -36,7 +36,7 @@ struct Lattice {
         return 2 * at(i, j) + 1;
     }
   }
-  glm::dvec2 crossing(Edge edge) const {
+  glm::dvec2 crossing(CellEdge edge) const {
     const auto node = static_cast<int>(edge / 2);
     const int i = node % nodes.x, j = node / nodes.x;
     const bool along_j = edge % 2 == 1;
@@ -92,8 +92,8 @@ Pieces pieces_of(unsigned corners, bool is_joined) {
 
 std::vector<ContourPolygon> zero_lines(std::span<const double> values, const glm::ivec2& nodes) {
   const Lattice lattice{values, nodes};
-  std::unordered_map<Edge, Edge> next;
-  std::vector<Edge> starts;  // in the lattice's order, so that the lines are
+  std::unordered_map<CellEdge, CellEdge> next;
+  std::vector<CellEdge> starts;  // in the lattice's order, so that the lines are
   for (int j = 0; j + 1 < nodes.y; ++j) {
     for (int i = 0; i + 1 < nodes.x; ++i) {
       const std::array corners{lattice.value(i, j), lattice.value(i + 1, j), lattice.value(i + 1, j + 1),
@@ -103,16 +103,16 @@ std::vector<ContourPolygon> zero_lines(std::span<const double> values, const glm
       const Pieces pieces = pieces_of(above, corners[0] + corners[1] + corners[2] + corners[3] > 0);
       for (int n = 0; n < pieces.count; ++n) {
         const auto [from, to] = pieces.sides[static_cast<std::size_t>(n)];
-        const Edge start = lattice.side(i, j, from);
+        const CellEdge start = lattice.side(i, j, from);
         next.emplace(start, lattice.side(i, j, to));
         starts.push_back(start);
       }
     }
   }
   std::vector<ContourPolygon> lines;
-  for (const Edge start : starts) {
+  for (const CellEdge start : starts) {
     ContourPolygon line;
-    Edge edge = start;
+    CellEdge edge = start;
     for (auto at = next.find(edge); at != next.end(); at = next.find(edge)) {
       line.push_back(lattice.crossing(edge));
       edge = at->second;

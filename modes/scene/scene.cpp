@@ -120,11 +120,15 @@ void check_structure(const std::string& path, const SceneStructure& structure) {
   if (structure.name.empty()) {
     refuse(path + ".name", say("is-missing"));
   }
-  if (structure.file.empty()) {
-    refuse(path + ".file", say("is-missing"));
-  }
-  if (structure.segment.empty() && !structure.segment_number) {
-    refuse(path + ".segment", say("is-missing"));
+  if (!is_drawn(structure)) {
+    if (structure.file.empty()) {
+      refuse(path + ".file", say("is-missing"));
+    }
+    if (structure.segment.empty() && !structure.segment_number) {
+      refuse(path + ".segment", say("is-missing"));
+    }
+  } else if (!structure.segment.empty() || structure.segment_number) {
+    refuse(path + ".segment", say("drawn-structure-has-no-segment"));
   }
   if (structure.margin_mm) {
     check_positive(path + ".margin_mm", *structure.margin_mm, "mm");
@@ -169,6 +173,11 @@ void check_unique_names(const std::string& list, const Items& items) {
 }
 
 }  // namespace
+
+bool is_drawn(const SceneStructure& structure) noexcept {
+  return structure.file.empty() && !structure.edits.empty() &&
+         std::holds_alternative<io::ContoursEdit>(structure.edits.front());
+}
 
 void validate(const Scene& scene) {
   check_positive("stiffness_n_per_m", scene.stiffness_n_per_m, "newtons per meter");

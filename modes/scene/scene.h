@@ -83,13 +83,17 @@ struct Tissue {
 /// Something that was outlined on the scan (io/structures). A scene reads the distance from its surface.
 struct SceneStructure {
   std::string name;     ///< the scene's own, unique in it
-  std::string file;     ///< that holds it; load_scene() makes it absolute, from the scene's own folder
-  std::string segment;  ///< its name there; or its number
+  std::string file;     ///< that holds it; load_scene() makes it absolute, from the scene's own folder. Empty where its
+                        ///< edits begin with contours: they make it
+  std::string segment;  ///< its name there; or its number; empty without a file
   std::optional<int> segment_number;
   std::string color;                ///< "#rrggbb", or empty
   std::optional<double> margin_mm;  ///< the user is told when the stylus is nearer than this
   std::vector<io::Edit> edits{};    ///< of its outline, in their order; its file stays as it is
 };
+
+/// Whether a structure has no file and is made by the contours that its edits begin with.
+bool is_drawn(const SceneStructure& structure) noexcept;
 
 struct Limits {
   double force_n = defaults::force_limit_n;

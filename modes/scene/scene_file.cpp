@@ -44,6 +44,7 @@ Scene load_scene(const std::string& file_or_name) {
   // A recording and the panel keep the scene's text alone: its structures are to be found from there too.
   const std::filesystem::path folder = std::filesystem::absolute(file_or_name).parent_path();
   for (SceneStructure& structure : scene.structures) {
+    if (structure.file.empty()) continue;
     structure.file = (folder / structure.file).lexically_normal().string();
   }
   return scene;

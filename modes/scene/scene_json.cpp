@@ -162,12 +162,15 @@ SceneStructure read_structure(const At& at) {
   Members members(at);
   SceneStructure structure;
   structure.name = text(members.get("name"));
-  structure.file = text(members.get("file"));
-  const At segment = members.get("segment");
-  if (segment.value.is_number()) {
-    structure.segment_number = integer(segment);
-  } else {
-    structure.segment = text(segment);
+  // Without them the contours of its edits have to make it: validate() checks it.
+  members.optional("file", structure.file, text);
+  if (members.has("segment")) {
+    const At segment = members.get("segment");
+    if (segment.value.is_number()) {
+      structure.segment_number = integer(segment);
+    } else {
+      structure.segment = text(segment);
+    }
   }
   members.optional("color", structure.color, text);
   members.optional("margin_mm", structure.margin_mm, number);

@@ -102,8 +102,11 @@ Json json_of(const Tissue& tissue) {
 }
 
 Json json_of(const SceneStructure& structure) {
-  Json json{{"name", structure.name}, {"file", structure.file}};
-  json["segment"] = structure.segment_number ? Json(*structure.segment_number) : Json(structure.segment);
+  Json json{{"name", structure.name}};
+  if (!structure.file.empty()) {
+    json["file"] = structure.file;
+    json["segment"] = structure.segment_number ? Json(*structure.segment_number) : Json(structure.segment);
+  }
   if (!structure.color.empty()) {
     json["color"] = structure.color;
   }

@@ -26,12 +26,14 @@ namespace {
 
 struct CorrectOptions {
   SeriesOption series;
-  std::string structure;
+  std::string structure, name;
   std::filesystem::path edits, output;
   bool rtstruct = false, force = false;
 };
 
-/// What is corrected, and its label. A new structure is called as its file.
+constexpr const char* drawn_color = "#e69f00";  // of a structure that contours make: orange, seen on gray
+
+/// What is corrected, and its label. A new structure is called as its file, unless it is given a name.
 struct Corrected {
   std::shared_ptr<const io::DistanceField> field;  ///< null: it is made of contours
   io::StructureLabel label;
@@ -39,9 +41,9 @@ struct Corrected {
 
 Corrected what_is_corrected(const CorrectOptions& options, const io::Volume& scan) {
   if (options.structure.empty()) {
-    std::string name = options.output.filename().string();
-    name.resize(std::min(name.find('.', 1), name.size()));
-    return {.field = nullptr, .label = {.name = name}};
+    std::string name = options.name.empty() ? options.output.filename().string() : options.name;
+    if (options.name.empty()) name.resize(std::min(name.find('.', 1), name.size()));
+    return {.field = nullptr, .label = {.name = name, .color = drawn_color}};
   }
   const io::Structure structure = choose_structure(options.structure, scan);
   io::DistanceOptions distance;
@@ -68,8 +70,13 @@ void print(const std::vector<io::Edit>& edits, const io::Edited& done) {
   for (std::size_t n = 0; n < edits.size(); ++n) {
     const io::EditOutcome& outcome = done.outcomes[n];
     put("edit {}: {}: the edge moved by {:.2f} mm at most", n + 1, io::name_of(edits[n]), outcome.largest_mm);
-    if (outcome.points > 0) put(", through {} points", outcome.points);
+    if (std::holds_alternative<io::ScanEdgeEdit>(edits[n])) {
+      put("; {} places of it were looked at", outcome.points);
+    } else if (outcome.points > 0) {
+      put(", through {} points", outcome.points);
+    }
     if (outcome.without_edge > 0) put("; at {} the scan has no edge, and it stays", outcome.without_edge);
+    if (outcome.held_back > 0) put("; at {} it does not go all the way to the scan's edge", outcome.held_back);
     put("\n");
   }
 }
@@ -120,6 +127,8 @@ void add_correct(CLI::App& program) {
   add_series_option(*command, options->series);
   command->add_option("--structure", options->structure,
                       "What is corrected: FILE or FILE:SEGMENT; left out where contours make it");
+  command->add_option("--name", options->name, "What a structure is called that contours make; else as OUT")
+      ->excludes("--structure");
   command->add_option("--edits", options->edits, "A JSON file")->required();
   command->add_option("-o,--output", options->output, "The file that is written")->required();
   command->add_flag("--rtstruct", options->rtstruct, "Write contours (RTSTRUCT) as .dcm");

@@ -96,7 +96,24 @@ std::optional<RegisteredStructure> place(io::Structure& structure, const modes::
       .structure = wanted.name, .file_hash = hash_of_file(placed.registration), .motion = structure.motion};
 }
 
-/// Brings a structure to the scene's edits: from the last edit on that both have, or from the outline of its file.
+/// A structure that the scene's own contours make.
+LoadedStructure load_drawn(const modes::SceneStructure& wanted, const io::Geometry& scan, double reach_mm) {
+  const io::Edit& first = wanted.edits.front();
+  try {
+    return {.file = {},
+            .segment = {},
+            .warnings = {},
+            .registered = {},
+            .distance = shared_distance(std::get<io::ContoursEdit>(first), scan, reach_mm),
+            .edits = {first},
+            .before_edits = {nullptr}};
+  } catch (const InvalidInput& error) {
+    refuse(wanted, at_place("edit 1", error.text()));
+  }
+}
+
+/// Brings a structure to the scene's edits: from the last edit on that both have, or from the outline of its file. One
+/// that is drawn begins with the field of its contours.
 void edit(LoadedStructure& structure, const modes::SceneStructure& wanted,
           const std::shared_ptr<const io::Volume>& volume) {
   std::vector<std::shared_ptr<const io::DistanceField>> fields = std::move(structure.before_edits);
@@ -138,10 +155,17 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
     const std::string segment = wanted.segment_number ? fmt::format("#{}", *wanted.segment_number) : wanted.segment;
     const double reach = reach_of(scene, wanted);
     const auto known = std::find_if(before.begin(), before.end(), [&](const LoadedStructure& one) {
-      return one.file == file.string() && one.segment == segment && one.distance->reach_mm() == reach;
+      const bool same = modes::is_drawn(wanted) ? one.file.empty() && one.edits.front() == wanted.edits.front()
+                                                : one.file == file.string() && one.segment == segment;
+      return same && one.distance->reach_mm() == reach;
     });
     if (known != before.end()) {
       loaded.push_back(*known);
+      edit(loaded.back(), wanted, scan);
+      continue;
+    }
+    if (modes::is_drawn(wanted)) {
+      loaded.push_back(load_drawn(wanted, volume.geometry, reach));
       edit(loaded.back(), wanted, scan);
       continue;
     }

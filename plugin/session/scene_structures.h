@@ -19,13 +19,14 @@ namespace palpate::plugin {
 
 /// A structure's distance on a scan, and what it was made of.
 struct LoadedStructure {
-  std::string file;            ///< as the scene names it, with its folder
+  std::string file;            ///< as the scene names it, with its folder; empty where the scene's contours make it
   std::string segment;         ///< its name or number
   std::vector<Text> warnings;  ///< of how it lies on the scan
   std::optional<RegisteredStructure> registered;
   std::shared_ptr<const io::DistanceField> distance;
   std::vector<io::Edit> edits{};  ///< of its outline, which `distance` has
-  /// The field before the first edit, and after each but the last: to undo an edit is to take one of them.
+  /// The field before the first edit (null where contours make it), and after each but the last: to undo an edit is to
+  /// take one of them.
   std::vector<std::shared_ptr<const io::DistanceField>> before_edits{};
 };
 

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "io/structures/edits.h"
 #include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
@@ -27,8 +28,28 @@ bool same_place(const io::Geometry& a, const io::Geometry& b) {
   return of(a) == of(b);
 }
 
+/// Of contours that are part of a scene.
+struct KeptDrawn {
+  io::ContoursEdit contours;
+  io::Geometry scan;
+  std::weak_ptr<const io::DistanceField> distance;
+};
+
 std::mutex mutex;
 std::vector<Kept> kept;
+std::vector<KeptDrawn> kept_drawn;
+
+std::shared_ptr<const io::DistanceField> find_drawn(const io::ContoursEdit& contours, const io::Geometry& scan,
+                                                    double reach_mm) {
+  std::erase_if(kept_drawn, [](const KeptDrawn& one) { return one.distance.expired(); });
+  for (const KeptDrawn& one : kept_drawn) {
+    auto distance = one.distance.lock();
+    if (distance && distance->reach_mm() == reach_mm && one.contours == contours && same_place(one.scan, scan)) {
+      return distance;
+    }
+  }
+  return nullptr;
+}
 
 template <typename Fits>
 std::shared_ptr<const io::DistanceField> find(const io::Structure& structure, std::filesystem::file_time_type time,
@@ -75,6 +96,22 @@ std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& st
 std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan) {
   constexpr double least_mm = 3;
   return find_or_make(structure, scan, least_mm, [](const io::DistanceField&) { return true; });
+}
+
+std::shared_ptr<const io::DistanceField> shared_distance(const io::ContoursEdit& contours, const io::Geometry& scan,
+                                                         double reach_mm) {
+  {
+    const std::lock_guard lock(mutex);
+    if (auto found = find_drawn(contours, scan, reach_mm)) return found;
+  }
+  io::EditOptions options;
+  options.distance.reach_mm = reach_mm;
+  options.distance.scan = &scan;
+  auto made = io::apply_edit(nullptr, contours, options);
+  const std::lock_guard lock(mutex);
+  if (auto found = find_drawn(contours, scan, reach_mm)) return found;  // another thread made it meanwhile
+  kept_drawn.push_back({contours, scan, made});
+  return made;
 }
 
 }  // namespace palpate::plugin

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "io/geometry.h"
+#include "io/structures/edit.h"
 #include "io/structures/structure.h"
 
 namespace palpate::plugin {
@@ -16,5 +17,10 @@ std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& st
 
 /// For drawing: a field with any reach, because the surface is the same with every reach.
 std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan);
+
+/// The field of a structure that contours make, with exactly this reach. From any thread. Throws InvalidInput that
+/// begins with "contours: ".
+std::shared_ptr<const io::DistanceField> shared_distance(const io::ContoursEdit& contours, const io::Geometry& scan,
+                                                         double reach_mm);
 
 }  // namespace palpate::plugin

@@ -79,6 +79,7 @@ std::string hash_of_file(const std::filesystem::path& file) {
 
 modes::Scene without_paths(modes::Scene scene) {
   for (modes::SceneStructure& structure : scene.structures) {
+    if (structure.file.empty()) continue;  // its contours are in the scene
     if (!is_hash(structure.file)) structure.file = hash_of_file(copy_of(structure.file));
   }
   return scene;

@@ -1,0 +1,62 @@
+#pragma once
+
+/// How far the places of an outline go to the scan's own edge, so that the new outline is as smooth and as whole as the
+/// old one.
+///
+/// The new surface is phi(x) = way(x), where phi is the distance from the old one. Its parts are those of the old one
+/// as long as no place is passed on the way at which the slope of phi is less than that of the way: the distance from
+/// a surface has slope 1, but between two walls it has none. (F. Chazal, A. Lieutier, "The lambda-medial axis",
+/// Graphical Models 67, 2005.) So the ways rise and fall along the surface by no more than a given slope, and end
+/// before the slope of phi is low. What is too far is shortened, down to nothing where it has to be.
+
+#include <cstdint>
+#include <vector>
+
+#include "io/structures/distance_field.h"
+#include "io/structures/edit.h"
+#include "io/structures/outline_places.h"
+#include "io/structures/scan_edge.h"
+
+namespace palpate::io::internal {
+
+struct EdgeWay {
+  OutlinePlace at;
+  double mm = 0;           ///< along the inward normal
+  bool stays = true;       ///< the outline stays there exactly
+  bool has_edge = false;   ///< in the scan
+  bool held_back = false;  ///< it has one, and its way was left or shortened
+};
+
+class EdgeWays {
+ public:
+  /// Asks the scan at all places within the edit's radius. Throws InvalidInput if there are none.
+  EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const ScanValues& scan, int threads);
+
+  /// Halves the ways of the places near such points, or ends them after some rounds.
+  void hold_back(const std::vector<Vec3>& points, const DistanceField& before);
+
+  /// The way at a point, from its distance and the gradient there: smooth, and 0 at the radius and beyond.
+  double way_at(const Vec3& at, const Distance& before) const;
+
+  const std::vector<EdgeWay>& places() const { return places_; }
+  double largest_mm() const { return largest_mm_; }
+
+ private:
+  void take_consent();
+  void end_before_ridges(const DistanceField& before, int threads);
+  void grade();
+  void sort_into_cells();
+  double limit_at(const Vec3& at) const;
+
+  ScanEdgeEdit edit_;
+  double spacing_mm_ = 1;           ///< between places
+  double node_mm_ = 1;              ///< of the field
+  std::vector<EdgeWay> places_;     ///< some beyond the radius, too: those stay
+  std::vector<double> allowed_mm_;  ///< of each place, before it is graded
+  std::vector<std::uint8_t> halved_;
+  double largest_mm_ = 0;
+  std::vector<std::vector<std::uint32_t>> cells_;  ///< places near each cell of a lattice around the center
+  int cells_wide_ = 0;
+};
+
+}  // namespace palpate::io::internal
