@@ -13,15 +13,16 @@ namespace palpate::io::internal {
 namespace {
 
 constexpr double densest_mm = 0.75, sparsest_mm = 2, spacings_a_radius = 8;
-constexpr double steepest_way = 0.8;      // mm of way a mm along the surface
-constexpr double rounded_mm = 2;          // over which the limit at the radius becomes so steep
-constexpr double around_spacings = 2;     // places whose ways are compared
-constexpr double alike_mm = 1;            // of neighboring ways: an edge that is farther off belongs to something else
-constexpr double unlike_a_mm = 0.5;       // more than that for each mm between them
-constexpr double blended_spacings = 2.5;  // places whose ways are blended
-constexpr double least_slope = 0.4;       // of the distance on the way: less lies between two walls
-constexpr double least_progress = 0.3;    // of the distance for each mm of way
-constexpr double nodes_beyond_way = 3;    // of the way, that the surface's cubic pieces read
+constexpr double steepest_way = 0.8;   // mm of way a mm along the surface
+constexpr double rounded_mm = 2;       // over which the limit at the radius becomes so steep
+constexpr double around_spacings = 2;  // places whose ways are compared
+constexpr double alike_mm = 1;         // of neighboring ways: an edge that is farther off belongs to something else
+constexpr double unlike_a_mm = 0.5;    // more than that for each mm between them
+constexpr double enough_alike = 0.5, enough_without_edge = 0.67;  // of the places around
+constexpr double blended_spacings = 2.5;                          // places whose ways are blended
+constexpr double least_slope = 0.4;     // of the distance on the way: less lies between two walls
+constexpr double least_progress = 0.3;  // of the distance for each mm of way
+constexpr double nodes_beyond_way = 3;  // of the way, that the surface's cubic pieces read
 constexpr double near_cell_mm = 8;
 constexpr int most_halvings = 3;
 
@@ -69,13 +70,14 @@ EdgeWays::EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const 
   grade();
 }
 
-/// A way that is unlike those around it becomes what most of them say; where they say nothing together, all stay.
+/// A way that is unlike those around it becomes what most of them say; where they say nothing together, it stays. So
+/// does a place without an edge, unless most around it have one and agree: noise has hidden its own.
 void EdgeWays::take_consent() {
   std::vector<double> way(places_.size(), 0.0), around;
   std::vector<char> stays(places_.size(), 0);
   for (std::size_t n = 0; n < places_.size(); ++n) {
     EdgeWay& one = places_[n];
-    if (!one.has_edge) continue;
+    if (!(limit_at(one.at.place_mm) > 0)) continue;
     const double within = around_spacings * spacing_mm_;
     const auto for_each_near = [&](const auto& work) {
       for (const EdgeWay& other : places_) {
@@ -93,14 +95,15 @@ void EdgeWays::take_consent() {
       ++all;
       alike += other.has_edge && std::abs(other.mm - middle) < alike_mm + unlike_a_mm * away ? 1 : 0;
     });
-    stays[n] = 2 * alike < all ? 1 : 0;
-    way[n] = std::abs(one.mm - middle) < alike_mm ? one.mm : middle;
+    const double needed = one.has_edge ? enough_alike : enough_without_edge;
+    stays[n] = static_cast<double>(alike) < needed * static_cast<double>(all) ? 1 : 0;
+    way[n] = one.has_edge && std::abs(one.mm - middle) < alike_mm ? one.mm : middle;
   }
   for (std::size_t n = 0; n < places_.size(); ++n) {
     EdgeWay& one = places_[n];
-    if (!one.has_edge) continue;
+    if (!(limit_at(one.at.place_mm) > 0)) continue;
     one.stays = stays[n] != 0;
-    one.held_back = one.stays;
+    one.held_back = one.stays && one.has_edge;
     one.mm = one.stays ? 0 : way[n];
   }
 }

@@ -38,7 +38,8 @@ struct RemoveEdit {
 };
 
 /// Within a ball the edge moves along its normal to the scan's own edge, if that is known better than by the way there,
-/// and stays if the scan has none.
+/// and stays where the scan has none. The ways of neighboring places are made smooth: one that is unlike those around
+/// it takes their way, or stays, and one that would make a part appear or go is shortened.
 struct ScanEdgeEdit {
   Vec3 center_mm{0};
   double radius_mm = 10;

@@ -73,7 +73,7 @@ Field moved_to_scan_edge(const Field& before, const ScanEdgeEdit& edit, const Ed
   for (const EdgeWay& one : ways.places()) {
     if (glm::distance(one.at.place_mm, edit.center_mm) >= edit.radius_mm) continue;
     ++outcome.points;
-    outcome.without_edge += one.has_edge ? 0 : 1;
+    outcome.without_edge += one.stays && !one.has_edge ? 1 : 0;
     outcome.held_back += one.held_back ? 1 : 0;
   }
   return after;
