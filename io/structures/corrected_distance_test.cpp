@@ -18,7 +18,7 @@ namespace palpate::io {
 namespace {
 
 using ExactMm = std::function<double(const Vec3&)>;  // positive inside
-constexpr double half_box_mm = 29, off_by_mm = 1, traced_beyond_mm = 0.3, hand_mm = 0.2;
+constexpr double half_box_mm = 24, off_by_mm = 1, traced_beyond_mm = 0.3, hand_mm = 0.2;
 
 struct ExactBody {
   std::string name;
@@ -27,15 +27,15 @@ struct ExactBody {
 
 std::vector<ExactBody> exact_bodies() {
   const Vec3 end(9, -7, 5);
-  return {{"ball", [](const Vec3& at) { return 20 - glm::length(at); }},
+  return {{"ball", [](const Vec3& at) { return 16 - glm::length(at); }},
           {"capsule",
            [=](const Vec3& at) {
              const double along = std::clamp(glm::dot(at, end) / glm::dot(end, end), -1.0, 1.0);
-             return 12 - glm::distance(at, along * end);
+             return 10 - glm::distance(at, along * end);
            }},
           {"ring", [](const Vec3& at) {
-             const double round = glm::length(glm::dvec2(at)) - 15;
-             return 8 - std::sqrt(round * round + at.z * at.z);
+             const double round = glm::length(glm::dvec2(at)) - 12;
+             return 7 - std::sqrt(round * round + at.z * at.z);
            }}};
 }
 
@@ -95,8 +95,7 @@ TEST(CorrectedDistance, IsAtMost03MmInTheMeanOnVoxelsOf1Mm) {
         std::normal_distribution<double> any;
         const Vec3 way = glm::normalize(Vec3(any(random), any(random), body.name == "ring" ? 0 : any(random)));
         const ExactMm spoilt = with_error(body, error, way);
-        const auto outline =
-            distance_of(made_labels([&](const Vec3& at) { return spoilt(at) > 0; }, half_box_mm), {.reach_mm = 8});
+        const auto outline = distance_of(made_labels([&](const Vec3& at) { return spoilt(at) > 0; }, half_box_mm));
         std::vector<Vec3> where;
         TraceEdit trace{.points_mm = {}, .known_to_mm = {}, .reach_mm = 12};
         for (const OutlinePlace& place : outline_places(*truth, 2)) {

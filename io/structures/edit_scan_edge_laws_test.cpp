@@ -21,7 +21,7 @@ namespace palpate::io {
 namespace {
 
 using SignedMm = std::function<double(const Vec3&)>;  // positive inside
-constexpr double half_scan_mm = 27, scan_noise = 8, scan_blur_mm = 0.7;
+constexpr double half_scan_mm = 24, scan_noise = 8, scan_blur_mm = 0.7;
 
 SignedMm ball_mm(double radius, const Vec3& center = Vec3(0)) {
   return [=](const Vec3& at) { return radius - glm::distance(at, center); };
