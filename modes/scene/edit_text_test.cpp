@@ -104,5 +104,27 @@ TEST(EditText, NamesTheKeyThatIsWrong) {
             "/no/such.json: no such file of edits can be read");
 }
 
+TEST(EditText, AStructureWithoutAFileIsDrawnByItsContours) {
+  const auto text_of = [](const std::string& more) {
+    return R"({"version": 1, "modes": [], "structures": [{"name": "new")" + more + "}]}";
+  };
+  const std::string contours = R"("edits": [{"type": "contours", "loops_mm": [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]},
+    {"type": "add", "path_mm": [[1, 2, 3]], "radius_mm": 1}])";
+  const Scene scene = scene_from_json(text_of(", " + contours), "scene");
+  EXPECT_TRUE(is_drawn(scene.structures[0]));
+  EXPECT_EQ(scene.structures[0].edits.size(), 2U);
+  const std::string text = to_json(scene);
+  EXPECT_EQ(text.find("\"file\""), std::string::npos);
+  EXPECT_EQ(to_json(scene_from_json(text, "again")), text);
+  const auto refused = [&](const std::string& more) {
+    return testing::said_when([&] { scene_from_json(text_of(more), "scene"); });
+  };
+  EXPECT_EQ(refused(""), "scene: structures[0].file: is missing");
+  EXPECT_EQ(refused(R"(, "edits": [{"type": "add", "path_mm": [[1, 2, 3]], "radius_mm": 1}])"),
+            "scene: structures[0].file: is missing");
+  EXPECT_EQ(refused(R"(, "segment": 2, )" + contours),
+            "scene: structures[0].segment: has no meaning without a file: leave it out, or name the file");
+}
+
 }  // namespace
 }  // namespace palpate::modes

@@ -3,25 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <memory>
 #include <random>
 #include <vector>
 
-#include "device/simulated/simulated_stylus.h"
 #include "io/fields/filtered.h"
 #include "io/quantile.h"
 #include "io/structures/edits.h"
 #include "io/structures/outline_places.h"
 #include "modes/scene/scene_json.h"
-#include "plugin/app/running_session.h"
+#include "plugin/bench/hand_trace.h"
 #include "plugin/report/chart.h"
-#include "plugin/session/prepared_scene.h"
-#include "plugin/session/session.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {
@@ -30,11 +25,6 @@ namespace {
 using Truth = std::function<double(const glm::dvec3&)>;  // signed distance, mm, positive inside
 
 constexpr double organ_mm = 20, organ_hu = 60, around_hu = -100, touch_noise_hu = 12, touch_blur_mm = 0.6;
-constexpr double pixel_mm = 0.5;   // of a screen on which a slice of 256 mm is 512 pixels wide
-constexpr double speed_mm_s = 20;  // of the hand along the edge
-constexpr double hand_tremor_mm = 0.2, hand_drift_mm = 1;
-constexpr double press_mm = 1.5;   // how far into the edge the hand aims that feels it
-constexpr double sample_s = 0.05;  // a point of the trace
 constexpr double reach_mm = 16;
 constexpr double corrected_beyond_mm = 1;  // of an outline: there it is corrected
 
@@ -87,115 +77,30 @@ std::shared_ptr<const io::DistanceField> outline_of(const io::Geometry& geometry
 }
 
 /// Where the hand aims: along the true edge, slice by slice, wherever the outline is off; one way and back again.
-std::vector<glm::dvec3> way_over(const io::DistanceField& truth, const io::DistanceField& outline) {
-  std::vector<glm::dvec3> way;
+std::vector<EdgePlace> way_over(const io::DistanceField& truth, const io::DistanceField& outline) {
+  std::vector<EdgePlace> way;
   for (const io::OutlinePlace& place : io::outline_places(truth, 2)) {
-    const glm::dvec3 true_place = organ_mm * glm::normalize(place.place_mm);
+    const glm::dvec3 outward = glm::normalize(place.place_mm), true_place = organ_mm * outward;
     // A trace is for one side of an organ.
-    if (std::abs(outline.sample(true_place).mm) > corrected_beyond_mm && true_place.x > 0) way.push_back(true_place);
+    if (std::abs(outline.sample(true_place).mm) > corrected_beyond_mm && true_place.x > 0) {
+      way.push_back({true_place, outward});
+    }
   }
-  const auto slice = [](const glm::dvec3& at) { return static_cast<int>(std::floor(at.z / 2)); };
-  std::ranges::sort(way, [&](const glm::dvec3& a, const glm::dvec3& b) {
-    if (slice(a) != slice(b)) return slice(a) < slice(b);
-    const double turn = slice(a) % 2 == 0 ? 1 : -1;
-    return turn * std::atan2(a.y, a.x) < turn * std::atan2(b.y, b.x);
-  });
+  sort_for_hand(way, glm::dvec3(0));
   return way;
 }
-
-/// Some slow sines along each axis.
-class Drift {
- public:
-  explicit Drift(std::mt19937& random) {
-    std::uniform_real_distribution<double> hertz(0.1, 0.5), phase(0, 2 * glm::pi<double>());
-    for (auto& axis : sines_) {
-      for (auto& sine : axis) sine = {2 * glm::pi<double>() * hertz(random), phase(random)};
-    }
-  }
-  glm::dvec3 operator()(double time) const {
-    glm::dvec3 mm(0);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const auto& [frequency, phase] : sines_[static_cast<std::size_t>(axis)]) {
-        mm[axis] += hand_drift_mm * std::sqrt(2.0 / 3) * std::sin(frequency * time + phase);
-      }
-    }
-    return mm;
-  }
-
- private:
-  std::array<std::array<std::pair<double, double>, 3>, 3> sines_;
-};
 
 constexpr const char* nothing_felt = R"({"version": 1, "modes": []})";
 constexpr const char* edge_felt = R"({"version": 1, "modes": [{"type": "surface", "side": "entering",
   "strength_n": {"of": "value", "nodes": [[-24, 0], [-16, 1.5]]}}]})";
 
-/// What a hand traces.
-struct HandTrace {
-  std::vector<glm::dvec3> points_mm;
-  double path_mm = 0;
-};
-
-HandTrace trace_by_hand(const std::vector<glm::dvec3>& way, const std::shared_ptr<const io::Volume>& scan, bool felt,
-                        unsigned seed) {
-  std::mt19937 random(seed);
-  const Drift drift(random);
-  std::uniform_real_distribution<double> aim(-pixel_mm, pixel_mm);
-  modes::Scene scene = modes::scene_from_json(felt ? edge_felt : nothing_felt, "touch study");
-  scene.workspace.center_mm = glm::dvec3(0);
-  device::SimulatedDevice model;
-  model.hand.tremor_rms = 1e-3 * hand_tremor_mm;
-  model.hand.tremor_seed = seed;
-  const auto stylus = std::make_shared<device::SimulatedStylus>(model);
-  const device::Specification specification = stylus->specification();
-  const PreparedScene prepared = prepare(scene, scan, specification.workspace_half_extent);
-  const modes::Workspace& workspace = prepared.plan->workspace;
-  std::vector<device::Waypoint> waypoints;
-  constexpr double step_s = 0.02, begin_s = 1;
-  const auto go_to = [&](double time, const glm::dvec3& mm) {
-    waypoints.push_back({.time = time, .position = workspace.to_device(mm)});
-  };
-  const auto aimed = [&](const glm::dvec3& edge) {
-    const glm::dvec3 seen = edge + glm::dvec3(aim(random), aim(random), aim(random));
-    return felt ? seen - press_mm * glm::normalize(edge) : seen;
-  };
-  // From outside, so that the edge is met on the way in.
-  go_to(0, way.front() + 8.0 * glm::normalize(way.front()));
-  double time = begin_s;
-  glm::dvec3 from = aimed(way.front());
-  go_to(time, from + drift(time));
-  for (std::size_t n = 1; n < way.size(); ++n) {
-    const glm::dvec3 to = aimed(way[n]);
-    const double length = std::max(glm::distance(way[n - 1], way[n]), 0.1);
-    const int steps = std::max(1, static_cast<int>(std::ceil(length / (speed_mm_s * step_s))));
-    for (int step = 1; step <= steps; ++step) {
-      time += length / speed_mm_s / steps;
-      go_to(time, glm::mix(from, to, static_cast<double>(step) / steps) + drift(time));
-    }
-    from = to;
-  }
-  stylus->follow(waypoints, device::PathInterpolation::linear);
-  Session session(snapshot_of(scene, prepared, specification), stylus);
-  HandTrace trace;
-  const auto every = static_cast<int>(sample_s * specification.rate);
-  const auto first = static_cast<int>((begin_s + 0.1) * specification.rate);
-  for (int tick = 0; tick < static_cast<int>(time * specification.rate); ++tick) {
-    const TickRecord record = session.tick();
-    if (tick < first || (tick - first) % every != 0) continue;
-    const glm::dvec3 at = workspace.to_patient(vector_of(record.proxy_m));
-    if (!trace.points_mm.empty()) trace.path_mm += glm::distance(at, trace.points_mm.back());
-    trace.points_mm.push_back(at);
-  }
-  return trace;
-}
-
 /// Distances of an outline from the truth, where it was off.
-std::vector<double> errors_over(const std::vector<glm::dvec3>& way, const io::DistanceField& outline) {
+std::vector<double> errors_over(const std::vector<EdgePlace>& way, const io::DistanceField& outline) {
   std::vector<double> errors;
   for (const io::OutlinePlace& place : io::outline_places(outline, 1)) {
     const glm::dvec3 on_edge = organ_mm * glm::normalize(place.place_mm);
     const bool is_over =
-        std::ranges::any_of(way, [&](const glm::dvec3& at) { return glm::distance(at, on_edge) < 1.5; });
+        std::ranges::any_of(way, [&](const EdgePlace& at) { return glm::distance(at.place_mm, on_edge) < 1.5; });
     if (is_over) errors.push_back(std::abs(true_organ(place.place_mm)));
   }
   return errors;
@@ -228,19 +133,21 @@ std::string study_touch(const TouchStudyOptions& options, const std::filesystem:
   fmt::print(
       "\nA ball of {:.0f} mm on voxels of 1 mm, outlines spoilt, traced by {} hands (tremor {} mm, drift {} mm, aim "
       "+- {} mm):\ndistance to the true edge in the corrected region, mm\n\n{:28} {:6} {:>15} {:>15} {:>8} {:>7}\n",
-      organ_mm, options.hands, hand_tremor_mm, hand_drift_mm, pixel_mm, "error", "hand", "before", "after", "path mm",
-      "points");
+      organ_mm, options.hands, hand::tremor_mm, hand::drift_mm, hand::pixel_mm, "error", "hand", "before", "after",
+      "path mm", "points");
   std::vector<double> all_before, all_after[2];
   for (const SpoiltOutline& spoilt : spoilt_outlines()) {
     const auto outline = outline_of(geometry, spoilt.mm);
-    const std::vector<glm::dvec3> way = way_over(*truth, *outline);
+    const std::vector<EdgePlace> way = way_over(*truth, *outline);
     const std::vector<double> before = errors_over(way, *outline);
     all_before.insert(all_before.end(), before.begin(), before.end());
     for (const bool felt : {false, true}) {
       std::vector<double> after;
       double path_mm = 0, points = 0;
+      modes::Scene scene = modes::scene_from_json(felt ? edge_felt : nothing_felt, "touch study");
+      scene.workspace.center_mm = glm::dvec3(0);
       for (int hand = 0; hand < options.hands; ++hand) {
-        const HandTrace trace = trace_by_hand(way, scan, felt, static_cast<unsigned>(hand + 1));
+        const HandTrace trace = trace_by_hand(way, scan, scene, felt, static_cast<unsigned>(hand + 1));
         const auto corrected = io::apply_edit(
             outline, io::TraceEdit{.points_mm = trace.points_mm, .known_to_mm = {}, .reach_mm = reach_mm});
         const std::vector<double> of_hand = errors_over(way, *corrected);

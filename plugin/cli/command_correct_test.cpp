@@ -136,10 +136,30 @@ TEST(CommandCorrect, PathsAreAddedAndRemovedAndContoursMakeANewOne) {
     loops.push_back(loop);
   }
   const Json contours{{"type", "contours"}, {"loops_mm", loops}};
-  const Outcome outcome = core.correct(core.edits({contours}), "core-anew.seg.nrrd");
-  ASSERT_EQ(outcome.exit, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("\"core-anew\""));
-  EXPECT_LT(core.largest_mm((core.folder / "core-anew.seg.nrrd").string()), 1.1);
+  const std::string edits = core.edits({contours});
+  for (const std::string name : {"anew.dcm", "anew-rt.dcm", "anew.nii.gz", "anew.seg.nrrd", "anew.nrrd", "anew.mha"}) {
+    const Outcome outcome = core.correct(edits, name, name == "anew-rt.dcm" ? "--rtstruct" : "");
+    ASSERT_EQ(outcome.exit, 0) << name << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(name == "anew-rt.dcm" ? "\"anew-rt\"" : "\"anew\"")) << name;
+    const std::string written = (core.folder / name).string();
+    EXPECT_LT(core.largest_mm(written), 1.1) << name;
+    const auto found = io::find_structures(std::array{fs::path(written)}).structures;
+    ASSERT_EQ(found.size(), 1U) << name;
+    if (name.ends_with(".dcm") || name.ends_with(".seg.nrrd")) {
+      EXPECT_EQ(found[0].name, name == "anew-rt.dcm" ? "anew-rt" : "anew");
+      EXPECT_EQ(found[0].color, "#e69f00") << name;
+    }
+  }
+  ASSERT_EQ(core.correct(edits, "named.dcm", "--name \"Left lobe\"").exit, 0);
+  EXPECT_EQ(io::find_structures(std::array{core.folder / "named.dcm"}).structures.at(0).name, "Left lobe");
+  const Outcome both = core.correct(edits, "both.dcm", "--name Lobe --structure " + core.whole);
+  EXPECT_EQ(both.exit, 2) << both.output;
+  const Outcome of_a_file = core.correct(edits, "both.dcm", "--structure " + core.whole);
+  EXPECT_EQ(of_a_file.exit, 1);
+  EXPECT_TRUE(
+      says(of_a_file.output,
+           "edit 1: contours: contours make a new structure: they have to be the first edit of one without a file"));
+  EXPECT_FALSE(fs::exists(core.folder / "both.dcm"));
 }
 
 TEST(CommandCorrect, IsRefusedInWordsAndWritesNothing) {

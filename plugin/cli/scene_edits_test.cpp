@@ -184,5 +184,87 @@ TEST(SceneEdits, AnEditThatCannotBeDoneIsRefusedByTheStructuresName) {
   EXPECT_FALSE(fs::exists(edited.folder / "none"));
 }
 
+/// The phantom's core again, as circles on planes.
+Json contours_of_the_core() {
+  Json loops = Json::array();
+  for (double z = -14.5; z < 15; z += 1) {
+    Json loop = Json::array();
+    const double radius = std::sqrt(225 - z * z);
+    for (int n = 0; n < 90; ++n) {
+      loop.push_back({radius * std::cos(0.0698132 * n), radius * std::sin(0.0698132 * n), z});
+    }
+    loops.push_back(loop);
+  }
+  return {{"type", "contours"}, {"loops_mm", loops}};
+}
+
+Json scene_of_drawn(const Json& structures) {
+  return {{"version", 1},
+          {"structures", structures},
+          {"modes", {{{"type", "surface"}, {"structure", structures[0]["name"]}, {"strength_n", 1.5}}}}};
+}
+
+TEST(SceneEdits, AStructureWithoutAFileIsMadeOfItsContoursFeltAndRepeated) {
+  const EditedScene edited;
+  const auto press = [&](const Json& scene, const std::string& name) {
+    const fs::path out = edited.folder / name;
+    const Outcome outcome = palpate("probe " + phantom().string() + testing::forehead + "--scene " +
+                                    edited.write(name + ".json", scene) + " -o " + out.string());
+    EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    return (out / "recording.h5").string();
+  };
+  const Json remove{{"type", "remove"}, {"path_mm", {{15, 0, 0}}}, {"radius_mm", 3}};
+  const Json drawn{{"name", "drawn"}, {"edits", Json::array({contours_of_the_core(), remove})}};
+  const std::string recording = press(scene_of_drawn(Json::array({drawn})), "drawn");
+  // Nothing but the scan is needed to repeat it: the recording holds the contours.
+  const Outcome again = palpate("replay " + recording + " " + phantom().string());
+  EXPECT_EQ(again.exit, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("the same to the last bit"));
+  const std::string of_file = press(edited.scene(Json::array()), "of_file");
+  EXPECT_LT(1e3 * glm::distance(first_push_m(recording), first_push_m(of_file)), 0.3);
+}
+
+TEST(SceneEdits, DrawnStructuresAreKeptApartAndUndone) {
+  const EditedScene edited;
+  Json smaller = contours_of_the_core();
+  for (Json& loop : smaller["loops_mm"]) {
+    for (Json& point : loop) point[0] = 0.5 * point[0].get<double>();
+  }
+  const Json remove{{"type", "remove"}, {"path_mm", {{0, 15, 0}}}, {"radius_mm", 3}};
+  const Json two = Json::array({{{"name", "one"}, {"edits", Json::array({contours_of_the_core(), remove})}},
+                                {{"name", "two"}, {"edits", Json::array({smaller})}}});
+  modes::Scene scene = modes::load_scene(edited.write("two.json", scene_of_drawn(two)));
+  EXPECT_EQ(scene.structures[0].file, "");
+  const io::Volume scan = open_scan(edited.series, 0);
+  modes::Plan plan;
+  plan.structures = {0, 1};
+  const auto first = load_structures(scene, plan, scan, {});
+  EXPECT_NEAR(first[0].distance->sample({14, 0, 0}).mm, 1, 0.1);
+  EXPECT_NEAR(first[0].distance->sample({0, 12, 0}).mm, 0, 0.1);
+  EXPECT_NEAR(first[1].distance->sample({7.5, 0, 0}).mm, 0, 0.15);
+  scene.structures[0].edits.pop_back();
+  const auto undone = load_structures(scene, plan, scan, first);
+  EXPECT_EQ(undone[0].distance, first[0].before_edits.at(1));
+  EXPECT_EQ(undone[1].distance, first[1].distance);
+  // Drawn again, they are found while they are held.
+  EXPECT_EQ(load_structures(scene, plan, scan, {})[0].distance, undone[0].distance);
+  // Another first edit makes another one.
+  std::swap(scene.structures[0].edits, scene.structures[1].edits);
+  const auto swapped = load_structures(scene, plan, scan, undone);
+  EXPECT_EQ(swapped[0].distance, undone[1].distance);
+  EXPECT_EQ(swapped[1].distance, undone[0].distance);
+}
+
+TEST(SceneEdits, ContoursThatMakeNothingAreRefusedByTheStructuresName) {
+  const EditedScene edited;
+  const Json flat{{"type", "contours"}, {"loops_mm", {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}}};
+  const Json drawn{{"name", "drawn"}, {"edits", Json::array({flat})}};
+  const Outcome outcome = palpate("probe " + phantom().string() + testing::forehead + "--scene " +
+                                  edited.write("flat.json", scene_of_drawn(Json::array({drawn}))) + " -o " +
+                                  (edited.folder / "none").string());
+  EXPECT_NE(outcome.exit, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("structure \"drawn\": edit 1: contours: its contours have no area"));
+}
+
 }  // namespace
 }  // namespace palpate::plugin
