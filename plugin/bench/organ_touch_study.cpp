@@ -194,11 +194,12 @@ std::string study_touch_on_organs(const std::shared_ptr<const io::Volume>& scan,
                                   const std::vector<io::Structure>& structures, const OrganTouchOptions& options) {
   const auto fields = io::edge_fields(scan);
   const io::ScanValues values{*fields, scan->geometry};
-  std::string csv = "organ,error,hand,before_mean_mm,before_largest_mm,after_mean_mm,after_largest_mm,path_mm,points\n";
+  std::string csv =
+      "organ,error,hand,before_mean_mm,before_largest_mm,after_mean_mm,after_largest_mm,path_mm,points,refused\n";
   fmt::print(
       "\nOrgans, outlines spoilt where the scan has an edge, traced by {} hands:\ndistance to the organ's own outline "
-      "in the corrected region, mm\n\n{:20} {:24} {:6} {:>15} {:>15} {:>8} {:>7}\n",
-      options.hands, "organ", "error", "hand", "before", "after", "path mm", "points");
+      "in the corrected region, mm\n\n{:20} {:24} {:6} {:>15} {:>15} {:>8} {:>7} {:>7}\n",
+      options.hands, "organ", "error", "hand", "before", "after", "path mm", "points", "refused");
   for (const auto& [name, field, place] : chosen_organs(values, structures, options)) {
     const io::Geometry lattice = lattice_around(scan->geometry, place.place_mm);
     const OutlineMm mm = [&organ = *field](const glm::dvec3& at) { return organ.sample(at).mm; };
@@ -221,11 +222,21 @@ std::string study_touch_on_organs(const std::shared_ptr<const io::Volume>& scan,
       for (const bool felt : {false, true}) {
         std::vector<double> after;
         double path_mm = 0, points = 0;
+        int refused = 0;
+        // A trace that is refused changes nothing.
+        const auto corrected_by = [&](const io::TraceEdit& trace) {
+          try {
+            return io::apply_edit(outline, trace);
+          } catch (const InvalidInput&) {
+            ++refused;
+            return outline;
+          }
+        };
         for (int hand = 0; hand < options.hands; ++hand) {
           const HandTrace trace =
               trace_by_hand(way, scan, felt_edge(*field, values, place, felt), felt, static_cast<unsigned>(hand + 1));
-          const auto corrected = io::apply_edit(
-              outline, io::TraceEdit{.points_mm = trace.points_mm, .known_to_mm = {}, .reach_mm = traced_reach_mm});
+          const auto corrected =
+              corrected_by({.points_mm = trace.points_mm, .known_to_mm = {}, .reach_mm = traced_reach_mm});
           const std::vector<double> of_hand = errors_beside(way, *corrected, *truth);
           after.insert(after.end(), of_hand.begin(), of_hand.end());
           path_mm += trace.path_mm / options.hands;
@@ -233,10 +244,10 @@ std::string study_touch_on_organs(const std::shared_ptr<const io::Volume>& scan,
         }
         const MeanAndLargest now = mean_and_largest(after);
         const char* hand = felt ? "feels" : "sees";
-        fmt::print("{:20} {:24} {:6} {:7.2f} {:7.2f} {:7.2f} {:7.2f} {:8.0f} {:7.0f}\n", name, spoilt.what, hand,
-                   before.mean, before.largest, now.mean, now.largest, path_mm, points);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", name, spoilt.what, hand, before.mean, before.largest,
-                           now.mean, now.largest, path_mm, points);
+        fmt::print("{:20} {:24} {:6} {:7.2f} {:7.2f} {:7.2f} {:7.2f} {:8.0f} {:7.0f} {:7}\n", name, spoilt.what, hand,
+                   before.mean, before.largest, now.mean, now.largest, path_mm, points, refused);
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", name, spoilt.what, hand, before.mean, before.largest,
+                           now.mean, now.largest, path_mm, points, refused);
       }
     }
   }
