@@ -198,10 +198,13 @@ Json contours_of_the_core() {
   return {{"type", "contours"}, {"loops_mm", loops}};
 }
 
+/// Each is felt, so that all are kept to the same reach.
 Json scene_of_drawn(const Json& structures) {
-  return {{"version", 1},
-          {"structures", structures},
-          {"modes", {{{"type", "surface"}, {"structure", structures[0]["name"]}, {"strength_n", 1.5}}}}};
+  Json modes = Json::array();
+  for (const Json& one : structures) {
+    modes.push_back({{"type", "surface"}, {"structure", one["name"]}, {"strength_n", 1.5}});
+  }
+  return {{"version", 1}, {"structures", structures}, {"modes", modes}};
 }
 
 TEST(SceneEdits, AStructureWithoutAFileIsMadeOfItsContoursFeltAndRepeated) {
