@@ -36,7 +36,7 @@ struct EditOutcome {
   std::size_t points = 0;        ///< that the edge was put through
   std::size_t without_edge = 0;  ///< of scan_edge: places at which the scan has no edge; the outline stays there
   std::size_t held_back = 0;     ///< likewise: with an edge to which the outline goes not or not all the way, as the
-                              ///< places around say otherwise, or a part would appear or go
+                                 ///< places around say otherwise, or a part would appear or go
 };
 
 struct Edited {
