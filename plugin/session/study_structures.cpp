@@ -158,6 +158,18 @@ void add_keep_out_of(modes::Scene& scene, const io::Structure& structure, double
   }
 }
 
+std::optional<double> keep_out_of(const modes::Scene& scene, const io::Structure& structure) {
+  std::optional<double> widest;
+  for (const modes::SceneStructure& named : scene.structures) {
+    if (!is_same(named, structure)) continue;
+    for (const modes::Mode& mode : scene.modes) {
+      if (!mode.enabled || mode.type != "keep_out" || mode.structure != named.name) continue;
+      widest = std::max(widest.value_or(0), mode.margin_mm);
+    }
+  }
+  return widest;
+}
+
 void add_gate_of(modes::Scene& scene, std::size_t mode, const io::Structure& structure) {
   const std::string name = name_in_scene(scene, structure);
   modes::Gate gate;
@@ -173,19 +185,60 @@ std::string name_of_snap(const std::string& structure) {
   return "Scan's edge at " + structure;
 }
 
+/// Of the planes of landmarks that push to the normal's side, and to the other.
+std::string name_of_side(const std::string& structure, bool along) {
+  return fmt::format("Slice at {}, {} side", structure, along ? "one" : "other");
+}
+
+bool is_of_snap(const modes::Mode& mode, const std::string& structure) {
+  if (mode.type == "surface") return mode.name == name_of_snap(structure);
+  return mode.type == "landmark" &&
+         (mode.name == name_of_side(structure, true) || mode.name == name_of_side(structure, false));
+}
+
+/// Acts near a structure's outline, where the scan's edge is looked for.
+modes::Gate gate_near(const std::string& structure) {
+  constexpr double within_mm = 6;
+  return {.of = modes::Datum::distance,
+          .factor = modes::TransferFunction({{-within_mm, 0}, {1 - within_mm, 1}, {within_mm - 1, 1}, {within_mm, 0}}),
+          .structure = structure};
+}
+
+void hold_in(modes::Scene& scene, const std::string& structure, const HeldPlane& plane) {
+  constexpr double plane_n = 2;
+  for (const bool along : {true, false}) {
+    modes::Mode mode = mode_of(scene, "landmark", name_of_side(structure, along), structure, plane_n);
+    mode.structure.clear();
+    mode.shape = modes::Shape::plane;
+    mode.position_mm = plane.point_mm;
+    mode.direction = along ? plane.normal : -plane.normal;
+    mode.gates.push_back(gate_near(structure));
+    scene.modes.push_back(std::move(mode));
+  }
+}
+
 }  // namespace
 
 void snap_no_more(modes::Scene& scene, const io::Structure& structure) {
   for (const modes::SceneStructure& named : scene.structures) {
     if (!is_same(named, structure)) continue;
-    std::erase_if(scene.modes, [&](const modes::Mode& mode) {
-      return mode.type == "surface" && mode.name == name_of_snap(named.name);
-    });
+    std::erase_if(scene.modes, [&](const modes::Mode& mode) { return is_of_snap(mode, named.name); });
   }
 }
 
+std::optional<HeldPlane> held_plane(const modes::Scene& scene, const io::Structure& structure) {
+  for (const modes::SceneStructure& named : scene.structures) {
+    if (!is_same(named, structure)) continue;
+    for (const modes::Mode& mode : scene.modes) {
+      if (mode.type != "landmark" || mode.name != name_of_side(named.name, true)) continue;
+      return HeldPlane{.point_mm = mode.position_mm, .normal = mode.direction};
+    }
+  }
+  return std::nullopt;
+}
+
 void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap) {
-  constexpr double within_mm = 6, usual_ct_per_mm = 80;
+  constexpr double usual_ct_per_mm = 80;
   constexpr double least_part = 0.2, whole_part = 0.5;  // of an edge's steepness: where it begins to hold, and holds
   constexpr double sets_in = 0.05;                      // of its rise, to both sides of the middle
   const std::string name = name_in_scene(scene, structure);
@@ -196,10 +249,7 @@ void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Sna
   mode.structure.clear();  // the scan's edge, not the outline
   mode.side = edges.rise == 0 ? modes::Side::both : edges.rise > 0 ? modes::Side::entering : modes::Side::leaving;
   mode.strength_n = modes::TransferFunction({{least_part * steep, 0}, {whole_part * steep, snap.newtons}});
-  mode.gates.push_back(
-      {.of = modes::Datum::distance,
-       .factor = modes::TransferFunction({{-within_mm, 0}, {1 - within_mm, 1}, {within_mm - 1, 1}, {within_mm, 0}}),
-       .structure = name});
+  mode.gates.push_back(gate_near(name));
   if (edges.rise != 0) {
     const double half = sets_in * std::abs(edges.rise), inside = edges.rise > 0 ? 1 : 0;
     mode.gates.push_back(
@@ -207,6 +257,7 @@ void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Sna
          .factor = modes::TransferFunction({{edges.middle - half, 1 - inside}, {edges.middle + half, inside}})});
   }
   scene.modes.push_back(std::move(mode));
+  if (snap.plane) hold_in(scene, name, *snap.plane);
 }
 
 }  // namespace palpate::plugin

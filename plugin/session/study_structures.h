@@ -3,6 +3,7 @@
 /// The structures of a study: which of them can be felt on a scan, and how they are added to a scene.
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ std::string name_in_scene(modes::Scene& scene, const io::Structure& structure);
 void add_boundary_of(modes::Scene& scene, const io::Structure& structure);
 /// Adds a margin that the stylus is kept out of, and that the panel warns of.
 void add_keep_out_of(modes::Scene& scene, const io::Structure& structure, double margin_mm);
+/// The widest margin that the scene keeps the stylus out of it with; none: it does not.
+std::optional<double> keep_out_of(const modes::Scene& scene, const io::Structure& structure);
 /// Lets a mode of the scene act only inside the structure.
 void add_gate_of(modes::Scene& scene, std::size_t mode, const io::Structure& structure);
 
@@ -52,14 +55,23 @@ struct OutlineEdges {
   double rise = 0;    ///< of the value on the way in, negative where it falls; 0: not known
   double middle = 0;  ///< the value half-way
 };
+/// A plane of the patient: that of a slice.
+struct HeldPlane {
+  io::Vec3 point_mm{0}, normal{0, 0, 1};  ///< unit
+  bool operator==(const HeldPlane&) const = default;
+};
 /// How they hold the stylus.
 struct Snap {
   double newtons = 1;
   OutlineEdges edges = {};
+  std::optional<HeldPlane> plane = {};  ///< the stylus is held in it, from both sides; none: it is free
 };
 /// Adds a surface at the scan's edges within 6 mm of the outline, or changes it. It holds on the way in, where the
-/// value is half-way; where that is not known, both ways and on the flank of an edge.
+/// value is half-way; where that is not known, both ways and on the flank of an edge. So near the outline a plane
+/// holds, too: with 2 N.
 void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap);
+/// The plane that a scene holds the stylus in there; none: it does not.
+std::optional<HeldPlane> held_plane(const modes::Scene& scene, const io::Structure& structure);
 /// Takes it away again.
 void snap_no_more(modes::Scene& scene, const io::Structure& structure);
 

@@ -81,13 +81,15 @@ void PalpatePanel::mark_by_key(const QKeyEvent& event) {
   }
 }
 
-/// B held in a view shows the outline before its correction. Whether the key is used: ParaView would select blocks.
-bool PalpatePanel::show_before_by_key(const QKeyEvent& event) {
+/// While an outline is corrected, B held in a view shows it as it was before, and F frees the stylus from the slice
+/// that it is held in. Whether the key is used: ParaView would select blocks, or fly somewhere.
+bool PalpatePanel::correct_by_key(const QKeyEvent& event) {
   palpate::plugin::CorrectionModel& correction = parts_->correction;
-  if (event.key() != Qt::Key_B || event.modifiers() != Qt::NoModifier || !correction.structure()) return false;
+  const bool before = event.key() == Qt::Key_B, frees = event.key() == Qt::Key_F && correction.held_in();
+  if ((!before && !frees) || event.modifiers() != Qt::NoModifier || !correction.structure()) return false;
   const bool pressed = event.type() != QEvent::KeyRelease && has_view_keys();
-  if (!pressed && !correction.shows_before()) return false;
-  if (!event.isAutoRepeat()) correction.show_before(pressed);
+  if (!pressed && !(before ? correction.shows_before() : correction.is_freed())) return false;
+  if (!event.isAutoRepeat()) before ? correction.show_before(pressed) : correction.set_freed(pressed);
   return true;
 }
 
@@ -97,7 +99,7 @@ bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease) {
     mark_by_key(*static_cast<QKeyEvent*>(event));
   }
-  if ((pressed || event->type() == QEvent::KeyRelease) && show_before_by_key(*static_cast<QKeyEvent*>(event))) {
+  if ((pressed || event->type() == QEvent::KeyRelease) && correct_by_key(*static_cast<QKeyEvent*>(event))) {
     return true;
   }
   // A button that was clicked is done with: the arrow keys are the marked view's again.

@@ -27,7 +27,7 @@ class PalpatePanel : public QDockWidget {
 
  private:
   void mark_by_key(const QKeyEvent& event);
-  bool show_before_by_key(const QKeyEvent& event);
+  bool correct_by_key(const QKeyEvent& event);
 
   std::unique_ptr<palpate::plugin::Translation> translation_;  // first: what is built asks for its words
   std::unique_ptr<palpate::plugin::PanelParts> parts_;

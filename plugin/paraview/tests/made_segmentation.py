@@ -41,7 +41,7 @@ def frame(z):
             *items("0062,000a", ["(0062,000b) US 1"])]
 
 
-def write_segmentation(file, scan, number=1, is_in=is_inside):
+def write_segmentation(file, scan, number=1, is_in=is_inside, name="Liver"):
     """Of `scan`'s patient, study and frame of reference. Segmentations of another number are others."""
     def header(tag):
         first = os.path.join(scan, sorted(name for name in os.listdir(scan) if name.startswith("slice_"))[0])
@@ -60,7 +60,7 @@ def write_segmentation(file, scan, number=1, is_in=is_inside):
         f"(0020,0052) UI {header('0020,0052')}", "(0028,0002) US 1", "(0028,0004) CS MONOCHROME2",
         f"(0028,0008) IS {len(inside)}", f"(0028,0010) US {SIZE}", f"(0028,0011) US {SIZE}", "(0028,0100) US 1",
         "(0028,0101) US 1", "(0028,0102) US 0", "(0028,0103) US 0", "(0062,0001) CS BINARY",
-        *items("0062,0002", [*items("0062,0003", code), "(0062,0004) US 1", "(0062,0005) LO Liver", "(0062,0008) CS MANUAL",
+        *items("0062,0002", [*items("0062,0003", code), "(0062,0004) US 1", f"(0062,0005) LO {name}", "(0062,0008) CS MANUAL",
                              r"(0062,000d) US 40000\50000\40000", *items("0062,000f", code)]),
         *items("5200,9229", [*items("0020,9116", [r"(0020,0037) DS 1\0\0\0\1\0"]),
                              *items("0028,9110", ["(0018,0050) DS 1", r"(0028,0030) DS 1\1"])]),

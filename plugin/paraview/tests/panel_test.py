@@ -3,6 +3,7 @@
 Arguments as in panel_program.py; main_thread, first_image and the_volume_turns, which are measurements, can be asked for. PALPATE_FOLDER: another scan.
 """
 
+import math
 import os
 import shutil
 import subprocess
@@ -126,6 +127,13 @@ def spoilt():
     return folder
 
 
+def spoilt_beside_a_vessel():
+    """The same, and a small ball in front of the cap."""
+    folder = spoilt()
+    write_segmentation(os.path.join(folder, "vessel.dcm"), folder, 3, lambda *at: math.dist(at, (0, -30, 0)) < 3, "Vessel")
+    return folder
+
+
 FOLDERS = {
     "slices_are_scrolled": lambda: numbered("numbered"),
     "slices_are_scrolled_upside_down": lambda: numbered("upside-down", "--orientation", "1,0,0,0,-1,0"),
@@ -148,6 +156,9 @@ FOLDERS = {
     "an_outline_is_corrected": spoilt,
     "an_outline_is_traced_by_touch": spoilt,
     "a_ball_is_added": spoilt,
+    "a_felt_trace_stays_in_its_slice": spoilt,
+    "an_outline_is_traced_over_its_surface": spoilt,
+    "margins_are_told": spoilt_beside_a_vessel,
     "marks_belong_to_a_scan": both,
     "slices_are_read_and_measured": named,
     "the_table_is_cut_away": on_a_table,
@@ -220,6 +231,10 @@ SCENARIOS = [
     "an_outline_is_corrected",
     "an_outline_is_traced_by_touch",
     "a_ball_is_added",
+    "a_felt_trace_stays_in_its_slice",
+    "an_outline_is_traced_over_its_surface",
+    "margins_are_told",
+    "a_correction_is_saved",
     "marks_are_where_the_stylus_was",
     "marks_are_measured_and_changed",
     "marks_belong_to_a_scan",
@@ -279,6 +294,10 @@ def marks_last():
     return run("marks_are_saved", ball()) and run("marks_are_restored", arguments=["--state=" + scratch("marks.pvsm")])
 
 
+def correction_last():
+    return run("a_correction_is_saved", spoilt()) and run("a_correction_is_restored", arguments=["--state=" + scratch("correct.pvsm")])
+
+
 # Only by name: measurements.
 BY_NAME = ["main_thread", "first_image", "the_volume_turns"]
 TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
@@ -286,6 +305,7 @@ TESTS["the_layout_is_clinical"] = layout
 TESTS["the_panel_speaks_german"] = german
 TESTS["the_panel_fits_the_screen"] = fits
 TESTS["marks_are_saved"] = marks_last
+TESTS["a_correction_is_saved"] = correction_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
 TESTS["what_is_shared_is_what_is_felt"] = shared
 for dropped in ("first_image", "the_volume_turns"):

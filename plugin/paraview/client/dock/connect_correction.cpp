@@ -1,23 +1,20 @@
+#include <pqActiveObjects.h>
+#include <pqRenderView.h>
 #include <pqUndoStack.h>
 
 #include <QFileDialog>
 
-#include <exception>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "plugin/app/archive_settings.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/correct_box.h"
 #include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/profile_section.h"
-#include "plugin/paraview/client/panel/send_dialog.h"
 #include "plugin/paraview/client/panel/structures_section.h"
-#include "plugin/paraview/client/scan/scan_section.h"
-#include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
 // A structure is corrected: strokes come from the views and the stylus, and the outline goes out.
@@ -31,8 +28,11 @@ void PanelParts::connect_correction() {
   });
   QObject::connect(&correction, &CorrectionModel::stroke_changed, &dock, [this] {
     SCOPED_UNDO_EXCLUDE();
-    drawn_stroke.show(correction.stroke(), !correction.stroke().empty());
+    const bool on_slice = correction.stroke_over() == CorrectionModel::Over::slice;
+    drawn_stroke.show(correction.stroke(), on_slice && !correction.stroke().empty());
   });
+  QObject::connect(&structures->correct_box(), &CorrectBox::slice_wanted, &dock,
+                   [this](bool held) { correction.hold_in(held ? marked_slice() : std::nullopt); });
   QObject::connect(&correction, &CorrectionModel::place_wanted, &dock, [this](const io::DoubtfulPlace& place) {
     SCOPED_UNDO_EXCLUDE();
     readers.views().show_point(place.position_mm);
@@ -59,8 +59,45 @@ void PanelParts::share_picks() {
       if (what == Pick::let_go) correction.let_go();
     };
   }
+  views.set_rays(
+      correction.structure() && !profile_picks
+          ? [this](Pick what, const auto& near, const auto& far) { return stroke_over_outline(what, near, far); }
+          : StylusViews::Rays());
   readers.views().set_pick(on_slices);
   views.set_pick(in_volume);
+}
+
+/// In the volume view, where the pointer is over the outline; beside it the view is turned.
+bool PanelParts::stroke_over_outline(Pick what, const glm::dvec3& near, const glm::dvec3& far) {
+  const auto outline = structures->corrected();
+  const auto place = outline ? first_on_outline(*outline, near, far) : std::nullopt;
+  if (what == Pick::pressed && !place) return false;
+  if (what == Pick::pressed) correction.press(*place, CorrectionModel::Over::outline);
+  if (what == Pick::moved && place) correction.move(*place);
+  if (what == Pick::let_go) correction.let_go();
+  return true;
+}
+
+/// The slice in the view that is marked, or else the axial one.
+std::optional<HeldPlane> PanelParts::marked_slice() const {
+  std::optional<HeldPlane> axial;
+  for (const ClinicalView& one : open_views.now()) {
+    if (!one.slice) continue;
+    const HeldPlane plane{.point_mm = one.slice->place_at({0, 0}), .normal = one.slice->sight().along};
+    if (one.view == pqActiveObjects::instance().activeView()) return plane;
+    if (one.kind == ViewKind::axial) axial = plane;
+  }
+  return axial;
+}
+
+/// Another slice is shown by the user: the hand is held in that.
+void PanelParts::follow_held_slice() {
+  const auto held = correction.held_in();
+  if (!held) return;
+  for (const ClinicalView& one : open_views.now()) {
+    if (!one.slice || one.slice->sight().along != held->normal) continue;
+    correction.follow_slice({.point_mm = one.slice->place_at({0, 0}), .normal = held->normal});
+  }
 }
 
 /// Of what adds or removes, at the place under the pointer.
@@ -73,9 +110,9 @@ void PanelParts::show_brush(const std::optional<glm::dvec3>& at) {
 /// What the stylus drew while its button was held.
 void PanelParts::draw_felt(const MarkMade& made) {
   if (const auto* const path = std::get_if<MarkedPath>(&made)) {
-    correction.draw(path->points_mm);
+    correction.draw_felt(path->points_mm);
   } else {
-    correction.draw({std::get<FeltMark>(made).position_mm});
+    correction.draw_felt({std::get<FeltMark>(made).position_mm});
   }
 }
 
@@ -116,24 +153,11 @@ void PanelParts::send_outline() {
     structures->tell(words(say("outline-needs-the-images")), true);
     return;
   }
-  std::vector<io::Archive> archives;
-  try {
-    archives = read_archives();
-  } catch (const std::exception& error) {
-    structures->tell(QString::fromUtf8(error.what()), true);
-    return;
-  }
-  if (archives.empty()) {
-    structures->tell(words(say("no-archive-here-yet")), true);
-    scan_fold->set_open(true);
-    scan->show_archive();
-    return;
-  }
-  SendDialog dialog(
-      outline->series,
-      SendDialog::of_outline(QString::fromStdString(outline->structure.name), structures->change_in_words()),
-      std::move(archives), &dock);
-  if (dialog.exec() == QDialog::Accepted) structures->correct_box().out().send(*outline, dialog.archive());
+  const SendDialog::Content content =
+      SendDialog::of_outline(QString::fromStdString(outline->structure.name), structures->change_in_words());
+  const auto archive =
+      choose_archive(outline->series, content, [this](const QString& problem) { structures->tell(problem, true); });
+  if (archive) structures->correct_box().out().send(*outline, *archive);
 }
 
 }  // namespace palpate::plugin

@@ -3,19 +3,14 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
-#include <exception>
 #include <memory>
-#include <utility>
 #include <vector>
 
-#include "plugin/app/archive_settings.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/layout/clinical_toolbar.h"
 #include "plugin/paraview/client/panel/marks_section.h"
 #include "plugin/paraview/client/panel/marks_sender.h"
-#include "plugin/paraview/client/panel/send_dialog.h"
-#include "plugin/paraview/client/scan/scan_section.h"
 #include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/session/scan_hash.h"
@@ -51,25 +46,13 @@ void PanelParts::send_marks() {
     marks_list->tell(words(say("marks-need-the-images")), true);
     return;
   }
-  std::vector<io::Archive> archives;
-  try {
-    archives = read_archives();
-  } catch (const std::exception& error) {
-    marks_list->tell(QString::fromUtf8(error.what()), true);
-    return;
-  }
-  if (archives.empty()) {
-    marks_list->tell(words(say("no-archive-here-yet")), true);
-    scan_fold->set_open(true);
-    scan->show_archive();
-    return;
-  }
   // Copies: another scan may be opened while the dialog is.
   const io::Series of = *series;
   const std::shared_ptr<const io::Volume> volume = scans.shown()->volume;
   const Marks shown = marks.marks();
-  SendDialog dialog(of, SendDialog::of_marks(of, shown), std::move(archives), &dock);
-  if (dialog.exec() == QDialog::Accepted) marks_list->sender().send(dialog.archive(), of, volume, shown);
+  const auto archive = choose_archive(of, SendDialog::of_marks(of, shown),
+                                      [this](const QString& problem) { marks_list->tell(problem, true); });
+  if (archive) marks_list->sender().send(*archive, of, volume, shown);
 }
 
 void PanelParts::show_marks(const ScanHandle& handle) {

@@ -29,7 +29,10 @@ void PanelParts::connect_session() {
     SCOPED_UNDO_EXCLUDE();
     if (touching.last().is_seen()) readers.views().show_point(touching.last().proxy_mm);
   });
-  readers.views().set_leafed([this] { stylus->pause_following(); });
+  readers.views().set_leafed([this] {
+    stylus->pause_following();
+    follow_held_slice();
+  });
   touching.set_start([this](const device::Specification& device) { return start_of(device); });
   QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
     recordings_fold->set_open(true);

@@ -20,6 +20,7 @@
 #include "plugin/paraview/client/model/scene_model.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/model/sharing_model.h"
+#include "plugin/paraview/client/panel/send_dialog.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
 #include "plugin/paraview/client/pipeline/scan_pipeline.h"
 #include "plugin/paraview/client/pipeline/scene_source.h"
@@ -106,7 +107,13 @@ struct PanelParts {
   void draw_felt(const MarkMade& made);
   void save_outline();
   void send_outline();
+  bool stroke_over_outline(Pick what, const glm::dvec3& near, const glm::dvec3& far);
+  std::optional<HeldPlane> marked_slice() const;
+  void follow_held_slice();
   std::optional<CorrectedOutline> corrected_outline();
+  // choose_archive.cpp
+  std::optional<io::Archive> choose_archive(const io::Series& of, const SendDialog::Content& content,
+                                            const std::function<void(const QString&)>& tell_problem);
   // connect_marks.cpp
   void connect_marks();
   void show_marks(const ScanHandle& handle);

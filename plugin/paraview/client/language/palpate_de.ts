@@ -368,10 +368,6 @@
         <translation>Nachziehen</translation>
     </message>
     <message>
-        <source>Drag on a slice along the right edge: the outline goes there. Or press M while the stylus feels it.</source>
-        <translation>Auf einem Schnitt den richtigen Rand entlang ziehen: der Umriss geht dorthin. Oder M drücken, während der Stift ihn fühlt.</translation>
-    </message>
-    <message>
         <source>Add</source>
         <translation>Hinzufügen</translation>
     </message>
@@ -471,6 +467,34 @@
         <source>%1 doubtful places</source>
         <translation>%1 zweifelhafte Stellen</translation>
     </message>
+    <message>
+        <source>The stylus is held in the axial slice</source>
+        <translation>Der Stift wird im axialen Schnitt gehalten</translation>
+    </message>
+    <message>
+        <source>The stylus is held in the coronal slice</source>
+        <translation>Der Stift wird im koronalen Schnitt gehalten</translation>
+    </message>
+    <message>
+        <source>The stylus is held in the sagittal slice</source>
+        <translation>Der Stift wird im sagittalen Schnitt gehalten</translation>
+    </message>
+    <message>
+        <source>Drag on a slice along the right edge: the outline goes there. Or hold M while the stylus feels it. In the volume view drag over the outline: it goes to the scan&apos;s own edge there.</source>
+        <translation>Auf einem Schnitt den richtigen Rand entlang ziehen: der Umriss geht dorthin. Oder M halten, während der Stift ihn fühlt. In der Volumenansicht über den Umriss ziehen: er geht dort zur Kante der Aufnahme.</translation>
+    </message>
+    <message>
+        <source>The stylus stays in the slice of the marked view while it traces. F held in a view frees it.</source>
+        <translation>Der Stift bleibt beim Nachziehen im Schnitt der markierten Ansicht. F, in einer Ansicht gehalten, gibt ihn frei.</translation>
+    </message>
+    <message>
+        <source>Hold the stylus in the slice</source>
+        <translation>Den Stift im Schnitt halten</translation>
+    </message>
+    <message>
+        <source>Free while F is held</source>
+        <translation>Frei, solange F gehalten wird</translation>
+    </message>
 </context>
 <context>
     <name>CorrectionModel</name>
@@ -509,6 +533,14 @@
     <message>
         <source>Redo a correction</source>
         <translation>Korrektur wiederholen</translation>
+    </message>
+    <message>
+        <source>Hold in the slice</source>
+        <translation>Im Schnitt halten</translation>
+    </message>
+    <message>
+        <source>Hold in no slice</source>
+        <translation>In keinem Schnitt halten</translation>
     </message>
 </context>
 <context>
@@ -1029,10 +1061,6 @@
 <context>
     <name>MarksSender</name>
     <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
-    <message>
         <source>Writing the report</source>
         <translation>Der Bericht wird geschrieben</translation>
     </message>
@@ -1176,10 +1204,6 @@
 </context>
 <context>
     <name>OutlineOut</name>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
     <message>
         <source>Writing %p%</source>
         <translation>Schreiben %p%</translation>
@@ -1995,6 +2019,18 @@ ID %2, Studie vom %3</translation>
         <source>%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
         <translation>%1 ml, in der Datei %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Rand ging höchstens %5 mm.</translation>
     </message>
+    <message>
+        <source>The scan has no edge there: the outline stays.</source>
+        <translation>Die Aufnahme hat dort keine Kante: der Umriss bleibt.</translation>
+    </message>
+    <message>
+        <source>It reaches %1 mm into %2.</source>
+        <translation>Er reicht %1 mm in %2 hinein.</translation>
+    </message>
+    <message>
+        <source>Margin to %1: %2 mm. Its keep-out begins at %3 mm.</source>
+        <translation>Abstand zu %1: %2 mm. Das Fernhalten beginnt bei %3 mm.</translation>
+    </message>
 </context>
 <context>
     <name>StylusSection</name>
@@ -2434,6 +2470,13 @@ ID %2, Studie vom %3</translation>
     <message>
         <source>Listens on 127.0.0.1, port %1: %2.</source>
         <translation>Wartet auf 127.0.0.1, Port %1: %2.</translation>
+    </message>
+</context>
+<context>
+    <name>WorkBar</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
     </message>
 </context>
 </TS>

@@ -14,6 +14,9 @@ namespace {
 
 constexpr double least_step_mm = 0.3;  // of a stroke: nearer places add nothing
 constexpr double scan_edge_radius_mm = 10, scan_edge_most_mm = 6;
+constexpr double felt_within_mm = 2;     // of a felt place the scan's edge is looked for
+constexpr double outline_within_mm = 6;  // of a place of the outline
+constexpr int slice_stays_ms = 400;
 
 /// The scene's edits of a structure; null: it has none of that structure.
 std::vector<io::Edit>* edits_in(modes::Scene& scene, const io::Structure& structure) {
@@ -35,6 +38,11 @@ CorrectionModel::CorrectionModel(SceneModel& scene, QObject* parent)
   connect(&scene, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::stepped) follow_scene();
   });
+  slice_kept_.setSingleShot(true);
+  slice_kept_.setInterval(slice_stays_ms);
+  connect(&slice_kept_, &QTimer::timeout, this, [this] {
+    if (structure_ && !freed_) scene_.finish_drag(tr("Hold in the slice"));
+  });
 }
 
 void CorrectionModel::begin(const io::Structure& structure, const OutlineEdges& edges) {
@@ -42,10 +50,40 @@ void CorrectionModel::begin(const io::Structure& structure, const OutlineEdges& 
   structure_ = structure;
   edges_of_scan_ = edges;
   follow_scene();
-  press_(tr("Correct %1").arg(QString::fromStdString(structure.name)),
-         [structure, edges, newtons = snap_n_](modes::Scene& scene) {
-           snap_to_scan(scene, structure, {.newtons = newtons, .edges = edges});
-         });
+  snap(tr("Correct %1").arg(QString::fromStdString(structure.name)));
+  emit changed();
+}
+
+SceneModel::Change CorrectionModel::snapping() const {
+  const std::optional<HeldPlane> plane = freed_ ? std::nullopt : held_in_;
+  return [structure = *structure_, how = Snap{.newtons = snap_n_, .edges = edges_of_scan_, .plane = plane}](
+             modes::Scene& scene) { snap_to_scan(scene, structure, how); };
+}
+
+void CorrectionModel::snap(const QString& what) {
+  press_(what, snapping());
+}
+
+void CorrectionModel::hold_in(const std::optional<HeldPlane>& plane) {
+  if (!structure_ || plane == held_in_) return;
+  held_in_ = plane;
+  freed_ = false;
+  snap(plane ? tr("Hold in the slice") : tr("Hold in no slice"));
+  emit changed();
+}
+
+void CorrectionModel::follow_slice(const HeldPlane& plane) {
+  if (!structure_ || !held_in_ || plane == *held_in_ || !is_in_scene_) return;
+  held_in_ = plane;
+  if (!freed_) scene_.pass(snapping());
+  slice_kept_.start();
+  emit changed();
+}
+
+void CorrectionModel::set_freed(bool freed) {
+  if (!structure_ || !held_in_ || !is_in_scene_ || std::exchange(freed_, freed) == freed) return;
+  scene_.pass(snapping());
+  if (!freed) scene_.finish_drag(tr("Hold in the slice"));  // a step where the slice has changed meanwhile
   emit changed();
 }
 
@@ -58,8 +96,13 @@ void CorrectionModel::end() {
 
 void CorrectionModel::forget() {
   if (find_) find_(nullptr, {});
+  if (look_beside_) look_beside_({}, 0, {});
   structure_.reset();
+  held_in_.reset();
+  freed_ = false;
+  slice_kept_.stop();
   stroke_.clear();
+  traces_.clear();
   edits_.clear();
   taken_back_.clear();
   shows_before_ = false;
@@ -88,6 +131,10 @@ void CorrectionModel::follow_scene() {
   modes::Scene scene = scene_.scene();
   const std::vector<io::Edit>* const found = edits_in(scene, *structure_);
   if (found && !std::exchange(is_in_scene_, true)) find_places();  // it is read now
+  if (found && !freed_) {
+    const std::optional<HeldPlane> held = held_plane(scene, *structure_);
+    if (std::exchange(held_in_, held) != held) emit changed();
+  }
   std::vector<io::Edit> now = found ? *found : std::vector<io::Edit>{};
   if (now == edits_) return;
   if (begins_with(edits_, now)) {
@@ -114,15 +161,13 @@ void CorrectionModel::set_radius_mm(double radius_mm) {
 
 void CorrectionModel::set_snap_n(double newtons) {
   if (std::exchange(snap_n_, newtons) == newtons || !structure_) return;
-  press_(tr("Snap to the scan's edge"),
-         [structure = *structure_, edges = edges_of_scan_, newtons](modes::Scene& scene) {
-           snap_to_scan(scene, structure, {.newtons = newtons, .edges = edges});
-         });
+  snap(tr("Snap to the scan's edge"));
 }
 
-void CorrectionModel::press(const glm::dvec3& place) {
+void CorrectionModel::press(const glm::dvec3& place, Over over) {
   if (!structure_) return;
   stroke_ = {place};
+  stroke_over_ = over;
   emit stroke_changed();
 }
 
@@ -136,20 +181,55 @@ void CorrectionModel::move(const glm::dvec3& place) {
 void CorrectionModel::let_go() {
   if (stroke_.empty()) return;
   std::vector<io::Vec3> drawn = std::exchange(stroke_, {});
-  if (tool_ != Tool::trace || drawn.size() > 1) draw(std::move(drawn));
+  if (tool_ != Tool::trace || drawn.size() > 1) draw(std::move(drawn), stroke_over_, false);
   emit stroke_changed();
 }
 
-void CorrectionModel::draw(std::vector<io::Vec3> places) {
+void CorrectionModel::draw_felt(std::vector<io::Vec3> places) {
+  draw(std::move(places), Over::slice, true);
+}
+
+void CorrectionModel::draw(std::vector<io::Vec3> places, Over over, bool felt) {
   if (!structure_ || places.empty()) return;
   switch (tool_) {
     case Tool::trace:
+      if ((felt || over == Over::outline) && look_beside_) {
+        traces_.push_back({std::move(places), over});
+        if (traces_.size() == 1) look_beside_next();
+        return;
+      }
       return add(tr("Trace"), io::TraceEdit{.points_mm = std::move(places), .known_to_mm = {}});
     case Tool::add:
       return add(tr("Add"), io::AddEdit{{.path_mm = std::move(places), .radius_mm = radius_mm_}});
     case Tool::remove:
       return add(tr("Remove"), io::RemoveEdit{{.path_mm = std::move(places), .radius_mm = radius_mm_}});
   }
+}
+
+void CorrectionModel::look_beside_next() {
+  const Trace& trace = traces_.front();
+  look_beside_(trace.places, trace.over == Over::outline ? outline_within_mm : felt_within_mm,
+               [this](const Edges& edges) {
+                 if (traces_.empty()) return;
+                 const Trace done = std::move(traces_.front());
+                 traces_.pop_front();
+                 finish_trace(done, edges);
+                 if (!traces_.empty()) look_beside_next();
+               });
+}
+
+/// What was felt stays where it was felt. What was drawn over the outline goes to the scan's edge, where there is one.
+void CorrectionModel::finish_trace(const Trace& trace, const Edges& edges) {
+  if (trace.over == Over::slice) {
+    return add(tr("Trace"), io::TraceEdit{.points_mm = trace.places, .known_to_mm = known_to_of(edges)});
+  }
+  io::TraceEdit edit;
+  for (const auto& edge : edges) {
+    if (!edge) continue;
+    edit.points_mm.push_back(edge->place_mm);
+    edit.known_to_mm.push_back(edge->known_to_mm);
+  }
+  edit.points_mm.empty() ? emit nothing_traced() : add(tr("Trace"), edit);
 }
 
 void CorrectionModel::take_scan_edge(const io::Vec3& center_mm) {

@@ -5,7 +5,9 @@
 
 #include <QObject>
 #include <QString>
+#include <QTimer>
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <set>
@@ -14,6 +16,7 @@
 #include "io/structures/doubtful_places.h"
 #include "io/structures/structure.h"
 #include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/session/edges_beside.h"
 #include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
@@ -29,9 +32,17 @@ class CorrectionModel : public QObject {
   /// null: what is being looked for is not wanted any more.
   using Find = std::function<void(const io::Structure* structure, std::function<void(io::DoubtfulPlaces)> done)>;
 
+  /// Looks for the scan's own edge beside places of a stroke, and calls `done` on the thread that asked, always: with
+  /// none at a place where there is none, or where it could not be looked for. Called with no place: what is looked for
+  /// is not wanted any more.
+  using Edges = std::vector<std::optional<EdgeBeside>>;
+  using LookBeside =
+      std::function<void(std::vector<io::Vec3> places, double within_mm, std::function<void(const Edges&)> done)>;
+
   explicit CorrectionModel(SceneModel& scene, QObject* parent = nullptr);
   void set_press(Press press) { press_ = std::move(press); }
   void set_find(Find find) { find_ = std::move(find); }
+  void set_look_beside(LookBeside look) { look_beside_ = std::move(look); }
 
   /// `edges`: the scan's own at its outline. From then on they are felt there.
   void begin(const io::Structure& structure, const OutlineEdges& edges);
@@ -49,13 +60,25 @@ class CorrectionModel : public QObject {
   double snap_n() const { return snap_n_; }  ///< how strongly the scan's edge holds the stylus; 0: it is not felt
   void set_snap_n(double newtons);
 
-  /// A stroke of the mouse on a slice, mm, patient space. It becomes an edit when the button is let go.
-  void press(const glm::dvec3& place);
+  /// The slice that the stylus is held in beside the outline, a step of the scene; none: it is free.
+  const std::optional<HeldPlane>& held_in() const { return held_in_; }
+  void hold_in(const std::optional<HeldPlane>& plane);
+  /// The slice that it is held in is another one now. Several soon after each other are one step.
+  void follow_slice(const HeldPlane& plane);
+  /// It is free while a key is held.
+  bool is_freed() const { return freed_; }
+  void set_freed(bool freed);
+
+  /// A stroke of the mouse, mm, patient space: on a slice, or over the outline as the volume view shows it. It becomes
+  /// an edit when the button is let go. A trace over the outline moves it to the scan's own edge beside it.
+  enum class Over { slice, outline };
+  void press(const glm::dvec3& place, Over over = Over::slice);
   void move(const glm::dvec3& place);
   void let_go();
   const std::vector<io::Vec3>& stroke() const { return stroke_; }
-  /// The same at once: a path of the stylus, or one place.
-  void draw(std::vector<io::Vec3> places);
+  Over stroke_over() const { return stroke_over_; }
+  /// The same at once: a path of the stylus, or one place. The points of a trace carry the +- of the scan's edge there.
+  void draw_felt(std::vector<io::Vec3> places);
   /// The edge moves to the scan's own around a place.
   void take_scan_edge(const io::Vec3& center_mm);
 
@@ -86,20 +109,39 @@ class CorrectionModel : public QObject {
   void stroke_changed();
   void places_changed();
   void place_wanted(const palpate::io::DoubtfulPlace& place);
+  /// A stroke has changed nothing: along all of it the scan has no edge.
+  void nothing_traced();
 
  private:
+  /// A trace whose places are looked at before it becomes an edit.
+  struct Trace {
+    std::vector<io::Vec3> places;
+    Over over = Over::slice;
+  };
+
   void follow_scene();
+  void draw(std::vector<io::Vec3> places, Over over, bool felt);
+  void look_beside_next();
+  void finish_trace(const Trace& trace, const Edges& edges);
+  void snap(const QString& what);
+  SceneModel::Change snapping() const;
   void add(const QString& what, const io::Edit& edit);
   void find_places();
 
   SceneModel& scene_;
   Press press_;
   Find find_;
+  LookBeside look_beside_;
   std::optional<io::Structure> structure_;
   OutlineEdges edges_of_scan_;
   Tool tool_ = Tool::trace;
   double radius_mm_ = 3, snap_n_ = 0.8;
+  std::optional<HeldPlane> held_in_;  // as the scene had it last, but while it is freed
+  bool freed_ = false;
+  QTimer slice_kept_;  // once the slice stays
   std::vector<io::Vec3> stroke_;
+  Over stroke_over_ = Over::slice;
+  std::deque<Trace> traces_;          // the first of them is being looked at
   std::vector<io::Edit> edits_;       // as the scene had them last
   std::vector<io::Edit> taken_back_;  // the last one first to come again
   bool shows_before_ = false;

@@ -53,6 +53,18 @@ struct Correcting : ::testing::Test {
     }
     return nullptr;
   }
+  std::vector<modes::Mode> planes() const {
+    std::vector<modes::Mode> found;
+    for (const modes::Mode& mode : scene.scene().modes) {
+      if (mode.type == "landmark") found.push_back(mode);
+    }
+    return found;
+  }
+  void look_beside() {
+    model.set_look_beside([this](std::vector<io::Vec3> places, double within_mm, auto done) {
+      if (!places.empty()) beside.push_back({std::move(places), within_mm, std::move(done)});
+    });
+  }
   static io::DoubtfulPlaces three() {
     io::DoubtfulPlaces found;
     for (const double x : {100.0, 200.0, 300.0}) {
@@ -66,6 +78,12 @@ struct Correcting : ::testing::Test {
   io::Structure liver;
   CorrectionModel model{scene};
   std::vector<std::function<void(io::DoubtfulPlaces)>> asked;
+  struct Beside {
+    std::vector<io::Vec3> places;
+    double within_mm;
+    std::function<void(const CorrectionModel::Edges&)> done;
+  };
+  std::vector<Beside> beside;
   int not_wanted = 0;
   std::vector<double> gone_to;
 };
@@ -89,7 +107,7 @@ TEST_F(Correcting, AStrokeIsOneEditOfTheScene) {
   EXPECT_THAT(kinds(), ElementsAre("trace", "add", "remove"));
   EXPECT_EQ(std::get<io::AddEdit>(model.edits()[1]).tube, (io::Tube{{{5, 0, 0}, {6, 0, 0}}, 4.5}));
   EXPECT_EQ(std::get<io::RemoveEdit>(model.edits()[2]).tube, (io::Tube{{{7, 0, 0}}, 4.5}));
-  model.draw({{8, 0, 0}, {9, 0, 0}});
+  model.draw_felt({{8, 0, 0}, {9, 0, 0}});
   EXPECT_THAT(kinds(), SizeIs(4)) << "the stylus' path";
   model.set_tool(Tool::trace);
   stroke({{0, 9, 0}});
@@ -98,7 +116,7 @@ TEST_F(Correcting, AStrokeIsOneEditOfTheScene) {
 
 TEST_F(Correcting, NothingIsDrawnWhereNothingIsCorrected) {
   stroke({{0, 0, 0}, {1, 0, 0}});
-  model.draw({{0, 0, 0}});
+  model.draw_felt({{0, 0, 0}});
   model.undo();
   model.redo();
   model.take_scan_edge({0, 0, 0});
@@ -188,6 +206,136 @@ TEST_F(Correcting, TheScansEdgeIsFeltHalfWay) {
     EXPECT_DOUBLE_EQ(snap()->gates[1].factor(40 - 0.1 * rise), 0) << "outside";
     EXPECT_NEAR(snap()->gates[1].factor(40), 0.5, 1e-9);
   }
+}
+
+/// Two planes, one to each side: a step that can be undone, and nothing where no outline is near.
+TEST_F(Correcting, TheStylusIsHeldInASlice) {
+  const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
+  model.hold_in(slice);
+  EXPECT_FALSE(model.held_in()) << "nothing is corrected";
+  model.begin(liver, {});
+  EXPECT_THAT(planes(), IsEmpty());
+  model.hold_in(slice);
+  ASSERT_THAT(planes(), SizeIs(2));
+  EXPECT_EQ(planes()[0].direction, -planes()[1].direction);
+  for (const modes::Mode& plane : planes()) {
+    EXPECT_EQ(plane.position_mm, slice.point_mm);
+    EXPECT_EQ(plane.shape, modes::Shape::plane);
+    ASSERT_THAT(plane.gates, SizeIs(1));
+    EXPECT_DOUBLE_EQ(plane.gates[0].factor(0), 1);
+    EXPECT_DOUBLE_EQ(plane.gates[0].factor(7), 0);
+  }
+  EXPECT_EQ(kept.steps.back().what, "Hold in the slice");
+  model.set_snap_n(2.2);
+  stroke({{0, 0, 0}, {0, 1, 0}});
+  EXPECT_THAT(planes(), SizeIs(2)) << "whatever else is changed";
+  scene.undo();
+  scene.undo();
+  EXPECT_EQ(model.held_in(), slice);
+  scene.undo();
+  EXPECT_FALSE(model.held_in());
+  EXPECT_THAT(planes(), IsEmpty());
+  scene.redo();
+  EXPECT_EQ(model.held_in(), slice) << "the scene's";
+  model.hold_in(std::nullopt);
+  EXPECT_THAT(planes(), IsEmpty());
+  model.hold_in(slice);
+  model.end();
+  EXPECT_THAT(planes(), IsEmpty());
+  EXPECT_FALSE(model.held_in());
+}
+
+TEST_F(Correcting, TheStylusIsFreeWhileAKeyIsHeld) {
+  const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
+  model.begin(liver, {});
+  model.set_freed(true);
+  EXPECT_FALSE(model.is_freed()) << "it is free";
+  model.hold_in(slice);
+  const std::size_t steps = kept.steps.size();
+  model.set_freed(true);
+  EXPECT_THAT(planes(), IsEmpty());
+  EXPECT_EQ(model.held_in(), slice) << "and will be held again";
+  model.set_freed(false);
+  EXPECT_THAT(planes(), SizeIs(2));
+  EXPECT_EQ(kept.steps.size(), steps) << "which is no step";
+  model.set_freed(true);
+  stroke({{0, 0, 0}, {0, 1, 0}});
+  EXPECT_TRUE(model.is_freed());
+  EXPECT_THAT(planes(), IsEmpty());
+  model.set_freed(false);
+  EXPECT_THAT(planes(), SizeIs(2)) << "also after what was drawn meanwhile";
+  EXPECT_THAT(kept_edits(), SizeIs(1));
+}
+
+TEST_F(Correcting, ThePlanesFollowTheSlice) {
+  HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
+  model.begin(liver, {});
+  model.follow_slice(slice);
+  EXPECT_THAT(planes(), IsEmpty()) << "it is free";
+  model.hold_in(slice);
+  const std::size_t steps = kept.steps.size();
+  for (slice.point_mm.z = 31; slice.point_mm.z < 35; ++slice.point_mm.z) {
+    model.follow_slice(slice);
+    ASSERT_THAT(planes(), SizeIs(2));
+    EXPECT_EQ(planes()[1].position_mm, slice.point_mm);
+  }
+  EXPECT_EQ(kept.steps.size(), steps) << "while the wheel turns";
+  stroke({{0, 0, 0}, {0, 1, 0}});
+  EXPECT_DOUBLE_EQ(held_plane(modes::scene_from_json(kept.text("Scene"), "scene"), liver)->point_mm.z, 34);
+}
+
+/// The points of a felt trace carry how well the scan's edge is known there, and no others do.
+TEST_F(Correcting, AFeltTraceCarriesHowWellItsEdgeIsKnown) {
+  look_beside();
+  model.begin(liver, {});
+  model.draw_felt({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  model.draw_felt({{5, 0, 0}});
+  EXPECT_THAT(kinds(), IsEmpty()) << "it is being looked for";
+  ASSERT_THAT(beside, SizeIs(1));
+  EXPECT_THAT(beside[0].places, SizeIs(3));
+  beside[0].done({EdgeBeside{{9, 9, 9}, 0.1, 0.4}, std::nullopt, EdgeBeside{{9, 9, 9}, -1.7, 0.3}});
+  ASSERT_THAT(kinds(), ElementsAre("trace"));
+  const auto& trace = std::get<io::TraceEdit>(model.edits().front());
+  EXPECT_EQ(trace.points_mm, (std::vector<io::Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}})) << "where it was felt";
+  EXPECT_THAT(trace.known_to_mm, ElementsAre(0.4, 0, 0)) << "no edge; and one that lies elsewhere";
+  ASSERT_THAT(beside, SizeIs(2)) << "the next in its turn";
+  beside[1].done({std::nullopt});
+  EXPECT_THAT(kinds(), ElementsAre("trace", "trace"));
+  stroke({{0, 0, 5}, {0, 1, 5}});
+  EXPECT_THAT(beside, SizeIs(2)) << "what is drawn on a slice is where it was drawn";
+  model.set_tool(Tool::add);
+  model.draw_felt({{3, 0, 0}});
+  EXPECT_THAT(beside, SizeIs(2));
+  EXPECT_THAT(kinds(), ElementsAre("trace", "trace", "trace", "add"));
+}
+
+TEST_F(Correcting, AStrokeOverTheOutlineGoesToTheScansEdge) {
+  look_beside();
+  model.begin(liver, {});
+  int nothing = 0;
+  QObject::connect(&model, &CorrectionModel::nothing_traced, [&] { ++nothing; });
+  const auto over = [&] {
+    model.press({0, 0, 0}, CorrectionModel::Over::outline);
+    model.move({1, 0, 0});
+    model.move({2, 0, 0});
+    model.let_go();
+  };
+  over();
+  ASSERT_THAT(beside, SizeIs(1));
+  EXPECT_GT(beside[0].within_mm, 5);
+  beside[0].done({EdgeBeside{{0, 3, 0}, 3, 0.2}, std::nullopt, EdgeBeside{{2, 4, 0}, 4, 0.3}});
+  ASSERT_THAT(kinds(), ElementsAre("trace"));
+  const auto& trace = std::get<io::TraceEdit>(model.edits().front());
+  EXPECT_THAT(trace.points_mm, ElementsAre(io::Vec3(0, 3, 0), io::Vec3(2, 4, 0)));
+  EXPECT_THAT(trace.known_to_mm, ElementsAre(0.2, 0.3));
+  over();
+  beside[1].done({std::nullopt, std::nullopt, std::nullopt});
+  EXPECT_EQ(nothing, 1);
+  EXPECT_THAT(kinds(), SizeIs(1));
+  over();
+  model.forget();
+  beside[2].done({EdgeBeside{{0, 3, 0}, 3, 0.2}, std::nullopt, std::nullopt});
+  EXPECT_THAT(kept_edits(), SizeIs(1)) << "another scan";
 }
 
 TEST_F(Correcting, TheEditsStayWhereItEndsAndComeBack) {

@@ -108,6 +108,12 @@ void SceneModel::drag(const Change& change, const Told& told) {
   tell(take(scene, Pace::dragged), told);
 }
 
+void SceneModel::pass(const Change& change, const Told& told) {
+  modes::Scene scene = scene_;
+  change(scene);
+  tell(take(scene, Pace::stepped), told);
+}
+
 void SceneModel::finish_drag(const QString& what) {
   keep(what);
 }

@@ -56,6 +56,8 @@ class SceneModel : public QObject {
   /// it is one step.
   void drag(const Change& change, const Told& told = {});
   void finish_drag(const QString& what);
+  /// A change that is no step by itself: felt with a step's ramp, and kept with the next step, or by finish_drag().
+  void pass(const Change& change, const Told& told = {});
 
   bool can_undo() const { return kept_.can_undo(); }
   void undo() { kept_.undo(); }

@@ -1,6 +1,7 @@
 #include "plugin/paraview/client/panel/correct_box.h"
 
 #include <QButtonGroup>
+#include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -10,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "plugin/paraview/client/panel/outline_out.h"
@@ -37,6 +39,14 @@ QString doubt_in_words(const io::DoubtfulPlace& place) {
       return CorrectBox::tr("a small hole");
   }
   return {};
+}
+
+/// By the axis that it is nearest to: a scan may lie obliquely.
+QString held_in_words(const io::Vec3& normal) {
+  const io::Vec3 part = glm::abs(normal);
+  if (part.z >= part.x && part.z >= part.y) return CorrectBox::tr("The stylus is held in the axial slice");
+  return part.y >= part.x ? CorrectBox::tr("The stylus is held in the coronal slice")
+                          : CorrectBox::tr("The stylus is held in the sagittal slice");
 }
 
 }  // namespace
@@ -90,8 +100,10 @@ QWidget* CorrectBox::build_tools() {
     button->setCheckable(true);
     tools_->addButton(button, static_cast<int>(tool));
   };
-  add_tool(Tool::trace, "palpateToolTrace", tr("Trace"),
-           tr("Drag on a slice along the right edge: the outline goes there. Or press M while the stylus feels it."));
+  add_tool(
+      Tool::trace, "palpateToolTrace", tr("Trace"),
+      tr("Drag on a slice along the right edge: the outline goes there. Or hold M while the stylus feels it. In the "
+         "volume view drag over the outline: it goes to the scan's own edge there."));
   add_tool(Tool::add, "palpateToolAdd", tr("Add"), tr("Adds to the structure what the ball passes over"));
   add_tool(Tool::remove, "palpateToolRemove", tr("Remove"), tr("Removes from the structure what the ball passes over"));
   const auto add_number = [&](const char* name, double low, double high, double step, const QString& unit,
@@ -115,6 +127,12 @@ QWidget* CorrectBox::build_tools() {
           [this](double newtons) { model_.set_snap_n(newtons); });
   row->addStretch(1);
   rows->addLayout(row);
+  in_slice_ = new QCheckBox(box);
+  in_slice_->setObjectName(QStringLiteral("palpateHoldInSlice"));
+  in_slice_->setToolTip(
+      tr("The stylus stays in the slice of the marked view while it traces. F held in a view frees it."));
+  connect(in_slice_, &QCheckBox::clicked, this, &CorrectBox::slice_wanted);
+  rows->addWidget(in_slice_);
   return box;
 }
 
@@ -164,6 +182,10 @@ void CorrectBox::follow() {
   radius_->setValue(model_.radius_mm());
   radius_->setEnabled(model_.tool() != Tool::trace);
   snap_->setValue(model_.snap_n());
+  in_slice_->setChecked(model_.held_in().has_value());
+  in_slice_->setText(!model_.held_in()   ? tr("Hold the stylus in the slice")
+                     : model_.is_freed() ? tr("Free while F is held")
+                                         : held_in_words(model_.held_in()->normal));
   undo_->setEnabled(model_.can_undo());
   redo_->setEnabled(model_.can_redo());
   before_->setEnabled(model_.can_undo());

@@ -7,6 +7,7 @@
 #include "plugin/paraview/client/model/correction_model.h"
 
 class QButtonGroup;
+class QCheckBox;
 class QDoubleSpinBox;
 class QLabel;
 class QToolButton;
@@ -32,6 +33,8 @@ class CorrectBox : public QWidget {
  signals:
   void save_wanted();
   void send_wanted();
+  /// The stylus is to be held in the slice of the marked view, or to be free.
+  void slice_wanted(bool held);
 
  private:
   QWidget* build_tools();
@@ -48,6 +51,7 @@ class CorrectBox : public QWidget {
   QButtonGroup* tools_ = nullptr;
   QDoubleSpinBox* radius_ = nullptr;
   QDoubleSpinBox* snap_ = nullptr;
+  QCheckBox* in_slice_ = nullptr;
   QLabel* change_ = nullptr;
   QToolButton* undo_ = nullptr;
   QToolButton* redo_ = nullptr;

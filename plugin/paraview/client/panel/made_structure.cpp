@@ -64,6 +64,8 @@ void draw_structure(const WantedStructure& wanted, MadeStructure& made) {
   drawn.high_mm = made.measures->box_high_mm + room_mm;
   if (const auto box = io::box_of_edits(wanted.edits)) {
     drawn.before = outline;
+    drawn.surface_before =
+        wanted.surface_before ? wanted.surface_before : surface_of(*outline, drawn.low_mm, drawn.high_mm);
     drawn.low_mm = glm::min(drawn.low_mm, box->low_mm);
     drawn.high_mm = glm::max(drawn.high_mm, box->high_mm);
     made.change = io::outline_change(*outline, *drawn.distance, *box);

@@ -20,6 +20,7 @@ struct WantedStructure {
   std::vector<io::Edit> edits;                            ///< of its outline, the scene's
   std::shared_ptr<const io::StructureMeasures> measures;  ///< where they are known
   std::shared_ptr<const io::DistanceField> outline;       ///< its file's, as it is felt; null: it is not felt
+  vtkSmartPointer<vtkPolyData> surface_before;            ///< of the file's outline, where it is known
   bool draws = false;
   std::shared_ptr<const io::Volume> scan;
 };

@@ -1,22 +1,18 @@
 #pragma once
 
-/// Sends what was marked into an archive, in the background: a bar that shows how far it is, and can be cancelled.
-
-#include <QWidget>
+/// Sends what was marked into an archive, in the background.
 
 #include <memory>
 
 #include "io/archive/send.h"
 #include "io/series.h"
 #include "io/volume.h"
-#include "plugin/paraview/client/jobs/background.h"
+#include "plugin/paraview/client/panel/work_bar.h"
 #include "plugin/recording/marks.h"
-
-class QProgressBar;
 
 namespace palpate::plugin {
 
-class MarksSender : public QWidget {
+class MarksSender : public WorkBar {
   Q_OBJECT
 
  public:
@@ -25,16 +21,9 @@ class MarksSender : public QWidget {
   /// As `palpate export` and `palpate send` do, from a folder that is gone afterwards.
   void send(const io::Archive& archive, const io::Series& series, const std::shared_ptr<const io::Volume>& volume,
             const Marks& marks);
-  bool is_busy() const { return sending_.is_busy(); }
-
- signals:
-  void told(const QString& message, bool problem);
 
  private:
-  void take(const io::Sent& sent, const std::string& archive);
-
-  QProgressBar* progress_;
-  Background<io::Sent> sending_;
+  static Said said_of(const io::Sent& sent, const std::string& archive);
 };
 
 }  // namespace palpate::plugin

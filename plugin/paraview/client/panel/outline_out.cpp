@@ -1,11 +1,5 @@
 #include "plugin/paraview/client/panel/outline_out.h"
 
-#include <QHBoxLayout>
-#include <QProgressBar>
-#include <QPushButton>
-
-#include <utility>
-
 #include "io/fresh_folder.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/words.h"
@@ -24,54 +18,28 @@ void write_outline(const CorrectedOutline& outline, const std::filesystem::path&
 
 }  // namespace
 
-OutlineOut::OutlineOut(QWidget* parent) : QWidget(parent), progress_(new QProgressBar(this)) {
-  auto* const row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  progress_->setObjectName(QStringLiteral("palpateOutlineOut"));
-  row->addWidget(progress_, 1);
-  auto* const cancel = new QPushButton(tr("Cancel"), this);
-  cancel->setObjectName(QStringLiteral("palpateOutlineOutCancel"));
-  connect(cancel, &QPushButton::clicked, this, [this] {
-    work_.cancel();
-    hide();
-    emit told(words(say("cancelled")), false);
-  });
-  row->addWidget(cancel);
-  hide();
-}
-
-void OutlineOut::begin(const QString& doing, Work work) {
-  progress_->setRange(0, whole);
-  progress_->setValue(0);
-  progress_->setFormat(doing);
-  show();
-  emit told({}, false);
-  work_.ask(std::move(work), [this](const auto& said, const QString& error) {
-    hide();
-    emit told(said ? *said : error, !said);
-  });
-}
+OutlineOut::OutlineOut(QWidget* parent) : WorkBar(QStringLiteral("palpateOutlineOut"), parent) {}
 
 void OutlineOut::save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours,
                       bool overwrite) {
-  begin(tr("Writing %p%"), [this, outline, file, as_contours, overwrite](const auto& job) {
+  begin(tr("Writing %p%"), [this, outline, file, as_contours, overwrite](const Job& job) -> Said {
     const io::StructureForm form = io::form_of(file, as_contours);
     write_outline(outline, file, form, overwrite, [&](double done) {
-      job.tell([this, done] { progress_->setValue(static_cast<int>(whole * done)); });
+      tell_progress(job, static_cast<int>(whole * done), whole);
       return job.keep_going();
     });
-    return words(say("outline-is-written", file.string()));
+    return {words(say("outline-is-written", file.string()))};
   });
 }
 
 void OutlineOut::send(const CorrectedOutline& outline, const io::Archive& archive) {
-  begin(tr("Sending"), [outline, archive](const auto& job) {
+  begin(tr("Sending"), [outline, archive](const Job& job) -> Said {
     const io::FreshFolder folder = io::temporary_folder();
     const std::filesystem::path file = folder.path() / "outline.dcm";
     write_outline(outline, file, io::StructureForm::segmentation, false, [&](double) { return job.keep_going(); });
     const io::Sent sent = io::send(archive, {file}, [&](std::size_t) { return job.keep_going(); });
-    if (!sent.not_sent.empty()) throw Refusal(sent.not_sent.front().why);
-    return words(say("outline-is-sent", archive.name));
+    if (!sent.not_sent.empty()) return {words(sent.not_sent.front().why), true};
+    return {words(say("outline-is-sent", archive.name))};
   });
 }
 

@@ -1,21 +1,15 @@
 #pragma once
 
-/// Writes a corrected outline into a file or sends it to an archive, in the background: a bar that shows how far it is,
-/// and can be cancelled.
-
-#include <QWidget>
+/// Writes a corrected outline into a file or sends it to an archive, in the background.
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 
 #include "io/archive/send.h"
 #include "io/series.h"
 #include "io/structures/label_image.h"
 #include "io/volume.h"
-#include "plugin/paraview/client/jobs/background.h"
-
-class QProgressBar;
+#include "plugin/paraview/client/panel/work_bar.h"
 
 namespace palpate::plugin {
 
@@ -28,7 +22,7 @@ struct CorrectedOutline {
   std::shared_ptr<const io::Volume> scan;
 };
 
-class OutlineOut : public QWidget {
+class OutlineOut : public WorkBar {
   Q_OBJECT
 
  public:
@@ -38,17 +32,6 @@ class OutlineOut : public QWidget {
   void save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours, bool overwrite);
   /// As a DICOM SEG, from a folder that is gone afterwards.
   void send(const CorrectedOutline& outline, const io::Archive& archive);
-  bool is_busy() const { return work_.is_busy(); }
-
- signals:
-  void told(const QString& message, bool problem);
-
- private:
-  using Work = std::function<QString(const Background<QString>::Job&)>;
-  void begin(const QString& doing, Work work);
-
-  QProgressBar* progress_;
-  Background<QString> work_;  // gives what is said at its end
 };
 
 }  // namespace palpate::plugin

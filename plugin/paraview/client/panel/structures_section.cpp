@@ -68,6 +68,10 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
         if (read) held_.insert(held_.end(), read->begin(), read->end());
         read_done_(error);
       }),
+      measuring_margins_([this](const auto& measured, const QString&) {
+        if (measured) margins_ = *measured;
+        follow_correction();
+      }),
       presses_(
           model, [this](const modes::Scene& edited, auto done) { read_for(edited, std::move(done)); },
           [this](const QString& text, bool problem) { tell(text, problem); }) {
@@ -82,6 +86,11 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
     presses_.press(what, change, {});
   });
   correction.set_find([this](const io::Structure* structure, auto done) { find_doubtful(structure, std::move(done)); });
+  correction.set_look_beside([this](std::vector<io::Vec3> places, double within_mm, auto done) {
+    look_beside(std::move(places), within_mm, std::move(done));
+  });
+  connect(&correction, &CorrectionModel::nothing_traced, this,
+          [this] { tell(tr("The scan has no edge there: the outline stays."), false); });
   connect(&correction, &CorrectionModel::changed, this, [this] { follow_correction(); });
   list();
 }
@@ -89,12 +98,17 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
 StructuresSection::~StructuresSection() {
   correction_.set_press([](const QString&, const SceneModel::Change&) {});
   correction_.set_find({});
+  correction_.set_look_beside({});
 }
 
 void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder) {
   finding_.drop();
   making_.drop();
   using_.drop();
+  measuring_margins_.drop();
+  margins_from_ = nullptr;
+  keep_outs_.clear();
+  margins_.clear();
   presses_.drop();
   correction_.forget();
   scan_ = std::move(scan);
@@ -199,6 +213,7 @@ void StructuresSection::follow_scene() {
   list();
   draw();
   make_next();
+  measure_margins();
   look_into(files);
 }
 
@@ -270,12 +285,14 @@ void StructuresSection::make_next() {
   if (next == entries_.end()) next = std::ranges::find_if(entries_, wants(false));
   if (next == entries_.end()) return;
   busy_making_ = true;
-  WantedStructure wanted{.structure = next->structure,
-                         .edits = next->edits,
-                         .measures = next->made.measures,
-                         .outline = nullptr,
-                         .draws = next->shown,
-                         .scan = scan_};
+  WantedStructure wanted{
+      .structure = next->structure,
+      .edits = next->edits,
+      .measures = next->made.measures,
+      .outline = nullptr,
+      .surface_before = next->made.edits.empty() ? next->made.drawn.surface : next->made.drawn.surface_before,
+      .draws = next->shown,
+      .scan = scan_};
   if (const LoadedStructure* const now = felt(*next)) {
     wanted.outline = now->before_edits.empty() ? now->distance : now->before_edits.front();
   }
@@ -296,7 +313,6 @@ void StructuresSection::take_made(const MadeStructure& made) {
   }
   look_whether_off(*entry);
   list();
-  draw();
   follow_correction();
 }
 
@@ -334,11 +350,12 @@ void StructuresSection::draw() {
     drawn.margins_mm = margins_of(entry.structure);
     if (correction_.shows_before() && is_corrected(entry) && drawn.before) {
       drawn.distance = std::exchange(drawn.before, nullptr);
-      drawn.surface = nullptr;
+      drawn.surface = drawn.surface_before;
       continue;
     }
     const LoadedStructure* const now = felt(entry);
     if (!now || now->edits != entry.edits || now->edits == entry.made.edits) continue;
+    if (entry.made.edits.empty()) drawn.surface_before = drawn.surface;
     // The lines on the slices are those that are felt, also while the surface is on its way.
     drawn.distance = now->distance;
     drawn.before = now->edits.empty() ? nullptr : now->before_edits.front();

@@ -19,6 +19,7 @@
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/model/structure_presses.h"
 #include "plugin/paraview/client/panel/made_structure.h"
+#include "plugin/paraview/client/panel/outline_margins.h"
 #include "plugin/paraview/client/views/structure_views.h"
 #include "plugin/session/scene_structures.h"
 
@@ -51,7 +52,8 @@ class StructuresSection : public QWidget {
   CorrectBox& correct_box() { return *correct_box_; }
   /// The corrected structure's distance as it is felt; null: nothing is corrected, or it is not read yet.
   std::shared_ptr<const io::DistanceField> corrected() const;
-  /// What its edits have changed; empty: nothing, or it is not known yet.
+  /// What its edits have changed, and how far it is from what the stylus is kept out of; empty: nothing was edited, or
+  /// it is not known yet.
   QString change_in_words() const;
   void tell(const QString& text, bool problem);
 
@@ -97,6 +99,12 @@ class StructuresSection : public QWidget {
   void read_for(const modes::Scene& edited, std::function<void(const QString& error)> done);
   void correct(bool on);
   void follow_correction();
+  void measure_margins();
+  QString margins_in_words() const;
+  std::function<std::shared_ptr<const io::DistanceField>()> outline_within(const io::Structure& structure,
+                                                                           double reach_mm) const;
+  void look_beside(std::vector<io::Vec3> places, double within_mm,
+                   std::function<void(const CorrectionModel::Edges&)> done);
   void find_doubtful(const io::Structure* structure, std::function<void(io::DoubtfulPlaces)> done);
   bool is_corrected(const Entry& entry) const;
   const Entry* corrected_entry() const;
@@ -127,6 +135,11 @@ class StructuresSection : public QWidget {
   LatestJob<std::vector<LoadedStructure>> using_;
   bool busy_making_ = false;
   Background<io::DoubtfulPlaces> doubting_;
+  Background<CorrectionModel::Edges> looking_beside_;
+  std::vector<KeepOut> keep_outs_;                         // that margins_ is of, or will be
+  std::shared_ptr<const io::DistanceField> margins_from_;  // the same
+  std::vector<OutlineMargin> margins_;
+  LatestJob<std::vector<OutlineMargin>> measuring_margins_;
   StructurePresses presses_;
   std::function<void(const QString& error)> read_done_;  // of the press that is being read for
 };

@@ -2,6 +2,7 @@
 #include <QToolButton>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "plugin/paraview/client/panel/correct_box.h"
@@ -41,6 +42,7 @@ void StructuresSection::correct(bool on) {
 void StructuresSection::follow_correction() {
   const QSignalBlocker quiet(correct_);
   correct_->setChecked(correction_.structure() != nullptr);
+  measure_margins();
   correct_box_->set_change(change_in_words());
   draw();
 }
@@ -52,8 +54,78 @@ QString StructuresSection::change_in_words() const {
   const io::OutlineChange& change = *entry->made.change;
   const auto number = [](double of) { return QString::number(of, 'f', 2); };
   return tr("%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.")
-      .arg(number(volume_of(*entry) / ml), number(entry->made.measures->volume_mm3 / ml), number(change.added_mm3 / ml),
-           number(change.removed_mm3 / ml), number(change.largest_mm));
+             .arg(number(volume_of(*entry) / ml), number(entry->made.measures->volume_mm3 / ml),
+                  number(change.added_mm3 / ml), number(change.removed_mm3 / ml), number(change.largest_mm)) +
+         margins_in_words();
+}
+
+/// Of the outline with these edits to what the scene keeps the stylus out of, where one of them has changed.
+void StructuresSection::measure_margins() {
+  const Entry* const entry = corrected_entry();
+  const auto outline = corrected();
+  if (!entry || !outline || entry->edits.empty() || entry->made.edits != entry->edits) return;
+  std::vector<KeepOut> keep_outs;
+  for (const Entry& other : entries_) {
+    const LoadedStructure* const read = felt(other);
+    const std::optional<double> margin_mm = keep_out_of(model_.scene(), other.structure);
+    if (&other == entry || !read || !margin_mm || !other.made.measures) continue;
+    io::StructureBox box{other.made.measures->box_low_mm, other.made.measures->box_high_mm};
+    if (const auto edited = io::box_of_edits(read->edits)) {
+      box = {glm::min(box.low_mm, edited->low_mm), glm::max(box.high_mm, edited->high_mm)};
+    }
+    keep_outs.push_back({other.structure.name, *margin_mm, read->distance, box});
+  }
+  if (margins_from_ == outline && keep_outs_ == keep_outs) return;
+  margins_from_ = outline;
+  keep_outs_ = keep_outs;
+  margins_.clear();
+  measuring_margins_.drop();
+  if (keep_outs.empty()) return;
+  measuring_margins_.ask(
+      [outline, keep_outs, box = io::StructureBox{entry->made.drawn.low_mm, entry->made.drawn.high_mm}] {
+        return margins_from(outline, box, keep_outs);
+      });
+}
+
+QString StructuresSection::margins_in_words() const {
+  QString text;
+  if (margins_from_ != corrected()) return text;
+  for (const OutlineMargin& one : margins_) {
+    const QString name = QString::fromStdString(one.name);
+    const auto mm = [](double length) { return QString::number(length, 'f', 1); };
+    text += QLatin1Char('\n') +
+            (one.mm < 0
+                 ? tr("It reaches %1 mm into %2.").arg(mm(-one.mm), name)
+                 : tr("Margin to %1: %2 mm. Its keep-out begins at %3 mm.").arg(name, mm(one.mm), mm(one.keep_out_mm)));
+  }
+  return text;
+}
+
+/// The outline as it is felt, or the file's, with at least that reach.
+std::function<std::shared_ptr<const io::DistanceField>()> StructuresSection::outline_within(
+    const io::Structure& structure, double reach_mm) const {
+  std::shared_ptr<const io::DistanceField> outline = corrected();
+  if (outline && outline->reach_mm() < reach_mm) outline = nullptr;
+  return [structure, outline, reach_mm, scan = scan_] {
+    return outline ? outline : shared_distance(structure, scan->geometry, reach_mm);
+  };
+}
+
+/// Of the outline as it is felt: the edge lies beside that.
+void StructuresSection::look_beside(std::vector<io::Vec3> places, double within_mm,
+                                    std::function<void(const CorrectionModel::Edges&)> done) {
+  looking_beside_.cancel();
+  if (places.empty() || !scan_ || !correction_.structure()) return;
+  const std::size_t count = places.size();
+  looking_beside_.ask(
+      [places = std::move(places), within_mm, scan = scan_,
+       outline = outline_within(*correction_.structure(), within_mm)](const auto& job) {
+        return edges_beside(places, *outline(), scan, within_mm, [&](double) { return job.keep_going(); });
+      },
+      [this, count, done = std::move(done)](const auto& found, const QString& error) {
+        if (!error.isEmpty()) tell(error, true);
+        done(found ? *found : CorrectionModel::Edges(count));
+      });
 }
 
 /// Of the outline as it is felt. Nobody waits for it.
@@ -61,12 +133,10 @@ void StructuresSection::find_doubtful(const io::Structure* structure, std::funct
   doubting_.cancel();
   correct_box_->set_looking(-1);
   if (!structure || !scan_) return;
-  std::shared_ptr<const io::DistanceField> outline = corrected();
-  if (outline && outline->reach_mm() < io::doubt_within_mm) outline = nullptr;
   correct_box_->set_looking(0);
   doubting_.ask(
-      [this, structure = *structure, outline, scan = scan_](const auto& job) {
-        const auto of = outline ? outline : shared_distance(structure, scan->geometry, io::doubt_within_mm);
+      [this, outline = outline_within(*structure, io::doubt_within_mm), scan = scan_](const auto& job) {
+        const auto of = outline();
         const auto fields = io::edge_fields(scan);
         return io::doubtful_places({*fields, scan->geometry}, *of, [&](double part) {
           job.tell([this, part] { correct_box_->set_looking(part); });

@@ -158,6 +158,7 @@ void StylusViews::follow_scan() {
 }
 
 bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far) {
+  if (const auto rays = rays_) return rays(what, near, far);  // a copy, as below
   if (!pick_) return false;
   follow_scan();
   if (!values_) return false;

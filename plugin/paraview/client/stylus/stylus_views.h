@@ -36,6 +36,10 @@ class StylusViews {
   /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
   /// again.
   void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { pick_ = std::move(pick); }
+  /// Gets the left button in the 3D view before that, with the two ends (mm) of what is under the pointer; returns
+  /// whether it takes the button. Empty: nothing does.
+  using Rays = std::function<bool(Pick, const glm::dvec3& near, const glm::dvec3& far)>;
+  void set_rays(Rays rays) { rays_ = std::move(rays); }
   /// What the 3D view looks at.
   Eye eye() const;
   /// Whether a place of the patient is seen well in every view: not at an edge, under a text or behind something.
@@ -52,6 +56,7 @@ class StylusViews {
   std::vector<std::unique_ptr<OneView>> views_;
   std::vector<OpacityNode> opacity_;
   std::function<void(Pick, const glm::dvec3&)> pick_;
+  Rays rays_;
   glm::dvec3 picked_mm_{0};
   std::shared_ptr<const io::FieldSource> values_;  // of the scan
   std::shared_ptr<const io::Volume> values_of_;

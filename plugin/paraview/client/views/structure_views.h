@@ -23,6 +23,7 @@ struct DrawnStructure {
   std::shared_ptr<const io::DistanceField> before = {};  ///< of its edits: a thin line; null: nothing is edited
   glm::dvec3 low_mm{0}, high_mm{0};                      ///< of a box around all of it
   vtkSmartPointer<vtkPolyData> surface;
+  vtkSmartPointer<vtkPolyData> surface_before = {};  ///< of `before`, where it is known
   QColor color;
   /// Where the force of a keep-out or keep-in begins, as the distance has it, mm: inside positive; each is a thin line.
   std::vector<double> margins_mm = {};

@@ -1,11 +1,7 @@
+#include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
-#include <pqRenderView.h>
-#include <vtkPVRenderView.h>
-#include <vtkRenderer.h>
-#include <vtkSMRenderViewProxy.h>
 
 #include <QDialog>
-#include <QDoubleSpinBox>
 #include <QFile>
 #include <QGuiApplication>
 #include <QLabel>
@@ -18,91 +14,16 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "io/structures/structure.h"
-#include "modes/scene/scene_json.h"
-#include "plugin/paraview/client/model/session_controller.h"
+#include "plugin/paraview/tests/panel/correct_steps.h"
 #include "plugin/paraview/tests/panel/drawn_lines.h"
-#include "plugin/paraview/tests/panel/mark_steps.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
 namespace {
-
-constexpr double ball_mm = 25, cut_mm = 4;  // of the phantom, and how deep its outline's cap is cut off
-
-/// The pixel of a view at which a place of the patient is seen.
-QPoint pixel_of(const char* name, const glm::dvec3& place) {
-  auto* const client = vtkPVRenderView::SafeDownCast(render_view(name).getRenderViewProxy()->GetClientSideView());
-  vtkRenderer& renderer = *client->GetRenderer();
-  renderer.SetWorldPoint(place.x, place.y, place.z, 1);
-  renderer.WorldToDisplay();
-  const double* const at = renderer.GetDisplayPoint();
-  const QWidget& widget = view(name);
-  const double ratio = widget.devicePixelRatioF();
-  return {static_cast<int>(std::lround(at[0] / ratio)),
-          widget.height() - 1 - static_cast<int>(std::lround(at[1] / ratio))};
-}
-
-QTreeWidget& places() {
-  return find<QTreeWidget>("palpateDoubtfulPlaces");
-}
-
-QColor color_of_liver() {
-  const QTreeWidgetItem& row = *find<QTreeWidget>("palpateStructureList").topLevelItem(0);
-  return row.icon(0).pixmap(12, 12).toImage().pixelColor(6, 6);
-}
-
-/// The outline's distance at a place as the session has it; NaN where none is felt.
-double felt_mm(const glm::dvec3& place) {
-  const auto& structures = panel_session().live().felt().structures;
-  return structures.empty() ? std::nan("") : structures.front().distance->sample(place).mm;
-}
-
-/// The farthest that a line of that width lies from where the felt distance is zero, mm; NaN where there is no line.
-double drawn_beside_felt(double pixels) {
-  double most = std::nan("");
-  for (const DrawnLines& lines : lines_drawn_in("Axial", color_of_liver())) {
-    if (lines.pixels != pixels) continue;
-    for (const glm::dvec3& at : lines.points) most = std::fmax(most, std::abs(felt_mm(at)));
-  }
-  return most;
-}
-
-/// The ball's edge in front, on the slice that is shown.
-glm::dvec3 on_the_edge(double degrees, double height_mm) {
-  const double radius = std::sqrt(ball_mm * ball_mm - height_mm * height_mm);
-  const double angle = degrees * std::numbers::pi / 180;
-  return {radius * std::sin(angle), -radius * std::cos(angle), height_mm};
-}
-
-/// Where the axial slice lies.
-double height_of_slice() {
-  const std::vector<DrawnLines> lines = lines_drawn_in("Axial", color_of_liver());
-  expect(!lines.empty(), "the outline is drawn");
-  return lines.front().points.front().z;
-}
-
-/// The pointer along the ball's edge over the cut cap, with the button held.
-void trace_the_edge(double height_mm) {
-  constexpr double from = -30, to = 30, step = 3;
-  QWidget& axial = view("Axial");
-  drag(axial, pixel_of("Axial", on_the_edge(from, height_mm)), pixel_of("Axial", on_the_edge(from + step, height_mm)),
-       false);
-  for (double at = from + 2 * step; at <= to; at += step) {
-    move_pointer(axial, pixel_of("Axial", on_the_edge(at, height_mm)));
-  }
-  let_go();
-}
-
-bool has_edit(const char* kind) {
-  const QString scene = QString::fromStdString(scene_text()).remove(' ');
-  return scene.contains(QStringLiteral("\"type\":\"%1\"").arg(QString::fromLatin1(kind)));
-}
 
 /// What is on the screen there, where guide_pictures.py asks for it.
 void save_for_guide(const char* name, QWidget& shown) {
@@ -113,43 +34,6 @@ void save_for_guide(const char* name, QWidget& shown) {
   const QRect at(shown.mapToGlobal(QPoint(0, 0)), shown.size());
   const QPixmap picture = QGuiApplication::primaryScreen()->grabWindow(0, at.x(), at.y(), at.width(), at.height());
   expect(picture.save(folder + QLatin1Char('/') + QLatin1String(name) + ".png"), "a picture for the guide is written");
-}
-
-/// The structures' section is unfolded, and *Correct* is pressed for the only one.
-void correct_the_liver() {
-  click("palpateStructuresSectionFold");
-  wait_for(
-      "the segmentation is found and measured",
-      [] {
-        const QTreeWidget& list = find<QTreeWidget>("palpateStructureList");
-        return list.topLevelItemCount() == 1 && !list.topLevelItem(0)->text(1).isEmpty();
-      },
-      60);
-  click("palpateCorrect");
-  wait_for(
-      "the cut cap is found", [] { return places().isVisible() && places().topLevelItemCount() > 0; }, 60);
-}
-
-/// From an opened study with a segmentation whose cap was cut off to the first corrected edge: the middle of the trace.
-glm::dvec3 cap_is_traced() {
-  scan_is_shown();
-  const int before = clicks();
-  correct_the_liver();
-  expect(places().topLevelItem(0)->text(1).contains("outside"),
-         "the scan's edge lies outside: " + places().topLevelItem(0)->text(1).toStdString());
-  scroll_to(places());
-  click(*places().viewport(), places().visualItemRect(places().topLevelItem(0)).center());
-  views_rest();
-  save_screen("correct-place");
-  const double height = height_of_slice();
-  expect(std::abs(height) < 12, "the slice goes to the cap, and is at " + std::to_string(height));
-  const glm::dvec3 pole = on_the_edge(0, height);
-  expect(std::abs(felt_mm(pole) + ball_mm - std::hypot(cut_mm - ball_mm, height)) < 1.5,
-         "the cap is missing there: " + std::to_string(felt_mm(pole)));
-  trace_the_edge(height);
-  wait_for("the trace is an edit", [] { return has_edit("trace"); });
-  expect(clicks() - before <= 4, "it took four presses, and not " + std::to_string(clicks() - before));
-  return pole;
 }
 
 /// Opened, mended, undone, saved, read again.
@@ -226,42 +110,6 @@ void an_outline_is_sent() {
   wait_for("it is sent", [] { return label("palpateStructureMessage") == "Sent to clinic: the corrected outline."; });
 }
 
-/// With M held the stylus slides on the scan's edge, pressed in by the hand: the outline goes where it was felt.
-void an_outline_is_traced_by_touch() {
-  scan_is_shown();
-  correct_the_liver();
-  expect(find<QToolButton>("palpateCorrect").isChecked(), "it is being corrected");
-  find<QDoubleSpinBox>("palpateCorrectSnap").setValue(2.5);
-  click("palpateOn0");  // the skin, which lies at the same place
-  connect_stylus();
-  touch_surface();
-  const std::string held = panel_session().last().held;
-  expect(held.find("Liver") != std::string::npos || label("palpateDepth").contains("Liver"),
-         "the scan's edge at the structure holds the stylus: " + held + ", " + label("palpateDepth").toStdString());
-  const glm::dvec3 begin = panel_session().last().proxy_mm;
-  expect(std::abs(glm::length(begin) - ball_mm) < 0.5, "at the ball's own edge: " + std::to_string(glm::length(begin)));
-  hold_key_in(view("Coronal"), "m", true);
-  step("Left", 6);  // towards the middle, where the ball is thicker
-  hold_key_in(view("Coronal"), "m", false);
-  wait_for("what was felt is an edit", [] { return has_edit("trace"); });
-  expect(find<QTreeWidget>("palpateMarkList").topLevelItemCount() == 0, "and no mark");
-  const palpate::modes::Scene scene = palpate::modes::scene_from_json(scene_text(), "scene");
-  const auto& trace = std::get<palpate::io::TraceEdit>(scene.structures.at(0).edits.at(0));
-  expect(trace.points_mm.size() > 3, "of several places");
-  double most = 0;
-  for (const palpate::io::Vec3& at : trace.points_mm) most = std::fmax(most, std::abs(glm::length(at) - ball_mm));
-  std::string all;
-  for (const palpate::io::Vec3& at : trace.points_mm) all += " " + std::to_string(glm::length(at) - ball_mm);
-  expect(most < 0.5, "they lie at the ball's own edge:" + all);
-  wait_for("the outline has gone there", [&] {
-    double beside = 0;
-    for (const palpate::io::Vec3& at : trace.points_mm) beside = std::fmax(beside, std::abs(felt_mm(at)));
-    return beside < 0.5;
-  });
-  views_rest();
-  save_screen("correct-felt");
-}
-
 /// A ball is added to the outline: it is seen before where it is and how large.
 void a_ball_is_added() {
   scan_is_shown();
@@ -289,12 +137,126 @@ void a_ball_is_added() {
   wait_for("which is felt", [&] { return felt_mm(pole) < -2; });
 }
 
+/// A vessel in front of the cap is kept out of: the corrected outline comes nearer to it, which is told.
+void margins_are_told() {
+  constexpr double vessel_mm = 3;  // a ball of that radius, 30 mm in front of the other's middle
+  const glm::dvec3 vessel(0, -30, 0);
+  scan_is_shown();
+  structures_are_listed(2);
+  QTreeWidget& list = find<QTreeWidget>("palpateStructureList");
+  const auto row_of = [&](const char* name) {
+    return list.topLevelItem(list.topLevelItem(0)->text(0) == QLatin1String(name) ? 0 : 1);
+  };
+  list.setCurrentItem(row_of("Vessel"));
+  click("palpateStructureKeepOut");
+  wait_for("the vessel is kept out of", [] { return scene_text().find("keep_out") != std::string::npos; });
+  list.setCurrentItem(row_of("Liver"));
+  click("palpateCorrect");
+  wait_for(
+      "the cut cap is found", [] { return places().isVisible() && places().topLevelItemCount() > 0; }, 60);
+  expect(!label("palpateCorrectChange").contains("Vessel"), "nothing is told before anything is corrected");
+  click(*places().viewport(), places().visualItemRect(places().topLevelItem(0)).center());
+  views_rest();
+  const double height = height_of_slice();
+  trace_the_edge(height);
+  wait_for(
+      "the margin is told", [] { return label("palpateCorrectChange").contains("Margin to Vessel: "); }, 60);
+  const QString told = label("palpateCorrectChange").split("Margin to Vessel: ").last();
+  const double margin = told.split(' ').first().toDouble();
+  // At the pole the traced edge is nearest to the vessel, or a little beside it, where it was not traced.
+  const double expected = glm::distance(on_the_edge(0, height), vessel) - vessel_mm;
+  expect(std::abs(margin - expected) < 0.7, "about " + std::to_string(expected) + " mm: " + told.toStdString());
+  expect(margin < 30 - 21 - vessel_mm - 1, "less than that of the outline in the file");
+  expect(told.contains("begins at 3.0 mm"), "beside the keep-out's own: " + told.toStdString());
+  save_screen("correct-margins");
+}
+
+/// How far to the front the outline's surface in the volume view reaches, mm.
+double front_in_volume() {
+  return -least_of_surface_in("Volume", color_of_liver()).y;
+}
+
+/// The pointer over the outline in the volume view: it goes to the scan's own edge. B shows there what was before, too.
+void an_outline_is_traced_over_its_surface() {
+  scan_is_shown();
+  correct_the_liver();
+  wait_for(
+      "the outline's surface is drawn", [] { return std::abs(front_in_volume() - (ball_mm - cut_mm)) < 0.7; }, 60);
+  views_rest();
+  constexpr double from = -24, to = 24, step = 3;
+  QWidget& volume = view("Volume");
+  const auto on_the_cut = [](double at) { return glm::dvec3(0.45 * at, cut_mm - ball_mm, 0.1 * at); };
+  drag(volume, pixel_of("Volume", on_the_cut(from)), pixel_of("Volume", on_the_cut(from + step)), false);
+  for (double at = from + 2 * step; at <= to; at += step) move_pointer(volume, pixel_of("Volume", on_the_cut(at)));
+  let_go();
+  wait_for("the stroke is an edit", [] { return has_edit("trace"); });
+  const auto trace = std::get<palpate::io::TraceEdit>(edits_in_scene().front());
+  double most = 0;
+  for (const palpate::io::Vec3& at : trace.points_mm) most = std::fmax(most, std::abs(glm::length(at) - ball_mm));
+  expect(trace.points_mm.size() > 5 && most < 0.5, "at the ball's own edge: " + std::to_string(most));
+  expect(trace.known_to_mm.size() == trace.points_mm.size() && trace.known_to_mm.front() > 0,
+         "with how well that is known");
+  wait_for(
+      "its surface reaches the ball's", [] { return std::abs(front_in_volume() - ball_mm) < 0.7; }, 60);
+  views_rest();
+  save_screen("correct-volume");
+  hold_key_in(volume, "b", true);
+  const bool shown = comes_true([] { return std::abs(front_in_volume() - (ball_mm - cut_mm)) < 0.7; });
+  expect(shown, "a key shows the file's: " + std::to_string(front_in_volume()));
+  hold_key_in(volume, "b", false);
+  wait_for(
+      "and lets it go", [] { return std::abs(front_in_volume() - ball_mm) < 0.7; }, 20);
+}
+
+QString state_file() {
+  return qEnvironmentVariable("PALPATE_PICTURES") + QLatin1String("/correct.pvsm");
+}
+
+void a_correction_is_saved() {
+  cap_is_traced();
+  wait_for(
+      "it is told what was changed", [] { return label("palpateCorrectChange").contains("mm at most"); }, 60);
+  QFile told(state_file() + ".txt");
+  expect(told.open(QIODevice::WriteOnly), "what is to be restored can be written");
+  told.write(label("palpateCorrectChange").toUtf8());
+  expect(pqApplicationCore::instance()->saveState(state_file()), "the state is saved");
+}
+
+/// In a program of its own, started with that state: it is felt and drawn as it was, and can be taken back.
+void a_correction_is_restored() {
+  scan_is_shown();
+  expect(edits_in_scene().size() == 1, "the scene has its edit");
+  structures_are_listed(1);
+  views_rest();
+  const glm::dvec3 pole = on_the_edge(0, height_of_slice());
+  wait_for(
+      "the corrected edge is felt", [&] { return std::abs(felt_mm(pole)) < 0.4; }, 60);
+  wait_for(
+      "and drawn", [] { return drawn_beside_felt(2) < 0.05; }, 60);
+  click("palpateCorrect");
+  expect(find<QToolButton>("palpateCorrect").isChecked(), "one can go on");
+  wait_for(
+      "the same is told as before",
+      [] {
+        QFile told(state_file() + ".txt");
+        return told.open(QIODevice::ReadOnly) && QString::fromUtf8(told.readAll()) == label("palpateCorrectChange");
+      },
+      60);
+  save_screen("correct-restored");
+  click("palpateCorrectUndo");
+  wait_for(
+      "and takes it back", [&] { return felt_mm(pole) < -2; }, 60);
+}
+
 }  // namespace
 
 const Scenarios& correct_scenarios() {
   static const Scenarios all{{"an_outline_is_corrected", an_outline_is_corrected},
-                             {"an_outline_is_traced_by_touch", an_outline_is_traced_by_touch},
                              {"a_ball_is_added", a_ball_is_added},
+                             {"margins_are_told", margins_are_told},
+                             {"an_outline_is_traced_over_its_surface", an_outline_is_traced_over_its_surface},
+                             {"a_correction_is_saved", a_correction_is_saved},
+                             {"a_correction_is_restored", a_correction_is_restored},
                              {"an_outline_is_sent", an_outline_is_sent}};
   return all;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The lines that are drawn in a clinical view.
+/// The lines and surfaces that are drawn in a clinical view.
 
 #include <QColor>
 
@@ -15,3 +15,6 @@ struct DrawnLines {
 
 /// Each actor of lines of that color.
 std::vector<DrawnLines> lines_drawn_in(const char* view, const QColor& color);
+
+/// The least coordinates of all surfaces of that color; 0 where there is none.
+glm::dvec3 least_of_surface_in(const char* view, const QColor& color);

@@ -367,6 +367,7 @@ void run_scenario(const std::string& name) {
                                       &contour_scenarios(),
                                       &correct_scenarios(),
                                       &device_scenarios(),
+                                      &felt_trace_scenarios(),
                                       &frame_scenarios(),
                                       &hand_scenarios(),
                                       &heap_scenarios(),

@@ -27,6 +27,7 @@ const Scenarios& choosing_scenarios();
 const Scenarios& contour_scenarios();
 const Scenarios& correct_scenarios();
 const Scenarios& device_scenarios();
+const Scenarios& felt_trace_scenarios();
 const Scenarios& frame_scenarios();
 const Scenarios& hand_scenarios();
 const Scenarios& heap_scenarios();

@@ -1,0 +1,37 @@
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "plugin/app/archive_settings.h"
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/scan/scan_section.h"
+#include "plugin/paraview/client/widgets/fold.h"
+#include "plugin/paraview/client/words.h"
+
+// What is sent, marks or an outline, is shown before.
+
+namespace palpate::plugin {
+
+/// None: there is none yet, and it is told how one is entered; or nothing is to be sent.
+std::optional<io::Archive> PanelParts::choose_archive(const io::Series& of, const SendDialog::Content& content,
+                                                      const std::function<void(const QString&)>& tell_problem) {
+  std::vector<io::Archive> archives;
+  try {
+    archives = read_archives();
+  } catch (const std::exception& error) {
+    tell_problem(QString::fromUtf8(error.what()));
+    return std::nullopt;
+  }
+  if (archives.empty()) {
+    tell_problem(words(say("no-archive-here-yet")));
+    scan_fold->set_open(true);
+    scan->show_archive();
+    return std::nullopt;
+  }
+  SendDialog dialog(of, content, std::move(archives), &dock);
+  if (dialog.exec() != QDialog::Accepted) return std::nullopt;
+  return dialog.archive();
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,44 @@
+#pragma once
+
+/// A bar that shows how far something in the background is, and can cancel it. It is hidden while nothing is done.
+
+#include <QWidget>
+
+#include <functional>
+
+#include "plugin/paraview/client/jobs/background.h"
+
+class QProgressBar;
+
+namespace palpate::plugin {
+
+class WorkBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `name`: of the bar; that of its button is followed by "Cancel".
+  explicit WorkBar(const QString& name, QWidget* parent = nullptr);
+
+  bool is_busy() const { return work_.is_busy(); }
+
+ signals:
+  void told(const QString& message, bool problem);
+
+ protected:
+  /// What is said at the end.
+  struct Said {
+    QString message;
+    bool problem = false;
+  };
+  using Job = Background<Said>::Job;
+  /// The work runs in the background; an error that it throws is told. `doing` stands in the bar.
+  void begin(const QString& doing, std::function<Said(const Job&)> work);
+  /// From the work: so many of all are done. An empty text stays as it is.
+  void tell_progress(const Job& job, int done, int all, const QString& doing = {});
+
+ private:
+  QProgressBar* progress_;
+  Background<Said> work_;
+};
+
+}  // namespace palpate::plugin
