@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "io/errors.h"
@@ -30,12 +31,13 @@ std::shared_ptr<const io::Volume> scan_of_half_a_ball() {
   scan->geometry.spacing_i = scan->geometry.spacing_j = 1;
   scan->geometry.step = {0, 0, 1};
   for (int k = 0; k < side; ++k) scan->geometry.slice_positions.emplace_back(-24, -24, k - 24);
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 3);
   std::vector<float> values;
   for (int n = 0; n < side * side * side; ++n) {
     const io::Vec3 at(n % side - 24, n / side % side - 24, n / (side * side) - 24);
-    const double noise = 3 * std::sin(12.9898 * n);
     const double ball = at.z > 0 ? 100 * (1 + std::tanh(edge_mm - glm::length(at))) : 200;
-    values.push_back(static_cast<float>(noise + ball));
+    values.push_back(static_cast<float>(noise(random) + ball));
   }
   scan->voxels = values;
   return scan;

@@ -104,7 +104,7 @@ void PanelParts::show_frame_values() {
 }
 
 void PanelParts::note_scan(const ScanHandle& handle) {
-  const QString scan_words = QString::fromStdString(describe_scan(*handle.volume));
+  const QString scan_words = size_in_words(*handle.volume);
   scan_fold->set_note(handle.frames > 1 ? QStringLiteral("%1, %2").arg(scan_words, handle.frame_in_words())
                                         : scan_words);
 }

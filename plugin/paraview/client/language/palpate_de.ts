@@ -1517,6 +1517,10 @@
         <source>%1, %2 of %3</source>
         <translation>%1, %2 von %3</translation>
     </message>
+    <message>
+        <source>%1, %2 slices of %3 x %4, every %5 mm</source>
+        <translation>%1, %2 Schichten von %3 x %4, alle %5 mm</translation>
+    </message>
 </context>
 <context>
     <name>ScanIdentity</name>

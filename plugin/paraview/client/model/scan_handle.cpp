@@ -2,10 +2,11 @@
 
 #include <QCoreApplication>
 
+#include <glm/geometric.hpp>
 #include <utility>
 
+#include "io/fields/filtered.h"
 #include "modes/scene/starting_scene.h"
-#include "plugin/app/open_scan.h"
 #include "plugin/app/scan_choice.h"
 
 namespace palpate::plugin {
@@ -29,6 +30,18 @@ QString ScanHandle::in_words() const {
   return frames > 1 ? QStringLiteral("%1, %2").arg(series, frame_in_words()) : series;
 }
 
+QString size_in_words(const io::Volume& volume) {
+  const io::Geometry& geometry = volume.geometry;
+  const io::Filter filter = io::filter_of(volume);
+  const QString size = QCoreApplication::translate("ScanHandle", "%1, %2 slices of %3 x %4, every %5 mm")
+                           .arg(QString::fromStdString(volume.modality))
+                           .arg(geometry.dimensions.z)
+                           .arg(geometry.dimensions.x)
+                           .arg(geometry.dimensions.y)
+                           .arg(QString::number(glm::length(geometry.step), 'g', 3));
+  return filter.type == nullptr ? size : size + QStringLiteral(", ") + QString::fromStdString(io::in_words(filter));
+}
+
 ScanHandle handle_of(const SeriesRef& of, std::shared_ptr<const io::Volume> volume, int frame, int frames) {
   ScanHandle handle{.of = of, .volume = std::move(volume), .frame = frame, .frames = frames};
   handle.scene = modes::starting_scene(*handle.volume);
@@ -37,7 +50,7 @@ ScanHandle handle_of(const SeriesRef& of, std::shared_ptr<const io::Volume> volu
     handle.frames = series->frames_per_position;
     handle.frame_names = series->frame_names;
   } else {
-    handle.series = QString::fromStdString(describe_scan(*handle.volume));
+    handle.series = size_in_words(*handle.volume);
   }
   return handle;
 }

@@ -43,6 +43,9 @@ struct ScanHandle {
   QString in_words() const;
 };
 
+/// Modality and size, for a clinician: "CT, 64 slices of 96 x 80, every 2.5 mm". Names no patient.
+QString size_in_words(const io::Volume& volume);
+
 /// The handle of a volume of a series. `frames`: of a server's series; else the catalogue says it.
 ScanHandle handle_of(const SeriesRef& of, std::shared_ptr<const io::Volume> volume, int frame, int frames);
 

@@ -12,6 +12,19 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
+TEST(ScanHandleSaid, ASizeIsSlicesAndNoVoxels) {
+  io::Volume volume;
+  volume.modality = "CT";
+  volume.geometry.dimensions = {96, 80, 64};
+  volume.geometry.spacing_i = volume.geometry.spacing_j = 0.957;
+  volume.geometry.step = {0, 1.5, 2};
+  volume.unit = "HU";
+  EXPECT_EQ(size_in_words(volume), "CT, 64 slices of 96 x 80, every 2.5 mm");
+  const SeriesRef of_a_server{.path = "/there", .name = "1", .label = "one"};
+  const auto held = std::make_shared<const io::Volume>(volume);
+  EXPECT_EQ(handle_of(of_a_server, held, 0, 1).series, size_in_words(volume));
+}
+
 TEST_F(ScanModelFollowed, AFrameIsHereBeforeTheViewsGoThere) {
   show("1", 5);
   model.go_to_frame(3);

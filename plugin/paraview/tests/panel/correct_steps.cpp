@@ -33,8 +33,9 @@ QTreeWidget& places() {
 }
 
 QColor color_of_liver() {
-  const QTreeWidgetItem& row = *find<QTreeWidget>("palpateStructureList").topLevelItem(0);
-  return row.icon(0).pixmap(12, 12).toImage().pixelColor(6, 6);
+  const auto rows = find<QTreeWidget>("palpateStructureList").findItems(QStringLiteral("Liver"), Qt::MatchExactly);
+  expect(rows.size() == 1, "the liver is listed");
+  return rows.front()->icon(0).pixmap(12, 12).toImage().pixelColor(6, 6);
 }
 
 double felt_mm(const glm::dvec3& place) {

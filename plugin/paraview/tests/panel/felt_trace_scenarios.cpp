@@ -63,7 +63,7 @@ void slide_to(double x_mm, double z_mm) {
     } else {
       return;
     }
-    stylus_rests();
+    handle_events(6);  // the hand goes on: it looks where it is, and does not wait
   }
   expect(false, "the hand comes to its place");
 }
@@ -91,7 +91,7 @@ double mean_off_mm(const std::vector<glm::dvec3>& truth) {
 /// where the scan's edge was felt.
 void an_outline_is_traced_by_touch() {
   feel_the_edge();
-  constexpr double half_mm = 11, rows_mm = 5.5;
+  constexpr double half_mm = 12, rows_mm = 3;
   slide_to(-half_mm, -half_mm);
   const std::vector<glm::dvec3> cap = cap_that_is_off();
   const double before = mean_off_mm(cap);
@@ -99,7 +99,7 @@ void an_outline_is_traced_by_touch() {
   hold_key_in(view("Coronal"), "m", true);
   double side = 1;
   for (double z = -half_mm; z <= half_mm; z += rows_mm, side = -side) {
-    const double wide = std::sqrt(std::max(13.0 * 13.0 - z * z, 16.0));
+    const double wide = std::sqrt(std::max(12.5 * 12.5 - z * z, 16.0));
     slide_to(-side * wide, z);
     slide_to(side * wide, z);
   }

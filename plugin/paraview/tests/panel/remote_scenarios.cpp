@@ -22,10 +22,12 @@
 #include <QTreeWidget>
 #include <QtTest/QTest>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
+#include "plugin/paraview/tests/panel/correct_steps.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -274,6 +276,28 @@ void structures_come_back() {
       "and can be felt", [] { return find<QPushButton>("palpateConnect").isEnabled(); }, 20);
 }
 
+constexpr glm::dvec3 beside_the_liver(0, -17, 0.5);  // a ball of 16 mm
+
+/// The server's outline is corrected here: a ball is added to it.
+void add_to_the_liver() {
+  expect(felt_mm(beside_the_liver) < 0, "it lies outside");
+  click("palpateCorrect");
+  wait_for("it is being corrected", [] { return find<QWidget>("palpateCorrectBox").isVisible(); });
+  scroll_to(find<QWidget>("palpateToolAdd"));
+  click("palpateToolAdd");
+  views_rest();
+  const glm::dvec3 on_slice(0, -17, height_of_slice());
+  drag(view("Axial"), pixel_of("Axial", on_slice), pixel_of("Axial", on_slice + glm::dvec3(4, 0, 0)), true);
+  wait_for("what was drawn is an edit", [] { return has_edit("add"); });
+  wait_for(
+      "and felt", [&] { return felt_mm(on_slice) > 1; }, 60);
+  expect(std::abs(on_slice.z - beside_the_liver.z) < 1.5, "in the middle of the scan");
+  save_screen("remote-corrected");
+  scroll_to(find<QWidget>("palpateCorrect"));
+  click("palpateCorrect");
+  wait_for("it is corrected no longer", [] { return !find<QWidget>("palpateCorrectBox").isVisible(); });
+}
+
 /// A segmentation and a label map, whose voxels have a file of their own, lie beside the scan on the server, where no
 /// path of this machine leads. They are listed and felt; one of another patient, of this machine, is not. repeats() has
 /// the session again of the server's files.
@@ -298,7 +322,11 @@ void remote_structures() {
   wait_for(
       "one press makes a margin to keep out of", [] { return scene_text().find("keep_out") != std::string::npos; }, 20);
   expect(is_of_server(scene_text()), "which names the file as the server does: " + scene_text());
+  add_to_the_liver();
   structures_come_back();
+  expect(has_edit("add"), "with what was corrected");
+  wait_for(
+      "which is felt again", [] { return felt_mm(beside_the_liver) > 1; }, 60);
   find<QCheckBox>("palpateFollow").setChecked(false);
   connect_stylus();
   record();
