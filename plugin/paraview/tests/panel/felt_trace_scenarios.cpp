@@ -123,7 +123,6 @@ void an_outline_is_traced_by_touch() {
       "it is told what was changed", [] { return label("palpateCorrectChange").contains("mm at most"); }, 60);
   std::printf("an_outline_is_traced_by_touch: %.2f mm off in the mean, %.2f before, %d places\n", after, before,
               static_cast<int>(trace.points_mm.size()));
-  views_rest();
   save_screen("correct-felt");
 }
 
@@ -131,7 +130,6 @@ void an_outline_is_traced_by_touch() {
 void a_felt_trace_stays_in_its_slice() {
   feel_the_edge();
   click(view("Axial"), QPoint(view("Axial").width() / 2, view("Axial").height() - 20));  // marks it
-  views_rest();
   click("palpateHoldInSlice");
   wait_for("it is said",
            [] { return find<QCheckBox>("palpateHoldInSlice").text() == "The stylus is held in the axial slice"; });
