@@ -132,7 +132,7 @@ QWidget* CorrectBox::build_tools() {
   in_slice_->setToolTip(
       tr("The stylus stays in the slice of the marked view while it traces. F held in a view frees it."));
   connect(in_slice_, &QCheckBox::clicked, this, &CorrectBox::slice_wanted);
-  rows->addWidget(in_slice_);
+  rows->addWidget(in_slice_, 0, Qt::AlignLeft);
   return box;
 }
 
