@@ -32,7 +32,7 @@ void add_bench_correct(CLI::App& bench) {
   auto arguments = std::make_shared<CorrectArguments>();
   CLI::App* command =
       bench.add_subcommand("correct", "What an edit of an outline costs, and whether touch helps a simulated hand.");
-  command->add_option("--rounds", arguments->rounds, "each edit is timed so often")->capture_default_str();
+  command->add_option("--rounds", arguments->rounds, "how many times each edit is timed")->capture_default_str();
   command->add_option("--hands", arguments->study.hands, "seeded hands for each error")->capture_default_str();
   add_series_option(*command, arguments->series);
   CLI::Option* const structures =

@@ -126,23 +126,25 @@ void add_bench_forces(CLI::App& bench) {
       "--trajectories", arguments->trajectory, "a measured stroke over what SERIES scanned: text, one sample a line");
   command->get_option("SERIES")->required(false);
   structures->needs("SERIES")->excludes(trajectory);
-  command->add_option("--columns", arguments->columns, "of the stroke's lines; mm and N; - leaves one out")
+  command
+      ->add_option("--columns", arguments->columns,
+                   "what the columns of the stroke's file are, in mm and N; - skips one")
       ->needs(trajectory)
       ->capture_default_str();
-  command->add_option("--scene", arguments->scene, "with which the stroke is felt: a file or a starting scene")
+  command->add_option("--scene", arguments->scene, "the scene for the stroke: a file or a starting scene")
       ->needs(trajectory);
-  command->add_option("--stiffness", arguments->stiffness_n_per_mm, "of the stroke's hand, N/mm")
+  command->add_option("--stiffness", arguments->stiffness_n_per_mm, "stiffness of the hand in the stroke, N/mm")
       ->needs(trajectory)
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
-  command->add_option("--paths", arguments->paths, "paths of all rows together")
+  command->add_option("--paths", arguments->paths, "number of paths, over all rows")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "of the paths and the noise")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "seed of the paths and the noise")->capture_default_str();
   command->add_option("--threads", arguments->threads, "0: all cores; the figures are the same on any number")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--only", arguments->only, "groups whose name has this in it");
+  command->add_option("--only", arguments->only, "only groups whose name contains this");
   command->add_option("-o,--output", arguments->output, "also write CSV and a picture to this new or empty folder");
   command->callback([arguments] {
     io::write_all_or_none(arguments->output, [&](const fs::path& folder) {

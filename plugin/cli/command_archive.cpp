@@ -97,13 +97,13 @@ void empty_archive_folder() {
 void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& options) {
   CLI::App* add = command.add_subcommand("add", "Enters an archive, or changes one of the same name");
   io::Archive& archive = options->archive;
-  add->add_option("NAME", archive.name, "what to call it")->required();
+  add->add_option("NAME", archive.name, "the name of the archive in this program")->required();
   add->add_option("--host", archive.host, "its machine's name or address")->required();
   add->add_option("--port", archive.port, "its DICOM port")->required();
   add->add_option("--called", archive.called, "its AE title")->required();
   add->add_option("--calling", archive.calling, "our AE title, as it is known there")->required();
   add->add_flag("--get", archive.uses_get,
-                "fetch with C-GET, if the archive offers it: then it needs no connection to this machine");
+                "fetch with C-GET, if the archive offers it; without it the archive connects to this machine (C-MOVE)");
   add->add_option("--listen", archive.listen_port, "the port of this machine to which the archive sends for a C-MOVE")
       ->capture_default_str();
   add->add_option("--listen-address", archive.listen_address,
@@ -111,10 +111,11 @@ void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& o
       ->capture_default_str();
   add->add_option("--wait", archive.silence_s, "give up if it is silent for so many seconds")->capture_default_str();
   add->add_option("--tls-ca", archive.tls.authorities,
-                  "speak TLS: the certificate (PEM) of the authority that signed the archive's");
+                  "use TLS: the certificate (PEM) of the authority that signed the archive's certificate");
   add->add_option("--tls-certificate", archive.tls.certificate,
                   "our own certificate (PEM), if the archive asks for it");
-  add->add_option("--tls-name", archive.tls.name, "the machine that the archive's certificate is for, if not --host");
+  add->add_option("--tls-name", archive.tls.name,
+                  "the machine that the archive's certificate names, if it is not --host");
   add->add_option("--tls-key", archive.tls.key, "the private key of our certificate (PEM, without a pass phrase)");
   add->callback([options] { add_to_settings(*options); });
 }
@@ -128,14 +129,14 @@ void add_archive(CLI::App& program) {
   add_archive_add(*command, options);
   CLI::App* list =
       command->add_subcommand("list", "Lists the entered archives, and how much fetched data is still there");
-  list->add_flag("--json", options->json, "for machines");
+  list->add_flag("--json", options->json, "print JSON");
   list->callback([options] { list_archives(*options); });
   CLI::App* echo = command->add_subcommand("echo", "Asks an archive whether it answers and knows us (C-ECHO)");
   echo->add_option("NAME", options->archive.name, "which archive, if several are entered");
-  echo->add_flag("--json", options->json, "for machines");
+  echo->add_flag("--json", options->json, "print JSON");
   echo->callback([options] { echo_archive(*options); });
   CLI::App* remove = command->add_subcommand("remove", "Removes an archive from the settings");
-  remove->add_option("NAME", options->archive.name, "which")->required();
+  remove->add_option("NAME", options->archive.name, "which archive")->required();
   remove->callback([options] { remove_archive(*options); });
   command->add_subcommand("empty", "Deletes what `palpate fetch` without -o has fetched")
       ->callback(empty_archive_folder);

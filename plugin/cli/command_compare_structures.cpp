@@ -105,7 +105,7 @@ void add_compare_structures(CLI::App& structures) {
       "overlap");
   command->add_option("A", options->first, "FILE or FILE:SEGMENT")->required();
   command->add_option("B", options->second, "FILE or FILE:SEGMENT")->required();
-  command->add_option("--to", options->to, "Also tell the margin from B to this structure");
+  command->add_option("--to", options->to, "Also print the margin from B to this structure");
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
   command->callback([options] { run_compare_structures(*options); });
 }

@@ -114,9 +114,8 @@ void add_correct(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("correct", "Applies edits to a structure's outline and writes it on the scan's grid");
   command->footer(
-      "OUT by its ending: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct; .nii, .nii.gz, .nrrd, .seg.nrrd and "
-      ".mha "
-      "are label maps.\n"
+      "The ending of OUT chooses the format: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct;\n"
+      ".nii, .nii.gz, .nrrd, .seg.nrrd and .mha are label maps.\n"
       "A SEG or RTSTRUCT goes into the scan's study, and refers to its images and to the outline that was corrected.\n"
       "EDITS: {\"version\": 1, \"edits\": [...]}, applied in their order, in patient space (LPS, mm):\n"
       "  {\"type\": \"trace\", \"points_mm\": [[x, y, z], ...], \"known_to_mm\": [...], \"reach_mm\": 8}\n"
@@ -125,14 +124,15 @@ void add_correct(CLI::App& program) {
       "  {\"type\": \"contours\", \"loops_mm\": [[[x, y, z], ...], ...]}: a new structure; the first edit, without "
       "--structure");
   add_series_option(*command, options->series);
-  command->add_option("--structure", options->structure,
-                      "What is corrected: FILE or FILE:SEGMENT; left out where contours make it");
-  command->add_option("--name", options->name, "What a structure is called that contours make; else as OUT")
+  command->add_option(
+      "--structure", options->structure,
+      "The structure to correct: FILE or FILE:SEGMENT; without it the edits make a new one from contours");
+  command->add_option("--name", options->name, "Name of a structure made from contours (default: the name of OUT)")
       ->excludes("--structure");
-  command->add_option("--edits", options->edits, "A JSON file")->required();
-  command->add_option("-o,--output", options->output, "The file that is written")->required();
+  command->add_option("--edits", options->edits, "A JSON file with the edits (below)")->required();
+  command->add_option("-o,--output", options->output, "The file to write: OUT")->required();
   command->add_flag("--rtstruct", options->rtstruct, "Write contours (RTSTRUCT) as .dcm");
-  command->add_flag("--force", options->force, "Overwrite the file if there is one; never the one that was corrected");
+  command->add_flag("--force", options->force, "Overwrite OUT if it exists, but never the file that is corrected");
   command->callback([options] { run_correct(*options); });
 }
 

@@ -86,12 +86,12 @@ void add_fetch(CLI::App& program) {
   const auto options = std::make_shared<FetchOptions>();
   add_archive_option(*command, options->archive);
   command->add_option("UID", options->uids, "studies and series, by the UIDs that `palpate find` lists")->required();
-  command->add_option(
-      "-o,--output", options->output,
-      "the folder for them, one in it for each series (default: a private one, until `palpate archive empty`)");
+  command->add_option("-o,--output", options->output,
+                      "folder to fetch into, with a subfolder for each series (default: a private folder, see `palpate "
+                      "archive empty`)");
   command->add_option("--most-mib", options->most_mib, "give up beyond so many MiB")->capture_default_str();
   command->add_option("--most-files", options->limits.files, "give up beyond so many files")->capture_default_str();
-  command->add_flag("--json", options->json, "for machines");
+  command->add_flag("--json", options->json, "print JSON");
   command->callback([options] { run(*options); });
 }
 

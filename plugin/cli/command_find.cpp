@@ -75,11 +75,11 @@ void add_find(CLI::App& program) {
   command->add_option("--patient", query.patient, "part of the patient's name, family name first");
   command->add_option("--id", query.patient_id, "the patient's id");
   command->add_option("--date", query.date,
-                      "the study's: YYYYMMDD, or a span YYYYMMDD-YYYYMMDD with either end left out");
+                      "the study's date: YYYYMMDD, or a span YYYYMMDD-YYYYMMDD; either end may be left out");
   command->add_option("--modality", query.modality, "CT, MR, ...");
   command->add_option("--description", query.description, "part of the study's description");
   command->add_option("--most", query.most_studies, "how many studies to list")->capture_default_str();
-  command->add_flag("--json", options->json, "for machines");
+  command->add_flag("--json", options->json, "print JSON");
   command->callback([options] { run(*options); });
 }
 

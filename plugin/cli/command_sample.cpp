@@ -80,8 +80,8 @@ void add_sample(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "sample",
       "Prints value and gradient at points in patient space. Values are interpolated linearly between the eight voxels "
-      "around the point (trilinear): at a voxel's center that is its own value. Gradients are those of the values "
-      "blurred by a Gaussian (--scale), at the same eight voxels, interpolated in the same way");
+      "around the point (trilinear). Gradients are computed at the same eight voxels after a Gaussian blur (--scale), and "
+      "interpolated in the same way");
   const auto options = std::make_shared<SampleOptions>();
   add_series_option(*command, options->series);
   command->add_option("--at", options->at, "Points x,y,z in mm, patient space (LPS)")->required();

@@ -75,7 +75,7 @@ void add_send(CLI::App& program) {
   const auto options = std::make_shared<SendOptions>();
   add_archive_option(*command, options->archive);
   command->add_option("FILE", options->files, "DICOM files, or folders of them")->required()->check(CLI::ExistingPath);
-  command->add_flag("--json", options->json, "for machines");
+  command->add_flag("--json", options->json, "print JSON");
   command->callback([options] { run(*options); });
 }
 

@@ -71,7 +71,7 @@ void add_solve(CLI::App& program) {
       "      \"position\":[0,0,0],\"direction\":[0,0,1]}]}     meters, newtons; a strength may be \"inf\"\n"
       "Out: {\"id\",\"proxy\",\"force\",\"forces\",\"solver\",\"error_bound\",\"iterations\",\"time_ns\"} or "
       "{\"id\",\"error\"}\n"
-      "Every line is answered; exit 1 where any of them is an error.");
+      "Every line is answered. The exit status is 1 if any answer is an error.");
   command->callback([options] { run(*options); });
 }
 

@@ -94,16 +94,19 @@ void add_suspects(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("suspects", "Lists the places at which a structure's outline is doubtful on a scan");
   command->footer(
-      "The scan's own edge is looked for along the outline's normal, every 2 mm and within 6 mm.\n"
-      "kind           edge: the scan's edge lies beside the outline, by more than twice its +- and than half a voxel\n"
-      "               no_edge: there is none on over 1 cm2 although a third of the outline has one, and the tissue is\n"
-      "               alike on both sides; island, hole: smaller than a tenth of the largest part\n"
-      "position_mm    on the outline, in patient space (LPS); normal: of the outline there, outwards\n"
-      "mean_mm        from the outline to the scan's edge; positive: it lies outside. Of islands and holes: volume by "
+      "Every 2 mm the scan's own edge is searched along the outline's normal, up to 6 mm away.\n"
+      "kind           edge: the scan's edge is farther from the outline than twice its uncertainty and half a voxel\n"
+      "               no_edge: over more than 1 cm2 the scan has no edge and the tissue is alike on both sides, "
+      "although\n"
+      "               a third of the outline has an edge\n"
+      "               island, hole: smaller than a tenth of the largest part\n"
+      "position_mm    a point on the outline, in patient space (LPS)\n"
+      "normal         the outline's normal at that point, outwards\n"
+      "mean_mm        mean distance from the outline to the scan's edge, positive outwards; island, hole: volume / "
       "area\n"
-      "largest_mm     the one that is farthest away; of islands and holes: how deep they are\n"
-      "known_to_mm    +- of the scan's edge (two standard deviations)\n"
-      "They are listed by area times distance. Of no_edge the distances are 0, and it is listed as if it were 6 mm.");
+      "largest_mm     largest distance to the scan's edge; island, hole: their depth\n"
+      "known_to_mm    uncertainty of the scan's edge (two standard deviations)\n"
+      "The order is that of area times distance. For no_edge the distances are 0, and the order takes 6 mm.");
   add_series_option(*command, options->series);
   command->add_option("--structure", options->structure, "FILE or FILE:SEGMENT")->required();
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");

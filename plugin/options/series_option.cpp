@@ -49,7 +49,8 @@ void add_series_option(CLI::App& command, SeriesOption& option) {
       ->required();
   command.add_option("--series", option.series,
                      "Which series, if there are several: number or name, as `palpate info` lists them");
-  command.add_option("--frame", option.frame, "Which frame, from 0, if several images lie at a position")
+  command
+      .add_option("--frame", option.frame, "Which frame, counted from 0, if there are several (time, b-value, echo)")
       ->check(CLI::NonNegativeNumber);
 }
 

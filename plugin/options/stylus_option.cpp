@@ -15,10 +15,11 @@ void add_device_option(CLI::App& command, StylusChoice& choice) {
 void add_stylus_option(CLI::App& command, StylusChoice& choice) {
   add_device_option(command, choice);
   command.add_option("--firmware", choice.firmware, "Falcon: Novint's firmware file, if the device has none yet");
-  command.add_option("--device-settings", choice.settings,
-                     "A JSON file of the device's settings: its largest force, and what its header names");
-  command.add_option("--seed", choice.seed, "simulated: of the hand's tremor")->capture_default_str();
-  command.add_option("--rate", choice.rate_hz, "simulated: ticks a second")
+  command.add_option(
+      "--device-settings", choice.settings,
+      "a JSON file of the device's settings: its largest force, and the keys that the header of its driver lists");
+  command.add_option("--seed", choice.seed, "simulated stylus: seed of the hand's tremor")->capture_default_str();
+  command.add_option("--rate", choice.rate_hz, "simulated stylus: ticks a second")
       ->check(CLI::Range(100.0, 20000.0))
       ->capture_default_str();
 }
