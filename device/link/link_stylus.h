@@ -1,8 +1,8 @@
 #pragma once
 
-/// The stylus that every driver is: a thread of its own drives the device, and the servo tick only swaps values with
-/// it, wait-free. The thread is also the first watchdog: a force that is not renewed becomes zero there. It is the last
-/// layer before the device (given_force.h).
+/// The Stylus implementation that drivers share: a thread of its own drives the device, and the servo tick only swaps
+/// values with it, wait-free. The thread is also the first watchdog: a force that is not renewed becomes zero there. It
+/// is the last layer before the device (given_force.h).
 
 #include <atomic>
 #include <functional>

@@ -39,7 +39,7 @@ inline constexpr MessageRow archives[] = {
       {"archive-tls-key-does-not-belong", "archive {}: --tls-key {} does not belong to --tls-certificate {}"},
       {"archive-the-openssl-that-is-installed-cannot", "archive {}: the OpenSSL that is installed cannot do TLS 1.2"}}},
     {"archives allow questions, fetching and sending one by one",
-     "ask who runs it",
+     "ask the archive's administrator",
      {{"does-not-offer-us-this-service", "{} does not offer us this service ({}): have it allowed there for {}"}}},
     {"a fault of the archive, or a refusal in its own words",
      "tell who runs it",

@@ -2,7 +2,7 @@
 
 /// The smoothest surface that has every voxel's center on its own side. Of all fields f that keep the signs and are the
 /// surface's own distance some way from it, the one with the least integral of (Laplacian f)^2; and then again with the
-/// distance from the surface that was found. What it comes to rest at is a distance whose bending is least: a ball
+/// distance from the surface that was found. It converges to the distance with the least bending: a ball
 /// stays a ball. Sources: Lempitsky, "Surface extraction from binary volumes with higher-order smoothness", CVPR 2010,
 /// for the signs as bounds; the distance in place of bounds far away is what keeps a surface from flattening.
 

@@ -106,7 +106,7 @@ void add_suspects(CLI::App& program) {
       "area\n"
       "largest_mm     largest distance to the scan's edge; island, hole: their depth\n"
       "known_to_mm    uncertainty of the scan's edge (two standard deviations)\n"
-      "The order is that of area times distance. For no_edge the distances are 0, and the order takes 6 mm.");
+      "The list is ordered by area times distance. no_edge has distances of 0, and is ordered as if they were 6 mm.");
   add_series_option(*command, options->series);
   command->add_option("--structure", options->structure, "FILE or FILE:SEGMENT")->required();
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");

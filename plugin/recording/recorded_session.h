@@ -42,7 +42,7 @@ class RecordedSession {
   glm::dvec3 proxy_mm(std::size_t n) const;
   glm::dvec3 sent_n(std::size_t n) const;
 
-  /// Ticks that were left out because they felt another scan.
+  /// Ticks that were left out because they were recorded on another scan.
   std::size_t elsewhere() const noexcept { return elsewhere_; }
 
  private:

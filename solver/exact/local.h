@@ -44,8 +44,8 @@ struct Local {
 /// At z, with these locked. Writes walk.forces (of what is not met) and walk.met.
 Local look(const Walk& walk, const FineVec3& z, const ActiveSet& active);
 
-/// dE/dt at the point looked at last, along a way that what is locked leaves free. What is met counts as it will be a
-/// step on. N m, of a way in m.
+/// dE/dt at the point evaluated last, along a direction that the locked primitives allow. A primitive that z lies on
+/// counts as it will after the step. N m, of a direction in m.
 double slope(const Walk& walk, const Local& local, const ActiveSet& active, const FineVec3& way);
 
 /// How fast a plane's depth grows along a way.

@@ -22,7 +22,7 @@ class Playback {
   void pause() { playing_ = false; }
   bool is_playing() const { return playing_; }
   void seek(double seconds);
-  /// Times as fast as it was.
+  /// Playback speed: 1 is as recorded.
   void set_speed(double speed);
   double at_s() const { return at_s_; }
 

@@ -34,7 +34,7 @@ class CurveEditor : public QWidget {
 
   /// What it is drawn over, and the curve's greatest value.
   void set_frame(const Counts& counts, const QString& across, double top);
-  /// Another curve from outside: does not tell of it.
+  /// Replaces the curve; emits no signal.
   void set_curve(const modes::TransferFunction& curve, const QColor& color);
   modes::TransferFunction curve() const;
   /// A line at what is under the pointer in a slice; none: no line.

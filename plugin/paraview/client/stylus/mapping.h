@@ -25,7 +25,7 @@ glm::dmat3 rotation_of(const Eye& eye);
 modes::WorkspaceSettings fit_scan(const modes::WorkspaceSettings& now);
 /// Puts what the view shows into the device's reach, turned as the view is: the view's height becomes the device's.
 modes::WorkspaceSettings fit_view(const Eye& eye, const glm::dvec3& half_extent_m);
-/// A millimeter of the patient for each of the hand, about what is in the middle now.
+/// 1 mm of the hand is 1 mm in the patient, around the point that is in the middle now.
 modes::WorkspaceSettings one_to_one(const modes::Workspace& now);
 
 }  // namespace palpate::plugin

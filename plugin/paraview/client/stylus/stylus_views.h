@@ -31,7 +31,7 @@ class StylusViews {
   /// The opacity of the volume rendering, which tells what it hides.
   void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
   /// Draws the views again in which something has moved, but never so often that the program would stand still. True
-  /// where a picture in full comes in turns and is not whole: it goes on with the next call.
+  /// while a full-quality picture is unfinished: the next call goes on with it.
   bool show(const SessionStatus& look);
   /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
   /// again.
