@@ -80,7 +80,7 @@ void add_sample(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "sample",
       "Prints value and gradient at points in patient space. Values are interpolated linearly between the eight voxels "
-      "around the point (trilinear). Gradients are computed at the same eight voxels after a Gaussian blur (--scale), and "
+      "around the point (trilinear). Gradients are computed at these voxels after a Gaussian blur (--scale), and "
       "interpolated in the same way");
   const auto options = std::make_shared<SampleOptions>();
   add_series_option(*command, options->series);
