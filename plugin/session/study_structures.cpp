@@ -205,7 +205,7 @@ modes::Gate gate_near(const std::string& structure) {
 }
 
 void hold_in(modes::Scene& scene, const std::string& structure, const HeldPlane& plane) {
-  constexpr double plane_n = 2;
+  constexpr double plane_n = 6;  // the sum of what the hand and the held edge push it away with
   for (const bool along : {true, false}) {
     modes::Mode mode = mode_of(scene, "landmark", name_of_side(structure, along), structure, plane_n);
     mode.structure.clear();

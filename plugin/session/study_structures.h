@@ -68,7 +68,7 @@ struct Snap {
 };
 /// Adds a surface at the scan's edges within 6 mm of the outline, or changes it. It holds on the way in, where the
 /// value is half-way; where that is not known, both ways and on the flank of an edge. So near the outline a plane
-/// holds, too: with 2 N.
+/// holds, too: more strongly than hand and edge together push.
 void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap);
 /// The plane that a scene holds the stylus in there; none: it does not.
 std::optional<HeldPlane> held_plane(const modes::Scene& scene, const io::Structure& structure);

@@ -109,7 +109,7 @@ void an_outline_is_traced_by_touch() {
   const auto trace = std::get<palpate::io::TraceEdit>(edits_in_scene().front());
   double most = 0;
   for (const palpate::io::Vec3& at : trace.points_mm) most = std::fmax(most, std::abs(glm::length(at) - ball_mm));
-  expect(most < 1, "its places lie at the ball's own edge: " + std::to_string(most));
+  expect(most < 0.25, "its places lie at the ball's own edge: " + std::to_string(most));
   expect(trace.known_to_mm.size() == trace.points_mm.size(), "each with how well it is known");
   const auto known = std::ranges::count_if(trace.known_to_mm, [](double mm) { return mm > 0 && mm < 1; });
   expect(10 * known > 9 * static_cast<std::ptrdiff_t>(trace.points_mm.size()),
@@ -147,7 +147,7 @@ void a_felt_trace_stays_in_its_slice() {
   const auto trace = std::get<palpate::io::TraceEdit>(edits_in_scene().front());
   double most = 0;
   for (const palpate::io::Vec3& at : trace.points_mm) most = std::fmax(most, std::abs(at.z - height));
-  expect(trace.points_mm.size() > 4 && most < 1,
+  expect(trace.points_mm.size() > 4 && most < 0.25,
          "the trace stays in the slice: " + std::to_string(trace.points_mm.size()) + " places, " +
              std::to_string(most) + " mm beside it, the hand " + std::to_string(up_mm) + " up");
   expect(up_mm > 1.5, "though the hand went up: " + std::to_string(up_mm));
@@ -158,7 +158,7 @@ void a_felt_trace_stays_in_its_slice() {
       "the stylus goes to the hand", [&] { return panel_session().last().proxy_mm.z > height + 1.5; }, 20);
   hold_key_in(view("Coronal"), "f", false);
   wait_for(
-      "and is held again", [&] { return std::abs(panel_session().last().proxy_mm.z - height) < 1; }, 20);
+      "and is held again", [&] { return std::abs(panel_session().last().proxy_mm.z - height) < 0.25; }, 20);
   click("palpateHoldInSlice");
   wait_for(
       "and let go", [&] { return panel_session().last().proxy_mm.z > height + 1.5; }, 20);
