@@ -19,7 +19,8 @@ namespace {
 constexpr double random_tick_s = 1e-3;
 /// Those with motors and a link.
 constexpr std::array played_kinds{"falcon", "wooden_haptics", "haply", "minverse", "touch", "force_dimension"};
-constexpr double rounding = 1.05;  // of motors, and of a fake's kinematics against the driver's
+constexpr double oldest_pose_s = 0.020;  // that still counts
+constexpr double rounding = 1.05;        // of motors, and of a fake's kinematics against the driver's
 
 /// The chain of one sequence.
 class RandomSession {
@@ -113,7 +114,11 @@ class RandomSession {
   void fling(const Vec3& velocity) {
     if (!rig_.fling) return;
     rig_.fling(velocity);
+    // Poses that are known are still those of the hand before.
+    const double before = std::max(hand_m_per_s_, rig_.now() < slower_from_ ? faster_m_per_s_ : 0.0);
     hand_m_per_s_ = glm::length(velocity);
+    faster_m_per_s_ = before;
+    slower_from_ = rig_.now() + oldest_pose_s;
   }
   void any_scene() {
     if (chance() < 0.5) {
@@ -202,8 +207,9 @@ class RandomSession {
   /// N, at most: motors are told torques for the pose that is known, which may be as old as an answer that still
   /// counts. Where a fast hand has gone on since, the arm makes another force of them.
   double turned_by_the_arm(const Vec3& force) const {
-    constexpr double oldest_pose_s = 0.020, shortest_arm_m = 0.04;
-    return glm::length(force) * std::min(1.0, hand_m_per_s_ * oldest_pose_s / shortest_arm_m);
+    constexpr double shortest_arm_m = 0.04;
+    const double fastest = std::max(hand_m_per_s_, rig_.now() < slower_from_ ? faster_m_per_s_ : 0.0);
+    return glm::length(force) * std::min(1.0, fastest * oldest_pose_s / shortest_arm_m);
   }
 
   void look_at_device() {
@@ -238,7 +244,8 @@ class RandomSession {
   GuardianBeat beat_;
   GuardianWatch watch_{&beat_};
   Vec3 asked_{0, 2.5, 0}, last_force_{0};
-  double hand_m_per_s_ = 0;  // that it was flung at last
+  double hand_m_per_s_ = 0;                      // that it was flung at last
+  double faster_m_per_s_ = 0, slower_from_ = 0;  // before that
   bool servo_runs_ = true, panel_lives_ = true;
   bool is_reached_ = true, is_deaf_ = false, stands_still_ = false;
   double guard_died_ = 0, went_on_ = 0;

@@ -214,6 +214,7 @@ SCENARIOS = [
     "recordings_are_replayed_and_compared",
     "no_scan_shown_no_force",
     "a_deleted_scan_comes_back",
+    "what_was_deleted_is_not_in_the_state",
     "a_scan_is_overtaken",
     "a_reset_session_has_no_force",
     "a_loaded_state_has_no_force",
@@ -315,4 +316,6 @@ TESTS["the_volume_lies_in_the_patient"] = lambda: run("the_volume_lies_in_the_pa
     "oblique", "sphere", "--radius", "25", "--orientation", "0.6", "0.8", "0", "-0.64", "0.48", "0.6"))
 TESTS["a_volume_without_hu_is_drawn"] = lambda: run("a_volume_without_hu_is_drawn", PALPATE_DROP=write_nifti(scratch("ball.nii.gz")))
 TESTS["other_files_are_opened_and_felt"] = other_files
+TESTS["what_was_deleted_is_not_in_the_state"] = lambda: run(
+    "what_was_deleted_is_not_in_the_state", outlined(), PALPATE_OTHER=phantom("other", "slab"))
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

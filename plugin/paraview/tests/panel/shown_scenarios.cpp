@@ -15,8 +15,10 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFile>
 #include <QListWidget>
 #include <QPushButton>
+#include <QTreeWidget>
 
 #include <algorithm>
 #include <string>
@@ -280,6 +282,48 @@ void a_scan_is_overtaken() {
   connect_stylus();
 }
 
+std::size_t scans_in(const QString& state) {
+  QFile file(state);
+  expect(file.open(QIODevice::ReadOnly), "the state is there");
+  return static_cast<std::size_t>(file.readAll().count("type=\"PalpateDicomReader\""));
+}
+
+/// A scan is deleted while it is felt, brought back, and another study is opened. The state has that one alone, before
+/// and after it was loaded into the running program.
+void what_was_deleted_is_not_in_the_state() {
+  feel();
+  pqDeleteReaction::deleteSources({&reader()});
+  expect_stopped("the scan is no longer in the pipeline. Open a scan, then press Feel");
+  let_go();
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  scan_is_shown();
+  const unsigned before = reader_in_pipeline();
+  const QString folder = qEnvironmentVariable("PALPATE_OTHER");
+  drop_folder(folder);
+  another_scan_is_shown(before);
+  const auto expect_the_other_alone = [&](const std::string& when) {
+    expect_four_views_of_one_scan();
+    expect(QString(vtkSMPropertyHelper(reader().getProxy(), "FileName").GetAsString()).startsWith(folder),
+           when + " the views show the other study");
+    expect(label("palpateFelt").startsWith("No force") || !label("palpateFelt").startsWith("Felt:"),
+           when + " nothing is said to be felt: " + label("palpateFelt").toStdString());
+    expect(find<QTreeWidget>("palpateStructureList").topLevelItemCount() == 0,
+           when + " the first scan's structures are gone");
+  };
+  expect_the_other_alone("before it is saved");
+  const QString scan = label("palpateScanSectionFold");
+  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/other-alone.pvsm");
+  expect(pqApplicationCore::instance()->saveState(file), "the state is saved");
+  expect(scans_in(file) == 1, "one scan is in the state");
+  const unsigned saved = reader_in_pipeline();
+  pqApplicationCore::instance()->loadState(file.toUtf8().constData(), pqActiveObjects::instance().activeServer());
+  another_scan_is_shown(saved);
+  expect_the_other_alone("after it is loaded");
+  expect(label("palpateScanSectionFold") == scan, "the panel names the scan as before");
+  save_screen("other-alone");
+  expect_ready_to_feel();
+}
+
 }  // namespace
 
 const Scenarios& shown_scenarios() {
@@ -290,6 +334,7 @@ const Scenarios& shown_scenarios() {
       {"a_loaded_state_has_no_force", a_loaded_state_has_no_force},
       {"undo_belongs_to_a_scan", undo_belongs_to_a_scan},
       {"a_scan_is_overtaken", a_scan_is_overtaken},
+      {"what_was_deleted_is_not_in_the_state", what_was_deleted_is_not_in_the_state},
   };
   return all;
 }
