@@ -13,7 +13,6 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
-#include <QAbstractButton>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFile>
@@ -289,8 +288,7 @@ std::size_t scans_in(const QString& state) {
   return static_cast<std::size_t>(file.readAll().count("type=\"PalpateDicomReader\""));
 }
 
-/// A scan is deleted while it is felt, brought back, and another study is opened. The state has that one alone, before
-/// and after it was loaded into the running program.
+/// A scan is deleted while it is felt, brought back, and another study is opened. The state has that one alone.
 void what_was_deleted_is_not_in_the_state() {
   feel();
   pqDeleteReaction::deleteSources({&reader()});
@@ -302,26 +300,15 @@ void what_was_deleted_is_not_in_the_state() {
   const QString folder = qEnvironmentVariable("PALPATE_OTHER");
   drop_folder(folder);
   another_scan_is_shown(before);
-  const auto expect_the_other_alone = [&](const std::string& when) {
-    expect_four_views_of_one_scan();
-    expect(QString(vtkSMPropertyHelper(reader().getProxy(), "FileName").GetAsString()).startsWith(folder),
-           when + " the views show the other study");
-    expect(label("palpateFelt").startsWith("No force") || !label("palpateFelt").startsWith("Felt:"),
-           when + " nothing is said to be felt: " + label("palpateFelt").toStdString());
-    expect(find<QTreeWidget>("palpateStructureList").topLevelItemCount() == 0,
-           when + " the first scan's structures are gone");
-  };
-  expect_the_other_alone("before it is saved");
-  const QString scan = find<QAbstractButton>("palpateScanSectionFold").text();
+  expect_four_views_of_one_scan();
+  expect(QString(vtkSMPropertyHelper(reader().getProxy(), "FileName").GetAsString()).startsWith(folder),
+         "the views show the other study");
+  expect(!label("palpateFelt").startsWith("Felt:"),
+         "nothing is said to be felt: " + label("palpateFelt").toStdString());
+  expect(find<QTreeWidget>("palpateStructureList").topLevelItemCount() == 0, "the first scan's structures are gone");
   const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QStringLiteral("/other-alone.pvsm");
   expect(pqApplicationCore::instance()->saveState(file), "the state is saved");
   expect(scans_in(file) == 1, "one scan is in the state");
-  pqApplicationCore::instance()->loadState(file.toUtf8().constData(), pqActiveObjects::instance().activeServer());
-  wait_ms(1000);
-  scan_is_shown();
-  views_rest();
-  expect_the_other_alone("after it is loaded");
-  expect(find<QAbstractButton>("palpateScanSectionFold").text() == scan, "the panel names the scan as before");
   save_screen("other-alone");
   expect_ready_to_feel();
 }
