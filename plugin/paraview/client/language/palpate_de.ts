@@ -2024,10 +2024,6 @@ ID %2, Studie vom %3</translation>
         <translation>%1 ml, in der Datei %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Rand ging höchstens %5 mm.</translation>
     </message>
     <message>
-        <source>The scan has no edge there: the outline stays.</source>
-        <translation>Die Aufnahme hat dort keine Kante: der Umriss bleibt.</translation>
-    </message>
-    <message>
         <source>It reaches %1 mm into %2.</source>
         <translation>Er reicht %1 mm in %2 hinein.</translation>
     </message>

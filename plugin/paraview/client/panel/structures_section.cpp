@@ -17,6 +17,7 @@
 #include "io/fields/filtered.h"
 #include "io/structures/outline_change.h"
 #include "modes/types/mode_type.h"
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/session/structure_files.h"
@@ -90,7 +91,7 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
     look_beside(std::move(places), within_mm, std::move(done));
   });
   connect(&correction, &CorrectionModel::nothing_traced, this,
-          [this] { tell(tr("The scan has no edge there: the outline stays."), false); });
+          [this] { tell(words(say("scan-has-no-edge-there")), false); });
   connect(&correction, &CorrectionModel::changed, this, [this] { follow_correction(); });
   list();
 }
