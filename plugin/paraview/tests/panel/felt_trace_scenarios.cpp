@@ -109,7 +109,8 @@ void an_outline_is_traced_by_touch() {
   const auto trace = std::get<palpate::io::TraceEdit>(edits_in_scene().front());
   double most = 0;
   for (const palpate::io::Vec3& at : trace.points_mm) most = std::fmax(most, std::abs(glm::length(at) - ball_mm));
-  expect(most < 0.25, "its places lie at the ball's own edge: " + std::to_string(most));
+  constexpr double half_a_voxel_mm = 0.5;
+  expect(most < half_a_voxel_mm, "its places lie at the ball's own edge: " + std::to_string(most));
   expect(trace.known_to_mm.size() == trace.points_mm.size(), "each with how well it is known");
   const auto known = std::ranges::count_if(trace.known_to_mm, [](double mm) { return mm > 0 && mm < 1; });
   expect(10 * known > 9 * static_cast<std::ptrdiff_t>(trace.points_mm.size()),
