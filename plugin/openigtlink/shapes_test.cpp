@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <random>
 
+#include "modes/scene/met_values.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/openigtlink/contents.h"
 #include "plugin/openigtlink/image.h"
@@ -131,6 +133,34 @@ TEST(Shapes, ABoundaryOfTheScanIsSentWhereItIsFelt) {
   for (const auto& corners : skin.triangles) {
     for (const std::uint32_t n : corners) EXPECT_NEAR(glm::length(skin.points[n]), 25, 0.5);
   }
+}
+
+// Values that rise evenly to the patient's left, beside the origin: each boundary is the plane where its value is met.
+TEST(Shapes, ABoundaryLiesWhereItsValueIsMetInRasAxes) {
+  const modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  const glm::dvec3 center(7, -8, 3);
+  constexpr double hu_per_mm = 100;
+  io::Volume rising = volume_of(testdata::make_geometry({.size = {31, 26, 22}, .spacing = {1, 1, 1}, .center = center}),
+                                [&](const glm::dvec3& at) { return hu_per_mm * (at.x - center.x); });
+  rising.modality = "CT";
+  rising.unit = "HU";
+  const auto volume = std::make_shared<const io::Volume>(std::move(rising));
+  const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.08));
+  const std::vector<Shape> shapes = shapes_of(felt, scene);
+  const Shape* const shape = find(shapes, "POLYDATA", scene.modes[0].name);
+  ASSERT_NE(shape, nullptr);
+  const std::vector<double> met = modes::met_values(scene.modes[0], modes::Side::entering);
+  ASSERT_FALSE(met.empty());
+  const Surface surface = surface_of(shape->content);
+  glm::dvec3 mean(0);
+  for (const glm::dvec3& point : surface.points) {
+    double nearest = 1e9;
+    for (const double value : met) nearest = std::min(nearest, std::abs(-point.x - center.x - value / hu_per_mm));
+    EXPECT_LT(nearest, 0.01);
+    mean += point / static_cast<double>(surface.points.size());
+  }
+  EXPECT_NEAR(mean.y, -center.y, 1);
+  EXPECT_NEAR(mean.z, center.z, 1);
 }
 
 TEST(Shapes, NamesAreCutAtALetterAndToldApart) {
