@@ -175,7 +175,7 @@ run_stages() {
     install mmdebstrap
     nice -n 10 plugin/run check other-release >build/other-release.out 2>&1 &
     beside=$!
-    trap 'kill "$beside" 2>/dev/null || true' EXIT
+    trap "kill $beside 2>/dev/null || true" EXIT
   fi
   for stage in "$@"; do
     if [ "$stage" = other-release ] && [ -n "$beside" ]; then
