@@ -4,11 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
 #include <memory>
 #include <random>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "testdata/scan.h"
 
@@ -37,6 +43,63 @@ TEST(CentralDifferences, AreHalfTheDifferenceOfTheNeighbors) {
         ASSERT_LT(glm::length(Vec3(gradients[volume->offset(i, j, k)]) - expected), 1e-3);
       }
     }
+  }
+}
+
+/// Stored numbers of any type, a sixth of them padding, some of it in stretches.
+template <typename Stored>
+Volume with_padding(unsigned seed) {
+  Grid grid;
+  grid.size = {75, 9, 6};
+  grid.spacing = {0.5, 0.7, 2};
+  Volume volume;
+  volume.geometry = testdata::make_geometry(grid);
+  std::mt19937 random(seed);
+  std::vector<Stored> voxels(75 * 9 * 6);
+  bool is_padding = false;
+  for (Stored& voxel : voxels) {
+    if (random() % 6 == 0) is_padding = random() % 6 == 0;
+    voxel = static_cast<Stored>(is_padding ? 0 : 1 + random() % 3000);
+    if (std::is_floating_point_v<Stored> && is_padding && random() % 2 == 0) {
+      voxel = std::numeric_limits<Stored>::quiet_NaN();
+    }
+  }
+  volume.voxels = std::move(voxels);
+  volume.padding = {-1, 0};
+  volume.slope = 0.5;
+  return volume;
+}
+
+/// Along each axis the difference of those neighbors that there are, the voxel itself in the place of one that is none.
+TEST(CentralDifferences, ArePlainDifferencesOfWhatThereIsBesidePadding) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const auto volume = std::make_shared<const Volume>(seed % 3 == 0   ? with_padding<std::int16_t>(seed)
+                                                       : seed % 3 == 1 ? with_padding<std::uint16_t>(seed)
+                                                                       : with_padding<float>(seed));
+    const auto gradients = GradientKernel(volume, GradientKernel::CentralDifferences{}).whole();
+    const glm::ivec3 size = volume->geometry.dimensions;
+    const Vec3 spacing(0.5, 0.7, 2);
+    const auto counts = [&](const glm::ivec3& at) {
+      return glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, size)) &&
+             !volume->is_padding(at.x, at.y, at.z) && std::isfinite(volume->value_at(at.x, at.y, at.z));
+    };
+    int beside = 0;
+    for (int n = 0; n < size.x * size.y * size.z; ++n) {
+      const glm::ivec3 at(n % size.x, n / size.x % size.y, n / (size.x * size.y));
+      Vec3 expected(0);
+      for (int axis = 0; axis < 3 && counts(at); ++axis) {
+        glm::ivec3 low = at, high = at;
+        if (--low[axis]; !counts(low)) low = at;
+        if (++high[axis]; !counts(high)) high = at;
+        beside += high[axis] - low[axis] < 2 ? 1 : 0;
+        if (low == high) continue;
+        expected[axis] = (volume->value_at(high.x, high.y, high.z) - volume->value_at(low.x, low.y, low.z)) /
+                         ((high[axis] - low[axis]) * spacing[axis]);
+      }
+      ASSERT_LT(glm::length(Vec3(gradients[volume->offset(at.x, at.y, at.z)]) - expected), 1e-3)
+          << "seed " << seed << ", voxel " << at.x << ' ' << at.y << ' ' << at.z;
+    }
+    EXPECT_GT(beside, 1000);
   }
 }
 

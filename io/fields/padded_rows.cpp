@@ -64,6 +64,12 @@ template <typename Stored>
       stored, count, padding, [](int) __attribute__((always_inline)) { return 0; });
 }
 
+template <typename Stored>
+[[gnu::always_inline]] inline bool are_all(const Stored* stored, int count, const StoredPadding<Stored>& padding) {
+  return !any_differs(
+      stored, count, padding, [](int) __attribute__((always_inline)) { return 1; });
+}
+
 /// By bits: 0 times what is not a number would not be 0.
 constexpr auto value_of = [](auto stored, std::uint32_t is_padding) __attribute__((always_inline)) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(stored)) & (is_padding - 1));
@@ -132,6 +138,21 @@ bool mark_padding(const std::uint16_t* stored, int count, const StoredPadding<st
 PALPATE_FOR_PROCESSOR
 bool mark_padding(const float* stored, int count, const StoredPadding<float>& padding, std::uint8_t* marks) {
   return each_stored(stored, count, padding, marks, mark_of);
+}
+
+PALPATE_FOR_PROCESSOR
+bool all_padding(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding) {
+  return are_all(stored, count, padding);
+}
+
+PALPATE_FOR_PROCESSOR
+bool all_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding) {
+  return are_all(stored, count, padding);
+}
+
+PALPATE_FOR_PROCESSOR
+bool all_padding(const float* stored, int count, const StoredPadding<float>& padding) {
+  return are_all(stored, count, padding);
 }
 
 PALPATE_FOR_PROCESSOR

@@ -35,6 +35,11 @@ bool any_padding(const std::int16_t* stored, int count, const StoredPadding<std:
 bool any_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding);
 bool any_padding(const float* stored, int count, const StoredPadding<float>& padding);
 
+/// Whether all is padding.
+bool all_padding(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding);
+bool all_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding);
+bool all_padding(const float* stored, int count, const StoredPadding<float>& padding);
+
 /// Whether mark_padding() would write just these marks.
 bool has_marks(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding,
                const std::uint8_t* marks);

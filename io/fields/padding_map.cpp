@@ -95,7 +95,9 @@ PaddingMap::PaddingMap(const Volume& volume, const SliceKernel& kernel, const Fi
       padding_(at(slices_, 0)),
       values_(padding_.size()),
       padded_as_before_(static_cast<std::size_t>(slices_)),
+      row_values_(static_cast<std::size_t>(slices_) * static_cast<std::size_t>(tile.size.y + 2 * kernel.radius.y)),
       beside_(at(tile.size.z, 0)),
+      valued_(beside_.size()),
       needed_(padding_.size()),
       as_before_(static_cast<std::size_t>(tile.size.z)) {
   std::visit([&](const auto& voxels) { read(volume, voxels); }, volume.voxels);
@@ -113,6 +115,7 @@ void PaddingMap::read(const Volume& volume, const std::vector<Stored>& voxels) {
   const auto width = static_cast<std::size_t>(chunks * chunk_width + 2 * reach.x);
   std::vector<std::uint8_t> marks(width * static_cast<std::size_t>(rows), neither);
   std::vector<Chunks> padding_of_row(static_cast<std::size_t>(rows)), values_of_row(padding_of_row.size());
+  const Chunks all = ~Chunks{0} >> (32 - chunks);
   for (int n = 0; n < slices_; ++n) {
     bool alike = n > 0;
     for (int r = 0; r < rows; ++r) {
@@ -124,16 +127,17 @@ void PaddingMap::read(const Volume& volume, const std::vector<Stored>& voxels) {
       const bool any = reader(first_slice_ + n, j, i, count, row);
       met_padding_ = met_padding_ || any;
       padding_of_row[at_row] = 0;
-      values_of_row[at_row] = ~Chunks{0};
+      values_of_row[at_row] = all;
       for (int c = 0; any && c < chunks; ++c) {
         const Found found = look_at(row + c * chunk_width, chunk_width + 2 * reach.x);
         padding_of_row[at_row] |= found.padding ? Chunks{1} << c : 0;
-        values_of_row[at_row] &= found.values ? ~Chunks{0} : ~(Chunks{1} << c);
+        values_of_row[at_row] &= found.values ? all : ~(Chunks{1} << c);
       }
     }
     padded_as_before_[static_cast<std::size_t>(n)] = alike;
     join_rows(padding_of_row, 2 * reach.y, tile_.size.y, &padding_[at(n, 0)]);
     join_rows(values_of_row, 2 * reach.y, tile_.size.y, &values_[at(n, 0)]);
+    std::ranges::copy(values_of_row, row_values_.begin() + static_cast<std::ptrdiff_t>(n) * rows);
   }
 }
 
@@ -153,6 +157,7 @@ void PaddingMap::find_beside() {
         values |= values_[at(c.slice - first_slice_, j)];
       }
       beside_[at(k, j)] = padding & values;
+      valued_[at(k, j)] = values;
       any_ = any_ || (padding & values) != 0;
       if (as_before || (padding & values) == 0) continue;
       for (const Contribution& c : contributions) needed_[at(c.slice - first_slice_, j)] |= padding & values;

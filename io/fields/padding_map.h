@@ -3,6 +3,7 @@
 /// Which voxels of a tile have padding in their neighborhoods, and so a plane fit of their own. Whole rows are decided
 /// once; a row that holds some is decided eight voxels at a time.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -18,6 +19,16 @@ namespace palpate::io::internal {
 using Chunks = std::uint32_t;
 inline constexpr int chunk_width = 8;  ///< voxels
 static_assert(tile_width == 32 * chunk_width);
+
+/// From the first to the last of some chunks; voxels, counted from the tile's first.
+struct Span {
+  int begin = 0, end = 0;
+};
+inline Span span_of(Chunks chunks, int width) noexcept {
+  if (chunks == 0) return {};
+  return {std::min(std::countr_zero(chunks) * chunk_width, width),
+          std::min((32 - std::countl_zero(chunks)) * chunk_width, width)};
+}
 
 /// Calls use(begin, end) for each stretch of chunks; voxels, counted from the tile's first.
 template <typename Use>
@@ -47,6 +58,16 @@ class PaddingMap {
   /// Those of row j of slice k, both counted from the tile's first, with values in their neighborhoods as well: where
   /// there are none, no fit is needed, since all sums are 0.
   Chunks beside(int k, int j) const noexcept { return beside_[at(k, j)]; }
+  /// Those of row j of slice k with any value in their neighborhoods: of the others all sums are 0.
+  Chunks valued(int k, int j) const noexcept { return valued_[at(k, j)]; }
+  /// The same of a slice of the volume, whose sums in its plane are meant.
+  Chunks valued_in_plane(int slice, int j) const noexcept { return values_[at(slice - first_slice_, j)]; }
+  /// The same of row r of those that the tile reaches over, for its sums along the row.
+  Chunks valued_in_row(int slice, int r) const noexcept {
+    return row_values_[static_cast<std::size_t>(slice - first_slice_) *
+                           static_cast<std::size_t>(tile_.size.y + 2 * kernel_.radius.y) +
+                       static_cast<std::size_t>(r)];
+  }
   /// Whether the tile's voxels in slice k have the fits of those in slice k - 1.
   bool as_before(int k) const noexcept { return as_before_[static_cast<std::size_t>(k)]; }
   /// Chunks of row j of a slice of the volume whose sums some slice's fits need.
@@ -66,7 +87,8 @@ class PaddingMap {
   int first_slice_ = 0, slices_ = 0;      // that the tile reaches over
   std::vector<Chunks> padding_, values_;  // within the reach of a row's chunks, in each of these slices
   std::vector<bool> padded_as_before_;    // whether a slice has its padding where the one before has it
-  std::vector<Chunks> beside_, needed_;
+  std::vector<Chunks> row_values_;        // of each row that the tile reaches over
+  std::vector<Chunks> beside_, valued_, needed_;
   std::vector<bool> as_before_;
   bool met_padding_ = false, any_ = false;
 };

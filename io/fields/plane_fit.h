@@ -31,7 +31,7 @@ inline glm::vec3 gradient_of(const PlaneFit& fit, const float* s, std::size_t st
 /// 0. to_patient: gradient along (p, q, w) -> patient space, rescale slope included.
 PlaneFit fit_plane(const float* sums, std::size_t stride, double scale_mm, const glm::dmat3& to_patient) noexcept;
 
-/// The same, with the same bits, of an even number of voxels of a row, from `begin` to `end`: sums and fits lie
+/// The same, with the same bits, of the voxels of a row from `begin` to `end`, a multiple of four: sums and fits lie
 /// tile_width floats apart, the fits in rows as in straight_filters.h.
 void fit_planes(const float* sums, int begin, int end, double scale_mm, const glm::dmat3& to_patient,
                 float* fits) noexcept;

@@ -87,23 +87,26 @@ class StraightBlock {
       for (const Contribution& c : contributions(at_once_ - 1)) last = std::max(last, c.slice);
       for (; next <= last; ++next) {
         filter_plane(values, next);
-        if (padding_) padded_fits_->add_plane(weights, next);
+        if (has_beside_) padded_fits_->add_plane(weights, next);
       }
       find_planes();
       for (int j = 0; j < tile_.size.y; ++j) {
         glm::vec3* const gradients = target.first + k * target.slice + j * target.row;
-        fit_slices(j, gradients, target.slice);
-        if (padding_) fit_beside_padding(k, j, gradients, target.slice);
+        fit_slices(k, j, gradients, target.slice);
+        if (has_beside_) fit_beside_padding(k, j, gradients, target.slice);
       }
     }
   }
 
   void find_padding() {
     padding_.reset();
+    has_beside_ = false;
     if (!padded_fits_) return;
     padding_ = std::make_unique<PaddingMap>(volume_, kernel_, fits_, tile_);
     met_padding_ = padding_->met_padding();
-    padding_->any() ? padded_fits_->start(tile_, *padding_) : padding_.reset();
+    has_beside_ = padding_->any();
+    if (!met_padding_) padding_.reset();
+    if (has_beside_) padded_fits_->start(tile_, *padding_);
   }
 
   const std::vector<Contribution>& contributions(int n) const {
@@ -115,19 +118,41 @@ class StraightBlock {
   void filter_plane(const RowReader<Stored>& reader, int slice) {
     const int reach_i = kernel_.radius.x;
     const int reach_j = kernel_.radius.y;
+    const int width = whole_lanes(tile_.size.x);
     float* const to = plane_of(slice);
     for (int r = 0; r < tile_.size.y + 2 * reach_j; ++r) {
       const int first = tile_.first.x - reach_i;
       const int count = tile_.size.x + 2 * reach_i;
       reader.prefetch(slice, tile_.first.y + r - reach_j + rows_ahead, first, count);
-      reader(slice, tile_.first.y + r - reach_j, first, count, row_.data());
-      filter_row(row_.data() + reach_i, kernel_.taps_i[0][0].weight[0], along_i_.data(), reach_i,
-                 whole_lanes(tile_.size.x), filtered_.get() + 2 * tile_width * r);
+      float* const filtered = filtered_.get() + 2 * tile_width * r;
+      const Span of_row = padding_ ? span_of(padding_->valued_in_row(slice, r), width) : Span{0, width};
+      if (of_row.begin < of_row.end) {
+        reader(slice, tile_.first.y + r - reach_j, first, count, row_.data());
+        filter_row(row_.data() + reach_i + of_row.begin, kernel_.taps_i[0][0].weight[0], along_i_.data(), reach_i,
+                   of_row.end - of_row.begin, filtered + of_row.begin);
+      }
+      clear_around(filtered, 2, of_row);
       // As soon as the last of a column's rows is there, while they all are in the nearest cache.
       if (const int j = r - 2 * reach_j; j >= 0) {
-        filter_column(filtered_.get() + 2 * tile_width * (j + reach_j), kernel_.taps_j[0][0].weight[0], along_j_.data(),
-                      reach_j, whole_lanes(tile_.size.x), to + row_floats * j);
+        const Span of_plane = padding_ ? span_of(padding_->valued_in_plane(slice, j), width) : Span{0, width};
+        float* const sums = to + row_floats * j;
+        if (of_plane.begin < of_plane.end) {
+          filter_column(filtered_.get() + 2 * tile_width * (j + reach_j) + of_plane.begin,
+                        kernel_.taps_j[0][0].weight[0], along_j_.data(), reach_j, of_plane.end - of_plane.begin,
+                        sums + of_plane.begin);
+        }
+        clear_around(sums, 3, of_plane);
       }
+    }
+  }
+
+  /// Where there are no values in reach, `count` sums of a row are 0.
+  void clear_around(float* sums, int count, const Span& valued) const {
+    const int width = whole_lanes(tile_.size.x);
+    if (valued.begin == 0 && valued.end == width) return;
+    for (int n = 0; n < count; ++n, sums += tile_width) {
+      std::fill(sums, sums + valued.begin, 0.0F);
+      std::fill(sums + valued.end, sums + width, 0.0F);
     }
   }
 
@@ -170,33 +195,53 @@ class StraightBlock {
             static_cast<int>(between_.size())};
   }
 
-  /// A row of the slices in hand.
-  void fit_slices(int j, glm::vec3* gradients, std::ptrdiff_t apart_slices) {
+  /// A row of the slices in hand: 0 where no value is in reach.
+  void fit_slices(int k, int j, glm::vec3* gradients, std::ptrdiff_t apart_slices) {
+    const Span plain = padding_ ? plain_span(k, j) : Span{0, tile_.size.x};
+    if (plain.begin > 0 || plain.end < tile_.size.x) {
+      for (int s = 0; s < at_once_; ++s) {
+        glm::vec3* const row = gradients + s * apart_slices;
+        std::fill(row, row + plain.begin, glm::vec3(0));
+        std::fill(row + plain.end, row + tile_.size.x, glm::vec3(0));
+      }
+    }
+    if (plain.begin == plain.end) return;
     const glm::ivec3 size = volume_.geometry.dimensions;
     const int y = tile_.first.y + j;
     const bool inner_row = complete_ || (y >= kernel_.radius.y && y < size.y - kernel_.radius.y);
     // Complete neighborhoods, as far as rows go.
-    const int begin = complete_ ? 0 : std::clamp(kernel_.radius.x - tile_.first.x, 0, tile_.size.x);
-    const int end =
-        complete_ ? tile_.size.x : std::clamp(size.x - kernel_.radius.x - tile_.first.x, begin, tile_.size.x);
+    const int begin = complete_ ? plain.begin : std::clamp(kernel_.radius.x - tile_.first.x, plain.begin, plain.end);
+    const int end = complete_ ? plain.end : std::clamp(size.x - kernel_.radius.x - tile_.first.x, begin, plain.end);
     const std::ptrdiff_t row = row_floats * j;
     if (!even_) {
       look_up_fits(inner_row ? -1 : y);
-      fit_any_slices(pairs_.data(), static_cast<int>(pairs_.size()), row, row_fits_.get(), tile_.size.x, sums_.get(),
-                     gradients);
+      fit_any_slices(pairs_.data(), static_cast<int>(pairs_.size()), row + plain.begin, row_fits_.get() + plain.begin,
+                     plain.end - plain.begin, sums_.get(), gradients + plain.begin);
       return;
     }
     const bool balanced = inner_row && begin < end;
-    if (balanced)
-      fit_balanced_slices(even_slices(0, row), at_once_, fits_.whole(slice_).slope, tile_.size.x, gradients,
-                          apart_slices);
-    if (balanced && begin == 0 && end == tile_.size.x) return;
+    if (balanced) {
+      fit_balanced_slices(even_slices(0, row + plain.begin), at_once_, fits_.whole(slice_).slope,
+                          plain.end - plain.begin, gradients + plain.begin, apart_slices);
+      if (begin == plain.begin && end == plain.end) return;
+    }
     look_up_fits(inner_row ? -1 : y);
     for (int s = 0; s < at_once_; ++s, gradients += apart_slices) {
       const EvenSlices even = even_slices(s, row);
-      fit_even_slices(even, row_fits_.get(), 0, balanced ? begin : tile_.size.x, gradients);
-      if (balanced) fit_even_slices(even, row_fits_.get(), end, tile_.size.x, gradients);
+      fit_even_slices(even, row_fits_.get(), plain.begin, balanced ? begin : plain.end, gradients);
+      if (balanced) fit_even_slices(even, row_fits_.get(), end, plain.end, gradients);
     }
+  }
+
+  /// From the first to the last voxel of row j with values in its neighborhood that is not fit again in all of the
+  /// slices in hand.
+  Span plain_span(int k, int j) const {
+    Chunks valued = 0, again = ~Chunks{0};
+    for (int s = 0; s < at_once_; ++s) {
+      valued |= padding_->valued(k + s, j);
+      again &= padding_->beside(k + s, j);
+    }
+    return span_of(valued & ~again, tile_.size.x);
   }
 
   /// Again, those of row j that have padding in their neighborhoods.
@@ -248,7 +293,7 @@ class StraightBlock {
   Lines row_fits_;
   std::optional<PaddedFits> padded_fits_;  ///< where the volume can hold padding
   std::unique_ptr<PaddingMap> padding_;    ///< where the tile does
-  bool met_padding_ = false;
+  bool met_padding_ = false, has_beside_ = false;
   std::pair<int, int> known_fits_{-1, -1};
   int slice_ = 0;    ///< the first of those in hand
   int at_once_ = 1;  ///< how many these are
