@@ -8,8 +8,11 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
+#include "io/padding.h"
 #include "io/parallel.h"
 
 namespace palpate::modes::internal {
@@ -51,21 +54,23 @@ struct Grid {
   }
 };
 
-float mean_of_cell(const io::Volume& volume, const glm::ivec3& first, const glm::ivec3& per_cell) {
-  const glm::ivec3 end = glm::min(first + per_cell, volume.geometry.dimensions);
+struct CellSum {
   double sum = 0;
   int count = 0;
-  for (int k = first.z; k < end.z; ++k) {
-    for (int j = first.y; j < end.y; ++j) {
-      for (int i = first.x; i < end.x; ++i) {
-        const double value = volume.value_at(i, j, k);
-        if (volume.is_padding(i, j, k) || !std::isfinite(value)) continue;
-        sum += value;
-        ++count;
-      }
+};
+
+/// Adds a row of voxels to its cells, those left out that are padding or no number.
+template <typename Stored>
+void add_row(const io::Volume& volume, const Stored* stored, int count, int per_cell,
+             const io::internal::StoredPadding<Stored>& padding_of, CellSum* cell) {
+  for (int i = 0; i < count; ++cell) {
+    for (const int end = std::min(i + per_cell, count); i < end; ++i) {
+      const double value = volume.slope * static_cast<double>(stored[i]) + volume.intercept;
+      const bool counts = padding_of(stored[i]) == 0 && std::isfinite(value);
+      cell->sum += counts ? value : 0;
+      cell->count += counts ? 1 : 0;
     }
   }
-  return count > 0 ? static_cast<float>(sum / count) : padding;
 }
 
 Grid coarse(const io::Volume& volume, const glm::ivec3& per_cell, int threads) {
@@ -79,12 +84,22 @@ Grid coarse(const io::Volume& volume, const glm::ivec3& per_cell, int threads) {
   grid.values.resize(static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y) *
                      static_cast<std::size_t>(grid.size.z));
   const auto fill_layer = [&](std::size_t z) {
-    std::size_t at = z * grid.step(2);
-    for (int y = 0; y < grid.size.y; ++y) {
-      for (int x = 0; x < grid.size.x; ++x, ++at) {
-        grid.values[at] = mean_of_cell(volume, glm::ivec3(x, y, static_cast<int>(z)) * per_cell, per_cell);
-      }
-    }
+    std::vector<CellSum> sums(grid.step(2));
+    const int first = static_cast<int>(z) * per_cell.z, end = std::min(first + per_cell.z, g.dimensions.z);
+    std::visit(
+        [&](const auto& voxels) {
+          const io::internal::StoredPadding<typename std::decay_t<decltype(voxels)>::value_type> padding_of(volume);
+          for (int k = first; k < end; ++k) {
+            for (int j = 0; j < g.dimensions.y; ++j) {
+              add_row(volume, voxels.data() + volume.offset(0, j, k), g.dimensions.x, per_cell.x, padding_of,
+                      sums.data() + static_cast<std::size_t>(j / per_cell.y) * grid.step(1));
+            }
+          }
+        },
+        volume.voxels);
+    std::ranges::transform(
+        sums, grid.values.begin() + static_cast<std::ptrdiff_t>(z * grid.step(2)),
+        [](const CellSum& cell) { return cell.count > 0 ? static_cast<float>(cell.sum / cell.count) : padding; });
   };
   io::internal::parallel_for(static_cast<std::size_t>(grid.size.z), fill_layer, {}, threads);
   return grid;
