@@ -7,6 +7,7 @@
 
 #include "io/messages.h"
 #include "io/structures/edit_changes.h"
+#include "io/structures/field_patch.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -14,13 +15,9 @@ namespace {
 constexpr std::size_t most_of_a_piece = 400;
 constexpr double usual_move_mm = 2;   // standard deviation of what a trace moves: how much an uncertain point weighs
 constexpr double carried = 0.45;      // of the reach: a bump of a single point is one piece up to 0.47 of it
-constexpr double well_met_mm = 0.03;  // nearer than this the points need no second round
-
-double wendland(double r) {
-  if (r >= 1) return 0;
-  const double in = (1 - r) * (1 - r);
-  return in * in * (4 * r + 1);
-}
+constexpr double well_met_mm = 0.03;  // nearer than this the points need nothing more
+constexpr double settled_mm = 0.2;    // farther than this the distance has to be measured once more
+constexpr int most_traced_rounds = 3;
 
 struct TracePoint {
   Vec3 place{0};
@@ -40,35 +37,44 @@ std::vector<TracePoint> thinned(const TraceEdit& edit) {
   return kept;
 }
 
-/// c of (W + diag(mu s^2)) c = -mm.
-Eigen::VectorXd weights_of(const std::vector<TracePoint>& points, const Eigen::VectorXd& mm, double reach_mm) {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd w(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const TracePoint& point = points[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      w(i, j) = w(j, i) = wendland(glm::distance(point.place, points[static_cast<std::size_t>(j)].place) / reach_mm);
+/// c of (W + diag(mu s^2)) c = -mm; s = 0 where the fit is to be exact.
+class Fit {
+ public:
+  Fit(const std::vector<TracePoint>& points, double reach_mm, bool exact) : reach_mm_(reach_mm) {
+    const auto count = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd w(count, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const TracePoint& point = points[static_cast<std::size_t>(i)];
+      at_.push_back(point.place);
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        w(i, j) = w(j, i) = wendland(glm::distance(point.place, at_[static_cast<std::size_t>(j)]) / reach_mm);
+      }
+      const double sigma = exact ? 0 : 0.5 * point.known_to_mm / usual_move_mm;
+      w(i, i) += sigma * sigma;
     }
-    const double sigma = 0.5 * point.known_to_mm / usual_move_mm;
-    w(i, i) += sigma * sigma;
+    solved_.compute(w);
   }
-  return w.ldlt().solve(-mm);
-}
 
-FieldChange change_of(const std::vector<TracePoint>& points, const Eigen::VectorXd& weights, double reach_mm) {
+  std::shared_ptr<const RadialBumps> against(const Eigen::VectorXd& mm) const {
+    const Eigen::VectorXd weights = solved_.solve(-mm);
+    return std::make_shared<const RadialBumps>(
+        RadialBumps{.at = at_, .weight = {weights.begin(), weights.end()}, .reach_mm = reach_mm_});
+  }
+
+ private:
+  double reach_mm_;
+  std::vector<Vec3> at_;
+  Eigen::LDLT<Eigen::MatrixXd> solved_;
+};
+
+FieldChange change_by(const std::shared_ptr<const RadialBumps>& bumps) {
   FieldChange change;
-  for (const TracePoint& point : points) change.where.push_back({point.place, point.place});
-  change.touched_mm = change.within_mm = reach_mm;
-  change.after = [&points, &weights, reach_mm](const Vec3& at, double before, std::span<const std::uint32_t> near) {
-    double sum = before;
-    for (const std::uint32_t n : near) {
-      const Vec3 away = at - points[n].place;
-      const double squared = glm::dot(away, away);
-      if (squared >= reach_mm * reach_mm) continue;
-      sum += weights[static_cast<Eigen::Index>(n)] * wendland(std::sqrt(squared) / reach_mm);
-    }
-    return sum;
+  for (const Vec3& at : bumps->at) change.where.push_back({at, at});
+  change.touched_mm = change.within_mm = bumps->reach_mm;
+  change.after = [bumps](const Vec3& at, double before, std::span<const std::uint32_t> near) {
+    return before + sum_of(*bumps, near, at);
   };
+  change.bumps = bumps;
   return change;
 }
 
@@ -93,34 +99,43 @@ void refuse_islands(const DistanceField& field, const std::vector<TracePoint>& p
   }
 }
 
-Eigen::VectorXd distances_at(const DistanceField& field, const std::vector<TracePoint>& points) {
-  Eigen::VectorXd mm(static_cast<Eigen::Index>(points.size()));
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    mm[static_cast<Eigen::Index>(n)] = field.parts().sample_nearest(points[n].place).mm;
-  }
-  return mm;
+/// The points' numbers by `mm_at`, less those that are wanted.
+template <typename MmAt>
+Eigen::VectorXd missed(const std::vector<TracePoint>& points, const Eigen::VectorXd& wanted, const MmAt& mm_at) {
+  Eigen::VectorXd mm(wanted.size());
+  for (std::size_t n = 0; n < points.size(); ++n) mm[static_cast<Eigen::Index>(n)] = mm_at(points[n].place);
+  return mm - wanted;
 }
 
 Field piece_traced(const Field& before, const std::vector<TracePoint>& points, double reach_mm, int threads) {
-  Eigen::VectorXd mm = distances_at(*before, points);
-  Eigen::VectorXd weights = weights_of(points, mm, reach_mm);
-  FieldChange change = change_of(points, weights, reach_mm);
+  const auto of = [](const Field& field) {
+    return [&parts = field->parts()](const Vec3& at) { return parts.sample_nearest(at).mm; };
+  };
+  const Fit fit(points, reach_mm, false);
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points.size()));
+  Eigen::VectorXd mm = missed(points, wanted, of(before));
+  FieldChange change = change_by(fit.against(mm));
   refuse_islands(*before, points, change, reach_mm);
   // Where the fit wants the points: on the edge, unless they are uncertain.
   std::vector<std::uint32_t> all(points.size());
   for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
-  Eigen::VectorXd wanted = mm;
   for (std::size_t n = 0; n < points.size(); ++n) {
     const auto at = static_cast<Eigen::Index>(n);
     wanted[at] = change.after(points[n].place, mm[at], all);
   }
-  Field field = changed(before, change, threads);
-  // The field between its nodes is interpolated, and measured anew: where that missed the points, once more.
-  for (int round = 0; round < 2; ++round) {
-    mm = distances_at(*field, points) - wanted;
+  // The field between its nodes is interpolated, and measured anew. Where that missed the points by little, it is
+  // moved by what is missed, and stays a distance but for that; else it is changed once more.
+  const Fit exactly(points, reach_mm, true);
+  const Settle settle = [&](Patch& patch) {
+    const Eigen::VectorXd left = missed(points, wanted, [&](const Vec3& at) { return measured_at(patch, at); });
+    const double most = left.cwiseAbs().maxCoeff();
+    if (most > well_met_mm && most < settled_mm) add_to_measured(patch, *exactly.against(left), threads);
+  };
+  Field field = changed(before, change, threads, settle);
+  for (int round = 1; round < most_traced_rounds; ++round) {
+    mm = missed(points, wanted, of(field));
     if (mm.cwiseAbs().maxCoeff() < well_met_mm) break;
-    weights = weights_of(points, mm, reach_mm);
-    field = changed(field, change, threads);
+    field = changed(field, change_by(exactly.against(mm)), threads, settle);
   }
   return field;
 }

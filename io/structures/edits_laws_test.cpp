@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
@@ -14,6 +14,7 @@
 #include "io/structures/outline_places.h"
 #include "io/testing/made_labels.h"
 #include "solver/text/message.h"
+#include "solver/text/testing/sanitized.h"
 
 namespace palpate::io {
 namespace {
@@ -297,26 +298,37 @@ TEST(EditsLaws, APointThatIsKnownBadlyPullsLess) {
   }
 }
 
-TEST(EditsLaws, ATraceOf200PointsTakesLessThanTheFieldDid) {
-  DistanceOptions near;
-  near.reach_mm = 3;
-  const Mask labels = made_labels([](const Vec3& at) { return glm::length(at) < 34; }, 44, {});
-  const auto seconds_of = [](const auto& work) {
-    const auto from = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-  };
-  FieldPointer ball;
-  const double made = seconds_of([&] { ball = distance_of(labels, near); });
+/// A ball of 34 mm, and a wavy ring of 200 points that stands out of it.
+TraceEdit wavy_trace() {
   TraceEdit trace;
   for (int n = 0; n < 200; ++n) {
     const double turn = n * 2 * 3.14159265358979 / 200 * 0.94;
     trace.points_mm.push_back(35.5 * Vec3(std::cos(turn), std::sin(turn), 0.1 * std::sin(3 * turn)));
   }
-  double best = 1e9;
-  for (int n = 0; n < 3; ++n) best = std::min(best, seconds_of([&] { apply_edit(ball, trace); }));
-  std::printf("a trace of 200 points: %.0f ms; the field: %.0f ms\n", 1e3 * best, 1e3 * made);
-  EXPECT_LT(best, made);
+  return trace;
+}
+
+TEST(EditsLaws, ATraceOf200PointsTakesAPartOfWhatTheFieldDid) {
+  if (is_sanitized) GTEST_SKIP() << "the checks of sanitizers take their own time";
+  DistanceOptions near;
+  near.reach_mm = 3;
+  near.threads = 1;
+  const Mask labels = made_labels([](const Vec3& at) { return glm::length(at) < 34; }, 44, {});
+  // Of a processor: what else the machine does takes no part. In turn, so that it meets both.
+  const auto least_of = [](double& least, const auto& work) {
+    const std::clock_t from = std::clock();
+    work();
+    least = std::min(least, static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC);
+  };
+  FieldPointer ball;
+  double made = 1e9, edited = 1e9;
+  for (int n = 0; n < 3; ++n) {
+    least_of(made, [&] { ball = distance_of(labels, near); });
+    least_of(edited, [&] { apply_edit(ball, wavy_trace(), {.threads = 1}); });
+  }
+  constexpr double measured = 0.12, room = 1.5;
+  std::printf("a trace of 200 points: %.0f ms of a processor; the field: %.0f ms\n", 1e3 * edited, 1e3 * made);
+  EXPECT_LT(edited, room * measured * made);
 }
 
 }  // namespace

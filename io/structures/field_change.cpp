@@ -15,20 +15,15 @@ double distance_to(const Stretch& stretch, const Vec3& place) noexcept {
   return glm::length(way - part * along);
 }
 
-bool lies_within(const Stretch& stretch, const Vec3& place, double mm) noexcept {
-  if (stretch.from != stretch.to) return distance_to(stretch, place) < mm;
-  const Vec3 way = place - stretch.from;
-  return glm::dot(way, way) < mm * mm;
-}
-
 std::shared_ptr<const DistanceField> changed(const std::shared_ptr<const DistanceField>& before,
-                                             const FieldChange& change, int threads) {
+                                             const FieldChange& change, int threads, const Settle& settle) {
   const DistanceParts& old = before->parts();
   const double around_mm = old.kept_within_mm();
   Patch patch = patch_around(old, change, around_mm);
   std::vector<char> passed;
   if (!choose_bricks(patch, around_mm, threads, passed)) return before;
   measure_anew(patch, passed, threads);
+  if (settle) settle(patch);
   DistanceParts parts = stored(patch, threads);
   CoarseChange coarse{.lattice = patch.bricks.lattice, .where = change.where, .within_mm = change.within_mm};
   coarse.lost = patch.lost;

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "io/structures/distance_field.h"
+#include "io/structures/radial_bumps.h"
 
 namespace palpate::io::internal {
 
@@ -18,7 +20,11 @@ struct Stretch {
 };
 double distance_to(const Stretch& stretch, const Vec3& place) noexcept;
 /// Whether a place is nearer to it than so many mm.
-bool lies_within(const Stretch& stretch, const Vec3& place, double mm) noexcept;
+inline bool lies_within(const Stretch& stretch, const Vec3& place, double mm) noexcept {
+  if (stretch.from != stretch.to) return distance_to(stretch, place) < mm;
+  const Vec3 way = place - stretch.from;
+  return glm::dot(way, way) < mm * mm;
+}
 
 struct FieldChange {
   std::vector<Stretch> where;
@@ -27,13 +33,20 @@ struct FieldChange {
   /// The number whose zero is the new surface: `before` farther than within_mm from all stretches. `near`: those that
   /// may lie nearer.
   std::function<double(const Vec3& at, double before, std::span<const std::uint32_t> near)> after;
+  /// Where `after` adds to `before`, what it adds may be given as bumps: one for each stretch, in their order. They are
+  /// asked instead at the nodes of bricks.
+  std::shared_ptr<const RadialBumps> bumps;
 };
+
+struct Patch;
+/// May change the measured distance before it is stored.
+using Settle = std::function<void(Patch&)>;
 
 /// The field of the new surface. The distance is measured anew wherever the nearest point of the surface, before or
 /// after, lies within touched_mm of a stretch; everywhere else it keeps its bits. Farther than 20 mm from the changed
 /// surface the coarse lattice gradually keeps what it had. Returns `before` where nothing changed. Throws InvalidInput
 /// where nothing would be left of the structure, or the change is too large.
 std::shared_ptr<const DistanceField> changed(const std::shared_ptr<const DistanceField>& before,
-                                             const FieldChange& change, int threads);
+                                             const FieldChange& change, int threads, const Settle& settle = {});
 
 }  // namespace palpate::io::internal

@@ -1,5 +1,6 @@
 #include "io/structures/field_patch.h"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -30,6 +31,8 @@ Moved evaluate(const Patch& patch, const glm::ivec3& place, float* before, float
   const Vec3 corner = Vec3(place * brick_edge);
   const auto& near = patch.near[patch.box_at(place)];
   const double around = 2.2 * std::max({lattice.spacing.x, lattice.spacing.y, lattice.spacing.z});
+  std::array<double, brick_nodes> added{};
+  if (patch.change.bumps) add_at_nodes(*patch.change.bumps, near, lattice, place, added);
   Moved moved;
   for (int k = 0; k < brick_edge; ++k) {
     for (int j = 0; j < brick_edge; ++j) {
@@ -37,7 +40,13 @@ Moved evaluate(const Patch& patch, const glm::ivec3& place, float* before, float
         const std::size_t n = NodeBricks::at(i, j, k);
         const Vec3 at = lattice.position(corner + Vec3(i, j, k));
         before[n] = stored != nullptr ? stored[stored_at(i, j, k)] : static_cast<float>(patch.old.sample_far(at).mm);
-        after[n] = near.empty() ? before[n] : static_cast<float>(patch.change.after(at, before[n], near));
+        if (near.empty()) {
+          after[n] = before[n];
+        } else if (patch.change.bumps) {
+          after[n] = static_cast<float>(before[n] + added[n]);
+        } else {
+          after[n] = static_cast<float>(patch.change.after(at, before[n], near));
+        }
         if (after[n] == before[n] ||
             !(std::abs(after[n]) < around || std::abs(before[n]) < around || (after[n] > 0) != (before[n] > 0))) {
           continue;

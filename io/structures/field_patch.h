@@ -51,10 +51,13 @@ struct Patch {
   bool is_touched(const Vec3f& at) const {
     const glm::ivec3 place(glm::floor(Vec3(at) / (bricks.lattice.spacing * static_cast<double>(NodeBricks::edge))));
     if (!holds(place)) return false;
-    const Vec3 patient = bricks.lattice.origin + bricks.lattice.axes * Vec3(at);
+    const auto& stretches = near[box_at(place)];
+    if (stretches.empty()) return false;
+    const Vec3 patient = patient_of(at);
     return std::ranges::any_of(
-        near[box_at(place)], [&](std::uint32_t n) { return lies_within(change.where[n], patient, change.touched_mm); });
+        stretches, [&](std::uint32_t n) { return lies_within(change.where[n], patient, change.touched_mm); });
   }
+  Vec3 patient_of(const Vec3f& at) const { return bricks.lattice.origin + bricks.lattice.axes * Vec3(at); }
 };
 
 /// The box of bricks within `around_mm` of the stretches, and which of them lie within the change.
@@ -66,6 +69,12 @@ bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char
 
 /// Measures the distance in these bricks.
 void measure_anew(Patch& patch, const std::vector<char>& passed, int threads);
+
+/// The measured distance at a place, as the field will be read once it is stored.
+double measured_at(const Patch& patch, const Vec3& place_mm);
+
+/// Adds bumps, one for each stretch of the change, wherever the distance was measured anew.
+void add_to_measured(Patch& patch, const RadialBumps& bumps, int threads);
 
 /// The field with the changed bricks in the place of those before. Throws InvalidInput where none is left.
 DistanceParts stored(const Patch& patch, int threads);

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -5,6 +6,7 @@
 
 #include "io/messages.h"
 #include "io/parallel.h"
+#include "io/structures/cubic.h"
 #include "io/structures/field_patch.h"
 
 namespace palpate::io::internal {
@@ -12,38 +14,35 @@ namespace {
 
 constexpr std::size_t stored_nodes = DistanceParts::nodes_of_a_brick;
 
+/// What is stored in a brick of the box for a node of it or around it.
+float number_of(const Patch& patch, const glm::ivec3& place, const float* stored, int i, int j, int k) {
+  const NodeBricks& bricks = patch.bricks;
+  const glm::ivec3 node = place * brick_edge + glm::ivec3(i, j, k);
+  const glm::ivec3 of(node.x >> 3, node.y >> 3, node.z >> 3);
+  const glm::ivec3 in = node - of * brick_edge;
+  const std::int32_t slot = bricks.slot_at(of.x, of.y, of.z);
+  const std::size_t measured =
+      static_cast<std::size_t>(std::max(slot, 0)) * brick_nodes + NodeBricks::at(in.x, in.y, in.z);
+  const bool is_new = slot >= 0 && patch.mm[measured] != patch.before_mm[measured];
+  // Its own copy of a node beside it need not be the neighbor's.
+  if (stored != nullptr && !is_new) return stored[stored_at(i, j, k)];
+  if (slot >= 0) return patch.mm[measured];
+  if (const float* beside = patch.stored(of); beside != nullptr) return beside[stored_at(in.x, in.y, in.z)];
+  // A new brick, at the end of those measured: what its nearest node has.
+  const glm::ivec3 own = glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), glm::ivec3(brick_edge - 1));
+  const std::size_t nearest = static_cast<std::size_t>(bricks.slot_at(place.x, place.y, place.z)) * brick_nodes +
+                              NodeBricks::at(own.x, own.y, own.z);
+  const Vec3f& point = patch.closest[nearest];
+  if (point.x == nowhere) return patch.mm[nearest];
+  return std::copysign(glm::distance(Vec3f(node) * Vec3f(bricks.lattice.spacing), point), patch.f[nearest]);
+}
+
 /// A brick's nodes and those around it, as they are stored. False where they are those of before.
 bool fill(const Patch& patch, const glm::ivec3& place, float* into) {
   const float* stored = patch.stored(place);
-  const NodeBricks& bricks = patch.bricks;
-  const Vec3f spacing(bricks.lattice.spacing);
   for (int k = -1; k < brick_edge + 2; ++k) {
     for (int j = -1; j < brick_edge + 2; ++j) {
-      for (int i = -1; i < brick_edge + 2; ++i) {
-        const glm::ivec3 node = place * brick_edge + glm::ivec3(i, j, k);
-        const glm::ivec3 of(node.x >> 3, node.y >> 3, node.z >> 3);
-        const glm::ivec3 in = node - of * brick_edge;
-        float& mm = into[stored_at(i, j, k)];
-        const std::int32_t slot = bricks.slot_at(of.x, of.y, of.z);
-        const std::size_t at = NodeBricks::at(in.x, in.y, in.z);
-        const std::size_t measured = static_cast<std::size_t>(std::max(slot, 0)) * brick_nodes + at;
-        const bool is_new = slot >= 0 && patch.mm[measured] != patch.before_mm[measured];
-        if (stored != nullptr && !is_new) {  // its own copy of a node beside it need not be the neighbor's
-          mm = stored[stored_at(i, j, k)];
-        } else if (slot >= 0) {
-          mm = patch.mm[measured];
-        } else if (const float* beside = patch.stored(of); beside != nullptr) {
-          mm = beside[stored_at(in.x, in.y, in.z)];
-        } else {  // a new brick, at the end of those measured: what its nearest node has
-          const glm::ivec3 own = glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), glm::ivec3(brick_edge - 1));
-          const std::size_t nearest =
-              static_cast<std::size_t>(bricks.slot_at(place.x, place.y, place.z)) * brick_nodes +
-              NodeBricks::at(own.x, own.y, own.z);
-          const Vec3f& point = patch.closest[nearest];
-          mm = point.x == nowhere ? patch.mm[nearest]
-                                  : std::copysign(glm::distance(Vec3f(node) * spacing, point), patch.f[nearest]);
-        }
-      }
+      for (int i = -1; i < brick_edge + 2; ++i) into[stored_at(i, j, k)] = number_of(patch, place, stored, i, j, k);
     }
   }
   return stored == nullptr || std::memcmp(stored, into, stored_nodes * sizeof(float)) != 0;
@@ -100,6 +99,37 @@ void grow(DistanceParts& parts, const glm::ivec3& low, const glm::ivec3& high) {
 }
 
 }  // namespace
+
+double measured_at(const Patch& patch, const Vec3& place_mm) {
+  const Vec3 node = patch.bricks.lattice.node_of(place_mm), base = glm::floor(node);
+  const glm::ivec3 cell(base), place(cell.x >> 3, cell.y >> 3, cell.z >> 3), in = cell - place * brick_edge;
+  const float* stored = patch.stored(place);
+  if (stored == nullptr && patch.bricks.slot_at(place.x, place.y, place.z) < 0) {
+    return patch.old.sample_nearest(place_mm).mm;
+  }
+  std::array<float, 64> around;
+  for (int n = 0; n < 64; ++n) {
+    around.data()[n] = number_of(patch, place, stored, in.x - 1 + n % 4, in.y - 1 + n / 4 % 4, in.z - 1 + n / 16);
+  }
+  return cubic_sample(around.data(), 4, 16, node - base).value;
+}
+
+void add_to_measured(Patch& patch, const RadialBumps& bumps, int threads) {
+  parallel_for(
+      patch.bricks.count(),
+      [&](std::size_t slot) {
+        const glm::ivec3& place = patch.bricks.place[slot];
+        const auto& near = patch.near[patch.box_at(place)];
+        if (near.empty()) return;
+        std::array<double, brick_nodes> added{};
+        add_at_nodes(bumps, near, patch.bricks.lattice, place, added);
+        for (std::size_t n = 0; n < brick_nodes; ++n) {
+          const std::size_t at = slot * brick_nodes + n;
+          if (patch.mm[at] != patch.before_mm[at]) patch.mm[at] = static_cast<float>(patch.mm[at] + added[n]);
+        }
+      },
+      {}, threads);
+}
 
 DistanceParts stored(const Patch& patch, int threads) {
   std::vector<glm::ivec3> dropped;
