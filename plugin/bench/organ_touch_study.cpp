@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "io/structures/outline_places.h"
 #include "plugin/app/errors.h"
 #include "plugin/bench/hand_trace.h"
+#include "plugin/bench/traced_bodies.h"
 #include "plugin/messages/messages.h"
 #include "plugin/session/study_structures.h"
 
@@ -26,14 +26,12 @@ namespace {
 constexpr double around_place_mm = 26, spoilt_within_mm = 13, traced_reach_mm = 16, kept_mm = 8;
 constexpr std::size_t most_organs = 3;
 
-using OutlineMm = std::function<double(const glm::dvec3&)>;  // signed distance, mm, positive inside
-
 struct SpoiltOrgan {
   const char* what;
   OutlineMm mm;
 };
 
-/// Errors around a place of the outline. Parts that were merged are cut apart by `remove`, not by a trace.
+/// Errors around a place of the outline. Parts that were merged are cut apart with *Remove* (merged_study.h).
 std::vector<SpoiltOrgan> spoilt_organs(const OutlineMm& truth, const EdgePlace& place) {
   const glm::dvec3 at0 = place.place_mm, out = place.outward;
   const auto from = [=](double mm) { return [=](const glm::dvec3& at) { return glm::distance(at, at0 + mm * out); }; };
@@ -60,20 +58,6 @@ io::Geometry lattice_around(const io::Geometry& scan, const glm::dvec3& place) {
   part.slice_positions.clear();
   for (int k = low.z; k <= high.z; ++k) part.slice_positions.push_back(scan.to_patient(glm::dvec3(low.x, low.y, k)));
   return part;
-}
-
-std::shared_ptr<const io::DistanceField> outline_on(const io::Geometry& lattice, const OutlineMm& mm) {
-  io::Mask mask;
-  mask.geometry = lattice;
-  mask.size = lattice.dimensions;
-  for (int k = 0; k < mask.size.z; ++k) {
-    for (int j = 0; j < mask.size.y; ++j) {
-      for (int i = 0; i < mask.size.x; ++i) {
-        mask.occupancy.push_back(mm(lattice.to_patient(glm::dvec3(i, j, k))) > 0 ? io::Mask::full : 0);
-      }
-    }
-  }
-  return io::distance_of(mask, {.reach_mm = kept_mm});
 }
 
 /// A place in whose surroundings most of the outline has an edge of the scan within a millimeter.
@@ -203,9 +187,9 @@ std::string study_touch_on_organs(const std::shared_ptr<const io::Volume>& scan,
   for (const auto& [name, field, place] : chosen_organs(values, structures, options)) {
     const io::Geometry lattice = lattice_around(scan->geometry, place.place_mm);
     const OutlineMm mm = [&organ = *field](const glm::dvec3& at) { return organ.sample(at).mm; };
-    const auto truth = outline_on(lattice, mm);
+    const auto truth = outline_of(lattice, mm, kept_mm);
     for (const SpoiltOrgan& spoilt : spoilt_organs(mm, place)) {
-      const auto outline = outline_on(lattice, spoilt.mm);
+      const auto outline = outline_of(lattice, spoilt.mm, kept_mm);
       std::vector<EdgePlace> way;
       for (const io::OutlinePlace& one : io::outline_places(*truth, 2)) {
         const glm::dvec3& at = one.place_mm;

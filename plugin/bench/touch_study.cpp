@@ -4,29 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <random>
 #include <vector>
 
-#include "io/fields/filtered.h"
 #include "io/quantile.h"
 #include "io/structures/edits.h"
 #include "io/structures/outline_places.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/bench/hand_trace.h"
+#include "plugin/bench/merged_study.h"
+#include "plugin/bench/traced_bodies.h"
 #include "plugin/report/chart.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {
 namespace {
 
-using Truth = std::function<double(const glm::dvec3&)>;  // signed distance, mm, positive inside
-
-constexpr double organ_mm = 20, organ_hu = 60, around_hu = -100, touch_noise_hu = 12, touch_blur_mm = 0.6;
-constexpr double reach_mm = 16;
-constexpr double corrected_beyond_mm = 1;  // of an outline: there it is corrected
+constexpr double organ_mm = 20, organ_hu = 60, around_hu = -100;
+constexpr double kept_reach_mm = 8, reach_mm = 16;  // of the outline's distance; of a trace
+constexpr double corrected_beyond_mm = 1;           // of an outline: there it is corrected
 
 double true_organ(const glm::dvec3& at) {
   return organ_mm - glm::length(at);
@@ -34,7 +31,7 @@ double true_organ(const glm::dvec3& at) {
 
 struct SpoiltOutline {
   const char* what;
-  Truth mm;
+  OutlineMm mm;
 };
 
 std::vector<SpoiltOutline> spoilt_outlines() {
@@ -52,28 +49,7 @@ std::vector<SpoiltOutline> spoilt_outlines() {
 }
 
 std::shared_ptr<const io::Volume> organ_scan(const io::Geometry& geometry) {
-  const testdata::Phantom phantom{.background = around_hu, .bodies = {{testdata::Ball{{0, 0, 0}, organ_mm}, organ_hu}}};
-  const auto sharp = std::make_shared<const io::Volume>(testdata::scan(phantom, geometry, {.quantised = false}));
-  io::Volume volume = *io::filtered(sharp, {.type = io::find_filter_type("gaussian"), .sigma_mm = touch_blur_mm});
-  volume.filtered_from = nullptr;
-  std::mt19937 random(1);
-  std::normal_distribution<float> noise(0, touch_noise_hu);
-  for (float& value : std::get<std::vector<float>>(volume.voxels)) value += noise(random);
-  return std::make_shared<const io::Volume>(std::move(volume));
-}
-
-std::shared_ptr<const io::DistanceField> outline_of(const io::Geometry& geometry, const Truth& mm) {
-  io::Mask mask;
-  mask.geometry = geometry;
-  mask.size = geometry.dimensions;
-  for (int k = 0; k < mask.size.z; ++k) {
-    for (int j = 0; j < mask.size.y; ++j) {
-      for (int i = 0; i < mask.size.x; ++i) {
-        mask.occupancy.push_back(mm(geometry.to_patient(glm::dvec3(i, j, k))) > 0 ? io::Mask::full : 0);
-      }
-    }
-  }
-  return io::distance_of(mask, {.reach_mm = 8});
+  return soft_scan({.background = around_hu, .bodies = {{testdata::Ball{{0, 0, 0}, organ_mm}, organ_hu}}}, geometry);
 }
 
 /// Where the hand aims: along the true edge, slice by slice, wherever the outline is off; one way and back again.
@@ -128,16 +104,25 @@ Curve parts_within(std::vector<double> errors, const std::string& label, const C
 std::string study_touch(const TouchStudyOptions& options, const std::filesystem::path& folder) {
   const io::Geometry geometry = testdata::make_geometry({.size = glm::ivec3(70)});
   const auto scan = organ_scan(geometry);
-  const auto truth = outline_of(geometry, true_organ);
+  const auto truth = outline_of(geometry, true_organ, kept_reach_mm);
   std::string csv = "error,hand,before_mean_mm,before_largest_mm,after_mean_mm,after_largest_mm,path_mm,points\n";
   fmt::print(
       "\nA ball of {:.0f} mm on voxels of 1 mm, outlines spoilt, traced by {} hands (tremor {} mm, drift {} mm, aim "
       "+- {} mm):\ndistance to the true edge in the corrected region, mm\n\n{:28} {:6} {:>15} {:>15} {:>8} {:>7}\n",
       organ_mm, options.hands, hand::tremor_mm, hand::drift_mm, hand::pixel_mm, "error", "hand", "before", "after",
       "path mm", "points");
+  const auto add_row = [&](const char* what, bool felt, const std::vector<double>& before,
+                           const std::vector<double>& after, double path_mm, double points) {
+    const auto largest = [](const std::vector<double>& all) { return all.empty() ? 0 : std::ranges::max(all); };
+    const char* hand = felt ? "feels" : "sees";
+    fmt::print("{:28} {:6} {:7.2f} {:7.2f} {:7.2f} {:7.2f} {:8.0f} {:7.0f}\n", what, hand, mean_of(before),
+               largest(before), mean_of(after), largest(after), path_mm, points);
+    csv += fmt::format("{},{},{},{},{},{},{},{}\n", what, hand, mean_of(before), largest(before), mean_of(after),
+                       largest(after), path_mm, points);
+  };
   std::vector<double> all_before, all_after[2];
   for (const SpoiltOutline& spoilt : spoilt_outlines()) {
-    const auto outline = outline_of(geometry, spoilt.mm);
+    const auto outline = outline_of(geometry, spoilt.mm, kept_reach_mm);
     const std::vector<EdgePlace> way = way_over(*truth, *outline);
     const std::vector<double> before = errors_over(way, *outline);
     all_before.insert(all_before.end(), before.begin(), before.end());
@@ -155,18 +140,20 @@ std::string study_touch(const TouchStudyOptions& options, const std::filesystem:
         path_mm += trace.path_mm / options.hands;
         points += static_cast<double>(trace.points_mm.size()) / options.hands;
       }
-      const auto largest = [](const std::vector<double>& all) { return all.empty() ? 0 : std::ranges::max(all); };
-      const char* hand = felt ? "feels" : "sees";
-      fmt::print("{:28} {:6} {:7.2f} {:7.2f} {:7.2f} {:7.2f} {:8.0f} {:7.0f}\n", spoilt.what, hand, mean_of(before),
-                 largest(before), mean_of(after), largest(after), path_mm, points);
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", spoilt.what, hand, mean_of(before), largest(before),
-                         mean_of(after), largest(after), path_mm, points);
+      add_row(spoilt.what, felt, before, after, path_mm, points);
       auto& all = all_after[felt ? 1 : 0];
       all.insert(all.end(), after.begin(), after.end());
     }
   }
   fmt::print("\nall: {:.2f} mm before, {:.2f} mm by the hand that sees, {:.2f} mm by the hand that feels, too\n",
              mean_of(all_before), mean_of(all_after[0]), mean_of(all_after[1]));
+  fmt::print(
+      "\nA ball in a socket whose outlines were merged over a gap of 3 mm, cut apart along it with Remove:\n"
+      "distance from both true edges to the outline, mm\n\n");
+  for (const bool felt : {false, true}) {
+    const MergedResult merged = study_merged(options.hands, felt);
+    add_row("two parts merged", felt, merged.before_mm, merged.after_mm, merged.path_mm, merged.points);
+  }
   if (!folder.empty()) {
     Chart chart{.title = "A simulated hand corrects spoilt outlines",
                 .x = {.label = "distance to the true edge (mm)", .minimum = 0, .maximum = 4},
