@@ -186,7 +186,7 @@ inline constexpr MessageRow styluses[] = {
     {"a fault: the force was taken away",
      "as it says; *Clear fault* in the panel leaves it without a force until *Feel*",
      {{"stylus-reported-a-pose-that-cannot",
-       "The stylus reported a pose that cannot be; home it again, then clear the fault and turn the force on."},
+       "The stylus reported an impossible pose; home it again, then clear the fault and turn the force on."},
       {"scene-asked-for-a-force",
        "The scene asked for a force that is not a number; keep the recording, then clear the fault and turn the force "
        "on."},

@@ -19,15 +19,15 @@ struct LoadOptions {
     int count = 0;
   };
   std::optional<Range> slices;
-  /// As rescaled() gives them. Everything that is felt is felt of this form, in ParaView and on the command line:
-  /// otherwise one could not repeat a recording of the other to the last bit.
+  /// As rescaled() gives them. All that is felt is computed from values in this form, in ParaView and on the command
+  /// line: otherwise one could not repeat a recording of the other to the last bit.
   bool is_rescaled = false;
 };
 
 /// The voxels of one frame of a series; as stored, with the slope and intercept of Volume, unless they are rescaled. A
 /// velocity field (Catalogue::velocity_fields) gives its three directions and the speed, m/s. Decodes files in
 /// parallel, and needs little more memory than the volume. A slice that cannot be decoded becomes a gap and is named in
-/// Volume::warnings. Throws DicomError if nothing can be read, or the series holds no scalar images with a place;
+/// Volume::warnings. Throws DicomError if nothing can be read, or the series holds no scalar images with a position;
 /// Cancelled.
 Volume load(const Series& series, const LoadOptions& options = {});
 

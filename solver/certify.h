@@ -1,7 +1,7 @@
 #pragma once
 
-/// An answer's own proof. Needs no solver and no reference: anybody who has a balance, a proxy and the primitives'
-/// forces can check how far the proxy can be from the exact one.
+/// A certificate for an answer. Needs no solver and no reference: anybody who has a balance, a proxy and the
+/// primitives' forces can check how far the proxy can be from the exact one.
 
 #include <span>
 
@@ -21,14 +21,15 @@ struct Certificate {
   double slack = 0;     ///< J: eps, where the bound was evaluated
 };
 
-/// The law above, evaluated in double-double at the point nearest to the proxy of the flat that holds it (a rounded
-/// proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, where that is less.
+/// The law above, evaluated in double-double on the flat that holds the proxy, at its point nearest to the proxy (a
+/// rounded proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, where that is
+/// less.
 ///
 /// forces: as many as primitives, N. A force outside its primitive's force body is replaced by the nearest one inside;
 /// so any forces give a true bound, and good ones a tight one. A hard constraint that the proxy does not meet adds its
 /// distance to the bound. If the constraints that hold the proxy and the hard ones cannot all be met at once, those
-/// that are missed by at most hard_tolerance count as met: the bound is that of the balance with them moved by that
-/// much. If one is missed by more, the bound is infinite. The balance must be one that validate() accepts. O(n), no
+/// that are missed by at most hard_tolerance are moved until they are met, and the bound is that of the balance so
+/// changed. If one is missed by more, the bound is infinite. The balance must be one that validate() accepts. O(n), no
 /// allocation.
 Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
@@ -37,8 +38,8 @@ Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const V
 /// |sum of the forces| / k.
 double promised_accuracy(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
-/// A hard constraint (infinite strength) counts as met by a point that is nearer to it than this fraction of the
-/// largest distance between the probe and a hard constraint's position or the proxy.
+/// A hard constraint (infinite strength) counts as met by a point whose distance from it is below this fraction of L.
+/// L is the largest distance from the probe to the proxy or to the position of a hard constraint.
 inline constexpr double hard_tolerance = 1e-12;
 
 }  // namespace palpate::solver

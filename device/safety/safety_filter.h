@@ -5,7 +5,7 @@
 /// In this order: finite -> armed -> fresh -> speed -> length clamped, direction kept -> slew -> ramp -> device's
 /// limit. A force comes out only while the user has armed the filter and the device is ready. A fault is latched with
 /// its cause. From then on the force only becomes smaller, in whatever direction, and is zero within
-/// SafetyLimits::fall_time, at once if pose or force is not a number. The force comes back when the user has cleared
+/// SafetyLimits::fall_time, or at once if pose or force is not a number. The force comes back when the user has cleared
 /// the fault and armed again.
 
 #include <cstdint>

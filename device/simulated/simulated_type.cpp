@@ -18,7 +18,7 @@ extern const DeviceType simulated_type;
 const DeviceType simulated_type{
     .kind = "simulated",
     .name = "simulated stylus",
-    .can = "3 axes sensed, 3 with force; in arithmetic only",
+    .can = "3 axes sensed, 3 with force; simulated in software, no hardware",
     .sold = "always there",
     .tested = "every study and test",
     .watchdog = "not needed: it pushes nobody",

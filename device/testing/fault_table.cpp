@@ -204,7 +204,8 @@ std::vector<FaultEvent> fault_events() {
        }},
       {"its guardian dies", EndedBy::program, ceiling::guardian_s, 1,
        [](S& s) { return s.rig.guard && !(s.rig.guard->lives = false); }},
-      {"its guardian proves nothing", EndedBy::program, 0, 0.5, [](S& s) { return s.rig.guard && s.is_refused(); }},
+      {"its guardian does not show that it works", EndedBy::program, 0, 0.5,
+       [](S& s) { return s.rig.guard && s.is_refused(); }},
       {"the machine is about to sleep", EndedBy::program, 0, 0.5,
        [](S& s) { return s.rig.guard && (s.rig.guard->beat.sleep_is_near = true); }},
       {"silent", EndedBy::device, 0, 1, [](S& s) { return apply(s.rig.silence); }},
@@ -212,7 +213,7 @@ std::vector<FaultEvent> fault_events() {
       {"half messages", EndedBy::program, 0.5, 1, [](S& s) { return apply(s.rig.halve); }},
       // Of the Haply's many messages half are enough, and each is whole or nothing.
       {"every second packet garbled", EndedBy::program, 0.5, 1, [](S& s) { return apply(s.rig.garble); }, "haply"},
-      {"a pose that cannot be", EndedBy::program, 0, 0.5, [](S& s) { return apply(s.rig.impossible); }},
+      {"an impossible pose", EndedBy::program, 0, 0.5, [](S& s) { return apply(s.rig.impossible); }},
       {"answers 1 ms late", EndedBy::nobody, 0, 1.5, [](S& s) { return apply_delay(s, 1e-3); }},
       {"answers 10 ms late", EndedBy::program, 0.5, 1.5, [](S& s) { return apply_delay(s, 0.01); }},
       {"answers 100 ms late", EndedBy::program, 0.15, 1.7, [](S& s) { return apply_delay(s, 0.1); }},
@@ -225,7 +226,7 @@ std::vector<FaultEvent> fault_events() {
          return apply(s.rig.foreign);
        }},
       {"refuses forces", EndedBy::device, 0, 1, [](S& s) { return apply(s.rig.refuse); }},
-      {"NaN from above", EndedBy::program, 0, 0.5,
+      {"NaN from the scene", EndedBy::program, 0, 0.5,
        [](S& s) {
          s.asked.x = std::numeric_limits<double>::quiet_NaN();
          return true;

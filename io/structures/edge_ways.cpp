@@ -37,14 +37,13 @@ EdgeWays::EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const 
   const Vec3& h = before.parts().near.lattice.spacing;
   node_mm_ = std::max({h.x, h.y, h.z});
   const double around = edit.radius_mm + blended_spacings * spacing_mm_;
-  bool any = false;
+  bool any = std::abs(before.sample(edit.center_mm).mm) < edit.radius_mm;
   for (const OutlinePlace& place : outline_places(before, spacing_mm_)) {
     const double away = glm::distance(place.place_mm, edit.center_mm);
     if (away < around) places_.push_back({.at = place});
     any = any || away < edit.radius_mm;
   }
   if (!any) throw InvalidInput(say("scan-edge-has-no-outline"));
-  std::vector<double> known_to(places_.size());
   parallel_for(
       places_.size(),
       [&](std::size_t n) {
@@ -54,15 +53,14 @@ EdgeWays::EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const 
         if (!edge) return;
         one.has_edge = true;
         one.stays = false;
-        one.mm = edge->mm;
-        known_to[n] = edge->known_to_mm;
+        one.mm = one.edge_mm = edge->mm;
+        one.known_to_mm = edge->known_to_mm;
       },
       {}, threads);
   take_consent();
-  for (std::size_t n = 0; n < places_.size(); ++n) {
-    EdgeWay& one = places_[n];
+  for (EdgeWay& one : places_) {
     const double most = limit_at(one.at.place_mm);
-    one.mm = std::abs(one.mm) > known_to[n] ? std::clamp(one.mm, -most, most) : 0;
+    one.mm = std::clamp(one.mm, -most, most);
   }
   end_before_ridges(before, threads);
   halved_.assign(places_.size(), 0);
@@ -71,9 +69,10 @@ EdgeWays::EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const 
 }
 
 /// A way that is unlike those around it becomes what most of them say; where they say nothing together, it stays. So
-/// does a place without an edge, unless most around it have one and agree: noise has hidden its own.
+/// does a place without an edge, unless most around it have one and agree: noise has hidden its own. A way that is not
+/// longer than the edges around are known to is none.
 void EdgeWays::take_consent() {
-  std::vector<double> way(places_.size(), 0.0), around;
+  std::vector<double> way(places_.size(), 0.0), around, known_to;
   std::vector<char> stays(places_.size(), 0);
   for (std::size_t n = 0; n < places_.size(); ++n) {
     EdgeWay& one = places_[n];
@@ -86,8 +85,11 @@ void EdgeWays::take_consent() {
       }
     };
     around.clear();
+    known_to.clear();
     for_each_near([&](const EdgeWay& other, double) {
-      if (other.has_edge) around.push_back(other.mm);
+      if (!other.has_edge) return;
+      around.push_back(other.mm);
+      known_to.push_back(other.known_to_mm);
     });
     const double middle = quantile(around, 0.5);
     std::size_t all = 0, alike = 0;
@@ -98,12 +100,12 @@ void EdgeWays::take_consent() {
     const double needed = one.has_edge ? enough_alike : enough_without_edge;
     stays[n] = static_cast<double>(alike) < needed * static_cast<double>(all) ? 1 : 0;
     way[n] = one.has_edge && std::abs(one.mm - middle) < alike_mm ? one.mm : middle;
+    if (std::abs(way[n]) <= quantile(known_to, 0.5)) way[n] = 0;
   }
   for (std::size_t n = 0; n < places_.size(); ++n) {
     EdgeWay& one = places_[n];
     if (!(limit_at(one.at.place_mm) > 0)) continue;
     one.stays = stays[n] != 0;
-    one.held_back = one.stays && one.has_edge;
     one.mm = one.stays ? 0 : way[n];
   }
 }
@@ -119,10 +121,7 @@ void EdgeWays::end_before_ridges(const DistanceField& before, int threads) {
           const Distance there = before.parts().sample_nearest(one.at.place_mm + sign * mm * one.at.inward);
           if (glm::length(there.gradient) >= least_slope && sign * there.mm >= least_progress * mm) continue;
           const double end = std::max(0.0, mm - node_mm_);
-          if (end < std::abs(one.mm)) {
-            one.mm = sign * end;
-            one.held_back = true;
-          }
+          one.mm = sign * std::min(end, std::abs(one.mm));
           return;
         }
       },
@@ -157,7 +156,7 @@ void EdgeWays::grade() {
   sort_into_cells();
 }
 
-void EdgeWays::hold_back(const std::vector<Vec3>& points, const DistanceField& before) {
+bool EdgeWays::hold_back(const std::vector<Vec3>& points, const DistanceField& before, bool end) {
   std::vector<char> near(places_.size(), 0);
   for (const Vec3& point : points) {
     const double within = std::abs(before.parts().sample_nearest(point).mm) + 2 * spacing_mm_;
@@ -165,12 +164,14 @@ void EdgeWays::hold_back(const std::vector<Vec3>& points, const DistanceField& b
       if (glm::distance(places_[n].at.place_mm, point) < within) near[n] = 1;
     }
   }
+  bool any = false;
   for (std::size_t n = 0; n < places_.size(); ++n) {
     if (near[n] == 0 || allowed_mm_[n] == 0) continue;
-    allowed_mm_[n] = ++halved_[n] > most_halvings ? 0 : 0.5 * places_[n].mm;
-    places_[n].held_back = true;
+    allowed_mm_[n] = end || ++halved_[n] > most_halvings ? 0 : 0.5 * places_[n].mm;
+    any = true;
   }
   grade();
+  return any;
 }
 
 double EdgeWays::limit_at(const Vec3& at) const {

@@ -9,6 +9,8 @@
 /// Graphical Models 67, 2005.) So the ways rise and fall along the surface by no more than a given slope, and end
 /// before the slope of phi is low. What is too far is shortened, down to nothing where it has to be.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,19 +23,25 @@ namespace palpate::io::internal {
 
 struct EdgeWay {
   OutlinePlace at;
-  double mm = 0;           ///< along the inward normal
-  bool stays = true;       ///< the outline stays there exactly
-  bool has_edge = false;   ///< in the scan
-  bool held_back = false;  ///< it has one, and its way was left or shortened
+  double mm = 0;          ///< along the inward normal
+  bool stays = true;      ///< the outline stays there exactly
+  bool has_edge = false;  ///< in the scan
+  double edge_mm = 0;     ///< where that lies, along the inward normal
+  double known_to_mm = 0;
+
+  /// It does not go all the way to the scan's edge: as the places around say otherwise, the radius is near, or a part
+  /// would appear or go.
+  bool is_held_back() const { return has_edge && std::abs(edge_mm - mm) > std::max(known_to_mm, 0.5); }
 };
 
 class EdgeWays {
  public:
-  /// Asks the scan at all places within the edit's radius. Throws InvalidInput if there are none.
+  /// Asks the scan at all places within the edit's radius. Throws InvalidInput if the outline is not within it.
   EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const ScanValues& scan, int threads);
 
-  /// Halves the ways of the places near such points, or ends them after some rounds.
-  void hold_back(const std::vector<Vec3>& points, const DistanceField& before);
+  /// Halves the ways of the places near such points, or ends them after some rounds or where `end` says so. False if
+  /// none of them had a way.
+  bool hold_back(const std::vector<Vec3>& points, const DistanceField& before, bool end);
 
   /// The way at a point, from its distance and the gradient there: smooth, and 0 at the radius and beyond.
   double way_at(const Vec3& at, const Distance& before) const;

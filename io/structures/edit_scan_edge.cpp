@@ -12,7 +12,7 @@
 namespace palpate::io::internal {
 namespace {
 
-constexpr int most_rounds = 12;
+constexpr int halving_rounds = 12;
 constexpr double most_checked_nodes = 1e8;
 
 FieldChange moved_by(const EdgeWays& ways, const ScanEdgeEdit& edit, const DistanceParts& before) {
@@ -61,20 +61,21 @@ Field moved_to_scan_edge(const Field& before, const ScanEdgeEdit& edit, const Ed
   EdgeWays ways(*before, edit, *options.scan, options.threads);
   const FieldChange change = moved_by(ways, edit, before->parts());
   Field after = before;
-  for (int round = 0; round < most_rounds && ways.largest_mm() > 0; ++round) {
+  for (int round = 0; ways.largest_mm() > 0; ++round) {
     const std::vector<Vec3> in_doubt = nodes_in_doubt(before->parts(), change, options.threads);
     if (in_doubt.empty()) {
       after = changed(before, change, options.threads);
       outcome.largest_mm = ways.largest_mm();
       break;
     }
-    ways.hold_back(in_doubt, *before);
+    // Each round of ends leaves fewer places that move.
+    if (!ways.hold_back(in_doubt, *before, round >= halving_rounds)) break;
   }
   for (const EdgeWay& one : ways.places()) {
     if (glm::distance(one.at.place_mm, edit.center_mm) >= edit.radius_mm) continue;
     ++outcome.points;
     outcome.without_edge += one.stays && !one.has_edge ? 1 : 0;
-    outcome.held_back += one.held_back ? 1 : 0;
+    outcome.held_back += one.is_held_back() ? 1 : 0;
   }
   return after;
 }

@@ -11,7 +11,9 @@
 ///  - a trace goes through its points (those kept by the thinning) within 0.05 mm if they are exact;
 ///  - the distance keeps its bits wherever the nearest edge, before and after, lies beyond the reach;
 ///  - a trace of the edge as it is changes less than 0.01 mm; edits that are far apart commute;
-///  - scan_edge keeps all parts and holes, and moves no farther than asked (edit_scan_edge_laws_test.cpp).
+///  - scan_edge keeps all parts and closed cavities, and moves no farther than asked (edit_scan_edge_laws_test.cpp).
+///  That
+///    a tunnel through a part stays is not checked.
 
 #include <memory>
 #include <span>
@@ -36,8 +38,8 @@ struct EditOutcome {
   double largest_mm = 0;         ///< how far the edge moved, as a bound: the largest change of a traced or moved point
   std::size_t points = 0;        ///< that the edge was put through; of scan_edge: places that were looked at
   std::size_t without_edge = 0;  ///< of scan_edge: places at which the scan has no edge; the outline stays there
-  std::size_t held_back = 0;     ///< likewise: with an edge to which the outline goes not or not all the way, as the
-                                 ///< places around say otherwise, or a part would appear or go
+  std::size_t held_back = 0;  ///< likewise: with an edge that the outline does not reach, by more than 0.5 mm and its
+                              ///< +-, as places around say otherwise, the radius is near, or a part would appear or go
 };
 
 struct Edited {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What modes hold at the voxels of a scan: the sum of their strengths. For pictures of a whole scan, where sampling
-/// each voxel for itself takes ten times as long; the results are the same to the last bit.
+/// The force with which the modes hold the proxy at each voxel of a scan: the sum of their strengths. For pictures of a
+/// whole scan, where sampling each voxel for itself takes ten times as long; the results are the same to the last bit.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -20,8 +20,8 @@ std::vector<const ActiveMode*> holding_modes(const Plan& plan);
 /// of threads may use it.
 ///
 /// Where no mode reads low or high, the value is the voxel's own. Where one does, a voxel is sampled as in a tick, but
-/// only what can be felt: its value where the gradient's factors are not zero for all modes, low and high where the
-/// value's are not zero either.
+/// only what can be felt: its value where some mode's gradient factor is not zero; low and high where that mode's
+/// value factor is not zero either.
 class FeltStrength {
  public:
   /// All of them have to outlive it. `value` and `scale_mm` (sigma of the gradients' Gaussian) are read with low and

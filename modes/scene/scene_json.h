@@ -16,8 +16,7 @@ namespace palpate::modes {
 /// ...".
 Scene scene_from_json(std::string_view text, const std::string& source);
 
-/// The text of a scene: scene_from_json() of it gives the same scene, and its text again, to the last bit and
-/// character.
+/// The text of a scene. scene_from_json() reads it back to the same scene, bit for bit; that scene has the same text.
 std::string to_json(const Scene& scene);
 
 /// A scene's filter alone, as its key "filter" has it; no filter for an empty text. Throws std::invalid_argument.

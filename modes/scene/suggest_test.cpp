@@ -118,6 +118,11 @@ TEST(Suggest, finds_the_tissues_and_the_boundaries_of_every_phantom_and_no_other
         ASSERT_EQ(found.typical.size(), phantom.tissues.size());
         for (std::size_t t = 0; t < found.typical.size(); ++t) {
           EXPECT_NEAR(found.typical[t], phantom.tissues[t], 20);
+          double nearest = infinity;
+          for (const double other : phantom.tissues) {
+            if (other != phantom.tissues[t]) nearest = std::min(nearest, std::abs(other - phantom.tissues[t]));
+          }
+          EXPECT_NEAR(found.scene.tissues[t].softness, 0.1 * nearest, 4) << "a tenth of the way to the nearest tissue";
         }
         EXPECT_EQ(found.boundaries.size(), phantom.boundaries.size());
         for (const Pair& pair : phantom.boundaries) {

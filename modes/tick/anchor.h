@@ -18,6 +18,7 @@
 /// some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A proxy that does not move keeps
 /// its level, and its anchor, to the last bit.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -32,6 +33,12 @@ enum class HoldState : std::uint8_t {
   held,     ///< on a surface
   yielding  ///< pushed through a surface that gives its full strength
 };
+
+/// How two surfaces hold the proxy together: held by one of them goes before yielding through the other.
+constexpr HoldState joined(HoldState one, HoldState other) noexcept {
+  if (one == HoldState::held || other == HoldState::held) return HoldState::held;
+  return std::max(one, other);
+}
 
 /// What is remembered of the surface at the proxy.
 struct HeldSurface {

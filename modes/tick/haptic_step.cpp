@@ -103,8 +103,7 @@ PlacedScene place(const SceneOnData& scenery, double weight, std::uint8_t mark, 
   return placed;
 }
 
-/// How the surfaces of a scenery hold the proxy, of the scan (first) and of each structure: held on one of its planes
-/// goes before yielding through another.
+/// How the surfaces of a scenery hold the proxy, of the scan (first) and of each structure.
 std::array<HoldState, io::most_structures + 1> holds_of(const PlacedScene& placed, const Plan& plan,
                                                         const StepResult& result, const Vec3& proxy_m) {
   std::array<HoldState, io::most_structures + 1> holds{};
@@ -117,11 +116,8 @@ std::array<HoldState, io::most_structures + 1> holds_of(const PlacedScene& place
     const int scan_or_structure = mode.structure + 1;
     HoldState& hold = holds[static_cast<std::size_t>(scan_or_structure)];
     const double distance = glm::dot(proxy_m - primitive.position, primitive.direction);
-    if (std::abs(distance) <= contact_tolerance_m) {
-      hold = HoldState::held;
-    } else if (hold != HoldState::held) {
-      hold = distance < 0 ? HoldState::yielding : std::max(hold, HoldState::lifted);
-    }
+    const bool is_held = std::abs(distance) <= contact_tolerance_m;
+    hold = joined(hold, is_held ? HoldState::held : (distance < 0 ? HoldState::yielding : HoldState::lifted));
   }
   return holds;
 }
@@ -132,10 +128,8 @@ HoldState update_holds(const PlacedScene& placed, const Plan& plan, const StepRe
   const auto holds = holds_of(placed, plan, result, proxy_m);
   HoldState all = contact.scan.hold = holds[0];
   for (std::size_t n = 0; n < plan.structures.size(); ++n) {
-    const HoldState hold = holds[n + 1];
-    contact.structure[n].hold = hold;
-    const bool either_held = all == HoldState::held || hold == HoldState::held;
-    all = either_held ? HoldState::held : std::max(all, hold);
+    contact.structure[n].hold = holds[n + 1];
+    all = joined(all, holds[n + 1]);
   }
   return all;
 }

@@ -1,6 +1,7 @@
 // The level of a surface and its anchor, step by step, against what is worked out by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -24,6 +25,19 @@ HeldSurface begun(HoldState before, HoldState hold) {
   surface.level = 100;
   surface.hold = hold;
   return surface;
+}
+
+TEST(Holds, of_any_surfaces_in_any_order_join_to_the_one_that_is_felt) {
+  using enum HoldState;
+  const std::vector<HoldState> from_least_to_most{none, lifted, yielding, held};
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = 0; b < 4; ++b) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        const HoldState all = joined(joined(from_least_to_most[a], from_least_to_most[b]), from_least_to_most[c]);
+        EXPECT_EQ(all, from_least_to_most[std::max({a, b, c})]) << a << b << c;
+      }
+    }
+  }
 }
 
 TEST(Level, straight_across_is_the_value_unless_the_surface_holds) {

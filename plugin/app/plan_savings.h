@@ -1,6 +1,6 @@
 #pragma once
 
-/// Measures on the scan what it saves to leave something out of a plan: the time of a step with it and without it, and
+/// Measures what leaving something out of a plan saves on this scan: the time of a step with it and without it, and
 /// the memory of both.
 
 #include <cstddef>

@@ -236,7 +236,7 @@ void add_bench_fields(CLI::App& bench) {
   CLI::App* command =
       bench.add_subcommand("fields", "Gradients: errors on phantoms, run times, and bricks ahead of a stylus");
   command->add_option("SERIES", arguments->series.path,
-                      "A scan, to measure also how much the direction of its gradient jitters at rest");
+                      "A scan on which the jitter of the gradient's direction at rest is also measured");
   command->add_option("--series", arguments->series.series, "Which series, by number or UID");
   command->add_option("-o,--output", arguments->output, "Also write CSV to this new or empty folder");
   command->add_flag("--filters", arguments->filters,

@@ -91,15 +91,16 @@ void run_compare_structures(const CompareStructuresOptions& options) try {
 
 void add_compare_structures(CLI::App& structures) {
   const auto options = std::make_shared<CompareStructuresOptions>();
-  CLI::App* command = structures.add_subcommand("compare", "Says how far two outlines are apart, on any grids");
+  CLI::App* command =
+      structures.add_subcommand("compare", "Measures how far apart two outlines are; their grids may differ");
   command->footer(
       "A, B and C: a SEG, RTSTRUCT or label map, with :NUMBER or :NAME where it holds several structures.\n"
-      "Compared are the surfaces that are felt: smooth, with every voxel's center on its side.\n"
+      "The surfaces that are felt are compared: smooth ones that keep each voxel's center on its own side.\n"
       "volume_mm3     of A and of B, as `palpate structures` lists it\n"
       "dice           twice the volume that both share, over the sum of both\n"
       "mean_mm        of the distances from each point of A's surface to the nearest of B's, and from B's to A's:\n"
       "               both directions together, weighted by area, sampled every 0.2 to 2 mm as the size allows\n"
-      "p95_mm         95 % of these distances, by area, are at most that\n"
+      "p95_mm         95th percentile of these distances, weighted by area\n"
       "largest_mm     the largest of them (Hausdorff), found at largest_at_mm\n"
       "margin_mm      with --to: the smallest distance between the surfaces of B and C; below 0: how deep they "
       "overlap");

@@ -75,7 +75,7 @@ void print_line(const char* head, std::string_view text) {
 }
 
 void print_text(const std::vector<device::FoundDevice>& found, const device::RealtimeStatus& realtime) {
-  std::puts("simulated\n  always there: 3 axes sensed, 3 with force; in arithmetic only");
+  std::puts("simulated\n  always there: 3 axes sensed, 3 with force; simulated in software, no hardware");
   for (const device::FoundDevice& one : found) {
     const DeviceType* const type = device::find_device_type(one.kind);
     put("{}  {}\n  '{}'\n", one.kind, one.address, one.name);
@@ -85,7 +85,7 @@ void print_text(const std::vector<device::FoundDevice>& found, const device::Rea
     print_line("", type->can);
     print_line("needs: ", type->needs);
     print_line("to home: ", type->homing);
-    print_line("without the program: ", type->watchdog);
+    print_line("if the program dies: ", type->watchdog);
     print_line("", type->tested);
   }
   if (found.empty()) std::puts("No other device was found: check its plug and its power supply.");
@@ -98,7 +98,8 @@ void print_text(const std::vector<device::FoundDevice>& found, const device::Rea
     std::puts("palpate-guardian was not found: after a crash only a device's own watchdog takes the force away.");
   } else if (!device::guardian_can_leave_group()) {
     put("{}\n",
-        "palpate-guardian stays in the session's control group: there is no systemd of this user to run it apart.");
+        "palpate-guardian stays in the session's control group: this user has no systemd instance that could run it "
+        "separately.");
   }
   if (const auto last = last_fault()) put("{}\n", describe(*last));
   std::puts("The drivers are tested against fakes of their protocols; they were never run on hardware.");
@@ -152,8 +153,8 @@ void add_devices(CLI::App& program) {
       command
           ->add_option(
               "--faults", *kind,
-              "Play each fault against the fake of each device, or of this one (KIND): the force that is left,\n"
-              "the time until it is taken away, the largest step")
+              "Play each fault against the fake of each device, or of this one (KIND): prints the force that is left,\n"
+              "the time until it is zero, and the largest step")
           ->expected(0, 1)
           ->excludes(which);
   command->callback([json, check, which, kind, faults] {

@@ -97,7 +97,7 @@ TEST_F(CommandDevices, TheTextTellsWhatTheJsonDoes) {
       const auto told = kind.at(key).get<std::string>();
       EXPECT_EQ(about.find(words + told + "\n") != std::string::npos, !told.empty()) << about;
     };
-    has_line("  without the program: ", "watchdog");
+    has_line("  if the program dies: ", "watchdog");
     has_line("  to home: ", "homing");
     has_line("  needs: ", "needs");
     ++listed;

@@ -259,8 +259,7 @@ void add_info(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("info", "Lists series with their geometry and values, and the files that were set apart");
   const auto options = std::make_shared<InfoOptions>();
-  command
-      ->add_option("PATH", options->paths, "Folders with all that they hold, files, and packed studies (.zip, .tar.gz)")
+  command->add_option("PATH", options->paths, "Folders (with subfolders), files, and packed studies (.zip, .tar.gz)")
       ->required();
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
   command->add_flag("--all", options->all,

@@ -63,7 +63,7 @@ void add_solve(CLI::App& program) {
           "--solver", [options](std::uint32_t number) { options->solver = solver::solver_of_number(number); }, names)
       ->transform(CLI::CheckedTransformer(numbers))
       ->option_text("NAME");
-  command->add_option("--repeat", options->repeat, "Solves of each balance; time_ns is the fastest")
+  command->add_option("--repeat", options->repeat, "How often each balance is solved; time_ns is the fastest")
       ->check(CLI::Range(1, 1000000000))
       ->option_text("N");
   command->footer(

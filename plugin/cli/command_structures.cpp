@@ -177,7 +177,7 @@ void add_structures(CLI::App& program) {
       "structures", "Lists outlined structures: segments, ROIs and labels with their names, volumes and places");
   const auto options = std::make_shared<StructuresOptions>();
   // Not required by CLI11: `compare` needs none.
-  command->add_option("PATH", options->paths, "Folders with all that they hold, and files");
+  command->add_option("PATH", options->paths, "Folders (with subfolders), and files");
   command->add_option("--scan", options->scan, "Also say which of them cannot be felt on this scan, or lie outside it");
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
   add_compare_structures(*command);

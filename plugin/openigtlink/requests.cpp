@@ -60,6 +60,13 @@ void internal::check_file(const Server::Request& request, const std::string& fil
   if (!request.from_this_machine) throw Refusal(say("igtl-file-from-elsewhere", file));
 }
 
+void internal::check_files(const Server::Request& request, const modes::Scene& wanted, const modes::Scene& felt) {
+  for (const modes::SceneStructure& structure : wanted.structures) {
+    const bool drawn = structure.file.empty();
+    if (!drawn && !is_named(felt, structure.file)) check_file(request, structure.file);
+  }
+}
+
 void internal::check_scan(bool is_open) {
   if (!is_open) throw Refusal(say("igtl-no-scan"));
 }
@@ -125,9 +132,7 @@ Requests::Prepare Requests::work_for(const Server::Request& request) {
   const std::string text = string_of(message.content);
   if (message.device == scene_name) {
     const modes::Scene named = received_.with_files(modes::scene_from_json(text, scene_name));
-    for (const modes::SceneStructure& structure : named.structures) {
-      if (!is_named(base.scene(), structure.file)) internal::check_file(request, structure.file);
-    }
+    internal::check_files(request, named, base.scene());
     const modes::Scene scene = drawn_down(named, request.client);
     // A client whose copy is sent whenever it changes sends back what it got: without an end, if that were a change.
     if (modes::to_json(scene) == modes::to_json(base.scene())) return {};

@@ -281,6 +281,13 @@ TEST(OpenIgtRequests, FilesAreNamedByClientsOfThisMachineAlone) {
   const Server::Request far{.client = 1, .from_this_machine = false, .message = {}};
   EXPECT_NO_THROW(internal::check_file(near, "/scans/liver.nrrd"));
   EXPECT_THROW(internal::check_file(far, "/scans/liver.nrrd"), Refusal);
+  modes::Scene felt, wanted;
+  felt.structures = {{.name = "liver", .file = "/scans/liver.nrrd"}};
+  wanted.structures = {{.name = "drawn", .file = ""}, {.name = "liver", .file = "/scans/liver.nrrd"}};
+  EXPECT_NO_THROW(internal::check_files(far, wanted, felt)) << "contours name no file, and the liver's is felt already";
+  wanted.structures.push_back({.name = "spleen", .file = "/scans/spleen.nrrd"});
+  EXPECT_THROW(internal::check_files(far, wanted, felt), Refusal);
+  EXPECT_NO_THROW(internal::check_files(near, wanted, felt));
 }
 
 TEST(OpenIgtRequests, WhatCannotBeFeltIsRefusedInWordsAndTheSceneStays) {

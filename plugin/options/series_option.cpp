@@ -45,7 +45,9 @@ std::size_t only_series(const SeriesOption& option, const io::Catalogue& catalog
 }  // namespace
 
 void add_series_option(CLI::App& command, SeriesOption& option) {
-  command.add_option("SERIES", option.path, "Folder or file of a series: DICOM, packed or not; NIfTI, NRRD, MetaImage")
+  command
+      .add_option("SERIES", option.path,
+                  "Folder or file of a series: DICOM (also .zip, .tar.gz), NIfTI, NRRD, MetaImage")
       ->required();
   command.add_option("--series", option.series,
                      "Which series, if there are several: number or name, as `palpate info` lists them");

@@ -22,6 +22,10 @@
 namespace palpate::plugin {
 
 void PanelParts::connect_correction() {
+  correction.set_outline([this](const io::Vec3& place) -> std::optional<double> {
+    const auto outline = structures->corrected();
+    return outline ? std::optional(outline->sample(place).mm) : std::nullopt;
+  });
   QObject::connect(&correction, &CorrectionModel::changed, &dock, [this] {
     share_picks();
     curves->set_key_undoes(!correction.structure());

@@ -96,8 +96,8 @@
         <translation>Die markierte Serie oder die ganze Studie. Ein Doppelklick tut dasselbe.</translation>
     </message>
     <message>
-        <source>Keeps what was fetched on this machine when the program ends. Otherwise it is deleted then.</source>
-        <translation>Behält das Geholte auf diesem Rechner, wenn das Programm endet. Sonst wird es dann gelöscht.</translation>
+        <source>Keeps the fetched scans after the program ends. Otherwise they are deleted.</source>
+        <translation>Behält die geholten Aufnahmen nach dem Ende des Programms. Sonst werden sie gelöscht.</translation>
     </message>
     <message>
         <source>Empty</source>
@@ -332,8 +332,8 @@
         <translation>die Kante der Aufnahme liegt %1 mm innerhalb, auf ±%2 mm bekannt</translation>
     </message>
     <message>
-        <source>no edge in the scan, the tissue goes on</source>
-        <translation>keine Kante in der Aufnahme, das Gewebe geht weiter</translation>
+        <source>no edge in the scan: the tissue is the same on both sides</source>
+        <translation>keine Kante in der Aufnahme: beiderseits dasselbe Gewebe</translation>
     </message>
     <message>
         <source>a small part of its own</source>
@@ -825,8 +825,8 @@
         <translation>%1 mm</translation>
     </message>
     <message>
-        <source>nothing held</source>
-        <translation>nichts hält</translation>
+        <source>no boundary touched</source>
+        <translation>keine Grenze berührt</translation>
     </message>
     <message>
         <source>%1 behind the proxy</source>
@@ -1433,8 +1433,8 @@
         <translation>Abspielgeschwindigkeit</translation>
     </message>
     <message>
-        <source>Disconnect the stylus to play: the views show what is felt.</source>
-        <translation>Zum Abspielen den Stift trennen: Die Ansichten zeigen, was gefühlt wird.</translation>
+        <source>Disconnect the stylus to play a recording. While it is connected, the views show what it feels.</source>
+        <translation>Zum Abspielen den Stift trennen. Solange er verbunden ist, zeigen die Ansichten, was er fühlt.</translation>
     </message>
     <message>
         <source>Compare with…</source>
@@ -1457,8 +1457,8 @@
         <translation>Vergleicht mit einer anderen Aufzeichnung desselben Zuges, Ort für Ort, bei beliebiger Geschwindigkeit</translation>
     </message>
     <message>
-        <source>Disconnect the stylus: the views show what is felt</source>
-        <translation>Trennen Sie den Stift: die Ansichten zeigen, was gefühlt wird</translation>
+        <source>Disconnect the stylus to play: the views show what it feels</source>
+        <translation>Zum Abspielen den Stift trennen: Die Ansichten zeigen, was er fühlt</translation>
     </message>
     <message>
         <source>Blue: %1, orange: %2. %3</source>
@@ -1659,8 +1659,8 @@
         <translation>Alle Werte</translation>
     </message>
     <message>
-        <source>Places under the pointer in RAS</source>
-        <translation>Orte unter dem Zeiger in RAS</translation>
+        <source>Show the pointer's position in RAS</source>
+        <translation>Ort des Zeigers in RAS zeigen</translation>
     </message>
     <message>
         <source>Right, anterior and superior are positive; DICOM and radiology write L/R, P/A, H/F instead.</source>
@@ -1714,8 +1714,8 @@
         <translation>Bericht</translation>
     </message>
     <message>
-        <source>They go into this study as measured by research software, not a medical device; the report says so. The pictures show the scan, and no name.</source>
-        <translation>Sie kommen in diese Studie als mit Forschungssoftware gemessen, nicht mit einem Medizinprodukt; der Bericht sagt das. Die Bilder zeigen die Aufnahme und keinen Namen.</translation>
+        <source>They go into this study. The report says that research software, not a medical device, made it. The pictures show the scan and no name.</source>
+        <translation>Sie kommen in diese Studie. Der Bericht sagt, dass er mit Forschungssoftware gemacht ist, nicht mit einem Medizinprodukt. Die Bilder zeigen die Aufnahme und keinen Namen.</translation>
     </message>
     <message>
         <source>Send</source>
@@ -1920,8 +1920,8 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>StructuresSection</name>
     <message>
-        <source>No structures there: no DICOM SEG or RTSTRUCT.</source>
-        <translation>Keine Strukturen da: weder DICOM SEG noch RTSTRUCT.</translation>
+        <source>No structures were found there (DICOM SEG or RTSTRUCT).</source>
+        <translation>Dort wurden keine Strukturen gefunden (DICOM SEG oder RTSTRUCT).</translation>
     </message>
     <message>
         <source>outside the scan</source>
@@ -2000,8 +2000,8 @@ ID %2, Studie vom %3</translation>
         <translation>%1, und %2, die hier nicht gefühlt werden können</translation>
     </message>
     <message>
-        <source>A tick shows it in the views. A double click chooses its color.</source>
-        <translation>Ein Häkchen zeigt sie in den Ansichten. Ein Doppelklick wählt ihre Farbe.</translation>
+        <source>Check the box to show it in the views. A double click chooses its color.</source>
+        <translation>Das Kästchen ankreuzen, um sie in den Ansichten zu zeigen. Ein Doppelklick wählt ihre Farbe.</translation>
     </message>
     <message>
         <source>The margin of a keep-out; the footer warns inside it</source>
@@ -2095,12 +2095,12 @@ ID %2, Studie vom %3</translation>
         <translation>Solange gedrückt, bewegt sich die Hand, und der Stift bleibt im Patienten, wo er ist: die Hand besser hinlegen oder die Ansicht drehen. Die erste Taste des Stifts tut dasselbe.</translation>
     </message>
     <message>
-        <source>Clutch turns it with the view</source>
-        <translation>Auskuppeln dreht ihn mit der Ansicht</translation>
+        <source>Align the stylus with the view after clutching</source>
+        <translation>Stift nach dem Auskuppeln an der Ansicht ausrichten</translation>
     </message>
     <message>
-        <source>After clutching, to the right in the hand is to the right in the 3D view.</source>
-        <translation>Nach dem Auskuppeln ist rechts in der Hand rechts in der 3D-Ansicht.</translation>
+        <source>After clutching, moving the hand to the right moves the stylus to the right in the 3D view.</source>
+        <translation>Nach dem Auskuppeln bewegt eine Bewegung der Hand nach rechts den Stift in der 3D-Ansicht nach rechts.</translation>
     </message>
     <message>
         <source>Slices follow</source>
@@ -2143,8 +2143,8 @@ ID %2, Studie vom %3</translation>
         <translation>er gibt keine Kraft</translation>
     </message>
     <message>
-        <source>its own: %1 N/m, %2 N (%3 N for long)</source>
-        <translation>eigene: %1 N/m, %2 N (%3 N auf Dauer)</translation>
+        <source>the device's own limits: %1 N/m, %2 N (%3 N continuously)</source>
+        <translation>Grenzen des Geräts: %1 N/m, %2 N (%3 N auf Dauer)</translation>
     </message>
     <message>
         <source>torque stays zero</source>

@@ -261,15 +261,13 @@ void CorrectionModel::show_before(bool before) {
   if (std::exchange(shows_before_, before) != before) emit changed();
 }
 
-/// It is corrected where an edit reaches it.
+/// It is corrected where the outline that is felt has left it by a good part of what it was off. An edit that was held
+/// back there, or was made elsewhere, corrects nothing.
 CorrectionModel::Fate CorrectionModel::fate(std::size_t place) const {
-  const io::Vec3& at = places_->places[place].position_mm;
-  for (const io::Edit& edit : edits_) {
-    const auto box = io::box_of_edits(std::array{edit});
-    if (box && glm::all(glm::lessThan(box->low_mm, at)) && glm::all(glm::lessThan(at, box->high_mm))) {
-      return Fate::corrected;
-    }
-  }
+  constexpr double least_mm = 0.3, least_part = 0.5;
+  const io::DoubtfulPlace& one = places_->places[place];
+  const double off_mm = std::abs(outline_ ? outline_(one.position_mm).value_or(0) : 0);
+  if (off_mm > std::max(least_mm, least_part * std::abs(one.mean_mm))) return Fate::corrected;
   return left_.contains(place) ? Fate::left : Fate::doubtful;
 }
 

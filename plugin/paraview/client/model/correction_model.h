@@ -39,10 +39,16 @@ class CorrectionModel : public QObject {
   using LookBeside =
       std::function<void(std::vector<io::Vec3> places, double within_mm, std::function<void(const Edges&)> done)>;
 
+  /// The distance of a place from the outline as it is felt now, mm; none while it is read or made.
+  using Outline = std::function<std::optional<double>(const io::Vec3& place)>;
+
   explicit CorrectionModel(SceneModel& scene, QObject* parent = nullptr);
   void set_press(Press press) { press_ = std::move(press); }
   void set_find(Find find) { find_ = std::move(find); }
   void set_look_beside(LookBeside look) { look_beside_ = std::move(look); }
+  void set_outline(Outline outline) { outline_ = std::move(outline); }
+  /// The outline that is felt is another one now.
+  void outline_changed() { emit places_changed(); }
 
   /// `edges`: the scan's own at its outline. From then on they are felt there.
   void begin(const io::Structure& structure, const OutlineEdges& edges);
@@ -132,6 +138,7 @@ class CorrectionModel : public QObject {
   Press press_;
   Find find_;
   LookBeside look_beside_;
+  Outline outline_;
   std::optional<io::Structure> structure_;
   OutlineEdges edges_of_scan_;
   Tool tool_ = Tool::trace;

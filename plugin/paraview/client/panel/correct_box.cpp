@@ -32,7 +32,7 @@ QString doubt_in_words(const io::DoubtfulPlace& place) {
                                 : CorrectBox::tr("the scan's edge lies %1 mm inside, known to ±%2 mm"))
           .arg(mm(place.largest_mm), mm(place.known_to_mm));
     case io::DoubtKind::no_edge:
-      return CorrectBox::tr("no edge in the scan, the tissue goes on");
+      return CorrectBox::tr("no edge in the scan: the tissue is the same on both sides");
     case io::DoubtKind::island:
       return CorrectBox::tr("a small part of its own");
     case io::DoubtKind::hole:

@@ -242,7 +242,7 @@ void Footer::show_look(const SessionStatus& look) {
   force_->setText(tr("%1 N").arg(look.force_n, 0, 'f', 2));
   const double depth_mm = glm::length(look.proxy_mm - look.probe_mm);
   const QString depth = tr("%1 mm").arg(depth_mm, 0, 'f', 1);
-  depth_->setText(look.force_n == 0   ? tr("nothing held")
+  depth_->setText(look.force_n == 0   ? tr("no boundary touched")
                   : look.held.empty() ? tr("%1 behind the proxy").arg(depth)
                                       : tr("%1 past %2").arg(depth, QString::fromStdString(look.held)));
   depth_->setToolTip(depth_->text());

@@ -145,7 +145,8 @@ QWidget* RecordingsSection::build_player() {
           [this](int index) { playback_.set_speed(speeds.at(static_cast<std::size_t>(index))); });
   row->addWidget(speed_);
   column->addLayout(row);
-  held_ = new QLabel(tr("Disconnect the stylus to play: the views show what is felt."), box);
+  held_ = new QLabel(
+      tr("Disconnect the stylus to play a recording. While it is connected, the views show what it feels."), box);
   held_->setObjectName(QStringLiteral("palpatePlayWhyNot"));
   held_->setWordWrap(true);
   held_->hide();
@@ -272,7 +273,7 @@ void RecordingsSection::show_player() {
   play_->setEnabled(!held);
   play_->setIcon(style()->standardIcon(playback_.is_playing() ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
   held_->setVisible(held);
-  play_->setToolTip(held ? tr("Disconnect the stylus: the views show what is felt") : tr("Play or pause"));
+  play_->setToolTip(held ? tr("Disconnect the stylus to play: the views show what it feels") : tr("Play or pause"));
   slider_->setEnabled(!held);
   const QSignalBlocker quiet(slider_);
   slider_->setValue(static_cast<int>(std::lround(1e3 * playback_.at_s())));

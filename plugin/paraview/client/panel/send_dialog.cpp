@@ -32,8 +32,8 @@ SendDialog::Content SendDialog::of_marks(const io::Series& series, const Marks& 
                       .arg(marks.points.size()),
           .report = QString::fromStdString(
               report_in_words(report_of(marks), series.modality == "CT" ? std::string("HU") : std::string())),
-          .note = tr("They go into this study as measured by research software, not a medical device; the report says "
-                     "so. The pictures show the scan, and no name.")};
+          .note = tr("They go into this study. The report says that research software, not a medical device, made it. "
+                     "The pictures show the scan and no name.")};
 }
 
 SendDialog::Content SendDialog::of_outline(const QString& structure, const QString& change) {

@@ -184,7 +184,7 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
   }
   if (std::exchange(asked_, false) && found.structures.empty()) {
     tell(found.skipped.empty()
-             ? tr("No structures there: no DICOM SEG or RTSTRUCT.")
+             ? tr("No structures were found there (DICOM SEG or RTSTRUCT).")
              : structure_text(found.skipped.front().path.filename().string() + ": " + found.skipped.front().reason),
          true);
   } else {

@@ -44,6 +44,7 @@ void StructuresSection::follow_correction() {
   correct_->setChecked(correction_.structure() != nullptr);
   measure_margins();
   correct_box_->set_change(change_in_words());
+  correction_.outline_changed();
   draw();
 }
 

@@ -39,7 +39,7 @@ void StructuresSection::build() {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(3);
   list_ = make_row_list(*this, "palpateStructureList", 0, 120);
-  list_->setToolTip(tr("A tick shows it in the views. A double click chooses its color."));
+  list_->setToolTip(tr("Check the box to show it in the views. A double click chooses its color."));
   connect(list_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) {
     if (listing_) return;
     entries_[static_cast<std::size_t>(list_->indexOfTopLevelItem(item))].shown = item->checkState(0) == Qt::Checked;

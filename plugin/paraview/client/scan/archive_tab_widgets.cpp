@@ -114,7 +114,7 @@ void ArchiveTab::build_fetch() {
   auto* const disk = new QHBoxLayout;
   keep_ = new QCheckBox(tr("Keep"), this);
   keep_->setObjectName(QStringLiteral("palpateKeep"));
-  keep_->setToolTip(tr("Keeps what was fetched on this machine when the program ends. Otherwise it is deleted then."));
+  keep_->setToolTip(tr("Keeps the fetched scans after the program ends. Otherwise they are deleted."));
   connect(keep_, &QCheckBox::toggled, this, [this](bool on) { run_.set_kept(on); });
   disk->addWidget(keep_);
   on_disk_ = new QLabel(this);

@@ -61,7 +61,7 @@ ScanSection::ScanSection(ScanModel& model, QWidget* parent) : QWidget(parent), m
   build_tabs();
   build_series();
   build_progress(*column);
-  auto* const ras = new QCheckBox(tr("Places under the pointer in RAS"), this);
+  auto* const ras = new QCheckBox(tr("Show the pointer's position in RAS"), this);
   ras->setObjectName(QStringLiteral("palpateRas"));
   ras->setToolTip(tr("Right, anterior and superior are positive; DICOM and radiology write L/R, P/A, H/F instead."));
   connect(ras, &QCheckBox::toggled, this, &ScanSection::ras_wanted);
@@ -202,8 +202,13 @@ void ScanSection::ask_folder() {
 
 void ScanSection::ask_file() {
   const QString title = tr("Open a file");
-  const QString kinds =
-      tr("Scans") + QStringLiteral(" (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.zip *.tar.gz *.tgz)");
+  QStringList endings;
+  for (const io::LabelFormat* const format : io::label_formats()) {
+    for (const std::string_view ending : format->endings) {
+      endings << QStringLiteral("*") + QString::fromUtf8(ending.data(), static_cast<int>(ending.size()));
+    }
+  }
+  const QString kinds = QStringLiteral("%1 (%2 *.zip *.tar.gz *.tgz)").arg(tr("Scans"), endings.join(QLatin1Char(' ')));
   if (pqServer* const server = remote_server()) {
     pqFileDialog dialog(server, this, title + tr(" of the server"), QString(), kinds);
     dialog.setFileMode(pqFileDialog::ExistingFile);

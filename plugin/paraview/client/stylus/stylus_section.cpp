@@ -153,9 +153,9 @@ void StylusSection::build_workspace() {
   scale_ = new QLabel(this);
   scale_->setObjectName(QStringLiteral("palpateScale"));
   column->addWidget(scale_);
-  turn_ = new QCheckBox(tr("Clutch turns it with the view"), this);
+  turn_ = new QCheckBox(tr("Align the stylus with the view after clutching"), this);
   turn_->setObjectName(QStringLiteral("palpateTurn"));
-  turn_->setToolTip(tr("After clutching, to the right in the hand is to the right in the 3D view."));
+  turn_->setToolTip(tr("After clutching, moving the hand to the right moves the stylus to the right in the 3D view."));
   follow_ = new QCheckBox(tr("Slices follow"), this);
   follow_->setObjectName(QStringLiteral("palpateFollow"));
   follow_->setToolTip(tr("The slices through the proxy are shown as it moves."));
@@ -284,7 +284,7 @@ void StylusSection::show_own() {
       lines << tr("it gives no force");
     } else {
       if (technical_) {
-        lines << tr("its own: %1 N/m, %2 N (%3 N for long)")
+        lines << tr("the device's own limits: %1 N/m, %2 N (%3 N continuously)")
                      .arg(stylus.stiffness_limit, 0, 'f', 0)
                      .arg(stylus.maximum_force, 0, 'f', 1)
                      .arg(stylus.continuous_force, 0, 'f', 1);
