@@ -35,6 +35,7 @@ inline constexpr MessageRow scenes[] = {
       {"not-a-list-of", "is not a list of {}"},
       {"not-an-object-in-braces", "is not an object in braces"}}},
     {"a key that has to be there", "add it", {{"is-missing", "is missing"}, {"missing-strength", "is missing; {}"}}},
+    {"lists in lists without an end", "check how the file was made", {{"nested-too-deep", "nested more than {} deep"}}},
     {"two things of one name",
      "take one away, or rename it",
      {{"given-twice", "is given twice"}, {"used-twice", "\"{}\" is used twice"}}},

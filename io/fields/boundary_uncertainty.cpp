@@ -376,6 +376,7 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   result.two_sigma_mm =
       within_95(result.curvature_mm + result.level_mm,
                 std::sqrt(of_place + of_bend * of_bend + of_level * of_level + edge->unsure_mm * edge->unsure_mm));
+  if (!(result.two_sigma_mm <= most_stated_mm)) result.two_sigma_mm = std::numeric_limits<double>::infinity();
   return result;
 }
 

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "io/errors.h"
 #include "io/messages.h"
+#include "io/reach.h"
 #include "io/structures/contour_planes.h"
 #include "io/structures/edit_changes.h"
 
@@ -22,6 +24,7 @@ void check_places(std::span<const Vec3> places) {
     if (!std::isfinite(place.x) || !std::isfinite(place.y) || !std::isfinite(place.z)) {
       throw InvalidInput(say("edit-has-no-number"));
     }
+    if (glm::length(place) > internal::farthest_place_mm) throw InvalidInput(say("edit-is-far-away"));
   }
 }
 

@@ -46,6 +46,14 @@ TEST(Edits, WhatCannotBeDoneIsRefusedInWords) {
             "add: it has 100001 points; there may be 100000");
   EXPECT_EQ(refusal(AddEdit{{.path_mm = {Vec3(std::numeric_limits<double>::quiet_NaN())}}}, ball),
             "add: a number of it is not finite, or what is known to so many mm is negative");
+  for (const double far : {1.01e5, -1e9, 1e300}) {  // however far: no memory for the planes between
+    const std::string why = "a point of it lies more than 100 m from the origin";
+    EXPECT_EQ(refusal(TraceEdit{.points_mm = {Vec3(0), Vec3(0, far, 0)}, .known_to_mm = {}}, ball), "trace: " + why);
+    EXPECT_EQ(refusal(RemoveEdit{{.path_mm = {Vec3(far, 0, 0)}}}, ball), "remove: " + why);
+    ContoursEdit apart;
+    for (const double z : {0.0, 1.0, 2.0, far}) apart.loops_mm.push_back({{0, 0, z}, {9, 0, z}, {0, 9, z}});
+    EXPECT_EQ(refusal(apart, nullptr), "contours: " + why);
+  }
   EXPECT_EQ(refusal(TraceEdit{.points_mm = {Vec3(9, 0, 0)}, .known_to_mm = {}, .reach_mm = 1000}, ball),
             "trace: reach_mm is 1000 mm; it has to be from 0.2 to 100 mm");
   EXPECT_EQ(refusal(TraceEdit{.points_mm = {Vec3(9, 0, 0)}, .known_to_mm = {1, 2}}, ball),

@@ -166,6 +166,7 @@ inline constexpr MessageRow structures[] = {
      {{"edit-has-no-points", "it has no points"},
       {"edit-has-many-points", "it has {} points; there may be {}"},
       {"edit-has-no-number", "a number of it is not finite, or what is known to so many mm is negative"},
+      {"edit-is-far-away", "a point of it lies more than 100 m from the origin"},
       {"edit-length-is-off", "{} is {} mm; it has to be from {} to {} mm"},
       {"trace-has-other-counts", "it has {} points and says of {} how well they are known: give one for each, or none"},
       {"edits-are-many", "there are {} edits; there may be {}"}}},

@@ -16,7 +16,9 @@ namespace palpate::modes {
 /// The text as JSON; of a key that is given twice the library would silently keep the last.
 inline nlohmann::json parsed(std::string_view text) {
   std::vector<std::set<std::string>> open;
-  const auto check = [&open](int, nlohmann::json::parse_event_t event, nlohmann::json& key) {
+  const auto check = [&open](int depth, nlohmann::json::parse_event_t event, nlohmann::json& key) {
+    constexpr int deepest = 64;
+    if (depth > deepest) throw InvalidInput(say("nested-too-deep", deepest));
     if (event == nlohmann::json::parse_event_t::object_start) {
       open.emplace_back();
     } else if (event == nlohmann::json::parse_event_t::object_end) {

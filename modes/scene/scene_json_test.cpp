@@ -210,6 +210,12 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
       StartsWith("mine.json: tissues[0].low:"));
   EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "name": "a", "name": "b"})"),
               StartsWith("mine.json: name: is given twice"));
+  // A text from the network or a damaged file: no depth ends the program.
+  for (const std::string open : {"[", R"({"a":)"}) {
+    std::string nested = R"({"version": 1, "stiffness_n_per_m": )";
+    for (int n = 0; n < 200'000; ++n) nested += open;
+    EXPECT_THAT(error_of(nested), HasSubstr("mine.json: nested more than 64 deep"));
+  }
   EXPECT_THAT(error_of(with_surface(R"("strength_n": {"nodes": [[0, 1]], "nodes": [[0, 2]]})")),
               HasSubstr("nodes: is given twice"));
   EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "limits": {"ramp_s": 1}, "solvers": {}, "version": 1})"),

@@ -189,10 +189,15 @@ bool holds_object(const Json& json) {
   return false;
 }
 
+/// Bytes that are no UTF-8, such as those of a file's name in another code, become U+FFFD.
+std::string in_utf8(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 /// Like dump(2), but a list of numbers, or of nodes, stays on its line: scenes are edited by people.
 void write(const Json& json, const std::string& indent, std::string& text) {
   if (json.empty() || json.is_primitive() || !holds_object(json)) {
-    text += json.dump();
+    text += in_utf8(json);
     return;
   }
   const bool object = json.is_object();
@@ -200,7 +205,7 @@ void write(const Json& json, const std::string& indent, std::string& text) {
   text += object ? '{' : '[';
   const char* separator = "\n";
   for (const auto& [key, value] : json.items()) {
-    text += separator + inner + (object ? Json(key).dump() + ": " : "");
+    text += separator + inner + (object ? in_utf8(Json(key)) + ": " : "");
     write(value, inner, text);
     separator = ",\n";
   }

@@ -40,9 +40,12 @@ device::Specification LiveSession::planned_for() const {
 PreparedScene LiveSession::felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const {
   if (!volume) return {};
   const device::Specification stylus = planned_for();
-  const bool offered =
-      offered_ && io::raw_of(offered_) == io::raw_of(volume) && io::filter_of(*offered_) == scene.filter;
-  return prepare(suited_to(scene, stylus), offered ? offered_ : volume, stylus.workspace_half_extent, before());
+  const std::shared_ptr<const io::Volume>& ahead = offered_.volume;
+  const bool of_scan = ahead && io::raw_of(ahead) == io::raw_of(volume);
+  const bool filtered = of_scan && io::filter_of(*ahead) == scene.filter;
+  Prepared before = this->before();
+  if (of_scan) before.read_ahead = offered_.structures;
+  return prepare(suited_to(scene, stylus), filtered ? ahead : volume, stylus.workspace_half_extent, before);
 }
 
 Snapshot LiveSession::snapshot(double change_s) const {
@@ -90,14 +93,14 @@ void LiveSession::set_scan(std::shared_ptr<const io::Volume> volume, const modes
   if (volume != volume_) scan_hash_.clear();
   volume_ = std::move(volume);
   frame_ = frame;
-  offered_.reset();
+  offered_ = {};
   publish(ramp_s());
 }
 
 void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
   if (!volume_) modes::validate(scene);  // else its plan does
   felt_ = felt_of(scene, volume_);
-  offered_.reset();
+  offered_ = {};
   scene_ = scene;
   publish(pace == Pace::dragged ? dragged_s : ramp_s());
 }

@@ -49,7 +49,10 @@ class LiveSession {
   /// The same as it is felt: through the scene's filter.
   const std::shared_ptr<const io::Volume>& felt_scan() const noexcept { return felt_.volume; }
   /// Gives the scan through a filter that a scene is about to ask for, so that set_scene() need not compute it.
-  void offer(std::shared_ptr<const io::Volume> filtered) { offered_ = std::move(filtered); }
+  void offer(std::shared_ptr<const io::Volume> filtered) { offered_ = {.volume = std::move(filtered)}; }
+  /// The same of a scene that was prepared in another thread: neither its filtered scan nor its structures are made
+  /// again by set_scene(), or set_scan() with its volume.
+  void offer(PreparedScene ahead) { offered_ = std::move(ahead); }
   const modes::Scene& scene() const noexcept { return scene_; }
   /// The plan of the scene on the scan, for the connected stylus, or for the simulated one if none is connected. Null
   /// without a scan.
@@ -119,7 +122,7 @@ class LiveSession {
 
  private:
   PreparedScene felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const;
-  Prepared before() const { return {.felt = felt_, .scene = scene_}; }
+  Prepared before() const { return {.felt = felt_, .scene = scene_, .read_ahead = {}}; }
   Snapshot snapshot(double change_s) const;
   double ramp_s() const;
   AsRecorded as_recorded(double change_s) const;
@@ -129,10 +132,10 @@ class LiveSession {
 
   const std::string& scan_hash() const;
 
-  std::shared_ptr<const io::Volume> volume_;   // never filtered
-  std::shared_ptr<const io::Volume> offered_;  // volume_ filtered, or null
-  ScanFrame frame_;                            // of the volume in its series
-  mutable std::string scan_hash_;              // of the volume; empty until asked for: it reads all voxels
+  std::shared_ptr<const io::Volume> volume_;  // never filtered
+  PreparedScene offered_;                     // of the scene that comes, or its volume alone, or empty
+  ScanFrame frame_;                           // of the volume in its series
+  mutable std::string scan_hash_;             // of the volume; empty until asked for: it reads all voxels
   modes::Scene scene_;
   PreparedScene felt_;
   std::uint32_t last_epoch_ = 0;

@@ -41,6 +41,7 @@ void add_bench_correct(CLI::App& bench) {
                        "also on organs that were outlined on SERIES: SEG, RTSTRUCT, label map, or a folder of them")
           ->check(CLI::ExistingPath);
   command->get_option("SERIES")->required(false)->needs(structures);
+  structures->needs("SERIES");
   command->add_option("--organs", arguments->organs, "their names; else the largest three")->needs(structures);
   command->add_option("-o,--output", arguments->output,
                       "also write CSV files and a picture to this new or empty folder");

@@ -28,6 +28,9 @@ igtl::LoadedScan load_folder(const std::string& folder) {
 }
 
 void run(const ServeCommand& command) {
+  if (!command.output.empty() && std::filesystem::exists(command.output)) {
+    throw InputRefused(say("exists-name-another-file", command.output.string()));
+  }
   const std::shared_ptr<device::Stylus> stylus = make_stylus(command.session.stylus);
   // The port first: loading takes longer, and would be for nothing.
   igtl::Server server(command.address);

@@ -10,6 +10,7 @@
 
 #include "device/safety/safety_filter.h"
 #include "modes/scene/scene_json.h"
+#include "plugin/messages/tell.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/say.h"
 #include "plugin/report/held_boundary.h"
@@ -79,7 +80,12 @@ void Announcer::follow_session() {
 void Announcer::announce_scene() {
   if (const auto plan = session_.plan()) publisher_.set_workspace(session_.epoch(), plan->workspace);
   const std::string scene = modes::to_json(received_.with_names(session_.scene()));
-  if (scene.size() <= longest_string) offer("STRING", scene_name, string_content(scene), 0, true);
+  if (scene.size() <= longest_string) {
+    offer("STRING", scene_name, string_content(scene), 0, true);
+  } else {  // better none than one that is not felt
+    server_.forget(std::string("STRING ") + scene_name);
+    tell(say("igtl-scene-too-long", scene.size(), longest_string));
+  }
   shapes_wanted_ = Clock::now() + (shapes_sent_.empty() ? std::chrono::milliseconds(0) : tuning);
 }
 

@@ -50,6 +50,12 @@ modes::Scene with_map(modes::Scene scene, const std::string& name, const std::fi
   return with_boundaries(std::move(scene), structures);
 }
 
+/// A map that is not felt is not kept.
+void remove_file(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!file.empty()) std::filesystem::remove(file, none);
+}
+
 bool is_named(const modes::Scene& scene, const std::string& file) {
   return std::ranges::any_of(scene.structures, [&](const auto& structure) { return structure.file == file; });
 }
@@ -85,37 +91,42 @@ void Requests::keep_own_limits() {
 
 void Requests::look() {
   keep_own_limits();
-  for (Server::Request& request : server_.take()) waiting_.push_back(std::move(request));
   if (change_.valid()) {
     if (change_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     try {
       finish(change_.get());
     } catch (const std::exception& error) {
-      refuse(asked_by_, error);
+      refuse(asked_->client, error);
+    }
+  }
+  // What comes meanwhile waits in the server, where the newest takes the place of those before it.
+  if (waiting_.empty()) {
+    for (Server::Request& request : server_.take()) {
+      waiting_.push_back(std::make_shared<const Server::Request>(std::move(request)));
     }
   }
   while (!waiting_.empty() && !change_.valid()) {
-    const Server::Request request = std::move(waiting_.front());
-    waiting_.erase(waiting_.begin());
-    begin(request);
+    asked_ = std::move(waiting_.front());
+    waiting_.pop_front();
+    begin();
   }
 }
 
-void Requests::begin(const Server::Request& request) {
-  asked_by_ = request.client;
+void Requests::begin() {
   try {
-    if (request.message.type == "POINT") {
-      changes_.set_marks(points_of(request.message.content));
-    } else {
-      const Prepare work = work_for(request);
-      if (work) change_ = std::async(std::launch::async, work);
+    if (asked_->message.type == "POINT") {
+      changes_.set_marks(points_of(asked_->message.content));
+    } else if (const Prepare work = work_for(asked_)) {
+      begun_on_ = session_.plan();
+      change_ = std::async(std::launch::async, work);
     }
   } catch (const std::exception& error) {
-    refuse(request.client, error);
+    refuse(asked_->client, error);
   }
 }
 
-Requests::Prepare Requests::work_for(const Server::Request& request) {
+Requests::Prepare Requests::work_for(const std::shared_ptr<const Server::Request>& asked) {
+  const Server::Request& request = *asked;
   const Base base{{.felt = session_.felt(), .scene = session_.scene()},
                   session_.scan(),
                   session_.planned_for().workspace_half_extent};
@@ -123,10 +134,15 @@ Requests::Prepare Requests::work_for(const Server::Request& request) {
   if (message.device != folder_name) internal::check_scan(base.scan != nullptr);
   if (message.type == "IMAGE") {
     const std::filesystem::path before = received_.file_of(message.device), file = received_.fresh_file(message.device);
-    return [base, before, file, name = message.device, content = std::make_shared<const Bytes>(message.content)] {
-      write_nrrd(image_of(*content), file);
-      const modes::Scene scene = with_map(base.scene(), name, before, file);
-      return Change{.scene = scene, .prepared = base.prepared(scene), .map = name, .file = file};
+    return [base, before, file, asked] {
+      try {
+        write_nrrd(image_of(asked->message.content), file);
+        const modes::Scene scene = with_map(base.scene(), asked->message.device, before, file);
+        return Change{.scene = scene, .prepared = base.prepared(scene), .map = asked->message.device, .file = file};
+      } catch (...) {
+        remove_file(file);
+        throw;
+      }
     };
   }
   const std::string text = string_of(message.content);
@@ -159,12 +175,20 @@ Requests::Prepare Requests::work_for(const Server::Request& request) {
 }
 
 void Requests::finish(const Change& change) {
-  // The owner may have tightened a limit while this was prepared.
-  const modes::Scene scene = drawn_down(change.scene, asked_by_);
-  if (change.scan) {
-    changes_.set_scan(*change.scan, scene, change.prepared);
-  } else {
-    changes_.set_scene(scene, change.prepared);
+  if (begun_on_ != session_.plan()) {  // the owner has changed scene or scan while this was prepared
+    remove_file(change.file);
+    return begin();
+  }
+  const modes::Scene scene = drawn_down(change.scene, asked_->client);
+  try {
+    if (change.scan) {
+      changes_.set_scan(*change.scan, scene, change.prepared);
+    } else {
+      changes_.set_scene(scene, change.prepared);
+    }
+  } catch (...) {
+    remove_file(change.file);
+    throw;
   }
   if (!change.map.empty()) received_.use(change.map, change.file);
   plan_ = session_.plan();

@@ -4,6 +4,7 @@
 /// thread. What takes long (reading, distances) is prepared by another thread, so that the heartbeat goes on. A request
 /// changes what is felt along the ramp. It can neither turn the force on nor raise a limit.
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -29,7 +30,7 @@ using LoadScan = std::function<LoadedScan(const std::string& folder)>;
 
 /// How the owner of the session changes it. All are called by the controlling thread, and throw why it cannot be done.
 struct Changes {
-  /// `prepared` is of that scene, and is held until the call returns: what it loaded is not loaded again.
+  /// `prepared` is of that scene: offered to the session, what it loaded is not loaded again.
   std::function<void(const modes::Scene& scene, const PreparedScene& prepared)> set_scene;
   std::function<void(const LoadedScan& scan, const modes::Scene& scene, const PreparedScene& prepared)> set_scan;
   std::function<void(const std::vector<Point>& marks)> set_marks;
@@ -74,9 +75,9 @@ class Requests {
   };
   using Prepare = std::function<Change()>;
 
-  void begin(const Server::Request& request);
+  void begin();
   /// Of copies: the session goes on meanwhile. Empty if nothing changes.
-  Prepare work_for(const Server::Request& request);
+  Prepare work_for(const std::shared_ptr<const Server::Request>& asked);
   void finish(const Change& change);
   void keep_own_limits();
   void answer(std::uint64_t client, Status::Code code, const char* name, const Text& text);
@@ -90,9 +91,10 @@ class Requests {
   modes::Limits limits_;
   double stiffness_n_per_m_ = 0;
   std::shared_ptr<const modes::Plan> plan_;  // of the scene that a request set last, or whose limits are kept
-  std::vector<Server::Request> waiting_;
+  std::deque<std::shared_ptr<const Server::Request>> waiting_;
+  std::shared_ptr<const Server::Request> asked_;  // the last that was begun
+  std::shared_ptr<const modes::Plan> begun_on_;   // of the scene that it changes: every scene has a plan of its own
   std::future<Change> change_;
-  std::uint64_t asked_by_ = 0;
   std::string last_told_;
 };
 

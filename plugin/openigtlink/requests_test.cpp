@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -222,6 +225,34 @@ TEST(OpenIgtRequests, StructuresOfAFileGetBoundaries) {
   EXPECT_EQ(shared.session.scene().modes.back().structure, "spleen");
 }
 
+// The controlling thread beats the heart: it does not read what another thread has read.
+TEST(OpenIgtRequests, WhatWasPreparedIsNotReadAgain) {
+  SharedSession shared;
+  const auto file = plugin::testing::fresh_path("ahead.nrrd");
+  write_nrrd(image_of(ball_of_labels("", glm::dvec3(0), 10).content), file);
+  modes::Scene scene = shared.session.scene();
+  scene.structures = {{.name = "ball", .file = file.string(), .segment_number = 1}};
+  scene.modes.push_back({.type = "surface", .structure = "ball"});
+  scene.modes.back().strength_n = modes::TransferFunction(0.5);
+  for (const bool other_scan : {false, true}) {
+    const auto scan = other_scan ? testing::ball_of_tissue() : shared.session.scan();
+    const modes::Scene plain = modes::load_scene("ct-skin-and-bone");
+    shared.session.set_scene(plain);
+    write_nrrd(image_of(ball_of_labels("", glm::dvec3(0), 10).content), file);
+    const PreparedScene ahead = prepare(scene, scan, shared.session.planned_for().workspace_half_extent);
+    std::filesystem::remove(file);
+    EXPECT_ANY_THROW(shared.session.set_scene(scene)) << "it is read";
+    shared.session.offer(ahead);
+    if (other_scan) {
+      shared.session.set_scan(ahead.volume, scene);
+    } else {
+      shared.session.set_scene(scene);
+    }
+    ASSERT_EQ(shared.session.felt().structures.size(), 1U);
+    EXPECT_EQ(shared.session.felt().structures.front().distance, ahead.structures.front().distance);
+  }
+}
+
 TEST(OpenIgtRequests, EachLabelOfAMapIsAStructure) {
   SharedSession shared;
   TestClient client(shared.server.port());
@@ -274,6 +305,104 @@ TEST(OpenIgtRequests, AFolderIsLoadedAndASceneGoesOn) {
   EXPECT_EQ(asked, "/scans/other");
   EXPECT_EQ(shared.session.scene().name, "CT: skin and bone");
   EXPECT_TRUE(shared.comes([&] { return sent_n(shared) > 0.3; }));
+}
+
+/// A folder whose loading takes until it is let go.
+struct SlowFolder {
+  std::promise<void> begun, let_go;
+  std::shared_future<void> until = let_go.get_future().share();
+
+  LoadedScan load() {
+    begun.set_value();
+    until.wait();
+    return {.volume = testing::ball_of_tissue(), .frame = {}};
+  }
+};
+
+TEST(OpenIgtRequests, OfWhatComesWhileOneIsPreparedTheNewestIsFelt) {
+  SharedSession shared;
+  SlowFolder slow;
+  shared.load = [&](const std::string&) { return slow.load(); };
+  TestClient client(shared.server.port());
+  client.send_text(folder_name, "/scans/slow");
+  auto begun = slow.begun.get_future();
+  ASSERT_TRUE(shared.comes([&] { return begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  constexpr int scenes = 40;
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  for (int n = 0; n < scenes; ++n) {
+    scene.name = "scene " + std::to_string(n);
+    client.send_text(scene_name, modes::to_json(scene));
+    shared.look();
+  }
+  EXPECT_TRUE(shared.comes([&] { return shared.server.counts().taken == scenes + 1U; }));
+  EXPECT_EQ(shared.server.counts().outrun, scenes - 1U) << "they wait where the newest takes the place of the others";
+  slow.let_go.set_value();
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scene().name == "scene 39"; }));
+}
+
+TEST(OpenIgtRequests, WhatTheOwnerDoesMeanwhileStays) {
+  SharedSession shared;
+  std::promise<void> begun, let_go;
+  auto until = let_go.get_future().share();
+  std::atomic<int> loads{0};
+  shared.load = [&, until](const std::string&) {
+    if (++loads == 1) begun.set_value();
+    until.wait();
+    return LoadedScan{.volume = testing::ball_of_tissue(), .frame = {}};
+  };
+  TestClient client(shared.server.port());
+  const auto before = shared.session.scan();
+  client.send_text(folder_name, "/scans/slow");
+  auto has_begun = begun.get_future();
+  ASSERT_TRUE(shared.comes([&] { return has_begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  modes::Scene own = shared.session.scene();
+  own.name = "the owner's";
+  own.limits.force_n = 1;
+  shared.session.set_scene(own);
+  let_go.set_value();
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scan() != before; }));
+  EXPECT_EQ(loads, 2) << "prepared again, of the owner's scene";
+  EXPECT_EQ(shared.session.scene().name, "the owner's");
+  EXPECT_EQ(shared.session.scene().limits.force_n, 1);
+}
+
+TEST(OpenIgtRequests, ANameThatIsNoTextIsTold) {
+  SharedSession shared;
+  TestClient client(shared.server.port());
+  client.send(ball_of_labels("L\xe4sion \xff", glm::dvec3(0), 10));
+  ASSERT_TRUE(shared.comes([&] { return shared.session.scene().structures.size() == 1; }));
+  std::string said;
+  EXPECT_TRUE(shared.comes([&] {
+    if (const auto message = client.next("STRING", scene_name, 20)) said = string_of(message->content);
+    return said.find("L\xef\xbf\xbdsion") != std::string::npos;
+  })) << said;
+}
+
+TEST(OpenIgtRequests, ARefusedMapIsNotKept) {
+  SharedSession shared;
+  TestClient client(shared.server.port());
+  for (int n = 0; n < 3; ++n) {
+    client.send(ball_of_labels("nothing", glm::dvec3(0), -1));
+    ASSERT_EQ(text_of_status(shared, client, "refused"), "refused: nothing: there are no labels or structures in it");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(shared.received.fresh_file("another").parent_path()));
+}
+
+TEST(OpenIgtRequests, ASceneThatIsTooLongIsNotTakenForTheOneBefore) {
+  SharedSession shared;
+  TestClient reader(shared.server.port());
+  ASSERT_TRUE(reader.next("STRING", scene_name));
+  modes::Scene scene = shared.session.scene();
+  scene.name = std::string(70000, 'n');
+  shared.session.set_scene(scene);
+  ::testing::internal::CaptureStderr();
+  shared.look();
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("clients do not get the scene that is felt: it has "), std::string::npos);
+  EXPECT_NE(told.find(" bytes; at most 65535 fit"), std::string::npos) << told;
+  TestClient late(shared.server.port());
+  late.send({.type = "GET_STRING", .device = scene_name, .content = {}});
+  EXPECT_TRUE(late.next_status("refused")) << "there is nothing to get";
 }
 
 TEST(OpenIgtRequests, FilesAreNamedByClientsOfThisMachineAlone) {

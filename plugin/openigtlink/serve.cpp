@@ -18,16 +18,18 @@ constexpr auto between_looks = std::chrono::milliseconds(10);
 }  // namespace
 
 Changes changes_of(LiveSession& session, LoadScan load) {
-  return {
-      .set_scene =
-          [&session](const modes::Scene& scene, const PreparedScene& prepared) {
-            session.offer(prepared.volume);
-            session.set_scene(scene);
-          },
-      .set_scan = [&session](const LoadedScan& scan, const modes::Scene& scene,
-                             const PreparedScene& prepared) { session.set_scan(prepared.volume, scene, scan.frame); },
-      .set_marks = {},
-      .load = std::move(load)};
+  return {.set_scene =
+              [&session](const modes::Scene& scene, const PreparedScene& prepared) {
+                session.offer(prepared);
+                session.set_scene(scene);
+              },
+          .set_scan =
+              [&session](const LoadedScan& scan, const modes::Scene& scene, const PreparedScene& prepared) {
+                session.offer(prepared);
+                session.set_scan(prepared.volume, scene, scan.frame);
+              },
+          .set_marks = {},
+          .load = std::move(load)};
 }
 
 void serve(LiveSession& session, Server& server, const ServeOptions& options) {
@@ -35,7 +37,8 @@ void serve(LiveSession& session, Server& server, const ServeOptions& options) {
   const auto end = Clock::now() + std::chrono::duration<double>(options.seconds);
   std::optional<std::string> fault;
   {
-    Sharing sharing(session, server, changes_of(session, options.load));
+    Received received;
+    Sharing sharing(session, server, received, changes_of(session, options.load));
     while (!Interruptible::interrupted() && (options.seconds <= 0 || Clock::now() < end)) {
       session.heartbeat();
       sharing.look();
@@ -45,6 +48,8 @@ void serve(LiveSession& session, Server& server, const ServeOptions& options) {
       }
       std::this_thread::sleep_for(between_looks);
     }
+    // What is still being prepared is waited for: without a force.
+    session.release();
   }
   const ServerCounts counts = server.counts();
   tell(say("igtl-served", counts.sent, counts.replaced, counts.taken, counts.outrun, counts.refused,

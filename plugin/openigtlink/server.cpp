@@ -40,6 +40,10 @@ void set_option(int socket, int level, int option, int value) {
   ::setsockopt(socket, level, option, &value, sizeof(value));
 }
 
+bool is_query(const std::string& type) {
+  return type.size() > 4 && (type.starts_with("GET_") || type.starts_with("STT_") || type.starts_with("STP_"));
+}
+
 std::string without_prefix(const std::string& type) {
   return type.substr(4);
 }
@@ -175,7 +179,7 @@ void Server::serve(Client& client, short events) {
 
 std::size_t Server::wanted(Client& client, const Header& header) {
   const std::string& type = header.type;
-  if (type.starts_with("GET_") || type.starts_with("STT_") || type.starts_with("STP_")) return longest_query;
+  if (is_query(type)) return longest_query;
   std::size_t most = 0;
   if (type == "STRING" && is_request(header.device)) most = longest_string + 4 + room_for_metadata;
   if (type == "POINT" && header.device == marks_name) most = most_points * point_size + room_for_metadata;
@@ -191,8 +195,7 @@ std::size_t Server::wanted(Client& client, const Header& header) {
 }
 
 void Server::take_message(Client& client, Message&& message) {
-  const bool is_query = message.type.size() > 4 && message.type[3] == '_';
-  if (is_query) {
+  if (is_query(message.type)) {
     answer_query(client, message);
   } else {
     keep_request(client, std::move(message));

@@ -118,6 +118,21 @@ TEST(OpenIgtServer, OfAFloodTheNewestIsTaken) {
   EXPECT_EQ(stepped.server.counts().outrun, floods - 1U);
 }
 
+// A client that does not control asks: by a type that only begins like a question, it cannot have anything done.
+TEST(OpenIgtServer, WhatOnlyBeginsLikeAQuestionIsNone) {
+  SteppedServer stepped;
+  TestClient first(stepped.server.port()), second(stepped.server.port());
+  first.send_text(scene_name, "controls");
+  EXPECT_EQ(requests_of(stepped.server, 1).size(), 1U);
+  for (const char* const type : {"GET_", "STT_", "STP_", "XYZ_STRING"}) {
+    second.send({.type = type, .device = scene_name, .content = string_content("{}")});
+  }
+  second.send_text(scene_name, "refused");
+  ASSERT_TRUE(second.next_status("refused"));
+  EXPECT_TRUE(stepped.server.take().empty());
+  EXPECT_EQ(stepped.server.counts().taken, 1U);
+}
+
 // Label maps of a thousand names: the queue stays short.
 TEST(OpenIgtServer, OfManyNamesTheNewestAreTaken) {
   SteppedServer stepped;

@@ -13,10 +13,11 @@ Changes with_marks(Changes changes, Announcer& announcer) {
 
 }  // namespace
 
-Sharing::Sharing(const LiveSession& session, Server& server, Changes changes, Announcer::MakesMarks makes_marks)
+Sharing::Sharing(const LiveSession& session, Server& server, Received& received, Changes changes,
+                 Announcer::MakesMarks makes_marks)
     : publisher_(server),
-      announcer_(session, server, publisher_, received_, makes_marks),
-      requests_(session, server, received_, with_marks(std::move(changes), announcer_)) {}
+      announcer_(session, server, publisher_, received, makes_marks),
+      requests_(session, server, received, with_marks(std::move(changes), announcer_)) {}
 
 void Sharing::look() {
   requests_.look();

@@ -12,8 +12,9 @@ namespace palpate::plugin::igtl {
 
 class Sharing {
  public:
-  /// Session and server have to outlive it.
-  Sharing(const LiveSession& session, Server& server, Changes changes,
+  /// Session, server and maps have to outlive it. The maps had better live as long as the session: its scene names
+  /// their files.
+  Sharing(const LiveSession& session, Server& server, Received& received, Changes changes,
           Announcer::MakesMarks makes_marks = Announcer::MakesMarks::yes);
 
   void look();
@@ -21,7 +22,6 @@ class Sharing {
   void set_marks(const std::vector<Point>& marks) { announcer_.set_marks(marks); }
 
  private:
-  Received received_;
   Publisher publisher_;
   Announcer announcer_;
   Requests requests_;

@@ -57,6 +57,28 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+/// What is left of a session that did not end stays, also if its file is recorded anew.
+TEST(RecordingTables, WhatIsLeftOfASessionStays) {
+  const auto file = fresh_path("again.h5");
+  std::mt19937_64 random(2);
+  const Recording whole = any_numbers(random, 100);
+  std::vector<fs::path> left;
+  for (int n = 0; n < 3; ++n) {
+    RecordingWriter ended_early(file, whole.header);
+    ended_early.append(whole.ticks, whole.shares, {});
+    ended_early.flush();
+    EXPECT_EQ(std::ranges::count(left, ended_early.partial()), 0);
+    left.push_back(ended_early.partial());
+  }
+  RecordingWriter writer(file, whole.header);
+  writer.append(whole.ticks, whole.shares, {});
+  writer.finish();
+  EXPECT_TRUE(fs::exists(file));
+  for (const fs::path& partial : left) EXPECT_EQ(read_recording(partial).ticks.size(), whole.ticks.size()) << partial;
+  for (const fs::path& partial : left) fs::remove(partial);
+  fs::remove(file);
+}
+
 /// In whatever parts it is appended, and wherever it is flushed, the file holds the same.
 TEST(RecordingTables, GrowInAnyParts) {
   std::mt19937_64 random(1);

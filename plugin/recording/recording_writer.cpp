@@ -67,7 +67,14 @@ void append_rows(GrowingTable& table, const void* rows, std::size_t count) {
 Handle create(const std::filesystem::path& file) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "create-the-file");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "create-the-file");
-  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create-it-there"};
+  return {H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access), H5Fclose, "create-it-there"};
+}
+
+/// Beside what is left of sessions that did not end.
+std::filesystem::path free_partial(const std::filesystem::path& file) {
+  std::filesystem::path partial = file.string() + ".partial";
+  for (int n = 2; std::filesystem::exists(partial); ++n) partial = fmt::format("{}.{}.partial", file.string(), n);
+  return partial;
 }
 
 }  // namespace
@@ -113,7 +120,7 @@ void naming(const std::filesystem::path& file, Step&& step) {
 }  // namespace
 
 RecordingWriter::RecordingWriter(std::filesystem::path file, const RecordingHeader& header)
-    : file_(std::move(file)), partial_(file_.string() + ".partial") {
+    : file_(std::move(file)), partial_(free_partial(file_)) {
   naming(file_, [&] { open_ = std::make_unique<File>(partial_, header); });
 }
 

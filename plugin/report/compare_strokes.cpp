@@ -61,7 +61,8 @@ std::vector<From> couple(const std::vector<Step>& first, const std::vector<Step>
     for (std::size_t j = 0; j < width; ++j) {
       const glm::dvec3 gap = first[i].place_mm - second[j].place_mm;
       double least = i == 0 && j == 0 ? 0 : std::numeric_limits<double>::infinity();
-      From best = From::both;
+      // If no way costs less, as no cost of one is a number, it still leads back to the beginning.
+      From best = i == 0 ? From::second : (j == 0 ? From::first : From::both);
       const auto take = [&](double cost, From way) {
         if (cost < least) {
           least = cost;

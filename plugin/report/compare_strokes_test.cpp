@@ -152,6 +152,21 @@ TEST(CompareStrokes, ARecordingIsTheSameAsItself) {
   EXPECT_GT(same.along_mm.back(), 10) << "down and up";
 }
 
+/// A damaged recording: nothing is read outside of the coupled steps (seen by the sanitizers), and the comparison ends.
+TEST(CompareStrokes, PlacesThatAreNoNumbersEndIt) {
+  const auto volume = ball(25);
+  const Recording pressed = record(volume, {});
+  for (const double odd : {std::numeric_limits<double>::quiet_NaN(), 1e200, -std::numeric_limits<double>::infinity()}) {
+    for (const bool first : {true, false}) {
+      Recording damaged = pressed;
+      damaged.ticks[first ? 0 : damaged.ticks.size() / 2].probe_m[1] = odd;
+      const RecordedSession whole(pressed, *volume), broken(damaged, *volume);
+      EXPECT_FALSE(compare_strokes(broken, whole).along_mm.empty());
+      EXPECT_FALSE(compare_strokes(whole, broken).along_mm.empty());
+    }
+  }
+}
+
 TEST(CompareStrokes, SpeedDoesNotCount) {
   const auto volume = ball(25);
   const RecordedSession once(record(volume, {}), *volume), slowly(record(volume, {.slower = 3}), *volume);

@@ -75,8 +75,9 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
                          before.felt.plan->slices == felt.plan->slices &&
                          before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
                          before.scene.sampling == scene.sampling;
-  felt.structures = load_structures(scene, *felt.plan, volume,
-                                    of_scan ? before.felt.structures : std::vector<LoadedStructure>(), recorded);
+  std::vector<LoadedStructure> known = before.read_ahead;
+  if (of_scan) known.insert(known.end(), before.felt.structures.begin(), before.felt.structures.end());
+  felt.structures = load_structures(scene, *felt.plan, volume, known, recorded);
   if (same_scan && same_distances(felt.structures, before.felt.structures)) {
     felt.source = before.felt.source;
     return felt;

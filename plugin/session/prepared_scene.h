@@ -38,6 +38,7 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
 struct Prepared {
   PreparedScene felt;
   modes::Scene scene;
+  std::vector<LoadedStructure> read_ahead{};  ///< of the scan, for a scene that comes: not read again
 };
 /// The same, but takes the filtered volume and the fields from `felt` if the scene still needs exactly these of this
 /// scan. So a scene that is being edited is ready at once.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/errors.h"
+#include "io/structures/outline_change.h"
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
 #include "plugin/session/shared_distance.h"
@@ -100,9 +101,16 @@ std::optional<RegisteredStructure> place(io::Structure& structure, const modes::
 LoadedStructure load_drawn(const modes::SceneStructure& wanted, const io::Geometry& scan, double reach_mm) {
   const io::Edit& first = wanted.edits.front();
   try {
+    std::vector<Text> warnings;
+    io::Structure drawn;
+    drawn.name = wanted.name;
+    drawn.file = "scene";
+    if (const auto box = io::box_of_edits(std::array{first})) {
+      if (const Text off = off_scan(drawn, *box, scan); !off.empty()) warnings.push_back(off);
+    }
     return {.file = {},
             .segment = {},
-            .warnings = {},
+            .warnings = warnings,
             .registered = {},
             .distance = shared_distance(std::get<io::ContoursEdit>(first), scan, reach_mm),
             .edits = {first},

@@ -44,7 +44,7 @@ struct SharedSession {
       if (!load) throw std::runtime_error("nothing at " + folder);
       return load(folder);
     };
-    sharing = std::make_unique<Sharing>(session, server, changes_of(session, load_it));
+    sharing = std::make_unique<Sharing>(session, server, received, changes_of(session, load_it));
   }
   ~SharedSession() {
     sharing.reset();
@@ -82,6 +82,7 @@ struct SharedSession {
   Server server{{.port = 0}};
   std::shared_ptr<device::SimulatedStylus> stylus;
   LiveSession session;
+  Received received;
   std::unique_ptr<Sharing> sharing;
 };
 

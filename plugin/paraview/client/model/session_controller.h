@@ -66,6 +66,7 @@ class SessionController : public QObject {
   void set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
   /// Gives the scan through the filter of a scene that is about to be set.
   void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
+  void offer(const PreparedScene& ahead) { live_.offer(ahead); }
   /// Where in the scan its boundaries are met, once that is known: what holds is named by it.
   void set_sites(std::shared_ptr<const modes::SiteMap> sites) { sites_ = std::move(sites); }
   /// Work of the panel's thread that has just ended, as "drawing": if the force goes because the panel did not answer,

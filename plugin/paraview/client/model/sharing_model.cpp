@@ -73,8 +73,9 @@ QString SharingModel::turn_on(int port) {
       .set_marks = [this](const auto& points) { take_marks(points); },
       .load = {},
       .open = [this](const std::string& folder) { emit folder_wanted(QString::fromStdString(folder)); }};
-  sharing_ =
-      std::make_unique<igtl::Sharing>(touching_.live(), *server_, std::move(changes), igtl::Announcer::MakesMarks::no);
+  if (!received_) received_.emplace();
+  sharing_ = std::make_unique<igtl::Sharing>(touching_.live(), *server_, *received_, std::move(changes),
+                                             igtl::Announcer::MakesMarks::no);
   send_marks();
   looks_.start();
   emit changed();
@@ -103,7 +104,7 @@ void SharingModel::send_marks() {
 }
 
 void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& prepared) {
-  touching_.offer(prepared.volume);
+  touching_.offer(prepared);
   QString refused;
   scene_.edit(
       tr("Scene from 3D Slicer"), [&](modes::Scene& now) { now = scene; }, [&](const QString& why) { refused = why; });

@@ -50,6 +50,7 @@ class SharingModel : public QObject {
   SceneModel& scene_;
   MarksModel& marks_;
   std::unique_ptr<igtl::Server> server_;
+  std::optional<igtl::Received> received_;  // from the first time on: scenes name its files
   std::unique_ptr<igtl::Sharing> sharing_;
   std::size_t clients_ = 0;
   QTimer looks_;
