@@ -27,8 +27,8 @@ function(palpate_suite suite tests)
     math(EXPR cost "1000 + ${tests}")
   endif()
   set_tests_properties("${name}" PROPERTIES TIMEOUT ${longest} COST ${cost} ENVIRONMENT "PALPATE_TEST_SECONDS=${seconds}")
-  # Two fifths of all the time, by mostly waiting: `plugin/run check thorough` runs them, `plugin/run test` does not.
-  if(suite MATCHES "^(archive|CheckDevice|CommandDevices|CommandFuzz|EachDevice/FaultTable|Hostile|LiveSession|RandomFaults|Soak)$")
+  # More than half of all the time, by computing or waiting: `plugin/run check thorough` runs them, `plugin/run test` does not.
+  if(suite MATCHES "^(archive|CheckDevice|CommandDevices|CommandFuzz|CompareOutlines|CorrectedDistance|DoubtfulPlaces|EachDevice/FaultTable|Hostile|LiveSession|OpenIgtHostile|RandomFaults|Regions|ScanEdge|ScanEdgeLaws|ScanShapes|Soak|SuggestAffine)$")
     set_tests_properties("${name}" PROPERTIES LABELS thorough)
   endif()
 endfunction()
