@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "device/safety/safety_filter.h"
@@ -209,12 +211,16 @@ void Announcer::follow_marks() {
 void Announcer::announce_shapes() {
   if (shapes_.valid()) {
     if (shapes_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    std::set<std::string> sent;
+    std::map<std::string, std::size_t> sent;
     for (Shape& shape : shapes_.get()) {
-      sent.insert(shape.type + " " + shape.name);
+      const std::string name = shape.type + " " + shape.name;
+      const std::string_view bytes(reinterpret_cast<const char*>(shape.content.data()), shape.content.size());
+      const std::size_t hash = sent[name] = std::hash<std::string_view>()(bytes);
+      const auto before = shapes_sent_.find(name);
+      if (before != shapes_sent_.end() && before->second == hash) continue;  // clients have it
       offer(shape.type.c_str(), shape.name, std::move(shape.content), 0, true);
     }
-    for (const std::string& name : shapes_sent_) {
+    for (const auto& [name, hash] : shapes_sent_) {
       if (!sent.contains(name)) server_.forget(name);
     }
     shapes_sent_ = std::move(sent);

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cstdint>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -68,7 +68,7 @@ class Announcer {
   std::vector<Point> marks_;  // all, as they are sent
   std::future<std::vector<Shape>> shapes_;
   std::optional<Clock::time_point> shapes_wanted_;  // from when on: a scene that is being tuned has others soon
-  std::set<std::string> shapes_sent_;               // each by its type and name
+  std::map<std::string, std::size_t> shapes_sent_;  // of each type and name the hash of its bytes
 };
 
 /// "off", "ready", "feeling" or "stopped", and the same as a sentence.

@@ -42,11 +42,24 @@ void add_surface(std::vector<Shape>& shapes, const std::string& name, Surface su
   shapes.push_back({.type = "POLYDATA", .name = free_name(shapes, "POLYDATA", name), .content = content_of(surface)});
 }
 
+/// What a field's lattice reaches: all of the structure, and something around it.
+io::StructureBox box_of(const io::DistanceField& field) {
+  const io::NodeLattice& lattice = field.parts().near.lattice;
+  const io::Vec3 last(io::NodeBricks::edge * lattice.bricks);
+  io::StructureBox box{.low_mm = lattice.origin, .high_mm = lattice.origin};
+  for (unsigned corner = 1; corner < 8; ++corner) {
+    const io::Vec3 at = lattice.position(last * io::Vec3(corner & 1U, corner >> 1U & 1U, corner >> 2U));
+    box.low_mm = glm::min(box.low_mm, at);
+    box.high_mm = glm::max(box.high_mm, at);
+  }
+  return box;
+}
+
 void add_labels(std::vector<Shape>& shapes, const std::string& name, const io::DistanceField& field,
                 const io::Geometry& scan) {
   if (!scan.uniform) return;
-  const io::LabelImage labels =
-      io::sample_labels({.name = name}, scan, [&](const io::Vec3& at) { return field.sample(at).mm; });
+  const io::LabelImage labels = io::sample_labels(
+      {.name = name}, scan, [&](const io::Vec3& at) { return field.sample(at).mm; }, box_of(field));
   const Image image{.number = Image::Number::u8,
                     .size = scan.dimensions,
                     .along = {scan.spacing_i * scan.direction_i, scan.spacing_j * scan.direction_j, scan.step},

@@ -175,6 +175,32 @@ TEST(Shapes, NamesAreCutAtALetterAndToldApart) {
   EXPECT_TRUE(find(shapes, "POLYDATA", hollow.substr(0, 17) + " 3"));
 }
 
+/// What a scene's change leaves as it was is not sent again.
+TEST(Shapes, OnlyWhatHasChangedIsSent) {
+  SharedSession shared;
+  TestClient client(shared.server.port());
+  client.send(testing::ball_of_labels("liver", glm::dvec3(0), 12));
+  std::vector<std::string> got;
+  const auto comes = [&](const std::string& name) {
+    return shared.comes([&] {
+      while (auto message = client.next(2)) {
+        if (message->type == "POLYDATA") got.push_back(message->device);
+      }
+      return std::ranges::count(got, name) > 0;
+    });
+  };
+  ASSERT_TRUE(comes("liver"));
+  got.clear();
+  modes::Scene scene = shared.session.scene();
+  scene.modes.front().name = "renamed";
+  shared.session.set_scene(scene);
+  ASSERT_TRUE(comes("renamed"));
+  shared.look_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(std::ranges::count(got, std::string("liver")), 0);
+  TestClient late(shared.server.port());
+  EXPECT_TRUE(late.next("POLYDATA", "liver")) << "a new client gets it";
+}
+
 std::size_t inside(const Image& image) {
   return static_cast<std::size_t>(std::count(image.voxels.begin(), image.voxels.end(), 1));
 }
