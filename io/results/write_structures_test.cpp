@@ -12,6 +12,7 @@
 #include "io/errors.h"
 #include "io/results/dicom_object.h"
 #include "io/structures/structure.h"
+#include "io/testing/file_bytes.h"
 #include "io/testing/outlined_scan.h"
 
 namespace palpate::io {
@@ -320,7 +321,14 @@ TEST(WriteStructure, RefusesInWordsAndLeavesNothing) {
                                      folder / "a.dcm", over);
                    }),
                    "{} is the outline that was corrected, and is kept: name another file"));
-  over.overwrite = true;
+  const fs::path image = scan.files.at(scan.files.size() / 2);
+  const auto bytes = internal::bytes_of(image);
+  EXPECT_TRUE(says(refusal([&] {
+                     write_structure(label, scan, scan.geometry, ball.distance, {}, StructureForm::segmentation, image,
+                                     over);
+                   }),
+                   "{} is an image of the scan, and is kept: name another file"));
+  EXPECT_EQ(internal::bytes_of(image), bytes);
   label.origin.reset();
   write_structure(label, scan, scan.geometry, ball.distance, {}, StructureForm::contours, folder / "a.dcm", over);
   EXPECT_EQ(only_structure_in(folder / "a.dcm").kind, StructureKind::contours);

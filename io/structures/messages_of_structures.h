@@ -131,6 +131,7 @@ inline constexpr MessageRow structures[] = {
      "as it says",
      {{"file-exists", "{} exists: name another file, or ask for it to be overwritten"},
       {"file-is-what-was-corrected", "{} is the outline that was corrected, and is kept: name another file"},
+      {"file-is-of-the-scan", "{} is an image of the scan, and is kept: name another file"},
       {"outline-is-empty", "\"{}\" is empty on this scan, no voxel is inside: nothing is written"},
       {"outline-has-no-surface", "one of the structures has no surface that could be compared"},
       {"outline-has-no-study",
