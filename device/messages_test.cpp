@@ -223,8 +223,8 @@ std::string words_of_guardian(GuardianReach reach) {
 std::string said_of_second_session() {
   FakeHidApi hid;
   hid.nodes = {{0x1234, 6, 0xffab, 0x200, file_with("arm", ""), L"arm"}};
-  const auto first = open_hid("wooden_haptics", hid.nodes[0].path);
-  return said_when([&] { open_hid("wooden_haptics", hid.nodes[0].path); });
+  const auto first = open_hid(wooden_haptics_hid, hid.nodes[0].path);
+  return said_when([&] { open_hid(wooden_haptics_hid, hid.nodes[0].path); });
 }
 
 std::vector<Provoked> provoke_devices() {

@@ -15,17 +15,10 @@
 
 #include "device/link/realtime.h"
 #include "device/messages.h"
-#include "device/space_mouse/space_mouse_driver.h"
-#include "device/wooden_haptics/wooden_haptics_driver.h"
 
 namespace palpate::device {
 
 namespace {
-
-constexpr unsigned short multi_axis_page = 0x0001;
-constexpr unsigned short multi_axis_usage = 0x0008;
-constexpr unsigned short wooden_page = 0xffab;
-constexpr unsigned short wooden_usage = 0x0200;
 
 struct DeviceCloser {
   void operator()(hid_device* device) const { hid_close(device); }
@@ -37,19 +30,7 @@ std::string narrow(const wchar_t* text) {
   return plain;
 }
 
-/// Empty where the device is none that there is a driver for.
-std::string kind_of(const hid_device_info& info) {
-  if (is_space_mouse(info.vendor_id, info.product_id) && info.usage_page == multi_axis_page &&
-      info.usage == multi_axis_usage) {
-    return "space_mouse";
-  }
-  const bool generic = (info.vendor_id == 0x1234 && info.product_id == 0x0006) ||
-                       (info.vendor_id == 0x16c0 && info.product_id == 0x0486);
-  if (generic && info.usage_page == wooden_page && info.usage == wooden_usage) return "wooden_haptics";
-  return {};
-}
-
-/// A lock on a node, for as long as it is held. The kernel lets any number of programs write to an arm.
+/// A lock on a node, for as long as it is held.
 class NodeLock {
  public:
   NodeLock() = default;
@@ -104,20 +85,16 @@ class HidLink final : public Link {
 
 }  // namespace
 
-std::vector<FoundDevice> find_hid_devices(const std::string& wanted) {
+std::vector<FoundDevice> find_hid_devices(const HidKind& wanted) {
   std::vector<FoundDevice> found;
   if (hid_init() != 0) return found;
   hid_device_info* const list = hid_enumerate(0, 0);
   for (const hid_device_info* info = list; info != nullptr; info = info->next) {
-    const std::string kind = kind_of(*info);
+    const bool is_it = wanted.is_it({info->vendor_id, info->product_id, info->usage_page, info->usage});
     const auto same = [&](const FoundDevice& device) { return device.address == info->path; };
-    if (kind != wanted || std::any_of(found.begin(), found.end(), same)) continue;
-    FoundDevice device{kind, narrow(info->product_string), info->path, access(info->path, R_OK | W_OK) == 0, {}};
-    if (!device.accessible) {
-      device.note = permission_advice();
-    } else if (kind == "wooden_haptics") {
-      device.note = "its USB ids are shared by other devices: make sure that it is one before naming it";
-    }
+    if (!is_it || std::any_of(found.begin(), found.end(), same)) continue;
+    FoundDevice device{wanted.kind, narrow(info->product_string), info->path, access(info->path, R_OK | W_OK) == 0, {}};
+    device.note = device.accessible ? wanted.note : std::string(permission_advice());
     found.push_back(device);
   }
   hid_free_enumeration(list);
@@ -137,39 +114,22 @@ std::string hid_identity(const std::string& path) {
   return identity;
 }
 
-std::unique_ptr<Link> open_hid(const std::string& kind, const std::string& address) {
+std::unique_ptr<Link> open_hid(const HidKind& kind, const std::string& address) {
   std::vector<FoundDevice> found = find_hid_devices(kind);
   std::erase_if(found, [&](const FoundDevice& device) { return !address.empty() && device.address != address; });
-  const std::string name = (kind == "wooden_haptics" ? "WoodenHaptics" : "SpaceMouse") +
-                           (address.empty() ? std::string() : " at " + address);
+  const std::string name = kind.name + (address.empty() ? std::string() : " at " + address);
   if (found.empty()) throw Refusal(say("not-found-list", name));
   if (found.size() > 1) {
     throw which_of(name, found.size());
   }
   if (!found.front().accessible) throw Refusal(say("permission-denied", name, permission_advice()));
-  NodeLock lock = kind == "wooden_haptics" ? NodeLock(found.front().address) : NodeLock();
+  NodeLock lock = kind.is_held_alone ? NodeLock(found.front().address) : NodeLock();
   if (!lock.is_taken()) throw Refusal(say("arm-is-driven-by-another", name));
   hid_device* const device = hid_open_path(found.front().address.c_str());
   if (device == nullptr) {
     throw Refusal(say("cannot-be-opened-held", name, narrow(hid_error(nullptr))));
   }
   return std::make_unique<HidLink>(device, std::move(lock));
-}
-
-std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings) {
-  if (settings.address.empty()) {
-    throw Refusal(say("woodenhaptics-name-its-address"));
-  }
-  LinkStylusOptions options;
-  if (settings.guarded) options.guardian = {guardian_program(), "wooden_haptics", settings.address};
-  options.signs = settings.signs;
-  options.stays_awake = true;
-  return make_wooden_haptics_on(
-      settings, [address = settings.address] { return open_hid("wooden_haptics", address); }, options);
-}
-
-std::unique_ptr<Stylus> make_space_mouse(const SpaceMouseSettings& settings) {
-  return make_space_mouse_on(settings, [address = settings.address] { return open_hid("space_mouse", address); }, {});
 }
 
 }  // namespace palpate::device

@@ -13,10 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "device/space_mouse/space_mouse.h"
+#include "device/device_type.h"
+#include "device/space_mouse/space_mouse_driver.h"
 #include "device/testing/fake_hidapi.h"
 #include "device/testing/test_files.h"
-#include "device/wooden_haptics/wooden_haptics.h"
+#include "device/wooden_haptics/wooden_haptics_driver.h"
 
 namespace palpate::device {
 namespace {
@@ -52,16 +53,16 @@ TEST_F(Hid, AKindIsToldByAllThatADeviceSaysOfItself) {
   for (const FakeHidNode& known : {puck(), arm(), teensy}) {
     const bool is_puck = known.name == L"SpaceNavigator";
     hid.nodes = {known};
-    EXPECT_EQ(find_hid_devices("space_mouse").size(), is_puck ? 1U : 0U);
-    EXPECT_EQ(find_hid_devices("wooden_haptics").size(), is_puck ? 0U : 1U);
+    EXPECT_EQ(find_device_type("space_mouse")->find().size(), is_puck ? 1U : 0U);
+    EXPECT_EQ(find_device_type("wooden_haptics")->find().size(), is_puck ? 0U : 1U);
     for (const auto part : {&FakeHidNode::vendor, &FakeHidNode::product, &FakeHidNode::page, &FakeHidNode::usage}) {
       for (const int by : {-2, -1, 2}) {
         FakeHidNode other = known;
         other.*part = static_cast<std::uint16_t>(other.*part + by);
         if (is_puck && part == &FakeHidNode::product && by != -2) continue;  // 0xc625 and 0xc628 are pucks, too
         hid.nodes = {other};
-        EXPECT_TRUE(find_hid_devices("space_mouse").empty());
-        EXPECT_TRUE(find_hid_devices("wooden_haptics").empty());
+        EXPECT_TRUE(find_device_type("space_mouse")->find().empty());
+        EXPECT_TRUE(find_device_type("wooden_haptics")->find().empty());
       }
     }
   }
@@ -76,7 +77,7 @@ TEST_F(Hid, ListsEachNodeOnceWithItsNameAndWhetherItMayBeOpened) {
   FakeHidNode locked = arm();
   locked.path = "/absent/hidraw9";
   hid.nodes = {arm(), puck(), arm(), odd, mute, locked, odd};
-  const auto found = find_hid_devices("wooden_haptics");
+  const auto found = find_device_type("wooden_haptics")->find();
   ASSERT_EQ(found.size(), 4U);
   const char* const names[] = {"WoodenHaptics", "Arm? ?~?", "", "WoodenHaptics"};
   const std::string paths[] = {arm().path, odd.path, mute.path, locked.path};
@@ -87,38 +88,38 @@ TEST_F(Hid, ListsEachNodeOnceWithItsNameAndWhetherItMayBeOpened) {
     EXPECT_EQ(found[i].accessible, i < 3);
     EXPECT_THAT(found[i].note, ::testing::HasSubstr(i < 3 ? "make sure that it is one" : "udev"));
   }
-  EXPECT_EQ(find_hid_devices("space_mouse").at(0).note, "");
+  EXPECT_EQ(find_device_type("space_mouse")->find().at(0).note, "");
   EXPECT_EQ(hid.lists, 0);
   hid.starts = false;
-  EXPECT_TRUE(find_hid_devices("wooden_haptics").empty());
+  EXPECT_TRUE(find_device_type("wooden_haptics")->find().empty());
 }
 
 TEST_F(Hid, OpensTheOneThatIsMeantOrSaysWhyNot) {
   hid.nodes = {puck("hidraw0"), puck("hidraw1"), arm("hidraw2")};
-  open_hid("space_mouse", hid.nodes[1].path);
+  open_hid(space_mouse_hid, hid.nodes[1].path);
   EXPECT_EQ(hid.opened, hid.nodes[1].path);
-  open_hid("wooden_haptics", "");
+  open_hid(wooden_haptics_hid, "");
   EXPECT_EQ(hid.opened, hid.nodes[2].path);
   EXPECT_EQ(hid.handles, 0) << "closed with the link";
   using ::testing::StartsWith;
-  EXPECT_THAT(hid_refusal([] { open_hid("space_mouse", ""); }), StartsWith("SpaceMouse: there are 2; name"));
-  EXPECT_THAT(hid_refusal([] { open_hid("space_mouse", "/dev/hidraw7"); }),
+  EXPECT_THAT(hid_refusal([] { open_hid(space_mouse_hid, ""); }), StartsWith("SpaceMouse: there are 2; name"));
+  EXPECT_THAT(hid_refusal([] { open_hid(space_mouse_hid, "/dev/hidraw7"); }),
               StartsWith("SpaceMouse at /dev/hidraw7: not found"));
   hid.nodes[2].opens = false;
-  EXPECT_EQ(hid_refusal([] { open_hid("wooden_haptics", ""); }),
+  EXPECT_EQ(hid_refusal([] { open_hid(wooden_haptics_hid, ""); }),
             "WoodenHaptics: cannot be opened: a fault of the f?ke?; does another program hold it?");
   hid.nodes[2].path = "/absent";
-  EXPECT_THAT(hid_refusal([] { open_hid("wooden_haptics", "/absent"); }),
+  EXPECT_THAT(hid_refusal([] { open_hid(wooden_haptics_hid, "/absent"); }),
               StartsWith("WoodenHaptics at /absent: permission denied; type: sudo cp "));
   hid.nodes.clear();
-  EXPECT_THAT(hid_refusal([] { open_hid("wooden_haptics", ""); }), StartsWith("WoodenHaptics: not found"));
+  EXPECT_THAT(hid_refusal([] { open_hid(wooden_haptics_hid, ""); }), StartsWith("WoodenHaptics: not found"));
 }
 
 /// Reports come whole; hidapi waits by the millisecond, and so no shorter than it is told to.
 TEST_F(Hid, ReceivesWhatComesAndWaitsNoShorterThanItIsTold) {
   std::mt19937 random(1);
   hid.nodes = {arm()};
-  const auto link = open_hid("wooden_haptics", "");
+  const auto link = open_hid(wooden_haptics_hid, "");
   std::array<std::uint8_t, 64> packet{};
   for (const std::size_t size : {1U, 8U, 14U, 64U}) {
     std::vector<std::uint8_t> report(size);
@@ -136,7 +137,7 @@ TEST_F(Hid, ReceivesWhatComesAndWaitsNoShorterThanItIsTold) {
 /// A read that a signal broke off is no unplugging, whatever failed before; any other failure is one, for good.
 TEST_F(Hid, IsLostWhereAReadFails) {
   hid.nodes = {arm()};
-  const auto link = open_hid("wooden_haptics", "");
+  const auto link = open_hid(wooden_haptics_hid, "");
   std::array<std::uint8_t, 64> packet{};
   const std::vector<std::uint8_t> report(14, 7);
   for (int n = 0; n < 30; ++n) {
@@ -162,7 +163,7 @@ TEST_F(Hid, IsLostWhereAReadFails) {
 /// hidapi reports a device that is gone without saying why: a read that fails with errno as it was before is one, too.
 TEST_F(Hid, IsLostThoughAnEarlierCallWasBrokenOff) {
   hid.nodes = {arm()};
-  const auto link = open_hid("wooden_haptics", "");
+  const auto link = open_hid(wooden_haptics_hid, "");
   std::array<std::uint8_t, 64> packet{};
   hid.input.push_back({.failed = FakeHidInput::without_errno});
   errno = EINTR;
@@ -173,7 +174,7 @@ TEST_F(Hid, IsLostThoughAnEarlierCallWasBrokenOff) {
 /// A report is written behind the number 0. One that does not fit is not; a write that fails is told and survived.
 TEST_F(Hid, WritesReportsBehindTheirNumber) {
   hid.nodes = {arm()};
-  const auto link = open_hid("wooden_haptics", "");
+  const auto link = open_hid(wooden_haptics_hid, "");
   for (const std::size_t size : {0U, 1U, 14U, 64U}) {
     std::vector<std::uint8_t> report(size);
     for (std::size_t i = 0; i < size; ++i) report[i] = static_cast<std::uint8_t>(i + 1);

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "device/link/hid.h"
 #include "device/link/link_stylus.h"
 #include "device/link/protocol.h"
 #include "device/space_mouse/space_mouse.h"
 
 namespace palpate::device {
+
+extern const HidKind space_mouse_hid;
 
 /// The same stylus as make_space_mouse()'s, on any link.
 std::unique_ptr<LinkStylus> make_space_mouse_on(const SpaceMouseSettings& settings, LinkStylus::LinkMaker make_link,

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "device/link/hid.h"
 #include "device/link/link_stylus.h"
 #include "device/link/lock_step.h"
 #include "device/link/pose_doubt.h"
@@ -10,6 +11,8 @@
 #include "device/wooden_haptics/wooden_haptics.h"
 
 namespace palpate::device {
+
+extern const HidKind wooden_haptics_hid;
 
 /// The same stylus as make_wooden_haptics()'s, on any link.
 std::unique_ptr<LinkStylus> make_wooden_haptics_on(const WoodenHapticsSettings& settings,

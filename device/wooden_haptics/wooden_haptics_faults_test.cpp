@@ -232,9 +232,9 @@ TEST(WoodenHapticsDriver, ASessionHoldsItsArmAlone) {
   const std::string node = files.write("node", "");
   hid.nodes = {{0x1234, 6, 0xffab, 0x200, node, L"arm"}};
   {
-    const auto first = open_hid("wooden_haptics", node);
+    const auto first = open_hid(wooden_haptics_hid, node);
     try {
-      open_hid("wooden_haptics", node);
+      open_hid(wooden_haptics_hid, node);
       ADD_FAILURE() << "a second session drives it";
     } catch (const std::runtime_error& error) {
       EXPECT_EQ(error.what(), "WoodenHaptics at " + node + ": another program drives it; close that one first");
@@ -244,7 +244,7 @@ TEST(WoodenHapticsDriver, ASessionHoldsItsArmAlone) {
     EXPECT_TRUE(send_zeros(node, true));
   }
   EXPECT_TRUE(send_zeros(node, false));
-  EXPECT_NE(open_hid("wooden_haptics", node), nullptr);
+  EXPECT_NE(open_hid(wooden_haptics_hid, node), nullptr);
 }
 
 }  // namespace

@@ -8,15 +8,25 @@
 
 #include "device/device_type.h"
 #include "device/link/hid.h"
+#include "device/messages.h"
+#include "device/safety/guardian.h"
 #include "device/settings_file.h"
 #include "device/wooden_haptics/wooden_haptics.h"
+#include "device/wooden_haptics/wooden_haptics_driver.h"
 
 namespace palpate::device {
 
 namespace {
 
+/// The ids are those of boards that anybody may use; the page of HID is the firmware's own.
+bool is_arm(const HidIds& ids) noexcept {
+  const bool mbed = ids.vendor == 0x1234 && ids.product == 0x0006;
+  const bool teensy = ids.vendor == 0x16c0 && ids.product == 0x0486;
+  return (mbed || teensy) && ids.usage_page == 0xffab && ids.usage == 0x0200;
+}
+
 std::vector<FoundDevice> find() {
-  return find_hid_devices("wooden_haptics");
+  return find_hid_devices(wooden_haptics_hid);
 }
 
 std::shared_ptr<Stylus> make(const DeviceChoice& choice) {
@@ -61,6 +71,24 @@ GuardianMeans prepare_zeros(const std::string& address) {
 }
 
 }  // namespace
+
+const HidKind wooden_haptics_hid{
+    .kind = "wooden_haptics",
+    .name = "WoodenHaptics",
+    .is_it = &is_arm,
+    .is_held_alone = true,
+    .note = "its USB ids are shared by other devices: make sure that it is one before naming it",
+};
+
+std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings) {
+  if (settings.address.empty()) throw Refusal(say("woodenhaptics-name-its-address"));
+  LinkStylusOptions options;
+  if (settings.guarded) options.guardian = {guardian_program(), wooden_haptics_hid.kind, settings.address};
+  options.signs = settings.signs;
+  options.stays_awake = true;
+  return make_wooden_haptics_on(
+      settings, [address = settings.address] { return open_hid(wooden_haptics_hid, address); }, options);
+}
 
 extern const DeviceType wooden_haptics_type;
 const DeviceType wooden_haptics_type{
