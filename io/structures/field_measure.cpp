@@ -170,7 +170,7 @@ PointsBefore points_before(const Patch& patch, const std::vector<Vec3f>& closest
     before.closest.insert(before.closest.end(), closest.begin() + static_cast<std::ptrdiff_t>(first),
                           closest.begin() + static_cast<std::ptrdiff_t>(end));
   }
-  spread_closest_points(bricks, around, threads, before.closest);
+  spread_closest_points(bricks, 0, threads, before.closest);  // all have points of their own
   return before;
 }
 
