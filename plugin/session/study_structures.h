@@ -54,6 +54,7 @@ struct OutlineEdges {
   double per_mm = 0;  ///< how steep; 0: not known, and those of a CT are taken
   double rise = 0;    ///< of the value on the way in, negative where it falls; 0: not known
   double middle = 0;  ///< the value half-way
+  bool operator==(const OutlineEdges&) const = default;
 };
 /// A plane of the patient: that of a slice.
 struct HeldPlane {

@@ -86,14 +86,24 @@ void PalpatePanel::mark_by_key(const QKeyEvent& event) {
 bool PalpatePanel::correct_by_key(const QKeyEvent& event) {
   palpate::plugin::CorrectionModel& correction = parts_->correction;
   const bool before = event.key() == Qt::Key_B, frees = event.key() == Qt::Key_F && correction.held_in();
-  if ((!before && !frees) || event.modifiers() != Qt::NoModifier || !correction.structure()) return false;
-  const bool pressed = event.type() != QEvent::KeyRelease && has_view_keys();
+  if ((!before && !frees) || !correction.structure()) return false;
+  const bool let_go = event.type() == QEvent::KeyRelease;  // whatever else is held by then
+  if (!let_go && event.modifiers() != Qt::NoModifier) return false;
+  const bool pressed = !let_go && has_view_keys();
   if (!pressed && !(before ? correction.shows_before() : correction.is_freed())) return false;
   if (!event.isAutoRepeat()) before ? correction.show_before(pressed) : correction.set_freed(pressed);
   return true;
 }
 
+/// Another program has the keyboard: no key that is let go there comes here.
+void PalpatePanel::let_go_keys() {
+  parts_->touching.let_go_mark();
+  parts_->correction.show_before(false);
+  parts_->correction.set_freed(false);
+}
+
 bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ApplicationDeactivate) let_go_keys();
   const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
   if (pressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) parts_->touching.release();
   if (event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease) {

@@ -28,6 +28,7 @@ class PalpatePanel : public QDockWidget {
  private:
   void mark_by_key(const QKeyEvent& event);
   bool correct_by_key(const QKeyEvent& event);
+  void let_go_keys();
 
   std::unique_ptr<palpate::plugin::Translation> translation_;  // first: what is built asks for its words
   std::unique_ptr<palpate::plugin::PanelParts> parts_;

@@ -12,6 +12,7 @@
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/correct_box.h"
 #include "plugin/paraview/client/panel/curves_section.h"
+#include "plugin/paraview/client/panel/footer.h"
 #include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/structures_section.h"
@@ -29,6 +30,7 @@ void PanelParts::connect_correction() {
   QObject::connect(&correction, &CorrectionModel::changed, &dock, [this] {
     share_picks();
     curves->set_key_undoes(!correction.structure());
+    footer->set_corrects(correction.structure() != nullptr);
   });
   QObject::connect(&correction, &CorrectionModel::stroke_changed, &dock, [this] {
     SCOPED_UNDO_EXCLUDE();
@@ -71,11 +73,11 @@ void PanelParts::share_picks() {
   views.set_pick(in_volume);
 }
 
-/// In the volume view, where the pointer is over the outline; beside it the view is turned.
+/// In the volume view, where the pointer is over the outline, and that is seen; beside it the view is turned.
 bool PanelParts::stroke_over_outline(Pick what, const glm::dvec3& near, const glm::dvec3& far) {
   const auto outline = structures->corrected();
   const auto place = outline ? first_on_outline(*outline, near, far) : std::nullopt;
-  if (what == Pick::pressed && !place) return false;
+  if (what == Pick::pressed && (!place || !structures->shows_corrected())) return false;
   if (what == Pick::pressed) correction.press(*place, CorrectionModel::Over::outline);
   if (what == Pick::moved && place) correction.move(*place);
   if (what == Pick::let_go) correction.let_go();

@@ -84,6 +84,7 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
 
 void PanelParts::show_frame(const ScanHandle& handle) {
   touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
+  structures->set_frame(handle.volume);
   flow.set_volume(handle.volume);
   show_frame_values();
   draw_contours();
@@ -172,6 +173,10 @@ void PanelParts::leave(const QString& why) {
 }
 
 void PanelParts::leave_views() {
+  studies.cancel();
+  studying->hide();
+  studied.reset();
+  filter->give_up();
   open_views.set({});
   scan_fold->set_note({});
   leave_structures();

@@ -36,6 +36,8 @@ class LatestJob {
       start(std::move(work));
     }
   }
+  /// Whether what was asked for is still to come.
+  bool is_busy() const { return next_.has_value() || (running_ && running_generation_ == generation_); }
   /// Drops what was asked for.
   void drop() {
     next_.reset();
@@ -45,6 +47,7 @@ class LatestJob {
  private:
   void start(Work work) {
     running_ = true;
+    running_generation_ = generation_;
     pool_.start([this, generation = generation_, work = std::move(work)]() mutable {
       std::shared_ptr<const Result> result;
       QString error;
@@ -67,7 +70,7 @@ class LatestJob {
 
   Done done_;
   bool running_ = false;
-  int generation_ = 0;
+  int generation_ = 0, running_generation_ = 0;
   std::optional<Work> next_;
   QObject receiver_;  // its end ends what was queued
   QThreadPool pool_;  // first to go

@@ -46,6 +46,7 @@ CorrectionModel::CorrectionModel(SceneModel& scene, QObject* parent)
 }
 
 void CorrectionModel::begin(const io::Structure& structure, const OutlineEdges& edges) {
+  if (ending_) leave();
   forget();
   structure_ = structure;
   edges_of_scan_ = edges;
@@ -54,41 +55,65 @@ void CorrectionModel::begin(const io::Structure& structure, const OutlineEdges& 
   emit changed();
 }
 
+/// As it is wished and known once it is done: others may be done before. The plane stays the scene's.
 SceneModel::Change CorrectionModel::snapping() const {
-  const std::optional<HeldPlane> plane = freed_ ? std::nullopt : held_in_;
-  return [structure = *structure_, how = Snap{.newtons = snap_n_, .edges = edges_of_scan_, .plane = plane}](
-             modes::Scene& scene) { snap_to_scan(scene, structure, how); };
+  return [this, structure = *structure_](modes::Scene& scene) {
+    const std::optional<HeldPlane> plane = held_plane(scene, structure);
+    snap_to_scan(scene, structure, {.newtons = snap_n_, .edges = edges_of_scan_, .plane = plane});
+  };
+}
+
+/// The same with that plane.
+SceneModel::Change CorrectionModel::holding(const std::optional<HeldPlane>& plane) const {
+  return [this, structure = *structure_, plane](modes::Scene& scene) {
+    snap_to_scan(scene, structure, {.newtons = snap_n_, .edges = edges_of_scan_, .plane = plane});
+  };
 }
 
 void CorrectionModel::snap(const QString& what) {
   press_(what, snapping());
 }
 
+void CorrectionModel::set_edges(const OutlineEdges& edges) {
+  if (!structure_ || edges == edges_of_scan_) return;
+  edges_of_scan_ = edges;
+  snap({});  // it follows from the scan: no step
+}
+
 void CorrectionModel::hold_in(const std::optional<HeldPlane>& plane) {
-  if (!structure_ || plane == held_in_) return;
-  held_in_ = plane;
-  freed_ = false;
-  snap(plane ? tr("Hold in the slice") : tr("Hold in no slice"));
-  emit changed();
+  if (!structure_) return;
+  if (plane != held_in_) {
+    freed_ = false;
+    press_(plane ? tr("Hold in the slice") : tr("Hold in no slice"), holding(plane));
+  }
+  emit changed();  // also where it comes to nothing: whoever asked shows what is so
 }
 
 void CorrectionModel::follow_slice(const HeldPlane& plane) {
   if (!structure_ || !held_in_ || plane == *held_in_ || !is_in_scene_) return;
-  held_in_ = plane;
-  if (!freed_) scene_.pass(snapping());
+  if (freed_) {
+    held_in_ = plane;
+  } else {
+    scene_.pass(holding(plane));
+  }
   slice_kept_.start();
   emit changed();
 }
 
 void CorrectionModel::set_freed(bool freed) {
   if (!structure_ || !held_in_ || !is_in_scene_ || std::exchange(freed_, freed) == freed) return;
-  scene_.pass(snapping());
+  scene_.pass(holding(freed ? std::nullopt : held_in_));
   if (!freed) scene_.finish_drag(tr("Hold in the slice"));  // a step where the slice has changed meanwhile
   emit changed();
 }
 
 void CorrectionModel::end() {
   if (!structure_) return;
+  ending_ = is_tracing();
+  if (!ending_) leave();
+}
+
+void CorrectionModel::leave() {
   const io::Structure structure = *structure_;
   forget();
   press_(tr("End correcting"), [structure](modes::Scene& scene) { snap_no_more(scene, structure); });
@@ -103,6 +128,7 @@ void CorrectionModel::forget() {
   slice_kept_.stop();
   stroke_.clear();
   traces_.clear();
+  ending_ = false;
   edits_.clear();
   taken_back_.clear();
   shows_before_ = false;
@@ -111,6 +137,16 @@ void CorrectionModel::forget() {
   left_.clear();
   at_.reset();
   emit stroke_changed();
+  emit places_changed();
+  emit changed();
+}
+
+void CorrectionModel::look_again() {
+  if (!is_in_scene_) return;
+  places_.reset();
+  left_.clear();
+  at_.reset();
+  find_places();
   emit places_changed();
   emit changed();
 }
@@ -196,6 +232,7 @@ void CorrectionModel::draw(std::vector<io::Vec3> places, Over over, bool felt) {
       if ((felt || over == Over::outline) && look_beside_) {
         traces_.push_back({std::move(places), over});
         if (traces_.size() == 1) look_beside_next();
+        emit changed();
         return;
       }
       return add(tr("Trace"), io::TraceEdit{.points_mm = std::move(places), .known_to_mm = {}});
@@ -214,7 +251,8 @@ void CorrectionModel::look_beside_next() {
                  const Trace done = std::move(traces_.front());
                  traces_.pop_front();
                  finish_trace(done, edges);
-                 if (!traces_.empty()) look_beside_next();
+                 if (is_tracing()) return look_beside_next();
+                 ending_ ? leave() : emit changed();
                });
 }
 
@@ -229,7 +267,8 @@ void CorrectionModel::finish_trace(const Trace& trace, const Edges& edges) {
     edit.points_mm.push_back(edge->place_mm);
     edit.known_to_mm.push_back(edge->known_to_mm);
   }
-  edit.points_mm.empty() ? emit nothing_traced() : add(tr("Trace"), edit);
+  if (!edit.points_mm.empty()) return add(tr("Trace"), edit);
+  if (!edges.empty()) emit nothing_traced();
 }
 
 void CorrectionModel::take_scan_edge(const io::Vec3& center_mm) {
@@ -245,16 +284,31 @@ void CorrectionModel::add(const QString& what, const io::Edit& edit) {
   });
 }
 
+/// The newest first: a stroke that is still being looked at comes to nothing.
 void CorrectionModel::undo() {
   if (!structure_ || !can_undo()) return;
+  if (is_tracing()) {
+    traces_.pop_back();
+    if (traces_.empty() && look_beside_) look_beside_({}, 0, {});
+    emit changed();
+    return;
+  }
   press_(tr("Undo a correction"), [structure = *structure_](modes::Scene& scene) {
     std::vector<io::Edit>* const edits = edits_in(scene, structure);
     if (edits && !edits->empty()) edits->pop_back();
   });
 }
 
+/// The one after those that the scene has by then: another redo may be done before.
 void CorrectionModel::redo() {
-  if (can_redo()) add(tr("Redo a correction"), taken_back_.back());
+  if (!can_redo()) return;
+  std::vector<io::Edit> all = edits_;
+  all.insert(all.end(), taken_back_.rbegin(), taken_back_.rend());
+  press_(tr("Redo a correction"), [structure = *structure_, all = std::move(all)](modes::Scene& scene) {
+    name_in_scene(scene, structure);
+    std::vector<io::Edit>& now = *edits_in(scene, structure);
+    if (now.size() < all.size() && begins_with(all, now)) now.push_back(all[now.size()]);
+  });
 }
 
 void CorrectionModel::show_before(bool before) {

@@ -33,8 +33,8 @@ class CorrectionModel : public QObject {
   using Find = std::function<void(const io::Structure* structure, std::function<void(io::DoubtfulPlaces)> done)>;
 
   /// Looks for the scan's own edge beside places of a stroke, and calls `done` on the thread that asked, always: with
-  /// none at a place where there is none, or where it could not be looked for. Called with no place: what is looked for
-  /// is not wanted any more.
+  /// none at a place where there is none, and with an empty list where it could not be looked for. Called with no
+  /// place: what is looked for is not wanted any more.
   using Edges = std::vector<std::optional<EdgeBeside>>;
   using LookBeside =
       std::function<void(std::vector<io::Vec3> places, double within_mm, std::function<void(const Edges&)> done)>;
@@ -49,10 +49,14 @@ class CorrectionModel : public QObject {
   void set_outline(Outline outline) { outline_ = std::move(outline); }
   /// The outline that is felt is another one now.
   void outline_changed() { emit places_changed(); }
+  /// The scan is another frame now: doubtful places are looked for there.
+  void look_again();
 
   /// `edges`: the scan's own at its outline. From then on they are felt there.
   void begin(const io::Structure& structure, const OutlineEdges& edges);
-  /// They are not felt any more; the edits stay.
+  /// The scan's edges at its outline are known now, or are others.
+  void set_edges(const OutlineEdges& edges);
+  /// They are not felt any more; the edits stay. Strokes that are being looked at become edits before.
   void end();
   /// Another scan: nothing is corrected, and no step is done.
   void forget();
@@ -66,8 +70,9 @@ class CorrectionModel : public QObject {
   double snap_n() const { return snap_n_; }  ///< how strongly the scan's edge holds the stylus; 0: it is not felt
   void set_snap_n(double newtons);
 
-  /// The slice that the stylus is held in beside the outline, a step of the scene; none: it is free.
+  /// The slice that the scene holds the stylus in beside the outline; none: it is free.
   const std::optional<HeldPlane>& held_in() const { return held_in_; }
+  /// A step of the scene.
   void hold_in(const std::optional<HeldPlane>& plane);
   /// The slice that it is held in is another one now. Several soon after each other are one step.
   void follow_slice(const HeldPlane& plane);
@@ -90,7 +95,10 @@ class CorrectionModel : public QObject {
 
   /// Of the structure, as the scene has them.
   const std::vector<io::Edit>& edits() const { return edits_; }
-  bool can_undo() const { return !edits_.empty(); }
+  bool can_undo() const { return is_edited() || is_tracing(); }
+  bool is_edited() const { return !edits_.empty(); }
+  /// Whether a stroke is being looked at, and becomes an edit then.
+  bool is_tracing() const { return !traces_.empty(); }
   bool can_redo() const { return !taken_back_.empty(); }
   void undo();
   void redo();
@@ -129,8 +137,10 @@ class CorrectionModel : public QObject {
   void draw(std::vector<io::Vec3> places, Over over, bool felt);
   void look_beside_next();
   void finish_trace(const Trace& trace, const Edges& edges);
+  void leave();
   void snap(const QString& what);
   SceneModel::Change snapping() const;
+  SceneModel::Change holding(const std::optional<HeldPlane>& plane) const;
   void add(const QString& what, const io::Edit& edit);
   void find_places();
 
@@ -149,6 +159,7 @@ class CorrectionModel : public QObject {
   std::vector<io::Vec3> stroke_;
   Over stroke_over_ = Over::slice;
   std::deque<Trace> traces_;          // the first of them is being looked at
+  bool ending_ = false;               // once they are edits
   std::vector<io::Edit> edits_;       // as the scene had them last
   std::vector<io::Edit> taken_back_;  // the last one first to come again
   bool shows_before_ = false;

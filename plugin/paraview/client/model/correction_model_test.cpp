@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/paraview/client/model/structure_presses.h"
 #include "plugin/paraview/client/model/testing/made_text.h"
 
 namespace palpate::plugin {
@@ -422,6 +425,181 @@ TEST_F(Correcting, WhatIsPressedWhileAStepWaitsIsDoneAfterIt) {
   for (const auto& [what, change] : waiting) scene.edit(what, change);
   EXPECT_THAT(kept_edits(), SizeIs(2));
   EXPECT_EQ(snap(), nullptr);
+}
+
+/// As in the panel: each step is done once what it needs was read.
+struct CorrectingSlowly : Correcting {
+  CorrectingSlowly() {
+    model.set_press([this](const QString& what, const SceneModel::Change& change) { presses.press(what, change, {}); });
+  }
+  void all_is_read() {
+    while (!reading.empty()) std::exchange(reading, {}).back()({});
+  }
+
+  std::vector<std::function<void(const QString&)>> reading;
+  StructurePresses presses{scene, [this](const modes::Scene&, auto done) { reading.push_back(std::move(done)); },
+                           [](const QString&, bool) {}};
+};
+
+TEST_F(CorrectingSlowly, EachOfSeveralQuickRedosIsTheNext) {
+  model.begin(liver, {});
+  for (int n = 0; n < 3; ++n) stroke({{10.0 * n, 0, 0}, {10.0 * n, 1, 0}});
+  all_is_read();
+  const std::vector<io::Edit> all = model.edits();
+  ASSERT_THAT(all, SizeIs(3));
+  for (int n = 0; n < 3; ++n) model.undo();
+  all_is_read();
+  ASSERT_THAT(model.edits(), IsEmpty());
+  model.redo();
+  model.redo();
+  all_is_read();
+  EXPECT_EQ(model.edits(), std::vector<io::Edit>(all.begin(), all.begin() + 2));
+  EXPECT_TRUE(model.can_redo()) << "the third is not lost";
+  model.redo();
+  model.redo();
+  all_is_read();
+  EXPECT_EQ(model.edits(), all) << "there is none after the last";
+  model.undo();
+  all_is_read();
+  model.redo();
+  model.end();
+  all_is_read();
+  EXPECT_EQ(kept_edits(), all) << "also where it ends at once";
+}
+
+/// They are known once the outline was drawn, which may be after its correction has begun.
+TEST_F(CorrectingSlowly, TheScansEdgesMayBecomeKnownLater) {
+  model.set_edges({.per_mm = 7});
+  EXPECT_THAT(reading, IsEmpty()) << "nothing is corrected";
+  model.begin(liver, {});
+  model.set_edges({.per_mm = 120, .rise = 200, .middle = 40});
+  all_is_read();
+  ASSERT_NE(snap(), nullptr);
+  EXPECT_EQ(snap()->side, modes::Side::entering);
+  EXPECT_DOUBLE_EQ(snap()->strength_n(120), model.snap_n());
+  EXPECT_DOUBLE_EQ(snap()->strength_n(20), 0);
+  const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
+  model.hold_in(slice);
+  model.set_snap_n(2.2);
+  all_is_read();
+  const std::size_t steps = kept.steps.size();
+  model.set_edges({.per_mm = 30, .rise = -50, .middle = 10});
+  all_is_read();
+  EXPECT_EQ(snap()->side, modes::Side::leaving);
+  EXPECT_DOUBLE_EQ(snap()->strength_n(30), 2.2);
+  EXPECT_EQ(model.held_in(), slice);
+  EXPECT_EQ(kept.steps.size(), steps) << "which is no step";
+  EXPECT_EQ(kept.text("Scene"), modes::to_json(scene.scene())) << "and is kept";
+  model.set_edges({.per_mm = 30, .rise = -50, .middle = 10});
+  EXPECT_THAT(reading, IsEmpty()) << "they are the same";
+}
+
+TEST_F(CorrectingSlowly, ItIsHeldInASliceOnceTheSceneHasIt) {
+  const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
+  model.begin(liver, {});
+  all_is_read();
+  int told = 0;
+  QObject::connect(&model, &CorrectionModel::changed, [&] { ++told; });
+  model.hold_in(slice);
+  EXPECT_FALSE(model.held_in()) << "it is read for";
+  model.set_snap_n(2.2);
+  all_is_read();
+  EXPECT_EQ(model.held_in(), slice);
+  EXPECT_THAT(planes(), SizeIs(2)) << "whatever was asked for meanwhile";
+  scene.set_commit([](const modes::Scene&, Pace) { throw std::runtime_error("it has too many modes"); });
+  told = 0;
+  model.hold_in(std::nullopt);
+  all_is_read();
+  EXPECT_EQ(model.held_in(), slice) << "it was refused";
+  model.follow_slice({.point_mm = {1, 2, 31}, .normal = {0, 0, 1}});
+  EXPECT_EQ(model.held_in(), slice);
+  model.hold_in(slice);
+  EXPECT_GT(told, 1) << "whoever asked for it shows what is so";
+}
+
+/// A stroke that is looked at is the newest, though it is no edit yet.
+TEST_F(Correcting, UndoDropsTheStrokeThatIsStillLookedAt) {
+  look_beside();
+  model.begin(liver, {});
+  stroke({{0, 0, 5}, {0, 1, 5}});
+  model.undo();
+  ASSERT_TRUE(model.can_redo());
+  model.redo();
+  const std::vector<io::Edit> good = model.edits();
+  model.draw_felt({{0, 0, 0}, {1, 0, 0}});
+  model.draw_felt({{5, 0, 0}});
+  EXPECT_TRUE(model.is_tracing());
+  model.undo();
+  EXPECT_TRUE(model.is_tracing()) << "the first";
+  EXPECT_EQ(model.edits(), good);
+  model.undo();
+  EXPECT_FALSE(model.is_tracing());
+  EXPECT_EQ(model.edits(), good) << "the good one stays";
+  beside.front().done({std::nullopt, std::nullopt});
+  EXPECT_EQ(model.edits(), good) << "and the bad one does not come";
+  model.undo();
+  EXPECT_THAT(model.edits(), IsEmpty());
+}
+
+TEST_F(Correcting, AStrokeThatIsLookedAtIsWaitedForAtTheEnd) {
+  look_beside();
+  model.begin(liver, {});
+  model.draw_felt({{0, 0, 0}, {1, 0, 0}});
+  model.draw_felt({{5, 0, 0}});
+  EXPECT_TRUE(model.can_undo());
+  EXPECT_FALSE(model.is_edited());
+  model.end();
+  EXPECT_NE(model.structure(), nullptr);
+  beside[0].done({std::nullopt, std::nullopt});
+  EXPECT_NE(model.structure(), nullptr);
+  beside[1].done({std::nullopt});
+  EXPECT_EQ(model.structure(), nullptr);
+  EXPECT_EQ(snap(), nullptr);
+  EXPECT_THAT(kept_edits(), SizeIs(2));
+
+  model.begin(liver, {});
+  model.draw_felt({{9, 0, 0}});
+  model.end();
+  io::Structure spleen = liver;
+  spleen.number = 4;
+  spleen.name = "spleen";
+  model.begin(spleen, {});
+  EXPECT_EQ(snap(), nullptr) << "another is begun: nothing of the first stays";
+  EXPECT_EQ(model.structure()->name, "spleen");
+}
+
+TEST_F(Correcting, WhatCouldNotBeLookedForIsNotCalledAbsent) {
+  look_beside();
+  model.begin(liver, {});
+  int nothing = 0;
+  QObject::connect(&model, &CorrectionModel::nothing_traced, [&] { ++nothing; });
+  model.press({0, 0, 0}, CorrectionModel::Over::outline);
+  model.move({1, 0, 0});
+  model.let_go();
+  beside.back().done({});
+  EXPECT_EQ(nothing, 0);
+  EXPECT_THAT(kinds(), IsEmpty());
+  model.draw_felt({{0, 0, 0}, {1, 0, 0}});
+  beside.back().done({});
+  ASSERT_THAT(kinds(), ElementsAre("trace")) << "where it was felt";
+  EXPECT_THAT(std::get<io::TraceEdit>(model.edits().front()).known_to_mm, IsEmpty());
+}
+
+TEST_F(Correcting, DoubtfulPlacesAreOfTheFrameThatIsShown) {
+  model.look_again();
+  EXPECT_THAT(asked, IsEmpty());
+  model.begin(liver, {});
+  asked.back()(three());
+  model.leave(2);
+  model.go_to(1);
+  stroke({{0, 0, 0}, {0, 1, 0}});
+  model.look_again();
+  EXPECT_FALSE(model.places());
+  EXPECT_FALSE(model.at());
+  ASSERT_THAT(asked, SizeIs(2));
+  asked.back()(three());
+  EXPECT_EQ(model.fate(2), Fate::doubtful);
+  EXPECT_THAT(kept_edits(), SizeIs(1)) << "the edits stay";
 }
 
 }  // namespace

@@ -47,11 +47,13 @@ SessionController::~SessionController() {
 void SessionController::set_no_scan(const QString& why) {
   forget_marks();
   why_no_scan_ = why;
+  const auto recorded_now = live_.disconnect();
   live_.set_scan(nullptr);
   simulated_.reset();
   clutched_ = false;
   look();
   emit connection_changed();
+  tell_recorded(recorded_now);
 }
 
 void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame) {
@@ -59,15 +61,18 @@ void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const
   expects_scan_ = false;
   forget_marks();  // they would be of two scans
   QString problem;
+  std::optional<RecorderStatus> recorded_now;
   try {
     if (volume) refuse_misfit(model_.scene(), *volume);
     live_.set_scan(std::move(volume), model_.scene(), frame);
   } catch (const std::exception& error) {
+    recorded_now = live_.disconnect();
     live_.set_scan(nullptr);
     problem = QString::fromUtf8(error.what());
   }
   if (live_.plan()) before_ = now_ = live_.plan()->workspace;
   emit connection_changed();
+  tell_recorded(recorded_now);
   if (!problem.isEmpty()) emit told(problem, true);
 }
 

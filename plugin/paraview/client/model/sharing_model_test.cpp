@@ -5,15 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include <QCoreApplication>
-
-#include <chrono>
 #include <glm/geometric.hpp>
 
 #include "modes/scene/scene_json.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/testing/shared_session.h"
 #include "plugin/openigtlink/testing/stepped_server.h"
+#include "plugin/paraview/client/model/testing/application.h"
 #include "plugin/paraview/client/model/testing/made_text.h"
 
 namespace palpate::plugin {
@@ -22,14 +20,8 @@ namespace {
 using igtl::testing::ball_of_labels;
 using igtl::testing::TestClient;
 
-/// Qt's timers need one; it lives as long as the program.
-QCoreApplication& application() {
-  static int count = 1;
-  static char name[] = "test";
-  static char* arguments[] = {name, nullptr};
-  static QCoreApplication made(count, arguments);
-  return made;
-}
+using testing::application;
+using testing::comes;
 
 struct SharingTest : ::testing::Test {
   SharingTest() {
@@ -45,17 +37,6 @@ struct SharingTest : ::testing::Test {
   void open_scan() {
     touching.set_scan(igtl::testing::ball_of_tissue(), {});
     marks.set_scan("a scan");
-  }
-  /// Whether it comes to hold within a minute, while the panel's events are handled.
-  template <typename Holds>
-  bool comes(const Holds& holds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (std::chrono::steady_clock::now() < end) {
-      QCoreApplication::processEvents();
-      if (holds()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return false;
   }
   /// The next message of that type and device, while events are handled.
   std::optional<igtl::Message> next(TestClient& client, std::string_view type, std::string_view device) {

@@ -71,6 +71,7 @@ CorrectBox::CorrectBox(CorrectionModel& model, QWidget* parent) : QWidget(parent
   column->addWidget(build_ways_out());
   out_ = new OutlineOut(this);
   column->addWidget(out_);
+  connect(out_, &OutlineOut::told, this, [this] { follow(); });
   connect(&model, &CorrectionModel::changed, this, [this] { follow(); });
   connect(&model, &CorrectionModel::places_changed, this, [this] { list_places(); });
   list_places();
@@ -155,11 +156,13 @@ QWidget* CorrectBox::build_ways_out() {
     button->setToolTip(tip);
     connect(button, &QPushButton::clicked, this, wanted);
     row->addWidget(button);
+    return button;
   };
-  add_button("palpateCorrectSave", tr("Save…"), tr("As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage"),
-             &CorrectBox::save_wanted);
-  add_button("palpateCorrectSend", tr("Send…"),
-             tr("Shows first what would be sent to an archive, and for which patient"), &CorrectBox::send_wanted);
+  save_ = add_button("palpateCorrectSave", tr("Save…"), tr("As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage"),
+                     &CorrectBox::save_wanted);
+  send_ = add_button("palpateCorrectSend", tr("Send…"),
+                     tr("Shows first what would be sent to an archive, and for which patient"),
+                     &CorrectBox::send_wanted);
   return box;
 }
 
@@ -168,11 +171,12 @@ void CorrectBox::set_change(const QString& words) {
 }
 
 void CorrectBox::set_looking(double done) {
-  if (done >= 0) {
-    show_message(*places_note_, tr("Looking for doubtful places, %1 %").arg(std::lround(100 * done)), false);
-  } else {
-    list_places();
-  }
+  looking_ = done;
+  list_places();
+}
+
+void CorrectBox::set_whole(bool whole) {
+  if (std::exchange(whole_, whole) != whole) follow();
 }
 
 void CorrectBox::follow() {
@@ -188,7 +192,11 @@ void CorrectBox::follow() {
                                          : held_in_words(model_.held_in()->normal));
   undo_->setEnabled(model_.can_undo());
   redo_->setEnabled(model_.can_redo());
-  before_->setEnabled(model_.can_undo());
+  before_->setEnabled(model_.is_edited());
+  before_->setDown(model_.shows_before());
+  const bool goes_out = model_.is_edited() && !model_.is_tracing() && whole_ && !out_->is_busy();
+  save_->setEnabled(goes_out);
+  send_->setEnabled(goes_out);
   take_->setEnabled(model_.at() && model_.places()->places[*model_.at()].kind == io::DoubtKind::edge);
   leave_->setEnabled(model_.at().has_value());
 }
@@ -220,14 +228,16 @@ void CorrectBox::list_places() {
     show_place(*places_->topLevelItem(static_cast<int>(n)), n);
   }
   places_->setVisible(count > 0);
-  if (model_.places()) {
-    show_message(*places_note_,
-                 count == 0   ? tr("No doubtful place was found.")
-                 : count == 1 ? tr("1 doubtful place")
-                              : tr("%1 doubtful places").arg(count),
-                 false);
-  }
+  show_message(*places_note_, note_of_places(), false);
   follow();
+}
+
+QString CorrectBox::note_of_places() const {
+  if (looking_ >= 0) return tr("Looking for doubtful places, %1 %").arg(std::lround(100 * looking_));
+  if (!model_.places()) return {};
+  const std::size_t count = model_.places()->places.size();
+  if (count == 0) return tr("No doubtful place was found.");
+  return count == 1 ? tr("1 doubtful place") : tr("%1 doubtful places").arg(count);
 }
 
 }  // namespace palpate::plugin

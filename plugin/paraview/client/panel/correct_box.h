@@ -10,6 +10,7 @@ class QButtonGroup;
 class QCheckBox;
 class QDoubleSpinBox;
 class QLabel;
+class QPushButton;
 class QToolButton;
 class QTreeWidget;
 class QTreeWidgetItem;
@@ -28,6 +29,8 @@ class CorrectBox : public QWidget {
   void set_change(const QString& words);
   /// How far the looking for doubtful places is, 0 to 1; less than 0: it is not done.
   void set_looking(double done);
+  /// Whether what is felt has all that was drawn: only then it goes out.
+  void set_whole(bool whole);
   OutlineOut& out() { return *out_; }
 
  signals:
@@ -41,6 +44,7 @@ class CorrectBox : public QWidget {
   QWidget* build_ways_out();
   void follow();
   void list_places();
+  QString note_of_places() const;
   void show_place(QTreeWidgetItem& item, std::size_t place) const;
 
   CorrectionModel& model_;
@@ -56,7 +60,11 @@ class CorrectBox : public QWidget {
   QToolButton* undo_ = nullptr;
   QToolButton* redo_ = nullptr;
   QToolButton* before_ = nullptr;
+  QPushButton* save_ = nullptr;
+  QPushButton* send_ = nullptr;
   OutlineOut* out_ = nullptr;
+  double looking_ = -1;  // for doubtful places: how far
+  bool whole_ = false;
 };
 
 }  // namespace palpate::plugin

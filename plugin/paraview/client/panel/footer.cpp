@@ -141,18 +141,26 @@ QLayout* Footer::make_buttons() {
   connect(feel_, &QPushButton::clicked, this,
           [this] { state_line_of(touching_.last()).fault_latched ? touching_.clear_fault() : touching_.feel(); });
   row->addWidget(feel_, 1);
-  mark_ = new QPushButton(tr("Mark  (M)"), this);
+  mark_ = new QPushButton(this);
   mark_->setObjectName(QStringLiteral("palpateMark"));
   mark_->setMinimumHeight(38);
-  mark_->setToolTip(
-      tr("Marks the point that the stylus touches. Keep it pressed while the stylus moves to mark a path. The stylus' "
-         "second button and the key M in a view do the same."));
+  set_corrects(false);
   mark_->setFocusPolicy(Qt::NoFocus);  // the keys are the views'
   connect(mark_, &QPushButton::pressed, this, [this] { touching_.press_mark(); });
   connect(mark_, &QPushButton::released, this, [this] { touching_.let_go_mark(); });
   row->addWidget(mark_, 1);
   row->addWidget(release_, 1);
   return row;
+}
+
+void Footer::set_corrects(bool corrects) {
+  mark_->setText(corrects ? tr("Correct  (M)") : tr("Mark  (M)"));
+  mark_->setToolTip(
+      corrects ? tr("Corrects the outline with the chosen tool at the point that the stylus touches. Keep it pressed "
+                    "while the stylus moves along the right edge. The stylus' second button and the key M in a view do "
+                    "the same.")
+               : tr("Marks the point that the stylus touches. Keep it pressed while the stylus moves to mark a path. "
+                    "The stylus' second button and the key M in a view do the same."));
 }
 
 /// For developers, and for a clinician who is asked about it.

@@ -23,6 +23,8 @@ class Footer : public QWidget {
   explicit Footer(SessionController& touching, const SceneModel& model, QWidget* parent = nullptr);
 
   /// What is felt, in words: scan, frame, scene; and whether there is a scan.
+  /// While an outline is corrected, the mark button does that.
+  void set_corrects(bool corrects);
   void set_felt(const QString& words, bool scan_open);
   /// What developers ask for is shown.
   bool is_technical() const;

@@ -79,6 +79,7 @@ void draw_structure(const WantedStructure& wanted, MadeStructure& made) {
 MadeStructure make_structure(const WantedStructure& wanted) {
   MadeStructure made{.file = wanted.structure.file,
                      .number = wanted.structure.number,
+                     .scan = wanted.scan,
                      .edits = wanted.edits,
                      .error = {},
                      .measures = wanted.measures,

@@ -28,6 +28,7 @@ struct WantedStructure {
 struct MadeStructure {
   std::filesystem::path file;
   int number = 0;
+  std::weak_ptr<const io::Volume> scan;  ///< that it was made on
   std::vector<io::Edit> edits;
   std::string error;                                      ///< empty where all was made
   std::shared_ptr<const io::StructureMeasures> measures;  ///< of the outline in its file

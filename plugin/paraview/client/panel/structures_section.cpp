@@ -61,7 +61,6 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
         if (!error.isEmpty()) tell(error, true);
       }),
       making_([this](const auto& made, const QString&) {
-        busy_making_ = false;
         if (made) take_made(*made);
         make_next();
       }),
@@ -75,7 +74,10 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
       }),
       presses_(
           model, [this](const modes::Scene& edited, auto done) { read_for(edited, std::move(done)); },
-          [this](const QString& text, bool problem) { tell(text, problem); }) {
+          [this](const QString& text, bool problem) {
+            tell(text, problem);
+            follow_strokes();
+          }) {
   setObjectName(QStringLiteral("palpateStructures"));
   setAcceptDrops(true);
   build();
@@ -85,6 +87,7 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
   correction.set_press([this](const QString& what, const SceneModel::Change& change) {
     tell({}, false);
     presses_.press(what, change, {});
+    follow_strokes();
   });
   correction.set_find([this](const io::Structure* structure, auto done) { find_doubtful(structure, std::move(done)); });
   correction.set_look_beside([this](std::vector<io::Vec3> places, double within_mm, auto done) {
@@ -127,6 +130,15 @@ void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const s
   std::error_code absent;
   if (!folder.empty() && std::filesystem::exists(folder, absent)) look_into({folder});
   follow_scene();
+}
+
+void StructuresSection::set_frame(const std::shared_ptr<const io::Volume>& frame) {
+  if (scan_ == frame) return;
+  scan_ = frame;
+  making_.drop();
+  follow_scene();
+  correction_.look_again();
+  follow_correction();
 }
 
 void StructuresSection::add(const std::vector<std::filesystem::path>& files, const QString& problem) {
@@ -215,6 +227,7 @@ void StructuresSection::follow_scene() {
   draw();
   make_next();
   measure_margins();
+  follow_strokes();
   look_into(files);
 }
 
@@ -274,18 +287,18 @@ const LoadedStructure* StructuresSection::felt(const Entry& entry) const {
 
 /// Measures and shapes, one after the other: first of what is shown.
 void StructuresSection::make_next() {
-  if (busy_making_ || !scan_) return;
-  const auto wants = [](bool drawn) {
-    return [drawn](const Entry& entry) {
+  if (making_.is_busy() || !scan_) return;
+  const auto wants = [this](bool drawn) {
+    return [this, drawn](const Entry& entry) {
       if (!entry.why_not.empty()) return false;
       if (!drawn) return !entry.made.measures;
-      return entry.shown && (!entry.made.drawn.distance || entry.made.edits != entry.edits);
+      return entry.shown && (!entry.made.drawn.distance || entry.made.edits != entry.edits ||
+                             entry.made.scan.lock() != scan_);
     };
   };
   auto next = std::ranges::find_if(entries_, wants(true));
   if (next == entries_.end()) next = std::ranges::find_if(entries_, wants(false));
   if (next == entries_.end()) return;
-  busy_making_ = true;
   WantedStructure wanted{
       .structure = next->structure,
       .edits = next->edits,
@@ -313,6 +326,7 @@ void StructuresSection::take_made(const MadeStructure& made) {
     entry->made.measures = made.measures;
   }
   look_whether_off(*entry);
+  if (is_corrected(*entry)) correction_.set_edges(entry->made.edges);
   list();
   follow_correction();
 }
@@ -349,12 +363,15 @@ void StructuresSection::draw() {
     DrawnStructure& drawn = shown.emplace_back(entry.made.drawn);
     drawn.color = QColor(structure_text(entry.color));
     drawn.margins_mm = margins_of(entry.structure);
-    if (correction_.shows_before() && is_corrected(entry) && drawn.before) {
-      drawn.distance = std::exchange(drawn.before, nullptr);
-      drawn.surface = drawn.surface_before;
+    const LoadedStructure* const now = felt(entry);
+    const bool waits = now && !drawn.before && !now->before_edits.empty();  // the first edit is felt, and not made yet
+    const auto before = waits ? now->before_edits.front() : drawn.before;
+    if (correction_.shows_before() && is_corrected(entry) && before) {
+      drawn.distance = before;
+      drawn.before = nullptr;
+      if (drawn.surface_before) drawn.surface = drawn.surface_before;
       continue;
     }
-    const LoadedStructure* const now = felt(entry);
     if (!now || now->edits != entry.edits || now->edits == entry.made.edits) continue;
     if (entry.made.edits.empty()) drawn.surface_before = drawn.surface;
     // The lines on the slices are those that are felt, also while the surface is on its way.
@@ -381,8 +398,12 @@ void StructuresSection::read_for(const modes::Scene& edited, std::function<void(
   const glm::dvec3 extent =
       (touching_.live().is_connected() ? touching_.live().specification() : device::SimulatedStylus().specification())
           .workspace_half_extent;
-  using_.ask(
-      [edited, scan = scan_, extent] { return load_structures(edited, *plan_for(edited, *scan, extent), scan, {}); });
+  // What is felt is not read again: an edit is felt at once.
+  const PreparedScene& now = touching_.live().felt();
+  const bool same = now.volume && io::raw_of(now.volume) == io::raw_of(scan_);
+  using_.ask([edited, scan = scan_, extent, before = same ? now.structures : std::vector<LoadedStructure>()] {
+    return load_structures(edited, *plan_for(edited, *scan, extent), scan, before);
+  });
 }
 
 QString StructuresSection::in_words() const {

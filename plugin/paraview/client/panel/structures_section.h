@@ -45,6 +45,8 @@ class StructuresSection : public QWidget {
 
   /// Looks for structures on a scan that has just been shown, in the folder that it is from; null: there is no scan.
   void set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder);
+  /// Another frame of the scan. What is listed stays; what was made of the frame before is made anew.
+  void set_frame(const std::shared_ptr<const io::Volume>& frame);
   /// Looks into these files, too; `problem` is said where it is not empty.
   void add(const std::vector<std::filesystem::path>& files, const QString& problem);
   /// How many can be felt on the scan, and how many cannot; empty where none was found.
@@ -52,6 +54,8 @@ class StructuresSection : public QWidget {
   CorrectBox& correct_box() { return *correct_box_; }
   /// The corrected structure's distance as it is felt; null: nothing is corrected, or it is not read yet.
   std::shared_ptr<const io::DistanceField> corrected() const;
+  /// Whether it is drawn so that it can be seen.
+  bool shows_corrected() const;
   /// What its edits have changed, and how far it is from what the stylus is kept out of; empty: nothing was edited, or
   /// it is not known yet.
   QString change_in_words() const;
@@ -99,6 +103,7 @@ class StructuresSection : public QWidget {
   void read_for(const modes::Scene& edited, std::function<void(const QString& error)> done);
   void correct(bool on);
   void follow_correction();
+  void follow_strokes();
   void measure_margins();
   QString margins_in_words() const;
   std::function<std::shared_ptr<const io::DistanceField>()> outline_within(const io::Structure& structure,
@@ -133,7 +138,6 @@ class StructuresSection : public QWidget {
   LatestJob<io::StructureCatalogue> finding_;
   LatestJob<MadeStructure> making_;
   LatestJob<std::vector<LoadedStructure>> using_;
-  bool busy_making_ = false;
   Background<io::DoubtfulPlaces> doubting_;
   Background<CorrectionModel::Edges> looking_beside_;
   std::vector<KeepOut> keep_outs_;                         // that margins_ is of, or will be

@@ -1,4 +1,5 @@
 #include <QSignalBlocker>
+#include <QSlider>
 #include <QToolButton>
 
 #include <algorithm>
@@ -29,6 +30,11 @@ std::shared_ptr<const io::DistanceField> StructuresSection::corrected() const {
   return now && now->edits == entry->edits ? now->distance : nullptr;
 }
 
+bool StructuresSection::shows_corrected() const {
+  const Entry* const entry = corrected_entry();
+  return entry && entry->shown && opacity_->value() > 0;
+}
+
 void StructuresSection::correct(bool on) {
   Entry* const entry = chosen();
   if (!on || !entry) return correction_.end();
@@ -43,9 +49,16 @@ void StructuresSection::follow_correction() {
   const QSignalBlocker quiet(correct_);
   correct_->setChecked(correction_.structure() != nullptr);
   measure_margins();
-  correct_box_->set_change(change_in_words());
+  correct_box_->set_change(correction_.shows_before() ? tr("The outline is shown as it is in the file.")
+                                                      : change_in_words());
   correction_.outline_changed();
+  follow_strokes();
   draw();
+}
+
+/// What goes out is what was drawn: a stroke that is on its way is waited for.
+void StructuresSection::follow_strokes() {
+  correct_box_->set_whole(corrected() != nullptr && !presses_.is_busy());
 }
 
 QString StructuresSection::change_in_words() const {
@@ -117,15 +130,14 @@ void StructuresSection::look_beside(std::vector<io::Vec3> places, double within_
                                     std::function<void(const CorrectionModel::Edges&)> done) {
   looking_beside_.cancel();
   if (places.empty() || !scan_ || !correction_.structure()) return;
-  const std::size_t count = places.size();
   looking_beside_.ask(
       [places = std::move(places), within_mm, scan = scan_,
        outline = outline_within(*correction_.structure(), within_mm)](const auto& job) {
         return edges_beside(places, *outline(), scan, within_mm, [&](double) { return job.keep_going(); });
       },
-      [this, count, done = std::move(done)](const auto& found, const QString& error) {
+      [this, done = std::move(done)](const auto& found, const QString& error) {
         if (!error.isEmpty()) tell(error, true);
-        done(found ? *found : CorrectionModel::Edges(count));
+        done(found ? *found : CorrectionModel::Edges());
       });
 }
 

@@ -31,11 +31,11 @@ void WorkBar::begin(const QString& doing, std::function<Said(const Job&)> work) 
   progress_->setRange(0, 0);
   progress_->setFormat(doing);
   show();
-  emit told({}, false);
   work_.ask(std::move(work), [this](const auto& said, const QString& error) {
     hide();
     said ? emit told(said->message, said->problem) : emit told(error, true);
   });
+  emit told({}, false);  // it is busy now
 }
 
 void WorkBar::tell_progress(const Job& job, int done, int all, const QString& doing) {

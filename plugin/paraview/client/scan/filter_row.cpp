@@ -81,6 +81,7 @@ FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanModel& 
   connect(&model, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::stepped) refresh();
   });
+  connect(&touching, &SessionController::connection_changed, this, [this] { follow_scan(); });
   model.set_make_ready([this](const modes::Scene& scene, const auto& ready) { return make_ready(scene, ready); });
   scans.set_filter([this] { return model_.scene().filter; });
   refresh();
@@ -89,6 +90,24 @@ FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanModel& 
 void FilterRow::refresh() {
   follow();
   show_in_views();
+}
+
+void FilterRow::give_up() {
+  if (!brought_back_) cancel();
+}
+
+void FilterRow::cancel() {
+  loader_.cancel();
+  progress_->hide();
+  follow();
+}
+
+/// What was chosen for another scan, or for another frame, is not chosen for this one. What undo brings back is the
+/// scene's, whatever the scan.
+void FilterRow::follow_scan() {
+  const auto scan = touching_.live().scan();
+  if (!loader_.is_busy() || !scan || filtered_.lock() == scan) return;
+  brought_back_ ? compute(io::Filter(through_), ready_) : cancel();
 }
 
 /// The row says what the scene has.
@@ -181,6 +200,9 @@ bool FilterRow::make_ready(const modes::Scene& scene, const std::function<void()
 
 void FilterRow::compute(const io::Filter& filter, const std::function<void()>& done) {
   const auto scan = touching_.live().scan();
+  filtered_ = scan;
+  through_ = filter;
+  ready_ = done;
   const auto take = [this, done](const std::shared_ptr<const io::Volume>& volume, const std::string& error) {
     progress_->hide();
     if (volume) {

@@ -5,6 +5,7 @@
 #include <QWidget>
 
 #include <functional>
+#include <memory>
 
 #include "io/filter.h"
 #include "modes/scene/scene.h"
@@ -34,6 +35,8 @@ class FilterRow : public QWidget {
 
   /// Another scan, or none.
   void refresh();
+  /// The scan goes: what was chosen for it is not wanted any more. What undo brings back is.
+  void give_up();
   /// "Gaussian filter of 1 mm", and what the views show where that is not the same; empty without a filter.
   QString in_words() const;
 
@@ -41,6 +44,8 @@ class FilterRow : public QWidget {
   void ask();
   bool make_ready(const modes::Scene& scene, const std::function<void()>& ready);
   void compute(const io::Filter& filter, const std::function<void()>& done);
+  void cancel();
+  void follow_scan();
   void follow();
   void show(const io::Filter& filter);
   void offer_amount();
@@ -56,6 +61,9 @@ class FilterRow : public QWidget {
   QCheckBox* shown_;
   QProgressBar* progress_;
   bool brought_back_ = false;  // what is computed is for a scene that the pipeline has already
+  std::weak_ptr<const io::Volume> filtered_;  // the scan that is being filtered; through what, and what follows
+  io::Filter through_;
+  std::function<void()> ready_;
   ScanLoader loader_;          // last: its thread is to end before all that its callbacks use
 };
 

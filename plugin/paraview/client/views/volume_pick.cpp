@@ -26,6 +26,7 @@ bool VolumePick::handle(unsigned long event) {
   const glm::dvec3 near = place_at(0), far = place_at(1);
   switch (event) {
     case vtkCommand::LeftButtonPressEvent:
+      if (interactor_->GetControlKey() || interactor_->GetShiftKey()) return false;  // ParaView's
       return picking_ = ray_(Pick::pressed, near, far);
     case vtkCommand::MouseMoveEvent:
       return picking_ && ray_(Pick::moved, near, far);

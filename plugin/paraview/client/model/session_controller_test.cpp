@@ -1,0 +1,79 @@
+#include "plugin/paraview/client/model/session_controller.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/openigtlink/testing/shared_session.h"
+#include "plugin/paraview/client/model/testing/application.h"
+#include "plugin/paraview/client/model/testing/made_text.h"
+#include "plugin/testing/test_clocks.h"
+#include "plugin/testing/test_files.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::comes;
+
+struct Recording : ::testing::Test {
+  Recording() {
+    testing::application();
+    touching.set_clock([](double period_s) { return std::make_unique<testing::UnhurriedClock>(period_s); });
+    model.open(modes::load_scene("ct-skin-and-bone"));
+    QObject::connect(&touching, &SessionController::told, [this](const QString& text, bool problem) {
+      if (!text.isEmpty()) told.emplace_back(text.toStdString(), problem);
+    });
+    QObject::connect(&touching, &SessionController::recorded,
+                     [this](const QString& name) { written.push_back(name.toStdString()); });
+  }
+  /// Until some ticks are recorded.
+  bool records() {
+    touching.set_scan(igtl::testing::ball_of_tissue(), {});
+    touching.connect_stylus({.device = "simulated"});
+    touching.record(file);
+    told.clear();
+    return comes([&] { return touching.last().fresh && touching.last().tick.index > 100; });
+  }
+
+  MadeText kept;
+  SceneModel model{kept};
+  SessionController touching{model};
+  std::string file = testing::fresh_path("controller.h5").string();
+  std::vector<std::pair<std::string, bool>> told;
+  std::vector<std::string> written;
+};
+
+/// Whatever ends it: it is told how much was recorded, and the file can be looked at.
+TEST_F(Recording, ItIsToldHowItEndedWhateverEndsIt) {
+  const std::pair<const char*, std::function<void()>> ends[] = {
+      {"the user", [this] { touching.stop_recording(); }},
+      {"no stylus", [this] { touching.disconnect_stylus(); }},
+      {"no scan", [this] { touching.set_no_scan({}); }},
+      {"another scan that the scene cannot be felt on",
+       [this] {
+         const modes::Scene flow = modes::load_scene("flow");
+         touching.expect_scan();
+         model.open(flow);
+         touching.set_scan(igtl::testing::ball_of_tissue(), {});
+       }},
+  };
+  for (const auto& [what, end] : ends) {
+    SCOPED_TRACE(what);
+    written.clear();
+    ASSERT_TRUE(records());
+    end();
+    ASSERT_FALSE(told.empty());
+    EXPECT_THAT(told.front().first, ::testing::HasSubstr("ticks"));
+    EXPECT_FALSE(told.front().second);
+    EXPECT_THAT(written, ::testing::ElementsAre(file));
+    EXPECT_GT(std::filesystem::file_size(file), 0U);
+    touching.disconnect_stylus();
+  }
+}
+
+}  // namespace
+}  // namespace palpate::plugin
