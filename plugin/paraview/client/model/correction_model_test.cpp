@@ -263,6 +263,7 @@ TEST_F(Correcting, TheStylusIsFreeWhileAKeyIsHeld) {
   EXPECT_EQ(kept.steps.size(), steps) << "which is no step";
   model.set_freed(true);
   stroke({{0, 0, 0}, {0, 1, 0}});
+  model.set_snap_n(2.2);
   EXPECT_TRUE(model.is_freed());
   EXPECT_THAT(planes(), IsEmpty());
   model.set_freed(false);
@@ -549,9 +550,10 @@ TEST_F(Correcting, AStrokeThatIsLookedAtIsWaitedForAtTheEnd) {
   EXPECT_TRUE(model.can_undo());
   EXPECT_FALSE(model.is_edited());
   model.end();
-  EXPECT_NE(model.structure(), nullptr);
+  ASSERT_NE(model.structure(), nullptr);
   beside[0].done({std::nullopt, std::nullopt});
-  EXPECT_NE(model.structure(), nullptr);
+  ASSERT_NE(model.structure(), nullptr);
+  ASSERT_THAT(beside, SizeIs(2));
   beside[1].done({std::nullopt});
   EXPECT_EQ(model.structure(), nullptr);
   EXPECT_EQ(snap(), nullptr);
