@@ -127,6 +127,21 @@ def spoilt():
     return folder
 
 
+def spoilt_in_frames():
+    """The same ball at two times, the second smaller, in one series."""
+    folder = phantom("frames", "sphere", "--radius", "25")
+    set_headers(folder, TemporalPositionIdentifier="1")
+    later = set_headers(phantom("later", "sphere", "--radius", "23"), TemporalPositionIdentifier="2")
+    subprocess.run(["dcmodify", "-nb", "-gin", *(os.path.join(later, file) for file in os.listdir(later))], check=True)
+    first = os.listdir(folder)[0]
+    dump = subprocess.run(["dcmdump", "+P", "0020,000e", os.path.join(folder, first)], check=True, capture_output=True, text=True).stdout
+    set_headers(later, SeriesInstanceUID=dump.split("[")[1].split("]")[0])
+    for file in os.listdir(later):
+        shutil.move(os.path.join(later, file), os.path.join(folder, "later_" + file))
+    write_segmentation(os.path.join(folder, "liver.dcm"), folder, is_in=is_in_cut_ball)
+    return folder
+
+
 def spoilt_beside_a_vessel():
     """The same, and a small ball in front of the cap."""
     folder = spoilt()
@@ -235,6 +250,7 @@ SCENARIOS = [
     "a_felt_trace_stays_in_its_slice",
     "an_outline_is_traced_over_its_surface",
     "margins_are_told",
+    "an_outline_is_corrected_on_a_frame",
     "a_correction_is_saved",
     "marks_are_where_the_stylus_was",
     "marks_are_measured_and_changed",

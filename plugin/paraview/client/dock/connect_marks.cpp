@@ -61,6 +61,7 @@ void PanelParts::show_marks(const ScanHandle& handle) {
 }
 
 void PanelParts::leave_marks() {
+  marks_list->sender().leave_scan();
   marks_list->tell({}, false);  // it was about the scan before
   marks.set_scan({});
 }

@@ -4,6 +4,8 @@
 #include <vtkSMProxy.h>
 
 #include "plugin/paraview/client/dock/parts.h"
+#include "plugin/paraview/client/panel/correct_box.h"
+#include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/structures_section.h"
 #include "plugin/paraview/client/widgets/fold.h"
 
@@ -35,6 +37,7 @@ void PanelParts::show_structures(const ScanHandle& handle) {
 
 void PanelParts::leave_structures() {
   served.cancel();
+  structures->correct_box().out().leave_scan();
   structures->set_scan(nullptr, {});
 }
 

@@ -12,9 +12,9 @@
 namespace palpate::plugin {
 namespace {
 
-using ::testing::ElementsAre;
 using testing::application;
 using testing::comes;
+using ::testing::ElementsAre;
 
 /// Works until it is let go.
 struct LatestJobAsked : ::testing::Test {

@@ -789,6 +789,14 @@
         <translation>Markiert den Punkt, den der Stift berührt. Gedrückt gehalten, während er sich bewegt, einen Pfad. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
     </message>
     <message>
+        <source>Correct  (M)</source>
+        <translation>Korrigieren  (M)</translation>
+    </message>
+    <message>
+        <source>Corrects the outline with the chosen tool at the point that the stylus touches. Keep it pressed while the stylus moves along the right edge. The stylus&apos; second button and the key M in a view do the same.</source>
+        <translation>Korrigiert den Umriss mit dem gewählten Werkzeug an dem Punkt, den der Stift berührt. Gedrückt halten, während er sich an der richtigen Kante entlang bewegt. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
+    </message>
+    <message>
         <source>Stop recording</source>
         <translation>Aufzeichnung beenden</translation>
     </message>
@@ -1922,6 +1930,10 @@ ID %2, Studie vom %3</translation>
     <message>
         <source>No structures were found there (DICOM SEG or RTSTRUCT).</source>
         <translation>Dort wurden keine Strukturen gefunden (DICOM SEG oder RTSTRUCT).</translation>
+    </message>
+    <message>
+        <source>The outline is shown as it is in the file.</source>
+        <translation>Der Umriss ist gezeigt, wie er in der Datei ist.</translation>
     </message>
     <message>
         <source>outside the scan</source>

@@ -70,7 +70,6 @@ CorrectBox::CorrectBox(CorrectionModel& model, QWidget* parent) : QWidget(parent
   column->addWidget(change_);
   column->addWidget(build_ways_out());
   out_ = new OutlineOut(this);
-  column->addWidget(out_);
   connect(out_, &OutlineOut::told, this, [this] { follow(); });
   connect(&model, &CorrectionModel::changed, this, [this] { follow(); });
   connect(&model, &CorrectionModel::places_changed, this, [this] { list_places(); });
@@ -160,9 +159,9 @@ QWidget* CorrectBox::build_ways_out() {
   };
   save_ = add_button("palpateCorrectSave", tr("Save…"), tr("As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage"),
                      &CorrectBox::save_wanted);
-  send_ = add_button("palpateCorrectSend", tr("Send…"),
-                     tr("Shows first what would be sent to an archive, and for which patient"),
-                     &CorrectBox::send_wanted);
+  send_ =
+      add_button("palpateCorrectSend", tr("Send…"),
+                 tr("Shows first what would be sent to an archive, and for which patient"), &CorrectBox::send_wanted);
   return box;
 }
 

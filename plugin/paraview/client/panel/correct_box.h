@@ -31,6 +31,7 @@ class CorrectBox : public QWidget {
   void set_looking(double done);
   /// Whether what is felt has all that was drawn: only then it goes out.
   void set_whole(bool whole);
+  /// Its bar stands beside this box, which is hidden where nothing is corrected.
   OutlineOut& out() { return *out_; }
 
  signals:

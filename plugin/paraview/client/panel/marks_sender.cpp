@@ -3,6 +3,7 @@
 #include "io/fresh_folder.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/paraview/client/words/patient_words.h"
 #include "plugin/report/mark_results.h"
 
 namespace palpate::plugin {
@@ -11,6 +12,7 @@ MarksSender::MarksSender(QWidget* parent) : WorkBar(QStringLiteral("palpateSendi
 
 void MarksSender::send(const io::Archive& archive, const io::Series& series,
                        const std::shared_ptr<const io::Volume>& volume, const Marks& marks) {
+  set_patient(patient_in_words(series.identity.patient_name));
   begin(tr("Writing the report"), [this, archive, series, volume, marks](const Job& job) {
     const io::FreshFolder folder = io::temporary_folder();
     const auto files = write_results(series, volume, marks, folder.path());

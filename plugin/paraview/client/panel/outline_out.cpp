@@ -3,6 +3,7 @@
 #include "io/fresh_folder.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/paraview/client/words/patient_words.h"
 
 namespace palpate::plugin {
 namespace {
@@ -22,6 +23,7 @@ OutlineOut::OutlineOut(QWidget* parent) : WorkBar(QStringLiteral("palpateOutline
 
 void OutlineOut::save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours,
                       bool overwrite) {
+  set_patient(patient_in_words(outline.series.identity.patient_name));
   begin(tr("Writing %p%"), [this, outline, file, as_contours, overwrite](const Job& job) -> Said {
     const io::StructureForm form = io::form_of(file, as_contours);
     write_outline(outline, file, form, overwrite, [&](double done) {
@@ -33,6 +35,7 @@ void OutlineOut::save(const CorrectedOutline& outline, const std::filesystem::pa
 }
 
 void OutlineOut::send(const CorrectedOutline& outline, const io::Archive& archive) {
+  set_patient(patient_in_words(outline.series.identity.patient_name));
   begin(tr("Sending"), [outline, archive](const Job& job) -> Said {
     const io::FreshFolder folder = io::temporary_folder();
     const std::filesystem::path file = folder.path() / "outline.dcm";

@@ -292,8 +292,8 @@ void StructuresSection::make_next() {
     return [this, drawn](const Entry& entry) {
       if (!entry.why_not.empty()) return false;
       if (!drawn) return !entry.made.measures;
-      return entry.shown && (!entry.made.drawn.distance || entry.made.edits != entry.edits ||
-                             entry.made.scan.lock() != scan_);
+      return entry.shown &&
+             (!entry.made.drawn.distance || entry.made.edits != entry.edits || entry.made.scan.lock() != scan_);
     };
   };
   auto next = std::ranges::find_if(entries_, wants(true));

@@ -53,6 +53,7 @@ void StructuresSection::build() {
   column->addWidget(build_uses());
   correct_box_ = new CorrectBox(correction_, this);
   column->addWidget(correct_box_);
+  column->addWidget(&correct_box_->out());  // it goes on where the correction ends
   auto* const row = new QHBoxLayout;
   add_tool_button(*row, *this, "palpateAddStructures", tr("Add structures…"),
                   tr("DICOM SEG or RTSTRUCT. Those in the scan's folder are found with it."), [this] { ask_files(); });

@@ -21,28 +21,42 @@ WorkBar::WorkBar(const QString& name, QWidget* parent) : QWidget(parent), progre
   connect(cancel, &QPushButton::clicked, this, [this] {
     work_.cancel();
     hide();
-    emit told(words(say("cancelled")), false);
+    emit told(for_whom(words(say("cancelled"))), false);
   });
   row->addWidget(cancel);
   hide();
 }
 
 void WorkBar::begin(const QString& doing, std::function<Said(const Job&)> work) {
+  left_ = false;
   progress_->setRange(0, 0);
-  progress_->setFormat(doing);
+  show_doing(doing);
   show();
   work_.ask(std::move(work), [this](const auto& said, const QString& error) {
     hide();
-    said ? emit told(said->message, said->problem) : emit told(error, true);
+    said ? emit told(for_whom(said->message), said->problem) : emit told(for_whom(error), true);
   });
   emit told({}, false);  // it is busy now
+}
+
+void WorkBar::leave_scan() {
+  if (!is_busy() || std::exchange(left_, true)) return;
+  show_doing(progress_->format());
+}
+
+QString WorkBar::for_whom(const QString& text) const {
+  return left_ && !patient_.isEmpty() ? QStringLiteral("%1: %2").arg(patient_, text) : text;
+}
+
+void WorkBar::show_doing(const QString& doing) {
+  progress_->setFormat(for_whom(doing));
 }
 
 void WorkBar::tell_progress(const Job& job, int done, int all, const QString& doing) {
   job.tell([this, done, all, doing] {
     progress_->setRange(0, all);
     progress_->setValue(done);
-    if (!doing.isEmpty()) progress_->setFormat(doing);
+    if (!doing.isEmpty()) show_doing(doing);
   });
 }
 

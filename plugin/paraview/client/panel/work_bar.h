@@ -20,6 +20,8 @@ class WorkBar : public QWidget {
   explicit WorkBar(const QString& name, QWidget* parent = nullptr);
 
   bool is_busy() const { return work_.is_busy(); }
+  /// Another scan is shown from now on. What is told of work that runs says for whom it is.
+  void leave_scan();
 
  signals:
   void told(const QString& message, bool problem);
@@ -31,12 +33,19 @@ class WorkBar : public QWidget {
     bool problem = false;
   };
   using Job = Background<Said>::Job;
+  /// For whom the next work is: the patient's name.
+  void set_patient(const QString& name) { patient_ = name; }
   /// The work runs in the background; an error that it throws is told. `doing` stands in the bar.
   void begin(const QString& doing, std::function<Said(const Job&)> work);
   /// From the work: so many of all are done. An empty text stays as it is.
   void tell_progress(const Job& job, int done, int all, const QString& doing = {});
 
  private:
+  void show_doing(const QString& doing);
+  QString for_whom(const QString& text) const;
+
+  QString patient_;
+  bool left_ = false;  // the scan that it is of
   QProgressBar* progress_;
   Background<Said> work_;
 };

@@ -60,11 +60,11 @@ class FilterRow : public QWidget {
   QDoubleSpinBox* amount_;
   QCheckBox* shown_;
   QProgressBar* progress_;
-  bool brought_back_ = false;  // what is computed is for a scene that the pipeline has already
+  bool brought_back_ = false;                 // what is computed is for a scene that the pipeline has already
   std::weak_ptr<const io::Volume> filtered_;  // the scan that is being filtered; through what, and what follows
   io::Filter through_;
   std::function<void()> ready_;
-  ScanLoader loader_;          // last: its thread is to end before all that its callbacks use
+  ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
 };
 
 }  // namespace palpate::plugin

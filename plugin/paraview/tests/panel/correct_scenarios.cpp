@@ -1,12 +1,17 @@
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
 
+#include <QComboBox>
 #include <QDialog>
+#include <QEvent>
 #include <QFile>
 #include <QGuiApplication>
 #include <QLabel>
 #include <QPixmap>
+#include <QProgressBar>
+#include <QPushButton>
 #include <QScreen>
+#include <QSlider>
 #include <QToolButton>
 #include <QTreeWidget>
 
@@ -36,9 +41,30 @@ void save_for_guide(const char* name, QWidget& shown) {
   expect(picture.save(folder + QLatin1Char('/') + QLatin1String(name) + ".png"), "a picture for the guide is written");
 }
 
+/// How often a button was disabled.
+class DisabledWatch : public QObject {
+ public:
+  explicit DisabledWatch(QWidget& button) { button.installEventFilter(this); }
+  int times() const { return times_; }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::EnabledChange && !static_cast<QWidget*>(watched)->isEnabled()) ++times_;
+    return false;
+  }
+
+ private:
+  int times_ = 0;
+};
+
+bool may_go_out() {
+  return find<QPushButton>("palpateCorrectSave").isEnabled() && find<QPushButton>("palpateCorrectSend").isEnabled();
+}
+
 /// Opened, mended, undone, saved, read again.
 void an_outline_is_corrected() {
   const glm::dvec3 pole = cap_is_traced();
+  expect(find<QPushButton>("palpateMark").text().startsWith("Correct"), "M corrects");
   const auto is_felt = [&] { return std::abs(felt_mm(pole)) < 0.4; };
   wait_for("the corrected edge is felt where it was drawn: " + std::to_string(felt_mm(pole)), is_felt, 20);
   wait_for(
@@ -54,9 +80,12 @@ void an_outline_is_corrected() {
   expect(shown, "a key shows the file's outline: " + std::to_string(drawn_beside_felt(2)) + ", " +
                     std::to_string(drawn_beside_felt(1)) + ", " + label("palpateStructureMessage").toStdString() +
                     (has_edit("trace") ? "" : ", without an edit"));
+  expect(label("palpateCorrectChange").contains("as it is in the file"), "which is said");
+  hold_key_in(view("Axial"), "Shift_L", true);
   hold_key_in(view("Axial"), "b", false);
+  hold_key_in(view("Axial"), "Shift_L", false);
   wait_for(
-      "and lets it go", [] { return drawn_beside_felt(2) < 0.05; }, 20);
+      "and lets it go, whatever else is held", [] { return drawn_beside_felt(2) < 0.05; }, 20);
 
   const double mended = felt_mm(pole);
   click("palpateCorrectUndo");
@@ -74,9 +103,11 @@ void an_outline_is_corrected() {
 
   const QString file = qEnvironmentVariable("PALPATE_CORRECTED");
   QFile::remove(file);
+  const DisabledWatch sending(find<QPushButton>("palpateCorrectSend"));
   name_file("palpateCorrectSave", file);
   wait_for(
       "it is saved", [] { return label("palpateStructureMessage").contains("is written"); }, 60);
+  expect(sending.times() == 1 && may_go_out(), "and nothing else goes out meanwhile");
   const auto found = palpate::io::find_structures(std::array{std::filesystem::path(file.toStdString())});
   expect(found.structures.size() == 1 && found.structures.front().name == "Liver", "it is read again, by its name");
   const auto read = palpate::io::load_distance(found.structures.front());
@@ -155,6 +186,8 @@ void margins_are_told() {
   wait_for(
       "the cut cap is found", [] { return places().isVisible() && places().topLevelItemCount() > 0; }, 60);
   expect(!label("palpateCorrectChange").contains("Vessel"), "nothing is told before anything is corrected");
+  expect(!find<QPushButton>("palpateCorrectSave").isEnabled() && !find<QPushButton>("palpateCorrectSend").isEnabled(),
+         "what is not corrected does not go out");
   click(*places().viewport(), places().visualItemRect(places().topLevelItem(0)).center());
   views_rest();
   const double height = height_of_slice();
@@ -168,7 +201,42 @@ void margins_are_told() {
   expect(std::abs(margin - expected) < 0.7, "about " + std::to_string(expected) + " mm: " + told.toStdString());
   expect(margin < 30 - 21 - vessel_mm - 1, "less than that of the outline in the file");
   expect(told.contains("begins at 3.0 mm"), "beside the keep-out's own: " + told.toStdString());
+  wait_for("what is corrected may go out", may_go_out, 20);
   save_screen("correct-margins");
+  click("palpateCorrect");
+  expect(label("palpateDoubtfulNote").isEmpty(), "no places of the one before are told");
+  expect(find<QPushButton>("palpateMark").text().startsWith("Mark"), "M marks again");
+}
+
+/// On the second of two frames: what was asked for on the first is not done to it, and the outline can be corrected.
+void an_outline_is_corrected_on_a_frame() {
+  scan_is_shown();
+  correct_the_liver();
+  const QString first = places().topLevelItem(0)->text(1);
+  auto& type = find<QComboBox>("palpateFilter");
+  if (!type.isVisible()) click("palpateScanSectionFold");
+  type.setCurrentIndex(type.findText("Non-local means"));
+  emit type.activated(type.currentIndex());
+  expect(find<QProgressBar>("palpateFiltering").isVisible(), "the first frame is being filtered");
+  find<QSlider>("palpateFrame").setValue(1);
+  wait_for(
+      "the second frame is felt", [] { return label("palpateFelt").contains("2 of 2."); }, 20);
+  expect(!find<QProgressBar>("palpateFiltering").isVisible() && type.currentText() == "None",
+         "it is not filtered: " + type.currentText().toStdString());
+  wait_for(
+      "doubtful places are its own",
+      [&] { return places().topLevelItemCount() > 0 && places().topLevelItem(0)->text(1) != first; }, 60);
+  views_rest();
+  const glm::dvec3 pole(0, -23, 0);
+  expect(std::isfinite(felt_mm(pole)), "its outline is felt");
+  click("palpateToolAdd");
+  drag(view("Axial"), pixel_of("Axial", pole), pixel_of("Axial", pole + glm::dvec3(5, 0, 0)), true);
+  wait_for("a ball is added", [] { return has_edit("add"); });
+  wait_for("and may go out", may_go_out, 60);
+  wait_for(
+      "the surface is made, too", [] { return label("palpateCorrectChange").contains("mm at most"); }, 60);
+  expect(scene_text().find("\"filter\"") == std::string::npos, "no filter has come since");
+  save_screen("correct-frame");
 }
 
 /// How far to the front the outline's surface in the volume view reaches, mm.
@@ -206,6 +274,11 @@ void an_outline_is_traced_over_its_surface() {
   hold_key_in(volume, "b", false);
   wait_for(
       "and lets it go", [] { return std::abs(front_in_volume() - ball_mm) < 0.7; }, 20);
+  find<QTreeWidget>("palpateStructureList").topLevelItem(0)->setCheckState(0, Qt::Unchecked);
+  views_rest();
+  drag(volume, pixel_of("Volume", on_the_cut(from)), pixel_of("Volume", on_the_cut(to)), true);
+  views_rest();
+  expect(edits_in_scene().size() == 1, "an outline that is not seen is not traced");
 }
 
 QString state_file() {
@@ -254,6 +327,7 @@ const Scenarios& correct_scenarios() {
   static const Scenarios all{{"an_outline_is_corrected", an_outline_is_corrected},
                              {"a_ball_is_added", a_ball_is_added},
                              {"margins_are_told", margins_are_told},
+                             {"an_outline_is_corrected_on_a_frame", an_outline_is_corrected_on_a_frame},
                              {"an_outline_is_traced_over_its_surface", an_outline_is_traced_over_its_surface},
                              {"a_correction_is_saved", a_correction_is_saved},
                              {"a_correction_is_restored", a_correction_is_restored},
