@@ -18,6 +18,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/interchange/voxel_file.h"
 #include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/scan/archive_tab.h"
 #include "plugin/paraview/client/scan/frame_row.h"
