@@ -290,6 +290,7 @@ void CorrectionModel::undo() {
   if (is_tracing()) {
     traces_.pop_back();
     if (traces_.empty() && look_beside_) look_beside_({}, 0, {});
+    if (ending_ && traces_.empty()) return leave();
     emit changed();
     return;
   }

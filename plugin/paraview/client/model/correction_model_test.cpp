@@ -562,6 +562,13 @@ TEST_F(Correcting, AStrokeThatIsLookedAtIsWaitedForAtTheEnd) {
   model.begin(liver, {});
   model.draw_felt({{9, 0, 0}});
   model.end();
+  model.undo();
+  EXPECT_EQ(model.structure(), nullptr) << "nothing is waited for any more";
+  EXPECT_THAT(kept_edits(), SizeIs(2));
+
+  model.begin(liver, {});
+  model.draw_felt({{9, 0, 0}});
+  model.end();
   io::Structure spleen = liver;
   spleen.number = 4;
   spleen.name = "spleen";

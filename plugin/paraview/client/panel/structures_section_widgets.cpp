@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "plugin/paraview/client/panel/correct_box.h"
+#include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/structures_section.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/widgets/row_list.h"

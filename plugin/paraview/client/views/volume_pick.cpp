@@ -1,7 +1,9 @@
 #include "plugin/paraview/client/views/volume_pick.h"
 
+#include <vtkBoxRepresentation.h>
 #include <vtkCommand.h>
 #include <vtkPVRenderView.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 
@@ -22,11 +24,26 @@ VolumePick::VolumePick(vtkPVRenderView& view, Ray ray)
               {vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent},
               pick_before_paraview, [this](unsigned long event) { return handle(event); }) {}
 
+/// Of a crop box, or of another box that ParaView shows.
+bool VolumePick::is_on_handle() const {
+  const int* const at = interactor_->GetEventPosition();
+  vtkPropCollection& props = *view_.GetRenderer()->GetViewProps();
+  vtkCollectionSimpleIterator each;
+  props.InitTraversal(each);
+  while (vtkProp* const prop = props.GetNextProp(each)) {
+    auto* const box = vtkBoxRepresentation::SafeDownCast(prop);
+    if (!box || !box->GetVisibility()) continue;
+    const int state = box->ComputeInteractionState(at[0], at[1]);
+    if (state >= vtkBoxRepresentation::MoveF0 && state <= vtkBoxRepresentation::MoveF5) return true;
+  }
+  return false;
+}
+
 bool VolumePick::handle(unsigned long event) {
   const glm::dvec3 near = place_at(0), far = place_at(1);
   switch (event) {
     case vtkCommand::LeftButtonPressEvent:
-      if (interactor_->GetControlKey() || interactor_->GetShiftKey()) return false;  // ParaView's
+      if (interactor_->GetControlKey() || interactor_->GetShiftKey() || is_on_handle()) return false;  // ParaView's
       return picking_ = ray_(Pick::pressed, near, far);
     case vtkCommand::MouseMoveEvent:
       return picking_ && ray_(Pick::moved, near, far);

@@ -26,6 +26,7 @@ class VolumePick {
   VolumePick& operator=(const VolumePick&) = delete;
 
  private:
+  bool is_on_handle() const;
   bool handle(unsigned long event);
   glm::dvec3 place_at(double depth) const;
 

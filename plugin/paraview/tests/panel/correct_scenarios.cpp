@@ -1,6 +1,7 @@
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
 
+#include <QAction>
 #include <QComboBox>
 #include <QDialog>
 #include <QEvent>
@@ -252,6 +253,7 @@ void an_outline_is_traced_over_its_surface() {
       "the outline's surface is drawn", [] { return std::abs(front_in_volume() - (ball_mm - cut_mm)) < 0.7; }, 60);
   views_rest();
   constexpr double from = -24, to = 24, step = 3;
+  constexpr double box_mm = 32;  // from the middle of the scan to its sides
   QWidget& volume = view("Volume");
   const auto on_the_cut = [](double at) { return glm::dvec3(0.45 * at, cut_mm - ball_mm, 0.1 * at); };
   drag(volume, pixel_of("Volume", on_the_cut(from)), pixel_of("Volume", on_the_cut(from + step)), false);
@@ -274,6 +276,14 @@ void an_outline_is_traced_over_its_surface() {
   hold_key_in(volume, "b", false);
   wait_for(
       "and lets it go", [] { return std::abs(front_in_volume() - ball_mm) < 0.7; }, 20);
+  auto* const crop = pqCoreUtilities::mainWidget()->findChild<QAction*>(QStringLiteral("palpateCropBox"));
+  crop->trigger();
+  views_rest();
+  const QPoint handle = pixel_of("Volume", glm::dvec3(0, -box_mm, 0));
+  drag(volume, handle, handle + QPoint(40, 30), true);
+  views_rest();
+  expect(edits_in_scene().size() == 1, "a handle of the crop box is not the outline behind it");
+  crop->trigger();
   find<QTreeWidget>("palpateStructureList").topLevelItem(0)->setCheckState(0, Qt::Unchecked);
   views_rest();
   drag(volume, pixel_of("Volume", on_the_cut(from)), pixel_of("Volume", on_the_cut(to)), true);
