@@ -174,6 +174,7 @@ FOLDERS = {
     "a_felt_trace_stays_in_its_slice": spoilt,
     "an_outline_is_traced_over_its_surface": spoilt,
     "margins_are_told": spoilt_beside_a_vessel,
+    "an_outline_is_corrected_on_a_frame": spoilt_in_frames,
     "marks_belong_to_a_scan": both,
     "slices_are_read_and_measured": named,
     "the_table_is_cut_away": on_a_table,
