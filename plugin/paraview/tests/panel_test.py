@@ -133,9 +133,11 @@ def spoilt_in_frames():
     set_headers(folder, TemporalPositionIdentifier="1")
     later = set_headers(phantom("later", "sphere", "--radius", "23"), TemporalPositionIdentifier="2")
     subprocess.run(["dcmodify", "-nb", "-gin", *(os.path.join(later, file) for file in os.listdir(later))], check=True)
-    first = os.listdir(folder)[0]
-    dump = subprocess.run(["dcmdump", "+P", "0020,000e", os.path.join(folder, first)], check=True, capture_output=True, text=True).stdout
-    set_headers(later, SeriesInstanceUID=dump.split("[")[1].split("]")[0])
+    first = os.path.join(folder, os.listdir(folder)[0])
+    of_both = {"0020,000d": "StudyInstanceUID", "0020,000e": "SeriesInstanceUID", "0020,0052": "FrameOfReferenceUID"}
+    for tag, key in of_both.items():
+        dump = subprocess.run(["dcmdump", "+P", tag, first], check=True, capture_output=True, text=True).stdout
+        set_headers(later, **{key: dump.split("[")[1].split("]")[0]})
     for file in os.listdir(later):
         shutil.move(os.path.join(later, file), os.path.join(folder, "later_" + file))
     write_segmentation(os.path.join(folder, "liver.dcm"), folder, is_in=is_in_cut_ball)
