@@ -176,7 +176,6 @@ FOLDERS = {
     "a_felt_trace_stays_in_its_slice": spoilt,
     "an_outline_is_traced_over_its_surface": spoilt,
     "margins_are_told": spoilt_beside_a_vessel,
-    "an_outline_is_corrected_on_a_frame": spoilt_in_frames,
     "marks_belong_to_a_scan": both,
     "slices_are_read_and_measured": named,
     "the_table_is_cut_away": on_a_table,
@@ -335,6 +334,7 @@ TESTS["the_volume_lies_in_the_patient"] = lambda: run("the_volume_lies_in_the_pa
     "oblique", "sphere", "--radius", "25", "--orientation", "0.6", "0.8", "0", "-0.64", "0.48", "0.6"))
 TESTS["a_volume_without_hu_is_drawn"] = lambda: run("a_volume_without_hu_is_drawn", PALPATE_DROP=write_nifti(scratch("ball.nii.gz")))
 TESTS["other_files_are_opened_and_felt"] = other_files
+TESTS["an_outline_is_corrected_on_a_frame"] = lambda: run("an_outline_is_corrected_on_a_frame", PALPATE_DROP=spoilt_in_frames())
 TESTS["what_was_deleted_is_not_in_the_state"] = lambda: run(
     "what_was_deleted_is_not_in_the_state", outlined(), PALPATE_OTHER=phantom("other", "slab"))
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

@@ -211,6 +211,7 @@ void margins_are_told() {
 
 /// On the second of two frames: what was asked for on the first is not done to it, and the outline can be corrected.
 void an_outline_is_corrected_on_a_frame() {
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
   scan_is_shown();
   correct_the_liver();
   const QString first = places().topLevelItem(0)->text(1);
