@@ -46,7 +46,8 @@ struct StructureLabel {
   std::optional<Origin> origin;
 };
 
-/// Label of a structure that was found. Reads its file's header. Throws DicomError where that cannot be read.
+/// Label of a structure that was found. Reads its file's header. Throws DicomError where that cannot be read. One
+/// without a file has its name and color alone.
 StructureLabel label_of(const Structure& structure);
 
 /// A structure on a scan's grid, which may be oblique, tilted or uneven.

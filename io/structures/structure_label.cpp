@@ -69,6 +69,7 @@ void read_observation(DcmItem& observation, const Texts& texts, StructureLabel& 
 
 StructureLabel label_of(const Structure& structure) {
   StructureLabel label{.name = structure.name, .color = structure.color};
+  if (structure.file.empty()) return label;  // it was made, not found
   StructureLabel::Origin origin{.file = structure.file, .number = structure.number};
   if (structure.kind != StructureKind::label_map) {
     internal::start_dcmtk();

@@ -124,8 +124,6 @@ constexpr std::array not_shown{
     NotShown{"soak-found-a-fault", "a servo at fault"},
     NotShown{"no-start-without-thread-caches", "a program that cannot be started, and runs"},
     NotShown{"several-ranks-do-not-filter", "a reader of several ranks is not driven through the panel's filter"},
-    NotShown{"scan-has-no-edge-there",
-             "no scenario has an outline without an edge; CorrectionModel::nothing_traced is tested"},
     NotShown{"internal-fault", a_fault},
     NotShown{"please-report-it-with-the-command", a_fault},
     NotShown{"paraview-is-not-connected-to-a-server", of_paraview},

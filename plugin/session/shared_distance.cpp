@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/structures/edits.h"
+#include "plugin/session/drawn_structure.h"
 #include "plugin/session/structure_files.h"
 
 namespace palpate::plugin {
@@ -89,12 +90,14 @@ std::shared_ptr<const io::DistanceField> find_or_make(const io::Structure& struc
 
 std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan,
                                                          double reach_mm) {
+  if (const auto* const contours = contours_of(structure)) return shared_distance(*contours, scan, reach_mm);
   return find_or_make(structure, scan, reach_mm,
                       [&](const io::DistanceField& field) { return field.reach_mm() == reach_mm; });
 }
 
 std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan) {
   constexpr double least_mm = 3;
+  if (const auto* const contours = contours_of(structure)) return shared_distance(*contours, scan, least_mm);
   return find_or_make(structure, scan, least_mm, [](const io::DistanceField&) { return true; });
 }
 

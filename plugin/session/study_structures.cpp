@@ -126,6 +126,7 @@ Text off_scan(const io::Structure& structure, const io::StructureBox& box, const
 }
 
 bool is_same(const modes::SceneStructure& named, const io::Structure& structure) {
+  if (modes::is_drawn(named)) return structure.file.empty() && named.name == structure.name;
   if (std::filesystem::path(named.file) != structure.file) return false;
   return named.segment_number ? *named.segment_number == structure.number : named.segment == structure.name;
 }
@@ -224,6 +225,13 @@ void snap_no_more(modes::Scene& scene, const io::Structure& structure) {
     if (!is_same(named, structure)) continue;
     std::erase_if(scene.modes, [&](const modes::Mode& mode) { return is_of_snap(mode, named.name); });
   }
+}
+
+bool snap_no_more(modes::Scene& scene) {
+  return std::erase_if(scene.modes, [&](const modes::Mode& mode) {
+           return std::ranges::any_of(scene.structures,
+                                      [&](const modes::SceneStructure& named) { return is_of_snap(mode, named.name); });
+         }) > 0;
 }
 
 std::optional<HeldPlane> held_plane(const modes::Scene& scene, const io::Structure& structure) {

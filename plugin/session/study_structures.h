@@ -75,5 +75,7 @@ void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Sna
 std::optional<HeldPlane> held_plane(const modes::Scene& scene, const io::Structure& structure);
 /// Takes it away again.
 void snap_no_more(modes::Scene& scene, const io::Structure& structure);
+/// The same of every structure. Whether there was any.
+bool snap_no_more(modes::Scene& scene);
 
 }  // namespace palpate::plugin

@@ -69,7 +69,7 @@ void PalpatePanel::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void PalpatePanel::dropEvent(QDropEvent* event) {
-  parts_->scan->open(event->mimeData()->urls().first().toLocalFile().toStdString());
+  parts_->scan->open_later(event->mimeData()->urls().first().toLocalFile());
 }
 
 /// M in a view is the mark button. It is let go wherever the keyboard has gone meanwhile.

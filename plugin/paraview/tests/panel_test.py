@@ -1,6 +1,6 @@
 """ParaView with the panel, on a virtual display, driven by the test plug-in: each scenario in a program of its own.
 
-Arguments as in panel_program.py; main_thread, first_image and the_volume_turns, which are measurements, can be asked for. PALPATE_FOLDER: another scan.
+Arguments as in panel_program.py; main_thread, first_image, the_volume_turns and memory_of_a_scan, which are measurements, can be asked for. PALPATE_FOLDER: another scan.
 """
 
 import math
@@ -144,6 +144,13 @@ def spoilt_in_frames():
     return folder
 
 
+def without_an_edge():
+    """A ball, and a segmentation of its middle, whose surface lies in one tissue."""
+    folder = ball()
+    write_segmentation(os.path.join(folder, "liver.dcm"), folder, is_in=lambda *at: math.dist(at, (0, 0, 0)) < 12)
+    return folder
+
+
 def spoilt_beside_a_vessel():
     """The same, and a small ball in front of the cap."""
     folder = spoilt()
@@ -163,6 +170,7 @@ FOLDERS = {
     "lines_are_of_the_slice_that_is_shown": lambda: phantom("fine", "sphere", "--radius", "25", "--size", "256,256,48",
                                                            "--spacing", "0.3,0.3,1"),
     "undo_belongs_to_a_scan": both,
+    "another_scan_is_asked_about": both,
     "a_scan_is_overtaken": both,
     "no_scan_shown_no_force": both,
     "a_deleted_scan_comes_back": both,
@@ -175,6 +183,7 @@ FOLDERS = {
     "a_ball_is_added": spoilt,
     "a_felt_trace_stays_in_its_slice": spoilt,
     "an_outline_is_traced_over_its_surface": spoilt,
+    "an_outline_without_an_edge_stays": without_an_edge,
     "margins_are_told": spoilt_beside_a_vessel,
     "marks_belong_to_a_scan": both,
     "slices_are_read_and_measured": named,
@@ -236,6 +245,9 @@ SCENARIOS = [
     "a_reset_session_has_no_force",
     "a_loaded_state_has_no_force",
     "undo_belongs_to_a_scan",
+    "another_scan_is_asked_about",
+    "the_end_is_asked_about",
+    "a_session_that_ends_is_kept",
     "a_filter_is_felt_and_shown",
     "frames_are_felt_as_shown",
     "a_scene_without_its_field_is_refused",
@@ -251,6 +263,8 @@ SCENARIOS = [
     "a_ball_is_added",
     "a_felt_trace_stays_in_its_slice",
     "an_outline_is_traced_over_its_surface",
+    "an_outline_without_an_edge_stays",
+    "a_drawn_structure_is_corrected",
     "margins_are_told",
     "an_outline_is_corrected_on_a_frame",
     "a_correction_is_saved",
@@ -310,15 +324,18 @@ def german():
 
 
 def marks_last():
-    return run("marks_are_saved", ball()) and run("marks_are_restored", arguments=["--state=" + scratch("marks.pvsm")])
+    return (run("marks_are_saved", ball()) and run("marks_are_restored", arguments=["--state=" + scratch("marks.pvsm")]) and
+            run("marks_are_loaded", phantom("other", "slab")))
 
 
 def correction_last():
-    return run("a_correction_is_saved", spoilt()) and run("a_correction_is_restored", arguments=["--state=" + scratch("correct.pvsm")])
+    return (run("a_correction_is_saved", spoilt()) and
+            run("a_correction_is_restored", arguments=["--state=" + scratch("correct.pvsm")]) and
+            run("a_correction_is_loaded", phantom("other", "slab")))
 
 
 # Only by name: measurements.
-BY_NAME = ["main_thread", "first_image", "the_volume_turns"]
+BY_NAME = ["main_thread", "first_image", "the_volume_turns", "memory_of_a_scan"]
 TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_NAME}
 TESTS["the_layout_is_clinical"] = layout
 TESTS["the_panel_speaks_german"] = german
@@ -327,7 +344,7 @@ TESTS["marks_are_saved"] = marks_last
 TESTS["a_correction_is_saved"] = correction_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
 TESTS["what_is_shared_is_what_is_felt"] = shared
-for dropped in ("first_image", "the_volume_turns"):
+for dropped in ("first_image", "the_volume_turns", "memory_of_a_scan"):
     TESTS[dropped] = lambda name=dropped: run(name, PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
 TESTS["the_volume_is_drawn_seldom"] = lambda: run("the_volume_is_drawn_seldom", PALPATE_DROP=on_a_table())
 TESTS["the_volume_lies_in_the_patient"] = lambda: run("the_volume_lies_in_the_patient", PALPATE_DROP=phantom(

@@ -1,4 +1,4 @@
-"""Scenes that last, in ParaView itself: a state file restored by another program, a trace replayed in pvpython, undo.
+"""Scenes that last, in ParaView itself: a state file restored by another program and loaded in one that runs, a trace replayed in pvpython, undo.
 
 Arguments as in panel_program.py.
 """
@@ -6,7 +6,7 @@ Arguments as in panel_program.py.
 import os
 
 import patience
-from panel_program import PLUGINS, SCRATCH, TEST_PLUGIN, ball, main, run, scratch
+from panel_program import PLUGINS, SCRATCH, TEST_PLUGIN, ball, main, phantom, run, scratch
 
 MOST_LEFT_BYTES = 170000  # a round; a third of the phantom's voxels
 
@@ -28,7 +28,9 @@ def saved_and_restored():
     folder = ball()
     return (run("a_session_is_saved", folder)
             and run("a_session_is_restored", arguments=["--state=" + scratch("story.pvsm")])
-            and same("saved", "restored"))
+            and same("saved", "restored")
+            and run("a_session_is_loaded", phantom("other", "slab"))
+            and same("restored", "loaded"))
 
 
 REPLAY = """

@@ -36,6 +36,7 @@ void PanelParts::build() {
   connect_marks();
   connect_scene();
   connect_session();
+  connect_unsaved();
 }
 
 void PanelParts::build_column() {

@@ -96,14 +96,11 @@ std::optional<HeldPlane> PanelParts::marked_slice() const {
   return axial;
 }
 
-/// Another slice is shown by the user: the hand is held in that.
-void PanelParts::follow_held_slice() {
+/// Another slice is shown in the view of the one that the hand is held in: the hand is held in that.
+void PanelParts::follow_held_slice(const SliceView& shown) {
   const auto held = correction.held_in();
-  if (!held) return;
-  for (const ClinicalView& one : open_views.now()) {
-    if (!one.slice || one.slice->sight().along != held->normal) continue;
-    correction.follow_slice({.point_mm = one.slice->place_at({0, 0}), .normal = held->normal});
-  }
+  if (!held || shown.sight().along != held->normal) return;
+  correction.follow_slice({.point_mm = shown.place_at({0, 0}), .normal = held->normal});
 }
 
 /// Of what adds or removes, at the place under the pointer.
@@ -137,6 +134,7 @@ std::optional<CorrectedOutline> PanelParts::corrected_outline() {
 void PanelParts::save_outline() {
   const auto outline = corrected_outline();
   if (!outline) return;
+  const auto edits = correction.edits();  // that the outline has
   const bool has_images = scans.shown()->of.details() != nullptr;
   const QString contours = tr("DICOM contours, RTSTRUCT (*.dcm)");
   QStringList kinds{tr("NIfTI (*.nii.gz *.nii)"), tr("NRRD (*.seg.nrrd *.nrrd)"), tr("MetaImage (*.mha)")};
@@ -148,7 +146,10 @@ void PanelParts::save_outline() {
           (has_images ? QStringLiteral("-corrected.dcm") : QStringLiteral("-corrected.nii.gz")),
       kinds.join(QStringLiteral(";;")), &kind);
   // The dialog has asked whether an existing file may be overwritten.
-  if (!file.isEmpty()) structures->correct_box().out().save(*outline, file.toStdString(), kind == contours, true);
+  if (file.isEmpty()) return;
+  structures->correct_box().out().save(
+      *outline, file.toStdString(), kind == contours, true,
+      [this, structure = outline->structure, edits] { unsaved.note_outline_saved(structure, edits); });
 }
 
 /// Shows what would be sent, and sends it where that is wanted.
@@ -159,11 +160,15 @@ void PanelParts::send_outline() {
     structures->tell(words(say("outline-needs-the-images")), true);
     return;
   }
+  const auto edits = correction.edits();  // that the outline has
   const SendDialog::Content content =
       SendDialog::of_outline(QString::fromStdString(outline->structure.name), structures->change_in_words());
   const auto archive =
       choose_archive(outline->series, content, [this](const QString& problem) { structures->tell(problem, true); });
-  if (archive) structures->correct_box().out().send(*outline, *archive);
+  if (!archive) return;
+  structures->correct_box().out().send(*outline, *archive, [this, structure = outline->structure, edits] {
+    unsaved.note_outline_saved(structure, edits);
+  });
 }
 
 }  // namespace palpate::plugin

@@ -4,6 +4,7 @@
 #include <vtkSMProxy.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "plugin/messages/messages.h"
@@ -50,9 +51,12 @@ void PanelParts::send_marks() {
   const io::Series of = *series;
   const std::shared_ptr<const io::Volume> volume = scans.shown()->volume;
   const Marks shown = marks.marks();
+  const std::string scan_of_marks = marks.scan();
   const auto archive = choose_archive(of, SendDialog::of_marks(of, shown),
                                       [this](const QString& problem) { marks_list->tell(problem, true); });
-  if (archive) marks_list->sender().send(*archive, of, volume, shown);
+  if (!archive) return;
+  marks_list->sender().send(*archive, of, volume, shown,
+                            [this, scan_of_marks, shown] { unsaved.note_marks_saved(scan_of_marks, shown); });
 }
 
 void PanelParts::show_marks(const ScanHandle& handle) {

@@ -133,7 +133,7 @@ void PanelParts::study(const std::shared_ptr<const io::Volume>& volume) {
       });
 }
 
-/// What a state file has restored is taken over: scan, scene and views.
+/// What a state file has restored is taken over: scan, scene, marks and views, as if the program had begun with it.
 void PanelParts::adopt_state() {
   touching.release();
   const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
@@ -141,25 +141,30 @@ void PanelParts::adopt_state() {
   pqPipelineSource* scene = nullptr;
   for (pqPipelineSource* const source : sources) {
     const std::string kind = source->getProxy()->GetXMLName();
-    if (kind == "PalpateDicomReader") reader = source;
-    if (kind == "PalpateScene") scene = source;
+    if (kind == "PalpateDicomReader" && source != readers.source()) reader = source;
+    if (kind == "PalpateScene" && source != kept.source()) scene = source;
   }
-  const bool another = reader && reader != readers.source();
-  if (another) touching.expect_scan();
-  if (scene) kept.adopt(*scene);
-  if (!another) return;
-  readers.restore(*reader, Brought::by_state);
+  if (!reader && !scene) return;
+  if (reader) {
+    leave_views();
+    touching.expect_scan();
+    marks.forget();
+  }
+  kept.replace(scene);
+  if (reader) readers.restore(*reader, Brought::by_state);
 }
 
 /// In good order: another server, none, or a new session.
 void PanelParts::leave_server() {
+  const QString kept_in = ending ? QString() : recover();
   if (remote_server()) {
     const bool records = touching.live().recording().has_value();
     leave(records ? words(say("left-the-server-recording")) : words(say("left-the-server")));
-    return;
+  } else {
+    touching.keep_off(words(say("paraview-session-ended")));
+    scans.lose_server();
   }
-  touching.keep_off(words(say("paraview-session-ended")));
-  scans.lose_server();
+  if (!kept_in.isEmpty()) emit scans.told(kept_in, true);
 }
 
 /// All that a server has goes, and what is held of it is let go: first the force, and the recording with it.

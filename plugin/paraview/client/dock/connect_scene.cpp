@@ -33,7 +33,10 @@ void PanelParts::connect_scene() {
     show_brush(place);
     if (pointed) curves->profile().point_at(*place, pointed->gradient);
   });
-  readers.views().set_slice_shown([this](SliceView& slice) { open_views.show_slice(slice); });
+  readers.views().set_slice_shown([this](SliceView& slice) {
+    open_views.show_slice(slice);
+    follow_held_slice(slice);
+  });
 }
 
 void PanelParts::draw_contours(Pace pace) {

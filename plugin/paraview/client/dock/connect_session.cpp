@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
+#include <optional>
 #include <utility>
 
 #include "plugin/messages/messages.h"
@@ -29,10 +30,7 @@ void PanelParts::connect_session() {
     SCOPED_UNDO_EXCLUDE();
     if (touching.last().is_seen()) readers.views().show_point(touching.last().proxy_mm);
   });
-  readers.views().set_leafed([this] {
-    stylus->pause_following();
-    follow_held_slice();
-  });
+  readers.views().set_leafed([this] { stylus->pause_following(); });
   touching.set_start([this](const device::Specification& device) { return start_of(device); });
   QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
     recordings_fold->set_open(true);
@@ -57,6 +55,7 @@ void PanelParts::connect_session() {
   show_technical(footer->is_technical());
   // The threads end before ParaView goes, and before a server takes the views away.
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
+    ending = true;
     studies.cancel();
     QObject::disconnect(&touching, &SessionController::recorded, recordings, nullptr);  // nobody looks at it any more
     sharing.turn_off();
@@ -71,7 +70,10 @@ void PanelParts::look(const SessionStatus& seen) {
   const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
   if (seen.connected) touching.keep_off(scans.why_not_felt());
   name_felt();
-  if (seen.is_seen() && moved && stylus->slices_follow()) readers.views().show_point(seen.proxy_mm);
+  if (seen.is_seen() && moved && stylus->slices_follow()) {
+    const auto& held = correction.held_in();  // its view shows it, wherever the stylus is
+    readers.views().show_point(seen.proxy_mm, held ? std::optional(held->normal) : std::nullopt);
+  }
   if (seen.connected && !seen.held.empty()) {
     curves->profile().touch_at(seen.proxy_mm, seen.probe_mm - seen.proxy_mm);
   }

@@ -20,6 +20,7 @@
 #include "plugin/paraview/client/model/scene_model.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/model/sharing_model.h"
+#include "plugin/paraview/client/model/unsaved_work.h"
 #include "plugin/paraview/client/panel/send_dialog.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
 #include "plugin/paraview/client/pipeline/scan_pipeline.h"
@@ -109,7 +110,7 @@ struct PanelParts {
   void send_outline();
   bool stroke_over_outline(Pick what, const glm::dvec3& near, const glm::dvec3& far);
   std::optional<HeldPlane> marked_slice() const;
-  void follow_held_slice();
+  void follow_held_slice(const SliceView& shown);
   std::optional<CorrectedOutline> corrected_outline();
   // choose_archive.cpp
   std::optional<io::Archive> choose_archive(const io::Series& of, const SendDialog::Content& content,
@@ -119,6 +120,12 @@ struct PanelParts {
   void show_marks(const ScanHandle& handle);
   void leave_marks();
   void send_marks();
+  // connect_unsaved.cpp
+  void connect_unsaved();
+  bool may_lose(const Unsaved& work, const QString& before, const std::function<void()>& let_go);
+  bool save_state();
+  bool write_state(const QString& file);
+  QString recover();
   // connect_scene.cpp
   void connect_scene();
   void draw_contours(Pace pace = Pace::stepped);
@@ -137,6 +144,7 @@ struct PanelParts {
   SceneSource kept;
   SceneModel model{kept};
   MarksModel marks{kept};
+  UnsavedWork unsaved{model, marks};
   CorrectionModel correction{model};
   SessionController touching;
   StrokeRunner strokes;
@@ -174,6 +182,8 @@ struct PanelParts {
   HostLayout* layout = nullptr;
   VolumeLookBox* look_box = nullptr;
   bool leaving = false;                     // a server
+  bool ending = false;                      // the program
+  bool saving = false;                      // a state file, which may fail
   bool profile_picks = false;               // the left button in the views is the force profile's
   QString opening;                          // whose scan is coming, in words
   std::weak_ptr<const io::Volume> studied;  // for its tissues

@@ -222,8 +222,8 @@
         <translation>In einer Schicht am einen Schenkel ziehen, dann auf das Ende des anderen klicken (Taste A).</translation>
     </message>
     <message>
-        <source>Connect</source>
-        <translation>Verbinden</translation>
+        <source>Connect stylus</source>
+        <translation>Stift verbinden</translation>
     </message>
     <message>
         <source>Release  (Esc)</source>
@@ -278,8 +278,8 @@
         <translation>Die Griffe in der Volumenansicht ziehen</translation>
     </message>
     <message>
-        <source>Disconnect</source>
-        <translation>Trennen</translation>
+        <source>Disconnect stylus</source>
+        <translation>Stift trennen</translation>
     </message>
     <message>
         <source>Disconnects the stylus</source>
@@ -1231,6 +1231,26 @@
 <context>
     <name>PanelParts</name>
     <message>
+        <source>Another scan takes the place of this one.</source>
+        <translation>Eine andere Aufnahme tritt an die Stelle dieser.</translation>
+    </message>
+    <message>
+        <source>ParaView is about to end.</source>
+        <translation>ParaView wird beendet.</translation>
+    </message>
+    <message>
+        <source>All that is open is about to go.</source>
+        <translation>Alles, was offen ist, wird geschlossen.</translation>
+    </message>
+    <message>
+        <source>Save all that is open</source>
+        <translation>Alles Offene speichern</translation>
+    </message>
+    <message>
+        <source>ParaView states (*.pvsm)</source>
+        <translation>Zustände von ParaView (*.pvsm)</translation>
+    </message>
+    <message>
         <source>3D Slicer</source>
         <translation>3D Slicer</translation>
     </message>
@@ -1928,6 +1948,14 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>StructuresSection</name>
     <message>
+        <source>Drawn in the scene</source>
+        <translation>In der Szene gezeichnet</translation>
+    </message>
+    <message>
+        <source>%1 ml, as it was drawn %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
+        <translation>%1 ml, gezeichnet %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Rand ging höchstens %5 mm.</translation>
+    </message>
+    <message>
         <source>No structures were found there (DICOM SEG or RTSTRUCT).</source>
         <translation>Dort wurden keine Strukturen gefunden (DICOM SEG oder RTSTRUCT).</translation>
     </message>
@@ -2486,6 +2514,49 @@ ID %2, Studie vom %3</translation>
 </context>
 <context>
     <name>WorkBar</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+</context>
+<context>
+    <name>UnsavedQuestion</name>
+    <message>
+        <source>the edited scene</source>
+        <translation>die bearbeitete Szene</translation>
+    </message>
+    <message>
+        <source>the corrected outline of %1</source>
+        <translation>der korrigierte Umriss von %1</translation>
+    </message>
+    <message>
+        <source>1 mark</source>
+        <translation>1 Markierung</translation>
+    </message>
+    <message>
+        <source>%1 marks</source>
+        <translation>%1 Markierungen</translation>
+    </message>
+    <message>
+        <source>Not saved</source>
+        <translation>Nicht gespeichert</translation>
+    </message>
+    <message>
+        <source>%1 Not saved: %2.</source>
+        <translation>%1 Nicht gespeichert: %2.</translation>
+    </message>
+    <message>
+        <source>Save writes all that is open to a state file. File &gt; Load State opens it again.</source>
+        <translation>Speichern schreibt alles, was offen ist, in eine Zustandsdatei. File &gt; Load State öffnet sie wieder.</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
+    </message>
     <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>

@@ -144,7 +144,7 @@ void ClinicalToolbar::add_measures() {
 
 /// Connect and Release.
 void ClinicalToolbar::add_connection() {
-  connect_ = add("palpateToolbarConnect", tr("Connect"), {});
+  connect_ = add("palpateToolbarConnect", tr("Connect stylus"), {});
   connect(connect_, &QAction::triggered, this, &ClinicalToolbar::connect_wanted);
   release_ = make_release_button(*this, "palpateToolbarRelease", tr("Release  (Esc)"));
   release_->setToolTip(tr("Takes the force away"));
@@ -193,7 +193,7 @@ QAction* ClinicalToolbar::add(const char* name, const QString& text, const QStri
 }
 
 void ClinicalToolbar::show_connection(bool connected, bool can_connect) {
-  connect_->setText(connected ? tr("Disconnect") : tr("Connect"));
+  connect_->setText(connected ? tr("Disconnect stylus") : tr("Connect stylus"));
   connect_->setToolTip(connected ? tr("Disconnects the stylus")
                                  : tr("Connects the stylus that is chosen in the panel"));
   connect_->setEnabled(can_connect);

@@ -38,11 +38,17 @@ CorrectionModel::CorrectionModel(SceneModel& scene, QObject* parent)
   connect(&scene, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::stepped) follow_scene();
   });
+  // Undo, or a state file that was saved while one was running, may bring what a correction adds.
+  scene.set_clean([this](modes::Scene& from_pipeline) { return !structure_ && snap_no_more(from_pipeline); });
   slice_kept_.setSingleShot(true);
   slice_kept_.setInterval(slice_stays_ms);
   connect(&slice_kept_, &QTimer::timeout, this, [this] {
     if (structure_ && !freed_) scene_.finish_drag(tr("Hold in the slice"));
   });
+}
+
+CorrectionModel::~CorrectionModel() {
+  scene_.set_clean({});
 }
 
 void CorrectionModel::begin(const io::Structure& structure, const OutlineEdges& edges) {
@@ -115,11 +121,19 @@ void CorrectionModel::end() {
 
 void CorrectionModel::leave() {
   const io::Structure structure = *structure_;
-  forget();
+  reset();
   press_(tr("End correcting"), [structure](modes::Scene& scene) { snap_no_more(scene, structure); });
 }
 
 void CorrectionModel::forget() {
+  const bool was_running = structure_.has_value();
+  reset();
+  if (!was_running) return;
+  scene_.pass([](modes::Scene& scene) { snap_no_more(scene); });
+  scene_.finish_drag({});
+}
+
+void CorrectionModel::reset() {
   if (find_) find_(nullptr, {});
   if (look_beside_) look_beside_({}, 0, {});
   structure_.reset();
@@ -296,7 +310,7 @@ void CorrectionModel::undo() {
   }
   press_(tr("Undo a correction"), [structure = *structure_](modes::Scene& scene) {
     std::vector<io::Edit>* const edits = edits_in(scene, structure);
-    if (edits && !edits->empty()) edits->pop_back();
+    if (edits && edits->size() > making_edits(structure)) edits->pop_back();
   });
 }
 

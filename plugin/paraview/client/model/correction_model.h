@@ -16,6 +16,7 @@
 #include "io/structures/doubtful_places.h"
 #include "io/structures/structure.h"
 #include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/session/drawn_structure.h"
 #include "plugin/session/edges_beside.h"
 #include "plugin/session/study_structures.h"
 
@@ -43,6 +44,7 @@ class CorrectionModel : public QObject {
   using Outline = std::function<std::optional<double>(const io::Vec3& place)>;
 
   explicit CorrectionModel(SceneModel& scene, QObject* parent = nullptr);
+  ~CorrectionModel() override;
   void set_press(Press press) { press_ = std::move(press); }
   void set_find(Find find) { find_ = std::move(find); }
   void set_look_beside(LookBeside look) { look_beside_ = std::move(look); }
@@ -58,7 +60,7 @@ class CorrectionModel : public QObject {
   void set_edges(const OutlineEdges& edges);
   /// They are not felt any more; the edits stay. Strokes that are being looked at become edits before.
   void end();
-  /// Another scan: nothing is corrected, and no step is done.
+  /// Another scan: nothing is corrected, and no step is done. What a correction adds to the scene goes.
   void forget();
   /// Null: nothing is being corrected.
   const io::Structure* structure() const { return structure_ ? &*structure_ : nullptr; }
@@ -96,7 +98,8 @@ class CorrectionModel : public QObject {
   /// Of the structure, as the scene has them.
   const std::vector<io::Edit>& edits() const { return edits_; }
   bool can_undo() const { return is_edited() || is_tracing(); }
-  bool is_edited() const { return !edits_.empty(); }
+  /// Contours that make the structure are no correction.
+  bool is_edited() const { return structure_ && edits_.size() > making_edits(*structure_); }
   /// Whether a stroke is being looked at, and becomes an edit then.
   bool is_tracing() const { return !traces_.empty(); }
   bool can_redo() const { return !taken_back_.empty(); }
@@ -133,6 +136,7 @@ class CorrectionModel : public QObject {
     Over over = Over::slice;
   };
 
+  void reset();
   void follow_scene();
   void draw(std::vector<io::Vec3> places, Over over, bool felt);
   void look_beside_next();

@@ -248,6 +248,61 @@ TEST_F(Correcting, TheStylusIsHeldInASlice) {
   EXPECT_FALSE(model.held_in());
 }
 
+/// Left, undone, or loaded with a state: what a correction adds is felt while it runs, and not afterwards.
+TEST_F(Correcting, NothingThatHoldsTheStylusIsLeftBehind) {
+  const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
+  const auto kept_modes = [&] { return modes::scene_from_json(kept.text("Scene"), "scene").modes.size(); };
+  model.begin(liver, {});
+  model.hold_in(slice);
+  stroke({{0, 0, 0}, {0, 1, 0}});
+  const std::string saved = kept.text("Scene");
+  const std::size_t steps = kept.steps.size();
+  EXPECT_EQ(kept_modes(), 3U);
+  model.forget();  // the scan was left
+  EXPECT_EQ(snap(), nullptr);
+  EXPECT_THAT(planes(), IsEmpty());
+  EXPECT_EQ(kept_modes(), 0U) << "a state that is saved now has none";
+  EXPECT_EQ(kept.steps.size(), steps) << "which is no step";
+  EXPECT_THAT(kept_edits(), SizeIs(1)) << "the edits stay";
+  scene.undo();
+  EXPECT_THAT(kept_edits(), IsEmpty());
+  EXPECT_EQ(kept_modes(), 0U);
+  EXPECT_EQ(snap(), nullptr);
+  kept.put("Scene", saved);  // a state file that was saved while it ran
+  EXPECT_THAT(kept_edits(), SizeIs(1));
+  EXPECT_EQ(kept_modes(), 0U);
+  EXPECT_EQ(snap(), nullptr);
+  model.begin(liver, {});
+  EXPECT_NE(snap(), nullptr) << "one can go on";
+  model.end();
+  EXPECT_EQ(kept_modes(), 0U);
+  scene.undo();
+  EXPECT_EQ(snap(), nullptr) << "there is no correction that it would belong to";
+}
+
+/// A structure that the scene's contours make: they stay, whatever is taken back.
+TEST_F(Correcting, ContoursThatMakeAStructureAreNoCorrection) {
+  modes::SceneStructure drawn;
+  drawn.name = "drawn";
+  io::ContoursEdit contours;
+  for (const double z : {0.0, 2.0, 4.0}) contours.loops_mm.push_back({{0, 0, z}, {9, 0, z}, {9, 9, z}, {0, 9, z}});
+  drawn.edits = {contours};
+  scene.edit(QStringLiteral("Draw"), [&](modes::Scene& now) { now.structures = {drawn}; });
+  model.begin(drawn_structure(drawn), {});
+  EXPECT_FALSE(model.can_undo());
+  model.undo();
+  EXPECT_THAT(kinds(), ElementsAre("contours"));
+  EXPECT_EQ(scene.scene().structures.size(), 1U);
+  model.set_tool(Tool::add);
+  stroke({{5, 5, 2}, {6, 5, 2}});
+  EXPECT_THAT(kinds(), ElementsAre("contours", "add"));
+  EXPECT_TRUE(model.can_undo());
+  model.undo();
+  EXPECT_THAT(kinds(), ElementsAre("contours"));
+  EXPECT_FALSE(model.can_undo());
+  EXPECT_TRUE(model.can_redo());
+}
+
 TEST_F(Correcting, TheStylusIsFreeWhileAKeyIsHeld) {
   const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
   model.begin(liver, {});

@@ -26,6 +26,12 @@ void MarksModel::set_scan(const std::string& scan) {
   emit changed();
 }
 
+void MarksModel::forget() {
+  kept_.clear();
+  text_.clear();
+  emit changed();
+}
+
 /// A place without marks gets those that are here: they are of scans, and not of a session.
 void MarksModel::attach() {
   text_.clear();

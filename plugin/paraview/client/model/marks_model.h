@@ -27,6 +27,11 @@ class MarksModel : public QObject {
   /// Another scan: its hash_of_series(); empty: none.
   void set_scan(const std::string& scan);
   bool has_scan() const { return !scan_.empty(); }
+  const std::string& scan() const { return scan_; }
+  const MarksOfScans& of_all_scans() const { return kept_; }
+
+  /// Those of all scans: a state file brings its own, or none.
+  void forget();
 
   /// One step that can be undone; `what` names it in ParaView's menu. Distances and angles are measured anew.
   void edit(const QString& what, const Change& change);

@@ -73,6 +73,7 @@ void ScanModel::set_in_views(in_views::State next) {
 // From a folder to a series.
 
 void ScanModel::open(const std::string& path) {
+  if (!may_leave()) return;
   world_.stop();
   give_up_fetching(words(say("cancelled")));
   tell({});
@@ -102,12 +103,21 @@ void ScanModel::list(const FoundList& found, const std::string& error) {
     tell(text(error), true);
     return;
   }
-  if (found.catalogue && seen() && is_of_other_patient(found)) close();
+  if (found.catalogue && seen() && is_of_other_patient(found)) {
+    const unsigned run = find_;
+    const bool may = may_leave();
+    if (run != find_) return;  // events were handled while it was asked
+    if (!may) {
+      set_coming(coming::Nothing{});
+      return;
+    }
+    close();
+  }
   set_coming(coming::Choosing{found});
   if (found.catalogue && found.catalogue->series.empty()) {
     tell(words(say("no-image-series-in-this-folder", found.catalogue->skipped.size())), true);
   } else if (const auto only = found.only()) {
-    choose(*only);
+    bring(*only);
   } else {
     tell(words(say("series-choose-one", found.count())));
   }
@@ -123,7 +133,11 @@ bool ScanModel::is_of_other_patient(const FoundList& found) const {
 }
 
 void ScanModel::choose(std::size_t series) {
-  if (!found() || series >= found()->count()) return;
+  const unsigned run = find_;
+  if (found() && series < found()->count() && may_leave() && run == find_) bring(series);
+}
+
+void ScanModel::bring(std::size_t series) {
   const FoundList list = *found();
   const SeriesRef of = list.at(series);
   const unsigned run = ++find_;
@@ -145,6 +159,7 @@ void ScanModel::choose(std::size_t series) {
       [this, run, list, of](const auto& volume, const std::string& error) {
         if (run != find_) return;
         set_coming(coming::Choosing{list});
+        if (volume && (!may_leave() || run != find_)) return;
         if (volume) begin_showing(of, volume);
         if (!error.empty()) tell(text(error), true);
       });

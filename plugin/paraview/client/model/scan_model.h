@@ -61,6 +61,10 @@ class ScanModel : public QObject {
   /// `filter` returns the filter that is felt, so that a new frame is filtered from the start.
   void set_filter(std::function<io::Filter()> filter) { filter_ = std::move(filter); }
 
+  /// `may_leave` is asked before the user finds or chooses another scan, and again before that takes the place of the
+  /// one that is open, which may have been worked on meanwhile. Where it returns false that one stays.
+  void set_may_leave(std::function<bool()> may_leave) { may_leave_ = std::move(may_leave); }
+
   /// A reader that stands in the pipeline is taken over, with its views: a state file or Undo has brought it.
   void restore(const SeriesRef& of, Brought brought);
   /// The reader was deleted from the pipeline.
@@ -92,6 +96,8 @@ class ScanModel : public QObject {
   void set_in_views(in_views::State next);
   void list(const FoundList& found, const std::string& error);
   bool is_of_other_patient(const FoundList& found) const;
+  void bring(std::size_t series);
+  bool may_leave() const { return !may_leave_ || may_leave_(); }
   void close();
   void leave();
   void begin_showing(const SeriesRef& of, const std::shared_ptr<const io::Volume>& volume);
@@ -110,6 +116,7 @@ class ScanModel : public QObject {
   coming::State coming_;
   ScanMessage message_;
   std::function<io::Filter()> filter_;
+  std::function<bool()> may_leave_;
   std::vector<std::string> copies_;  // folders of this machine that were named
   // Of each kind of request, the last one: an answer to another is ignored.
   unsigned find_ = 0, views_ = 0, fetch_ = 0, frame_ = 0;

@@ -4,6 +4,7 @@
 
 #include <random>
 #include <string>
+#include <utility>
 
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/model/testing/scan_rig.h"
@@ -290,6 +291,63 @@ TEST(ScanModel, NoOrderOfEventsLeavesItHalf) {
       }
     }
   }
+}
+
+TEST_F(ScanModelFollowed, NothingLeavesWhereTheUserDoesNotWantIt) {
+  show("1");
+  int asked = 0;
+  bool may = false;
+  model.set_may_leave([&] {
+    ++asked;
+    return may;
+  });
+  model.open("/2");
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+  EXPECT_TRUE(take_reported().isEmpty());
+  EXPECT_EQ(model.shown()->of.name, "1");
+  may = true;
+  model.open("/2");
+  may = false;  // what was edited while the folder was looked through
+  world.found_.back()(folder("/2", {series("2", "B", 1)}), {});
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(model.shown()->of.name, "1") << "nor is it closed for another patient's";
+  EXPECT_EQ(model.found(), nullptr);
+  may = true;
+  model.open("/2");
+  world.found_.back()(folder("/2", {series("2", "A", 1), series("3", "A", 1)}), {});
+  world.take_asked();
+  may = false;
+  model.choose(1);
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+  may = true;
+  model.choose(1);
+  may = false;  // while it was read
+  world.loaded_.back()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("load 3"));
+  EXPECT_EQ(model.shown()->of.name, "1");
+  ASSERT_NE(model.found(), nullptr) << "it can be chosen again";
+  EXPECT_FALSE(model.on_its_way());
+  may = true;
+  model.choose(0);
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  EXPECT_EQ(model.shown()->of.name, "2");
+}
+
+// The question handles events.
+TEST_F(ScanModelFollowed, WhatIsAskedWhileItIsAskedOvertakes) {
+  show("1");
+  bool nested = false;
+  model.set_may_leave([&] {
+    if (!std::exchange(nested, true)) model.open("/3");
+    return true;
+  });
+  model.open("/two");
+  EXPECT_THAT(world.take_asked(), ElementsAre("find /3", "find /two"));
+  world.found_.back()(folder("/two", {series("2", "A", 1), series("3", "A", 1)}), {});
+  nested = false;
+  model.choose(0);
+  EXPECT_THAT(world.take_asked(), ElementsAre("find /3")) << "the list is no longer that one";
 }
 
 }  // namespace

@@ -9,6 +9,11 @@ namespace {
 
 constexpr const char* scene_key = "Scene";
 
+/// Of a scene's JSON, or of its name or file. Throws where it is none.
+modes::Scene scene_of(const std::string& text) {
+  return text.front() == '{' ? modes::scene_from_json(text, "scene") : modes::load_scene(text);
+}
+
 }  // namespace
 
 SceneModel::SceneModel(KeptText& kept, QObject* parent) : QObject(parent), kept_(kept) {
@@ -21,8 +26,19 @@ void SceneModel::open(const modes::Scene& scene) {
     propose(scene);
   } else {
     kept_.open(modes::to_json(scene));
+    opened_ = scene_;
   }
   edited_ = false;
+}
+
+std::optional<modes::Scene> SceneModel::kept() const {
+  const std::string text = kept_.text(scene_key);
+  if (text.empty()) return std::nullopt;
+  try {
+    return scene_of(text);
+  } catch (const std::exception&) {  // it is refused and put back, which is told then
+    return std::nullopt;
+  }
 }
 
 bool SceneModel::propose(const modes::Scene& scene) {
@@ -32,6 +48,7 @@ bool SceneModel::propose(const modes::Scene& scene) {
     return false;
   }
   edited_ = false;
+  opened_ = scene_;
   keep({});
   return true;
 }
@@ -44,7 +61,8 @@ void SceneModel::follow_text() {
 void SceneModel::take_text(const std::string& text, bool when_ready) {
   QString why;
   try {
-    const modes::Scene scene = text.front() == '{' ? modes::scene_from_json(text, "scene") : modes::load_scene(text);
+    modes::Scene scene = scene_of(text);
+    const bool cleaned = clean_ && clean_(scene);
     const auto ready = [this, text] {
       if (text == kept_.text(scene_key)) take_text(text, false);
     };
@@ -52,6 +70,7 @@ void SceneModel::take_text(const std::string& text, bool when_ready) {
     why = take(scene, Pace::stepped);
     if (why.isEmpty()) {
       text_ = text;
+      if (cleaned) put_back();
       return;
     }
   } catch (const std::exception& error) {

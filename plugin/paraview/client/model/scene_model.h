@@ -7,6 +7,7 @@
 #include <QString>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -38,10 +39,17 @@ class SceneModel : public QObject {
   /// Called for a scene that comes from the pipeline (undo, a trace, the property panel). Until it is ready the
   /// previous scene stays. If another scene comes meanwhile, it takes its place.
   void set_make_ready(MakeReady make_ready) { make_ready_ = std::move(make_ready); }
+  /// Takes out of a scene that comes from the pipeline what does not belong there, and returns whether there was any:
+  /// the pipeline gets it without.
+  void set_clean(std::function<bool(modes::Scene&)> clean) { clean_ = std::move(clean); }
   /// The pipeline holds a scene that was refused: sets it back to the scene that is felt.
   void put_back();
 
   const modes::Scene& scene() const { return scene_; }
+  /// The one that was opened or proposed last, before it was edited.
+  const modes::Scene& opened() const { return opened_; }
+  /// As the pipeline keeps it, and with it a state file; none: it keeps none, or what is no scene.
+  std::optional<modes::Scene> kept() const;
   /// Whether the scene is no longer the one that was opened or proposed.
   bool is_edited() const { return edited_; }
 
@@ -81,7 +89,8 @@ class SceneModel : public QObject {
   KeptText& kept_;
   Commit commit_;
   MakeReady make_ready_;
-  modes::Scene scene_;
+  std::function<bool(modes::Scene&)> clean_;
+  modes::Scene scene_, opened_;
   std::string text_;  // of the scene as the pipeline has it
   bool edited_ = false;
 };

@@ -26,7 +26,7 @@ namespace {
 
 /// A label whose width does not follow its text, so that nothing beside it jumps.
 QLabel* make_value(QWidget* parent, const char* name, const QString& tip) {
-  auto* const label = new QLabel(QStringLiteral("–"), parent);
+  auto* const label = new QLabel(parent);
   label->setObjectName(QString::fromLatin1(name));
   label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   label->setToolTip(tip);
@@ -237,9 +237,9 @@ void Footer::show_look(const SessionStatus& look) {
   show_state(look);
   show_distance(look);
   if (!look.connected && !look.replayed) {
-    force_->setText(QStringLiteral("–"));
+    force_->clear();
     depth_->setText(tr("no stylus"));
-    tissue_->setText(QStringLiteral("–"));
+    tissue_->clear();
     solver_->setText(QStringLiteral("–"));
     tick_->setText(QStringLiteral("–"));
     return;
@@ -258,7 +258,7 @@ void Footer::show_look(const SessionStatus& look) {
   const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
   tissue_->setText(std::isfinite(tick.value) ? value_text(tick.value, QString::fromStdString(unit), tissue)
                                              : tr("outside the scan"));
-  if (!scan_open_) tissue_->setText(QStringLiteral("–"));  // the tick is of a scan that is gone
+  if (!scan_open_) tissue_->clear();  // the tick is of a scan that is gone
   const double error_mm = 1e3 * tick.error_bound_m;
   constexpr double small_mm = 1e-9;
   solver_->setText(tr("%1 solver, error below %2 mm")

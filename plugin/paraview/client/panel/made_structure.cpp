@@ -2,9 +2,11 @@
 
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <exception>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "io/fields/filtered.h"
 #include "io/fields/volume_fields.h"
@@ -12,6 +14,7 @@
 #include "io/structures/outline_places.h"
 #include "io/structures/scan_edge.h"
 #include "plugin/paraview/common/structure_shapes.h"
+#include "plugin/session/drawn_structure.h"
 #include "plugin/session/shared_distance.h"
 #include "plugin/session/shared_edits.h"
 
@@ -57,12 +60,15 @@ OutlineEdges edges_at(const io::DistanceField& outline, const std::shared_ptr<co
 void draw_structure(const WantedStructure& wanted, MadeStructure& made) {
   constexpr double room_mm = 3;  // the box is of voxel centers
   const auto outline = wanted.outline ? wanted.outline : shared_distance(wanted.structure, wanted.scan->geometry);
-  const auto fields = shared_edited(outline, wanted.edits, wanted.scan);
+  const std::span<const io::Edit> edits =
+      std::span(wanted.edits).subspan(std::min(making_edits(wanted.structure), wanted.edits.size()));
+  const auto fields = shared_edited(outline, edits, wanted.scan);
+  made.outline = outline;
   DrawnStructure& drawn = made.drawn;
   drawn.distance = fields.back();
   drawn.low_mm = made.measures->box_low_mm - room_mm;
   drawn.high_mm = made.measures->box_high_mm + room_mm;
-  if (const auto box = io::box_of_edits(wanted.edits)) {
+  if (const auto box = io::box_of_edits(edits)) {
     drawn.before = outline;
     drawn.surface_before =
         wanted.surface_before ? wanted.surface_before : surface_of(*outline, drawn.low_mm, drawn.high_mm);
@@ -77,12 +83,12 @@ void draw_structure(const WantedStructure& wanted, MadeStructure& made) {
 }  // namespace
 
 MadeStructure make_structure(const WantedStructure& wanted) {
-  MadeStructure made{.file = wanted.structure.file,
-                     .number = wanted.structure.number,
+  MadeStructure made{.structure = wanted.structure,
                      .scan = wanted.scan,
                      .edits = wanted.edits,
                      .error = {},
                      .measures = wanted.measures,
+                     .outline = {},
                      .drawn = {},
                      .change = {},
                      .edges = {}};

@@ -1,5 +1,7 @@
 #include "plugin/paraview/client/panel/marks_sender.h"
 
+#include <utility>
+
 #include "io/fresh_folder.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/words.h"
@@ -11,9 +13,10 @@ namespace palpate::plugin {
 MarksSender::MarksSender(QWidget* parent) : WorkBar(QStringLiteral("palpateSending"), parent) {}
 
 void MarksSender::send(const io::Archive& archive, const io::Series& series,
-                       const std::shared_ptr<const io::Volume>& volume, const Marks& marks) {
+                       const std::shared_ptr<const io::Volume>& volume, const Marks& marks,
+                       std::function<void()> done) {
   set_patient(patient_in_words(series.identity.patient_name));
-  begin(tr("Writing the report"), [this, archive, series, volume, marks](const Job& job) {
+  const auto work = [this, archive, series, volume, marks](const Job& job) {
     const io::FreshFolder folder = io::temporary_folder();
     const auto files = write_results(series, volume, marks, folder.path());
     const int all = static_cast<int>(files.size());
@@ -22,7 +25,8 @@ void MarksSender::send(const io::Archive& archive, const io::Series& series,
       return job.keep_going();
     });
     return said_of(sent, archive.name);
-  });
+  };
+  begin(tr("Writing the report"), work, std::move(done));
 }
 
 WorkBar::Said MarksSender::said_of(const io::Sent& sent, const std::string& archive) {

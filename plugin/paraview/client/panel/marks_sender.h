@@ -18,9 +18,9 @@ class MarksSender : public WorkBar {
  public:
   explicit MarksSender(QWidget* parent = nullptr);
 
-  /// As `palpate export` and `palpate send` do, from a folder that is gone afterwards.
+  /// As `palpate export` and `palpate send` do, from a folder that is gone afterwards. `done`: all of it is there.
   void send(const io::Archive& archive, const io::Series& series, const std::shared_ptr<const io::Volume>& volume,
-            const Marks& marks);
+            const Marks& marks, std::function<void()> done);
 
  private:
   static Said said_of(const io::Sent& sent, const std::string& archive);

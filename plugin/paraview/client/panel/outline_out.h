@@ -28,10 +28,11 @@ class OutlineOut : public WorkBar {
  public:
   explicit OutlineOut(QWidget* parent = nullptr);
 
-  /// As `palpate correct` writes it. `overwrite`: the user was asked.
-  void save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours, bool overwrite);
-  /// As a DICOM SEG, from a folder that is gone afterwards.
-  void send(const CorrectedOutline& outline, const io::Archive& archive);
+  /// As `palpate correct` writes it. `overwrite`: the user was asked. `done`: it is written.
+  void save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours, bool overwrite,
+            std::function<void()> done);
+  /// As a DICOM SEG, from a folder that is gone afterwards. `done`: it is there.
+  void send(const CorrectedOutline& outline, const io::Archive& archive, std::function<void()> done);
 };
 
 }  // namespace palpate::plugin

@@ -20,6 +20,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/session/drawn_structure.h"
 #include "plugin/session/structure_files.h"
 #include "plugin/session/study_registrations.h"
 #include "plugin/session/study_structures.h"
@@ -36,6 +37,12 @@ QString structure_text(const std::string& utf8) {
   return QString::fromStdString(utf8);
 }
 
+/// The outline that its edits change: its file's, or that of the contours that make it.
+std::shared_ptr<const io::DistanceField> before_edits_of(const LoadedStructure& structure) {
+  const std::size_t making = structure.file.empty() ? 1 : 0;
+  return structure.before_edits.size() > making ? structure.before_edits[making] : structure.distance;
+}
+
 QString volume_in_words(double mm3) {
   constexpr double small_ml = 10, ml = 1000;
   return QStringLiteral("%1 ml").arg(mm3 / ml, 0, 'f', mm3 / ml < small_ml ? 2 : 0);
@@ -47,6 +54,10 @@ QString volume_in_words(double mm3) {
 double StructuresSection::volume_of(const Entry& entry) {
   const double before = entry.made.measures->volume_mm3;
   return entry.made.change ? before + entry.made.change->added_mm3 - entry.made.change->removed_mm3 : before;
+}
+
+bool StructuresSection::is_edited(const Entry& entry) {
+  return entry.edits.size() > making_edits(entry.structure);
 }
 
 StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching,
@@ -106,6 +117,7 @@ StructuresSection::~StructuresSection() {
 }
 
 void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder) {
+  correction_.forget();  // while the scan is here: the scene follows
   finding_.drop();
   making_.drop();
   using_.drop();
@@ -114,7 +126,6 @@ void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const s
   keep_outs_.clear();
   margins_.clear();
   presses_.drop();
-  correction_.forget();
   scan_ = std::move(scan);
   entries_.clear();
   looked_into_.clear();
@@ -178,9 +189,8 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
   }
   const bool few = found.structures.size() + entries_.size() <= shown_at_once;
   for (const io::Structure& structure : found.structures) {
-    const bool known = std::ranges::any_of(entries_, [&](const Entry& entry) {
-      return entry.structure.file == structure.file && entry.structure.number == structure.number;
-    });
+    const bool known =
+        std::ranges::any_of(entries_, [&](const Entry& entry) { return is_same(entry.structure, structure); });
     if (known) continue;
     Entry entry{.structure = structure};
     entry.why_not = place_on(entry.structure, found.registrations, *scan_).why_not;
@@ -205,13 +215,34 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
   follow_scene();
 }
 
+/// Those that the scene's own contours make come and go with it.
+void StructuresSection::follow_drawn() {
+  const auto& structures = model_.scene().structures;
+  std::erase_if(entries_, [&](const Entry& entry) {
+    const io::ContoursEdit* const contours = contours_of(entry.structure);
+    return contours && std::ranges::none_of(structures, [&](const modes::SceneStructure& named) {
+             return is_same(named, entry.structure) && std::get<io::ContoursEdit>(named.edits.front()) == *contours;
+           });
+  });
+  for (const modes::SceneStructure& named : structures) {
+    const auto is_it = [&](const Entry& entry) { return is_same(named, entry.structure); };
+    if (!scan_ || !modes::is_drawn(named) || std::ranges::any_of(entries_, is_it)) continue;
+    Entry entry{.structure = drawn_structure(named)};
+    entry.color = named.color.empty() ? structure_colors[entries_.size() % std::size(structure_colors)] : named.color;
+    entry.structure.color = entry.color;
+    entry.shown = entries_.size() < shown_at_once;
+    entries_.push_back(std::move(entry));
+  }
+}
+
 /// What the scene names is listed and shown, in the scene's color, wherever it came from.
 void StructuresSection::follow_scene() {
+  follow_drawn();
   std::vector<std::filesystem::path> files;
   for (const modes::SceneStructure& named : model_.scene().structures) {
     const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) { return is_same(named, one.structure); });
     if (entry == entries_.end()) {
-      files.emplace_back(named.file);
+      if (!modes::is_drawn(named)) files.emplace_back(named.file);
       continue;
     }
     if (!named.color.empty()) entry->color = named.color;
@@ -265,7 +296,8 @@ void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) cons
                                         : QString());
   item.setFlags(fits ? Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable : Qt::ItemIsSelectable);
   item.setCheckState(0, entry.shown ? Qt::Checked : Qt::Unchecked);
-  QString tip = structure_text(entry.structure.file.filename().string());
+  QString tip = contours_of(entry.structure) ? tr("Drawn in the scene")
+                                             : structure_text(entry.structure.file.filename().string());
   if (!entry.structure.code.empty()) tip += QLatin1Char('\n') + structure_text(entry.structure.code);
   if (!fits) tip += QLatin1Char('\n') + structure_text(entry.why_not);
   if (!entry.off.empty()) tip += QLatin1Char('\n') + words(entry.off);
@@ -278,7 +310,9 @@ const LoadedStructure* StructuresSection::felt(const Entry& entry) const {
   const PreparedScene& prepared = touching_.live().felt();
   if (!scan_ || !prepared.volume || io::raw_of(prepared.volume) != io::raw_of(scan_)) return nullptr;
   const auto& structures = prepared.structures;
+  const io::ContoursEdit* const contours = contours_of(entry.structure);
   const auto found = std::ranges::find_if(structures, [&](const LoadedStructure& one) {
+    if (contours) return one.file.empty() && one.edits.front() == io::Edit(*contours);
     return one.file == entry.structure.file.string() &&
            (one.segment == "#" + std::to_string(entry.structure.number) || one.segment == entry.structure.name);
   });
@@ -292,6 +326,9 @@ void StructuresSection::make_next() {
     return [this, drawn](const Entry& entry) {
       if (!entry.why_not.empty()) return false;
       if (!drawn) return !entry.made.measures;
+      // What is told of a correction is told of the field that is felt.
+      const LoadedStructure* const now = is_corrected(entry) ? felt(entry) : nullptr;
+      if (now && now->edits == entry.edits && before_edits_of(*now) != entry.made.outline) return true;
       return entry.shown &&
              (!entry.made.drawn.distance || entry.made.edits != entry.edits || entry.made.scan.lock() != scan_);
     };
@@ -299,24 +336,24 @@ void StructuresSection::make_next() {
   auto next = std::ranges::find_if(entries_, wants(true));
   if (next == entries_.end()) next = std::ranges::find_if(entries_, wants(false));
   if (next == entries_.end()) return;
-  WantedStructure wanted{
-      .structure = next->structure,
-      .edits = next->edits,
-      .measures = next->made.measures,
-      .outline = nullptr,
-      .surface_before = next->made.edits.empty() ? next->made.drawn.surface : next->made.drawn.surface_before,
-      .draws = next->shown,
-      .scan = scan_};
+  WantedStructure wanted{.structure = next->structure,
+                         .edits = next->edits,
+                         .measures = next->made.measures,
+                         .outline = nullptr,
+                         .surface_before = next->made.edits.size() > making_edits(next->structure)
+                                               ? next->made.drawn.surface_before
+                                               : next->made.drawn.surface,
+                         .draws = next->shown,
+                         .scan = scan_};
   if (const LoadedStructure* const now = felt(*next)) {
-    wanted.outline = now->before_edits.empty() ? now->distance : now->before_edits.front();
+    wanted.outline = before_edits_of(*now);
   }
   making_.ask([wanted] { return make_structure(wanted); });
 }
 
 void StructuresSection::take_made(const MadeStructure& made) {
-  const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) {
-    return one.structure.file == made.file && one.structure.number == made.number;
-  });
+  const auto entry =
+      std::ranges::find_if(entries_, [&](const Entry& one) { return is_same(one.structure, made.structure); });
   if (entry == entries_.end()) return;  // another scan is shown meanwhile
   entry->why_not = made.error;
   if (!made.error.empty()) entry->shown = false;
@@ -364,8 +401,8 @@ void StructuresSection::draw() {
     drawn.color = QColor(structure_text(entry.color));
     drawn.margins_mm = margins_of(entry.structure);
     const LoadedStructure* const now = felt(entry);
-    const bool waits = now && !drawn.before && !now->before_edits.empty();  // the first edit is felt, and not made yet
-    const auto before = waits ? now->before_edits.front() : drawn.before;
+    const bool waits = now && !drawn.before && is_edited(entry);  // the first edit is felt, and not made yet
+    const auto before = waits ? before_edits_of(*now) : drawn.before;
     if (correction_.shows_before() && is_corrected(entry) && before) {
       drawn.distance = before;
       drawn.before = nullptr;
@@ -373,10 +410,10 @@ void StructuresSection::draw() {
       continue;
     }
     if (!now || now->edits != entry.edits || now->edits == entry.made.edits) continue;
-    if (entry.made.edits.empty()) drawn.surface_before = drawn.surface;
+    if (entry.made.edits.size() <= making_edits(entry.structure)) drawn.surface_before = drawn.surface;
     // The lines on the slices are those that are felt, also while the surface is on its way.
     drawn.distance = now->distance;
-    drawn.before = now->edits.empty() ? nullptr : now->before_edits.front();
+    drawn.before = is_edited(entry) ? before_edits_of(*now) : nullptr;
     if (const auto box = io::box_of_edits(now->edits)) {
       drawn.low_mm = glm::min(drawn.low_mm, box->low_mm);
       drawn.high_mm = glm::max(drawn.high_mm, box->high_mm);

@@ -91,9 +91,11 @@ class StructuresSection : public QWidget {
   void show_row(QTreeWidgetItem& item, const Entry& entry) const;
   void make_next();
   void take_made(const MadeStructure& made);
+  void follow_drawn();
   const LoadedStructure* felt(const Entry& entry) const;
   void look_whether_off(Entry& entry);
   static double volume_of(const Entry& entry);
+  static bool is_edited(const Entry& entry);
   std::vector<double> margins_of(const io::Structure& structure) const;
   void draw();
   void choose_color(std::size_t n);

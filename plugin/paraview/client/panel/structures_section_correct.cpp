@@ -8,6 +8,7 @@
 
 #include "plugin/paraview/client/panel/correct_box.h"
 #include "plugin/paraview/client/panel/structures_section.h"
+#include "plugin/session/drawn_structure.h"
 #include "plugin/session/shared_distance.h"
 
 // The structure that is being corrected.
@@ -16,7 +17,7 @@ namespace palpate::plugin {
 
 bool StructuresSection::is_corrected(const Entry& entry) const {
   const io::Structure* const corrected = correction_.structure();
-  return corrected && corrected->file == entry.structure.file && corrected->number == entry.structure.number;
+  return corrected && is_same(*corrected, entry.structure);
 }
 
 const StructuresSection::Entry* StructuresSection::corrected_entry() const {
@@ -67,8 +68,11 @@ QString StructuresSection::change_in_words() const {
   constexpr double ml = 1000;
   const io::OutlineChange& change = *entry->made.change;
   const auto number = [](double of) { return QString::number(of, 'f', 2); };
-  return tr("%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.")
-             .arg(number(volume_of(*entry) / ml), number(entry->made.measures->volume_mm3 / ml),
+  const QString text =
+      contours_of(entry->structure)
+          ? tr("%1 ml, as it was drawn %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.")
+          : tr("%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.");
+  return text.arg(number(volume_of(*entry) / ml), number(entry->made.measures->volume_mm3 / ml),
                   number(change.added_mm3 / ml), number(change.removed_mm3 / ml), number(change.largest_mm)) +
          margins_in_words();
 }
@@ -77,7 +81,7 @@ QString StructuresSection::change_in_words() const {
 void StructuresSection::measure_margins() {
   const Entry* const entry = corrected_entry();
   const auto outline = corrected();
-  if (!entry || !outline || entry->edits.empty() || entry->made.edits != entry->edits) return;
+  if (!entry || !outline || !is_edited(*entry) || entry->made.edits != entry->edits) return;
   std::vector<KeepOut> keep_outs;
   for (const Entry& other : entries_) {
     const LoadedStructure* const read = felt(other);

@@ -23,6 +23,7 @@
 #include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/client/words/mode_words.h"
+#include "plugin/session/study_structures.h"
 
 namespace palpate::plugin {
 namespace {
@@ -195,7 +196,8 @@ void TissuesSection::choose_scene(int index) {
 void TissuesSection::choose(int item, const QString& what) {
   choosing_ = item;
   model_.edit(
-      what, [&](modes::Scene& scene) { scene = with_hand_of(choices_[static_cast<std::size_t>(item)].scene, scene); });
+      what, [&](modes::Scene& scene) { scene = with_hand_of(choices_[static_cast<std::size_t>(item)].scene, scene); },
+      [this](const QString& why) { why.isEmpty() ? emit scene_kept() : emit model_.refused(why); });
   choosing_.reset();
 }
 
@@ -214,11 +216,15 @@ void TissuesSection::save_file() {
                                          QStringLiteral("scene.json"));
   if (name.isEmpty()) return;
   QSaveFile file(name);
-  const std::string text = modes::to_json(model_.scene());
+  modes::Scene kept = model_.scene();
+  snap_no_more(kept);  // a correction that is running is no part of it
+  const std::string text = modes::to_json(kept);
   const auto size = static_cast<qint64>(text.size());
   if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size || !file.commit()) {
     emit model_.refused(words(say("panel-cannot-write", name.toStdString(), file.errorString().toStdString())));
+    return;
   }
+  emit scene_kept();
 }
 
 void TissuesSection::build_rows() {

@@ -36,6 +36,10 @@ class TissuesSection : public QWidget {
   /// What the scene is: where it came from, and whether it was edited since.
   QString scene_in_words() const;
 
+ signals:
+  /// The scene as it is can be had again: it was chosen from the list, or written into a file.
+  void scene_kept();
+
  private:
   void list_choices();
   void build_rows();

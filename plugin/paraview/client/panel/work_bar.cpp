@@ -27,14 +27,15 @@ WorkBar::WorkBar(const QString& name, QWidget* parent) : QWidget(parent), progre
   hide();
 }
 
-void WorkBar::begin(const QString& doing, std::function<Said(const Job&)> work) {
+void WorkBar::begin(const QString& doing, std::function<Said(const Job&)> work, std::function<void()> done) {
   left_ = false;
   progress_->setRange(0, 0);
   show_doing(doing);
   show();
-  work_.ask(std::move(work), [this](const auto& said, const QString& error) {
+  work_.ask(std::move(work), [this, done = std::move(done)](const auto& said, const QString& error) {
     hide();
     said ? emit told(for_whom(said->message), said->problem) : emit told(for_whom(error), true);
+    if (said && !said->problem && done) done();
   });
   emit told({}, false);  // it is busy now
 }

@@ -35,8 +35,9 @@ class WorkBar : public QWidget {
   using Job = Background<Said>::Job;
   /// For whom the next work is: the patient's name.
   void set_patient(const QString& name) { patient_ = name; }
-  /// The work runs in the background; an error that it throws is told. `doing` stands in the bar.
-  void begin(const QString& doing, std::function<Said(const Job&)> work);
+  /// The work runs in the background; an error that it throws is told. `doing` stands in the bar. `done` is called at
+  /// the end, unless there was a problem.
+  void begin(const QString& doing, std::function<Said(const Job&)> work, std::function<void()> done = {});
   /// From the work: so many of all are done. An empty text stays as it is.
   void tell_progress(const Job& job, int done, int all, const QString& doing = {});
 

@@ -88,6 +88,12 @@ void ScanPipeline::watch_added(pqPipelineSource* added) {
 
 void ScanPipeline::restore(pqPipelineSource& reader, Brought brought) {
   views_.stop_making();
+  if (brought == Brought::by_state) {  // the scan before goes, with its views and their tab
+    SCOPED_UNDO_EXCLUDE();
+    views_.close();
+    destroy_reader();
+    views_.drop_layout();
+  }
   source_ = &reader;
   model_->restore(series_of(reader), brought);
 }

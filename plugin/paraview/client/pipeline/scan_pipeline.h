@@ -34,7 +34,8 @@ class ScanPipeline : public ScanWorld {
   ClinicalViews& views() { return views_; }
   /// Null: there is none.
   pqPipelineSource* source() const { return source_; }
-  /// Takes over a reader that stands in the pipeline and its views as they are: a state file has restored them.
+  /// Takes over a reader that stands in the pipeline and its views as they are. A state file has restored them, and the
+  /// scan before goes; or Undo has.
   void restore(pqPipelineSource& reader, Brought brought);
   /// The names, in the pipeline, of scans that are visible in a view beside the one that is felt.
   QStringList others_shown() const;

@@ -11,6 +11,8 @@
 #include <vtkSMProxy.h>
 #include <vtkSMTrace.h>
 
+#include <utility>
+
 #include "plugin/paraview/client/pipeline/kept_property.h"
 
 namespace palpate::plugin {
@@ -34,8 +36,14 @@ void SceneSource::open(const std::string& scene) {
   if (scan) active.setActiveSource(scan);  // the scan stays what ParaView's own panels are about
 }
 
+void SceneSource::replace(pqPipelineSource* source) {
+  const QPointer<pqPipelineSource> before = std::exchange(source_, nullptr);
+  if (source) adopt(*source);
+  SCOPED_UNDO_EXCLUDE();
+  if (before && before != source) pqApplicationCore::instance()->getObjectBuilder()->destroy(before);
+}
+
 void SceneSource::adopt(pqPipelineSource& source) {
-  if (source_ == &source) return;
   source_ = &source;
   pqCoreUtilities::connect(source.getProxy(), vtkCommand::PropertyModifiedEvent, this, SIGNAL(changed()));
   emit opened();

@@ -16,8 +16,10 @@ class SceneSource : public KeptText {
  public:
   using KeptText::KeptText;
 
-  /// Takes over a source that stands in the pipeline, as a state file restores it.
-  void adopt(pqPipelineSource& source);
+  pqPipelineSource* source() const { return source_; }
+  /// Takes over a source that stands in the pipeline, as a state file restores it; null: it has brought none. The one
+  /// before goes.
+  void replace(pqPipelineSource* source);
 
   bool is_open() const override { return source_ != nullptr; }
   void open(const std::string& scene) override;
@@ -30,6 +32,8 @@ class SceneSource : public KeptText {
   void forget_steps() override;
 
  private:
+  void adopt(pqPipelineSource& source);
+
   QPointer<pqPipelineSource> source_;
 };
 

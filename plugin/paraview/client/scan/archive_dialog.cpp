@@ -18,6 +18,7 @@
 
 #include "plugin/app/archive_settings.h"
 #include "plugin/messages/messages.h"
+#include "plugin/paraview/client/scan/archive_words.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 
@@ -51,17 +52,17 @@ ArchiveDialog::ArchiveDialog(Background<double>& echoing, QWidget* parent) : QDi
   };
   const io::Archive defaults;
   name_ = line("palpateArchiveName", tr("Name"), tr("The name of the archive in this program"));
-  host_ = line("palpateArchiveHost", tr("Host"), tr("Its machine's name or address"));
-  port_ = port("palpateArchivePort", tr("Port"), defaults.port, tr("Its DICOM port"));
-  called_ = line("palpateArchiveCalled", tr("Its AE title"), tr("The archive's AE title (ask its administrator)"));
+  host_ = line("palpateArchiveHost", label_of("--host"), tr("Its machine's name or address"));
+  port_ = port("palpateArchivePort", label_of("--port"), defaults.port, tr("Its DICOM port"));
+  called_ = line("palpateArchiveCalled", label_of("--called"), tr("The archive's AE title (ask its administrator)"));
   calling_ =
-      line("palpateArchiveCalling", tr("Our AE title"), tr("What this program is called; it has to be known there"));
-  uses_get_ = new QCheckBox(tr("Fetch with C-GET, where the archive has it"), this);
+      line("palpateArchiveCalling", label_of("--calling"), tr("What this program is called; it has to be known there"));
+  uses_get_ = new QCheckBox(label_of("--get"), this);
   uses_get_->setObjectName(QStringLiteral("palpateArchiveGet"));
   uses_get_->setToolTip(
       tr("With C-GET the archive answers on our connection. Without it, the archive connects to our port (C-MOVE)."));
   form->addRow(QString(), uses_get_);
-  listen_ = port("palpateArchiveListen", tr("Our port"), defaults.listen_port,
+  listen_ = port("palpateArchiveListen", label_of("--listen"), defaults.listen_port,
                  tr("For C-MOVE: it has to be entered in the archive, with our AE title and this machine's address"));
   connect(uses_get_, &QCheckBox::toggled, listen_, &QSpinBox::setDisabled);
   build_tls(*form);
@@ -102,15 +103,15 @@ void ArchiveDialog::build_tls(QFormLayout& form) {
     return field;
   };
   authorities_ =
-      file("palpateArchiveTlsCa", tr("TLS: authority"),
+      file("palpateArchiveTlsCa", label_of("--tls-ca"),
            tr("The certificate (PEM) of the authority that signed the archive's certificate. Empty: no TLS."));
-  certificate_ = file("palpateArchiveTlsCertificate", tr("TLS: certificate"),
+  certificate_ = file("palpateArchiveTlsCertificate", label_of("--tls-certificate"),
                       tr("Our own certificate (PEM). It is needed if the archive asks for one, and for C-MOVE."));
-  key_ = file("palpateArchiveTlsKey", tr("TLS: key"), tr("Its private key (PEM), without a pass phrase"));
+  key_ = file("palpateArchiveTlsKey", label_of("--tls-key"), tr("Its private key (PEM), without a pass phrase"));
   tls_name_ = new QLineEdit(this);
   tls_name_->setObjectName(QStringLiteral("palpateArchiveTlsName"));
   tls_name_->setToolTip(tr("The machine that the archive's certificate names, if it is not the host above"));
-  form.addRow(tr("TLS: name"), tls_name_);
+  form.addRow(label_of("--tls-name"), tls_name_);
   // What was entered for an archive of that name is shown, and can be changed.
   connect(name_, &QLineEdit::editingFinished, this, [this] { show_tls(); });
 }
@@ -173,8 +174,12 @@ io::Archive ArchiveDialog::archive() const {
   return archive;
 }
 
+/// All of it is seen: the dialog grows with it.
 void ArchiveDialog::tell(const QString& message, bool problem) {
-  set_message(*message_, message, problem);
+  set_message(*message_, in_fields(message), problem);
+  message_->setMinimumHeight(message_->heightForWidth(message_->width()));
+  layout()->activate();
+  if (height() < minimumSizeHint().height()) resize(width(), minimumSizeHint().height());
 }
 
 void ArchiveDialog::echo() {

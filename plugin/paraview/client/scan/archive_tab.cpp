@@ -19,6 +19,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/scan/archive_dialog.h"
 #include "plugin/paraview/client/scan/archive_items.h"
+#include "plugin/paraview/client/scan/archive_words.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/client/words/archive_date.h"
@@ -54,7 +55,7 @@ void ArchiveTab::close() {
 }
 
 void ArchiveTab::tell(const QString& message, bool problem) {
-  show_message(*message_, message, problem);
+  show_message(*message_, in_fields(message), problem);
 }
 
 void ArchiveTab::showEvent(QShowEvent* event) {

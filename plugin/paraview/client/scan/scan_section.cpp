@@ -228,7 +228,12 @@ void ScanSection::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void ScanSection::dropEvent(QDropEvent* event) {
-  open(event->mimeData()->urls().first().toLocalFile().toStdString());
+  open_later(event->mimeData()->urls().first().toLocalFile());
+}
+
+void ScanSection::open_later(const QString& path) {
+  QMetaObject::invokeMethod(
+      this, [this, path] { open(path.toStdString()); }, Qt::QueuedConnection);
 }
 
 }  // namespace palpate::plugin

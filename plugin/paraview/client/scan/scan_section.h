@@ -30,6 +30,8 @@ class ScanSection : public QWidget {
 
   /// Opens a folder or file, as the active server names it, and remembers it.
   void open(const std::string& path);
+  /// The same once what was dropped is taken: whoever dropped it waits for that, and a question may come first.
+  void open_later(const QString& path);
   /// Brings the archives in front of the folder.
   void show_archive();
   /// Asks for a folder and opens it.

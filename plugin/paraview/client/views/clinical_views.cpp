@@ -97,9 +97,9 @@ void ClinicalViews::show_frame_values(vtkSMSourceProxy& image) {
   if (chosen < windows_.size()) set_window(windows_[chosen].window);
 }
 
-void ClinicalViews::show_point(const glm::dvec3& place) {
+void ClinicalViews::show_point(const glm::dvec3& place, const std::optional<glm::dvec3>& but) {
   for (const auto& slice : slices_) {
-    if (slice) slice->show_point(place);
+    if (slice && slice->sight().along != but) slice->show_point(place);
   }
 }
 
@@ -205,6 +205,12 @@ void ClinicalViews::close() {
   }
   if (half_made) builder->destroy(half_made);
   views_.clear();
+}
+
+void ClinicalViews::drop_layout() {
+  vtkSMViewLayoutProxy* const layout = layout_;
+  layout_ = nullptr;
+  if (layout && layout->GetViews().empty()) remove_layout(*layout);
 }
 
 void ClinicalViews::stop_making() {
@@ -374,25 +380,32 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
   patient_.reset();
   views_.clear();
   prepare(image, lattice);
-  window_->window = window_of(*window_->gray_map);
-  name_window();
   // By what they show: their names are in the language of the program that saved them.
   for (pqView* const one : source.getViews()) {
     auto* const view = qobject_cast<pqRenderView*>(one);
     pqDataRepresentation* const shown = view ? source.getRepresentation(view) : nullptr;
     if (!shown) continue;
     const std::string type = vtkSMPropertyHelper(shown->getProxy(), "Representation").GetAsString();
-    if (type == "Volume" && !marker_) add_volume(*view, source);
+    if (type == "Volume" && !marker_) {
+      first_look_ = look_of(*shown->getProxy(), looks_);
+      add_volume(*view, source);
+    }
     if (type != "Slice") continue;
     const int mode = vtkSMPropertyHelper(shown->getProxy(), "SliceMode").GetAsInt();
     const auto* const place = std::ranges::find_if(
         places, [&](const auto& of) { return slice_mode(sight_of(of.plane, lattice.directions)) == mode; });
     const bool taken = std::ranges::any_of(views_, [&](const OpenView& other) { return other.kind == place->kind; });
     if (taken) continue;
+    // The state's own: one of that name may be there from before.
+    if (vtkSMProxy* const map = vtkSMPropertyHelper(shown->getProxy(), "LookupTable").GetAsProxy()) {
+      window_->gray_map = map;
+    }
     add_slice(lattice, place->plane, place->kind, *view, *shown->getProxy(),
               vtkSMPropertyHelper(shown->getProxy(), "Slice").GetAsInt(), true);
   }
   if (!views_.empty()) layout_ = layout_of(*views_.front().view);
+  window_->window = window_of(*window_->gray_map);
+  name_window();
   refresh();
 }
 

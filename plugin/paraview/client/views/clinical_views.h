@@ -55,12 +55,14 @@ class ClinicalViews {
   void adopt(pqPipelineSource& source);
   /// Removes the views of the layout that was shown last.
   void close();
+  /// Removes their tab, too, where nothing else stands in it.
+  void drop_layout();
   void set_window(const Window& window);
   const Window& window() const { return window_->window; }
   /// The windows offered for the scan that is shown, the first one first; empty if no scan is shown.
   const std::vector<NamedWindow>& windows() const { return windows_; }
-  /// The looks offered for the volume, and which of them it was first shown with. Empty if a state file has restored
-  /// the volume.
+  /// The looks offered for the volume, and which of them it was first shown with. None: a state file has restored the
+  /// volume with a look of somebody's own.
   const std::vector<VolumeLook>& looks() const { return looks_; }
   std::optional<std::size_t> first_look() const { return first_look_; }
   /// How places under the pointer are written from now on.
@@ -84,7 +86,8 @@ class ClinicalViews {
   /// Those that are open, the slices first.
   std::vector<ClinicalView> views() const;
   /// Moves every slice view to the slice nearest to a place in the patient, mm. Cheap where none changes.
-  void show_point(const glm::dvec3& place);
+  /// One whose slices have the normal `but` stays.
+  void show_point(const glm::dvec3& place, const std::optional<glm::dvec3>& but = {});
   /// Called when the user leafs through slices.
   void set_leafed(std::function<void()> leafed) { window_->leafed = std::move(leafed); }
   /// Called with the place under the pointer in a slice when that has moved; with none when it has left.

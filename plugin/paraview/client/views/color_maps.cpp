@@ -7,6 +7,7 @@
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMTransferFunctionManager.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace palpate::plugin {
@@ -59,6 +60,20 @@ void set_volume_look(vtkSMProxy& representation, const VolumeLook& look) {
   vtkSMPropertyHelper(&representation, "Diffuse", true).Set(diffuse);
   vtkSMPropertyHelper(&representation, "Specular", true).Set(specular);
   representation.UpdateVTKObjects();
+}
+
+std::optional<std::size_t> look_of(vtkSMProxy& representation, const std::vector<VolumeLook>& looks) {
+  vtkSMProxy* const colors = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
+  vtkSMProxy* const opacity = vtkSMPropertyHelper(&representation, "ScalarOpacityFunction").GetAsProxy();
+  if (!colors || !opacity) return std::nullopt;
+  const std::vector<double> points = vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray();
+  const std::vector<double> opaque = vtkSMPropertyHelper(opacity, "Points").GetDoubleArray();
+  const bool shaded = vtkSMPropertyHelper(&representation, "Shade", true).GetAsInt() != 0;
+  const auto same = std::ranges::find_if(looks, [&](const VolumeLook& look) {
+    return look.colors == points && look.opacity == opaque && look.shaded == shaded;
+  });
+  if (same == looks.end()) return std::nullopt;
+  return static_cast<std::size_t>(same - looks.begin());
 }
 
 }  // namespace palpate::plugin

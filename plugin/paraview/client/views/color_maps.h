@@ -2,6 +2,10 @@
 
 /// ParaView's color maps, as slices and volumes of a scan use them.
 
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 #include "plugin/paraview/common/scan_look.h"
 
 class pqServer;
@@ -16,5 +20,7 @@ Window window_of(vtkSMProxy& gray_map);
 
 /// Sets a look on the maps of a representation's array.
 void set_volume_look(vtkSMProxy& representation, const VolumeLook& look);
+/// Which of them a representation has; none: somebody has set it otherwise.
+std::optional<std::size_t> look_of(vtkSMProxy& representation, const std::vector<VolumeLook>& looks);
 
 }  // namespace palpate::plugin

@@ -47,6 +47,11 @@ vtkSMViewLayoutProxy& make_layout(pqServer& server) {
   return *vtkSMViewLayoutProxy::SafeDownCast(proxy);
 }
 
+void remove_layout(vtkSMViewLayoutProxy& layout) {
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->UnRegisterProxy(&layout);
+}
+
 vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRenderView& view, const char* array) {
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
   vtkSMProxy* const shown = controller->Show(&image, 0, view.getViewProxy());

@@ -17,6 +17,7 @@ namespace palpate::plugin {
 pqRenderView* make_view(pqServer& server, bool flat);
 /// An empty tab.
 vtkSMViewLayoutProxy& make_layout(pqServer& server);
+void remove_layout(vtkSMViewLayoutProxy& layout);
 /// Shows an image, colored by an array of its points, without a scalar bar.
 vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRenderView& view, const char* array);
 /// From the front and a little from the patient's left and above; the head up. `center` in patient space, mm.

@@ -20,13 +20,13 @@ struct Place {
   double x, y;  // parts of the view
   int horizontal, vertical;
 };
-constexpr double beside_bar = 0.972;
+constexpr double beside_bar = 0.972, above_letter = 0.075;
 constexpr std::array<Place, 8> places{{{beside_bar, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
                                        {0.015, 0.5, VTK_TEXT_LEFT, VTK_TEXT_CENTERED},
                                        {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
                                        {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
                                        {0.015, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP},
-                                       {0.015, 0.83, VTK_TEXT_LEFT, VTK_TEXT_TOP},
+                                       {0.015, above_letter, VTK_TEXT_LEFT, VTK_TEXT_BOTTOM},
                                        {beside_bar, 0.985, VTK_TEXT_RIGHT, VTK_TEXT_TOP},
                                        {beside_bar, 0.015, VTK_TEXT_RIGHT, VTK_TEXT_BOTTOM}}};
 constexpr std::size_t letters = 4, corner = 4, pointer = 5, identity = 6, place = 7;
@@ -40,7 +40,9 @@ bool is_clear_of_texts(double x, double y) {
   const bool under_side_letter = !inside(x, letter) && std::abs(y - 0.5) < half_letter;
   const bool under_upper_letter = !inside(y, letter) && std::abs(x - 0.5) < half_letter;
   const bool under_corner = y > 1 - corner_height || (x > 1 - corner_width && y < corner_height);
-  return !under_side_letter && !under_upper_letter && !under_corner;
+  constexpr double pointer_width = 0.75, pointer_height = 0.15;
+  const bool under_pointer = x < pointer_width && y < pointer_height;
+  return !under_side_letter && !under_upper_letter && !under_corner && !under_pointer;
 }
 
 SliceOverlay::SliceOverlay(vtkPVRenderView& view, std::function<void(int)> before_drawing)

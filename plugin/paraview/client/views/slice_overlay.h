@@ -21,7 +21,7 @@ namespace palpate::plugin {
 /// Whether a place of a view (0 to 1, from the left and from below) is away from its edges and from all texts.
 bool is_clear_of_texts(double x, double y);
 
-/// Letters at the four edges, which follow the camera. Upper left: what is shown, and below it what is under the
+/// Letters at the four edges, which follow the camera. Upper left: what is shown. Lower left: what is under the
 /// pointer. Upper right: who and when. Lower right: where the slice lies and how it is magnified.
 class SliceOverlay {
  public:

@@ -7,6 +7,7 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QImage>
+#include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
@@ -103,7 +104,7 @@ void felt_from_the_archive() {
   date.setText("yesterday");
   QTest::keyClick(&date, Qt::Key_Return);
   wait_for("a date is asked for in the archive's words",
-           [] { return is_told("--date has to be YYYYMMDD, YYYYMMDD-YYYYMMDD, YYYYMMDD- or -YYYYMMDD"); });
+           [] { return is_told("“Date” has to be YYYYMMDD, YYYYMMDD-YYYYMMDD, YYYYMMDD- or -YYYYMMDD"); });
   date.clear();
   QTest::keyClicks(&date, "2025");
   wait_for("a year is a span", [] { return is_told("The archive holds nothing of that kind."); });
@@ -147,7 +148,7 @@ void an_archive_is_entered() {
     find<QLineEdit>("palpateArchiveName").setText("clinic");
     click("palpateArchiveEcho");
     wait_for("what is missing is said",
-             [] { return dialog_says("archive clinic: --host has to be a machine's name or address"); });
+             [] { return dialog_says("archive clinic: “Host” has to be a machine's name or address"); });
     find<QLineEdit>("palpateArchiveHost").setText("127.0.0.1");
     find<QSpinBox>("palpateArchivePort").setValue(qEnvironmentVariableIntValue("PALPATE_ARCHIVE_PORT"));
     find<QLineEdit>("palpateArchiveCalled").setText("ORTHANC");
@@ -155,6 +156,12 @@ void an_archive_is_entered() {
     click("palpateArchiveEcho");
     wait_for("it does not know us",
              [] { return label("palpateArchiveDialogMessage").contains("does not know us as STRANGER"); });
+    expect(label("palpateArchiveDialogMessage").endsWith("or set “Our AE title”"),
+           "the field is named, and no option: " + label("palpateArchiveDialogMessage").toStdString());
+    handle_events(20);
+    const auto& said = find<QLabel>("palpateArchiveDialogMessage");
+    expect(said.height() >= said.heightForWidth(said.width()), "all of it is seen");
+    save_screen("archive-dialog-refused");
     find<QLineEdit>("palpateArchiveCalling").setText("PALPATE");
     find<QSpinBox>("palpateArchiveListen").setValue(qEnvironmentVariableIntValue("PALPATE_LISTEN_PORT"));
     click("palpateArchiveEcho");

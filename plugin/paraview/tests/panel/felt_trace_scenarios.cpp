@@ -152,17 +152,24 @@ void a_felt_trace_stays_in_its_slice() {
          "the trace stays in the slice: " + std::to_string(trace.points_mm.size()) + " places, " +
              std::to_string(most) + " mm beside it, the hand " + std::to_string(up_mm) + " up");
   expect(up_mm > 1.5, "though the hand went up: " + std::to_string(up_mm));
+  expect(height_of_slice() == height, "the view stays on the slice");
   save_screen("correct-in-slice");
   hold_key_in(view("Coronal"), "f", true);
   wait_for("F frees it", [] { return find<QCheckBox>("palpateHoldInSlice").text() == "Free while F is held"; });
   wait_for(
       "the stylus goes to the hand", [&] { return panel_session().last().proxy_mm.z > height + 1.5; }, 20);
+  expect(height_of_slice() == height, "the view waits where it will be held");
   hold_key_in(view("Coronal"), "f", false);
   wait_for(
       "and is held again", [&] { return std::abs(panel_session().last().proxy_mm.z - height) < 0.25; }, 20);
+  turn_wheel("Axial", 1);
+  const double next = height_of_slice();
+  expect(std::abs(next - height - 1) < 0.01, "the wheel shows the next slice");
+  wait_for(
+      "the stylus is held in that", [&] { return std::abs(panel_session().last().proxy_mm.z - next) < 0.25; }, 20);
   click("palpateHoldInSlice");
   wait_for(
-      "and let go", [&] { return panel_session().last().proxy_mm.z > height + 1.5; }, 20);
+      "and let go", [&] { return panel_session().last().proxy_mm.z > next + 0.5; }, 20);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
+#include <QFile>
 #include <QPushButton>
 
 #include <cstdint>
@@ -82,9 +83,40 @@ void without_the_panel() {
   });
 }
 
+double resident_mib() {
+  QFile status(QStringLiteral("/proc/self/status"));
+  expect(status.open(QIODevice::ReadOnly), "the system tells what the program holds");
+  for (const QByteArray& line : status.readAll().split('\n')) {
+    if (line.startsWith("VmRSS:")) return line.simplified().split(' ')[1].toDouble() / 1024;
+  }
+  return 0;
+}
+
+void tell_memory(const char* when) {
+  std::printf("memory_of_a_scan: %s: %.0f MiB resident, %.0f MiB of live heap\n", when, resident_mib(),
+              static_cast<double>(palpate::plugin::live_heap_bytes()) / (1 << 20));
+  std::fflush(stdout);
+}
+
+/// A measurement: what the program holds before a scan, with it, and once it is closed; three times.
+void memory_of_a_scan() {
+  wait_ms(3000);
+  tell_memory("at first");
+  for (int n = 0; n < 3; ++n) {
+    drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+    scan_is_shown();
+    tell_memory("with the scan");
+    reset();
+    wait_ms(3000);
+    tell_memory("closed");
+  }
+}
+
 }  // namespace
 
 const Scenarios& heap_scenarios() {
-  static const Scenarios scenarios{{"rounds_of_probing", rounds_of_probing}, {"without_the_panel", without_the_panel}};
+  static const Scenarios scenarios{{"rounds_of_probing", rounds_of_probing},
+                                   {"without_the_panel", without_the_panel},
+                                   {"memory_of_a_scan", memory_of_a_scan}};
   return scenarios;
 }

@@ -240,7 +240,8 @@ void the_layout_is_clinical() {
 
   click("palpateToolbarConnectButton");
   turn_forces_on();
-  expect(find<QToolButton>("palpateToolbarConnectButton").text() == "Disconnect", "the toolbar knows");
+  expect(find<QToolButton>("palpateToolbarConnectButton").text() == "Disconnect stylus",
+         "the toolbar knows, and says what");
   click("palpateToolbarRelease");
   wait_for(
       "it is released", [] { return label("palpateState").startsWith("Ready"); }, 20);

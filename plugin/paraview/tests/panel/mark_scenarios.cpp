@@ -287,6 +287,19 @@ void marks_are_restored() {
   save_screen("marks-restored");
 }
 
+/// In a program that has another scan open, and a mark on it.
+void marks_are_loaded() {
+  scan_is_shown();
+  connect_stylus();
+  press_key_in(view("Coronal"), "m");
+  has_rows(1, "the other scan has a mark");
+  click("palpateConnect");
+  load_state(beside_pictures("marks.pvsm"));
+  expect_four_views_of_one_scan();
+  expect(plugin::marks_of_text(marks_text()).size() == 1, "the marks are the state's alone");
+  marks_are_restored();
+}
+
 }  // namespace
 
 const Scenarios& mark_scenarios() {
@@ -296,6 +309,7 @@ const Scenarios& mark_scenarios() {
       {"marks_belong_to_a_scan", marks_belong_to_a_scan},
       {"marks_are_saved", marks_are_saved},
       {"marks_are_restored", marks_are_restored},
+      {"marks_are_loaded", marks_are_loaded},
   };
   return scenarios;
 }

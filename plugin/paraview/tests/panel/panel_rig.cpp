@@ -121,6 +121,12 @@ void type_key(const char* key) {
 }
 
 void in_dialog(const char* button, const std::function<void(QDialog&)>& act) {
+  in_dialog_of(
+      button, [button] { click(button); }, act);
+}
+
+void in_dialog_of(const std::string& what, const std::function<void()>& open,
+                  const std::function<void(QDialog&)>& act) {
   bool came = false;
   std::exception_ptr failed;
   QTimer looking;
@@ -139,9 +145,9 @@ void in_dialog(const char* button, const std::function<void(QDialog&)>& act) {
   });
   constexpr int poll_ms = 200;
   looking.start(poll_ms);
-  click(button);
+  open();
   if (failed) std::rethrow_exception(failed);
-  expect(came, std::string(button) + " opens a dialog");
+  expect(came, what + " opens a dialog");
 }
 
 void name_file(const char* button, const QString& file) {

@@ -59,6 +59,8 @@ void press_key(int key);
 void type_key(const char* key);
 /// Clicks on a button that opens a dialog, and does in it what a user does. Fails where no dialog comes.
 void in_dialog(const char* button, const std::function<void(QDialog&)>& act);
+/// The same where something else opens it; `what` says what.
+void in_dialog_of(const std::string& what, const std::function<void()>& open, const std::function<void(QDialog&)>& act);
 /// Clicks on a button that asks for a file, and names it.
 void name_file(const char* button, const QString& file);
 /// The same where it is to be written at once.

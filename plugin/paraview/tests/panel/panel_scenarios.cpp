@@ -350,7 +350,8 @@ const Scenarios scenarios{
 
 /// What is tested is the panel, however busy the machine is. Measurements have the computer's clock.
 void choose_clock(const std::string& name) {
-  if (!widget("PalpatePanel") || name == "main_thread" || name == "first_image" || name.starts_with("rounds_of_"))
+  if (!widget("PalpatePanel") || name == "main_thread" || name == "first_image" || name.starts_with("rounds_of_") ||
+      name == "memory_of_a_scan")
     return;
   const bool left_alone = name == "a_short_press_counts";
   panel_session().set_clock([left_alone](double period_s) { return panel_clock(period_s, left_alone); });
@@ -368,7 +369,7 @@ void run_scenario(const std::string& name) {
         &layout_scenarios(),  &mark_scenarios(),      &sent_mark_scenarios(),   &picture_scenarios(),
         &profile_scenarios(), &recording_scenarios(), &remote_scenarios(),      &sharing_scenarios(),
         &shown_scenarios(),   &slice_scenarios(),     &story_scenarios(),       &structure_scenarios(),
-        &reading_scenarios(), &tuning_scenarios(),    &volume_scenarios()}) {
+        &reading_scenarios(), &tuning_scenarios(),    &unsaved_scenarios(),     &volume_scenarios()}) {
     if (const auto found = some->find(name); found != some->end()) return found->second();
   }
   throw std::runtime_error("there is no scenario " + name);

@@ -1,9 +1,12 @@
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
 #include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqLoadStateReaction.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <pqTabbedMultiViewWidget.h>
 #include <vtkAbstractVolumeMapper.h>
 #include <vtkCommand.h>
 #include <vtkRenderWindowInteractor.h>
@@ -15,14 +18,18 @@
 #include <vtkVolumeCollection.h>
 
 #include <QCoreApplication>
+#include <QDialog>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
+#include <QTabWidget>
 #include <QThread>
 #include <QUrl>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -67,14 +74,61 @@ unsigned reader_in_pipeline() {
   return found ? found->getProxy()->GetGlobalID() : 0;
 }
 
-void choose_series(int row) {
-  const unsigned before = reader_in_pipeline();
+namespace {
+
+void click_series(int row) {
   auto& series = find<QListWidget>("palpateSeries");
   wait_for("the series are listed", [&] { return series.count() > row; });
   scroll_to(series);
   series.scrollToItem(series.item(row));
   click(*series.viewport(), series.visualItemRect(series.item(row)).center());
+}
+
+}  // namespace
+
+void choose_series(int row) {
+  const unsigned before = reader_in_pipeline();
+  click_series(row);
   another_scan_is_shown(before);
+}
+
+void choose_series_and(int row, const char* button) {
+  in_dialog_of(
+      "another series", [row] { click_series(row); }, [button](QDialog& question) { answer(question, button); });
+}
+
+QString answer(QDialog& question, const char* button) {
+  expect(question.objectName() == "palpateUnsaved", "it is asked what becomes of what is not saved");
+  const QString asked = static_cast<QMessageBox&>(question).text();
+  click((std::string("palpateUnsaved") + button).c_str());
+  return asked;
+}
+
+void load_state(const QString& file) {
+  const unsigned before = reader_in_pipeline();
+  pqLoadStateReaction::loadState(file, true);
+  another_scan_is_shown(before);
+}
+
+int views_open() {
+  return static_cast<int>(pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>().size());
+}
+
+void expect_four_views_of_one_scan() {
+  expect(!find<QWidget>("palpateCover").isVisible(), "nothing lies over the views");
+  expect(views_open() == 4, "there are four views: " + std::to_string(views_open()));
+  const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  for (const char* const kind : {"PalpateDicomReader", "PalpateScene"}) {
+    const auto count = std::ranges::count_if(
+        sources, [kind](const pqPipelineSource* one) { return one->getProxy()->GetXMLName() == std::string(kind); });
+    expect(count == 1, std::string(kind) + " is once in the pipeline, not " + std::to_string(count) + " times");
+  }
+  for (const char* const name : {"Axial", "Sagittal", "Coronal", "Volume"}) {
+    expect(reader().getRepresentation(&render_view(name)) != nullptr, std::string(name) + " shows it");
+  }
+  const auto* const tabs =
+      pqCoreUtilities::mainWidget()->findChild<pqTabbedMultiViewWidget*>()->findChild<QTabWidget*>();
+  expect(tabs && tabs->count() == 2, "in one tab, beside the one that makes another");
 }
 
 std::string scene_text() {

@@ -11,6 +11,7 @@
 
 #include "plugin/session/servo_clock.h"
 
+class QDialog;
 class pqPipelineSource;
 
 namespace palpate::plugin {
@@ -47,6 +48,7 @@ const Scenarios& story_scenarios();
 const Scenarios& structure_scenarios();
 const Scenarios& reading_scenarios();
 const Scenarios& tuning_scenarios();
+const Scenarios& unsaved_scenarios();
 const Scenarios& volume_scenarios();
 
 /// What casts the volume's rays where there is no graphics card; throws where nothing of ours does.
@@ -57,6 +59,16 @@ pqPipelineSource& reader();
 unsigned reader_in_pipeline();
 /// Chooses a row of the list of series, and waits until that scan is shown.
 void choose_series(int row);
+/// The same where something is not saved, with the button that is pressed then: "Save", "Discard" or "Cancel". Does not
+/// wait.
+void choose_series_and(int row, const char* answer);
+/// The question what becomes of what is not saved: presses that button in it. Returns what it asked.
+QString answer(QDialog& question, const char* button);
+/// Reads a state file as File > Load State does with it, and waits until another scan than now is shown.
+void load_state(const QString& file);
+int views_open();
+/// One reader, one scene, one tab, and four views that show the scan.
+void expect_four_views_of_one_scan();
 /// The JSON text of the scene in the pipeline; empty where there is none.
 std::string scene_text();
 /// The same once it stays: no edit is on its way.

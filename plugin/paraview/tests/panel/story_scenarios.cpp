@@ -68,6 +68,9 @@ void append(std::string& text, const char* what, const double* numbers, int coun
 /// Every view: what it shows, from where, and how large it is on the screen.
 std::string layout_text() {
   std::string text;
+  for (const char* const box : {"palpateWindow", "palpateVolumeLook"}) {
+    text += find<QComboBox>(box).currentText().toStdString() + "\n";
+  }
   for (const char* const name : {"Axial", "Sagittal", "Coronal", "Volume"}) {
     for (pqRenderView* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
       if (one->getSMName() != QLatin1String(name)) continue;
@@ -166,6 +169,8 @@ void a_session_is_saved() {
   add_stroke();
   find<QComboBox>("palpateWindow").setCurrentIndex(1);
   emit find<QComboBox>("palpateWindow").activated(1);
+  find<QComboBox>("palpateVolumeLook").setCurrentIndex(1);
+  emit find<QComboBox>("palpateVolumeLook").activated(1);
   views_rest();
   write_what_is_compared("saved");
   expect(pqApplicationCore::instance()->saveState(beside("story.pvsm")), "the state is saved");
@@ -203,6 +208,19 @@ void a_session_is_restored() {
   expect(frames_that_differ(scene_text()) > 0, "another scene is felt otherwise");
   connect_stylus();
   press_once();
+}
+
+/// In a program that has another scan open, with an edited scene: all is as in the program that began with the state.
+void a_session_is_loaded() {
+  scan_is_shown();
+  edit_the_scene();
+  load_state(beside("story.pvsm"));
+  expect_four_views_of_one_scan();
+  write_what_is_compared("loaded");
+  save_screen("story-loaded");
+  connect_stylus();
+  press_once();
+  expect(label("palpateFelt").contains("Scene: Restored with the state."), "the state's scene is felt");
 }
 
 /// All that one does is traced; pvpython repeats it.
@@ -264,9 +282,8 @@ void twenty_edits_are_undone() {
 
 const Scenarios& story_scenarios() {
   static const Scenarios scenarios{
-      {"a_session_is_saved", a_session_is_saved},
-      {"a_session_is_restored", a_session_is_restored},
-      {"a_session_is_traced", a_session_is_traced},
+      {"a_session_is_saved", a_session_is_saved},           {"a_session_is_restored", a_session_is_restored},
+      {"a_session_is_loaded", a_session_is_loaded},         {"a_session_is_traced", a_session_is_traced},
       {"twenty_edits_are_undone", twenty_edits_are_undone},
   };
   return scenarios;

@@ -1,0 +1,35 @@
+#pragma once
+
+/// What of ParaView takes the user's work away asks first: its window's close button, File > Exit, File > Load State
+/// and Edit > Reset Session.
+
+#include <QObject>
+
+#include <functional>
+
+class QAction;
+class QMainWindow;
+
+namespace palpate::plugin {
+
+class HostGuards : public QObject {
+  Q_OBJECT
+
+ public:
+  using May = std::function<bool()>;
+
+  /// `may_end`: whether ParaView may end; `may_replace`: whether all that is open may make room for something else.
+  HostGuards(QMainWindow& window, May may_end, May may_replace, QObject* parent = nullptr);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void guard_actions();
+  void guard(QAction& action, QObject& done_by, const May& may, const std::function<void()>& go_on);
+
+  QMainWindow& window_;
+  May may_end_, may_replace_;
+};
+
+}  // namespace palpate::plugin
