@@ -76,7 +76,12 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
         make_next();
       }),
       using_([this](const auto& read, const QString& error) {
-        if (read) held_.insert(held_.end(), read->begin(), read->end());
+        if (read) {
+          held_.insert(held_.end(), read->begin(), read->end());
+          // The session takes it over as it is: this thread reads no file.
+          touching_.offer(
+              {.plan = nullptr, .source = nullptr, .volume = touching_.live().felt_scan(), .structures = *read});
+        }
         read_done_(error);
       }),
       measuring_margins_([this](const auto& measured, const QString&) {
