@@ -19,9 +19,8 @@ namespace {
 
 using testing::comes;
 
-struct Recording : ::testing::Test {
-  Recording() {
-    testing::application();
+struct RecordingOfAController : testing::WithApplication, ::testing::Test {
+  RecordingOfAController() {
     touching.set_clock([](double period_s) { return std::make_unique<testing::UnhurriedClock>(period_s); });
     model.open(modes::load_scene("ct-skin-and-bone"));
     QObject::connect(&touching, &SessionController::told, [this](const QString& text, bool problem) {
@@ -48,7 +47,7 @@ struct Recording : ::testing::Test {
 };
 
 /// Whatever ends it: it is told how much was recorded, and the file can be looked at.
-TEST_F(Recording, ItIsToldHowItEndedWhateverEndsIt) {
+TEST_F(RecordingOfAController, ItIsToldHowItEndedWhateverEndsIt) {
   const std::pair<const char*, std::function<void()>> ends[] = {
       {"the user", [this] { touching.stop_recording(); }},
       {"no stylus", [this] { touching.disconnect_stylus(); }},

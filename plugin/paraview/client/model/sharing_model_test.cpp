@@ -20,12 +20,10 @@ namespace {
 using igtl::testing::ball_of_labels;
 using igtl::testing::TestClient;
 
-using testing::application;
 using testing::comes;
 
-struct SharingTest : ::testing::Test {
+struct SharingTest : testing::WithApplication, ::testing::Test {
   SharingTest() {
-    application();
     touching.set_clock([](double period_s) { return std::make_unique<plugin::testing::UnhurriedClock>(period_s); });
     model.open(modes::load_scene("ct-skin-and-bone"));
     QObject::connect(&sharing, &SharingModel::folder_wanted, [this](const QString& name) { folder = name; });

@@ -18,6 +18,12 @@ inline QCoreApplication& application() {
   return made;
 }
 
+/// A base of fixtures, before the models that are their members: a timer that is started before the application never
+/// fires.
+struct WithApplication {
+  WithApplication() { application(); }
+};
+
 /// Whether it comes to hold within a minute, while events are handled.
 template <typename Holds>
 bool comes(const Holds& holds) {
