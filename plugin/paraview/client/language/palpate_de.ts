@@ -223,7 +223,7 @@
     </message>
     <message>
         <source>Connect stylus</source>
-        <translation>Stift verbinden</translation>
+        <translation>Verbinden</translation>
     </message>
     <message>
         <source>Release  (Esc)</source>
@@ -279,7 +279,7 @@
     </message>
     <message>
         <source>Disconnect stylus</source>
-        <translation>Stift trennen</translation>
+        <translation>Trennen</translation>
     </message>
     <message>
         <source>Disconnects the stylus</source>

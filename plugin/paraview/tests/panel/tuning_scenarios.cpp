@@ -253,11 +253,11 @@ void words_for_developers_stand_under_technical() {
       if (text->isVisible()) seen << text->text();
     }
     const QString all = seen.join(QLatin1Char('\n'));
-    for (const char* const word : {"gradient bricks|brick", "Hessian", "solver", "tick", "its own: "}) {
+    for (const char* const word : {"gradient bricks|brick", "Hessian", "solver", "tick", "own limits: "}) {
       const bool is = all.contains(QRegularExpression(QStringLiteral("\\b(%1)").arg(QLatin1String(word))));
       if (!there) expect(!is, std::string("nothing tells of ") + word + ": " + all.toStdString());
     }
-    expect(all.contains("its own: ") == there && all.contains("solver") == there && all.contains("tick") == there,
+    expect(all.contains("own limits: ") == there && all.contains("solver") == there && all.contains("tick") == there,
            std::string(there ? "with" : "without") + " Technical: " + all.toStdString());
   };
   expect(!technical.isChecked(), "at first it is off");
