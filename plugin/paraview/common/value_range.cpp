@@ -24,14 +24,14 @@ struct Range {
   bool has_infinite = false;
 };
 
-/// Of the finite values; NaN is not infinite.
+/// Of the finite values; NaN is not infinite, and io marks with the least float what was not measured.
 template <typename Stored>
 Range<Stored> range_of(std::span<const Stored> values) {
   Range<Stored> range;
   for (const Stored value : values) {
     if constexpr (std::is_floating_point_v<Stored>) {
       range.has_infinite |= std::isinf(value);
-      if (!std::isfinite(value)) continue;
+      if (!std::isfinite(value) || value == std::numeric_limits<Stored>::lowest()) continue;
     }
     range.low = value < range.low ? value : range.low;
     range.high = value > range.high ? value : range.high;

@@ -64,6 +64,21 @@ TEST(ValueRange, LeavesOutWhatIsNoNumber) {
   }
 }
 
+// io marks so what was not measured: without this the colors of a flow's volume would reach from -3e38 on.
+TEST(ValueRange, LeavesOutWhatWasNotMeasured) {
+  vtkNew<vtkFloatArray> array;
+  for (const float value : {0.5F, std::numeric_limits<float>::lowest(), -2.F, std::numeric_limits<float>::max()}) {
+    array->InsertNextValue(value);
+  }
+  keep_range(*array);
+  constexpr double greatest = std::numeric_limits<float>::max();
+  Range range;
+  array->GetRange(range.data(), 0);
+  EXPECT_EQ(range, (Range{-2, greatest}));
+  array->GetFiniteRange(range.data(), 0);
+  EXPECT_EQ(range, (Range{-2, greatest}));
+}
+
 TEST(ValueRange, OfNothingIsLeftToVtk) {
   vtkNew<vtkFloatArray> array;
   array->InsertNextValue(std::numeric_limits<float>::quiet_NaN());

@@ -164,6 +164,7 @@ FOLDERS = {
     "a_filter_is_felt_and_shown": lambda: phantom("noisy", "sphere", "--radius", "25", "--noise", "80"),
     "frames_are_felt_as_shown": flow,
     "a_flow_is_shown_and_felt": flow,
+    "a_flow_is_drawn_as_a_volume": flow,
     "one_tab_is_used_again": both,
     "a_look_is_of_its_scan": both,
     # So fine that its lines take longer than the next picture.
@@ -252,6 +253,7 @@ SCENARIOS = [
     "frames_are_felt_as_shown",
     "a_scene_without_its_field_is_refused",
     "a_flow_is_shown_and_felt",
+    "a_flow_is_drawn_as_a_volume",
     "the_hand_begins_in_sight",
     "keys_go_to_the_marked_view",
     "slices_are_scrolled",

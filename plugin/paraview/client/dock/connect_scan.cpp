@@ -161,7 +161,9 @@ void PanelParts::leave_server() {
     const bool records = touching.live().recording().has_value();
     leave(records ? words(say("left-the-server-recording")) : words(say("left-the-server")));
   } else {
-    touching.keep_off(words(say("paraview-session-ended")));
+    const QString why = words(say("paraview-session-ended"));
+    // With a stylus that is held the scan stays as it was felt, without a force, until another takes its place.
+    touching.live().is_connected() ? touching.keep_off(why) : touching.set_no_scan(why);
     scans.lose_server();
   }
   if (!kept_in.isEmpty()) emit scans.told(kept_in, true);
@@ -183,6 +185,8 @@ void PanelParts::leave_views() {
   studied.reset();
   filter->give_up();
   open_views.set({});
+  flow.set_volume({});
+  contours.set_felt({}, {}, {}, Pace::stepped);
   scan_fold->set_note({});
   leave_structures();
   leave_marks();

@@ -138,7 +138,7 @@ void PatientVolume::take_image() {
   if (waits_ && !(seek_body && draws_without_card())) {
     QTimer::singleShot(seek_body ? most_wait_ms : no_wait_ms, &lifetime_, [this] { begin_to_draw(); });
   }
-  if (!values || !one_frame || same) return;
+  if (!values || same) return;
   whole_image_ = vtkSmartPointer<vtkImageData>::New();
   whole_image_->ShallowCopy(image);
   cut_image_ = nullptr;

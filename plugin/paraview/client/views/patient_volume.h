@@ -2,7 +2,8 @@
 
 /// The scan in the volume view as a patient: without table and headrest, and cropped by a box with handles. ParaView's
 /// own representation stays in the pipeline with its colors and opacity; while something is cut away, a copy of it is
-/// drawn in its place. Only for scans in this process: a server's scan is drawn as ParaView draws it.
+/// drawn in its place. Of several frames the one that is shown. Only for scans in this process: a server's scan is
+/// drawn as ParaView draws it.
 
 #include <vtkSmartPointer.h>
 

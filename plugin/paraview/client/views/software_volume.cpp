@@ -21,6 +21,7 @@
 #include <exception>
 #include <utility>
 
+#include "plugin/paraview/client/views/castable.h"
 #include "plugin/paraview/client/views/caster.h"
 
 namespace palpate::plugin {
@@ -82,7 +83,8 @@ std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>()> preparing_to_
   volume->GetProperty()->ShadeOn();  // gradients are for that
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
   return [=]() -> vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> {
-    mapper->SetInputData(step > 1 ? thinned(*straight, step) : straight);
+    const auto numbers = of_numbers_alone(*straight);
+    mapper->SetInputData(step > 1 ? thinned(*numbers, step) : numbers);
     vtkNew<vtkCallbackCommand> asked;
     asked->SetCallback(&leave_if_cancelled);
     asked->SetClientData(const_cast<std::atomic<bool>*>(cancelled.get()));

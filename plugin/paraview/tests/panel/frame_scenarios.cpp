@@ -221,6 +221,47 @@ void a_flow_is_shown_and_felt() {
   let_go();
 }
 
+/// Part of the middle of the volume view in which something is seen.
+double part_seen_of_volume() {
+  const QImage picture = view("Volume").grab().toImage();
+  const int width = picture.width() / 2, height = picture.height() / 2;
+  int count = 0;
+  for (int y = height / 2; y < height / 2 + height; ++y) {
+    for (int x = width / 2; x < width / 2 + width; ++x) count += picture.pixelColor(x, y).value() > 60 ? 1 : 0;
+  }
+  return static_cast<double>(count) / (width * height);
+}
+
+/// The wind tunnel is a cube, whose sphere was not measured: that is not what the volume's colors are spread over.
+void a_flow_is_drawn_as_a_volume() {
+  choose_series(row_with("velocity of"));
+  const auto wait_for_part = [](const std::string& what, double least, double most) {
+    wait_for(
+        what,
+        [least, most] {
+          const double part = part_seen_of_volume();
+          return part >= least && part <= most;
+        },
+        20);
+    views_rest();
+  };
+  const auto show_frame = [](int frame) {
+    find<QSlider>("palpateFrame").setValue(frame);
+    wait_for(
+        "the frame is shown",
+        [frame] { return place_text("Axial").endsWith(QStringLiteral("%1 of 5").arg(frame + 1)); }, 20);
+  };
+  wait_for_part("the cube is seen", 0.3, 1);
+  save_screen("flow-volume");
+  show_frame(1);
+  wait_for_part("it is faster and seen", 0.3, 1);
+  // Speeds are compared: the colors stay those of the first frame.
+  show_frame(4);
+  wait_for_part("what is half as fast is seen beside the sphere alone", 0, 0.1);
+  show_frame(0);
+  wait_for_part("the first frame is seen again", 0.3, 1);
+}
+
 /// Refused before anything is connected, in words, and the scene that can be felt stays.
 void a_scene_without_its_field_is_refused() {
   scan_is_shown();
@@ -262,6 +303,7 @@ const Scenarios& frame_scenarios() {
       {"a_filter_is_felt_and_shown", a_filter_is_felt_and_shown},
       {"frames_are_felt_as_shown", frames_are_felt_as_shown},
       {"a_flow_is_shown_and_felt", a_flow_is_shown_and_felt},
+      {"a_flow_is_drawn_as_a_volume", a_flow_is_drawn_as_a_volume},
       {"a_scene_without_its_field_is_refused", a_scene_without_its_field_is_refused},
   };
   return all;

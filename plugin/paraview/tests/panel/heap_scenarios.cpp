@@ -14,6 +14,7 @@
 #include <vtkSMSourceProxy.h>
 
 #include <QFile>
+#include <QFileInfo>
 #include <QPushButton>
 
 #include <cstdint>
@@ -98,10 +99,24 @@ void tell_memory(const char* when) {
   std::fflush(stdout);
 }
 
-/// A measurement: what the program holds before a scan, with it, and once it is closed; three times.
+/// A measurement: what the program holds before a scan, with it, and once it is closed; three times. Of several
+/// folders, with a colon between them: with each of them, one after the other, and once the last is closed.
 void memory_of_a_scan() {
   wait_ms(3000);
   tell_memory("at first");
+  const QStringList folders = qEnvironmentVariable("PALPATE_DROP").split(QLatin1Char(':'));
+  if (folders.size() > 1) {
+    for (const QString& folder : folders) {
+      const unsigned before = reader_in_pipeline();
+      drop_folder(folder);
+      another_scan_is_shown(before);
+      wait_ms(5000);
+      tell_memory(QFileInfo(folder).fileName().toUtf8().constData());
+    }
+    reset();
+    wait_ms(5000);
+    return tell_memory("closed");
+  }
   for (int n = 0; n < 3; ++n) {
     drop_folder(qEnvironmentVariable("PALPATE_DROP"));
     scan_is_shown();
