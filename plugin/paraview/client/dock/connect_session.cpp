@@ -56,7 +56,7 @@ void PanelParts::connect_session() {
   // The threads end before ParaView goes, and before a server takes the views away.
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
     ending = true;
-    studies.cancel();
+    studies.finish();
     QObject::disconnect(&touching, &SessionController::recorded, recordings, nullptr);  // nobody looks at it any more
     sharing.turn_off();
     touching.disconnect_stylus();

@@ -3,18 +3,16 @@
 /// Finding, loading and studying scans in the background, so that the panel stays alive and a scan can be given up.
 
 #include <QImage>
-#include <QObject>
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "io/filter.h"
 #include "io/series.h"
 #include "io/volume.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/jobs/scan_study.h"
 
 namespace palpate::plugin {
@@ -25,7 +23,7 @@ struct ScanCopy {
   std::size_t series = 0;
 };
 
-/// One job at a time; a new one cancels the last. All callbacks come on the UI thread, none after destruction.
+/// One at a time: a new one cancels the last. All callbacks come on the UI thread, none after cancel() or destruction.
 class ScanLoader {
  public:
   /// Empty where the job failed or was cancelled; then `error` says why, or is empty if it was cancelled.
@@ -35,9 +33,6 @@ class ScanLoader {
   using Progress = std::function<void(double done)>;
 
   ScanLoader() = default;
-  ScanLoader(const ScanLoader&) = delete;
-  ScanLoader& operator=(const ScanLoader&) = delete;
-  ~ScanLoader();
 
   void find(const std::string& path, Progress progress, Found found);
   /// Through a filter, where one is given.
@@ -49,21 +44,19 @@ class ScanLoader {
   /// The first of them whose frame has that hash; none, without an error, where none has.
   void load_copy(std::vector<ScanCopy> copies, int frame, const std::string& hash, Progress progress, Loaded loaded);
   void study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied);
-  /// One for each series, in their order, as they are drawn; empty ones where there is nothing to be shown. One or two
-  /// may still come when the job was cancelled.
+  /// One for each series, in their order, as they are drawn; empty ones where there is nothing to be shown.
   void draw_thumbnails(std::shared_ptr<const io::Catalogue> catalogue,
                        std::function<void(std::size_t series, const QImage&)> drawn);
-  void cancel();
-  bool is_busy() const { return busy_; }
+  void cancel() { job_.cancel(); }
+  /// As Job::finish().
+  void finish() { job_.finish(); }
+  bool is_busy() const { return job_.is_busy(); }
 
  private:
-  template <typename Result, typename Work, typename Done>
+  template <typename Work, typename Done>
   void start(Work work, Progress progress, Done done);
 
-  std::thread thread_;
-  std::shared_ptr<std::atomic<bool>> cancelled_ = std::make_shared<std::atomic<bool>>(false);
-  bool busy_ = false;  // UI thread only
-  QObject receiver_;   // its end ends the callbacks
+  Job job_;
 };
 
 }  // namespace palpate::plugin

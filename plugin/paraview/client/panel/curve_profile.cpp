@@ -33,10 +33,7 @@ std::vector<Curve> faded(std::vector<Curve> curves) {
 }  // namespace
 
 CurveProfile::CurveProfile(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent)
-    : QWidget(parent), strokes_(strokes), job_([this](auto made, const QString& error) {
-        made_ = std::move(made);
-        made_ ? show_made() : words_->setText(error);
-      }) {
+    : QWidget(parent), strokes_(strokes) {
   setObjectName(QStringLiteral("palpateCurveProfile"));
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -118,19 +115,23 @@ WantedStroke CurveProfile::stroke() const {
 
 void CurveProfile::run() {
   if (!isVisible()) {  // run again when it is seen
-    job_.drop();
+    job_.cancel();
     return;
   }
   QString why = tr("Rest with the pointer on a boundary in a slice: the force across it is drawn here.");
   try {
     if (const auto profile = strokes_.run(stroke())) {
-      job_.ask([profile] { return make(profile()); });
+      job_.ask([profile] { return make(profile()); },
+               [this](const auto& made, const QString& error) {
+                 made_ = made;
+                 made_ ? show_made() : words_->setText(error);
+               });
       return;
     }
   } catch (const std::exception& error) {
     why = QString::fromUtf8(error.what());
   }
-  job_.drop();
+  job_.cancel();
   made_.reset();
   before_.reset();
   chart_->show_charts({}, 0);

@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
 
 class QLabel;
@@ -66,7 +66,7 @@ class CurveProfile : public QWidget {
   QTimer rest_;
   bool dragging_ = false;
   std::shared_ptr<const Made> made_, before_;
-  LatestJob<Made> job_;
+  Job job_{Job::Newer::follows};
 };
 
 }  // namespace palpate::plugin

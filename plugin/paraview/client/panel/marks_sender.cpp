@@ -16,7 +16,7 @@ void MarksSender::send(const io::Archive& archive, const io::Series& series,
                        const std::shared_ptr<const io::Volume>& volume, const Marks& marks,
                        std::function<void()> done) {
   set_patient(patient_in_words(series.identity.patient_name));
-  const auto work = [this, archive, series, volume, marks](const Job& job) {
+  const auto work = [this, archive, series, volume, marks](const Job::Control& job) {
     const io::FreshFolder folder = io::temporary_folder();
     const auto files = write_results(series, volume, marks, folder.path());
     const int all = static_cast<int>(files.size());

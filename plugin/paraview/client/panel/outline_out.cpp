@@ -26,7 +26,7 @@ OutlineOut::OutlineOut(QWidget* parent) : WorkBar(QStringLiteral("palpateOutline
 void OutlineOut::save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours,
                       bool overwrite, std::function<void()> done) {
   set_patient(patient_in_words(outline.series.identity.patient_name));
-  const auto work = [this, outline, file, as_contours, overwrite](const Job& job) -> Said {
+  const auto work = [this, outline, file, as_contours, overwrite](const Job::Control& job) -> Said {
     const io::StructureForm form = io::form_of(file, as_contours);
     write_outline(outline, file, form, overwrite, [&](double part) {
       tell_progress(job, static_cast<int>(whole * part), whole);
@@ -39,7 +39,7 @@ void OutlineOut::save(const CorrectedOutline& outline, const std::filesystem::pa
 
 void OutlineOut::send(const CorrectedOutline& outline, const io::Archive& archive, std::function<void()> done) {
   set_patient(patient_in_words(outline.series.identity.patient_name));
-  const auto work = [outline, archive](const Job& job) -> Said {
+  const auto work = [outline, archive](const Job::Control& job) -> Said {
     const io::FreshFolder folder = io::temporary_folder();
     const std::filesystem::path file = folder.path() / "outline.dcm";
     write_outline(outline, file, io::StructureForm::segmentation, false, [&](double) { return job.keep_going(); });

@@ -36,8 +36,7 @@ ProfileSection::ProfileSection(OpenViews& views, SessionController& touching, Sc
       touching_(touching),
       strokes_(strokes),
       path_(views, QColor(230, 80, 210)),
-      following_(views.follow(Layer::paths, [this](const auto&) { forget(); })),
-      job_([this](auto made, const QString& error) { show_profile(std::move(made), error); }) {
+      following_(views.follow(Layer::paths, [this](const auto&) { forget(); })) {
   setObjectName(QStringLiteral("palpateProfile"));
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -191,7 +190,8 @@ void ProfileSection::run() {
   }
   try {
     if (const auto profile = strokes_.run(stroke_)) {
-      job_.ask([profile] { return make(profile()); });
+      job_.ask([profile] { return make(profile()); },
+               [this](const auto& made, const QString& error) { show_profile(made, error); });
     } else {
       show_nothing({});
     }
@@ -230,7 +230,7 @@ void ProfileSection::show_profile(std::shared_ptr<const Made> made, const QStrin
 }
 
 void ProfileSection::show_nothing(const QString& why) {
-  job_.drop();
+  job_.cancel();
   made_.reset();
   for (QPushButton* const button : save_.both) button->setEnabled(false);
   chart_->show_charts({}, 0, tr("Force against depth along a stroke through the scan, as it would be felt now"));

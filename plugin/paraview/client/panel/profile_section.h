@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/panel/stroke_runner.h"
 #include "plugin/paraview/client/views/path_views.h"
@@ -78,7 +78,7 @@ class ProfileSection : public QWidget {
   PathViews path_;
   std::shared_ptr<const Made> made_;
   OpenViews::Following following_;  // of another scan the points are no longer
-  LatestJob<Made> job_;
+  Job job_{Job::Newer::follows};
 };
 
 }  // namespace palpate::plugin

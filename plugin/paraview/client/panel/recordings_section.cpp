@@ -80,10 +80,7 @@ RecordingsSection::RecordingsSection(OpenViews& views, SessionController& touchi
       touching_(touching),
       first_path_(views, QColor(86, 180, 233)),
       second_path_(views, QColor(230, 159, 0)),
-      following_(views.follow(Layer::paths, [this](const auto&) { close_all(); })),
-      first_job_([this](const auto& opened, const QString& error) { take(opened, error, false); }),
-      second_job_([this](const auto& opened, const QString& error) { take(opened, error, true); }),
-      compare_job_([this](const auto& both, const QString& error) { show_comparison(both, error); }) {
+      following_(views.follow(Layer::paths, [this](const auto&) { close_all(); })) {
   setObjectName(QStringLiteral("palpateRecordings"));
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -199,7 +196,7 @@ void RecordingsSection::read(const QString& file, bool second) {
     tell(words(say("there-is-no-scan-to-see")), true);
     return;
   }
-  (second ? second_job_ : first_job_).ask([file, volume] {
+  const auto read_it = [file, volume] {
     const QString name = QFileInfo(file).fileName();
     try {
       return Opened{name, std::make_shared<const RecordedSession>(read_recording(file.toStdString()), *volume), volume};
@@ -211,6 +208,9 @@ void RecordingsSection::read(const QString& file, bool second) {
                                        : what.replace(path, file.toStdString().size(), name.toStdString());
       throw std::runtime_error(what);
     }
+  };
+  (second ? second_job_ : first_job_).ask(read_it, [this, second](const auto& opened, const QString& error) {
+    take(opened, error, second);
   });
 }
 
@@ -223,7 +223,7 @@ void RecordingsSection::take(const std::shared_ptr<const Opened>& opened, const 
 }
 
 void RecordingsSection::set_first(Opened opened) {
-  second_job_.drop();
+  second_job_.cancel();
   first_ = std::move(opened);
   playback_.set_session(first_.session);
   const bool there = first_.session != nullptr;
@@ -244,17 +244,18 @@ void RecordingsSection::set_first(Opened opened) {
 }
 
 void RecordingsSection::close_all() {
-  first_job_.drop();
+  first_job_.cancel();
   set_first({});
 }
 
 void RecordingsSection::set_second(Opened opened) {
-  compare_job_.drop();
+  compare_job_.cancel();
   second_ = std::move(opened);
   show_comparison(nullptr, {});
   show_paths();
   if (!first_.session || !second_.session) return;
-  compare_job_.ask([a = first_.session, b = second_.session] { return compare_strokes(*a, *b); });
+  compare_job_.ask([a = first_.session, b = second_.session] { return compare_strokes(*a, *b); },
+                   [this](const auto& both, const QString& error) { show_comparison(both, error); });
 }
 
 void RecordingsSection::play_or_pause() {

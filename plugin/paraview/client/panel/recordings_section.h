@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/model/playback.h"
 #include "plugin/paraview/client/views/path_views.h"
 #include "plugin/report/compare_strokes.h"
@@ -72,8 +72,7 @@ class RecordingsSection : public QWidget {
   QWidget* comparison_ = nullptr;
   ChartPicture* chart_ = nullptr;
   QLabel* message_ = nullptr;
-  LatestJob<Opened> first_job_, second_job_;
-  LatestJob<Comparison> compare_job_;
+  Job first_job_{Job::Newer::follows}, second_job_{Job::Newer::follows}, compare_job_{Job::Newer::follows};
 };
 
 }  // namespace palpate::plugin

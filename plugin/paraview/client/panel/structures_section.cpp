@@ -67,27 +67,6 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
       touching_(touching),
       correction_(correction),
       drawn_(views),
-      finding_([this](const auto& found, const QString& error) {
-        if (found) take(*found);
-        if (!error.isEmpty()) tell(error, true);
-      }),
-      making_([this](const auto& made, const QString&) {
-        if (made) take_made(*made);
-        make_next();
-      }),
-      using_([this](const auto& read, const QString& error) {
-        if (read) {
-          held_.insert(held_.end(), read->begin(), read->end());
-          // The session takes it over as it is: this thread reads no file.
-          touching_.offer(
-              {.plan = nullptr, .source = nullptr, .volume = touching_.live().felt_scan(), .structures = *read});
-        }
-        read_done_(error);
-      }),
-      measuring_margins_([this](const auto& measured, const QString&) {
-        if (measured) margins_ = *measured;
-        follow_correction();
-      }),
       presses_(
           model, [this](const modes::Scene& edited, auto done) { read_for(edited, std::move(done)); },
           [this](const QString& text, bool problem) {
@@ -123,10 +102,10 @@ StructuresSection::~StructuresSection() {
 
 void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder) {
   correction_.forget();  // while the scan is here: the scene follows
-  finding_.drop();
-  making_.drop();
-  using_.drop();
-  measuring_margins_.drop();
+  finding_.cancel();
+  making_.cancel();
+  using_.cancel();
+  measuring_margins_.cancel();
   margins_from_ = nullptr;
   keep_outs_.clear();
   margins_.clear();
@@ -151,7 +130,7 @@ void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const s
 void StructuresSection::set_frame(const std::shared_ptr<const io::Volume>& frame) {
   if (scan_ == frame) return;
   scan_ = frame;
-  making_.drop();
+  making_.cancel();
   follow_scene();
   correction_.look_again();
   follow_correction();
@@ -170,7 +149,7 @@ void StructuresSection::look_into(const std::vector<std::filesystem::path>& plac
     if (looked_into_.insert(place).second) waiting_.push_back(copy_of(place));
   }
   if (waiting_.empty()) return;
-  finding_.ask([places = waiting_, scan = scan_] {
+  const auto find = [places = waiting_, scan = scan_] {
     io::StructureCatalogue found = io::find_structures(places);
     // Those that a scene will find, and no others: what is listed here is what can be felt.
     found.registrations.clear();
@@ -182,6 +161,10 @@ void StructuresSection::look_into(const std::vector<std::filesystem::path>& plac
       for (io::Registration& one : study.beside(structure, *scan)) found.registrations.push_back(std::move(one));
     }
     return found;
+  };
+  finding_.ask(find, [this](const auto& found, const QString& error) {
+    if (found) take(*found);
+    if (!error.isEmpty()) tell(error, true);
   });
 }
 
@@ -353,7 +336,11 @@ void StructuresSection::make_next() {
   if (const LoadedStructure* const now = felt(*next)) {
     wanted.outline = before_edits_of(*now);
   }
-  making_.ask([wanted] { return make_structure(wanted); });
+  making_.ask([wanted] { return make_structure(wanted); },
+              [this](const auto& made, const QString&) {
+                if (made) take_made(*made);
+                make_next();
+              });
 }
 
 void StructuresSection::take_made(const MadeStructure& made) {
@@ -436,16 +423,25 @@ void StructuresSection::use(const QString& what, const Edit& edit) {
 
 /// What the edited scene will need, in the background: neither panel nor servo waits for it.
 void StructuresSection::read_for(const modes::Scene& edited, std::function<void(const QString& error)> done) {
-  read_done_ = std::move(done);
   const glm::dvec3 extent =
       (touching_.live().is_connected() ? touching_.live().specification() : device::SimulatedStylus().specification())
           .workspace_half_extent;
   // What is felt is not read again: an edit is felt at once.
   const PreparedScene& now = touching_.live().felt();
   const bool same = now.volume && io::raw_of(now.volume) == io::raw_of(scan_);
-  using_.ask([edited, scan = scan_, extent, before = same ? now.structures : std::vector<LoadedStructure>()] {
-    return load_structures(edited, *plan_for(edited, *scan, extent), scan, before);
-  });
+  using_.ask(
+      [edited, scan = scan_, extent, before = same ? now.structures : std::vector<LoadedStructure>()] {
+        return load_structures(edited, *plan_for(edited, *scan, extent), scan, before);
+      },
+      [this, done = std::move(done)](const auto& read, const QString& error) {
+        if (read) {
+          held_.insert(held_.end(), read->begin(), read->end());
+          // The session takes it over as it is: this thread reads no file.
+          touching_.offer(
+              {.plan = nullptr, .source = nullptr, .volume = touching_.live().felt_scan(), .structures = *read});
+        }
+        done(error);
+      });
 }
 
 QString StructuresSection::in_words() const {

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "io/structures/structure.h"
-#include "plugin/paraview/client/jobs/background.h"
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/model/correction_model.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/model/structure_presses.h"
@@ -137,17 +136,16 @@ class StructuresSection : public QWidget {
   bool listing_ = false;
   std::vector<LoadedStructure> held_;  // what the scene read: undoing finds it again
   StructureViews drawn_;
-  LatestJob<io::StructureCatalogue> finding_;
-  LatestJob<MadeStructure> making_;
-  LatestJob<std::vector<LoadedStructure>> using_;
-  Background<io::DoubtfulPlaces> doubting_;
-  Background<CorrectionModel::Edges> looking_beside_;
+  Job finding_{Job::Newer::follows};
+  Job making_{Job::Newer::follows};
+  Job using_{Job::Newer::follows};
+  Job doubting_;
+  Job looking_beside_;
   std::vector<KeepOut> keep_outs_;                         // that margins_ is of, or will be
   std::shared_ptr<const io::DistanceField> margins_from_;  // the same
   std::vector<OutlineMargin> margins_;
-  LatestJob<std::vector<OutlineMargin>> measuring_margins_;
+  Job measuring_margins_{Job::Newer::follows};
   StructurePresses presses_;
-  std::function<void(const QString& error)> read_done_;  // of the press that is being read for
 };
 
 }  // namespace palpate::plugin

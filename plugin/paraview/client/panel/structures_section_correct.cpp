@@ -97,11 +97,15 @@ void StructuresSection::measure_margins() {
   margins_from_ = outline;
   keep_outs_ = keep_outs;
   margins_.clear();
-  measuring_margins_.drop();
+  measuring_margins_.cancel();
   if (keep_outs.empty()) return;
   measuring_margins_.ask(
       [outline, keep_outs, box = io::StructureBox{entry->made.drawn.low_mm, entry->made.drawn.high_mm}] {
         return margins_from(outline, box, keep_outs);
+      },
+      [this](const auto& measured, const QString&) {
+        if (measured) margins_ = *measured;
+        follow_correction();
       });
 }
 

@@ -27,7 +27,7 @@ WorkBar::WorkBar(const QString& name, QWidget* parent) : QWidget(parent), progre
   hide();
 }
 
-void WorkBar::begin(const QString& doing, std::function<Said(const Job&)> work, std::function<void()> done) {
+void WorkBar::begin(const QString& doing, std::function<Said(const Job::Control&)> work, std::function<void()> done) {
   left_ = false;
   progress_->setRange(0, 0);
   show_doing(doing);
@@ -53,7 +53,7 @@ void WorkBar::show_doing(const QString& doing) {
   progress_->setFormat(for_whom(doing));
 }
 
-void WorkBar::tell_progress(const Job& job, int done, int all, const QString& doing) {
+void WorkBar::tell_progress(const Job::Control& job, int done, int all, const QString& doing) {
   job.tell([this, done, all, doing] {
     progress_->setRange(0, all);
     progress_->setValue(done);

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "plugin/paraview/client/jobs/background.h"
+#include "plugin/paraview/client/jobs/job.h"
 
 class QProgressBar;
 
@@ -32,14 +32,13 @@ class WorkBar : public QWidget {
     QString message;
     bool problem = false;
   };
-  using Job = Background<Said>::Job;
   /// For whom the next work is: the patient's name.
   void set_patient(const QString& name) { patient_ = name; }
   /// The work runs in the background; an error that it throws is told. `doing` stands in the bar. `done` is called at
   /// the end, unless there was a problem.
-  void begin(const QString& doing, std::function<Said(const Job&)> work, std::function<void()> done = {});
+  void begin(const QString& doing, std::function<Said(const Job::Control&)> work, std::function<void()> done = {});
   /// From the work: so many of all are done. An empty text stays as it is.
-  void tell_progress(const Job& job, int done, int all, const QString& doing = {});
+  void tell_progress(const Job::Control& job, int done, int all, const QString& doing = {});
 
  private:
   void show_doing(const QString& doing);
@@ -48,7 +47,7 @@ class WorkBar : public QWidget {
   QString patient_;
   bool left_ = false;  // the scan that it is of
   QProgressBar* progress_;
-  Background<Said> work_;
+  Job work_;
 };
 
 }  // namespace palpate::plugin

@@ -30,7 +30,7 @@ double echo_ms(const io::Archive& archive) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-ArchiveDialog::ArchiveDialog(Background<double>& echoing, QWidget* parent) : QDialog(parent), echoing_(echoing) {
+ArchiveDialog::ArchiveDialog(Job& echoing, QWidget* parent) : QDialog(parent), echoing_(echoing) {
   setObjectName(QStringLiteral("palpateArchiveDialog"));
   setWindowTitle(tr("Add an archive"));
   auto* const form = new QFormLayout(this);

@@ -5,7 +5,7 @@
 #include <QDialog>
 
 #include "io/archive/archive.h"
-#include "plugin/paraview/client/jobs/background.h"
+#include "plugin/paraview/client/jobs/job.h"
 
 class QCheckBox;
 class QFormLayout;
@@ -23,7 +23,7 @@ class ArchiveDialog : public QDialog {
 
  public:
   /// Asks in a background that outlives the dialog, so that an archive that does not answer does not delay closing.
-  ArchiveDialog(Background<double>& echoing, QWidget* parent);
+  ArchiveDialog(Job& echoing, QWidget* parent);
   ~ArchiveDialog() override;
 
   /// Of the archive that was entered.
@@ -53,7 +53,7 @@ class ArchiveDialog : public QDialog {
   QLineEdit* key_ = nullptr;
   QLineEdit* tls_name_ = nullptr;
   QLabel* message_;
-  Background<double>& echoing_;
+  Job& echoing_;
 };
 
 }  // namespace palpate::plugin

@@ -16,7 +16,7 @@
 #include "io/archive/fetch.h"
 #include "io/archive/find.h"
 #include "plugin/app/fetched.h"
-#include "plugin/paraview/client/jobs/background.h"
+#include "plugin/paraview/client/jobs/job.h"
 
 class QCheckBox;
 class QComboBox;
@@ -96,11 +96,11 @@ class ArchiveTab : public QWidget {
   std::vector<QString> unlisted_;   // studies whose series are to be asked for
   QTimer typing_;
   FetchedRun run_;
-  Background<double> echoing_;  // ms
-  Background<io::Found> finding_;
-  Background<std::vector<io::ArchivedSeries>> listing_;
-  Background<OnDisk> counting_;
-  Background<io::Fetched> fetching_;  // last: its files lie in the run
+  Job echoing_;
+  Job finding_;
+  Job listing_;
+  Job counting_;
+  Job fetching_;  // last: its files lie in the run
 };
 
 }  // namespace palpate::plugin

@@ -22,13 +22,7 @@ QStringList plugged_now() {
 
 }  // namespace
 
-DeviceWatch::DeviceWatch(QObject* parent)
-    : QObject(parent), job_([this](const std::shared_ptr<const Seen>& seen, const QString&) {
-        if (!seen) return;
-        if (seen->plugged != plugged_) again_ = glances_until_again;
-        plugged_ = seen->plugged;
-        if (seen->looked) emit found(seen->devices);
-      }) {
+DeviceWatch::DeviceWatch(QObject* parent) : QObject(parent) {
   connect(&glances_, &QTimer::timeout, this, [this] { glance(); });
   glances_.start(glance_ms);
 }
@@ -43,12 +37,18 @@ void DeviceWatch::glance() {
 }
 
 void DeviceWatch::ask(bool whatever_is_plugged) {
-  job_.ask([before = plugged_, whatever_is_plugged] {
+  const auto look_now = [before = plugged_, whatever_is_plugged] {
     Seen seen;
     seen.plugged = plugged_now();
     seen.looked = whatever_is_plugged || seen.plugged != before;
     if (seen.looked) seen.devices = device::find_devices();
     return seen;
+  };
+  job_.ask(look_now, [this](const std::shared_ptr<const Seen>& seen, const QString&) {
+    if (!seen) return;
+    if (seen->plugged != plugged_) again_ = glances_until_again;
+    plugged_ = seen->plugged;
+    if (seen->looked) emit found(seen->devices);
   });
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "device/found_devices.h"
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 
 namespace palpate::plugin {
 
@@ -38,7 +38,7 @@ class DeviceWatch : public QObject {
   QStringList plugged_;
   int again_ = 0;  // glances until it is looked once more: a maker's service finds a device later
   QTimer glances_;
-  LatestJob<Seen> job_;
+  Job job_{Job::Newer::follows};
 };
 
 }  // namespace palpate::plugin

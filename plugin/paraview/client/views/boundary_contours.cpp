@@ -21,7 +21,7 @@
 #include <utility>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/views/felt_contours.h"
 #include "plugin/paraview/client/views/felt_surfaces.h"
 #include "plugin/paraview/client/views/overlay_layer.h"
@@ -68,13 +68,7 @@ struct BoundaryContours::One {
   explicit One(const ClinicalView& of)
       : slice(of.slice),
         view(of.view),
-        layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())),
-        job([this](const std::shared_ptr<const Drawn>& drawn, const QString&) {
-          if (!drawn) return;
-          kept.push_front(drawn);
-          if (kept.size() > most_kept) kept.pop_back();
-          draw(*drawn);
-        }) {
+        layer(*vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(lines);
     mapper->SetScalarModeToUseCellData();
@@ -86,6 +80,11 @@ struct BoundaryContours::One {
   }
 
   void draw(const Drawn& drawn);
+  void keep(const std::shared_ptr<const Drawn>& drawn) {
+    kept.push_front(drawn);
+    if (kept.size() > most_kept) kept.pop_back();
+    draw(*drawn);
+  }
   /// The lines of a scene on the slice that is shown; null where they are not kept.
   std::shared_ptr<const Drawn> kept_of(const Felt& felt) const {
     const auto is_it = [&](const auto& drawn) {
@@ -108,7 +107,7 @@ struct BoundaryContours::One {
   int drawn_slice = -1;
   std::weak_ptr<const io::Volume> drawn_volume;
   std::deque<std::shared_ptr<const Drawn>> kept;
-  LatestJob<Drawn> job;  // last: it ends before what it draws
+  Job job{Job::Newer::follows};  // last: it ends before what it draws
 };
 
 void BoundaryContours::One::draw(const Drawn& drawn) {
@@ -173,7 +172,7 @@ void BoundaryContours::set_felt(const std::shared_ptr<const io::Volume>& volume,
   felt_ = std::move(felt);
   surfaces_->set_felt(volume, scene, plan, felt_->source);
   for (const auto& one : views_) {
-    if (pace == Pace::stepped) one->job.drop();
+    if (pace == Pace::stepped) one->job.cancel();
     if (!volume) one->kept.clear();
     draw(*one);
   }
@@ -204,18 +203,21 @@ void BoundaryContours::show(SliceView& slice) {
 void BoundaryContours::draw(One& one) {
   if (!one.slice || !one.view) return;
   if (!visible_ || !felt_ || !felt_->source) {
-    one.job.drop();
+    one.job.cancel();
     one.draw({});
     return;
   }
   if (const auto kept = one.kept_of(*felt_)) {
-    one.job.drop();
+    one.job.cancel();
     return one.draw(*kept);
   }
   one.hide_others(felt_->volume);
   one.job.ask(
       [felt = felt_, points = points_of(*one.slice, *felt_->volume), slice = one.slice->slice()]() -> One::Drawn {
         return {felt, felt_contours(felt->scene, *felt->plan, *felt->source, points), slice};
+      },
+      [&one](const std::shared_ptr<const One::Drawn>& drawn, const QString&) {
+        if (drawn) one.keep(drawn);
       });
 }
 

@@ -25,7 +25,7 @@
 #include <utility>
 
 #include "modes/scene/met_values.h"
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/views/patient_volume.h"
 #include "plugin/paraview/client/words/mode_words.h"
 
@@ -178,10 +178,7 @@ struct FeltSurfaces::One {
   explicit One(const ClinicalView& of)
       : view(of.view),
         patient(of.patient),
-        renderer(vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())->GetRenderer()),
-        job([this](const std::shared_ptr<const Drawn>& drawn, const QString&) {
-          if (drawn) draw(*drawn);
-        }) {}
+        renderer(vtkPVRenderView::SafeDownCast(of.view->getRenderViewProxy()->GetClientSideView())->GetRenderer()) {}
   One(const One&) = delete;
   One& operator=(const One&) = delete;
   ~One() { clear(); }
@@ -197,7 +194,7 @@ struct FeltSurfaces::One {
   std::weak_ptr<PatientVolume> patient;
   vtkSmartPointer<vtkRenderer> renderer;
   std::vector<vtkSmartPointer<vtkActor>> actors;
-  LatestJob<Drawn> job;  // last: it ends before what it draws
+  Job job{Job::Newer::follows};  // last: it ends before what it draws
 };
 
 void FeltSurfaces::One::add(const FeltSurface& surface, const QColor& color) {
@@ -262,13 +259,17 @@ void FeltSurfaces::set_felt(const std::shared_ptr<const io::Volume>& volume, con
 void FeltSurfaces::draw() {
   if (!one_ || !one_->view) return;
   if (!visible_ || !felt_) {
-    one_->job.drop();
+    one_->job.cancel();
     one_->draw({});
     return;
   }
-  one_->job.ask([felt = felt_]() -> One::Drawn {
-    return {felt, felt_surfaces(*felt->volume, felt->scene, *felt->plan, *felt->source)};
-  });
+  one_->job.ask(
+      [felt = felt_]() -> One::Drawn {
+        return {felt, felt_surfaces(*felt->volume, felt->scene, *felt->plan, *felt->source)};
+      },
+      [one = one_.get()](const std::shared_ptr<const One::Drawn>& drawn, const QString&) {
+        if (drawn) one->draw(*drawn);
+      });
 }
 
 }  // namespace palpate::plugin

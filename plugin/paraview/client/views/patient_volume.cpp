@@ -25,11 +25,10 @@
 
 #include <QTimer>
 
-#include <atomic>
 #include <string_view>
 #include <utility>
 
-#include "plugin/paraview/client/jobs/latest_job.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/views/castable.h"
 #include "plugin/paraview/client/views/crop_box.h"
 #include "plugin/paraview/client/views/event_watch.h"
@@ -73,42 +72,8 @@ vtkSmartPointer<vtkImageData> body_of(vtkImageData& image) {
 
 }  // namespace
 
-struct PatientVolume::Cut {
-  LatestJob<vtkSmartPointer<vtkImageData>> job;
-};
-
-struct PatientVolume::Casting {
-  explicit Casting(std::function<void(vtkFixedPointVolumeRayCastMapper*)> ready)
-      : job([ready = std::move(ready)](const auto& made, const QString&) { ready(made ? made->Get() : nullptr); }) {}
-  ~Casting() { *cancelled = true; }
-  void drop() {
-    *std::exchange(cancelled, std::make_shared<std::atomic<bool>>(false)) = true;
-    job.drop();
-  }
-  void ask(vtkImageData& image, int step) {
-    drop();
-    job.ask(preparing_to_cast(image, step, cancelled));
-  }
-
-  std::shared_ptr<std::atomic<bool>> cancelled = std::make_shared<std::atomic<bool>>(false);
-  LatestJob<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>> job;
-};
-
 PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed)
     : view_(&view), scan_(&scan), hounsfield_(hounsfield), changed_(std::move(changed)) {
-  const auto done = [this](const auto& found, const QString&) {
-    if (found) cut_image_ = *found;
-    waits_ = false;
-    refresh();
-    if (cut_image_ && changed_) changed_();
-  };
-  job_ = std::unique_ptr<Cut>(new Cut{LatestJob<vtkSmartPointer<vtkImageData>>(done)});
-  casting_ = std::make_unique<Casting>([this](vtkFixedPointVolumeRayCastMapper* mapper) {
-    if (mapper) caster_ = mapper;  // else the coarse one stays, where there is one
-    cannot_cast_ = !caster_;
-    refresh();
-    if (std::exchange(coarse_, false) && mapper && cast_image_) casting_->ask(*cast_image_, 1);
-  });
   if (pqDataRepresentation* const shown = scan.getRepresentation(&view)) {
     const auto again = [this] { refresh(); };
     QObject::connect(shown, &pqRepresentation::visibilityChanged, &lifetime_, again);
@@ -145,17 +110,24 @@ void PatientVolume::take_image() {
   cast_image_ = nullptr;
   caster_ = nullptr;
   cannot_cast_ = false;
-  casting_->drop();
-  job_->job.drop();
+  casting_.cancel();
+  seeking_body_.cancel();
   refresh();
-  if (seek_body) job_->job.ask([image = whole_image_] { return body_of(*image); });
+  if (!seek_body) return;
+  seeking_body_.ask([image = whole_image_] { return body_of(*image); },
+                    [this](const auto& found, const QString&) {
+                      if (found) cut_image_ = *found;
+                      waits_ = false;
+                      refresh();
+                      if (cut_image_ && changed_) changed_();
+                    });
 }
 
 PatientVolume::~PatientVolume() {
   type_watch_.reset();
   look_watch_.reset();
-  casting_.reset();
-  job_.reset();
+  casting_.finish();
+  seeking_body_.finish();
   box_.reset();
   if (!view_) return;
   vtkRenderer& renderer = *render_view_of(*view_).GetRenderer();
@@ -208,7 +180,21 @@ void PatientVolume::prepare_to_cast(vtkImageData& image) {
   // Half of them along each axis first: an eighth of the time.
   constexpr vtkIdType many_voxels = 20'000'000;
   coarse_ = !caster_ && image.GetNumberOfPoints() > many_voxels;
-  casting_->ask(image, coarse_ ? 2 : 1);
+  cast(coarse_ ? 2 : 1);
+}
+
+void PatientVolume::cast(int step) {
+  casting_.cancel();
+  casting_.ask([prepare = preparing_to_cast(*cast_image_, step)](
+                   const Job::Control& control) { return prepare(control.keep_going); },
+               [this](const auto& mapper, const QString&) { take_caster(mapper ? mapper->Get() : nullptr); });
+}
+
+void PatientVolume::take_caster(vtkFixedPointVolumeRayCastMapper* mapper) {
+  if (mapper) caster_ = mapper;  // else the coarse one stays, where there is one
+  cannot_cast_ = !caster_;
+  refresh();
+  if (std::exchange(coarse_, false) && mapper && cast_image_) cast(1);
 }
 
 /// Under *Advanced* the user can hide the scan, or show it as something else.

@@ -13,6 +13,8 @@
 #include <functional>
 #include <memory>
 
+#include "plugin/paraview/client/jobs/job.h"
+
 class pqPipelineSource;
 class pqRenderView;
 class vtkFixedPointVolumeRayCastMapper;
@@ -45,13 +47,13 @@ class PatientVolume {
   void set_hidden(bool hidden);
 
  private:
-  struct Cut;
-  struct Casting;
   void take_image();
   void begin_to_draw();
   void refresh();
   void draw_ours(vtkVolume& theirs, vtkImageData& image, bool cast);
   void prepare_to_cast(vtkImageData& image);
+  void cast(int step);
+  void take_caster(vtkFixedPointVolumeRayCastMapper* mapper);
   void take_out(vtkVolume& theirs, bool out);
   vtkVolume* of_paraview() const;
   bool is_shown() const;
@@ -72,8 +74,9 @@ class PatientVolume {
   bool coarse_ = false;       // what is being prepared is a first picture
   bool cannot_cast_ = false;  // it could not be prepared: ParaView draws
   QObject lifetime_;          // its end ends what is connected to the scan
-  std::unique_ptr<Casting> casting_;
-  std::unique_ptr<Cut> job_;  // last: it ends before what it sets
+  // Last: they end before what they set.
+  Job casting_{Job::Newer::follows};
+  Job seeking_body_{Job::Newer::follows};
 };
 
 }  // namespace palpate::plugin

@@ -58,8 +58,8 @@ vtkSmartPointer<vtkImageData> thinned(vtkImageData& image, int step) {
 }
 
 /// VTK offers no other way out of its gradients. It tells of their progress on the thread that asked for them.
-void leave_if_cancelled(vtkObject* /*mapper*/, unsigned long /*event*/, void* cancelled, void* /*part*/) {
-  if (*static_cast<const std::atomic<bool>*>(cancelled)) throw Cancelled();
+void leave_if_cancelled(vtkObject* /*mapper*/, unsigned long /*event*/, void* keep_going, void* /*part*/) {
+  if (!(*static_cast<const std::function<bool()>*>(keep_going))()) throw Cancelled();
 }
 
 }  // namespace
@@ -69,8 +69,7 @@ bool draws_without_card() {
   return without;
 }
 
-std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>()> preparing_to_cast(
-    vtkImageData& image, int step, const std::shared_ptr<const std::atomic<bool>>& cancelled) {
+PrepareToCast preparing_to_cast(vtkImageData& image, int step) {
   const auto straight = vtkSmartPointer<vtkImageData>::New();
   straight->ShallowCopy(&image);
   straight->SetOrigin(0, 0, 0);
@@ -82,12 +81,12 @@ std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>()> preparing_to_
   volume->SetMapper(mapper);
   volume->GetProperty()->ShadeOn();  // gradients are for that
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  return [=]() -> vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> {
+  return [=](const std::function<bool()>& keep_going) -> vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> {
     const auto numbers = of_numbers_alone(*straight);
     mapper->SetInputData(step > 1 ? thinned(*numbers, step) : numbers);
     vtkNew<vtkCallbackCommand> asked;
     asked->SetCallback(&leave_if_cancelled);
-    asked->SetClientData(const_cast<std::atomic<bool>*>(cancelled.get()));
+    asked->SetClientData(const_cast<std::function<bool()>*>(&keep_going));
     const auto watched = mapper->AddObserver(vtkCommand::VolumeMapperComputeGradientsProgressEvent, asked);
     const int threads = mapper->GetNumberOfThreads();
     mapper->SetNumberOfThreads(1);  // the tissues are found meanwhile

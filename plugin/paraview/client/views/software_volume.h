@@ -6,9 +6,7 @@
 
 #include <vtkSmartPointer.h>
 
-#include <atomic>
 #include <functional>
-#include <memory>
 
 class vtkFixedPointVolumeRayCastMapper;
 class vtkImageData;
@@ -21,10 +19,11 @@ namespace palpate::plugin {
 bool draws_without_card();
 
 /// Work for another thread, made on the one that paints: returns a mapper that has all that it needs for its first
-/// picture; null where it was cancelled. It draws every `step`-th voxel along each axis, and leaves the image's origin
-/// and directions to place_of().
-std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>()> preparing_to_cast(
-    vtkImageData& image, int step, const std::shared_ptr<const std::atomic<bool>>& cancelled);
+/// picture; null where it is not to go on. It draws every `step`-th voxel along each axis, and leaves the image's
+/// origin and directions to place_of().
+using PrepareToCast =
+    std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>(const std::function<bool()>& keep_going)>;
+PrepareToCast preparing_to_cast(vtkImageData& image, int step);
 
 /// Colors and opacities are shared; the light is made such that a picture is as bright as a graphics card's.
 void light_for_casting(vtkVolumeProperty& theirs, vtkVolumeProperty& ours);
