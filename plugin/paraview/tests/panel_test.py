@@ -204,6 +204,7 @@ SCENARIOS = [
     "slices_are_read_and_measured",
     "the_table_is_cut_away",
     "the_volume_is_drawn_seldom",
+    "a_closed_scan_is_not_held",
     "a_volume_without_hu_is_drawn",
     "the_volume_lies_in_the_patient",
     "surfaces_are_seen_where_they_are_felt",
@@ -352,6 +353,8 @@ TESTS["the_volume_is_drawn_seldom"] = lambda: run("the_volume_is_drawn_seldom", 
 TESTS["the_volume_lies_in_the_patient"] = lambda: run("the_volume_lies_in_the_patient", PALPATE_DROP=phantom(
     "oblique", "sphere", "--radius", "25", "--orientation", "0.6", "0.8", "0", "-0.64", "0.48", "0.6"))
 TESTS["a_volume_without_hu_is_drawn"] = lambda: run("a_volume_without_hu_is_drawn", PALPATE_DROP=write_nifti(scratch("ball.nii.gz")))
+TESTS["a_closed_scan_is_not_held"] = lambda: run("a_closed_scan_is_not_held", ball(), PALPATE_DROP=phantom(
+    "closed", "sphere", "--radius", "25", "--size", "256,256,256", "--spacing", "0.3,0.3,0.3"))
 TESTS["other_files_are_opened_and_felt"] = other_files
 TESTS["an_outline_is_corrected_on_a_frame"] = lambda: run("an_outline_is_corrected_on_a_frame", PALPATE_DROP=spoilt_in_frames())
 TESTS["what_was_deleted_is_not_in_the_state"] = lambda: run(

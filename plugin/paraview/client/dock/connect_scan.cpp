@@ -80,6 +80,7 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   scan_fold->set_open(false);
   layout->refresh_tabs();
   study(handle.volume);
+  memory.give_back_soon();  // of what made way for it
 }
 
 void PanelParts::show_frame(const ScanHandle& handle) {
@@ -188,6 +189,7 @@ void PanelParts::leave_views() {
   flow.set_volume({});
   contours.set_felt({}, {}, {}, Pace::stepped);
   scan_fold->set_note({});
+  memory.give_back_soon();
   leave_structures();
   leave_marks();
   curves->profile().forget();

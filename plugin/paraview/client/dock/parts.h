@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 
+#include "plugin/paraview/client/jobs/free_memory.h"
 #include "plugin/paraview/client/jobs/scan_loader.h"
 #include "plugin/paraview/client/model/correction_model.h"
 #include "plugin/paraview/client/model/marks_model.h"
@@ -157,6 +158,7 @@ struct PanelParts {
   MarkViews drawn_marks;
   StylusViews views;
   DrawingWatch drawing;
+  FreeMemory memory;
   QTimer next_turn;  // of a picture that comes in turns
   ServerWatch servers;
   ServerStructures served;

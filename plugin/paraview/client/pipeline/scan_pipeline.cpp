@@ -229,7 +229,7 @@ void ScanPipeline::close() {
 }
 
 void ScanPipeline::abandon() {
-  views_.stop_making();
+  views_.let_go();
   server_scan_.cancel();
   server_scan_.forget();
   on_server_.reset();

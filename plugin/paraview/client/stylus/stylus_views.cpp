@@ -106,6 +106,8 @@ StylusViews::~StylusViews() = default;
 
 void StylusViews::set_views(const std::vector<ClinicalView>& views) {
   views_.clear();
+  values_of_.reset();  // a scan that is closed is not held
+  values_.reset();
   for (const ClinicalView& view : views) {
     OneView& one = *views_.emplace_back(std::make_unique<OneView>(touching_, view));
     if (one.kind != ViewKind::volume) continue;

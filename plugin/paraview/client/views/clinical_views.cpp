@@ -207,6 +207,11 @@ void ClinicalViews::close() {
   views_.clear();
 }
 
+void ClinicalViews::let_go() {
+  stop_making();
+  window_->value_at = {};  // asks the reader
+}
+
 void ClinicalViews::drop_layout() {
   vtkSMViewLayoutProxy* const layout = layout_;
   layout_ = nullptr;

@@ -46,6 +46,8 @@ class ClinicalViews {
   void make_room();
   /// What is still to be made is not made: what was to be shown is gone, or has views already.
   void stop_making();
+  /// The same where the session goes that all is in: what is held of its scan goes, and the views go with it.
+  void let_go();
   /// ParaView handles events while it makes a view, and nothing is to be closed then: this is done at once, or after
   /// the view that is being made. Of several that wait for it, the last is done.
   void alone(std::function<void()> step) { turns_.alone(std::move(step)); }

@@ -84,6 +84,33 @@ void without_the_panel() {
   });
 }
 
+double heap_mib() {
+  return static_cast<double>(palpate::plugin::live_heap_bytes()) / (1 << 20);
+}
+
+/// A scan of 32 MiB after a small one, which has made what the program makes once.
+void a_closed_scan_is_not_held() {
+  scan_is_shown();
+  reset();
+  wait_ms(2000);
+  const double before = heap_mib();
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  scan_is_shown();
+  views_rest();
+  const double with_scan = heap_mib();
+  expect(with_scan > before + 32, "the scan is in memory");
+  reset();
+  double after = 0;
+  constexpr double most_mib = 24;
+  const bool is_back = comes_true([&] {
+    after = heap_mib();
+    return after < before + most_mib;
+  });
+  std::printf("a_closed_scan_is_not_held: %.0f MiB of live heap before, %.0f with the scan, %.0f once it is closed\n",
+              before, with_scan, after);
+  expect(is_back, "its memory is free again");
+}
+
 double resident_mib() {
   QFile status(QStringLiteral("/proc/self/status"));
   expect(status.open(QIODevice::ReadOnly), "the system tells what the program holds");
@@ -94,8 +121,7 @@ double resident_mib() {
 }
 
 void tell_memory(const char* when) {
-  std::printf("memory_of_a_scan: %s: %.0f MiB resident, %.0f MiB of live heap\n", when, resident_mib(),
-              static_cast<double>(palpate::plugin::live_heap_bytes()) / (1 << 20));
+  std::printf("memory_of_a_scan: %s: %.0f MiB resident, %.0f MiB of live heap\n", when, resident_mib(), heap_mib());
   std::fflush(stdout);
 }
 
@@ -132,6 +158,7 @@ void memory_of_a_scan() {
 const Scenarios& heap_scenarios() {
   static const Scenarios scenarios{{"rounds_of_probing", rounds_of_probing},
                                    {"without_the_panel", without_the_panel},
+                                   {"a_closed_scan_is_not_held", a_closed_scan_is_not_held},
                                    {"memory_of_a_scan", memory_of_a_scan}};
   return scenarios;
 }
