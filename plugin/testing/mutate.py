@@ -3,8 +3,10 @@
 
     plugin/run mutate                      the lines changed since main (or since --since COMMIT)
     plugin/run mutate solver               a seeded sample of a folder's lines (any path below a module)
+    plugin/run mutate io/dicom io/fields   a sample of each; FOLDER+FOLDER is one sample of both
     plugin/run mutate io/fields --count 200 --seed 7 --seconds 3600 | tee told
-    plugin/run mutate io/fields --again told       only what survived there, after tests were written
+    plugin/run mutate io/fields --again told       only what survived there, after tests were written: what was told of
+                                                   the others is repeated, so that the table is of all
 
 Works in a copy of the tree under build/mutate; the tree itself is not touched. All slips that can be are compiled into one
 program and chosen at run time (slip.h); the others are compiled one by one. A slip is judged by those of its module's test
@@ -34,6 +36,8 @@ SLIP_H = ROOT / "plugin" / "testing" / "slip.h"
 LONGEST_SUITE_S = 900
 PLACES = 4096  # `most` in slip.h
 TIMED_OUT = 1000
+SEEN = ("seen", "timed out")
+SURVIVED = ("survived", "not run", "unsteady")  # the last at tests that fail without the slip, too
 
 # A module's own tests, and what they need. The later ones are tested with all before them.
 MODULES = {
@@ -49,7 +53,8 @@ NEEDS_PARAVIEW = {"paraview_model_tests"}
 
 
 class Mutant:
-    def __init__(self, path, number, before, slip):
+    def __init__(self, module, path, number, before, slip):
+        self.module = module  # whose sample it is of
         self.path, self.number, self.before = path, number, before
         self.name, self.after, self.together = slip
         self.place = None  # of its byte among those that tell what was run
@@ -59,8 +64,49 @@ class Mutant:
     def key(self):
         return (self.path, self.before.strip(), self.after.strip())
 
+    def title(self):
+        return f"{self.module}: {self.path}:{self.number}: {self.name}"
+
     def __str__(self):
-        return f"{self.path}:{self.number}: {self.name}\n    - {self.before.strip()}\n    + {self.after.strip()}"
+        return f"{self.title()}\n    - {self.before.strip()}\n    + {self.after.strip()}"
+
+
+class Account:
+    """How many slips had which outcome, by module and operator."""
+
+    def __init__(self):
+        self.counts = {}
+
+    def add(self, module, operator, outcome):
+        self.counts[module, operator, outcome] = self.counts.get((module, operator, outcome), 0) + 1
+
+    def tell(self, mutant, outcome):
+        self.add(mutant.module, mutant.name, outcome)
+        print(f"{outcome}: {mutant if outcome in SURVIVED else mutant.title()}", flush=True)
+
+    def repeat(self, line):
+        """What another run told of a slip that is not judged again."""
+        outcome, module, _, _, operator = re.split(r": |(?<=\w):(?=\d)", line)
+        self.add(module, operator, outcome)
+        print(line)
+
+    def count(self, *outcomes, module=None, operator=None):
+        return sum(count for (m, o, outcome), count in self.counts.items()
+                   if outcome in outcomes and module in (None, m) and operator in (None, o))
+
+    def table(self):
+        """By module, and of each operator how many of those that were judged were seen."""
+        modules = sorted({module for module, _, _ in self.counts})
+        rows = [["", *modules, "all"]]
+        for operator in [None, *sorted({operator for _, operator, _ in self.counts})]:
+            cells = []
+            for module in [*modules, None]:
+                seen, lost = (self.count(*outcomes, module=module, operator=operator) for outcomes in (SEEN, SURVIVED))
+                cells.append(f"{seen}/{seen + lost}" if seen + lost else "")
+            rows.append([operator or "seen of judged", *cells])
+        for name in ("equivalent", "not C++"):
+            rows.append([name, *(str(self.count(name, module=module)) for module in [*modules, None])])
+        return "\n".join(f"| {' | '.join(row)} |" for row in [rows[0], ["---"] * len(rows[0]), *rows[1:]])
 
 
 def git(*arguments):
@@ -69,8 +115,13 @@ def git(*arguments):
 
 def survivors_told(file):
     """The keys of the slips that survived in a run whose output is in a file. The line numbers there are of no account."""
-    told = re.findall(r"^(?:survived|not run|unsteady): ([^:\n]+):\d+: .*\n    - (.*)\n    \+ ?(.*)$", pathlib.Path(file).read_text(), flags=re.M)
+    told = re.findall(r"^(?:survived|not run|unsteady): (?:[^:\n]+: )?([^:\n]+):\d+: .*\n    - (.*)\n    \+ ?(.*)$", pathlib.Path(file).read_text(), flags=re.M)
     return {(path, before.strip(), after.strip()) for path, before, after in told}
+
+
+def others_told(file):
+    """The lines that tell of the slips that did not survive."""
+    return re.findall(r"^(?:seen|timed out|equivalent|not C\+\+): [^:\n]+: [^:\n]+:\d+: .*$", pathlib.Path(file).read_text(), flags=re.M)
 
 
 def is_mutated(name):
@@ -94,10 +145,10 @@ def changed_lines(since):
     return lines
 
 
-def mutants_by_line(path, enums, wanted=None):
+def mutants_by_line(module, path, enums, wanted=None):
     text = (ROOT / path).read_text()
     lines = text.splitlines()
-    return [[Mutant(path, number, lines[number - 1], slip) for slip in slips] for number, slips in slips_by_line(text, wanted, enums)]
+    return [[Mutant(module, path, number, lines[number - 1], slip) for slip in slips] for number, slips in slips_by_line(text, wanted, enums)]
 
 
 def all_enumerations():
@@ -159,13 +210,17 @@ class Bench:
         self.program = self.build / "bin" / target
         names = git("ls-files", "-co", "--exclude-standard").split("\n")
         self.files = [name for name in names if name and (ROOT / name).is_file()]
-        self.environment = {"CCACHE_BASEDIR": str(self.tree), "CCACHE_NOHASHDIR": "1",
-                            "CCACHE_SLOPPINESS": "pch_defines,time_macros"}
+        # What has no slip is found in ccache as other builds left it; what has one is not kept there. A slip may leave a
+        # variable unused: that is for the tests to see, not for the compiler.
+        careless = WORK / "careless"
+        WORK.mkdir(parents=True, exist_ok=True)
+        careless.write_text('#!/bin/sh\nexec "$@" -w -Wno-narrowing\n')
+        careless.chmod(0o755)
+        self.environment = {"CCACHE_BASEDIR": str(self.tree), "CCACHE_NOHASHDIR": "1", "CCACHE_SLOPPINESS": "pch_defines,time_macros",
+                            "CCACHE_READONLY": "1", "CCACHE_PREFIX": str(careless)}
         for name in self.files:
             self.write(name, (ROOT / name).read_bytes())
-        # A slip may leave a variable unused: that is for the tests to see, not for the compiler.
-        if self.run(["cmake", "--preset", "release", "-DPALPATE_TESTS=ON", f"-DPALPATE_MODULES={modules}",
-                     "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_CXX_FLAGS=-w -Wno-narrowing",
+        if self.run(["cmake", "--preset", "developer", "-DPALPATE_TESTS=ON", f"-DPALPATE_MODULES={modules}",
                      f"-DPALPATE_PARAVIEW={'ON' if target in NEEDS_PARAVIEW else 'OFF'}"], 600) != 0:
             sys.exit(f"mutate: cmake failed:\n{self.log()[-2000:]}")
 
@@ -316,16 +371,12 @@ def serve(function, items, jobs, deadline):
         thread.join()
 
 
-def try_slips(bench, mutants, jobs, seconds):
-    """Says which slips survive, and returns how many had which outcome; also by kind."""
-    total, by_kind, lock = {}, {}, threading.Lock()
+def try_slips(bench, mutants, account, jobs, seconds):
+    lock = threading.Lock()
 
     def tell(mutant, outcome):
         with lock:
-            total[outcome] = total.get(outcome, 0) + 1
-            by_kind.setdefault(mutant.name, {}).setdefault(outcome, []).append(mutant)
-            if outcome in ("survived", "not run", "unsteady"):
-                print(f"{outcome}: {mutant}", flush=True)
+            account.tell(mutant, outcome)
 
     bench.compile_together(mutants)
     bench.look_at_suites(jobs)
@@ -335,17 +386,45 @@ def try_slips(bench, mutants, jobs, seconds):
     deadline = time.time() + seconds
     serve(lambda mutant: tell(mutant, bench.judge(mutant, PALPATE_SLIP=str(mutant.place))), together, jobs, deadline)
     serve(lambda mutant: tell(mutant, bench.judge_alone(mutant)), alone, 1, deadline)
-    for name, outcomes in sorted(by_kind.items()):
-        print(f"{bench.target}: {name}: " + ", ".join(f"{len(found)} {outcome}" for outcome, found in sorted(outcomes.items())), flush=True)
-    return total
+
+
+def chosen_of(module, files, options, enums):
+    """The slips of a module's sample."""
+    lines = [line for path in sorted(files) for line in mutants_by_line(module, path, enums, files[path])]
+    if options.again:
+        # Of all lines: those that have changed since would have the seed choose others.
+        told = survivors_told(options.again)
+        chosen = list({mutant.key(): mutant for line in lines for mutant in line if mutant.key() in told}.values())
+    else:
+        generator = random.Random(options.seed)
+        generator.shuffle(lines)
+        chosen = [generator.choice(line) for line in lines[: options.count]]
+    print(f"{module}: {len(lines)} lines can have a slip; {len(chosen)} are tried, seed {options.seed}", flush=True)
+    return chosen
+
+
+def lines_to_change(options):
+    """module -> file -> numbers of its lines, or None for all."""
+    if options.folders:
+        modules = {module: {path: None for folder in module.split("+") for path in sources(folder.rstrip("/"))} for module in options.folders}
+        for module, files in modules.items():
+            if not files:
+                sys.exit(f"mutate: {module} holds no sources; modules are: {' '.join(MODULES)}")
+        return modules
+    since = options.since
+    if not since:
+        base = subprocess.run(["git", "merge-base", "HEAD", "main"], cwd=ROOT, capture_output=True, text=True)
+        head = git("rev-parse", "HEAD").strip()
+        since = base.stdout.strip() if base.returncode == 0 and base.stdout.strip() != head else "HEAD~1"
+    return {"changed lines": {path: lines for path, lines in changed_lines(since).items() if is_mutated(path) and (ROOT / path).exists()}}
 
 
 def main():
     parser = argparse.ArgumentParser(prog="plugin/run mutate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", nargs="?", help="a module or a path below one; without it, changed lines")
+    parser.add_argument("folders", nargs="*", metavar="FOLDER", help="a module or a path below one; without any, changed lines")
     parser.add_argument("--since", help="commit that lines are changed since (default: where main was left, else HEAD~1)")
-    parser.add_argument("--count", type=int, default=200, help="lines, one slip each (default 200)")
+    parser.add_argument("--count", type=int, default=200, help="lines of each FOLDER, one slip each (default 200)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=1800, help="no new slip of a test program is begun after these (default 1800)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="slips that are judged beside each other")
@@ -354,46 +433,28 @@ def main():
     parser.add_argument("--list", action="store_true", help="only say which slips were chosen")
     options = parser.parse_args()
 
-    if options.folder:
-        files = {path: None for path in sources(options.folder.rstrip("/"))}
-        if not files:
-            sys.exit(f"mutate: {options.folder} holds no sources; modules are: {' '.join(MODULES)}")
-    else:
-        since = options.since
-        if not since:
-            base = subprocess.run(["git", "merge-base", "HEAD", "main"], cwd=ROOT, capture_output=True, text=True)
-            head = git("rev-parse", "HEAD").strip()
-            since = base.stdout.strip() if base.returncode == 0 and base.stdout.strip() != head else "HEAD~1"
-        files = {path: lines for path, lines in changed_lines(since).items()
-                 if is_mutated(path) and (ROOT / path).exists()}
-
-    generator = random.Random(options.seed)
     enums = all_enumerations()
-    lines = [line for path in sorted(files) for line in mutants_by_line(path, enums, files[path])]
-    if options.again:
-        # Of all lines: those that have changed since would have the seed choose others.
-        told = survivors_told(options.again)
-        chosen = list({mutant.key(): mutant for line in lines for mutant in line if mutant.key() in told}.values())
-    else:
-        generator.shuffle(lines)
-        chosen = [generator.choice(line) for line in lines[: min(options.count, PLACES)]]
-    print(f"{len(lines)} lines can have a slip; {len(chosen)} are tried, seed {options.seed}", flush=True)
+    chosen = [mutant for module, files in lines_to_change(options).items() for mutant in chosen_of(module, files, options, enums)]
     if options.list:
         print("\n".join(map(str, chosen)))
         return
-    known, began = equivalents(), time.time()
-    total = {"equivalent": sum(mutant.key() in known for mutant in chosen)}
-    chosen_count, chosen = len(chosen), [mutant for mutant in chosen if mutant.key() not in known]
-    for target, modules in sorted({target_of(mutant.path) for mutant in chosen}):
-        own = [mutant for mutant in chosen if target_of(mutant.path)[0] == target]
-        for outcome, count in try_slips(Bench(target, modules), own, options.jobs, options.seconds).items():
-            total[outcome] = total.get(outcome, 0) + count
-    seen, survived = total.get("seen", 0) + total.get("timed out", 0), total.get("survived", 0) + total.get("not run", 0)
+    account, known, began = Account(), equivalents(), time.time()
+    for line in others_told(options.again) if options.again else []:
+        account.repeat(line)
+    for mutant in chosen:
+        if mutant.key() in known:
+            account.tell(mutant, "equivalent")
+    judged = [mutant for mutant in chosen if mutant.key() not in known]
+    for target, modules in sorted({target_of(mutant.path) for mutant in judged}):
+        own = [mutant for mutant in judged if target_of(mutant.path)[0] == target][:PLACES]
+        try_slips(Bench(target, modules), own, account, options.jobs, options.seconds)
+    seen, survived = account.count(*SEEN), account.count(*SURVIVED)
     score = seen / (seen + survived) if seen + survived else 1.0
-    print(f"{sum(total.values())} of {chosen_count} slips tried in {time.time() - began:.0f} s: {seen} seen "
-          f"({total.get('timed out', 0)} of them by taking too long), {survived} survived "
-          f"({total.get('not run', 0)} of them run by no test), {total['equivalent']} known to change nothing, "
-          f"{total.get('not C++', 0)} not C++, {total.get('unsteady', 0)} at a test that fails without the slip, too")
+    print(f"\n{account.table()}\n")
+    print(f"{len(chosen)} slips chosen; judged in {time.time() - began:.0f} s, with those repeated: {seen} seen "
+          f"({account.count('timed out')} of them by taking too long), {survived} survived ({account.count('not run')} of them run by no "
+          f"test, {account.count('unsteady')} at a test that fails without the slip, too), {account.count('equivalent')} known to change "
+          f"nothing, {account.count('not C++')} not C++")
     print(f"score {score:.3f}")
     sys.exit(1 if score < options.least else 0)
 

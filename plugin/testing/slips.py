@@ -46,6 +46,7 @@ DECLARED = re.compile(r"(?<![\w.>:])(?:const )?([A-Za-z_][\w:]*(?:<[\w:, ]+>)?)[
 DECLARATION = re.compile(r"^(?:const )?[A-Za-z_][\w:<>, ]*[&*]* \w+$")
 CALL = re.compile(r"(?<![\w.>:])((?:[a-z_]\w*::)*[a-z_]\w*)\(")
 VARIABLE = re.compile(r"(?<![\w.>:&\[])([a-z]\w*)(?![\w(:{]| [-+*/|&]?= )")
+SYMMETRIC = re.compile(r"(?:^|::)(?:dot|distance|min|max|hypot|swap)$")  # their arguments may be swapped
 ENUM = re.compile(r"\benum class (\w+)(?: : [\w:]+)? \{([^}]*)\}")
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|\d+)(?![\w.])")
 ROOM = re.compile(r"^\s*[\w:<>]+ \w+\[$|\bstd::array<[\w:]+, $")  # an array's length: more of it changes nothing
@@ -154,7 +155,7 @@ def calls_changed(line, code):
         if len(arguments) == 1 and re.search(r"[=(,?:+\-*/<>&|] ?$|return $", code[: match.start()]) and arguments[0][0] not in "[{":
             before, after, call = line[: match.start()], line[end[0] + 1 :], line[match.start() : end[0] + 1]
             yield "call left out", f"{before}({arguments[0]}){after}", f"{before}(slip::on(@) ? ({arguments[0]}) : {call}){after}"
-        for n, (one, two) in enumerate(zip(arguments, arguments[1:])):
+        for n, (one, two) in enumerate(zip(arguments, arguments[1:])) if not SYMMETRIC.search(match.group(1)) else ():
             before, after = line[: places[n] + 1] + (" " if n else ""), line[places[n + 2] :]
             either_way = f"slip::on(@) ? ({two}) : ({one}), slip::on(@) ? ({one}) : ({two})"
             yield "arguments swapped", f"{before}{two}, {one}{after}", before + either_way + after
