@@ -144,16 +144,16 @@ SafetyResult filter_force(const SafetyLimits& limits, const SafetyInput& input, 
   }
   if (pose_is_finite) follow_pose(limits, input, state);
 
-  // An unarmed filter has nothing to take away: a device that is unplugged or moved fast then is no fault.
-  if (state.armed) {
-    const Fault fault = find_fault(limits, input, state);
-    if (fault != Fault::none) latch(state, fault);
-  }
   // Encoders jump when a device is homed, and nothing that was felt before means anything after.
   if (!can_push(input.device)) {
     fall_at_once(state);
     state.has_pose = false;
     state.velocity = Vec3(0);
+  }
+  // An unarmed filter has nothing to take away: a device that is unplugged or moved fast then is no fault.
+  if (state.armed) {
+    const Fault fault = find_fault(limits, input, state);
+    if (fault != Fault::none) latch(state, fault);
   }
 
   SafetyResult result;

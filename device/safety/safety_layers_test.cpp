@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
+#include <utility>
 
 #include "device/safety/safety_filter.h"
 #include "device/testing/filter_session.h"
@@ -26,20 +27,30 @@ TEST(SafetyLayers, WithoutLimitsTheForceGoesThrough) {
   }
 }
 
+/// Also of forces whose squares are no numbers. The device's limit is the last of all: on the ramp it cuts what the
+/// ramp has left.
 TEST(SafetyLayers, TheForceLimitAlone) {
   std::mt19937 random(2);
   for (const bool of_device : {false, true}) {
     FilterSession session;
     session.push(Vec3(0, 1, 0));
     (of_device ? session.limits.device_force : session.limits.force) = 2.5;
+    session.limits.slew = 1e308;
     for (int n = 0; n < 200; ++n) {
-      session.input.force = any_force(random, 0.1, 5);
-      const double length = glm::length(session.input.force);
+      session.limits.ramp_time = n < 100 ? 1e-9 : 0.05;
+      if (n % 50 == 0) {  // along the ramp once more
+        disarm(session.state);
+        session.step();
+        arm(session.state);
+        session.step();
+      }
+      const Vec3 direction = any_force(random, 1, 1);
+      const double length = n % 5 == 0 ? 1e300 : std::uniform_real_distribution<double>(0.1, 5)(random);
+      session.input.force = length * direction;
       const SafetyResult result = session.step();
-      EXPECT_NEAR(glm::length(result.force), std::min(length, 2.5), 1e-12);
-      EXPECT_LT(glm::length(glm::cross(result.force, session.input.force)), 1e-12) << "the direction is kept";
-      EXPECT_GT(glm::dot(result.force, session.input.force), 0);
-      EXPECT_EQ(result.clamped, length > 2.5);
+      const double expected = of_device ? std::min(result.gain * length, 2.5) : result.gain * std::min(length, 2.5);
+      EXPECT_LT(glm::distance(result.force, expected * direction), 1e-12);
+      EXPECT_EQ(result.clamped, (of_device ? result.gain * length : length) > 2.5);
     }
   }
 }
@@ -66,35 +77,21 @@ TEST(SafetyLayers, TheSlewAlone) {
   EXPECT_GT(reached, 100);
 }
 
-/// The slew is by the clock, but not by time that was missed.
+/// The slew is by the clock, but not by time that was missed: with the limits of a session, a tick that is late by 9 or
+/// by 90 ms must not give all of 3 N at once.
 TEST(SafetyLayers, ALateTickMovesTheForceNoFartherThanTheLongestStep) {
-  for (const double late : {0.011, 0.05, 0.099, 5.0}) {
-    FilterSession session;
-    session.push(Vec3(0));
-    session.limits.slew = 50;
-    session.limits.slew_time = 0.010;
-    session.input.force = Vec3(0, 0, 3);
-    const SafetyResult result = session.step(late);
-    EXPECT_EQ(result.fault, Fault::none);
-    EXPECT_NEAR(result.force.z, 50 * 0.010, 1e-12) << late;
-  }
-}
-
-/// With the limits of a session, the force is 3 N and slews by 1 N in a tick of 1 ms: a tick that is late by 9 or 90
-/// must not give all three at once.
-TEST(SafetyLayers, ALateTickIsNoStepWithTheDefaultLimits) {
-  for (const double late : {0.004, 0.009, 0.05, 0.09}) {
-    FilterSession session;
-    session.push(Vec3(0));
-    const SafetyLimits defaults;
-    session.limits.force = defaults.force;
-    session.limits.slew = defaults.slew;
-    session.limits.slew_time = defaults.slew_time;
-    session.input.force = Vec3(0, 0, 3);
-    const SafetyResult result = session.step(late);
-    EXPECT_EQ(result.fault, Fault::none);
-    EXPECT_GT(result.force.z, 0.5);
-    EXPECT_LE(result.force.z, 2.0 + 1e-12) << late;
+  const SafetyLimits defaults;
+  for (const auto& [slew, slew_time] : {std::pair{50.0, 0.010}, std::pair{defaults.slew, defaults.slew_time}}) {
+    for (const double late : {0.003, 0.009, 0.011, 0.05, 0.099, 5.0}) {
+      FilterSession session;
+      session.push(Vec3(0));
+      session.limits.slew = slew;
+      session.limits.slew_time = slew_time;
+      session.input.force = Vec3(0, 0, 3);
+      const SafetyResult result = session.step(late);
+      EXPECT_EQ(result.fault, Fault::none);
+      EXPECT_NEAR(result.force.z, slew * std::min(late, slew_time), 1e-12) << late;
+    }
   }
 }
 
@@ -129,7 +126,9 @@ TEST(SafetyLayers, TheRampAloneUpAndDown) {
   session.limits.fall_time = 0.02;
   disarm(session.state);
   for (int n = 1; n <= 25; ++n) {
-    EXPECT_NEAR(session.step().force.y, 2 * std::max(0.0, 1 - n * tick / 0.02), 1e-9) << n;
+    const SafetyResult result = session.step();
+    EXPECT_NEAR(result.force.y, 2 * std::max(0.0, 1 - n * tick / 0.02), 1e-9) << n;
+    EXPECT_EQ(result.state, State::idle);
   }
   arm(session.state);
   session.step();  // from here on ages count
@@ -163,19 +162,31 @@ TEST(SafetyLayers, OldPosesAndOldForcesAlone) {
   }
 }
 
-/// A session's own limits: on a dead pose the force has left after pose_age and the time that the slew takes.
-TEST(SafetyLayers, ADeadPoseHoldsNoForceForLongerThanItsAge) {
-  FilterSession session;
-  session.limits = {};
-  session.input.force = Vec3(0, 3, 0);
-  session.step();
-  arm(session.state);
-  for (int n = 0; n < 600; ++n) session.step();
-  session.new_pose = false;
-  for (int n = 1; n <= 90; ++n) {
-    const SafetyResult result = session.step();
-    if (n * tick > session.limits.pose_age + 3 / session.limits.slew + 1.5 * tick) {
-      ASSERT_EQ(result.force, Vec3(0)) << n << " ms";
+/// With the limits of a session: a pose or force that is late by less than its age changes nothing; the force has left
+/// after that age and the time that the slew takes; and what comes back does so along the ramp.
+TEST(SafetyLayers, AShortStallIsForgivenAlongTheRamp) {
+  for (const bool of_pose : {true, false}) {
+    FilterSession session = FilterSession::with_defaults(Vec3(0, 3, 0));
+    arm(session.state);
+    session.run(0.6);
+    const SafetyLimits& limits = session.limits;
+    const double age = of_pose ? limits.pose_age : limits.force_age;
+    (of_pose ? session.new_pose : session.new_force) = false;
+    for (int n = 1; n <= 90; ++n) {
+      const SafetyResult result = session.step();
+      ASSERT_EQ(result.fault, Fault::none);
+      if (n * tick < age - tick / 2) {
+        ASSERT_EQ(result.force, Vec3(0, 3, 0)) << n << " ms";
+      }
+      if (n * tick > age + 3 / limits.slew + 1.5 * tick) {
+        ASSERT_EQ(result.force, Vec3(0)) << n << " ms";
+      }
+    }
+    (of_pose ? session.new_pose : session.new_force) = true;
+    for (int n = 1; n <= 400; ++n) {
+      const double force = session.step().force.y;
+      ASSERT_LE(force, 3 * n * tick / limits.ramp_time + 1e-9);
+      ASSERT_GE(force, std::min(1.0 * n - 1, 3 * (n - 1) * tick / limits.ramp_time) - 1e-9) << n;
     }
   }
 }

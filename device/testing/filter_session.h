@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -41,6 +42,19 @@ struct FilterSession {
     if (new_force) input.force_time = input.time;
     if (alive) input.heartbeat_time = input.time;
     return filter_force(limits, input, state);
+  }
+  SafetyResult run(double seconds) {
+    SafetyResult result;
+    for (int n = 0; n < std::lround(seconds / tick); ++n) result = step();
+    return result;
+  }
+  /// With the limits of a session, after a first tick.
+  static FilterSession with_defaults(const Vec3& force) {
+    FilterSession session;
+    session.limits = {};
+    session.input.force = force;
+    session.step();
+    return session;
   }
   /// Armed, and pushing with all of the force asked for.
   void push(const Vec3& force) {
