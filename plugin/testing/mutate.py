@@ -5,6 +5,7 @@
     plugin/run mutate solver               a seeded sample of a folder's lines (any path below a module)
     plugin/run mutate io/dicom io/fields   a sample of each; FOLDER+FOLDER is one sample of both
     plugin/run mutate io/fields --count 200 --seed 7 --seconds 3600 | tee told
+    plugin/run mutate device --equivalents         those of .ci/equivalent_mutants: one that a test sees is none
     plugin/run mutate io/fields --again told       only what survived there, after tests were written: what was told of
                                                    the others is repeated, so that the table is of all
 
@@ -315,7 +316,7 @@ class Bench:
             return self.run([str(self.program), "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_filter={':'.join(tests)}-*.DISABLED_*"],
                             seconds, TMPDIR=folder, TEST_TMPDIR=folder, PALPATE_TEST_SECONDS=str(LONGEST_SUITE_S), **more)
 
-    def judge(self, mutant, without_it=True, **more):
+    def judge(self, mutant, without_it=True, quickly=False, **more):
         """seen, timed out (seen, too), survived, not run (by no test), or unsteady: its test fails without the slip, too."""
         running = [suite for suite, (_, ran) in self.suites.items() if mutant.place is None or ran[mutant.place]]
         if not running:
@@ -325,7 +326,8 @@ class Bench:
         far = sorted((suite for suite in running if suite not in near), key=lambda suite: self.suites[suite][0])
         quick = [suite for suite in far if self.suites[suite][0] < 0.5]
         unsteady = False
-        for suites in (near, quick, [suite for suite in far if suite not in quick]):
+        slow = [suite for suite in far if suite not in quick and not quickly]
+        for suites in (near, quick, slow):
             usual = sum(self.suites[suite][0] for suite in suites)
             code = self.outcome_of([f"{suite}.*" for suite in suites], 20 + 5 * usual, **more) if suites else 0
             if code == TIMED_OUT:  # a slip may also make them run for ever
@@ -371,7 +373,7 @@ def serve(function, items, jobs, deadline):
         thread.join()
 
 
-def try_slips(bench, mutants, account, jobs, seconds):
+def try_slips(bench, mutants, account, jobs, seconds, quickly=False):
     lock = threading.Lock()
 
     def tell(mutant, outcome):
@@ -384,14 +386,18 @@ def try_slips(bench, mutants, account, jobs, seconds):
     together = [mutant for mutant in mutants if not mutant.marked]
     print(f"{bench.target}: {len(together)} slips are chosen at run time, {len(alone)} are compiled alone", flush=True)
     deadline = time.time() + seconds
-    serve(lambda mutant: tell(mutant, bench.judge(mutant, PALPATE_SLIP=str(mutant.place))), together, jobs, deadline)
+    serve(lambda mutant: tell(mutant, bench.judge(mutant, quickly=quickly, PALPATE_SLIP=str(mutant.place))), together, jobs, deadline)
     serve(lambda mutant: tell(mutant, bench.judge_alone(mutant)), alone, 1, deadline)
 
 
 def chosen_of(module, files, options, enums):
     """The slips of a module's sample."""
     lines = [line for path in sorted(files) for line in mutants_by_line(module, path, enums, files[path])]
-    if options.again:
+    if options.equivalents:
+        known = equivalents()
+        one_of_line = {(mutant.path, mutant.number): mutant for line in lines for mutant in line if mutant.key() in known}
+        chosen = list(one_of_line.values())
+    elif options.again:
         # Of all lines: those that have changed since would have the seed choose others.
         told = survivors_told(options.again)
         chosen = list({mutant.key(): mutant for line in lines for mutant in line if mutant.key() in told}.values())
@@ -430,6 +436,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="slips that are judged beside each other")
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
     parser.add_argument("--again", metavar="FILE", help="only those that survived in the run that printed this file")
+    parser.add_argument("--equivalents", action="store_true",
+                        help="those of .ci/equivalent_mutants, by the suites of their folder and those that are quick")
     parser.add_argument("--list", action="store_true", help="only say which slips were chosen")
     options = parser.parse_args()
 
@@ -441,13 +449,13 @@ def main():
     account, known, began = Account(), equivalents(), time.time()
     for line in others_told(options.again) if options.again else []:
         account.repeat(line)
+    judged = [mutant for mutant in chosen if options.equivalents or mutant.key() not in known]
     for mutant in chosen:
-        if mutant.key() in known:
+        if mutant not in judged:
             account.tell(mutant, "equivalent")
-    judged = [mutant for mutant in chosen if mutant.key() not in known]
     for target, modules in sorted({target_of(mutant.path) for mutant in judged}):
         own = [mutant for mutant in judged if target_of(mutant.path)[0] == target][:PLACES]
-        try_slips(Bench(target, modules), own, account, options.jobs, options.seconds)
+        try_slips(Bench(target, modules), own, account, options.jobs, options.seconds, options.equivalents)
     seen, survived = account.count(*SEEN), account.count(*SURVIVED)
     score = seen / (seen + survived) if seen + survived else 1.0
     print(f"\n{account.table()}\n")
