@@ -437,7 +437,9 @@ def main():
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
     parser.add_argument("--again", metavar="FILE", help="only those that survived in the run that printed this file")
     parser.add_argument("--equivalents", action="store_true",
-                        help="those of .ci/equivalent_mutants, by the suites of their folder and those that are quick")
+                        help="those of .ci/equivalent_mutants")
+    parser.add_argument("--quickly", action="store_true",
+                        help="by the suites of a slip's folder and those of others that take less than half a second: more survive")
     parser.add_argument("--list", action="store_true", help="only say which slips were chosen")
     options = parser.parse_args()
 
@@ -455,7 +457,7 @@ def main():
             account.tell(mutant, "equivalent")
     for target, modules in sorted({target_of(mutant.path) for mutant in judged}):
         own = [mutant for mutant in judged if target_of(mutant.path)[0] == target][:PLACES]
-        try_slips(Bench(target, modules), own, account, options.jobs, options.seconds, options.equivalents)
+        try_slips(Bench(target, modules), own, account, options.jobs, options.seconds, options.quickly)
     seen, survived = account.count(*SEEN), account.count(*SURVIVED)
     score = seen / (seen + survived) if seen + survived else 1.0
     print(f"\n{account.table()}\n")
