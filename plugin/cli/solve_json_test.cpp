@@ -113,6 +113,37 @@ TEST(SolveJson, DescentStartsFromThePreviousProxyAndStaysWithinItsBound) {
   EXPECT_GT(answer(nothing, {.solver = &solver::descent_solver})["iterations"], 50);
 }
 
+/// What the header says of what is missing: the previous proxy is then the probe, the solver the chain, which gives the
+/// exact answer where descent, that starts at the previous proxy, does not; and nothing else is read.
+TEST(SolveJson, WhatIsMissingHasItsDefault) {
+  const auto without_time = [](const std::string& line, const SolveOptions& options) {
+    Json json = answer(line, options);
+    json.erase("time_ns");
+    return json;
+  };
+  const std::string begin = R"({"id":1,"stiffness":400,"probe":[0.001,-0.0005,-0.002],)",
+                    end = R"("primitives":[{"type":"plane","strength":0.5,"position":[0,0,0],"direction":[0.1,0,1]},)"
+                          R"({"type":"line","strength":0.2,"position":[0,0,0],"direction":[1,2,3]},)",
+                    point = R"({"type":"point","strength":0.1,"position":[0.0001,0,0]},)",
+                    force = R"({"type":"force","strength":0.05,"direction":[0,1,0]}]})";
+  for (const solver::SolverType* const choice : all_choices) {
+    const SolveOptions options{.solver = choice};
+    const Json least = without_time(begin + end + point + force, options);
+    EXPECT_EQ(without_time(begin + R"("previous":[0.001,-0.0005,-0.002],)" + end + point + force, options), least);
+    const std::string point_with_direction =
+        R"({"type":"point","strength":0.1,"position":[0.0001,0,0],"direction":[0,0,1],"color":"red"},)";
+    const std::string force_with_position =
+        R"({"type":"force","strength":0.05,"direction":[0,1,0],"position":[7,8,9]}],"units":"SI"})";
+    EXPECT_EQ(without_time(begin + end + point_with_direction + force_with_position, options), least);
+  }
+  const SolveOptions defaults;
+  EXPECT_EQ(defaults.solver, nullptr);
+  EXPECT_EQ(defaults.repeat, 1);
+  EXPECT_EQ(without_time(oblique, defaults), without_time(oblique, {.solver = nullptr, .repeat = 1}));
+  EXPECT_EQ(answer(oblique, defaults)["solver"], "exact");
+  EXPECT_EQ(answer(pressed_plane, defaults)["solver"], "analytical");
+}
+
 TEST(SolveJson, RepeatingChangesNothingButTheTime) {
   for (const solver::SolverType* const choice : all_choices) {
     Json once = answer(oblique, {.solver = choice, .repeat = 1});

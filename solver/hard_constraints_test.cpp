@@ -1,0 +1,82 @@
+/// Hard constraints whose common point is known, given by positions far from it: they miss each other by the rounding
+/// of these alone. More of them than a point needs are ill-conditioned: the search may end at its cap, but not in a
+/// refusal.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "solver/certify.h"
+#include "solver/exact.h"
+#include "solver/testing/problems.h"
+
+namespace palpate::solver {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A plane, line or point through `common`, given by a position on it that is up to `reach` from there.
+Primitive through(Random& random, const Vec3& common, double reach) {
+  const Vec3 direction = random.unit_vector();
+  const Vec3 across = glm::normalize(glm::cross(direction, random.unit_vector()));
+  switch (random.below(5)) {
+    case 0:
+      return make_point(infinity, common);
+    case 1:
+      return make_line(infinity, common + reach * direction, direction);
+    default:
+      return make_plane(infinity, common + reach * across, direction);
+  }
+}
+
+double distance_of(const Primitive& primitive, const Vec3& proxy) {
+  const Vec3 to = proxy - primitive.position;
+  switch (primitive.type) {
+    case PrimitiveType::plane:
+      return std::max(0.0, -glm::dot(primitive.direction, to));
+    case PrimitiveType::line:
+      return glm::length(to - glm::dot(primitive.direction, to) * primitive.direction);
+    default:
+      return glm::length(to);
+  }
+}
+
+TEST(HardConstraints, ThatMeetButForTheRoundingOfTheirPositionsAreNeverIncompatible) {
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    Random random(seed);
+    const Vec3 common = random.normal_vector(random.log_uniform(1e-6, 1));
+    Problem problem;
+    problem.probe = problem.previous_proxy = common + random.normal_vector(1e-3);
+    double largest = 0;  // m: from the probe
+    for (std::size_t n = 2 + random.below(5); n > 0; --n) {
+      problem.primitives.push_back(through(random, common, random.log_uniform(1e-6, 10)));
+      largest = std::max(largest, glm::distance(problem.primitives.back().position, problem.probe));
+    }
+    if (random.below(2) == 0) problem.primitives.push_back(make_directed_force(0.3, random.unit_vector()));
+    if (random.below(2) == 0) problem.primitives.push_back(make_point(0.5, common + random.normal_vector(1e-3)));
+    const auto answer = [&] {
+      std::vector<Vec3> forces(problem.primitives.size());
+      ExactScratch scratch;
+      return solve_exact(problem.balance(), forces, scratch);
+    };
+    const Solution one = answer();
+    ASSERT_NE(one.outcome, Outcome::refused) << seed << ": " << describe(*one.rejection);
+    for (const Primitive& primitive : problem.primitives) {
+      if (!std::isinf(primitive.strength)) continue;
+      ASSERT_LE(distance_of(primitive, one.proxy), 2 * hard_tolerance * largest) << seed;
+    }
+    // Whichever of them stands first.
+    std::ranges::reverse(problem.primitives);
+    const Solution other = answer();
+    ASSERT_NE(other.outcome, Outcome::refused) << seed;
+    const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
+    ASSERT_LE(glm::distance(other.proxy, one.proxy), one.error_bound + other.error_bound + rounding) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::solver
